@@ -18,7 +18,7 @@ T = TypeVar("T")
 
 
 class Listener(Protocol):
-    """Is told what begins, how far it is, and what ends; work may begin within other work."""
+    """Hears what begins, how far it is, and what ends; work may begin within other work."""
 
     def begin(self, work: Work) -> None:
         """Take note of what is being done from now on."""
@@ -33,7 +33,7 @@ class Listener(Protocol):
         ...
 
     def hush(self) -> None:
-        """Nobody wants to be told any more."""
+        """Nobody wants to hear any more."""
         ...
 
 
@@ -43,7 +43,7 @@ class Work(Mutable, eq=False):
     Attributes:
         what: in a few words.
         total: how many parts it has; None where nobody knows.
-        listener: who is told, if anybody.
+        listener: who hears, if anybody.
         done: how many of the parts are done.
     """
 
@@ -69,7 +69,7 @@ _listener: ContextVar[Listener | None] = ContextVar("listener", default=None)
 
 
 def listener() -> Listener | None:
-    """Who is told, if anybody."""
+    """Who hears, if anybody."""
     return _listener.get()
 
 

@@ -102,13 +102,13 @@ class ShapeMismatch(MethodError):
 
 
 class CoincidingNodes(MethodError):
-    """Interpolation was asked for at nodes that are not distinct."""
+    """Interpolation was requested at nodes that are not distinct."""
 
     code = "coinciding-nodes"
 
 
 class BlockTooLarge(MethodError):
-    """Interpolation was asked for whose exact entries would take minutes, or all memory."""
+    """Interpolation was requested whose exact entries would take minutes, or all memory."""
 
     code = "too-many"
 

@@ -1,6 +1,6 @@
 """Method files as tests of pytest: each claim under ``expect`` is an item.
 
-Nothing is collected unless it is asked for: by ``--gark``, by the setting ``gark_files``, or by the
+Nothing is collected unless it is requested: by ``--gark``, by the setting ``gark_files``, or by the
 name of a file on the command line. Nothing of gark is imported before (docs/ci.md).
 
 PYTEST_DONT_REWRITE: no assertion here is one of a test, and it may have been imported already.
@@ -62,7 +62,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> GarkFile | None:
-    """A method file that is asked for."""
+    """A method file that is requested."""
     if not file_path.name.endswith(SUFFIX) or not _is_wanted(file_path, parent):
         return None
     return GarkFile.from_parent(parent, path=file_path)

@@ -85,7 +85,7 @@ class Reason:
         self.values = values
 
     def told(self, prose: Callable[[str], str], words: Callable[[Value | str], str]) -> str:
-        """The sentence: what stands between the values by one function, these by another."""
+        """The sentence: what is between the values by one function, these by another."""
         first, *rest = self.template.split("{}")
         pairs = zip(self.values, rest, strict=True)
         return prose(first) + "".join(words(value) + prose(text) for value, text in pairs)

@@ -81,7 +81,7 @@ def tolerance_of(method: object, given: object = None) -> fmpq | None:
     """The tolerance that was given, or else that of the method's file.
 
     Raises:
-        MethodError: what was given is no number between 0 and 1.
+        MethodError: the argument is no number between 0 and 1.
     """
     if given is None:
         return method.tolerance if isinstance(method, GarkMethod) else None
@@ -98,7 +98,7 @@ def refuse_rounded(method: GarkMethod, derivation: str = "") -> None:
 
     Args:
         method: the method, or its conjugate or pair already.
-        derivation: what is to be made of it.
+        derivation: which of these is meant.
 
     Raises:
         MethodError: it is one of them: its coefficients are off by more than the tolerance.

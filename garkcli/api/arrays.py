@@ -190,7 +190,7 @@ def _triangle(A: Any) -> Any:
 
 
 def _one_row(value: Any) -> Any:
-    """A row that stands in a matrix of one row or of one column, as SymPy and FLINT have them."""
+    """A row that is in a matrix of one row or of one column, as SymPy and FLINT have them."""
     if _depth(value) != 2:
         return value
     if len(value) == 1:

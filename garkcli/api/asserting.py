@@ -1,4 +1,4 @@
-"""All orders of a method, and orders asserted in tests of one's own, with what speaks against them
+"""All orders of a method, and orders asserted in your own tests, with what speaks against them
 in the failure.
 """
 
@@ -183,7 +183,7 @@ def _failure(method: GarkMethod, part: _Part, value: Any, tolerance: Any) -> Ite
 
 
 def _read(value: Any) -> int | AtLeast:
-    """An order as it is asked for.
+    """An order as it is requested.
 
     Raises:
         MethodError: it is no order.

@@ -1,6 +1,6 @@
 """What is asked of a method most: its order, its conjugate, its pair, everything at once.
 
-Each takes whatever stands for a method, and decides within the tolerance of the method's file
+Each takes anything that means a method, and decides within the tolerance of the method's file
 unless another is given.
 """
 

@@ -243,7 +243,7 @@ def trajectory(
 
 
 def _made(given: Integrator | Binding) -> Integrator:
-    """What steps; floats where no digits were asked for."""
+    """What steps; floats where no digits were requested."""
     return given.at() if isinstance(given, Binding) else given
 
 

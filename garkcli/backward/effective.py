@@ -2,7 +2,7 @@
 
 Φ has effective order q if there is a B-series β, a change of coordinates near the identity, for
 which β Φ β⁻¹ has order q. In terms of vector fields: e^{ad χ} b is that of the problem up to order
-q. The change is looked for order by order. Where the transported field has the residual r at order
+q. The change is sought order by order. Where the transported field has the residual r at order
 n = k + 1, the part of order k of χ has to satisfy
 
     [χ_k, δ] = −r,          δ(u) = 1 for single vertices, 0 for all other trees,
@@ -32,7 +32,7 @@ from garkcli.exact.span import leading_columns
 from garkcli.frozen import Frozen
 
 MAX_ENTRIES = 5_000_000
-"""The largest linear system that is looked at, rows times columns."""
+"""The largest linear system that is examined, rows times columns."""
 MAX_SOLVED = 1_000_000
 """The largest that is solved; of larger ones it is decided whether there is a solution."""
 

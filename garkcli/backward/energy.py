@@ -149,7 +149,7 @@ def _places(x: arb) -> int:
 
 
 Verdict: TypeAlias = Literal["agree", "disagree", "undecided"]
-_BEYOND = 3  # further orders in which the next power of h is looked for
+_BEYOND = 3  # further orders in which the next power of h is sought
 
 
 class ModifiedEnergy(Frozen):

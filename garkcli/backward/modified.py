@@ -42,7 +42,7 @@ class ModifiedEquation(Frozen):
         """b(u); 0 for a tree that the method does not see.
 
         Raises:
-            KeyError: it has more vertices than the trees that were asked for.
+            KeyError: it has more vertices than the trees that were requested.
         """
         if tree.order > self.max_order:
             raise KeyError(tree)

@@ -32,12 +32,12 @@ from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.tableau import Tableau
 
 Level: TypeAlias = Literal["error", "warning", "note"]
-"""Errors fail an audit; warnings and notes are told."""
+"""Errors fail an audit; warnings and notes are reported."""
 HIGH = 10
-"""No higher order is looked for: a wrong digit costs a lower one."""
+"""Higher orders are not tried: a wrong digit costs a lower one."""
 _BY_DIGITS = frozenset({"order", "weights", "nodes", "embedded-order", "embedded-weights"})
 MAX_BLAMED = 12
-"""Most stages of a table whose wrong entry is looked for."""
+"""Most stages of a table whose wrong entry is sought."""
 
 
 class AuditFinding(Frozen):
@@ -119,7 +119,7 @@ def audited(paths: Iterable[str], jobs: int = 1) -> Iterator[Audited]:
 
     Args:
         paths: of the sources.
-        jobs: how many processes read them; 0 for as many as there are processors.
+        jobs: how many processes read them; 0 is one per processor.
 
     Raises:
         UsageProblem: a source cannot be read.
@@ -352,7 +352,7 @@ def _embedded(subject: Subject) -> Iterator[AuditFinding]:
 
 
 def _explains(subject: Subject, found: Judged) -> bool:
-    """Whether the matrix is to blame, which is told with the order already."""
+    """Whether the matrix is to blame, which is reported with the order already."""
     declared = subject.table.embedded_order or 0
     return subject.misses_order and 0 < found.order < declared
 
@@ -435,4 +435,4 @@ def _flags(subject: Subject) -> Iterator[AuditFinding]:
 
 _Check: TypeAlias = Callable[[Subject], Iterator[AuditFinding]]
 CHECKS: tuple[_Check, ...] = (_order, _said, _weights, _nodes, _embedded, _flags)
-"""What is looked at, in the order in which it is told."""
+"""What is examined, in the order in which it is reported."""

@@ -72,7 +72,7 @@ def results_of(
     is_recognising: bool = False,
     left_out: Callable[[FoundTable], None] = no_one,
 ) -> Iterator[Result]:
-    """What becomes of every table of some files; ``left_out`` is told of those that may be no
+    """What becomes of every table of some files; ``left_out`` hears of tables that may be no
     methods.
     """
     readers = [] if format is None else [reader_named(format)]
@@ -84,7 +84,7 @@ def audit(paths: AnyPath | Iterable[AnyPath], jobs: Whole = 1) -> Iterator[Audit
 
     Args:
         paths: files and folders, or one of them.
-        jobs: how many processes read them; 0 for as many as there are processors.
+        jobs: how many processes read them; 0 is one per processor.
 
     Raises:
         UsageProblem: a source cannot be read.

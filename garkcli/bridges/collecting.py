@@ -28,7 +28,7 @@ class Result(Frozen, eq=False):
         table: as it was found.
         stem: of the file of its method, unique among all of them.
         method: None where the table has no method in it.
-        recognised: the exact forms of its decimals, where they were asked for.
+        recognised: the exact forms of its decimals, where they were requested.
         trouble: why there is no method; empty where there is one.
     """
 
@@ -79,7 +79,7 @@ class Result(Frozen, eq=False):
 
 
 def no_one(table: FoundTable) -> None:
-    """Nobody is told of what is left out."""
+    """Nobody hears of what is left out."""
     del table
 
 
@@ -94,8 +94,8 @@ def collected(
     Args:
         paths: files, ``-`` for standard input.
         chosen: who reads them; those of the endings of their names where none are given.
-        is_recognising: whether exact forms of decimals are looked for.
-        left_out: who is told of tables that are left out, as they may be no methods.
+        is_recognising: whether exact forms of decimals are sought.
+        left_out: who hears of tables that are left out, as they may be no methods.
 
     Raises:
         UsageProblem: a source cannot be read.

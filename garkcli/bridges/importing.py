@@ -75,7 +75,7 @@ def imported(table: FoundTable, name: str) -> Imported:
 
 
 def read(table: FoundTable, name: str = "") -> MethodFile:
-    """The method of a table as it stands, with no tolerance.
+    """The method of a table as it is, with no tolerance.
 
     Raises:
         MethodFileError: its numbers make no method.
@@ -143,7 +143,7 @@ def digits_of(method: MethodFile, table: FoundTable) -> Digits:
 
 
 def place_of(table: FoundTable) -> str:
-    """Where a table stands, as people write it."""
+    """Where a table is, as people write it."""
     return f"{table.source}:{table.line}"
 
 

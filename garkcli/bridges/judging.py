@@ -21,7 +21,7 @@ class Judged(Frozen, eq=False):
 
     Attributes:
         order: as far as conditions hold, exactly or within the rounding.
-        is_open: whether the next order is left open: rounding may be why it fails.
+        is_open: whether the next order is undecided: rounding may be why it fails.
         witness: a tree whose condition fails; None where none is known.
         missed: the tableau and its largest residual up to this order; None where the conditions
             hold exactly.
@@ -84,9 +84,9 @@ def judged(
 ) -> Judged:
     """The order of a tableau that is made of the numbers of a file.
 
-    Decimals of many digits are taken for rounded: each may be off by ten units of its last place,
+    Decimals of many digits count as rounded: each may be off by ten units of its last place,
     and conditions are met that this explains. A residual that a good exact method might have is
-    not explained away: there the order is left open.
+    not explained away: there the order is undecided.
 
     Args:
         digits: how exactly its numbers are written.

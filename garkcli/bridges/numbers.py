@@ -25,7 +25,7 @@ class Style(Frozen):
         digits: of decimals; 17 are a binary64 number, written with as few as bring it back.
         longest: decimals that end within so many digits are written whole, whatever ``digits``
             says; 0 for none.
-        decimal: what stands around a decimal, ``{x}`` in it.
+        decimal: what is around a decimal, ``{x}`` in it.
         fraction: how a fraction is written, with ``{p}`` and ``{q}``; empty where it is a decimal.
         is_fraction_first: whether fractions are preferred to decimals that end.
         largest: the largest numerator and denominator of such fractions.
@@ -49,7 +49,7 @@ class Style(Frozen):
 
         Args:
             x: exact, or an enclosure fine enough.
-            digits: of all numbers, where they are asked for; fractions are decimals then.
+            digits: of all numbers, where they are requested; fractions are decimals then.
         """
         if digits is not None:
             return self._decimal(x, digits, is_short=False)
@@ -97,7 +97,7 @@ class Style(Frozen):
             return "0.0" if self.point else "0"
         sign = "-" if mantissa < 0 else ""
         digits = str(abs(mantissa)).rstrip("0")
-        # what stands before the point, counted from the first digit
+        # what is before the point, counted from the first digit
         before = len(str(abs(mantissa))) + exponent
         if before > len(digits) and before <= FLOAT_DIGITS:
             digits = digits.ljust(before, "0")

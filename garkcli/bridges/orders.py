@@ -34,7 +34,7 @@ class Orders(Frozen):
 
     @property
     def effective(self) -> int:
-        """The order on whatever problem, time in it or not: what targets are told."""
+        """The order on whatever problem, time in it or not: as targets name it."""
         if self.nonautonomous is None:
             return self.order
         return min(self.order, self.nonautonomous)

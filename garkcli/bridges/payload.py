@@ -39,7 +39,7 @@ class Payload(Frozen, eq=False, kw_only=True):
         tolerance: the rounding that the coefficients of the file admit; None where they are exact.
         structure: which vector fields the method is for, such as ``general``, ``separable``.
         reference: where it was published, in one line.
-        digits: of every number, where they were asked for.
+        digits: of every number, where they were requested.
         coupling: between the slow stages of a multirate infinitesimal method.
         derivation: whether it is the conjugate or the pair of what a file gives.
         version: of gark.
@@ -104,7 +104,7 @@ class Payload(Frozen, eq=False, kw_only=True):
         return names.class_name(self.name, language)
 
     def number(self, x: Cell, style: Style = EXACT) -> str:
-        """An entry in the style of a language, with the digits that were asked for.
+        """An entry in the style of a language, with the digits that were requested.
 
         Raises:
             CannotExport: an enclosure does not tell how it is rounded.

@@ -23,9 +23,9 @@ from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau
 
 EXTRA = 120
-"""Digits of enclosures beyond those that are written: rounding is told by nines and zeros."""
+"""Digits of enclosures beyond those that are written: nines and zeros show rounding."""
 USUAL = 40
-"""More digits than any target writes where none are asked for."""
+"""More digits than any target writes where none are requested."""
 
 
 @doing("numbers and orders")
@@ -34,7 +34,7 @@ def prepared(method: GarkMethod, digits: int | None = None) -> Payload:
 
     Args:
         method: as it was read from a file, or the conjugate or the pair of such a method.
-        digits: of every number, where they are asked for.
+        digits: of every number, where they are requested.
 
     Raises:
         CannotExport: no target writes a method like this.

@@ -28,7 +28,7 @@ BITS_A_DIGIT = 3.3
 MAX_DEGREE = 4
 """Largest degree of a proposed root."""
 MAX_NUMBERS = 400
-"""Most different decimals that are looked at."""
+"""Most different decimals that are examined."""
 PRECISION = 4_000
 """Bits in which exact forms are compared with decimals; no decimal has so many."""
 MAX_DIGITS = 1_000
@@ -144,7 +144,7 @@ def _decimals(table: FoundTable) -> Iterator[str]:
 
 
 class _Looking(dict[str, str]):
-    """A mapping that is told what is looked up, and changes nothing."""
+    """A mapping that hears what is looked up, and changes nothing."""
 
     def __init__(self, look: Callable[[str], str]) -> None:
         super().__init__()

@@ -47,7 +47,7 @@ _REFERENCES = re.compile(r"\breferences?\b|\\cite", re.IGNORECASE)
 MAX_LINES = 60
 """Longest comment or docstring that is read."""
 MAX_LENGTH = 1000
-"""Longest line at whose end a comment is looked for."""
+"""Longest line at whose end a comment is sought."""
 MAX_SCOPE = 1000
 """So far above a table its function or class may begin."""
 

@@ -14,7 +14,7 @@ from garkcli.sources.found import MAX_CHARACTERS
 
 STDIN_NAME = "<stdin>"
 MAX_FILES = 100_000
-"""Most files of a source tree that are looked at."""
+"""Most files of a source tree that are examined."""
 
 
 def source_files(paths: Iterable[str], told: Callable[[str], None] = no_one) -> Iterator[str]:
@@ -25,7 +25,7 @@ def source_files(paths: Iterable[str], told: Callable[[str], None] = no_one) -> 
 
     Args:
         paths: files and folders.
-        told: who is told of files of a folder that are left out, and why.
+        told: who hears of files of a folder that are left out, and why.
     """
     for path in paths:
         if path == STDIN or not os.path.isdir(path):

@@ -43,7 +43,7 @@ def open_method(name: str) -> MethodFile:
 
 
 def method_names() -> list[str]:
-    """The names of all methods, those of one's own folders first.
+    """The names of all methods, those of your own folders first.
 
     >>> "rk4" in method_names()
     True

@@ -1,5 +1,5 @@
-"""The methods that have names, each as an entry: those of the package out of its index, those of
-one's own by what their files claim, or judged on demand.
+"""The methods that have names, each as an entry: those of the package out of its index, your
+own by what their files claim, or judged on demand.
 """
 
 from __future__ import annotations
@@ -97,7 +97,7 @@ def _blank(method: Shelved) -> Entry:
 
 
 def _family(error: HasFreeParameters) -> Entry:
-    """What can be said of a file with free parameters."""
+    """An entry for a file with free parameters."""
     from garkcli.methodfile.load import described
 
     _, description = described(error.text, error.source, {})
@@ -133,7 +133,7 @@ _SPAN = re.compile(r"([0-9]{1,4})\s*\.\.\s*([0-9]{1,4})")
 _MOST = 10_000
 """No count of a method is as large."""
 _SEARCHED = ("name", "title", "reference")
-"""What words are looked for in, besides the aliases."""
+"""What words are sought in, besides the aliases."""
 
 
 class Range(Frozen):
@@ -226,7 +226,7 @@ ORDERS = ("name", "order", "stages", "error")
 
 
 def sorted_by(entries: Sequence[Entry], column: str) -> list[Entry]:
-    """Entries in an order that people ask for; what is not known comes last."""
+    """Entries in an order that people ask for; unknown values come last."""
 
     def place(entry: Entry) -> tuple[Any, ...]:
         value = _measure(entry, column)

@@ -228,7 +228,7 @@ def _value(verdict: Verdict) -> bool | int | str | None:
 
 
 Tell = Callable[[str], None]
-"""What is told of each file that is judged."""
+"""What the report says of each file that is judged."""
 
 
 def method_files(data: Path) -> list[tuple[str, Path]]:

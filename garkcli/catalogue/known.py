@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 WINDOW = 1e-5
 """How far apart the fingerprints of a method and of its rounded copy may be."""
 ROUNDINGS = tuple(fmpq(1, 10**digits) for digits in (15, 14, 13, 12, 11, 10, 9, 8, 7, 6))
-"""By how much entries of different methods are told to be apart at most."""
+"""The largest distance between entries of different methods in a report."""
 MOST_STAGES = 100
 """Tableaus with more stages are not looked up."""
 _DIGITS = 9

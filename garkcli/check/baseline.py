@@ -68,7 +68,7 @@ def _path_of(file: File) -> str:
 
 
 def _text(path: str) -> str:
-    """What stands in the file; pipes, devices and what is too large are not read at all."""
+    """What is in the file; pipes, devices and large files are not read at all."""
     try:
         file = Path(path)
         status = file.stat()

@@ -133,7 +133,7 @@ def _misprint(
 
 
 def _suggestion(tableau: Tableau, order: AnyOrder, limit: int) -> Suggestion | None:
-    """What to write into a file that looks rounded; only tiny residuals are looked at further."""
+    """What to write into a file that looks rounded; only tiny residuals are examined further."""
     spelled_out = any(isinstance(space, PointSpace) for space in tableau.spaces)
     if not spelled_out or order.witness is None or not isinstance(order, Order):
         return None

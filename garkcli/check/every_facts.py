@@ -1,9 +1,9 @@
 """What is true of a family for every value of its parameters, and of which values it is not.
 
 A question about coefficients that are rational functions is answered once, with the parameters as
-unknowns; the polynomials that were taken for different from zero on the way are kept. Wherever
+unknowns; the polynomials that counted as different from zero on the way are kept. Wherever
 none of them is zero the answer is the same. The answer that counts is the ordinary one for some
-rational values there. With one parameter the finitely many others are looked at one by one.
+rational values there. With one parameter the finitely many others are examined one by one.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from garkcli.tableau.tableau import Tableau
 Worded: TypeAlias = "Value | str"
 """What a reason has in it."""
 MOST_SPECIAL = 60
-"""Most single values that are looked at."""
+"""Most single values that are examined."""
 
 
 MOST_ASKED = 60
@@ -162,7 +162,7 @@ def find(
 
 
 def _asked(ask: Question, tableau: Tableau, ring: Parameters) -> tuple[Any, list[fmpq_mpoly]]:
-    """The answer with the parameters as unknowns, and what was taken for different from zero."""
+    """The answer with the parameters as unknowns, and what counted as different from zero."""
     with ring.telling_apart() as told:
         value = answer(ask, tableau)
     return value, list(told.values())
@@ -286,7 +286,7 @@ def values_reason(roots: Sequence[RealRoot], name: str) -> Reason:
 
 
 def _roots(same: Sequence[RealRoot], name: str) -> Reason:
-    """Some roots of one polynomial, which is told where they have no simple form."""
+    """Some roots of one polynomial, which is reported where they have no simple form."""
     first = same[0]
     values = Reason("{} = {}", Formula(name), joined(" or ", [_number(x) for x in same]))
     if first.exact is not None:

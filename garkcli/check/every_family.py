@@ -1,4 +1,4 @@
-"""A family made ready to be judged for every value: what is fixed is put in, roots have rules.
+"""A family made ready to be judged for every value: fixed values are put in, roots have rules.
 
 A polynomial is rewritten in u ≥ 0, with t = (l + g u)/(1 + u) for a range [l, g] and t = l ± u
 for one with a single end: where no coefficient is negative and those at the corners are positive
@@ -39,7 +39,7 @@ _Chart: TypeAlias = Callable[[fmpq_mpoly], tuple[fmpq_mpoly, fmpq_mpoly]]
 
 FREE: Range = (None, None)
 MOST_TERMS = 300
-"""A polynomial that may become one of more terms in u is taken for one that may be zero."""
+"""A polynomial that may become one of more terms in u counts as one that may be zero."""
 
 
 def can_vanish(p: fmpq_mpoly, ring: Parameters, ranges: Mapping[str, Range]) -> bool:
@@ -144,7 +144,7 @@ def carried(
     Args:
         fixed: the values of the others, numbers and polynomials in those that are left.
         ranges: of all.
-        left: the names of those that are left.
+        left: the names of the others.
 
     Raises:
         MethodError: a range leaves no value, or is not one of a parameter that is left.
@@ -332,7 +332,7 @@ class EveryFamily(Frozen):
 
     @property
     def has_one(self) -> bool:
-        """Whether one rational parameter is all there is: then single values are looked at."""
+        """Whether one rational parameter is all there is: then single values are examined."""
         return len(self.ring.names) == 1
 
     @cached_property
@@ -371,7 +371,7 @@ class EveryFamily(Frozen):
 
     @property
     def lost(self) -> list[fmpq_mpoly]:
-        """Those of the weights that may be zero for values that the file admits."""
+        """The weights that may be zero for some admitted values."""
         poles = factors(self.poles)
         return [p for p in self.weights if p not in poles and self.can_vanish(p)]
 

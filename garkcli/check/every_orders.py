@@ -22,7 +22,7 @@ from garkcli.order.conditions import elementary_weight
 from garkcli.tableau.tableau import Tableau
 
 SECONDS = 10.0
-"""After so many it is left open for which values the next order is reached."""
+"""After so many it is undecided for which values the next order is reached."""
 
 
 class EveryOrder(Frozen):

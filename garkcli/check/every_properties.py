@@ -83,7 +83,7 @@ def _asking(key: str, limit: int) -> Question:
     """The question after a property."""
 
     def ask(tableau: Tableau) -> Any:
-        # the order is asked for with rounded coefficients only, B, C and D for one property
+        # the order is requested with rounded coefficients only, B, C and D for one property
         known = simplifying(tableau, limit) if key == "stage-order" else _NOTHING
         value = Subject(tableau, 1, known, limit).verdict(key).value
         return value if isinstance(value, (bool, int)) else str(value)
@@ -124,7 +124,7 @@ def _same(end: RealRoot | None, bound: fmpq | None) -> bool:
 
 
 def _by_signs(family: EveryFamily, ask: Question, numbers: list[object]) -> Fact:
-    """What hangs on the signs of rational functions of the one parameter."""
+    """What depends on the signs of rational functions of the one parameter."""
     critical: list[Polynomial] = []
     critical += [in_one(p) for p in family.poles]
     for x in numbers:
@@ -149,7 +149,9 @@ def _by_signs(family: EveryFamily, ask: Question, numbers: list[object]) -> Fact
 
 
 def _weights(tableau: Tableau) -> list[object]:
-    """Whether all are positive hangs on these: det(1 − z G), G the diagonal form of the weights."""
+    """Whether all are positive depends on these: det(1 − z G), G the diagonal form of the
+    weights.
+    """
     numbers: list[object] = []
     for l, colour in enumerate(tableau.colours):
         gram = tableau.space(l).form(colour.b, identity(len(colour.b)))
@@ -165,7 +167,7 @@ def _nodes(tableau: Tableau) -> list[object]:
 
 
 def _algebraic(tableau: Tableau) -> list[object]:
-    """Whether M is positive semidefinite hangs on the signs in det(1 − z M)."""
+    """Whether M is positive semidefinite depends on the signs in det(1 − z M)."""
     rows: list[tuple[Any, ...]] = []
     colours = range(tableau.size)
     for l in colours:
@@ -179,4 +181,4 @@ SIGNS: dict[str, Callable[[Tableau], list[object]]] = {
     "nodes-in-unit-interval": _nodes,
     "algebraically-stable": _algebraic,
 }
-"""Those that hang on signs: of which numbers."""
+"""Those that depend on signs: of which numbers."""

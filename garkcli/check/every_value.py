@@ -33,7 +33,7 @@ from garkcli.tableau.forms import pair, with_time
 from garkcli.tableau.tableau import Tableau
 
 TOLD = ("stiffly-accurate", "fsal", "symmetric")
-"""Properties that are told where they hold for every value."""
+"""Properties that are reported where they hold for every value."""
 
 
 class EveryValue(Frozen):
@@ -118,7 +118,7 @@ class EveryValue(Frozen):
 
     @property
     def holding(self) -> list[str]:
-        """The properties that are told, of those that hold for every value."""
+        """The reported properties that hold for every value."""
         found = {key: self.verdict(key) for key in TOLD}
         return [key for key, fact in found.items() if fact.is_everywhere and fact.value is True]
 
@@ -202,7 +202,7 @@ def check_every(
     Args:
         file: with its text.
         limit: where the search for orders stops, unless a claim of the file reaches further.
-        want_constants: whether error constants were asked for, which need values.
+        want_constants: whether error constants were requested, which need values.
         settings: values of other parameters.
     """
     try:
@@ -239,7 +239,7 @@ def check_every(
 
 
 def _refused(file: HasFreeParameters, message: str, cure: str, code: str) -> Outcome:
-    """What is not said for every value."""
+    """What gark does not decide for every value."""
     faults = (Fault(message, cure, code=code),)
     return Outcome(file.source, file.source, faults=faults, text=file.text)
 

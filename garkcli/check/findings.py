@@ -195,7 +195,7 @@ class Finding(Frozen):
         message: what is wrong, of an order with the tree whose condition fails.
         help: the cure or a hint, where there is one.
         fingerprint: the same as long as the same thing is wrong with the same file, wherever it
-            stands in it.
+            is in it.
         level: ``error``, ``warning`` or ``note``.
         code: of a file that cannot be read, the code of what is wrong with it.
     """

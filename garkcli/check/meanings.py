@@ -61,7 +61,7 @@ class Sense(Frozen):
 
 
 def every_sense() -> Iterator[Sense]:
-    """Every kind of word, in the order in which meanings are told."""
+    """Every kind of word, in the order in which meanings are reported."""
     yield Sense(_plainly(by_word()), lambda word: term_meaning(by_word()[word]))
     yield Sense(_claims(), claim_meaning)
     for kind in KINDS:
@@ -241,7 +241,7 @@ def explain(word: str) -> list[Meaning]:
 
 
 def _known(word: str) -> list[tuple[Sense, str]]:
-    """What a word leads to; of a line of a report what stands before a number or a tree."""
+    """What a word leads to; of a line of a report what is before a number or a tree."""
     every = _by_plain()
     if word not in every:
         label = _FIRST_VALUE.split(word)[0]

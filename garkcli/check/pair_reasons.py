@@ -144,7 +144,7 @@ def _on(places: Sequence[str], every: int, noun: str) -> str:
 
 
 MOST_RULES = 150
-"""Blocks by rules that are looked at, one by one."""
+"""Blocks by rules that are examined, one by one."""
 
 
 def rule_reasons(found: Analysis, rules: Sequence[BlockRule]) -> Iterator[str]:

@@ -24,7 +24,7 @@ class TrueClaims(Frozen):
     Attributes:
         file: its path as given.
         claims: values as they are written in YAML, by key.
-        left: what was asked for and has no meaning for the method, or is not decided.
+        left: what was requested and has no meaning for the method, or is not decided.
     """
 
     file: str
@@ -86,7 +86,7 @@ def _text(key: str, analysis: Analysis) -> str | None:
 
 
 def _written(value: object) -> str:
-    """A value in YAML; ``>= 4`` would begin a folded text there, so it stands in quotes."""
+    """A value in YAML; ``>= 4`` would begin a folded text there, so it is in quotes."""
     if isinstance(value, list):
         return f"[{', '.join(map(_written, value))}]"
     text = claimed_text(value)

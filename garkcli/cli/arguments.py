@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from flint import fmpq
 
 _NOTES = "garkcli.notes"
-"""Where a context keeps what is to be said once it is known how much the user wants to hear."""
+"""Where a context keeps its notes until it is known how much the user wants to hear."""
 _VARIABLE = "GARK_PATH"
 SPELLINGS = {"color": "colour", "minimiz": "minimis", "recogniz": "recognis"}
 """American spellings in options, and the ones that the help shows."""
@@ -64,7 +64,7 @@ class MethodType(InputType):
 
         found: list[str] = []
         if incomplete and can_be_name(incomplete):
-            with suppress(GarkError):  # a broken catalogue is told when it is used
+            with suppress(GarkError):  # a broken catalogue is reported when it is used
                 found += names_beginning(incomplete)
         if not found:
             return [CompletionItem(incomplete, type="file")]
@@ -154,19 +154,19 @@ def _restore(before: str | None) -> None:
 
 
 def with_notes(context: click.Context, _: click.Parameter, value: Any) -> Any:
-    """Keep what has to be said of names, until it is known how much the user wants to hear."""
+    """Keep notes on names, until it is known how much the user wants to hear."""
     if os.environ.get(_VARIABLE) and not context.resilient_parsing:
         from garkcli.methodfile.naming import note_of
 
         given = value if isinstance(value, tuple) else (value,)
         notes = context.meta.setdefault(_NOTES, [])
-        with suppress(GarkError):  # it is told where the method is read
+        with suppress(GarkError):  # it is reported where the method is read
             notes += [note for path in given if path for note in note_of(path)]
     return value
 
 
 def notes() -> list[str]:
-    """What was kept to be said, once."""
+    """The notes that were kept, once."""
     context = click.get_current_context(silent=True)
     kept: list[str] = context.meta.pop(_NOTES, []) if context else []
     return kept

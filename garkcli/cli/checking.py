@@ -114,8 +114,8 @@ def _outcomes(project: Project, given: Given, output: Output) -> list[Outcome]:
 
 
 def check_files(check: Callable[[str], Outcome], paths: list[str], jobs: int) -> Iterator[Outcome]:
-    """Check ``paths`` in their order, ``jobs`` of them at a time; 0 for as many as there are
-    processors.
+    """Check ``paths`` in their order, ``jobs`` of them at a time; 0 is one per
+    processor.
 
     A file that ends its worker, by a lack of memory or a signal, has an outcome that says so, and
     the others are checked as if nothing had been.

@@ -90,7 +90,7 @@ def _check_stability(given: Given) -> None:
     """Refuse what a set of values does not have.
 
     Raises:
-        UsageProblem: a file or a search is asked for too.
+        UsageProblem: a file or a search is requested too.
     """
     others = (given.emit, given.folder, given.search, given.minimise)
     if all(option is None for option in others):
@@ -255,7 +255,8 @@ def _walk(known: Design, choices: Mapping[str, str]) -> list[Choice]:
     """What each value of --choose leaves.
 
     Raises:
-        UsageProblem: a choice is none, leaves no unknown, or leaves what is not decided in time.
+        UsageProblem: a choice is none, leaves no unknown, or leaves a question that is undecided in
+            time.
     """
     from garkcli.design.choices import walk_down
 
@@ -416,7 +417,7 @@ def _lost(_task: Task, why: str) -> Timed:
 def _written(
     family: FamilyFile, result: Result, given: Given, output: Output
 ) -> Sequence[str | None]:
-    """Write the files that are asked for, of one the first method of which most is proved; where
+    """Write the files that are requested, of one the first method of which most is proved; where
     each method is.
     """
     from garkcli.api.design import found_files

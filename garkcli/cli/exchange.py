@@ -89,7 +89,7 @@ def _tell_unread(unread: Sequence[Result], output: Output) -> None:
 
 
 def _other(table: FoundTable) -> tuple[str, str]:
-    """What is told of arrays that may be no method, and the cure."""
+    """What the report says of arrays that may be no method, and the cure."""
     place = f"{printable(table.source)}:{table.line}"
     cure = f"--from {table.format} takes them for one"
     if table.c[0] is None:

@@ -41,7 +41,7 @@ class _LazyGroup(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        # a shell that asks what may follow is told no mistakes
+        # a shell that asks what may follow hears of no mistakes
         is_run = not ctx.resilient_parsing
         if is_run and args[0] not in COMMANDS and not args[0].startswith("-"):
             ctx.fail(no_such_command(args[0], SHOWN))

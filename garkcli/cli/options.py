@@ -46,7 +46,7 @@ ARGUMENTS: dict[str, dict[str, Any]] = {
     "SOURCE": {"type": INPUT},
     "PATH": {"type": INPUT},
 }
-"""What commands take, by the words of their usage; what is not here is given by the command."""
+"""What commands take, by the words of their usage; the command gives the others."""
 KINDS: dict[str, dict[str, Any]] = {
     "written": {"type": PATH},
     "picture": {"type": PATH, "callback": arguments.picture},
@@ -251,7 +251,7 @@ def _check(rules: Iterable[Rule], command: str, values: Mapping[str, Any]) -> No
 
 
 def _argument(word: str, more: Mapping[str, Any]) -> click.Argument:
-    """An argument as it stands in the usage: [FILE...] for several that may be left out."""
+    """An argument as it is in the usage: [FILE...] for several that may be left out."""
     required, several = not word.startswith("["), word.endswith(("...", "...]"))
     bare = word.strip("[].")
     settings = {**ARGUMENTS.get(bare, {}), **more.get(bare, {})}
@@ -323,7 +323,7 @@ class Given(SimpleNamespace):
 
         Args:
             file: another one.
-            is_exact: whether what is said of it is proved.
+            is_exact: whether the statements about it are proved.
 
         Raises:
             MethodFileError: it is none.
@@ -341,7 +341,7 @@ class Given(SimpleNamespace):
         return getattr(method, self.which) if self.which else method
 
     def files_meant(self, output: Output) -> list[str]:
-        """The files that FILE... means: folders and patterns are looked into, and none of the files
+        """The files that FILE... means: folders and patterns are searched, and none of the files
         is written over.
 
         Raises:
@@ -418,7 +418,7 @@ class Output:
 
     @property
     def paint(self) -> Paint:
-        """Colour, where it is asked for or the report goes to a terminal, and its encoding."""
+        """Colour, where it is requested or the report goes to a terminal, and its encoding."""
         has_colour = self._color == "always"
         if self._color == "auto":
             has_colour = self.path is None and wants_colour(sys.stdout)
@@ -456,7 +456,7 @@ class Output:
             self.note(f"wrote {path}")
 
     def tell(self, report: Report[Any], *wholes: Any) -> None:
-        """Write results in the format that is asked for."""
+        """Write results in the format that is requested."""
         self.write(report.render(wholes, self.format, self.paint, self.verbosity, width=self.width))
 
     def stream(self, report: Report[Any], whole: Any, is_document: bool | None = None) -> None:

@@ -231,7 +231,7 @@ KEYS = {
 
 
 def told(files: Files) -> Iterator[Key]:
-    """What is told of the keys."""
+    """What the report says of the keys."""
     from garkcli.glossary.key import Key  # only pages and explanations tell of keys
 
     for name, key in KEYS.items():

@@ -132,8 +132,8 @@ def _scene(results: Sequence[tuple[str, Convergence]], given: Given) -> Scene:
 
 
 def _several(paths: Sequence[str], given: Given, output: Output) -> int:
-    """The comparison: the tests of all files, in order. What fails is told on stderr at once, and
-    stops none of the others.
+    """The comparison: the tests of all files, in order. What fails is reported on stderr at once,
+    and stops none of the others.
 
     Raises:
         MethodFileError: the problem file has faults.
@@ -372,7 +372,7 @@ def _followed(tableau: Tableau, given: Given, output: Output) -> Oscillator | Pr
 
 
 def _symplecticity(method: GarkMethod, run: LongRun, is_measured: bool) -> Symplecticity | None:
-    """Of the steps of ``run``: by the coefficients, and measured where that was asked for; None
+    """Of the steps of ``run``: by the coefficients, and measured where that was requested; None
     where the problem is not Hamiltonian.
     """
     from garkcli.longtime.symplecticity import (
@@ -396,7 +396,7 @@ def _symplecticity(method: GarkMethod, run: LongRun, is_measured: bool) -> Sympl
 
 
 def _claims(run: LongRun, given: Given) -> tuple[Claim, ...]:
-    """What the options claim. What is undecided is neither bounded nor drifting."""
+    """What the options claim. An undecided run is neither bounded nor drifting."""
     from garkcli.exact.display import decimal, to_float
     from garkcli.page.figures import measured
     from garkcli.report.energy import Claim

@@ -89,7 +89,9 @@ def _tell_for_every_value(error: HasFreeParameters, given: Given, output: Output
 
 
 def _report(file: str, method: GarkMethod, given: Given) -> StabilityReport:
-    """What is told of one method: its stability, or the two springs that the options ask for."""
+    """What the report says of one method: its stability, or the two springs that the options ask
+    for.
+    """
     from garkcli.api.calls import find_stability, two_springs
     from garkcli.report.stability import StabilityReport
     from garkcli.stability.springs_plane import plane_with_ends_of

@@ -50,7 +50,7 @@ def prepare() -> None:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors=HANDLER)
-    if sys.platform == "win32":  # consoles show colours when they are told to
+    if sys.platform == "win32":  # consoles show colours on request
         from colorama import just_fix_windows_console
 
         just_fix_windows_console()
@@ -59,7 +59,7 @@ def prepare() -> None:
 
 
 def _fill_places() -> None:
-    """Open nothing as 0, 1 and 2 where these are closed: the next file would be taken for one of
+    """Open nothing as 0, 1 and 2 where these are closed: the next file would count as one of
     them.
     """
     if sys.stdin is not None and sys.stdout is not None and sys.stderr is not None:

@@ -417,7 +417,7 @@ stability: --order-star without --plot | --order-star is for the picture | give 
 export: --test without --output
     | --test writes further files beside the first | name it: -o FILE
 """
-"""A row a rule, in the order in which they are looked at: the commands, the options of which one is
+"""A row a rule, in the order in which they are examined: the commands, the options of which one is
 given, ``without`` those that it needs or ``with`` those that it excludes, ``|`` what is wrong,
 ``|`` the cure.
 """
@@ -439,7 +439,7 @@ def _option(row: str) -> Option:
 
 
 def _commands(table: str) -> Iterator[tuple[str, Command]]:
-    """Every command, by its name, in the group whose heading stands above it."""
+    """Every command, by its name, in the group whose heading is above it."""
     group = ""
     for row in _paragraphs(table):
         if row.startswith("["):

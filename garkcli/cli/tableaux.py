@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from garkcli.tableau.tableau import Tableau
 
 DEFAULT_DIGITS = 17
-"""Digits of entries that have no simple radicals, where none are asked for."""
+"""Digits of entries that have no simple radicals, where none are requested."""
 EXIT_CODES = {"identical": 0, "same": 0, "within-rounding": 0, "different": 1, "undecided": 3}
 """By what the methods are to each other."""
 
@@ -176,7 +176,7 @@ def _write_family(error: HasFreeParameters, given: Given, output: Output) -> Non
     """Write the tableau of a family, its entries rational functions of the parameters.
 
     Raises:
-        UsageProblem: the nodes have no simple radicals, or numbers are asked for.
+        UsageProblem: the nodes have no simple radicals, or numbers are requested.
     """
     from garkcli.tableau.garkmethod import GarkMethod, derived_name
     from garkcli.tableau.meant import derived, printed

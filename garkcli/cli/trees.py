@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from garkcli.report.trees import Query, TreeRow
 
 MANY = 1_000_000
-"""So many lines are asked for twice."""
+"""So many lines are requested twice."""
 MAX_PICTURES = 2000
 """Most trees on one sheet of pictures."""
 BLOCK_SIZE = 1 << 14
@@ -252,7 +252,7 @@ def conditions(given: Given, output: Output) -> None:
 
 
 def _valued(given: Given) -> Valued:
-    """The method whose values are told; of a file with free parameters these are rational
+    """The method whose values are reported; of a file with free parameters these are rational
     functions of them.
     """
     from garkcli.methodfile.load import load

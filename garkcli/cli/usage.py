@@ -42,7 +42,7 @@ _EXTRA = re.compile(r"[Gg]ot unexpected extra arguments? \((\d+)\)")
 
 
 def no_such_command(word: str, commands: Iterable[str]) -> str:
-    """What is said of a word that is no command: a method is for ``gark check``."""
+    """The message for a word that is no command: a method is for ``gark check``."""
     message = f"no such command {printable(word)!r}"
     if word.lower() in MEANT:
         return f"{message}; did you mean {MEANT[word.lower()]!r}?"

@@ -32,7 +32,7 @@ class Grid(Frozen):
         A: ``A[l][m]`` is a block, or None.
         b, c: a row per colour.
         embedded: the embedded weights, or None.
-        powers: what stands before θ, θ², … in the dense weights.
+        powers: what is before θ, θ², … in the dense weights.
         linear: for each colour whether it is linear.
     """
 

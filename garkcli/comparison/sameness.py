@@ -164,17 +164,17 @@ class Sameness(Frozen):
 
     @property
     def keeps_colours(self) -> bool:
-        """Whether the colours stand in the same order."""
+        """Whether the colours are in the same order."""
         return self.colours == tuple(range(len(self.colours)))
 
     @property
     def keeps_stages(self) -> bool:
-        """Whether the stages stand in the same order."""
+        """Whether the stages are in the same order."""
         return all(row == tuple(range(len(row))) for row in self.stages)
 
     @property
     def is_plain(self) -> bool:
-        """Whether the entries are the same as they stand."""
+        """Whether the entries are the same as they are."""
         return self.keeps_colours and self.keeps_stages and not self.is_reduced
 
 
@@ -212,7 +212,7 @@ def views_of(one: GarkMethod, other: GarkMethod) -> Views:
 
 
 def find_sameness(one: GarkMethod, other: GarkMethod, views: Views, allowed: fmpq) -> Answer:
-    """How two methods are the same, if they are: as they stand, with their stages or their colours
+    """How two methods are the same, if they are: as they are, with their stages or their colours
     renumbered, or once reduced.
 
     Args:
@@ -236,13 +236,15 @@ def find_sameness(one: GarkMethod, other: GarkMethod, views: Views, allowed: fmp
 
 
 def _plainly(grid: Grid) -> Sameness:
-    """The entries as they stand."""
+    """The entries as they are."""
     stages = tuple(tuple(range(s)) for s in grid.stages)
     return Sameness(tuple(range(grid.size)), stages)
 
 
 def _same_algebra(one: Tableau, other: Tableau) -> bool:
-    """Whether methods at nodes without simple radicals are told by the same rational numbers."""
+    """Whether methods at nodes without simple radicals have the same rational
+    numbers.
+    """
     if len(one.spaces) != len(other.spaces) or one.size != other.size:
         return False
     for space, second in zip(one.spaces, other.spaces, strict=True):
@@ -267,7 +269,7 @@ def _as_they_are(views: Views, allowed: fmpq) -> Sameness | None:
 
 
 def _marked(same: Sameness | None, **marks: bool) -> Sameness | None:
-    """The same with what has to be said of it."""
+    """The same with a remark."""
     return None if same is None else replace(same, **marks)
 
 

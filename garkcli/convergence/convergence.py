@@ -63,7 +63,7 @@ def seeing_problem(tableaux: Sequence[Tableau], seed: int = 1) -> str:
         counts[name] = sum(map(_fits, tableaux, in_common(name, tableaux, seed)))
         if counts[name] == len(tableaux):
             return name
-    # the first of those that are equal
+    # the first of equal ones
     most = max(counts, key=lambda name: counts[name])
     if counts[most] == 0:
         if any(map(_fits, tableaux, in_common(GENERIC_RHS, tableaux, seed))):

@@ -51,7 +51,7 @@ def default_rows(solver: Solver, is_timed: bool) -> tuple[list[Row], int]:
     Args:
         solver: the method on the problem.
         is_timed: whether costs are compared: then the ladder keeps its coarse steps, because large
-            errors are asked for as well.
+            errors are requested as well.
 
     Raises:
         StepFailed: Newton's method fails where steps are not coarse.

@@ -173,7 +173,7 @@ def linear_solver(
         problem: the oscillator and its split.
         t_end: when errors are taken.
         tolerance: of rounded coefficients.
-        predicted: the order of the method; what is visible is no smaller.
+        predicted: the order of the method; the visible order is no smaller.
 
     Raises:
         UsageProblem: the split is not one that the structure of the tableau is for.

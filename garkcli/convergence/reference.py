@@ -1,5 +1,5 @@
 """Solutions that errors are measured against: known ones, or those of Gauss and Radau IIA methods
-with as many digits and steps as are asked for.
+with as many digits and steps as are requested.
 """
 
 from __future__ import annotations
@@ -59,13 +59,13 @@ def run(made: Integrator, h: fmpq, count: int, what: str) -> Stepper:
 
 
 class Reference(Mutable):
-    """The solution of a problem at one time, in the most digits that were asked for so far.
+    """The solution of a problem at one time, in the most digits that were requested so far.
 
     Attributes:
         problem: in one term.
         t_end: the time.
         digits: the error is below 10^(−digits) times the ``magnitude`` of the solution; 0 before
-            anything was asked for.
+            anything was requested.
         y: (q, p) at ``t_end``, shape (2d,).
         steps: that were enough for it.
     """

@@ -224,8 +224,8 @@ class Convergence(Shown, Frozen):
 
 
 def absolute(x: arb) -> arb:
-    """|x|; a ball that holds 0 becomes one about 0, whose radius does not hang on where the middle
-    came out.
+    """|x|; a ball that holds 0 becomes one about 0, whose radius does not depend on where the
+    middle came out.
     """
     if not x.contains(0):
         return abs(x)

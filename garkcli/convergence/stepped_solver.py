@@ -151,11 +151,11 @@ class SteppedSolver(Mutable):
         return row
 
     def _shows_no_error(self, error: arb, digits: int) -> bool:
-        """Whether an error within round-off is taken for none.
+        """Whether an error within round-off counts as none.
 
         All of many digits are the same only where nothing moves, or where the method is exact: the
         error of a long step of order p is far above 10^(−8 p). Where no tree that the problem
-        sees fails up to the highest order that is looked for, as those of a constant force, the
+        sees fails up to the highest order that is sought, as those of a constant force, the
         error is round-off whatever the digits.
         """
         if digits == MAX_DIGITS:

@@ -115,7 +115,8 @@ def three_registers(
 
 def van_der_houwen(b: Numbers, *diagonals: Numbers) -> Steps:
     """Van der Houwen's, 2R with one diagonal below the main one: every entry that is on none of the
-    diagonals is the weight of its column. Of each diagonal an entry a row, from the second row on.
+    diagonals is the weight of its column. Each diagonal has one entry per row, from the second row
+    on.
     """
     stages = len(b)
     rows = [_whole(x, stages, 0) for x in diagonals]
@@ -140,7 +141,7 @@ def shu_osher(alpha: Sequence[Numbers], beta: Sequence[Numbers]) -> Steps:
 
     Args:
         alpha: a row for each stage but the first, and one for the value at the end; a first row of
-            zeros may stand before them.
+            zeros may be before them.
         beta: the same.
 
     Raises:

@@ -1,7 +1,7 @@
 """Stages told apart by their entries, whatever their numbers are, and put in an order.
 
 Every stage gets a class: first by its node and its weights, then again and again by the classes of
-the stages that it sees and that see it, with which entries, until no class divides any more (the
+its neighbours on both sides, with which entries, until no class divides any more (the
 refinement of colours of graphs by B. Weisfeiler and A. Lehman). Stages that a renumbering of a
 method turns into each other are in one class; classes have an order that no numbering changes.
 """

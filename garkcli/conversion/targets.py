@@ -26,7 +26,7 @@ class Target(Frozen):
     """What ``--to`` names.
 
     Attributes:
-        name: as it is asked for.
+        name: as it is requested.
         summary: what it is, in a line.
         convert: the entries in this form; raises ``CannotConvert`` with the reason.
         claims: what the claims of the method become, by their keys; without it each claim that
@@ -62,7 +62,7 @@ def as_ark(method: GarkMethod) -> Sheet:
     """The method as an additive one.
 
     Where the colours have the same stages already these are shared. Otherwise the stages of all
-    colours stand one after the other, each with zeros in the columns of the others, and those that
+    colours are one after the other, each with zeros in the columns of the others, and those that
     are equal become one.
 
     Raises:
@@ -189,7 +189,7 @@ def as_canonical(method: GarkMethod) -> Sheet:
     """The smallest method that does the same, its stages in an order of their own.
 
     Methods that differ in the numbers of their stages, in stages without influence or in stages
-    that stand there twice, or in whether colours share their stages, have the same canonical form.
+    that are there twice, or in whether colours share their stages, have the same canonical form.
     """
     sheet = sheet_of(method)
     if not sheet.tableau.is_partitioned:

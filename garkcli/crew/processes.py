@@ -1,4 +1,4 @@
-"""Processes that work side by side, whatever becomes of one of them."""
+"""Processes that work side by side and go on without a lost one."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class _Worker(Generic[Item, Outcome]):
     ) -> None:
         self.items: deque[int] = deque()
         self.connection, other = context.Pipe()
-        # a forked worker has the ends of this process too; while it holds them nobody is told that
+        # a forked worker has the ends of this process too; while it holds them nobody hears that
         # this process has ended
         is_forked = context.get_start_method() == "fork"
         not_its_own = [self.connection, *others] if is_forked else []
@@ -57,7 +57,7 @@ class _Worker(Generic[Item, Outcome]):
 
 
 class Crew(Generic[Item, Outcome]):
-    """Processes side by side, whatever becomes of one of them, and what is left for them.
+    """Processes side by side, which go on without a lost one, and the work left for them.
 
     Args:
         work: from an item to its outcome; both travel between processes.

@@ -1,4 +1,4 @@
-"""What there is to be done, and who does it."""
+"""The work, and who does it."""
 
 from __future__ import annotations
 

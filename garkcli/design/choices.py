@@ -79,7 +79,7 @@ class Chosen(Frozen):
     Attributes:
         elements: the free parameters as elements of the field of the solution.
         root: the real root of its modulus that is meant.
-        order: its exact order, of whatever was asked for.
+        order: its exact order, of whatever was requested.
         embedded: that of its embedded weights; None where there are none.
     """
 

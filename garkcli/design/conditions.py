@@ -192,7 +192,7 @@ class FamilyConditions(Spans):
         """Conditions that generate those of all trees of an order, together with lower ones.
 
         Raises:
-            NotDecided: the time was not enough; they may be asked for again.
+            NotDecided: the time was not enough; they may be requested again.
             TooManyTerms: they are too long.
         """
         for l, forest in self.members(order):

@@ -79,9 +79,9 @@ class Step(Frozen):
         found: the solutions, where there are finitely many; of a family the real ones.
         is_real: of a family and of every value, whether a real value is a method of the file; None
             where that is not decided.
-        criterion: by which the real values were found; None where all conditions were looked at.
-        stable: where stability is wanted of a family and of every value, and hangs on one unknown:
-            the values of that, for each kind.
+        criterion: by which the real values were found; None where all conditions were examined.
+        stable: where stability is wanted of a family and of every value, and depends on one
+            unknown: the values of that, for each kind.
     """
 
     order: int
@@ -168,7 +168,7 @@ class Design(Shown, Frozen):
 SHARE = 0.25
 """The part of the time that python-flint has where msolve is there too: what it finds is proved."""
 PART = 0.25
-"""The part of the time that is left in which a real method of a family is looked for."""
+"""The part of the time that is left in which a real method of a family is sought."""
 CLAIMS: dict[Whose, str] = {"method": "order", "conjugate": "conjugate-order", "pair": "pair-order"}
 """What a file claims of the order found, by whose it is."""
 
@@ -235,7 +235,7 @@ class _Finding(Frozen):
         return _with_lower(steps)
 
     def _start(self) -> Ideal:
-        """The ideal of what parameters satisfy whatever is wanted of them."""
+        """The ideal of the equations that all parameters satisfy."""
         nonzero = (*self.conditions.denominators, *self.family.nonzero)
         if self.criterion is not None:
             nonzero = tuple(p for p in nonzero if not self.criterion.is_never_zero(p))
@@ -245,7 +245,7 @@ class _Finding(Frozen):
         """What one order more asks of the parameters, and whatever else is wanted.
 
         Args:
-            order: that is looked at.
+            order: that is examined.
             lower: the ideal of the order below; None where there is none.
 
         Raises:
@@ -342,7 +342,7 @@ class _Finding(Frozen):
         """A family of which stable methods are wanted with what is known of them.
 
         Raises:
-            NotDecided: the time is not enough, or stability hangs on several unknowns.
+            NotDecided: the time is not enough, or stability depends on several unknowns.
         """
         tableau = TABLEAUS[self.whose](self.family.tableau)
         kept = diagonal_unknowns(tableau, ideal.ring)
@@ -494,8 +494,8 @@ def embedded_of(family: Family, whose: Whose, solution: Solution) -> tuple[Order
 
 
 def stable_sets(design: Design) -> tuple[StableValues, ...]:
-    """The values of one unknown that have each kind of stability that is wanted, of the highest
-    order that is reached; nothing where solutions are looked at one by one.
+    """The values of one unknown with each wanted kind of stability, of the highest
+    order that is reached; nothing where solutions are examined one by one.
     """
     family = design.family
     if any(step.stable for step in design.steps):

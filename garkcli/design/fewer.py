@@ -1,8 +1,8 @@
 """On how few numbers the step of a family depends: linear forms of its parameters.
 
 The step M = N/D on a linear problem stays as it is along a direction v of the parameters exactly
-where D ∂_v N = N ∂_v D. That is linear in v, so that all such directions are found, and what is
-left are as many linear forms as there are other directions.
+where D ∂_v N = N ∂_v D. That is linear in v, so that all such directions are found, and as many
+linear forms are left as there are other directions.
 """
 
 from __future__ import annotations

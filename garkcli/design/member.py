@@ -162,7 +162,7 @@ def is_in(intervals: Sequence[Interval], value: Number, root: RealRoot) -> bool:
 
 
 MOST_DEGREE = 6
-"""Solutions of a larger degree are left open."""
+"""Solutions of a larger degree are undecided."""
 
 
 def method_at(

@@ -2,7 +2,7 @@
 
 J. Berthomieu, C. Eder, M. Safey El Din, *msolve: A Library for Solving Polynomial Systems*,
 ISSAC 2021. It finds bases by modular arithmetic and rational reconstruction, which proves nothing;
-what is verified here is that its answer is a Gröbner basis and that all given polynomials are in
+gark verifies here that its answer is a Gröbner basis and that all given polynomials are in
 its ideal. So each zero of the answer is a zero of the system; that the system has no others is not
 verified.
 """

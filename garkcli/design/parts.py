@@ -236,7 +236,7 @@ def charts(part: Part) -> list[Chart]:
 
 
 def diagonal_unknowns(tableau: Tableau, ring: Parameters) -> list[str]:
-    """Unknowns that are entries of a diagonal: stability hangs on them."""
+    """Unknowns that are entries of a diagonal: stability depends on them."""
     found: dict[str, None] = {}
     for block in tableau.blocks.values():
         for i, row in enumerate(block):
@@ -318,7 +318,7 @@ class _Splitting(Frozen):
         Args:
             polynomials: that are zero.
             nonzero: irreducible ones that are not.
-            values: of the unknowns, functions of those that are left.
+            values: of the unknowns, functions of the others.
             left: the names of these.
         """
         check_time()

@@ -3,10 +3,10 @@
 No way decides it for all ideals. These are tried:
 
 * real zeros of a polynomial that keeps its sign are zeros of its derivatives, so that fewer may be
-  left: none, or finitely many, which are looked at one by one;
+  left: none, or finitely many, which are examined one by one;
 * of one unknown, and of a curve in the plane of two, every cell of the line or of the plane;
 * otherwise some unknowns get rational values so that finitely many solutions are left, and these
-  are looked at. That finds a method, or proves nothing.
+  are examined. That finds a method, or proves nothing.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ MOST_POINTS = 60
 SAMPLES = 24
 """Values of unknowns that are tried."""
 MOST_LARGE = 4
-"""Of those that need a large Gröbner basis."""
+"""Of the steps that need a large Gröbner basis."""
 PARTS = 12
 """Samples are so many parts of a range, or of 1."""
 
@@ -92,7 +92,7 @@ def has_methods(family: Family, ideal: Ideal, real: Ideal, is_method: IsMethod) 
         family: whose parameters they are.
         ideal: of its ring; where it is not proved that it has all of them, nothing else is.
         real: one with its real zeros, without UNIT.
-        is_method: whether a real zero is a method; where stability is wanted it may be left open,
+        is_method: whether a real zero is a method; where stability is wanted it may be undecided,
             and is then none.
 
     Raises:
@@ -109,7 +109,7 @@ class _Search:
     """Looks at real zeros of an ideal.
 
     Attributes:
-        is_complete: whether there are none besides those that were looked at.
+        is_complete: whether there are none besides those that were examined.
     """
 
     def __init__(self, family: Family, ideal: Ideal, real: Ideal, is_method: IsMethod) -> None:
@@ -203,7 +203,7 @@ class _Search:
         [curve] = closure.basis
         signs = [*self.nonzero, *self.family.positive, *not_negative(self.family)]
         for factor in factors([rational(curve, self.ring)]):
-            # what is looked along is the last unknown that is in the factor
+            # the line follows the last unknown of the factor
             along = 1 if factor.degrees()[1] else 0
             deciding = factors([in_plane(p, along, 1 - along) for p in (factor, *signs)])
             if any(p.total_degree() > MOST_DEGREE for p in deciding):

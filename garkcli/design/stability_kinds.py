@@ -1,6 +1,6 @@
 """Kinds of stability of a family of one parameter t: what decides, and what one value has.
 
-A-stability hangs on E(x, t) = |Q(iy)|² − |P(iy)|² with x = y² and on where the roots of Q are,
+A-stability depends on E(x, t) = |Q(iy)|² − |P(iy)|² with x = y² and on where the roots of Q are,
 P-stability on the signs of D and of 1 − det M and 1 + det M ± tr M, as polynomials in x = z² and t.
 """
 

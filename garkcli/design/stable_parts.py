@@ -78,7 +78,7 @@ class StablePart(Frozen):
 
     @property
     def is_decided(self) -> bool:
-        """Whether no value of a coordinate is left open."""
+        """Whether no value of a coordinate is undecided."""
         return not any(x.undecided for x in self.kinds)
 
 
@@ -158,7 +158,7 @@ class _Line:
         return PartMembers(self.family, self.whose, self.part, self.name, self.tableau)
 
     def values(self) -> tuple[tuple[Interval, ...], tuple[RealRoot, ...]]:
-        """The stable values of the coordinate, and those that are left open."""
+        """The stable values of the coordinate, and those that are undecided."""
         members = self.members
         if self.root is None:
             kind: Any = self.wanted.kind
@@ -239,7 +239,7 @@ class PartMembers(Members):
         """A method with a value of the coordinate; None where there is none.
 
         Raises:
-            NotDecided: none of those that were tried is one.
+            NotDecided: no tried value is one.
         """
         if not all(p(value) for p in self.poles):
             return None
@@ -332,7 +332,7 @@ def is_on(family: Family, part: Part, solution: Solution, root: RealRoot) -> boo
 
 def joined(family: Family, parts: Sequence[StablePart]) -> tuple[StableValues, ...]:
     """For each kind of stability the values of one unknown, within its range, that the parts have
-    together; nothing where they hang on different ones, or where the file asks for more.
+    together; nothing where they depend on different ones, or where the file asks for more.
     """
     together = []
     for same in zip(*(x.kinds for x in parts), strict=True):

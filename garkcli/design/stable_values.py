@@ -54,11 +54,11 @@ class StableValues(Shown, Frozen):
         whose: which method is meant.
         wanted: which stability.
         found: the set, in ascending order, without the values of ``undecided``.
-        undecided: single values that are left open.
+        undecided: single values that are undecided.
         two_springs: what P-stability is meant on; None for the oscillator.
         colour: which colour alone is driven, counted from 0; None for all of them alike.
-        form: the one number, linear in several parameters, that the step hangs on, and whose values
-            are meant; None for a parameter itself.
+        form: the one number, linear in several parameters, that the step depends on, and whose
+            values are meant; None for a parameter itself.
     """
 
     family: Family
@@ -113,7 +113,7 @@ def stable_values(
     colour: int | None = None,
     members: Members | None = None,
 ) -> StableValues:
-    """The set of values of the one free parameter, of those that are as the file wants them.
+    """The set of values of the one free parameter, restricted to what the file wants.
 
     Args:
         family: of methods, with one free parameter and rational coefficients otherwise.
@@ -155,7 +155,7 @@ def stable_values(
 
 
 def _decided(family: Family, kind: Kind) -> tuple[tuple[Interval, ...], tuple[RealRoot, ...]]:
-    """The set, and the values that are left open."""
+    """The set, and the values that are undecided."""
     decision = _Decision(family, kind)
     found = decision.run()
     undecided = tuple(decision.undecided)
@@ -173,7 +173,7 @@ def _without(found: Sequence[Interval], undecided: Sequence[RealRoot]) -> tuple[
 def _wanted(
     family: Family, found: tuple[Interval, ...], undecided: tuple[RealRoot, ...]
 ) -> tuple[tuple[Interval, ...], tuple[RealRoot, ...]]:
-    """Those values of a set that are as the file wants them, and of those that are left open."""
+    """The values of a set that the file wants, and the undecided ones among them."""
     asked: list[tuple[Polynomial, frozenset[int]]] = []
     for polynomials, signs in (
         (family.relations, {0}),

@@ -78,7 +78,7 @@ class Meaning(Frozen):
         nonzero: polynomials that are not.
         positive: rational functions that are positive at the solutions that are taken.
         not_negative: those that are at least 0.
-        stable: kinds of stability that the solutions that are taken have.
+        stable: the kinds of stability of the accepted solutions.
         unsettled: keys of wishes whose meaning was not worked out in time.
     """
 

@@ -25,7 +25,7 @@ MOST_PRODUCTS = 200
 
 
 def _order(tableau: Tableau, asked: Asked) -> Meaning:
-    """The conditions of a tableau up to the order that is asked for."""
+    """The conditions of a tableau up to the order that is requested."""
     conditions = FamilyConditions(tableau, asked.ring)
     one = asked.ring.constant(fmpq(1))
     zeros: list[object] = []
@@ -138,7 +138,7 @@ def _weak_stage_order(asked: Asked) -> Meaning:
     products of blocks between the colours.
 
     Products of as many blocks as there are stages are enough: those of at most n blocks span, for
-    growing n, spaces of functionals that stop growing with the first that does not. By the node
+    growing n, spaces of functionals; once one does not grow, none does. By the node
     powers c^k and k c^k a product that vanishes for k ≤ 2s + 1 and stages s of two colours does so
     for every k.
     """

@@ -79,7 +79,7 @@ def perfect_root(root: Root, radicand: fmpq) -> fmpq | None:
 
 
 def even_root_fault(root: Root) -> UndefinedValue:
-    """What is said of an even root of a negative number."""
+    """The message for an even root of a negative number."""
     message = "an even root of a negative number"
     cure = "coefficients are real numbers"
     return UndefinedValue(message, cure, root.start, root.end, code="not-real")

@@ -1,7 +1,7 @@
 """Enclosures in balls: of expressions, of real roots, and of polynomials.
 
 What is enclosed has as many digits as ``flint.ctx`` has, and a bound on what is missing. A list of
-coefficients starts with that of 1; what is said of polynomials holds for all numbers in the balls,
+coefficients starts with that of 1; statements on polynomials hold for all numbers in the balls,
 and is None where these are too wide to tell.
 """
 
@@ -41,7 +41,7 @@ OPERATIONS: Mapping[str, Callable[[Any, Any], Any]] = {
     "*": operator.mul,
     "/": operator.truediv,
 }
-"""What the signs of a chain do with what stands before them."""
+"""What the signs of a chain do with what is before them."""
 
 
 def integer_power(base: arb, exponent: int) -> arb:
@@ -62,7 +62,8 @@ def integer_power(base: arb, exponent: int) -> arb:
 def enclose(expression: Expression) -> arb:
     """A ball that holds the value of ``expression``, at the current ``flint.ctx`` precision.
 
-    The value is undefined, and the ball all of the reals, where a divisor cannot be told from 0.
+    The value is undefined, and the ball all of the reals, where a divisor cannot be distinguished
+    from 0.
 
     >>> from garkcli.exact.expression import parse
     >>> bool(abs(enclose(parse("sqrt(2)")) ** 2 - 2) < 1e-14)

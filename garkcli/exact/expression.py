@@ -76,7 +76,7 @@ class Parser:
 
     Attributes:
         noun: what a text is.
-        value_noun: what stands between two signs.
+        value_noun: what is between two signs.
         example: the cure for an empty text.
         cure: what may be written.
         functions: the cure for a function that is not known.

@@ -119,7 +119,7 @@ def value_of(expression: Expression, names: Mapping[str, Value]) -> Value:
         names: a value for each name in it but ``pi``.
 
     Raises:
-        UndefinedValue: an operation has no real value, or none that can be told: log(-1), 1/0,
+        UndefinedValue: an operation has no real value, or none that can be decided: log(-1), 1/0,
             sqrt(-2). The error knows the offsets of the operation.
         LimitExceeded: a number of more than ``MAX_BITS`` bits or beyond the floats, or an exponent
             that is none.

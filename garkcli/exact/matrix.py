@@ -202,7 +202,7 @@ _Parts: TypeAlias = list[tuple[int, fmpq_mat]]
 """Pairs (k, A_k)."""
 _Rational: TypeAlias = Sequence[fmpq]
 MIN_BITS_APART = 20_000
-"""Bits of all denominators of a row from which on it is looked at how much they share."""
+"""Bits of all denominators of a row from which on it is examined how much they share."""
 
 
 class LinearMap:

@@ -34,7 +34,7 @@ class Name(Expression):
 
 
 class Chain(Expression):
-    """Operands joined from left to right by ``+ -`` or by ``* /``; ``signs`` stand before each
+    """Operands joined from left to right by ``+ -`` or by ``* /``; ``signs`` are before each
     operand.
 
     Kept flat, so that the depth of an expression is that of its parentheses.
@@ -71,7 +71,7 @@ class AlgebraicRoot(Expression):
 
 
 class Call(Expression):
-    """A function of one argument, one of those that ``garkcli.exact.formula`` has."""
+    """A function of one argument, from the list in ``garkcli.exact.formula``."""
 
     function: str
     argument: Expression

@@ -1,7 +1,7 @@
 """Rational functions of parameters, as coefficients of a family of methods.
 
-A number here is a quotient of polynomials over ℚ in the parameters, in python-flint. What is
-rational is a plain ``fmpq``, so such numbers may stand wherever exact numbers do: zero is falsy,
+A number here is a quotient of polynomials over ℚ in the parameters, in python-flint. A rational
+number is a plain ``fmpq``, so such numbers may be wherever exact numbers do: zero is falsy,
 and a method with them goes through the same constructions as one with numbers.
 """
 
@@ -137,7 +137,7 @@ class Parameters:
 
     @contextmanager
     def telling_apart(self) -> Iterator[dict[str, fmpq_mpoly]]:
-        """Collect what is taken for different from 0 meanwhile.
+        """Collect what counts as different from 0 meanwhile.
 
         What is decided then for the parameters as unknowns is true wherever none of these
         polynomials is zero: each question has the same answer there (D. Duval, *Algebraic numbers:
@@ -150,7 +150,7 @@ class Parameters:
             self._told_apart = before
 
     def tell_apart(self, polynomial: fmpq_mpoly) -> None:
-        """Note that a polynomial is taken for different from 0."""
+        """Note that a polynomial counts as different from 0."""
         if self._told_apart is not None and not polynomial.is_constant():
             self._told_apart[str(polynomial)] = polynomial
 
@@ -374,7 +374,7 @@ def evaluated(p: fmpq_mpoly, values: Sequence[Any]) -> Any:
 
     Args:
         p: the polynomial.
-        values: of all unknowns; of those that do not occur any.
+        values: of all unknowns; any for the ones that do not occur.
     """
     total: Any = fmpq(0)
     for exponents, a in p.to_dict().items():

@@ -253,7 +253,7 @@ def resultant(a: Polynomial, b: Polynomial) -> Number:
 def subresultant(a: Polynomial, b: Polynomial, k: int) -> Number:
     """The principal subresultant coefficient of index k of a and b, deg a ≥ deg b, by Euclid.
 
-    The first of them that is not zero is that of the degree of the greatest common divisor; the
+    The first nonzero one is that of the degree of the greatest common divisor; the
     one of index 0 is the resultant (S. Basu, R. Pollack, M.-F. Roy, section 8.3).
 
     >>> x = Polynomial([0, 1])

@@ -1,7 +1,7 @@
 """Roots of polynomials as coefficients: ``root_of(6*x**3 - 18*x**2 + 9*x - 1, 0.4358665)``.
 
 The polynomial in x has rational coefficients; of its real roots the one nearest to the number after
-it is meant. What is kept is the irreducible factor with that root, so that a number has one form.
+it is meant. gark keeps the irreducible factor with that root, so that a number has one form.
 """
 
 from __future__ import annotations

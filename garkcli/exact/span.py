@@ -56,7 +56,9 @@ class AffineSpan:
         return len(self) == self.dimension + 1
 
     def insert(self, points: Sequence[Sequence[fmpq]]) -> list[int]:
-        """Insert ``points`` from left to right; the indices of those that enlarged the span."""
+        """Insert ``points`` from left to right; the indices of the points that enlarged the
+        span.
+        """
         check_time()
         if not points or self.is_full:
             return []

@@ -108,7 +108,7 @@ def _vanishing_factor(
 ) -> fmpq_poly:
     """The irreducible factor that has the real number Σ combination·values as a root.
 
-    The factors have no common root, so all but one are told from zero by enough digits.
+    The factors have no common root, so all but one are distinguished from zero by enough digits.
     """
     _, factors = characteristic.factor()
     candidates = [fmpq_poly(factor) for factor, _ in factors]

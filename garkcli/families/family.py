@@ -25,7 +25,7 @@ class Option(Frozen):
         words: the words it may be; none for a number.
         smallest: of a whole number the least it may be; None for a coefficient.
         default: the word that is meant where it is left out; empty where it has to be given.
-        shown: what stands behind its key in an example; empty for the first that may.
+        shown: what is behind its key in an example; empty for the first that may.
     """
 
     name: str
@@ -37,7 +37,7 @@ class Option(Frozen):
 
     @property
     def example(self) -> str:
-        """What may stand behind its key."""
+        """What may be behind its key."""
         if self.shown:
             return self.shown
         if self.words:

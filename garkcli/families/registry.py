@@ -16,7 +16,7 @@ from garkcli.tableau.tableau import Method
 
 NO_OPTIONS: Options = {}
 _FIRST = ("collocation", "explicit", "sdirk2", "extrapolated", "deferred")
-"""The files whose families are told first, in the order of the documentation."""
+"""The files whose families are reported first, in the order of the documentation."""
 
 
 def _families() -> Iterator[Family]:

@@ -1,4 +1,4 @@
-"""The keys of the files that people write, as they are told; rooms above declare them."""
+"""The keys of the files that people write, as they are reported; rooms above declare them."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Key(Frozen):
     """What a key means.
 
     Attributes:
-        path: the key with those that it stands below, as ``compose.steps``.
+        path: the key with those that it is below, as ``compose.steps``.
         text: what it is, in whole sentences.
         example: a line of such a file with it.
         default: what holds where it is left out; None where nothing does.

@@ -131,8 +131,8 @@ def oscillator_run(
 
     The drift is d in the least-squares fit H(t) − H(0) ≈ e + d t + a cos 2θn + b sin 2θn, with
     e^{±iθ} the directions of the eigenvalues of R(h); without a, b where these are real or turn too
-    slowly to be told from a line. Its uncertainty is how far it is in the halves of the run from
-    that in all of it. Where the error is bounded for all time, both are zero.
+    slowly to be distinguished from a line. Its uncertainty is how far it is in the halves of the
+    run from that in all of it. Where the error is bounded for all time, both are zero.
 
     Raises:
         UsageProblem: the split does not fit the structure, the step does not divide the time, there
@@ -231,7 +231,7 @@ def _verdict(errors: _Errors, fate: Stability, line: Line, excused: float) -> Ve
 
 
 def _shape(verdict: Verdict, line: Line) -> Shape:
-    """Of a drift: a line where its slope can be told from 0."""
+    """Of a drift: a line where its slope can be distinguished from 0."""
     if verdict not in ("drifts", "undecided"):
         return "none"
     return "line" if abs(line.slope) > line.uncertainty else "curve"

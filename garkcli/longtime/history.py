@@ -93,8 +93,8 @@ BLOW_UP = 1e30
 """How many times the energy the energy error may become before a run ends as unstable."""
 
 Verdict: TypeAlias = Literal["exact", "round-off", "bounded", "drifts", "unstable", "undecided"]
-"""Conserved exactly; no error above round-off; no drift to be told; a drift; blown up or escaped;
-left open, for the reason that a ``Doubt`` is.
+"""Conserved exactly; no error above round-off; no drift to be reported; a drift; blown up or
+escaped; left open, for the reason that a ``Doubt`` is.
 """
 Doubt: TypeAlias = Literal[
     "steps", "turns", "rest", "value", "round-off", "modulation", "level", "symplectic", "rounding"
@@ -231,7 +231,7 @@ def count_steps(t_end: fmpq, step: fmpq) -> int:
 def whole_run(
     step: fmpq | None, t_end: fmpq | None, usual_step: fmpq, usual_end: fmpq
 ) -> tuple[fmpq, fmpq]:
-    """A step size, and a time that is a whole number of them; what is not given comes near the
+    """A step size, and a time that is a whole number of them; a missing one comes near the
     usual.
 
     >>> whole_run(None, fmpq(1), fmpq(3, 10), fmpq(100))

@@ -175,7 +175,9 @@ Shape: TypeAlias = Literal["none", "line", "curve", "step"]
 level.
 """
 Finding: TypeAlias = Literal["none", "undecided", "drift"]
-"""No trend to be told from oscillation and noise; one that a modulation may explain; a drift."""
+"""No trend to be distinguished from oscillation and noise; one that a modulation may explain; a
+drift.
+"""
 LEAST = 64
 """Fewest steps that are judged: eight for each eighth."""
 CERTAIN = 10.0
@@ -203,7 +205,8 @@ class Trend(Frozen):
         slope: of the fitted line, per step.
         uncertainty: of ``slope``.
         finding: whether the trend is a drift.
-        shape: of the trend; "none" where there is none to be told from oscillation and noise.
+        shape: of the trend; "none" where there is none to be distinguished from oscillation and
+            noise.
         move: the size of what is undecided, where that is no line.
     """
 

@@ -103,7 +103,7 @@ def ark(at: Reading, node: Node) -> ArkText | None:
 
 
 def _matrices(at: Reading, node: Node) -> list[Rows] | None:
-    """The matrices as they stand; None where A is no list of matrices."""
+    """The matrices as they are; None where A is no list of matrices."""
     items = colours_in(at, node, "A")
     if items and depth_of_lists(node) == 2:
         message = "A is one matrix, and an ark has one per colour"

@@ -20,7 +20,7 @@ _WIDTH = 110
 
 
 def lines_of(method: MethodFile, keys: Sequence[str]) -> str:
-    r"""The lines of some keys as they stand in the file of a method; empty where it has none.
+    r"""The lines of some keys as they are in the file of a method; empty where it has none.
 
     >>> from garkcli.methodfile.load import loads
     >>> euler = loads("{A: [[0]], b: [1], reference: L. Euler 1768, expect: {order: 1}}")
@@ -79,7 +79,7 @@ _DROPPED = (*("expect", "conjugate", "name", "aliases", "description"), *BESIDE)
 
 
 def write_conjugate_of(method: MethodFile, name: str) -> str:
-    """The file of ``method`` with ``conjugate: true`` added, or taken away where it stands.
+    """The file of ``method`` with ``conjugate: true`` added, or taken away where it is.
 
     Exact for every method: nothing is spelled out. Claims and description are left behind, as they
     are about the other method, and so are weights that only the method itself has.
@@ -107,13 +107,13 @@ def _scalar(text: str) -> ScalarNode:
 
 INDENT = "  "
 Edit: TypeAlias = tuple[int, int, str]
-"""From where to where in a text what else is to stand."""
+"""The place in a text and its new content."""
 
 
 def write_claims(source: str, text: str, claims: Mapping[str, str]) -> str:
     r"""The text of a method file with other claims.
 
-    A claim that stands there has its value replaced, and one that has no truth is left as it is;
+    A claim that is there has its value replaced, and one that has no truth is left as it is;
     new ones follow the last. Comments, blanks and everything else stay.
 
     Args:
@@ -152,7 +152,7 @@ def _mapping_under(root: MappingNode, name: str) -> MappingNode | None:
 def _with_block(
     source: str, text: str, root: MappingNode, empty: Node | None, claims: Mapping[str, str]
 ) -> str:
-    """A file without claims: they stand at its end."""
+    """A file without claims: they are at its end."""
     if root.flow_style or empty is not None:
         fault = Fault(
             "the claims have no place in this file",
@@ -206,7 +206,9 @@ def _line_end(text: str) -> str:
 
 
 def _end(text: str, node: Node) -> int:
-    """Where a value ends; a list of lines ends with its last entry, whatever is said below it."""
+    """Where a value ends; a list of lines ends with its last entry, in spite of comments below
+    it.
+    """
     while isinstance(node, SequenceNode) and node.value:
         if node.flow_style:
             break

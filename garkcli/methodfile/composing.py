@@ -1,6 +1,6 @@
 """YAML text to nodes with positions, by PyYAML's parser in Python, within limits.
 
-Composing keeps what ``safe_load`` loses: where each value stands, keys that occur twice, and the
+Composing keeps what ``safe_load`` loses: where each value is, keys that occur twice, and the
 text of a number as it was written. PyYAML's loader in Python is used whatever there is in C: the
 two word their faults differently and count columns differently, and a file has to be met with the
 same answer on every machine.
@@ -243,7 +243,7 @@ def folded_place(text: str, node: ScalarNode, offset: int) -> tuple[int, int]:
 
 
 def place_of_sign(text: str, sign: object) -> tuple[int, int]:
-    """Where a sign that YAML refuses stands first; one at the start of the text marks its bytes."""
+    """Where a sign that YAML refuses is first; one at the start of the text marks its bytes."""
     code = ord(sign) if isinstance(sign, str) and len(sign) == 1 else sign
     position = 0
     if isinstance(code, int):
@@ -257,7 +257,7 @@ def _line_and_column(text: str, position: int) -> tuple[int, int]:
 
 
 MOST_LOOKED_AT = 20_000
-"""Characters of a file that are looked at."""
+"""Characters of a file that are examined."""
 _READS = "gark import {file} reads it"
 _PASTED = "gark new FILE --tableau - < {file} makes a method file of it"
 _LOOKS: tuple[tuple[re.Pattern[str], str], ...] = tuple(

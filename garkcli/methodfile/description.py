@@ -27,9 +27,9 @@ CONSTRUCTIONS: tuple[Construction, ...] = get_args(Construction)
 Form: TypeAlias = Literal["methods", "tableau", "ark", "prk"] | Construction
 FORMS: tuple[Form, ...] = ("methods", "tableau", "ark", "prk", *CONSTRUCTIONS)
 PLAIN = ("A", "b", "c")
-"""The keys of a Butcher tableau that stands at the top of a file."""
+"""The keys of a Butcher tableau that is at the top of a file."""
 BESIDE = ("embedded", "dense")
-"""Further weights, which stand beside b."""
+"""Further weights, which are beside b."""
 
 
 MAX_COLOURS = 200
@@ -62,7 +62,7 @@ class FurtherText(Frozen):
     Attributes:
         embedded: one per stage.
         dense: of dense output, the coefficients of θ, θ², … a stage.
-        node: where the first of them stands.
+        node: where the first of them is.
     """
 
     embedded: Row | None = None
@@ -77,13 +77,13 @@ class FamilyText(Frozen):
     """A member of a family.
 
     Attributes:
-        node: where it stands.
+        node: the place in the file.
         name: of the family.
         chosen: its size and what else it is chosen by, as it is written; with the name they say
             which member it is.
         recipe: how it is made.
         numbers: what it is made of besides rational numbers.
-        further: what stands beside it.
+        further: what is beside it.
     """
 
     node: Node
@@ -176,10 +176,10 @@ class PartText(Frozen):
     """A method that a construction is made from.
 
     Attributes:
-        source: the file that it stands in: this one, or one of the catalogue.
+        source: the file that it is in: this one, or one of the catalogue.
         description: what it says.
         families: its methods that are members of families, by number from 0.
-        nodes: the nodes of those that are taken at points, as coefficients.
+        nodes: the nodes of the families taken at points, as coefficients.
     """
 
     source: Source
@@ -203,7 +203,7 @@ class ConstructionText(Frozen):
     """A method made from others.
 
     Attributes:
-        node: where it stands.
+        node: the place in the file.
         parts: the methods that it is made from.
         make: the method, from the tableaus of the parts and the values of its own coefficients.
         tolerance: the rounding of what it is made from.
@@ -292,7 +292,7 @@ def works_of(said: Description) -> tuple[Work, ...]:
 
 
 class ClaimText(FrozenBut):
-    """One claim of ``expect``: its key, its value as plain data, and where it stands."""
+    """One claim of ``expect``: its key, its value as plain data, and where it is."""
 
     besides = frozenset({"node"})
 

@@ -196,7 +196,7 @@ def _family(at: Reading, node: Node, where: str) -> tuple[FamilyText, Entries] |
             place = entries.get(family.size, place)
         at.source.fault(place, error.message, error.help, code=error.code)
         return None
-    # what a member is chosen by, as it stands
+    # what a member is chosen by, as it is
     nodes = ((key, entries.get(key)) for key in FAMILIES[name].keys)
     chosen = tuple((key, str(x.value)) for key, x in nodes if isinstance(x, ScalarNode))
     return FamilyText(node, name, chosen, recipe, _entries(at, recipe, node, name)), entries
@@ -220,7 +220,7 @@ def _chosen(
 
 
 def _entries(at: Reading, recipe: Recipe, node: Node, name: str) -> Row:
-    """What a member is made of as coefficients of the file; those that stand there are so
+    """What a member is made of as coefficients of the file; those that are there are so
     already.
     """
     read = {id(entry.expression): entry for entry in at.numbers.entries}

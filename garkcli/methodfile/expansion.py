@@ -83,7 +83,7 @@ class _Fraction(Frozen):
     Attributes:
         terms: those of the numerator, multiplied out.
         factors: of the denominator.
-        inside: most terms of what stands in functions and roots.
+        inside: most terms of what is in functions and roots.
     """
 
     terms: int
@@ -100,7 +100,7 @@ def _fraction(f: Expr) -> _Fraction:
         return _product(parts, inside)
     if f.is_Pow and f.exp.is_Integer:
         return _integer_power(f, parts[0], inside)
-    # a root or a function: one term, whatever stands in it
+    # a root or a function: one term, with anything in it
     inside = max(inside, *(part.terms for part in parts), 1)
     is_below = f.is_Pow and f.exp.is_Rational and f.exp.p < 0
     return _Fraction(1, {f.base ** abs(f.exp): (1, 1)} if is_below else {}, inside)

@@ -195,7 +195,7 @@ OF_ORDERS = {
     "stage-order",
     "weak-stage-order",
 }
-"""Claims for which orders must be looked for as far as their numbers, and one further."""
+"""Claims for which orders must be sought as far as their numbers, and one further."""
 
 
 def highest_order(claims: tuple[ClaimText, ...], keys: Collection[str] = OF_ORDERS) -> int:

@@ -41,7 +41,7 @@ class FamilyFile(Family, kw_only=True):
         settings: values that were given for other parameters.
         places: the place of the value of each parameter in the text, from and to.
         parameters_at: the place of ``parameters: …``; None where there is none.
-        shape: where ``unknown: …`` stands, and the tableau that it means as keys of a method file;
+        shape: where ``unknown: …`` is, and the tableau that it means as keys of a method file;
             None where the file has no shape.
         blocks: where "?" stands for whole blocks, and their matrices with the names of entries.
         wanted_at: the place of ``design: …``; None where there is none.
@@ -122,7 +122,7 @@ def loads_family(
     """
     reader, description = described(text, source, settings)
     if is_free and not reader.numbers.free:
-        # where the file or a setting has a fault, that is what is told
+        # where the file or a setting has a fault, that is what is reported
         loads(text, source, settings)
         raise _without_unknowns(source, settings)
     wishes = read_wishes(reader, reader.design) if is_design else Wishes()
@@ -218,7 +218,7 @@ def _signs(numbers: Sequence[object], ring: Parameters) -> tuple[fmpq_mpoly, ...
 
 
 def _shape(reader: Reader) -> tuple[Extent, str] | None:
-    """Where a shape stands in the file, and what it means."""
+    """Where a shape is in the file, and what it means."""
     if reader.shaped is None:
         return None
     from garkcli.methodfile.shapes import spelled
@@ -251,7 +251,7 @@ def with_values(family: FamilyFile, values: Mapping[str, str], head: str, claim:
         family: as it was read.
         values: of each free parameter, as text.
         head: a comment to begin with, how the values were found.
-        claim: what the method is known to be, such as ``order: 4``; added where the file makes no
+        claim: a fact about the method, such as ``order: 4``; added where the file makes no
             claims of its own.
     """
     text = family.text

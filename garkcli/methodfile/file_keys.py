@@ -215,7 +215,7 @@ KEYS = {
 }
 """The keys of a method file by name, in the order of the documentation."""
 KEYS_OF_METHOD = ("name", *FORMS, *PLAIN, *BESIDE, "transfer", "structure", "conjugate", "linear")
-"""The keys of a method, wherever it stands."""
+"""The keys of a method, wherever it is."""
 _TWO_COLOURS = g.Values(
     {"type": "array", "minItems": 2},
     lambda node: isinstance(node, SequenceNode) and len(node.value) > 1,
@@ -285,7 +285,7 @@ BESIDE_FORM: tuple[g.Beside, ...] = (
 
 @cache
 def elsewhere() -> Mapping[str, Home]:
-    """Where keys belong that stand at the top of a file and have no place there; what may be a
+    """Where keys belong that are at the top of a file and have no place there; what may be a
     claim most often is one.
     """
     every = (x for x in KEYS.values() if x.name != "parameters")  # has keys below other names
@@ -326,5 +326,5 @@ def method_file_schema() -> g.Schema:
 
 
 def told(files: Files) -> Iterable[Entry]:
-    """What is told of the keys."""
+    """What the report says of the keys."""
     return g.told(KEYS.values(), files.page)

@@ -1,6 +1,6 @@
 """Which files are meant: folders, patterns, names.
 
-What cannot be looked into is kept, to be told.
+Places that cannot be searched are kept for the report.
 """
 
 from __future__ import annotations
@@ -21,19 +21,19 @@ def find_files(paths: Iterable[str], told: Callable[[str], None] = no_one) -> It
 
     A directory stands for all method files below it, a pattern such as ``**/*.yaml`` for the files
     it matches. What stands for nothing stays, to be reported as missing, and so does a folder below
-    that cannot be looked into. Links to folders are not followed: they may lead back. Links to
+    that cannot be searched. Links to folders are not followed: they may lead back. Links to
     files elsewhere are left out. Names of the catalogue stay as they are; ``catalogue:`` stands for
     all, ``catalogue:FOLDER`` for a folder.
 
     Args:
         paths: files, folders, patterns, names.
-        told: who is told of what is left out.
+        told: who hears of what is left out.
     """
     for path in paths:
         if path == STDIN:
             yield path
         elif os.path.isdir(path):
-            # a folder that is called as a method is told where it is read
+            # a folder that is called as a method is reported where it is read
             yield from [path] if is_both(path) else files_below(path, told) or [path]
         elif path.startswith(PREFIX):
             yield from expanded(path) or [path]
@@ -100,7 +100,7 @@ def _folders(place: str) -> Iterator[str]:
 
 
 def _matches(name: str, pattern: str) -> bool:
-    """Whether a name is one of a pattern; a hidden one has to be asked for."""
+    """Whether a name is one of a pattern; a hidden one has to be requested."""
     is_hidden = name.startswith(".")
     return False if is_hidden and not pattern.startswith(".") else fnmatchcase(name, pattern)
 

@@ -52,7 +52,7 @@ class Formulas(Mutable):
         Args:
             node: the text.
             where: what it is, for messages.
-            names: for names that may not stand here, the cure; "" for those that may. Parameters
+            names: for names that may not be here, the cure; "" for those that may. Parameters
                 always may; None is for all.
             noun: what a name can be here.
         """
@@ -178,7 +178,7 @@ def _simplest(low: fmpq, high: fmpq) -> fmpq:
     return floor + 1 / inverse
 
 
-_SHOWN = 8  # most missing names that are told
+_SHOWN = 8  # most missing names that are reported
 MAX_BITS = 4_000
 """Longest numerator or denominator: squared and cubed it is short of the 4300 digits that Python
 writes.
@@ -212,7 +212,7 @@ class TermReader(Frozen):
         Args:
             items: each formula with what it is called in messages.
             symbols: of all names.
-            names: for names that may not stand here, the cure; "" for those that may. None where
+            names: for names that may not be here, the cure; "" for those that may. None where
                 the variables have faults: then nothing is translated.
             noun: what a name can be here.
         """
@@ -243,7 +243,7 @@ class TermReader(Frozen):
     def numbers(
         self, node: Node, where: str, names: Sequence[str]
     ) -> tuple[Entries, dict[str, fmpq]]:
-        """Values by names: what is given, and the numbers; of no names given all may stand here."""
+        """Values by names: what is given, and the numbers; of no names given all may be here."""
         entries = self.source.mapping(node, where, names)
         values: dict[str, fmpq] = {}
         for name, x in entries.items():

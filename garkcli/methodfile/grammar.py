@@ -1,4 +1,4 @@
-"""The grammar of the files that people write: each key is declared once, with what may stand there.
+"""The grammar of the files that people write: each key is declared once, with what may be there.
 
 A declaration reads the key, makes its JSON Schema, and is what pages, ``gark explain`` and editors
 say of it.
@@ -36,7 +36,7 @@ def as_it_is(_: Any, node: Node, __: str) -> Node:
 
 
 class Kind(Frozen):
-    """What may stand under a key.
+    """What may be under a key.
 
     Attributes:
         schema: its JSON Schema.
@@ -65,7 +65,7 @@ class Key(Frozen):
 
     Attributes:
         line: an example, a line of a file with it: its name, a colon, a value.
-        kind: what may stand there.
+        kind: what may be there.
         text: what it is, in whole sentences.
         default: what holds where it is left out; None where nothing does.
         is_needed: whether it cannot be left out.
@@ -95,7 +95,7 @@ class Key(Frozen):
         import yaml  # only who asks for a schema reads examples
 
         schema = self.kind.schema()
-        if "$ref" in schema:  # what stands beside a reference is not read
+        if "$ref" in schema:  # what is beside a reference is not read
             schema = {"allOf": [schema]}
         value = yaml.safe_load(self.line)[self.name]
         as_json = json.loads(json.dumps(value))  # keys are texts in JSON
@@ -103,7 +103,7 @@ class Key(Frozen):
         return told if self.default is None else {**told, "default": self.default}
 
     def entries(self, above: str, page: str) -> Iterator[Entry]:
-        """What is told of it and of the keys inside of it, as those of a page."""
+        """What the report says of it and of the keys inside of it, as those of a page."""
         from garkcli.glossary.key import Key as Entry  # only pages and explanations tell of keys
 
         path, own = above + self.name, self.page or page
@@ -117,8 +117,8 @@ class Found(dict[str, Any]):
     """What a mapping has: its values by key, without the faulty ones.
 
     Attributes:
-        node: where it stands.
-        nodes: what stands under each key that is given.
+        node: the place in the file.
+        nodes: what is under each key that is given.
         is_right: whether no fault was noted in it.
     """
 
@@ -232,7 +232,7 @@ class Beside(Frozen):
         message: what is wrong, with ``{way}`` for what a mapping has instead of what is needed.
         cure: for that, or cures by what it has instead, with one for all others under ``""``.
         needs: keys of which one has to be there too; none for any.
-        bars: keys beside which it may not stand.
+        bars: keys beside which it may not be.
         code: the kind of fault.
         values: that it is about; None for all.
     """
@@ -291,7 +291,7 @@ def placed(where: str, message: str) -> str:
 
 
 def homes(keys: Iterable[Key]) -> dict[str, Home]:
-    """Where keys belong that stand inside of others, by their names; the first of several places.
+    """Where keys belong that are inside of others, by their names; the first of several places.
 
     A name that is also one of these keys, or of what people call them, has its meaning there.
     """
@@ -450,7 +450,7 @@ def list_of(
     """A list that is not empty.
 
     Args:
-        item: what stands in it.
+        item: what is in it.
         noun: what messages call several of them.
         most: how many there may be.
         each: what messages call one of them, with ``{}`` for its number.
@@ -548,6 +548,6 @@ def later(room: str, name: str) -> Kind:
 
 
 def told(keys: Iterable[Key], page: str) -> Iterator[Entry]:
-    """What is told of keys at the top of a file, and of those inside of them."""
+    """What the report says of keys at the top of a file, and of those inside of them."""
     for key in keys:
         yield from key.entries("", page)

@@ -160,7 +160,7 @@ def described(text: str, source: str, settings: Mapping[str, str]) -> tuple[Read
     description = reader.read()
     if description is None:
         if not reader.numbers.free:
-            # what is wrong with the numbers is told in the same run
+            # what is wrong with the numbers is reported in the same run
             Values(reader.numbers)
         raise reading.error()
     return reader, description

@@ -1,7 +1,7 @@
 """A name in place of a file: which method of which catalogue it means.
 
 An argument with a separator of paths in it is a file, and so is one that exists as a file; any
-other is a name. Folders of one's own come before the package, the package before packages of
+other is a name. Your own folders come before the package, the package before packages of
 others, and in all of them a name before an alias, and both before what has the same letters and
 digits: ``ARS(2,2,2)`` is ``ARS222``.
 """
@@ -86,7 +86,7 @@ def find_named(argument: str, path: str = "") -> Shelved | None:
 
 
 def can_be_name(argument: object) -> bool:
-    """Whether it looks like a name, whatever exists: no file is looked for, no catalogue."""
+    """Whether it looks like a name, whatever exists: no file is sought, no catalogue."""
     if not isinstance(argument, str) or argument in {STDIN, "", ".", ".."}:
         return False
     if argument.startswith("{"):
@@ -229,7 +229,7 @@ def _names() -> list[str]:
 
 
 def every_shelf() -> list[Shelf]:
-    """All shelves, in the order in which names are looked for."""
+    """All shelves, in the order in which names are sought."""
     return list(chain.from_iterable(_in_turn()))
 
 
@@ -250,7 +250,7 @@ def visible(shelves: Iterable[Shelf]) -> Iterator[tuple[Shelf, Shelved]]:
 
 
 def hidden_by(method: Shelved) -> list[str]:
-    """Where else among one's own folders and the package a method of this name is."""
+    """Where else among your own folders and the package a method of this name is."""
     key = key_of(method.name)
     elsewhere = [x for x in (*own_folders(), package()) if x.label != method.shelf]
     return [shelf.label for shelf in elsewhere if key in shelf.methods]

@@ -1,4 +1,4 @@
-"""What nodes of YAML hold and where they stand; the words of a file, as shown, as meant."""
+"""What nodes of YAML hold and where they are; the words of a file, as shown, as meant."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from yaml.nodes import MappingNode, Node, ScalarNode
 from garkcli.errors import nearest
 
 Extent: TypeAlias = tuple[int, int]
-"""From where to where something stands in the text of a file."""
+"""From where to where something is in the text of a file."""
 
 
 def keys_of(node: Node) -> set[str]:
@@ -21,7 +21,7 @@ def keys_of(node: Node) -> set[str]:
 
 
 def key_nodes(node: Node) -> dict[str, ScalarNode]:
-    """Where the keys of a mapping stand, the first of equal ones."""
+    """Where the keys of a mapping are, the first of equal ones."""
     found: dict[str, ScalarNode] = {}
     for key, _ in node.value if isinstance(node, MappingNode) else ():
         if isinstance(key, ScalarNode):
@@ -30,7 +30,7 @@ def key_nodes(node: Node) -> dict[str, ScalarNode]:
 
 
 def key_of(root: MappingNode, value: Node) -> Node:
-    """The key of a value, as it stands in the file."""
+    """The key of a value, as it is in the file."""
     for key, other in root.value:
         if other is value:
             found: Node = key
@@ -39,7 +39,7 @@ def key_of(root: MappingNode, value: Node) -> Node:
 
 
 def extent(text: str, first: Node, last: Node) -> Extent:
-    """From where to where in the text of a file the values from ``first`` to ``last`` stand,
+    """From where to where in the text of a file the values from ``first`` to ``last`` are,
     without the blanks after them.
     """
     start, end = first.start_mark.index, last.end_mark.index
@@ -63,7 +63,7 @@ def meant_key(key: str, known: Sequence[str], words: Mapping[str, str]) -> str:
 
 
 def one_line(text: str) -> str:
-    r"""A name as it can stand in a heading: blanks for line ends and for what a terminal would act
+    r"""A name as it can be in a heading: blanks for line ends and for what a terminal would act
     on.
 
     >>> one_line("Gauss 2\n  and \x1b more")

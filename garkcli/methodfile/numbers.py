@@ -26,7 +26,7 @@ from garkcli.methodfile.spellings import (
 )
 
 UNKNOWN = "?"
-"""What stands in a file for a coefficient that is not known."""
+"""What is in a file for a coefficient that is not known."""
 _PLACE = re.compile(
     r"(?:(?P<part>[qp])\.)?(?P<letter>[Abc]|embedded)(?:\^\{(?P<colours>[0-9,]+)\})?"
     r"(?:, row (?P<row>[0-9]+))?(?:, entry (?P<entry>[0-9]+))?"
@@ -57,7 +57,7 @@ def name_of_place(where: str) -> str | None:
 
 
 def is_bare_unknown(node: Node) -> bool:
-    """Whether a ? stands there without quotes, which YAML takes for the sign of a key."""
+    """Whether a ? is there without quotes, which YAML takes for the sign of a key."""
     if not isinstance(node, MappingNode) or len(node.value) != 1:
         return False
     return all(isinstance(x, ScalarNode) and not x.value for x in node.value[0])
@@ -72,11 +72,11 @@ MAX_SIZE = 2_000
 """Most operations of one coefficient, those of the parameters in it written out."""
 MAX_DEPTH = 200
 """How deep one coefficient may be nested, the parameters in it written out."""
-_SHOWN_ROWS = 5  # most further rows of another length that are told
+_SHOWN_ROWS = 5  # most further rows of another length that are reported
 
 
 class Entry(Frozen):
-    """One coefficient: its expression and where it stands."""
+    """One coefficient: its expression and where it is."""
 
     expression: Expression
     node: Node
@@ -104,7 +104,7 @@ class Numbers(Mutable):
     Attributes:
         settings: values of parameters that are given from outside of the file, as text.
         free: the parameters that have none.
-        places: where the value of each parameter stands.
+        places: where the value of each parameter is.
     """
 
     source: Source
@@ -291,7 +291,7 @@ class Numbers(Mutable):
         """A matrix of the given shape; note at most one fault where it has another.
 
         The rows of a triangular matrix may end at the diagonal or before it, as explicit tableaus
-        are printed: what is left out is zero.
+        are printed: a missing entry is zero.
 
         Args:
             rows: as ``matrix`` read them; none where it noted a fault.

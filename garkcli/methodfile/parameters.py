@@ -86,7 +86,7 @@ def _read(at: Any, node: Node, _: str) -> None:
     """Read ``parameters`` into the numbers of a file; each may use those before it.
 
     The values are kept apart from the coefficients: one that no coefficient uses has no part in
-    their domain, but a faulty one is reported where it stands.
+    their domain, but a faulty one is reported where it is.
     """
     numbers: Numbers = at.numbers
     source = numbers.source

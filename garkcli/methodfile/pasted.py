@@ -54,7 +54,7 @@ def plain(text: str) -> str:
     before = ""
     while text != before:
         before = text
-        # a root may stand in a fraction, and a fraction in a root
+        # a root may be in a fraction, and a fraction in a root
         for pattern, instead in _OF_LATEX:
             text = re.sub(pattern, instead, text)
     return text
@@ -136,7 +136,7 @@ def _is_rule(text: str) -> bool:
 
 
 def _between_cells(text: str) -> str:
-    """The sign that parts the cells of a table; empty where numbers stand side by side."""
+    """The sign that parts the cells of a table; empty where numbers are side by side."""
     rows = [x for x in text.splitlines() if not _is_rule(x)]
     if any(x.count("&") > 1 for x in rows):
         return "&"

@@ -43,13 +43,13 @@ QUADRUPLE = fmpq(1, 2**113)
 def printed_units(printed: Printed, many: int | None = None) -> dict[Number, fmpq]:
     """By how much each value may be off if its last digits are rounded, one unit of them.
 
-    A decimal is taken for rounded when it has more than half as many digits as the longest one of
+    A decimal counts as rounded when it has more than half as many digits as the longest one of
     the file: beside 0.7886751345948129 the number 0.25 is exact. A long numerator or denominator
     may be off by one. Units are rounded up, by less than a tenth.
 
     Args:
         printed: coefficients as they are written, with their values.
-        many: a decimal of so many digits is taken for rounded whatever the longest has; None for no
+        many: a decimal of so many digits counts as rounded whatever the longest has; None for no
             such number.
 
     >>> from garkcli.exact.expression import parse
@@ -76,7 +76,7 @@ def approximant_units(printed: Printed, given: Units | None = None) -> dict[Numb
 
     A fraction with a long denominator q may be an approximant of an irrational number, as those of
     Kennedy and Carpenter are: good ones are off by 1/q^2, and a hundred times that is admitted.
-    One that is a decimal in lowest terms is taken for that decimal. Every fraction with a shorter
+    One that is a decimal in lowest terms counts as that decimal. Every fraction with a shorter
     denominator, such as 161/1000 and 3/64, is exact, so that a wrong digit of it is no rounding.
 
     >>> from garkcli.exact.expression import parse

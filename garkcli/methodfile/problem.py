@@ -81,7 +81,7 @@ class _Variables(Frozen):
 
     Attributes:
         source: where faults are noted.
-        places: where each name stands, in the order of the file; names only that can be names.
+        places: where each name is, in the order of the file; names only that can be names.
         form: of the problem; a Hamiltonian where it has none.
     """
 
@@ -202,7 +202,7 @@ class _ProblemReader:
         return is_one
 
     def _places(self, root: Node, entries: Entries) -> Entries:
-        """The names of the variables, and where they stand; what is wrong with them is noted."""
+        """The names of the variables, and where they are; what is wrong with them is noted."""
         places: Entries = {}
         if "variables" not in entries:
             cure = "name the positions, for instance variables: [x, y]"
@@ -236,7 +236,7 @@ class _ProblemReader:
         return _shown_name(text or Path(self.source.name).stem)
 
     def _value(self, key: str, entries: Entries) -> Any:
-        """What stands under a key; None where nothing does, or a fault was noted."""
+        """What is under a key; None where nothing does, or a fault was noted."""
         return KEYS[key].kind.read(self, entries[key], key) if key in entries else None
 
     def _t_end(self, node: Node | None) -> fmpq:
@@ -268,7 +268,7 @@ class _ProblemReader:
 def _side(source: Source, node: Node, where: str, names: Sequence[str]) -> Side:
     """The right-hand sides of a term: variables, formulas, and what these are called.
 
-    A formula alone is that of the only variable. Of no names given all may stand here.
+    A formula alone is that of the only variable. Of no names given all may be here.
     """
     if isinstance(node, ScalarNode) and len(names) == 1:
         return ((names[0], node, where),)

@@ -226,5 +226,5 @@ def _told_anew(key: str, kind: g.Kind) -> g.Schema:
 
 
 def told(files: Files) -> Iterable[Entry]:
-    """What is told of the keys."""
+    """What the report says of the keys."""
     return g.told(KEYS.values(), files.page)

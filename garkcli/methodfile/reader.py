@@ -68,7 +68,7 @@ class ContentReader(Reading):
         if form == "unknown":
             from garkcli.methodfile.shapes import shaped  # few files have it
 
-            # the key as it stands there, misspelt perhaps
+            # the key as it is there, misspelt perhaps
             self.shaped = shaped(self, key_of(root, entries[form]), entries[form])
             if self.shaped is None:
                 return None
@@ -118,7 +118,7 @@ class ContentReader(Reading):
         return cast("Structure", word or "general")
 
     def _value(self, key: str, entries: Entries) -> Any:
-        """What stands under a key; None where nothing does, or a fault was noted."""
+        """What is under a key; None where nothing does, or a fault was noted."""
         return KEYS[key].kind.read(self, entries[key], key) if key in entries else None
 
     def _inside(self, node: Node, where: str) -> Description | None:
@@ -174,7 +174,7 @@ class Reader(Reading):
     Attributes:
         content: what reads its coefficients.
         keys: at the top of the file.
-        design: what stands under ``design``; None without that.
+        design: what is under ``design``; None without that.
     """
 
     def __init__(
@@ -259,7 +259,7 @@ class Reader(Reading):
         return is_one
 
     def place_of(self, key: str) -> Extent | None:
-        """From where to where a key with its value stands; None where there is none."""
+        """From where to where a key with its value is; None where there is none."""
         node = self._entries.get(key)
         if node is None or self._root is None:
             return None

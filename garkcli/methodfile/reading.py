@@ -46,7 +46,7 @@ def read_text(path: str, kind: FileKind) -> tuple[str, str]:
 
 
 def _not_quoted(path: str, kind: FileKind) -> Fault:
-    """What is said of a file that may hold anything."""
+    """The message for a file that may hold anything."""
     if is_elsewhere(path):
         message = f"a link to a file elsewhere, which has no key of a {kind.name}"
         return Fault(message, "name the file that is meant", code="elsewhere")
@@ -117,7 +117,7 @@ SUFFIX = ".gark.yaml"
 
 
 def no_one(text: str) -> None:
-    """Who is told where nobody asks."""
+    """Who hears where nobody asks."""
     del text
 
 
@@ -126,7 +126,7 @@ def files_below(folder: str, told: Callable[[str], None] = no_one) -> list[str]:
 
     Args:
         folder: to look in; links to folders are not followed.
-        told: who is told of links that lead out of it, and are left out.
+        told: who hears of links that lead out of it, and are left out.
     """
     found: list[str] = []
 
@@ -143,7 +143,7 @@ def files_below(folder: str, told: Callable[[str], None] = no_one) -> list[str]:
 
 
 def within(paths: list[str], folder: str, told: Callable[[str], None]) -> list[str]:
-    """Those of some paths that are no links out of a folder; who asks is told of the others."""
+    """Those of some paths that are no links out of a folder; who asks hears of the others."""
     kept = []
     for path in paths:
         if os.path.lexists(path) and leads_away(path, folder):

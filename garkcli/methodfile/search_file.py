@@ -13,7 +13,7 @@ from garkcli.methodfile.family import FamilyFile, loads_family
 
 
 class FileSearch(Frozen):
-    """What is looked for, without a number that only one process knows.
+    """What is sought, without a number that only one process knows.
 
     Attributes:
         text: of the file.

@@ -97,7 +97,7 @@ def with_embedded(layout: Layout) -> Layout:
 def with_nodes(layout: Layout) -> Layout:
     """The layout with the node c_i an unknown in place of the first entry of row i.
 
-    Where that entry is an unknown that stands nowhere else it is the node minus the rest of the
+    Where that entry is an unknown that is nowhere else it is the node minus the rest of the
     row: the same methods, and values for nodes are the ones people choose.
     """
     if layout.kind == "prk":
@@ -238,7 +238,7 @@ class Shape(Frozen):
         name: in method files.
         summary: what it is.
         applied: the layout with that shape.
-        begins: whether it says which colours there are, and so stands first.
+        begins: whether it says which colours there are, and so is first.
     """
 
     name: str
@@ -338,7 +338,7 @@ class Shaped(Frozen):
         form: of the method file that says the same.
         content: its coefficients.
         layout: the same as text.
-        place: from where to where in the file ``unknown: …`` stands.
+        place: from where to where in the file ``unknown: …`` is.
     """
 
     form: Form

@@ -1,4 +1,4 @@
-"""Where methods with names are: folders of one's own, the package, packages of others.
+"""Where methods with names are: your own folders, the package, packages of others.
 
 A shelf knows its methods by their names, which are those of their files, and by their aliases.
 """
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from importlib.resources.abc import Traversable
 
 PATH_VARIABLE = "GARK_PATH"
-"""The variable with folders of one's own, as ``PATH`` has those of programs."""
+"""The variable with your own folders, as ``PATH`` has those of programs."""
 GROUP = "gark.catalogue"
 """The group of entry points whose values are packages with method files in them."""
 INDEX = "catalogue/index.json"

@@ -23,9 +23,9 @@ class Found(Frozen):
     """A fault as it was noted.
 
     Attributes:
-        fault: what is told.
+        fault: what is reported.
         cause: what it has in common with others; empty for a fault on its own.
-        is_one: whether faults of this cause are told once, however few there are.
+        is_one: whether faults of this cause are reported once, however few there are.
     """
 
     fault: Fault
@@ -118,7 +118,7 @@ class Home(NamedTuple):
     """Where a key belongs.
 
     Attributes:
-        key: of the mapping that it stands in.
+        key: of the mapping that it is in.
         line: an example with the key itself.
     """
 
@@ -166,7 +166,7 @@ class Source:
             cure: what to do about it.
             offset: where in the text of the value.
             where: what the value is, such as ``A^{1,1}, row 2``. The same message about a word of
-                the file, with another ``where``, has the same cause and is told once, with its
+                the file, with another ``where``, has the same cause and is reported once, with its
                 other places; so is any other message that occurs often.
             cause: what has the same cause though the message is another one.
             code: the kind of fault.
@@ -299,7 +299,7 @@ class Source:
                 entries[key] = value
             else:
                 unknown.append(key_node)
-                # no more are told, so no more are compared with the known ones
+                # no more are reported, so no more are compared with the known ones
                 if len(unknown) > MAX_FAULTS or key in cures():
                     continue
                 meant = meant_key(key, known, words)

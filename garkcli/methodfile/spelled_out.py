@@ -1,5 +1,5 @@
 """YAML nodes to methods that are spelled out: Butcher tableaus and the form ``tableau``; and to
-further weights, ``embedded`` and ``dense``, which stand beside b in every form.
+further weights, ``embedded`` and ``dense``, which are beside b in every form.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ DENSE = g.mapping(
     ),
     form=FORM_OF_DENSE,
 )
-"""What stands under ``dense``."""
+"""What is under ``dense``."""
 _SAID_BY_B = dict.fromkeys(("stages", "s"), "the number of entries in b says it")
 EXAMPLE = "give A, b and perhaps c: {A: [[0, 0], [1/2, 0]], b: [0, 1]}"
 _LEVELS = (
@@ -61,7 +61,7 @@ _PAGE = "docs/method-file.md#embedded-and-dense-further-weights"
 
 
 def _all_of(*kinds: g.Schema) -> g.Kind:
-    """One of several schemas; what stands there is read where the number of colours is known."""
+    """One of several schemas; the value is read where the number of colours is known."""
     return g.Kind(lambda: {"anyOf": list(kinds)})
 
 
@@ -114,7 +114,7 @@ TABLEAU_KEYS = (
         also=("bi", "binterp", "b_theta"),
     ),
 )
-"""What a Butcher tableau has, wherever it stands."""
+"""What a Butcher tableau has, wherever it is."""
 
 
 def with_coefficients(*keys: g.Key, form: str) -> g.Kind:
@@ -127,7 +127,7 @@ def with_coefficients(*keys: g.Key, form: str) -> g.Kind:
 
 
 def _elsewhere() -> Mapping[str, str | Home]:
-    """What to do about keys that stand in a Butcher tableau and belong elsewhere."""
+    """What to do about keys that are in a Butcher tableau and belong elsewhere."""
     # declared where this tableau is a part of files
     return {**g.declared("file_keys", "elsewhere")(), **_SAID_BY_B}
 
@@ -179,7 +179,7 @@ def one_each(
 
     Args:
         at: what reads the file.
-        node: where they stand.
+        node: the place in the file.
         name: what messages call what has them.
         items: that it has.
         noun: what these are, such as ``row``.
@@ -203,7 +203,7 @@ def depth_of_lists(node: Node) -> int:
 
 
 def _holds_a_number(node: Node) -> bool:
-    """Whether anything but null stands in nested lists."""
+    """Whether anything but null is in nested lists."""
     if isinstance(node, SequenceNode):
         return any(map(_holds_a_number, node.value))
     return not is_null(node)
@@ -395,7 +395,7 @@ def further_of_method(
 
     Args:
         at: what reads the file.
-        entries: what stands beside b.
+        entries: what is beside b.
         stages: how many weights b has.
         names: what ``embedded`` and ``dense`` are called in messages.
     """
@@ -416,7 +416,7 @@ def further_of_colours(
 
     Args:
         at: what reads the file.
-        entries: what stands beside b.
+        entries: what is beside b.
         stages: how many weights each colour has.
         is_shared: whether a single row, or block, may stand for every colour.
     """

@@ -43,7 +43,7 @@ _SEVERAL = re.compile(r"[0-9)][ \t]*[,;\n]|[0-9)][ \t]+[0-9.]")
 """Two numbers with no sign of an operation between them."""
 _IN_PARENTHESES = re.compile(r"\([^()]*\)")
 MAX_PRINTED = 2_000
-"""Longest text that is looked at for being a printed row or matrix."""
+"""Longest text that is examined for being a printed row or matrix."""
 
 
 def only_text(node: Node) -> str:

@@ -298,7 +298,7 @@ def read_sweep(path: str, kinds: Mapping[str, str]) -> SweepText:
     """Read a spec file.
 
     Args:
-        path: of the file; method files of it are looked for beside it.
+        path: of the file; method files of it are sought beside it.
         kinds: as for ``file_of``.
 
     Raises:
@@ -359,7 +359,7 @@ def _refuse_unused(source: Source, said: g.Found, found: SweepText) -> None:
         message, cure = f"parameters: no method has {name}", "leave it out, or use it"
         source.fault(said.nodes["parameters"], message, cure, code="not-together")
     is_searched = any(x.order for x in found.templates)
-    # a parameter without a value is told already
+    # a parameter without a value is reported already
     if "search" in said.nodes and not is_searched and all(found.grids.values()):
         message = "search: no method has an unknown that is left to it"
         cure = f"write parameters: {{tau: {FREE}}}, or a file with unknowns"

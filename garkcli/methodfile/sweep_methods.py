@@ -140,7 +140,7 @@ METHODS = g.list_of(_METHOD, "methods", each="methods", form="name at least one 
 
 
 def _weight(at: MethodsReader, node: Node, where: str) -> str | None:
-    """A weight as text, in which parameters may stand."""
+    """A weight as text, in which parameters may be."""
     text = at.source.scalar(node, where)
     if text is None:
         return None

@@ -1,4 +1,4 @@
-"""New method files, with comments that say what stands where."""
+"""New method files, with comments that say what is where."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class Member(Frozen):
 
 
 Values: TypeAlias = Mapping[str, str | Sequence[str]]
-"""What stands under keys of a file: a text in its line, or the items of a list below it."""
+"""What is under keys of a file: a text in its line, or the items of a list below it."""
 
 
 def new_file(values: Values) -> str:
@@ -73,7 +73,7 @@ def of_families(name: str, members: Sequence[Member], transfer: str) -> str:
 
 
 def _row(numbers: Sequence[str]) -> str:
-    """Numbers in brackets; what YAML would take apart stands in quotes."""
+    """Numbers in brackets; what YAML would take apart is in quotes."""
     return f"[{', '.join(map(_entry, numbers))}]"
 
 

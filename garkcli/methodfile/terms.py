@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from garkcli.problems.hamiltonian import Hamiltonian
 
 _NUMBER = "a number, such as {}: 1/2"
-_GOOD = 10.0**-PLACES  # the radius of momenta that may be taken for the start
+_GOOD = 10.0**-PLACES  # the radius of momenta that may count as the start
 
 
 class Maker:
@@ -105,7 +105,7 @@ class Maker:
         return values if len(self.source.faults) == before else None
 
     def _names(self, motion: Vector, other: Vector, cure: str) -> dict[str, str]:
-        """For names that may stand in a formula nothing, for others the cure."""
+        """For names that may be in a formula nothing, for others the cure."""
         others = {str(y): cure.format(x) for x, y in zip(motion, other, strict=True)}
         return others | dict.fromkeys(map(str, (*self.q, *motion)), "")
 

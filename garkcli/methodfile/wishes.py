@@ -22,7 +22,7 @@ from garkcli.methodfile.parameters import NUMBER, RANGE
 from garkcli.methodfile.source import Source
 
 MOST = 60
-"""The largest order that is looked at, as for ``--order``."""
+"""The largest order that is examined, as for ``--order``."""
 FORM = "write design: {order: 3, stiffly-accurate: true}"
 
 
@@ -67,7 +67,7 @@ def _ranges(at: Any, node: Node, where: str) -> None:
 
 
 def _unknowns(at: Any, node: Node, where: str) -> Iterator[tuple[str, Node, str]]:
-    """What is said of unknowns that have no value."""
+    """The message for unknowns without a value."""
     numbers: Numbers = at.numbers
     for name, value in numbers.source.mapping(node, where, (), form=FORM).items():
         place = f"{where}: {name}"
@@ -106,7 +106,7 @@ class Wish(Frozen):
     """One key of ``design``; a count, a coefficient, or True.
 
     Attributes:
-        node: where it stands.
+        node: the place in the file.
         want: what is wanted.
         value: as it was read.
         colour: the one it is about, counted from 0; None for all.
@@ -185,7 +185,7 @@ def meaning_of(
         wishes: as they were read.
         made: of the file: the tableau, further weights and coefficients.
         source: the file, where wishes that make no sense for it are noted.
-        deadline: the reading of ``time.monotonic`` at which what is not worked out is left
+        deadline: the reading of ``time.monotonic`` at which the rest stays
             unsettled; None for never.
     """
     values = made.values

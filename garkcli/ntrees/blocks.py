@@ -22,7 +22,7 @@ BLOCK_SIZE = 1 << 18
 """Trees in a block unless asked for otherwise."""
 
 MAX_USING = 62
-"""Colours that can be asked for at once: a bit each."""
+"""Colours that can be requested at once: a bit each."""
 
 
 class Block(Frozen):
@@ -105,7 +105,7 @@ def select(
 
     ``only``: no vertex has another colour than these (the others are not generated); ``using``:
     each of these colours occurs. Blocks are never empty. Raises ``ValueError`` for a colour that
-    does not exist, and what :func:`iter_blocks` raises, both when the first block is asked for.
+    does not exist, and what :func:`iter_blocks` raises, both when the first block is requested.
 
     >>> [u for block in select(2, 3, root=0, using=[1]) for u in block.notation()]
     ['[[]_1,[]_2]_1', '[[]_2,[]_2]_1', '[[[]_2]_1]_1', '[[[]_1]_2]_1', '[[[]_2]_2]_1']

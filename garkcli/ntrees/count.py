@@ -1,6 +1,6 @@
 """How many N-trees there are: exact counts of any order, without generating a tree.
 
-The trees of order n with root l are the forests of order n - 1 that may stand on l, and forests are
+The trees of order n with root l are the forests of order n - 1 that may be on l, and forests are
 counted from trees by the Euler transform: for a forest whose trees have the counts t(1), t(2), …
 
     n f(n) = Σ_{k=1..n} c(k) f(n - k),      c(k) = Σ_{d | k} d t(d),      f(0) = 1.
@@ -40,7 +40,7 @@ Colours: TypeAlias = tuple[int, ...]
 class Admissible(Frozen):
     """Which N-trees are meant: the colours, the edges between them, and the linear colours.
 
-    ``branches[l]`` are the colours, in increasing order, that may stand on a vertex of colour l. A
+    ``branches[l]`` are the colours, in increasing order, that may be on a vertex of colour l. A
     vertex of a linear colour carries one branch at most: its vector field is linear in what it
     sees.
     """
@@ -83,7 +83,7 @@ class Admissible(Frozen):
 
     @property
     def leaders(self) -> Colours:
-        """For each colour the first on which the same branches may stand: the trees differ in their
+        """For each colour the first on which the same branches may be: the trees differ in their
         roots only.
         """
         first: dict[tuple[Colours, bool], int] = {}
@@ -129,7 +129,7 @@ def count_by_root(
 
 
 def _forests(admissible: Admissible, leaders: Sequence[int], order: int) -> dict[int, list[fmpz]]:
-    """For each leader the numbers of forests f(0), …, f(order - 1) that may stand on it."""
+    """For each leader the numbers of forests f(0), …, f(order - 1) that may be on it."""
     if order < 1:
         raise TreeError(f"the order of a tree is at least 1, not {order}")
     growing: dict[int, _Growing] = {}

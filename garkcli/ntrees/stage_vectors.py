@@ -26,8 +26,9 @@ CHUNK = 1 << 16
 class StageVectors(ABC, Generic[Vectors]):
     """𝒜^[u] = 𝒜^[stem] ⊙ (A 𝒜^[branch]), one gathered product for each segment of a table.
 
-    Vectors are those of several trees, in the order of their ids. Tables of any order may be asked
-    for: what they share is kept. Colours that share their stages and their branches share vectors.
+    Vectors are those of several trees, in the order of their ids. Tables of any order may be
+    requested: what they share is kept. Colours that share their stages and their branches share
+        vectors.
 
     Args:
         admissible: which trees are meant.

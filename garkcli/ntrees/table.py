@@ -293,7 +293,7 @@ MOST_KEPT = 10_000
 
 
 class TableTooLarge(UsageProblem):
-    """More trees were asked for than are ever held in memory at once."""
+    """More trees were requested than are ever held in memory at once."""
 
     code = "too-many"
 

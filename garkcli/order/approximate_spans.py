@@ -71,7 +71,7 @@ class ApproximateSpans(OrderByOrder[_Hull]):
     Args:
         tableau: the tableau.
         enclosure: its entries; their bits are the precision.
-        grain: what is shorter is counted as an error instead of becoming a member.
+        grain: a shorter remainder counts as an error and becomes no member.
     """
 
     def __init__(self, tableau: Tableau, enclosure: Enclosure, grain: arb) -> None:

@@ -30,7 +30,7 @@ MAX_ENTRIES = 2_000
 FEW_CONDITIONS = 4
 """So many failing conditions are solved for an entry of rounded coefficients; the best is kept."""
 FEW_CHECKED = 20
-"""So many failing conditions are looked at before the order is found."""
+"""So many failing conditions are examined before the order is found."""
 NEWTON_STEPS = 3
 """Steps of the simplified Newton's method; each squares a small misprint, nearly."""
 
@@ -161,7 +161,7 @@ def named_blocks(tableau: Tableau) -> list[Edge]:
 
 
 def _size(number: Number) -> float:
-    """|number|, to compare by: what is chosen is then verified exactly."""
+    """|number|, to compare by: the choice is then verified exactly."""
     return float(abs(to_ball(number, 20)))
 
 

@@ -43,7 +43,7 @@ class DenseOrder(Shown, Frozen):
     Attributes:
         order: every condition up to it holds, for all θ; within ``tolerance`` where that is given.
         witness: what fails one order higher; None where the search stopped, or nothing is decided.
-        undecided: whether the next order is left open.
+        undecided: whether the next order is undecided.
         tolerance: the rounding of the coefficients; None where they are exact.
     """
 

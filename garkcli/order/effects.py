@@ -2,8 +2,8 @@
 
 By the mean value theorem b_lᵀ 𝒜^[u] changes by no more than Σ ρ_p |∂_p|, over all coefficients p
 with their radii ρ_p, where each derivative is enclosed for all tableaus of the box. The derivative
-to the entries of a block is Σ y 𝒜^[v]ᵀ over the edges of u that the block belongs to: v is what
-hangs on the edge, and yᵀ A 𝒜^[v] the whole weight. Derivatives keep their signs, so large
+to the entries of a block is Σ y 𝒜^[v]ᵀ over the edges of u that the block belongs to: v is what the
+edge carries, and yᵀ A 𝒜^[v] the whole weight. Derivatives keep their signs, so large
 coefficients that cancel do not make the bound large.
 """
 

@@ -69,7 +69,7 @@ class Failure(Frozen):
 
 
 class Undecided(Exception):
-    """More trees of an order, its argument, than are looked at one by one."""
+    """More trees of an order, its argument, than are examined one by one."""
 
     def __init__(self, order: int) -> None:
         super().__init__(f"{order}: more than {MOST_TREES} trees")
@@ -153,12 +153,12 @@ class Estimator(Frozen):
 
 
 class Orders(Frozen):
-    """What is known of the orders of b and b̂ when their difference is looked at.
+    """What is known of the orders of b and b̂ when their difference is examined.
 
     Attributes:
         least: the smaller one; up to it the estimate vanishes.
         differ: whether one of them is known to be larger: then the next order shows in it.
-        limit: the largest order of trees that are looked at.
+        limit: the largest order of trees that are examined.
     """
 
     least: int

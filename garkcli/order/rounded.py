@@ -334,7 +334,7 @@ class Conditions:
     def _by_bushes(self, order: int) -> Verdict | None:
         """That the order fails, where a quadrature condition does: a bush of leaves of one colour.
 
-        It is looked at before the many, as methods of high order seldom integrate better.
+        It is examined before the many, as methods of high order seldom integrate better.
         """
         tableau = self.rounded.tableau
         for l in twin_roots(tableau):
@@ -371,7 +371,7 @@ class Conditions:
 
 
 def _least_ratio(parts: Sequence[tuple[Row, Row]]) -> arb:
-    """The least radius, each in units of its coefficient, of those that are not 0."""
+    """The least radius, each in units of its coefficient, of the nonzero ones."""
     least: arb | None = None
     for entries, radii in parts:
         for x, radius in zip(entries, radii, strict=True):

@@ -25,7 +25,7 @@ from garkcli.tableau.tableau import Tableau
 SLACK = 10
 """Units of the last place by which a coefficient may be off that was computed in them."""
 FEW_CONDITIONS = 2_000
-"""Most conditions that are looked at for the entry that is misprinted."""
+"""Most conditions that are examined for the entry that is misprinted."""
 JUMP = 1000
 """The first residual that is genuine is so many times larger than all those of rounding."""
 
@@ -138,7 +138,7 @@ def suggest_tolerance(
     look rounded.
 
     An exact method has small residuals too when its order is high: 10⁻⁷ at order 9 of a good
-    explicit method, 10⁻¹² at order 21 of Gauss 10. So residuals are taken for rounding only if,
+    explicit method, 10⁻¹² at order 21 of Gauss 10. So residuals count as rounding only if,
     from the first order that fails exactly,
 
     - coefficients are spelled out: the blocks of a family have none that could be rounded;
@@ -233,7 +233,7 @@ def _sizes(tableau: Tableau, first: arb, orders: range) -> Iterator[tuple[int, S
 
 
 def enough(tableau: Tableau, order: int, rounding: arb) -> int:
-    """The exponent of the smallest power of ten that is twice as large as what is taken for
+    """The exponent of the smallest power of ten that is twice as large as what counts as
     rounding at least, and within which the method has the order.
     """
     exponent = 0

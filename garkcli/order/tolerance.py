@@ -17,11 +17,11 @@ from garkcli.exact.field import Algebraic, Number
 FIRST_BITS = 128
 """Precision at which values at irrational nodes are compared first; doubled until they tell."""
 MOST_BITS = 8192
-"""Precision at which a value at an irrational node that still cannot be told from the tolerance
-counts as equal.
+"""Precision at which a value at an irrational node that still cannot be distinguished from the
+tolerance counts as equal.
 """
 TINY = fmpq(1, 10**6)
-"""No larger residual is taken for rounding, at any order."""
+"""No larger residual counts as rounding, at any order."""
 UNNATURAL = fmpq(1, 1000)
 """Nor is one larger than this part of the smallest error that quadrature leaves at its order."""
 

@@ -51,8 +51,8 @@ def weak_stage_order(method: AnyTableau, colours: Sequence[int], limit: int) -> 
 def _functionals(defects: Defects, colours: Sequence[int]) -> Iterator[tuple[int, Vector]]:
     """A basis of all b^{l} A^{l,m} ⋯ A^{n,p}, each with its last colour p.
 
-    The products are chosen by the entries as they are printed, and made of those that are computed
-    with: a method whose rounding is the tableau has the same products.
+    The products are chosen by the entries as they are printed, and computed from the entries of the
+    computation: a method whose rounding is the tableau has the same products.
     """
     printed = Defects(defects.tableau) if defects.entries is not defects.tableau else defects
     edges = set(defects.tableau.edges())

@@ -89,7 +89,7 @@ class Line(NamedTuple):
 
     @property
     def is_first(self) -> bool:
-        """Whether a line stands above it."""
+        """Whether a line is above it."""
         return self.place == 0
 
 

@@ -1,7 +1,7 @@
 """Positive numbers of any size as short text: only digits that are certain.
 
 What is measured comes as a ball, whose radius is what rounding leaves open. Digits within the
-radius hang on the processor, so they are not shown; of a ball that holds 0 only a bound is, and
+radius depend on the processor, so they are not shown; of a ball that holds 0 only a bound is, and
 of one that is not finite nothing: there is no value, or rounding leaves every value open.
 """
 
@@ -69,7 +69,7 @@ def scientific(ball: Any, digits: int = 3) -> str:
 
 def for_programs(ball: Any, digits: int = 6) -> str:
     """The same as a number that every program reads: a bound is the power of ten that it is, and
-    what is not finite is empty.
+    an infinite number is empty.
 
     >>> for_programs(arb(2) / 3), for_programs(arb(0, 3e-15)), for_programs(arb(-1).sqrt())
     ('6.66667e-1', '1e-14', '')

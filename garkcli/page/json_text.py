@@ -10,7 +10,7 @@ from typing import Any
 def to_json(data: Any, indent: int | None = 2, ascii_only: bool = False) -> str:
     """Plain data as JSON text, without a final newline.
 
-    A number beyond the range of floats is null: its exact form stands beside it as text.
+    A number beyond the range of floats is null: its exact form is beside it as text.
 
     >>> to_json({"float": float("inf"), "exact": "10**400"}, indent=None)
     '{"float": null, "exact": "10**400"}'

@@ -1,5 +1,5 @@
-"""What the LaTeX reports share: the preamble they need, and a document that compiles as it
-stands.
+"""What the LaTeX reports share: the preamble they need, and a complete document that
+compiles.
 """
 
 from __future__ import annotations

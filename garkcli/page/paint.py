@@ -19,7 +19,7 @@ _DOTS = (34, 33, 32, 35, 36, 31)
 
 
 class Paint(Frozen):
-    """Marks text for a terminal when ``color`` is on; nothing is told by colour alone.
+    """Marks text for a terminal when ``color`` is on; nothing is shown by colour alone.
 
     Attributes:
         color: whether there is any.

@@ -15,7 +15,7 @@ __all__ = ["csv_cell", "inert", "printable"]
 _COMMAND = re.compile(r"^([^\S\n]*):(?=:)", re.MULTILINE)
 """A line that GitHub Actions takes for a workflow command: it begins with two colons."""
 _OLD_COMMAND = re.compile(r"##(?=\[)")
-"""The older form of these commands, which is looked for anywhere in a line."""
+"""The older form of these commands, which is sought anywhere in a line."""
 _FORMULA = ("=", "+", "-", "@", "\t", "\r")
 """What a spreadsheet takes for the beginning of a formula."""
 

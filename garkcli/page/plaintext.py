@@ -102,7 +102,7 @@ SIGNS = {
 }
 """The ASCII form of each sign that is not a letter with an accent."""
 DRAWN = frozenset("●○─│└┘┌┐├┤┬┴┼╯╰")
-"""What trees and plots are drawn with: lines of these stand below each other."""
+"""What trees and plots are drawn with: lines of these are below each other."""
 EVERYTHING = "¹⁴γ𝟙●"
 """An encoding that has these has every sign: it is one of Unicode."""
 _GREEK = re.compile(r"GREEK (SMALL|CAPITAL) LETTER (FINAL )?(?P<name>[A-Z]+)( |$)")
@@ -147,7 +147,7 @@ def plain_line(line: str, encoding: str = "ascii") -> str:
     >>> plain_line("10¹² trees, σ = 2   in all"), plain_line("10¹² trees, σ = 2      ●1 ●1")
     ('10^12 trees, sigma = 2  in all', '10^12 trees, sigma = 2 o1 o1')
 
-    A letter that is spelled, and an exponent, stand apart from the letters beside them.
+    A letter that is spelled, and an exponent, are apart from the letters beside them.
 
     >>> plain_line("z = hω, ω²q"), plain_line("bᵀA")
     ('z = h omega, omega^2 q', 'b^T A')

@@ -36,7 +36,8 @@ _USUAL = 80  # columns
 
 @contextmanager
 def watching(what: str) -> Iterator[None]:
-    """Show what is being done meanwhile: what ``garkcli.doing`` is told, and before that ``what``.
+    """Show what is being done meanwhile: what ``garkcli.doing`` hears, and before that
+    ``what``.
 
     A terminal that cannot move its cursor shows nothing.
     """
@@ -126,7 +127,7 @@ class Line:
             self.pen.end()
 
     def make_room(self) -> None:
-        """Take the line away until the pen is told something again."""
+        """Take the line away until the pen has something to say again."""
         if not self._is_hushed:
             self.pen.wipe()
 
@@ -221,7 +222,7 @@ class Process:
 
 
 def _draw_for(parent: int, commands: int, answers: int) -> NoReturn:
-    """What the process does, until it is told to end or its parent is gone."""
+    """What the process does, until it has to end or its parent is gone."""
     try:
         signal.signal(signal.SIGINT, signal.SIG_IGN)  # that is for the parent
         pen = Pen(_put_at_once)

@@ -74,5 +74,5 @@ def _table(title: str, rows: Iterable[str]) -> str:
 
 
 def _text(text: str) -> str:
-    """A text without controls, as it stands in HTML."""
+    """A text without controls, as it is in HTML."""
     return escape(printable(text))

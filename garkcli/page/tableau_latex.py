@@ -19,7 +19,7 @@ from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.tableau import Tableau
 
 MAX_BESIDE = 8
-"""Most columns of two arrays that stand beside each other."""
+"""Most columns of two arrays that are beside each other."""
 
 
 def tableau_lines(tableau: Tableau, entries: Entries) -> list[str]:

@@ -174,7 +174,7 @@ class Window(Frozen):
 def outlined(x: Floats, y: Floats, level: Floats) -> list[list[Point]]:
     """The outlines of where ``level`` ≤ 0 on the grid of x and y, with the area on their left.
 
-    What is not a number is outside.
+    A point without a number is outside.
     """
     across, up = float(x[1] - x[0]), float(y[1] - y[0])
     left, bottom = float(x[0]), float(y[0])

@@ -1,7 +1,7 @@
 """What a picture shows, in the coordinates of its axes; ``svg`` and ``figure`` draw it.
 
 Curves and areas have a style, a number: of a colour, of dashes and of marks, so that they can be
-told apart in grey too.
+distinguished in grey too.
 """
 
 from __future__ import annotations

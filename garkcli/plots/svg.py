@@ -1,8 +1,8 @@
-"""Panels as elements of SVG, in the colours of the page they stand in.
+"""Panels as elements of SVG, in the colours of the page they are in.
 
 Text, axes and marks have the colour of the text around them. Curves have the colours --picture-1 to
 --picture-4 of the page, which STYLE sets for light and dark backgrounds; they differ in dashes too,
-so that they can be told apart in grey. There are no ids: any number of pictures fit on a page.
+so that they can be distinguished in grey. There are no ids: any number of pictures fit on a page.
 """
 
 from __future__ import annotations

@@ -1,3 +1,3 @@
-"""What is integrated: Hamiltonian problems, built in or of one's own, and the harmonic
+"""What is integrated: Hamiltonian problems, built in or of your own, and the harmonic
 oscillator.
 """

@@ -105,7 +105,7 @@ class _Form(Frozen):
     """L = φ(q, a) + b(q)·v with one form a = a_0(q) + ½ v·G(q)v.
 
     Attributes:
-        a: the form, as it stands in L.
+        a: the form, as it is in L.
         symbol: what stands for it in φ.
         G: the matrix.
         slope: φ'(a).
@@ -241,8 +241,8 @@ def _smooth(solved: Solved, p: Vector) -> list[Solved]:
     """A candidate; in place of one with |y| those with y and with −y, where y is made of momenta
     alone.
 
-    An analytic velocity that is right near the start is right as far as it is analytic. None is
-    returned for what is not real or has kinks at some positions.
+    An analytic velocity that is right near the start is right as far as it is analytic. None for
+    a value that is not real or has kinks at some positions.
     """
     import sympy
 

@@ -13,7 +13,7 @@ MAX_SIZE = 300
 def solutions(f: Expr, u: Expr, c: Expr) -> list[Expr]:
     """Expressions for u that may solve f(u) = c; some do not, and some solutions are not found.
 
-    Functions that hold u alone are undone from outside in; what is left is solved where it is a
+    Functions that hold u alone are undone from outside in; the rest is solved where it is a
     polynomial of degree 1 or 2 in u or in u², be it after a square root has been squared away.
 
     Args:

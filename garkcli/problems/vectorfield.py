@@ -150,7 +150,7 @@ def is_constant(x: Expr) -> bool:
 
 
 _SIMPLE = 200  # operations
-_TRIES = 8  # random places where two values are looked for
+_TRIES = 8  # random places where two values are sought
 
 
 def _differs(x: Expr, names: Exprs) -> bool:

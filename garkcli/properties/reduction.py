@@ -88,7 +88,7 @@ def sizes(tableau: Tableau) -> list[int]:
 
 def is_reducible(tableau: Tableau) -> bool | None:
     """Whether fewer stages do the same; None where the nodes have no simple radicals and more than
-    row sums would have to be looked at.
+    row sums would have to be examined.
     """
     if is_plainly_irreducible(tableau):
         return False

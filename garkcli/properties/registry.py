@@ -24,7 +24,7 @@ KEYS = {key: file for file, keys in _FILES for key in keys.split()}
 
 @cache
 def find(key: str) -> Property:
-    """The property of a claim; its file is loaded when it is asked for.
+    """The property of a claim; its file is loaded when it is requested.
 
     Args:
         key: one of ``KEYS``.

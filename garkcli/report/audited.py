@@ -29,7 +29,7 @@ MOST = 100
 
 
 class Audit(NamedTuple):
-    """What is told: the tables, and whether errors are all that is wanted."""
+    """What is reported: the tables, and whether errors are all that is wanted."""
 
     tables: Sequence[Audited]
     errors_alone: bool = False

@@ -200,5 +200,5 @@ REPORT: Report[MethodProof] = Report.only(
 
 
 def whole(proof: MethodProof, _: str) -> MethodProof:
-    """What is told of a proof, which has a name."""
+    """What the report says of a proof, which has a name."""
     return proof

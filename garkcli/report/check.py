@@ -449,7 +449,7 @@ OWN_ROWS = {
     "stage-order": count_rows("stage-order"),
     "weak-stage-order": count_rows("weak-stage-order"),
 }
-"""Properties that are no truths, or that are told with more than their truth."""
+"""Properties that are no truths, or that are reported with more than their truth."""
 
 
 def property_rows() -> Iterator[Row]:
@@ -790,7 +790,7 @@ VERDICT = Section(
 
 
 def every_property(o: Any) -> Any:
-    """All properties with what decides them, where they were asked for."""
+    """All properties with what decides them, where they were requested."""
     if not o.wants_properties:
         return None
     return [(key, o.analysis.subject.verdict(key)) for key in KEYS]

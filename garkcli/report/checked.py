@@ -50,7 +50,7 @@ REPORT: Report[Outcome] = Report(
 
 
 def whole(found: Any, name: str) -> Outcome:
-    """What is told of an outcome, or of an analysis by a name."""
+    """What the report says of an outcome, or of an analysis by a name."""
     from garkcli.check.analysis import Analysis
     from garkcli.check.outcome import Outcome
 

@@ -49,7 +49,7 @@ class Cited(Frozen):
 def together(cited: Sequence[Cited]) -> list[Cited]:
     """Methods of one publication together, in the order in which these come first.
 
-    Where in the work a method stands and where its digits come from makes no other publication.
+    Where in the work a method is and where its digits come from makes no other publication.
     """
     found: dict[object, Cited] = {}
     for one in cited:

@@ -18,7 +18,7 @@ DATA = Level.DATA
 
 
 class Claims(NamedTuple):
-    """What is told of a file."""
+    """What the report says of a file."""
 
     found: TrueClaims
     is_written: bool
@@ -51,7 +51,7 @@ REPORT: Report[Claims] = Report(
 
 
 def yaml_text(claims: Sequence[Claims], width: int) -> str:
-    """The claims as they stand in a method file; each file's below its name in a comment."""
+    """The claims as they are in a method file; each file's below its name in a comment."""
     lines: list[str] = []
     for found, is_written in claims:
         lines += [f"# {printable(found.file)}{': written' * is_written}", "expect:"]

@@ -55,11 +55,11 @@ class Entry(Frozen):
 
 
 class Compared(Frozen):
-    """What is told of several methods.
+    """What the report says of several methods.
 
     Attributes:
         entries: at least one.
-        has_work: whether costs are told.
+        has_work: whether costs are reported.
         against: what the plot has below.
     """
 

@@ -99,7 +99,7 @@ class Valued(Frozen):
 
 
 class Conditions(Mutable):
-    """The conditions that were asked for.
+    """The conditions that were requested.
 
     Attributes:
         rows: a condition each, also those that ``valued`` does not show.
@@ -183,7 +183,7 @@ def is_parametric(number: object) -> bool:
 
 
 def _number(condition: Condition, key: str, d: Plain) -> str:
-    """A number of a condition, in decimals where one is long or these are asked for."""
+    """A number of a condition, in decimals where one is long or these are requested."""
     x = getattr(condition, key)
     if d.places is not None:
         return NUMERAL.words(x, d)  # type: ignore[misc]

@@ -44,12 +44,12 @@ NO_TIME = "no seconds where floats do not reach the error: the counts are for mo
 
 
 class ConvergenceReport(Frozen):
-    """What is told of one method.
+    """What the report says of one method.
 
     Attributes:
         result: its test.
         name: of the method.
-        has_work: whether costs are told.
+        has_work: whether costs are reported.
         against: what the plot has below.
     """
 
@@ -322,5 +322,5 @@ REPORT: Report[ConvergenceReport | Failure] = Report(
 
 
 def whole(result: Convergence, name: str) -> ConvergenceReport:
-    """What is told of a test, by the name of its method where there is no other."""
+    """What the report says of a test, by the name of its method where there is no other."""
     return ConvergenceReport(result, name or ("" if result.method is None else result.method.name))

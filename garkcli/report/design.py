@@ -34,7 +34,7 @@ from garkcli.tell.report import Report
 HEADLINE, USUAL, DETAIL, DATA = Level
 Rows = list[tuple[str, str]]
 ROOM = 400
-"""So many signs of polynomials are usual; with details all of them are told."""
+"""So many signs of polynomials are usual; with details all of them are reported."""
 MOST = 4
 """So many of the best methods are usual."""
 LONG = 2000
@@ -42,14 +42,14 @@ LONG = 2000
 
 
 class DesignReport(NamedTuple):
-    """What is told.
+    """What is reported.
 
     Attributes:
         file: its path.
         design: for which values the method has the order.
         digits: of numbers without simple radicals.
         choices: what each value of --choose leaves.
-        minimum: of an objective, where one was asked for.
+        minimum: of an objective, where one was requested.
         sets: the values that are as stable as is wanted, where all have the order.
     """
 
@@ -89,7 +89,7 @@ class Order(NamedTuple):
 
     @property
     def likeness(self) -> tuple[object, ...]:
-        """What steps have in common that are told as one."""
+        """What steps have in common that are reported as one."""
         return self.step.kind, self.step.is_real, self.zeros, self.conditions
 
 
@@ -187,7 +187,7 @@ def _values(found: Order, d: Plain, is_whole: bool) -> Iterator[str]:
     Args:
         found: what the order asks.
         d: the signs of the output.
-        is_whole: whether the polynomials are told too.
+        is_whole: whether the polynomials are reported too.
     """
     step = found.step
     match step.kind:
@@ -611,8 +611,8 @@ REPORT: Report[DesignReport] = Report.only(
 
 
 def whole(found: Design | Minimum, name: str) -> DesignReport:
-    """What is told of a design, or of a minimum, by the name of its family where there is no
-    other.
+    """What the report says of a design, or of a minimum, by the name of its family where there is
+    no other.
     """
     if isinstance(found, Minimum):
         return DesignReport(name or found.design.family.name, found.design, minimum=found)

@@ -74,8 +74,8 @@ Ends: TypeAlias = "tuple[fmpq | None, fmpq | None]"
 
 
 def _bounds(family: Family) -> tuple[dict[str, Ends], list[fmpq_mpoly]]:
-    """Between which numbers unknowns are, by ranges and by what is not to be negative; the rest of
-    that.
+    """Between which numbers unknowns are, by ranges and by numbers that may not be negative; the
+    rest of that.
     """
     ends = {name: x for name, x in family.ranges.items() if x != (None, None)}
     others = []

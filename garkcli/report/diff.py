@@ -346,5 +346,5 @@ REPORT: Report[Compared] = Report.only(
 
 
 def whole(found: Comparison, _: str) -> Compared:
-    """What is told of a comparison; its methods have names."""
+    """What the report says of a comparison; its methods have names."""
     return Compared(found, (found.one.name or "first", found.other.name or "second"))

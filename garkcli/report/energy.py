@@ -450,5 +450,5 @@ REPORT: Report[EnergyReport | Failure] = Report(
 
 
 def whole(run: LongRun, name: str) -> EnergyReport:
-    """What is told of a run, by the name of its method where there is no other."""
+    """What the report says of a run, by the name of its method where there is no other."""
     return EnergyReport(name or ("" if run.method is None else run.method.name), run)

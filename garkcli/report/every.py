@@ -74,7 +74,7 @@ def fact_data(f: Fact, inner: Kind, d: Plain) -> dict[str, Any]:
 
 
 def lifted(inner: Kind) -> Kind:
-    """The same kind of value for a family: all that is new is what is said of exceptions."""
+    """The same kind of value for a family: only the exceptions are new."""
 
     def words(f: Fact, d: Plain) -> str:
         from garkcli.tell.dialect import Plain
@@ -204,7 +204,7 @@ FAMILY = [
 
 
 def verdicts(o: Any) -> Any:
-    """All properties, where they were asked for."""
+    """All properties, where they were requested."""
     return {key: o.every.verdict(key) for key in KEYS} if o.wants_properties else None
 
 

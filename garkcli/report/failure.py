@@ -28,4 +28,4 @@ class Failure(NamedTuple):
 
 
 FAILURE = Section(Row("name", TEXT), Row("errors", parts(FAULT), "faults"))
-"""The report of such a run, for programs; people are told elsewhere."""
+"""The report of such a run, for programs; people read it elsewhere."""

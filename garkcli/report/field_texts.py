@@ -35,7 +35,7 @@ def _walked(node: Any, path: tuple[str, ...]) -> Any:
 
 
 def _field(schema: Any, path: tuple[str, ...]) -> Any:
-    """What a field may be, and what it holds; what was said of its numbers stays."""
+    """What a field may be, and what it holds; the words on its numbers stay."""
     inner = _walked(schema, path)
     text = text_of(path)
     if not (text and isinstance(inner, dict)):
@@ -54,7 +54,7 @@ def text_of(path: tuple[str, ...]) -> str:
 
 @lru_cache(maxsize=1)
 def _elsewhere() -> Mapping[str, str]:
-    """What is said of names in other places: claims, columns of sweeps, parts of references."""
+    """The texts of names in other places: claims, columns of sweeps, parts of references."""
     from garkcli.properties.definitions import every_definition
 
     found = {}

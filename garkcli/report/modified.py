@@ -39,7 +39,7 @@ _ROUNDED = Status(open=Reason("coefficients are rounded"))
 
 
 class ModifiedReport(Frozen):
-    """What is told of one file.
+    """What the report says of one file.
 
     Attributes:
         file: its path as given.
@@ -48,7 +48,7 @@ class ModifiedReport(Frozen):
         derivation: "pair" or "conjugate" where it was made of the file; else empty.
         digits: of decimals; None for exact numbers.
         with_equation: whether rooted trees are shown where there is a Hamiltonian.
-        formula: on a problem, where one was asked for; multiplied out.
+        formula: on a problem, where one was requested; multiplied out.
     """
 
     file: str
@@ -273,5 +273,5 @@ REPORT: Report[ModifiedReport] = Report.only(
 
 
 def whole(found: BackwardAnalysis, name: str) -> ModifiedReport:
-    """What is told of the value that a call returns."""
+    """What the report says of the value that a call returns."""
     return ModifiedReport(name, name, found)

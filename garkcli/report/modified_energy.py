@@ -150,5 +150,5 @@ REPORT: Report[ModifiedEnergyReport | Failure] = Report(
 
 
 def whole(run: ModifiedRun, name: str) -> ModifiedEnergyReport:
-    """What is told of a run, by the name of its method where there is no other."""
+    """What the report says of a run, by the name of its method where there is no other."""
     return ModifiedEnergyReport(name or ("" if run.method is None else run.method.name), run)

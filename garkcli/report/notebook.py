@@ -34,7 +34,7 @@ Fact: TypeAlias = tuple[str, str]
 
 
 def method_latex(method: GarkMethod) -> str | None:
-    """The tableau as arrays of LaTeX; None where it is too large to be looked at."""
+    """The tableau as arrays of LaTeX; None where it is too large to be examined."""
     if _is_large(method):
         return None
     return "\n".join(displays(method.tableau, method.entries))
@@ -100,7 +100,7 @@ def condition_html(condition: Condition) -> str:
 
 
 def _text(text: str) -> str:
-    """A text without controls, as it stands in HTML."""
+    """A text without controls, as it is in HTML."""
     return escape(printable(text))
 
 

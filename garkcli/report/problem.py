@@ -115,8 +115,8 @@ STEPPED: dict[type[Stepped], list[Row]] = {
     ]
     for kind, rows in _TERMS.items()
 }
-"""What is told of the problem of a run, by its kind: in words, and for programs ω and the shares
-(k_l, v_l) of each term, the terms H^{l}, or the components of each term f^{l}.
+"""What the report says of the problem of a run, by its kind: in words, and for programs ω and the
+shares (k_l, v_l) of each term, the terms H^{l}, or the components of each term f^{l}.
 """
 
 

@@ -29,11 +29,11 @@ ENDINGS: dict[Ending, str] = {
 
 
 class SearchReport(NamedTuple):
-    """What is told.
+    """What is reported.
 
     Attributes:
         file: with the unknowns.
-        search: what was looked for.
+        search: what was sought.
         result: what was found.
         files: where each method was written, if it was.
     """

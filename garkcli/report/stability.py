@@ -43,13 +43,13 @@ HEADLINE, USUAL, DETAIL, DATA = Level
 
 
 class StabilityReport(Frozen):
-    """What is told of one file.
+    """What the report says of one file.
 
     Attributes:
         file: its path as given.
         name: the name of the method.
         found: its stability.
-        springs: the two-frequency problem where it was asked for.
+        springs: the two-frequency problem where it was requested.
         digits: decimals of algebraic numbers.
         plane: both frequencies in floats, for a picture.
         slow: the two-frequency problem for an interval of slow frequencies.
@@ -221,7 +221,7 @@ def sector(x: Any) -> Any:
 
 
 def _less_than_all(answer: Answer) -> Level:
-    """A sector is told where it is not the left half plane, which A-stable says."""
+    """A sector is reported where it is not the left half plane, which A-stable says."""
     return USUAL if answer.value is not None and answer.value.cosine.exact != 0 else DETAIL
 
 
@@ -545,7 +545,7 @@ REPORT: Report[StabilityReport] = Report(
 
 
 def whole(found: Stability, name: str) -> StabilityReport:
-    """What is told of a stability by a name."""
+    """What the report says of a stability by a name."""
     return StabilityReport(name, name, found)
 
 

@@ -26,7 +26,7 @@ HEADLINE, USUAL, DETAIL, DATA = Level
 
 
 class PlaneReport(NamedTuple):
-    """What is told: the values, their file, and how many digits algebraic numbers have."""
+    """What is reported: the values, their file, and how many digits algebraic numbers have."""
 
     file: str
     values: StablePlane
@@ -82,7 +82,7 @@ def _part_words(part: Part, names: tuple[str, ...], d: Plain) -> str:
 
 
 def strips(values: StablePlane, d: Plain) -> list[tuple[str, str]]:
-    """Each strip with its parts, and what is left open."""
+    """Each strip with its parts, and what is undecided."""
     names = values.family.ring.names
     brief = replace(d, is_brief=True)
     rows = [
@@ -170,5 +170,7 @@ REPORT: Report[PlaneReport] = Report.only(
 
 
 def whole(found: StablePlane, name: str) -> PlaneReport:
-    """What is told of a set of values, by the name of its family where there is no other."""
+    """What the report says of a set of values, by the name of its family where there is no
+    other.
+    """
     return PlaneReport(name or found.family.name, found)

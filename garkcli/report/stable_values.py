@@ -23,7 +23,7 @@ HEADLINE, USUAL, DETAIL, DATA = Level
 
 
 class StableReport(NamedTuple):
-    """What is told: the values, their file, and how many digits algebraic numbers have."""
+    """What is reported: the values, their file, and how many digits algebraic numbers have."""
 
     file: str
     values: StableValues
@@ -54,7 +54,7 @@ def stability(values: StableValues, d: Plain) -> str:
 
 
 def _part(values: StableValues, x: Interval, d: Plain) -> str:
-    """A part of the set; a value of several parameters' form is told of the first of these."""
+    """A part of the set; a value of several parameters' form is reported of the first of these."""
     if values.form is not None and x.is_point and x.start is not None:
         value = root_text(x.start) or f"{root_decimal(x.start, d.digits)}…"
         return " = ".join(map(d.expression, values.form.solved(value)))
@@ -62,7 +62,7 @@ def _part(values: StableValues, x: Interval, d: Plain) -> str:
 
 
 def ends(values: StableValues, d: Plain) -> list[tuple[str, str]]:
-    """What the irrational ends of intervals are, and the values that are left open."""
+    """What the irrational ends of intervals are, and the values that are undecided."""
     brief = replace(d, is_brief=True)
     roots = [x for interval in values.found for x in (interval.start, interval.end)]
     rows = {
@@ -139,5 +139,7 @@ REPORT: Report[StableReport] = Report.only(
 
 
 def whole(found: StableValues, name: str) -> StableReport:
-    """What is told of a set of values, by the name of its family where there is no other."""
+    """What the report says of a set of values, by the name of its family where there is no
+    other.
+    """
     return StableReport(name or found.family.name, found)

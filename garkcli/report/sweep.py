@@ -250,5 +250,5 @@ def _without_text(name: str, values: list[Value], plan: Plan) -> list[Value]:
 
 
 def whole(report: SweepReport, _: str) -> SweepReport:
-    """What is told of a sweep, which has a name."""
+    """What the report says of a sweep, which has a name."""
     return report

@@ -19,7 +19,7 @@ from garkcli.tell.report import Report
 
 
 class FreeList(Frozen):
-    """The classes that were asked for.
+    """The classes that were requested.
 
     Attributes:
         subject: what they are independent for.
@@ -76,7 +76,7 @@ _PICTURE, _DRAWN = pictures(lambda x: x.tree)
 
 
 def _listing(*members: Row) -> Section:
-    """A line a class, with its members where they are asked for."""
+    """A line a class, with its members where they are requested."""
     part = Section(
         _PICTURE,
         Row("kind", choice(*KINDS), "subject.kind", DATA),

@@ -167,7 +167,7 @@ def subject_of_kind(kind: Kind, terms: int | None, orders: range) -> Subject:
 
 
 def subject_of_method(method: AnyTableau, orders: range) -> Subject:
-    """One method: a partitioned one or its own conjugate as it stands, of any other the symplectic
+    """One method: a partitioned one or its own conjugate as it is, of any other the symplectic
     pair.
 
     Raises:

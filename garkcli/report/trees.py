@@ -25,7 +25,7 @@ DETAIL, DATA = Level.DETAIL, Level.DATA
 
 
 class Query(Frozen):
-    """What was asked for: colours count from 1 in ``root`` and from 0 in ``used``."""
+    """What was requested: colours count from 1 in ``root`` and from 0 in ``used``."""
 
     colours: int
     order: int
@@ -34,7 +34,7 @@ class Query(Frozen):
     used: tuple[int, ...] = ()
 
     def roots(self, by_root: Sequence[int]) -> list[tuple[int, int]]:
-        """The root colours that were asked for, from 1, with their numbers of trees."""
+        """The root colours that were requested, from 1, with their numbers of trees."""
         return [(l, count) for l, count in enumerate(by_root, start=1) if self.root in {None, l}]
 
     def total(self, by_root: Sequence[int]) -> int:
@@ -53,10 +53,10 @@ class TreeRow(NamedTuple):
 
 
 class TreeList(Mutable):
-    """The trees that were asked for.
+    """The trees that were requested.
 
     Attributes:
-        query: what was asked for.
+        query: what was requested.
         rows: the trees; None where they are counted alone.
         known: their numbers; None where these are not known before the trees.
     """

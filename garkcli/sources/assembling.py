@@ -399,7 +399,7 @@ def _orders(roles: Roles) -> tuple[int | None, int | None]:
 
 
 def _with_ends(roles: Roles) -> Roles:
-    """The rows whole, where their first or last number stands apart."""
+    """The rows whole, where their first or last number is apart."""
     found = dict(roles)
     for role in ("A", "b", "embedded"):
         row = found.get(role)

@@ -117,7 +117,7 @@ class Evaluator:
     Args:
         base: the index of the first entry of an array.
         allowance: of the source.
-        finder: who is told of scopes.
+        finder: who hears of scopes.
         is_growing: whether all arrays grow.
         has_whole_quotients: whether ``1/2`` is 0.
 
@@ -157,7 +157,7 @@ class Evaluator:
         return Array(list(items), self.base, self._is_growing)
 
     def unknown(self, reason: str) -> Unknown:
-        """What is not known at the line that is walked."""
+        """The unknown parts of the line that is walked."""
         return Unknown(reason, self.line)
 
     # statements
@@ -313,7 +313,7 @@ class Evaluator:
         self._store(target, value, space, line)
 
     def _key(self, target: ir.Expr, space: Space) -> str:
-        """What a record is called that is assigned: its name, or its key among others."""
+        """The name of an assigned record: its own, or its key among others."""
         match target:
             case ir.Name(name=name):
                 return name
@@ -569,7 +569,7 @@ class Evaluator:
                 return self.unknown(reason)
 
     def _kept(self, value: Value) -> Value:
-        """A value that stands in another: with arrays of its own."""
+        """A value that is in another: with arrays of its own."""
         if isinstance(value, Array):
             self.allowance.spend(size(value))
             return copied(value)

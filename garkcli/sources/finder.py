@@ -390,7 +390,7 @@ def _grid(of_role: Mapping[str, Mapping[tuple[int, ...], Value]]) -> Roles:
 
 
 def _with_diagonal(roles: Roles, fields: Mapping[str, Value]) -> None:
-    """A diagonal that stands apart is put into the matrix."""
+    """A diagonal that is apart is put into the matrix."""
     diagonal, A = fields.get("a_diagonal"), roles.get("A")
     if not isinstance(diagonal, Array) or not isinstance(A, Array):
         return

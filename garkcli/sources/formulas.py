@@ -100,7 +100,7 @@ class Formulas:
         return token.text if token.kind == "sign" else ""
 
     def parts(self, start: int, end: int, *signs: str) -> Iterator[tuple[int, int]]:
-        """The ranges between signs that stand in no bracket."""
+        """The ranges between signs that are in no bracket."""
         first = at = start
         while at < end:
             token = self.tokens[at]
@@ -187,7 +187,7 @@ class Formulas:
         return found, min(at, end)
 
     def arguments(self, at: int) -> tuple[ir.Expr, ...]:
-        """What stands between two brackets, with commas between."""
+        """What is between two brackets, with commas between."""
         return tuple(self.expression(*part) for part in self.parts(at + 1, self.closes[at], ","))
 
     def _called(self, callee: ir.Expr, at: int) -> ir.Expr:

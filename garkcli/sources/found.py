@@ -28,7 +28,7 @@ MAX_CHARACTERS = 4_000_000
 
 
 class Unreadable(GarkError):
-    """What stands at a place in a source is no value that a reader knows."""
+    """What is at a place in a source is no value that a reader knows."""
 
 
 class Misshapen(Unreadable):

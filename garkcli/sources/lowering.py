@@ -111,7 +111,7 @@ class Lowering:
         raise NotImplementedError
 
     def ends(self, node: Node) -> list[ir.Expr | None]:
-        """What stands between the colons of a slice."""
+        """What is between the colons of a slice."""
         found: list[ir.Expr | None] = [None]
         for part in node.children:
             if part.type == ":":

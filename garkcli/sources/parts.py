@@ -57,8 +57,8 @@ def roles_of_parts(values: Mapping[str, Value]) -> dict[str, Value] | None:
 
 
 def with_hats(roles: Mapping[str, Value]) -> dict[str, Value]:
-    """An implicit part and an explicit one with a hat as the roles of two parts; what is left out
-    is the first stage, which only the explicit part has.
+    """An implicit part and an explicit one with a hat as the roles of two parts; without the first
+    stage, which only the explicit part has.
     """
     found = {"A2": roles["A"], "b2": roles["b"], "A": roles["A_hat"], "b": roles["embedded"]}
     found |= {

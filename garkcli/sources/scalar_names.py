@@ -22,7 +22,7 @@ _SURELY = _DIFFERENCES | {"bhat", "b̂", "bembed"}
 NEAR = 1e-4
 """Numbers that differ by less are meant to be the same."""
 FEWEST_COEFFICIENTS = 8
-"""So many numbers with names of coefficients are told where they make no table."""
+"""So many numbers with names of coefficients are reported where they make no table."""
 _Entries = dict[tuple[int, int], Value]
 _Row = dict[int, Value]
 

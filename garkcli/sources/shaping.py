@@ -42,7 +42,7 @@ def is_row(value: Texts) -> bool:
 
 
 def weights(value: Texts, stages: int = 0) -> Row:
-    """A row of numbers, also one that stands in a matrix of one row or of one column.
+    """A row of numbers, also one that is in a matrix of one row or of one column.
 
     Args:
         value: as it was read.

@@ -17,14 +17,14 @@ from garkcli.sources.found import MAX_STAGES
 from garkcli.sources.values import ONE, ZERO, Array, Number, Value, computed, literal, negative
 
 Form: TypeAlias = Mapping[tuple[str, ...], Value]
-"""A polynomial: what stands before each product of names, these in order."""
+"""A polynomial: what is before each product of names, these in order."""
 MAX_TERMS = 4 * MAX_STAGES
 NEAR = 1e-3
 """Sums that differ by less are meant to be the same."""
 
 
 class NoStep(Exception):
-    """What is computed is no step of a Runge–Kutta method."""
+    """The computation is no step of a Runge–Kutta method."""
 
 
 class _Slope(Frozen):
@@ -236,7 +236,7 @@ def _is_error(form: Form, step: str, names: set[str]) -> bool:
 
 
 def _row(form: Form, start: str, step: str, slopes: list[_Slope]) -> list[Value]:
-    """What stands before the slopes.
+    """What is before the slopes.
 
     Raises:
         NoStep: something else is there, too.

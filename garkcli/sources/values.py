@@ -31,7 +31,7 @@ MAX_POWER = 200
 
 
 class Unknown(Frozen):
-    """What is not known, and why: whatever is computed from it is unknown for the same reason.
+    """An unknown value, and why: all that is computed from it is unknown for the same reason.
 
     Attributes:
         reason: why.
@@ -395,7 +395,7 @@ def transposed(value: Value, line: int) -> Value:
 
 
 def first_unknown(value: Value) -> Unknown | None:
-    """What is not known in a value, the first of it."""
+    """The first unknown part of a value."""
     if isinstance(value, Unknown):
         return value
     if isinstance(value, Array):

@@ -7,7 +7,7 @@ decided. Coefficients come from the lowest.
 The place where one begins to be negative is known between bounds. Pieces of the line are taken from
 the left. A piece on which the enclosure of the polynomial is
 positive is passed; others are halved, until they are short. Behind the last one that was passed a
-point is looked for where the polynomial is negative for all numbers in the balls.
+point is sought where the polynomial is negative for all numbers in the balls.
 """
 
 from __future__ import annotations

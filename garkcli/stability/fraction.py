@@ -28,7 +28,7 @@ from garkcli.stepping.linear import stage_system
 from garkcli.tableau.tableau import Tableau
 
 MOST_LINES = 400
-"""Lines that are looked at: 26 stages of three colours, or 11 of four."""
+"""Lines that are examined: 26 stages of three colours, or 11 of four."""
 OFFSETS = (1, 3, 7, 13, 29)
 """Where lattices of directions begin that are tried for common factors."""
 
@@ -122,7 +122,7 @@ def _cancelled(P: Multivariate, Q: Multivariate, offset: int) -> Fraction | None
     """P/Q in lowest terms from the quotients on lines; None where a line is special.
 
     Lines with the fraction in lowest terms have denominators of one degree but for special ones.
-    What was interpolated is multiplied out: it is right, or it is not taken. It has the least
+    The interpolated fraction is multiplied out: it is right, or it is not taken. It has the least
     degree that a denominator can have, for that is no less than on a line.
     """
     axes = Q.variables - 1

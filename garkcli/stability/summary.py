@@ -238,7 +238,7 @@ def stability_of_rounded(tableau: Tableau, tolerance: fmpq) -> Stability:
 
 
 def directions(tableau: Tableau) -> list[tuple[str, list[Number]]]:
-    """The directions of (λ_1, …, λ_N) that are looked at, with their names."""
+    """The directions of (λ_1, …, λ_N) that are examined, with their names."""
     blocks = starmap(tableau.block, product(range(tableau.size), repeat=2))
     is_complete = all(block is not None for block in blocks)
     if tableau.is_partitioned or not is_complete:

@@ -240,7 +240,7 @@ def _determinant(W: Matrix) -> Number:
 
 
 MOST_DEGREE = 4
-"""Single algebraic x of a larger degree are left open."""
+"""Single algebraic x of a larger degree are undecided."""
 WITNESSES = 8
 """Parts of [A, B] whose ends are tried first: an unstable one decides."""
 

@@ -2,7 +2,7 @@
 
 Every coefficient that is not zero in the file is a ball of the radius of the tolerance. What
 follows for all numbers in the balls is decided; the rest is not, and is never guessed. One thing
-more is used: the order p that the method has within its tolerance is taken for its order, so that
+more is used: the order p that the method has within its tolerance counts as its order, so that
 |R(iy)|² = 1 + O(y^(p+1)) and the first coefficients of the E-polynomial are zero and not noise.
 """
 

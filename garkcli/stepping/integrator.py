@@ -187,7 +187,7 @@ def _inverted(entries: list[float], n: int) -> Floats:
 def _corrections(inverse: Floats, residuals: list[float]) -> list[float]:
     import numpy as np
 
-    with np.errstate(all="ignore"):  # what is not finite ends the step
+    with np.errstate(all="ignore"):  # an infinite number ends the step
         corrections: list[float] = (inverse @ residuals).tolist()
     return corrections
 
@@ -322,7 +322,7 @@ class Stepper(Mutable):
         )
 
     def advance(self, count: int, record: Recorder | None = None) -> None:
-        """``count`` steps; ``record`` is told of each.
+        """``count`` steps; ``record`` hears of each.
 
         Raises:
             StepFailed: the stage equations of a step were not solved.

@@ -1,4 +1,4 @@
-"""The columns of a sweep: what is told of each method, and which values are better.
+"""The columns of a sweep: what the report says of each method, and which values are better.
 
 One more column is one more entry of this list; properties of ``garkcli.properties`` are columns by
 themselves.

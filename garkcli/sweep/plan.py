@@ -101,7 +101,7 @@ class Point(Frozen):
 
 
 class Criteria(Frozen):
-    """What is told of each method.
+    """What the report says of each method.
 
     Attributes:
         columns: the criteria, in the order of the rows.
@@ -131,7 +131,7 @@ class Plan(Frozen):
         name: of the sweep.
         templates: the files.
         grids: the values of each parameter.
-        criteria: what is told.
+        criteria: what is reported.
         best: columns by which methods are sorted, the first one first.
         pareto: columns of the Pareto front.
     """
@@ -222,7 +222,7 @@ def sweep_schema() -> dict[str, Any]:
 
 
 def told(files: Files) -> Iterable[Key]:
-    """What is told of the keys of spec files."""
+    """What the report says of the keys of spec files."""
     return entries_of(file_of(_kinds()).inside(), files.page)
 
 

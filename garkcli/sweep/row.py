@@ -136,7 +136,7 @@ def _tableau(point: Point) -> Tableau:
 def _searched(point: Point, row: Row) -> Tableau | None:
     """The method that is found from the seed of a row, told in the row.
 
-    None where its coefficients are not known exactly: then nothing else is told of it.
+    None where its coefficients are not known exactly: then nothing else is reported of it.
     """
     found = first_find(point)
     if found is None:

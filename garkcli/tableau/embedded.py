@@ -69,7 +69,7 @@ class Further(Frozen):
 
     @property
     def powers(self) -> tuple[Weights, ...]:
-        """What stands before θ, θ², … in dense output."""
+        """What is before θ, θ², … in dense output."""
         if self.dense is None:
             return ()
         return tuple(self.dense.coefficients(power) for power in range(1, self.dense.degree + 1))

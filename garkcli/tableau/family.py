@@ -80,7 +80,7 @@ class Family(Frozen, kw_only=True):
         positive: those that are positive at the solutions that are taken.
         not_negative: those that are at least 0 there.
         order: which is wanted of them, where the file says so.
-        stable: kinds of stability that the solutions that are taken have.
+        stable: the kinds of stability of the accepted solutions.
         unsettled: what is wanted of them and was not worked out in time, by its keys.
         further: its embedded weights and its dense output.
     """

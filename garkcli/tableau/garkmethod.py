@@ -131,7 +131,7 @@ class GarkMethod(Shown, Frozen, kw_only=True):
     @cached_property
     def entries(self) -> Entries:
         """All entries together, those of embedded weights and dense output among them."""
-        from garkcli.tableau import pointwise  # loaded when entries are asked for
+        from garkcli.tableau import pointwise  # loaded when entries are requested
 
         return pointwise.entries(self.tableau).beside(self.further)
 

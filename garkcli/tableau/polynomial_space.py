@@ -93,7 +93,7 @@ class PolynomialSpace(StageSpace):
         return tuple(moments[i : i + s] for i in range(s))
 
     def _moments(self, functional: Vector) -> Vector:
-        """The functional on 1, x, …, x^(2s−2); kept for weights, which are asked for again."""
+        """The functional on 1, x, …, x^(2s−2); kept for weights, which are requested again."""
         known = self._known_moments
         # compared, not hashed: flint hashes fractions by Python's, which takes longer
         for kept, moments in known:

@@ -125,7 +125,7 @@ class RoundedTableau(Frozen, eq=False):
 
     Attributes:
         tableau: as it is printed.
-        tolerance: t, the rounding of its coefficients, or of those that it is made of.
+        tolerance: t, the rounding of its coefficients, or of its parts.
         A: radii of the blocks, with the keys of ``Tableau.blocks``.
         b: radii of the weights, a row per colour.
         c: radii of the nodes, a row per colour.

@@ -1,7 +1,7 @@
 """Stage spaces: the algebra in which the stage values of one method live.
 
-Two models of the same thing. ``PointSpace`` is K^s with componentwise multiplication: one number a
-stage. ``PolynomialSpace`` is ℚ[x]/(M), M the node polynomial: for the Gauss, Radau and Lobatto
+Two models of the same thing. ``PointSpace`` is K^s with componentwise multiplication: one number
+per stage. ``PolynomialSpace`` is ℚ[x]/(M), M the node polynomial: for the Gauss, Radau and Lobatto
 families M is rational although the nodes are not, so nothing in it ever needs a root. Evaluation at
 the nodes identifies the two.
 
@@ -186,7 +186,7 @@ class PointSpace(StageSpace):
 
         Args:
             enough: a bound that is not larger than this is returned as it is; otherwise it is
-                looked at closer, at what the polynomials have in common.
+                examined closer, at what the polynomials have in common.
 
         Returns:
             Bits, summed over the coordinates of irrational nodes.

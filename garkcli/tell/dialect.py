@@ -109,7 +109,7 @@ class Plain(Mutable):
         paint: colour or none.
         is_brief: whether decimals stand for roots and polynomials.
         places: significant digits in place of exact numbers; None for these.
-        told: failures that were told: the second time they are "as above".
+        told: failures that were reported: the second time they are "as above".
         is_inserted: whether LaTeX goes into a document that has words of its own: its tables and
             drawings alone, the words as comments.
     """
@@ -151,7 +151,7 @@ class Plain(Mutable):
         return [self.paint.dots(line) for line in lines]
 
     def strong(self, text: str) -> str:
-        """What is looked for first."""
+        """What is sought first."""
         return self.paint("strong", text)
 
     def reason(self, reason: Reason) -> str:
@@ -342,7 +342,7 @@ class Plain(Mutable):
         return folded(margin + self.spelt(text), self.width, margin + "  ")
 
     def rows(self, rows: Sequence[tuple[str, str]], depth: int = 1) -> list[str]:
-        """Labels and what is said of each."""
+        """Labels, each with its text."""
         spelt = [(self.spelt(label), self.spelt(text)) for label, text in rows]
         room = max((shown_width(label) for label, _ in spelt), default=0) + 2
         margin = "  " * depth

@@ -1,8 +1,8 @@
 """A result described once: rows declare what is found, kinds what a value is.
 
 A ``Section`` is the one declaration of a result. Its JSON, its JSON Schema and everything that a
-person reads come from it. Rows are declared before there is a result, and asked when it is told:
-what lies too deep is not computed.
+person reads come from it. Rows are declared before there is a result, and asked when it is
+reported: what lies too deep is not computed.
 """
 
 from __future__ import annotations
@@ -22,7 +22,9 @@ if TYPE_CHECKING:
 
 
 class Level(IntEnum):
-    """How far down a fact is told: in the first sentence, usually, with -v, to programs alone."""
+    """How far down a fact is reported: in the first sentence, usually, with -v, to programs
+    alone.
+    """
 
     HEADLINE = 0
     USUAL = 1
@@ -53,7 +55,7 @@ class Status(Frozen):
     Attributes:
         within: the rounding for which it holds; None for exactly.
         at_least: whether it may be larger.
-        open: what is not decided, and why.
+        open: what is undecided, and why.
     """
 
     within: fmpq | None = None
@@ -71,7 +73,7 @@ class Answer(Frozen):
         value: None where there is none, or none is decided.
         status: how it is known.
         reason: why it is so.
-        level: where it is told, if not where its row says.
+        level: where it is reported, if not where its row says.
         more: what its kind needs besides, such as a witness.
     """
 
@@ -90,7 +92,7 @@ class Beside(Frozen):
     """A field of JSON beside that of a row, from its answer.
 
     Attributes:
-        name: ``*`` in it is what stands before the last word of the row's key.
+        name: ``*`` in it is what is before the last word of the row's key.
         schema: of its values.
         data: from the answer; None where there is none.
         is_optional: whether it is left out then; otherwise it is null.
@@ -119,7 +121,7 @@ class Kind(Frozen):
         beside: further fields of JSON.
         section: of a value that has facts of its own.
         is_list: whether the value is a list of such.
-        is_stream: whether that is told while it is found.
+        is_stream: whether that is reported while it is found.
         by: the heading of a part of such a list, where parts have headings on a terminal.
         is_never_empty: whether that has an entry at least.
         most: of a list that is always a table, so many rows of it are usual; 0 for all.
@@ -188,12 +190,12 @@ class Row(Frozen):
         get: the value, or an ``Answer``, of what the section describes; a text for a path of
             attributes and places, such as ``rows.0.value``, along which None stays None, or a dot
             for what is described itself; None for the attribute of the key.
-        level: where it is told, or that from its answer.
+        level: where it is reported, or that from its answer.
         has_null: whether there may be no value.
         is_optional: whether JSON leaves it out then.
         label: where it is not the one of the key.
         line: facts with the same word here share a line of the usual text.
-        is_short: whether other rows tell it where everything is told.
+        is_short: whether other rows tell it where everything is reported.
     """
 
     key: str
@@ -224,7 +226,7 @@ class Row(Frozen):
         return whole
 
     def fact(self, whole: Any) -> Fact:
-        """The same with the level where it is told."""
+        """The same with the level where it is reported."""
         answer = self.answer(whole)
         level = answer.level
         if level is None:
@@ -299,7 +301,7 @@ def optional(
 
 
 class Section:
-    """Rows in order: all that is told of a kind of result.
+    """Rows in order: all that is reported of a kind of result.
 
     Attributes:
         rows: what is declared.

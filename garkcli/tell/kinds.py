@@ -82,7 +82,7 @@ TREE = Kind(S.TEXT, lambda x, _: format_tree(x), lambda x, d: d.tree(x))
 
 
 def truth(value: bool | None, why: Reason | str = "", open_because: Reason | str = "") -> Answer:
-    """A truth that may be left open.
+    """A truth that may be undecided.
 
     Args:
         value: None for open.
@@ -109,7 +109,7 @@ FILE_AND_NAME = (Row("file", TEXT, level=Level.DATA), Row("name", TEXT, _named, 
 
 
 def numeral_text(x: Number, d: Plain) -> str:
-    """A number exactly, or in as many decimals as are asked for."""
+    """A number exactly, or in as many decimals as are requested."""
     return to_text(x) if d.places is None else to_decimal(x, d.places)
 
 
@@ -139,7 +139,7 @@ BLOCKS = Kind(
 
 
 class Table(Frozen):
-    """How many conditions hold, a number a block; none where there is no block.
+    """How many conditions hold, one number per block; none where there is no block.
 
     Attributes:
         rows: of blocks, or a single one.

@@ -95,7 +95,7 @@ def one(section: Section, whole: Any, d: Plain, level: Level = Level.USUAL) -> I
 
 def body(section: Section, whole: Any, d: Plain, level: Level, depth: int) -> Iterator[str]:
     """The facts below the headline. Usually some share a line; with details each has its own, and
-    parts stand below under their titles.
+    parts are below under their titles.
     """
     sentences: dict[str, list[str]] = {}
     rows: list[tuple[str, str]] = []
@@ -126,7 +126,7 @@ def body(section: Section, whole: Any, d: Plain, level: Level, depth: int) -> It
 
 
 def _is_opened(fact: Fact, level: Level) -> bool:
-    """Whether a part is told fact by fact."""
+    """Whether a part is reported fact by fact."""
     return fact.row.kind.section is not None and fact.value is not None and level >= Level.DETAIL
 
 
@@ -211,7 +211,7 @@ def table(fact: Fact, d: Plain, level: Level, depth: int) -> Iterator[str]:
 
 
 def _cells(section: Section, part: Any, d: Plain, level: Level) -> Iterator[tuple[str, str]]:
-    """The heads and the cells of a line; a part of it and what is told as rows have columns of
+    """The heads and the cells of a line; a part of it and what is reported as rows have columns of
     their own.
     """
     for fact in section.facts(part, level):

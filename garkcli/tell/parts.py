@@ -41,7 +41,7 @@ def drawing(draw: Callable[[Any, Plain], list[str]]) -> Kind:
 
 
 def sentence(words: Callable[[Any], str]) -> Row:
-    """What is told above or below a list, when it is its turn."""
+    """What is reported above or below a list, when it is its turn."""
 
     def lines(x: Any, d: Plain) -> list[str]:
         text = words(x)
@@ -57,8 +57,8 @@ def parts(section: Section, words: Words | None = None) -> Kind:
 
 def table(section: Section, most: int, is_data: bool = True) -> Kind:
     """A list of flat parts, a line each, of which so many are usual. Where the first column has no
-    label of its own, that of the list is its head. A part of a line, and what is told as rows, have
-    columns of their own.
+    label of its own, that of the list is its head. A part of a line, and what is reported as rows,
+    have columns of their own.
     """
     return Kind({}, section=section, is_list=True, most=most, is_data=is_data)
 
@@ -69,8 +69,9 @@ def shown(section: Section, most: int) -> Kind:
 
 
 def stream(section: Section, by: Callable[[Any, Plain], str] | None = None) -> Kind:
-    """A list of flat parts that is told while it is found; memory does not grow with it. A terminal
-    shows the usual rows of a part, LaTeX those of details too, Markdown those that programs get.
+    """A list of flat parts that is reported while it is found; memory does not grow with it. A
+    terminal shows the usual rows of a part, LaTeX those of details too, Markdown those that
+    programs get.
 
     Args:
         section: of a part.

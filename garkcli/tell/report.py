@@ -16,7 +16,7 @@ from garkcli.tell.outputs import labelled, many, one
 Whole = TypeVar("Whole")
 Labelled: TypeAlias = "tuple[str, list[tuple[str, str]]]"
 TABLES = ("markdown", "latex")
-"""The formats in which several results are a table, unless everything is asked for."""
+"""The formats in which several results are a table, unless everything is requested."""
 NOTHING = Section()
 PLAIN = Paint()
 CLOSED = {"additionalProperties": False}

@@ -22,7 +22,7 @@ MARKS = {0: "holds", 1: "fails", 2: "fault", 3: "fault"}
 
 
 class Heading(Frozen):
-    """What stands above the sections of a method.
+    """What is above the sections of a method.
 
     Attributes:
         title: its name.
@@ -42,7 +42,7 @@ class Heading(Frozen):
 
 
 def heading(method: Reported) -> Heading:
-    """What stands above the sections of a method."""
+    """What is above the sections of a method."""
     outcome = method.outcome
     return Heading(
         outcome.name,

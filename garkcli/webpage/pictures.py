@@ -30,7 +30,7 @@ from garkcli.stepping.integrator import StepFailed
 from garkcli.tableau.garkmethod import GarkMethod, word_for
 
 MOST = len(ON_ANY)
-"""Curves in one picture; more could not be told apart."""
+"""Curves in one picture; more could not be distinguished."""
 STEPS = 5000
 _POINTS = 600
 MOST_STAGES = 40
@@ -236,7 +236,7 @@ PICTURES: dict[str, tuple[str, Callable[[GarkMethod], tuple[Panel, str]]]] = {
     "convergence": ("Convergence", _convergence),
     "energy": ("Energy error over a long time", _energy),
 }
-"""Titles of what is not drawn and what draws, by name."""
+"""Titles of missing pictures and what draws them, by name."""
 
 
 def _regions(methods: Sequence[GarkMethod]) -> tuple[Panel, str]:

@@ -98,7 +98,7 @@ def reported(
         settings: values of the parameters of a file.
 
     Raises:
-        MethodError: what is given is no method.
+        MethodError: the argument is no method.
     """
     if isinstance(given, (str, os.PathLike)):
         try:

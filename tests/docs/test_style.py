@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import ast
+import io
+import itertools
 import re
+import tokenize
 import tomllib
 from collections.abc import Iterator
 from typing import Any
@@ -48,8 +51,8 @@ REFUSED = {
 
 
 def texts() -> Iterator[tuple[str, str]]:
-    """Every text, with where it is: pages, help, the data of faults, fields and keys, strings of the
-    source, and the page of gark report.
+    """Every text, with where it is: pages, help, the data of faults, fields and keys, strings and
+    comments of the source, and the page of gark report.
     """
     for page in pages():
         if page != STYLE:
@@ -69,18 +72,19 @@ def texts() -> Iterator[tuple[str, str]]:
 
 
 def sentences(source: str) -> Iterator[tuple[int, str]]:
-    """Every string of a source that has words, with its line; docstrings are for who reads it."""
-    tree = ast.parse(source)
-    nodes = list(ast.walk(tree))
-    docstrings = {id(x.value) for x in nodes if isinstance(x, ast.Expr)}
-    for node in nodes:
-        if id(node) in docstrings:
-            continue
+    """Every text of a source with its line: strings, docstrings, comments that go on for lines."""
+    for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.JoinedStr):
             parts = [x.value if isinstance(x, ast.Constant) else "x" for x in node.values]
             yield node.lineno, "".join(map(str, parts))
         elif isinstance(node, ast.Constant) and isinstance(node.value, str) and " " in node.value:
             yield node.lineno, node.value
+    tokens = tokenize.generate_tokens(io.StringIO(source).readline)
+    comments = {x.start[0]: x.string.strip("# ") for x in tokens if x.type == tokenize.COMMENT}
+    for line in comments:
+        if line - 1 not in comments:
+            block = itertools.takewhile(comments.get, itertools.count(line))
+            yield line, " ".join(comments[x] for x in block)
 
 
 def strings(value: Any) -> Iterator[str]:
@@ -146,11 +150,14 @@ def test_every_pattern_finds_something() -> None:
     assert [name for name, pattern in REFUSED.items() if not re.search(pattern, text)] == []
 
 
-def test_strings_of_a_source_without_its_docstrings() -> None:
-    """An f-string is one text, with x for its values."""
-    source = '''"""It stands here."""\nfail("no number", f"it has {n} stages")\n'''
-    assert {text for _, text in sentences(source)} >= {"no number", "it has x stages"}
-    assert not any(refused(text) for _, text in sentences(source))
+def test_texts_of_a_source() -> None:
+    """An f-string is one text, with x for its values; so are comments in lines that follow."""
+    source = (
+        '''"""A file."""\nfail("no number", f"it has {n} stages")  # it\n# is told\nf()\n# x\n'''
+    )
+    found = [text for _, text in sentences(source)]
+    assert {"A file.", "no number", "it has x stages", "it is told", "x"} <= set(found)
+    assert [bool(refused(text)) for text in found].count(True) == 1
 
 
 def test_what_is_refused_and_what_is_not() -> None:

@@ -53,7 +53,7 @@ def _cells(line: str) -> list[str]:
 
 
 def _entries(rows: Sequence[Sequence[str]]) -> Mapping[str, Nested]:
-    """``part,l,m,i,j,value``: an entry a row; colours and stages count from 1."""
+    """``part,l,m,i,j,value``: each entry in a row of its own; colours and stages count from 1."""
     entries: dict[str, dict[tuple[int, ...], str]] = {}
     for row in rows:
         if len(row) != len(COLUMNS) or row[0] not in _PARTS:

@@ -15,7 +15,7 @@ from garkcli.sources.naming import ROLES
 
 NAME = "json"
 MAX_DEPTH = 12
-"""Deepest nesting of objects that tables are looked for in."""
+"""Deepest nesting of objects that tables are sought in."""
 _KEYS = {
     **{key: key for key in ("tolerance", "structure")},
     **ROLES,

@@ -56,7 +56,7 @@ _Array = tuple[int, str, str, str]
 
 
 def _arrays(text: str) -> Iterator[_Array]:
-    """The line of each array, what stands before it, its columns and its rows."""
+    """The line of each array, what is before it, its columns and its rows."""
     place = 0
     line = 1
     counted = 0
@@ -100,7 +100,7 @@ def _letter(before: str) -> str:
 
 
 def _groups(columns: str) -> list[int]:
-    """How many columns stand between the bars, without that of the nodes."""
+    """How many columns are between the bars, without that of the nodes."""
     repeated = re.sub(
         r"\*\{([0-9]{1,3})\}\{([clr|]{1,9})\}", lambda x: x[2] * min(int(x[1]), MAX_STAGES), columns
     )
@@ -143,7 +143,7 @@ def _read(columns: str, body: str) -> _Parts:
     parts = _parts(body)
     if len(parts) < 2:
         raise Unreadable("there is no line above the weights")
-    # weights have no node; embedded ones may stand below a line of their own
+    # weights have no node; embedded ones may be below a line of their own
     first = len(parts)
     while first > 1 and not any(row[0] for row in parts[first - 1]):
         first -= 1

@@ -17,7 +17,7 @@ Nested: TypeAlias = "str | Sequence[Nested] | ir.Expr | None"
 
 
 def printed(line: int, **values: Nested) -> ir.Statement:
-    """A tableau that stands in a line, by its parts: ``A``, ``b``, ``c``, ``embedded``, …"""
+    """A tableau that is in a line, by its parts: ``A``, ``b``, ``c``, ``embedded``, …"""
     named = tuple((key, listed(x)) for key, x in values.items() if x)
     made = ir.Do(ir.Call(ir.Name(PRINTED), (), named), line)
     return ir.Scope("entry", "", (made,), line)

@@ -1,7 +1,7 @@
 """Dedalus 3: a class of implicit-explicit methods.
 
 The last rows of its matrices are the weights, so both methods have to end with a stage at the new
-value, and its first stage is explicit: what is not there is put in, with the weight 0.
+value, and its first stage is explicit: a missing one is put in, with the weight 0.
 """
 
 from __future__ import annotations

@@ -39,7 +39,7 @@ def _notes(payload: Payload) -> list[str]:
 
 
 def _cell(payload: Payload, cell: Cell) -> str:
-    """An entry: exact, or a decimal where the file has decimals or digits were asked for."""
+    """An entry: exact, or a decimal where the file has decimals or digits were requested."""
     is_asked_for = payload.digits is not None
     if isinstance(cell, Algebraic) and not is_asked_for:
         return to_latex(cell)

@@ -42,7 +42,7 @@ MATHEMATICA = Style(
     exponent="*^",
     point=False,
 )
-"""Exact, so that N makes as many digits of them as it is asked for."""
+"""Exact, so that N makes as many digits of them as it is requested."""
 
 
 BRIDGES = (

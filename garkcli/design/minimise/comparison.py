@@ -31,8 +31,8 @@ from garkcli.frozen import Mutable, field, replace
 from garkcli.tableau.tableau import Tableau
 
 MOST_POINTS = 60
-"""Critical points, complex ones included, that are told apart; degrees of number fields are up to
-that.
+"""Critical points, complex ones included, that are reported apart; degrees of number fields are up
+to that.
 """
 
 
@@ -47,7 +47,7 @@ class Comparison(Mutable):
         limits: values that are approached.
         gradients: the numerators of derivatives, by the coordinate.
         parts: of the solution set.
-        share: the reading of ``time.monotonic`` until which critical points are looked for by
+        share: the reading of ``time.monotonic`` until which critical points are sought by
             Gröbner bases; None for no limit.
         is_open: whether stability is not decided for methods that may be better.
     """
@@ -178,7 +178,7 @@ class Comparison(Mutable):
         return bool(part.sets) or not self.design.family.stable
 
     def takes(self, solution: Solution, root: RealRoot, part: Part | None = None) -> bool:
-        """Whether a method is one of those that are compared."""
+        """Whether a method takes part in the comparison."""
         design = self.design
         if part is not None and not is_on(design.family, part, solution, root):
             return False

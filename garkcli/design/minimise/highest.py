@@ -57,7 +57,7 @@ class HighAt(Frozen):
 
 
 class Levels(Frozen):
-    """What there is to be compared.
+    """What the comparison is between.
 
     Attributes:
         greatest: the greatest level that is attained; None for infinity.

@@ -111,7 +111,7 @@ class Toward(Frozen):
 
 
 class OnLine(Frozen):
-    """What there is to be compared.
+    """What the comparison is between.
 
     Attributes:
         attained: values at critical points and ends.

@@ -22,7 +22,7 @@ from garkcli.design.parts import diagonal_unknowns, nodes_as_coordinates, parts_
 from garkcli.errors import UsageProblem
 
 SHARE = 0.25
-"""The part of the time in which critical points are looked for by Gröbner bases; what is tried
+"""The part of the time in which critical points are sought by Gröbner bases; what is tried
 where that is not enough takes about as long.
 """
 
@@ -50,7 +50,7 @@ def minimise(
 
     Args:
         design: of a family.
-        objective: what is to be small, or its name: one of ``OBJECTIVES``.
+        objective: the number to make small, or its name: one of ``OBJECTIVES``.
         seconds: after which it is given up; None for never.
 
     Raises:

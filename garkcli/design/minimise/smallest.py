@@ -129,7 +129,7 @@ def critical_point_near(
     order and, but for rounding, the same value.
 
     Args:
-        point: near which it is looked for.
+        point: near which it is sought.
         gradient: the polynomials, as many as unknowns.
         nonzero: polynomials that are not to vanish there.
         ring: of the unknowns.
@@ -177,7 +177,7 @@ def _lines(part: Part) -> tuple[int, tuple[Interval, ...] | None]:
 
 
 CUTS = (fmpq(1, 2), fmpq(1, 3), fmpq(2, 3), fmpq(1), fmpq(1, 4), fmpq(3, 4))
-"""Values of coordinates at which methods are looked for."""
+"""Values of coordinates at which methods are sought."""
 
 
 SLACK = fmpq(1, 10**9)

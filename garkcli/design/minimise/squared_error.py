@@ -163,7 +163,7 @@ def squared_coupling_error(tableau: Tableau, order: int, ring: Parameters | None
 
 
 class _Branch(Frozen):
-    """One tree as it stands on a forest.
+    """One tree as it is on a forest.
 
     Attributes:
         value: (D A 𝒜, D w / order) of it.

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 
 RANK = 1e-7
-"""Pivots smaller than this, times the largest, are taken for rounding."""
+"""Pivots smaller than this, times the largest, count as rounding."""
 FIRST_BITS = 106
 
 
@@ -88,7 +88,7 @@ class Fixings:
 
 
 class Rank(Frozen):
-    """Rows and columns of a matrix with a determinant that is not zero, as many as there are.
+    """Rows and columns of a matrix with a nonzero determinant, of the largest size.
 
     Attributes:
         rows: indices, in the order of elimination.

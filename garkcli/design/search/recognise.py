@@ -1,6 +1,6 @@
 """Rational and algebraic numbers told by many of their digits.
 
-What is told here is a guess, which an exact certificate has to confirm: a wrong one does no harm.
+The result is a guess, which an exact certificate has to confirm: a wrong one does no harm.
 """
 
 from __future__ import annotations

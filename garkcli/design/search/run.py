@@ -106,7 +106,7 @@ class Result(Mutable):
     Attributes:
         starts: how many have been tried.
         successes: how many of them solve the conditions in floats.
-        degenerate: how many of the different solutions that were looked into are no methods:
+        degenerate: how many of the different solutions that were searched are no methods:
             no solution with more digits is near.
         unstable: how many of them are not shown to be as stable as the file wants.
         methods: each once, in the order of the starts.
@@ -192,7 +192,7 @@ def do(search: Search, task: Task) -> Timed:
 
 
 MOST = 5
-"""Methods that are looked for where nothing is said."""
+"""Methods that are sought where nothing is said."""
 
 
 def search_methods(
@@ -238,11 +238,11 @@ def results(
     """Search from random starts; the same object again and again, with more and more in it.
 
     Args:
-        search: what is looked for.
+        search: what is sought.
         starts: how many.
         seed: of the starts.
         most: the most methods to look for; other successes are counted.
-        workers: who does the work; what is found does not hang on that.
+        workers: who does the work; what is found does not depend on that.
     """
     workers = workers or Alone(partial(do, search))
     coming = search.starts(seed, starts)

@@ -45,7 +45,7 @@ class Signs:
 
     Args:
         family: of methods.
-        bits: of the points; what is said is said of all numbers within 2^(−bits/2) of one.
+        bits: of the points; statements hold for all numbers within 2^(−bits/2) of one.
     """
 
     def __init__(self, family: Family, bits: int) -> None:
@@ -257,7 +257,9 @@ class Search:
 
     @cached_property
     def _preferences(self) -> list[list[RationalFunction]]:
-        """What is to be short, in two orders: one may lead to rational numbers, the other not."""
+        """The unknowns that are to be short, in two orders: one may lead to rational numbers, the
+        other not.
+        """
         nodes = list(nodes_of(self.tableau, self.family.ring))
         names = unknowns_of(self.family.ring)
         return [nodes + names, nodes + names[::-1]]

@@ -247,7 +247,7 @@ def _polynomials(at: PartReader, found: g.Found) -> Callable[[TableauOf, Values]
 
 def _whole(at: PartReader, rows: Rows, node: Node, name: str, nodes: int) -> Rows:
     """The matrix with a row less than nodes and a column a node; what is left out at the right is
-    zero, and a first row of zeros, that of the beginning, may stand before the others.
+    zero, and a first row of zeros, that of the beginning, may be before the others.
     """
     if len(rows) == nodes and not any(map(_is_nonzero, rows[0])):
         rows = rows[1:]

@@ -40,7 +40,7 @@ Raises:
     MethodFileError: there is none of that name, or it is no method on its own.
 """
 Written: TypeAlias = Callable[[Node, str], Description | None]
-"""Reads a method that stands in this file, called so in messages."""
+"""Reads a method that is in this file, called so in messages."""
 
 
 class PartReader(Reading):
@@ -76,7 +76,7 @@ class PartReader(Reading):
         """A method: a family, coefficients of any form, or a name.
 
         Args:
-            node: where it stands.
+            node: the place in the file.
             where: what it is, for messages.
             why: what does not work where its stages cannot be given by points; empty where any
                 stages will do.
@@ -144,7 +144,7 @@ class PartReader(Reading):
         """What is made from the methods that were read.
 
         Args:
-            node: where it stands.
+            node: the place in the file.
             make: what makes it.
             rounding: of its own numbers.
         """

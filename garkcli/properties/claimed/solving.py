@@ -12,7 +12,7 @@ from garkcli.properties.subject import Subject
 from garkcli.reason import NO_REASON, Reason
 
 UNDECIDED = "an entry may be zero"
-"""Why the order of the stages is left open."""
+"""Why the order of the stages is undecided."""
 
 
 def what_is_solved_for(subject: Subject) -> Reason:

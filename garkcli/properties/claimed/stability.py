@@ -77,7 +77,7 @@ def _left_pole(Q: Polynomial) -> str:
 
 
 def _roots(Q: Polynomial) -> list[acb]:
-    """Enclosures of the roots, which are simple: with more bits until they are told apart."""
+    """Enclosures of the roots, which are simple: with more bits until they are separate."""
     bits = _BITS
     while True:
         ctx.prec = bits

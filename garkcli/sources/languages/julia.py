@@ -65,7 +65,7 @@ class Token(Frozen):
         sign: empty for an operand.
         start, end: its bytes.
         operand: what it is.
-        is_prefix: whether the sign stands before a value.
+        is_prefix: whether the sign is before a value.
     """
 
     sign: str

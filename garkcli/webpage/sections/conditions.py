@@ -57,7 +57,7 @@ def _content(method: Reported) -> Content | None:
 
 
 def _wanted(method: Reported) -> int:
-    """Up to which order: that which was asked for, or the first of which a condition fails."""
+    """Up to which order: that which was requested, or the first of which a condition fails."""
     if method.wanted_order is not None:
         return method.wanted_order
     found = method.outcome.found

@@ -22,11 +22,11 @@ from garkcli.webpage.tree_picture import tree_picture
 
 WITH_TIME = ("nonautonomous_order", "embedded_nonautonomous_order")
 ORDERS = ("order", "embedded_order", "dense_order", "conjugate_order", "pair_order", *WITH_TIME)
-"""The rows of ``gark check`` that are told here: exact orders, those within a tolerance, of every
-value of parameters, of dense output.
+"""The rows of ``gark check`` that are reported here: exact orders, those within a tolerance, of
+every value of parameters, of dense output.
 """
 NOTES = {"embedded_order": "error_estimate", "dense_order": "dense"}
-"""Rows that are told below others."""
+"""Rows that are reported below others."""
 
 
 class Shown(Frozen):
