@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from itertools import permutations
 from typing import TypeAlias
 
@@ -17,37 +17,31 @@ from garkcli.comparison.grid import (
     have_one_shape,
 )
 from garkcli.conversion.sheet import CannotConvert, Sheet, of_weights
-from garkcli.conversion.stages import stage_classes
 from garkcli.errors import LimitExceeded
 from garkcli.exact.field import ZERO
-from garkcli.exact.matrix import Matrix
 from garkcli.frozen import Frozen, replace
 from garkcli.properties.reduction import reduced
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.pointwise import Row
 from garkcli.tableau.stages import PointSpace
-from garkcli.tableau.tableau import Edge, Tableau
+from garkcli.tableau.tableau import Tableau
 
 Stage: TypeAlias = tuple[int, int]
 """A stage: its colour, and its number there."""
 Images: TypeAlias = tuple[tuple[int, ...], ...]
 """For each colour the stages of the other method that its stages are."""
-_Classes: TypeAlias = tuple[Mapping[Stage, int], Mapping[Stage, int]]
 _Candidates: TypeAlias = dict[Stage, list[int]]
 MAX_TRIALS = 3000
 """So many stages are tried before the search ends."""
 
 
-def find_matching(
-    one: Grid, other: Grid, likeness: Likeness, classes: _Classes | None = None
-) -> Images | None:
+def find_matching(one: Grid, other: Grid, likeness: Likeness) -> Images | None:
     """The stages of ``other`` that the stages of ``one`` are; None where no renumbering does it.
 
     Args:
         one: a method.
         other: another.
         likeness: when entries count as the same.
-        classes: stages in different classes are known to be different.
 
     Raises:
         LimitExceeded: more than ``MAX_TRIALS`` stages were tried.
@@ -58,25 +52,12 @@ def find_matching(
     for l, stages in enumerate(one.stages):
         for i in range(stages):
             own = _own(one, l, i)
-            candidates[l, i] = []
-            for j in range(stages):
-                if _are_apart(classes, (l, i), (l, j)):
-                    continue
-                if likeness.rows(own, _own(other, l, j)):
-                    candidates[l, i].append(j)
-    search = _Search(one, other, likeness)
-    chosen = next(search.completions(candidates, {}), None)
+            images = (j for j in range(stages) if likeness.rows(own, _own(other, l, j)))
+            candidates[l, i] = list(images)
+    chosen = next(_Search(one, other, likeness).completions(candidates, {}), None)
     if chosen is None:
         return None
     return tuple(tuple(chosen[l, i] for i in range(stages)) for l, stages in enumerate(one.stages))
-
-
-def _are_apart(classes: _Classes | None, stage: Stage, other: Stage) -> bool:
-    """Whether classes are known, and tell two stages apart."""
-    if classes is None:
-        return False
-    first, second = classes
-    return first[stage] != second[other]
 
 
 def _own(grid: Grid, l: int, i: int) -> Row:
@@ -224,9 +205,9 @@ def find_sameness(one: GarkMethod, other: GarkMethod, views: Views, allowed: fmp
     if views.sheets is None and _same_algebra(one.tableau, other.tableau):
         return Answer(_plainly(views.one))
     try:
-        same = _as_they_are(views, ZERO) or _once_reduced(views)
+        same = _as_they_are(views.one, views.other, ZERO) or _once_reduced(views)
         if same is None and allowed:
-            same = _as_they_are(views, allowed)
+            same = _as_they_are(views.one, views.other, allowed)
     except LimitExceeded as error:
         return Answer(None, error.message)
     if same is not None and views.sheets is None and not same.allowed:
@@ -256,74 +237,39 @@ def _same_algebra(one: Tableau, other: Tableau) -> bool:
     return one.blocks == other.blocks
 
 
-def _as_they_are(views: Views, allowed: fmpq) -> Sameness | None:
+def _as_they_are(one: Grid, other: Grid, allowed: fmpq) -> Sameness | None:
     """The methods as they are, with their further weights or without."""
-    one, other = views.one, views.other
-    same = _matched(one, other, allowed, views.sheets)
-    has_further = one.further or other.further
-    if same is not None or not has_further:
+    same = _matched(one, other, allowed)
+    if same is not None or not (one.further or other.further):
         return same
-    steps = None if views.sheets is None else _steps(views.sheets)
-    one, other = one.of_the_step, other.of_the_step
-    return _marked(_matched(one, other, allowed, steps), step_only=True)
-
-
-def _marked(same: Sameness | None, **marks: bool) -> Sameness | None:
-    """The same with a remark."""
-    return None if same is None else replace(same, **marks)
+    same = _matched(one.of_the_step, other.of_the_step, allowed)
+    return None if same is None else replace(same, step_only=True)
 
 
 def _once_reduced(views: Views) -> Sameness | None:
     """The same of what is left of the methods when they are reduced."""
-    if views.sheets is None:
-        return None
-    same = _matched_when_reduced(views.sheets)
-    has_further = views.one.further or views.other.further
-    if same is None and has_further:
-        same = _matched_when_reduced(_steps(views.sheets))
-        same = _marked(same, step_only=True)
-    return _marked(same, is_reduced=True)
+    has_further = bool(views.one.further or views.other.further)
+    for step_only in (False, True) if has_further else (False,):
+        sheets = [Sheet(x.tableau) if step_only else x for x in views.sheets or ()]
+        try:
+            smaller = [of_weights(sheet, reduced) for sheet in sheets]
+        except CannotConvert:
+            continue
+        if [x.tableau for x in smaller] != [x.tableau for x in sheets]:
+            one, other = map(grid_of, smaller)
+            same = _matched(one, other, ZERO)
+            if same is not None:
+                return replace(same, is_reduced=True, step_only=step_only)
+    return None
 
 
-def _matched_when_reduced(sheets: tuple[Sheet, Sheet]) -> Sameness | None:
-    smaller = _smaller(sheets)
-    if smaller is None:
-        return None
-    one, other = map(grid_of, smaller)
-    return _matched(one, other, ZERO, smaller)
-
-
-def _smaller(sheets: tuple[Sheet, Sheet]) -> tuple[Sheet, Sheet] | None:
-    """Both methods reduced; None where that changes neither."""
-    first, second = sheets
-    try:
-        one = of_weights(first, reduced)
-        other = of_weights(second, reduced)
-    except CannotConvert:
-        return None
-    is_changed = one.tableau != first.tableau or other.tableau != second.tableau
-    return (one, other) if is_changed else None
-
-
-def _steps(sheets: tuple[Sheet, Sheet]) -> tuple[Sheet, Sheet]:
-    """The same without further weights."""
-    one, other = sheets
-    return Sheet(one.tableau), Sheet(other.tableau)
-
-
-def _matched(
-    one: Grid, other: Grid, allowed: fmpq, sheets: tuple[Sheet, Sheet] | None
-) -> Sameness | None:
+def _matched(one: Grid, other: Grid, allowed: fmpq) -> Sameness | None:
     """The renumbering of colours and stages that makes one of the other."""
     likeness = Likeness(allowed)
     if likeness.grids(one, other):
         return replace(_plainly(one), allowed=allowed)
     for order in _orders(one, other):
-        turned = other.with_colours(order)
-        classes = None
-        if sheets is not None and not allowed:
-            classes = _classes(sheets[0], sheets[1], order)
-        images = find_matching(one, turned, likeness, classes)
+        images = find_matching(one, other.with_colours(order), likeness)
         if images is not None:
             return Sameness(order, images, allowed=allowed)
     return None
@@ -342,30 +288,3 @@ def _orders(one: Grid, other: Grid) -> Iterator[tuple[int, ...]]:
     for order in permutations(colours):
         if tuple(other.stages[l] for l in order) == one.stages:
             yield order
-
-
-def _classes(
-    one: Sheet, other: Sheet, order: tuple[int, ...]
-) -> tuple[Mapping[tuple[int, int], int], Mapping[tuple[int, int], int]]:
-    """Classes of stages of the first method and of the second with its colours in an order."""
-    turned = _with_colours(other, order)
-    has_embedded = [x.further.embedded is not None for x in (one, turned)]
-    if len({*has_embedded}) > 1 or len(one.further.rows) != len(turned.further.rows):
-        one, turned = _steps((one, turned))
-    first, second = stage_classes([one, turned])
-    return first, second
-
-
-def _with_colours(sheet: Sheet, order: tuple[int, ...]) -> Sheet:
-    """A sheet in which each colour has stages of its own, with the colours in an order."""
-    old = sheet.tableau
-    place: dict[int, int] = {}
-    colours = []
-    for k, l in enumerate(order):
-        place[l] = k
-        colours.append(replace(old.colours[l], space=k))
-    blocks: dict[Edge, Matrix] = {}
-    for (l, m), block in old.blocks.items():
-        blocks[place[l], place[m]] = block
-    tableau = Tableau(tuple(old.spaces[l] for l in order), tuple(colours), blocks)
-    return Sheet(tableau, sheet.further.of_colours(order))

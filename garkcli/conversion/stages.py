@@ -8,7 +8,7 @@ method turns into each other are in one class; classes have an order that no num
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping
 from functools import cmp_to_key
 from heapq import heapify, heappop, heappush
 from typing import Any, TypeAlias
@@ -31,59 +31,33 @@ _Glances: TypeAlias = dict[Stage, list[tuple[int, int, int]]]
 _Ranks: TypeAlias = Mapping[Number, int]
 
 
-def stage_classes(sheets: Sequence[Sheet]) -> list[Classes]:
-    """The classes of the stages of methods whose numbers are from one field.
-
-    Equal numbers in two of the results mean that nothing tells the stages apart.
+def stage_classes(sheet: Sheet) -> Classes:
+    """The classes of the stages of a method.
 
     >>> from garkcli.conversion.sheet import sheet_of
     >>> from garkcli.methodfile.load import loads
-    >>> one = sheet_of(loads("{A: [[0, 0], [1, 0]], b: [1/2, 1/2]}"))
-    >>> other = sheet_of(loads("{A: [[0, 1], [0, 0]], b: [1/2, 1/2]}"))
-    >>> stage_classes([one, other])
-    [{(0, 0): 0, (0, 1): 1}, {(0, 0): 1, (0, 1): 0}]
+    >>> stage_classes(sheet_of(loads("{A: [[0, 1], [0, 0]], b: [1/2, 1/2]}")))
+    {(0, 0): 1, (0, 1): 0}
     """
-    ranks = _ranks(sheets)
-    classes = _numbered([_first(sheet, ranks) for sheet in sheets])
+    different = {number for row in all_rows(sheet) for number in row}
+    ordered = sorted(different, key=cmp_to_key(_compared))
+    ranks = {number: k for k, number in enumerate(ordered)}
+    classes = _numbered(_first(sheet, ranks))
     while True:
-        before = _count(classes)
-        sights = []
-        for sheet, known in zip(sheets, classes, strict=True):
-            sights.append(_sights(sheet.tableau, known, ranks))
-        finer = _numbered(sights)
-        if _count(finer) == before:
+        finer = _numbered(_sights(sheet.tableau, classes, ranks))
+        if len({*finer.values()}) == len({*classes.values()}):
             return classes
         classes = finer
 
 
-def _count(classes: Iterable[Classes]) -> int:
-    numbers: set[int] = set()
-    for found in classes:
-        numbers.update(found.values())
-    return len(numbers)
-
-
-def _numbered(found: Sequence[Mapping[Stage, _Signature]]) -> list[Classes]:
-    """The places of signatures among all signatures in ascending order."""
-    different: set[_Signature] = set()
-    for signatures in found:
-        different.update(signatures.values())
-    place = {signature: k for k, signature in enumerate(sorted(different))}
-    return [{stage: place[x] for stage, x in signatures.items()} for signatures in found]
-
-
-def _ranks(sheets: Iterable[Sheet]) -> _Ranks:
-    """The place of each number among all numbers in ascending order."""
-    different: set[Number] = set()
-    for sheet in sheets:
-        for row in all_rows(sheet):
-            different.update(row)
-    ordered = sorted(different, key=cmp_to_key(_compared))
-    return {number: k for k, number in enumerate(ordered)}
-
-
 def _compared(x: Number, y: Number) -> int:
     return sign(x - y)
+
+
+def _numbered(signatures: Mapping[Stage, _Signature]) -> Classes:
+    """The places of signatures in ascending order."""
+    place = {signature: k for k, signature in enumerate(sorted({*signatures.values()}))}
+    return {stage: place[x] for stage, x in signatures.items()}
 
 
 def _first(sheet: Sheet, ranks: _Ranks) -> dict[Stage, _Signature]:
@@ -136,7 +110,7 @@ def in_order(sheet: Sheet) -> Sheet:
     decided by nodes, weights and entries. Two numberings of a method give the same, unless only
     a search could tell their stages apart.
     """
-    return _arranged(sheet, stage_classes([sheet])[0])
+    return _arranged(sheet, stage_classes(sheet))
 
 
 def in_solving_order(sheet: Sheet) -> Sheet:
