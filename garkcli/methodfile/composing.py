@@ -39,76 +39,7 @@ class TooLargeError(Exception):
         self.message, self.cure = message, cure
 
 
-_COMMENT = re.compile(r" *(#[^\0\r\n\x85\u2028\u2029]*)?")
-_KEY = re.compile(r"[\w.+*/^()-]+(?=: )")
-_ITEM = re.compile(r"[\w.+*/^()-]+(?=[],}]|: )")
-"""What is a whole key outside of brackets, a whole key or item inside of them; not all of these."""
-
-
-class _Scanner(yaml.SafeLoader):
-    """PyYAML's scanner with short ways to what is usual in method files; the rest is PyYAML's."""
-
-    def __init__(self, text: str) -> None:
-        self._is_next_known = False
-        super().__init__(text)
-
-    def _find_next(self) -> None:
-        """The next token is read, and those that tell what it is."""
-        while self.need_more_tokens():
-            self.fetch_more_tokens()
-        self._is_next_known = True
-
-    def check_token(self, *choices: Any) -> bool:
-        """Whether the next token is one of these."""
-        if not self._is_next_known:
-            self._find_next()
-        return bool(self.tokens) and (not choices or isinstance(self.tokens[0], choices))
-
-    def peek_token(self) -> yaml.Token | None:
-        """The next token, which stays."""
-        if not self._is_next_known:
-            self._find_next()
-        return self.tokens[0] if self.tokens else None
-
-    def get_token(self) -> yaml.Token | None:
-        """The next token, which is taken."""
-        token = self.peek_token()
-        if token is not None:
-            self._is_next_known = False
-            self.tokens_taken += 1
-            del self.tokens[0]
-        return token
-
-    def forward(self, length: int = 1) -> None:
-        """Go over some signs; those that are printed end no line."""
-        end = self.pointer + length
-        if end < len(self.buffer) and self.buffer[self.pointer : end].isprintable():
-            self.pointer = end
-            self.index += length
-            self.column += length
-        else:
-            super().forward(length)
-
-    def scan_to_next_token(self) -> None:
-        """Go over blanks and a comment at once."""
-        found = _COMMENT.match(self.buffer, self.pointer)
-        if found and found[0]:
-            self.forward(len(found[0]))
-        if self.buffer[self.pointer] in "\r\n\x85\u2028\u2029\ufeff":
-            super().scan_to_next_token()
-
-    def scan_plain(self) -> yaml.ScalarToken:
-        """A plain value."""
-        found = (_ITEM if self.flow_level else _KEY).match(self.buffer, self.pointer)
-        if found is None:
-            return super().scan_plain()
-        start = self.get_mark()
-        self.forward(len(found[0]))
-        self.allow_simple_key = False
-        return yaml.ScalarToken(found[0], True, start, self.get_mark())
-
-
-class _Composer(_Scanner):
+class _Composer(yaml.SafeLoader):
     """PyYAML's composer; it refuses too many values and too deep nesting as it meets them."""
 
     def __init__(self, text: str) -> None:
@@ -178,19 +109,14 @@ def composed(text: str) -> Node | Fault | None:
     except yaml.MarkedYAMLError as error:
         return yaml_fault(error)
     except yaml.YAMLError as error:
-        return _fault_of_sign(text, error)
-
-
-def _fault_of_sign(text: str, error: yaml.YAMLError) -> Fault:
-    """A sign that YAML refuses, or one that is none."""
-    sign = getattr(error, "character", "")
-    if isinstance(sign, int) and 0xD800 <= sign <= 0xDFFF:
-        message = "half a sign, which no text has"
-        cure, code = "write the text as Unicode", "not-utf8"
-    else:
-        message = f"this is not YAML: {str(error).splitlines()[0]}"
-        cure, code = "leave the control character out", "not-yaml"
-    return Fault(message, cure, *place_of_sign(text, sign), code=code)
+        sign = getattr(error, "character", "")
+        if isinstance(sign, int) and 0xD800 <= sign <= 0xDFFF:
+            message = "half a sign, which no text has"
+            cure, code = "write the text as Unicode", "not-utf8"
+        else:
+            message = f"this is not YAML: {str(error).splitlines()[0]}"
+            cure, code = "leave the control character out", "not-yaml"
+        return Fault(message, cure, *place_of_sign(text, sign), code=code)
 
 
 def compose(text: str) -> Node | None:
