@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import cached_property
-from typing import TYPE_CHECKING, TypeAlias, TypeVar
+from itertools import permutations
+from typing import TYPE_CHECKING, Generic, TypeAlias, TypeVar
 
 from flint import fmpq
 from yaml.nodes import Node
@@ -18,6 +19,7 @@ from garkcli.methodfile.description import (
     ButcherText,
     ClaimText,
     ConstructionText,
+    Content,
     Description,
     FamilyText,
     Form,
@@ -31,7 +33,7 @@ from garkcli.methodfile.description import (
     block_name,
     further_of,
 )
-from garkcli.methodfile.numbers import Entry, Numbers, Row, Rows
+from garkcli.methodfile.numbers import Entry, Numbers, Row
 from garkcli.methodfile.source import Source
 from garkcli.methodfile.values import Values
 from garkcli.order.certificate import find_order
@@ -93,7 +95,6 @@ class BlockBuilder:
         self.text = text
         self.methods = methods
         self.tolerance = tolerance
-        self._orders: dict[int, int] = {}
 
     def built(self, is_general: bool) -> Blocks:
         """All blocks; the one at which the second colour sees the first where the structure of
@@ -102,11 +103,8 @@ class BlockBuilder:
         Raises:
             MethodFileError: a block cannot be made.
         """
-        colours = range(len(self.methods))
-        every = [(l, m) for l in colours for m in colours if l != m]
-        needed = every if is_general else [(1, 0)]
         blocks: Blocks = {}
-        for l, m in needed:
+        for l, m in permutations(range(len(self.methods)), 2) if is_general else [(1, 0)]:
             text = self._text_of(l, m)
             try:
                 blocks[l, m] = self._block(text, l, m)
@@ -126,31 +124,46 @@ class BlockBuilder:
         return own or transfer.default
 
     def _block(self, text: MatrixText | RuleText | None, l: int, m: int) -> Matrix:
+        """A block that is spelled out, or made by one rule, or by several with weights."""
         if text is None:
             cure = "give it one, or a default, under transfer"
             raise MethodError("it has no rule", cure, code="missing-key")
         if isinstance(text, MatrixText):
-            return self._matrix(text, l, m)
-        return self._by_rule(text, l, m)
-
-    def _matrix(self, text: MatrixText, l: int, m: int) -> Matrix:
-        """A block that the file spells out."""
-        wanted = self.methods[l].stages, self.methods[m].stages
-        found = len(text.rows), len(text.rows[0])
-        if found != wanted:
-            message = "a matrix of {} by {} should be {} by {}".format(*found, *wanted)
-            cure = f"a row for each stage of method {l + 1}, a column for each of method {m + 1}"
-            raise ShapeMismatch(message, cure)
-        return self.values.matrix(text.rows)
-
-    def _by_rule(self, text: RuleText, l: int, m: int) -> Matrix:
-        """A block by one rule, or by several with weights."""
+            wanted = self.methods[l].stages, self.methods[m].stages
+            found = len(text.rows), len(text.rows[0])
+            if found != wanted:
+                message = "a matrix of {} by {} should be {} by {}".format(*found, *wanted)
+                cure = (
+                    f"a row for each stage of method {l + 1}, a column for each of method {m + 1}"
+                )
+                raise ShapeMismatch(message, cure)
+            return self.values.matrix(text.rows)
         rule, weight = text.terms[0]
         if weight is not None:
             return self._combined(text, l, m)
         if rule in PAIR_RULES:
-            return self._of_both(rule, l, m)
+            base = build_on(self.methods, self._orders, l, m)
+            other = l if base == m else m
+            return symplectic_blocks(PAIR_RULES[rule], self.methods, base, other)[l, m]
         return self._rule(rule, text.degree)(self.methods[l], self.methods[m])
+
+    def _combined(self, text: RuleText, l: int, m: int) -> Matrix:
+        """A combination of blocks by rules.
+
+        Raises:
+            MethodError: its weights do not sum to 1.
+        """
+        terms = [
+            (self.values.number(x), self._rule(rule)) for rule, x in text.terms if x is not None
+        ]
+        total = sum((tau for tau, _ in terms), start=ZERO)
+        if total != ONE:
+            raise MethodError(
+                f"the weights of the combination sum to {total}, not to 1",
+                "weights that sum to 1 keep the block consistent",
+                code="weights-of-combination",
+            )
+        return combination(terms, self.methods[l], self.methods[m])
 
     def _rule(self, name: str, degree: int | None = None) -> Rule:
         """A rule that makes one block, with its degree where it has one."""
@@ -161,34 +174,10 @@ class BlockBuilder:
         """The diagonal methods on their own, rounded where the file is."""
         return [meant(gark([method], {}), self.tolerance) for method in self.methods]
 
-    def _of_both(self, rule: str, l: int, m: int) -> Matrix:
-        """A block by a rule that makes it together with the opposite one."""
-        base = build_on(self.methods, [self._order(k) for k in range(len(self.methods))], l, m)
-        other = l if base == m else m
-        return symplectic_blocks(PAIR_RULES[rule], self.methods, base, other)[l, m]
-
-    def _combined(self, text: RuleText, l: int, m: int) -> Matrix:
-        """A combination of blocks by rules.
-
-        Raises:
-            MethodError: its weights do not sum to 1.
-        """
-        given = [(x, tau) for x, tau in text.terms if tau is not None]
-        terms = [(self.values.number(tau), self._rule(x)) for x, tau in given]
-        total = sum((tau for tau, _ in terms), start=ZERO)
-        if total != ONE:
-            raise MethodError(
-                f"the weights of the combination sum to {total}, not to 1",
-                "weights that sum to 1 keep the block consistent",
-                code="weights-of-combination",
-            )
-        return combination(terms, self.methods[l], self.methods[m])
-
-    def _order(self, l: int) -> int:
-        """The order of a diagonal method on its own, found once."""
-        if l not in self._orders:
-            self._orders[l] = find_order(gark([self.methods[l]], {})).order
-        return self._orders[l]
+    @cached_property
+    def _orders(self) -> list[int]:
+        """Their orders."""
+        return [find_order(gark([method], {})).order for method in self.methods]
 
 
 T = TypeVar("T")
@@ -235,65 +224,74 @@ class MethodFile(GarkMethod, kw_only=True):
     rules: tuple[BlockRule, ...] = ()
 
 
-class Builder:
-    """Builds the tableau of one description; what the mathematics refuses becomes a fault at its
-    place.
+V = TypeVar("V", bound=Values)
+
+
+class Builder(Generic[V]):
+    """Builds the method that a file, or a part of it, describes; what the mathematics refuses
+    becomes a fault at its place.
+
+    Attributes:
+        values: of all coefficients.
+        tableau: the method.
+
+    Raises:
+        MethodFileError: the numbers do not make a method.
     """
 
-    def __init__(
-        self,
-        source: Source,
-        values: Values,
-        families: Mapping[int, Method],
-        nodes: Mapping[int, Row],
-    ) -> None:
-        self.source = source
+    def __init__(self, text: PartText, values: V) -> None:
+        self.source = text.source
+        self.text = text
         self.values = values
-        self.families = families
-        self.nodes = nodes
         self._parts: dict[int, Tableau] = {}
+        description = text.description
+        self.tableau = self._tableau(description.content, description)
+        if description.is_conjugate:
+            self.tableau = self._at(description.node, lambda: conjugate(self.tableau))
 
-    def tableau(self, description: Description) -> Tableau:
-        """The tableau that the file describes.
-
-        Raises:
-            MethodFileError: the numbers do not make a method.
-        """
-        content = description.content
+    def _tableau(self, content: Content, description: Description) -> Tableau:
+        matrix, vector = self.values.matrix, self.values.vector
         match content:
             case MethodsText():
-                tableau = self._methods(content, description)
-            case TableauText():
-                tableau = self._spelled_out(content)
-            case ArkText():
-                A, b = map(self.values.matrix, content.A), map(self.values.vector, content.b)
-                tableau = additive([*A], [*b], self._vector(content.c))
+                return self._methods(content, description)
+            case TableauText(A=A, b=b, c=c, linear=linear):
+                return spelled_out(
+                    [[None if block is None else matrix(block) for block in row] for row in A],
+                    [*map(vector, b)],
+                    [None if row is None else vector(row) for row in c],
+                    linear,
+                )
+            case ArkText(A=A, b=b, c=c):
+                nodes = None if c is None else vector(c)
+                return additive([*map(matrix, A)], [*map(vector, b)], nodes)
             case PrkText():
-                tableau = self._prk(content, description.structure)
+                q, p = self._plain(content.q), self._plain(content.p)
+                if description.structure == "general":
+                    return partitioned(butcher(*q), butcher(*p))
+                tableau = separable_prk(q, p)
+                is_nystrom = description.structure == "nystrom"
+                return with_linear(tableau, ["q"]) if is_nystrom else tableau
             case ConstructionText():
                 for part in content.parts:  # all are built
                     self.part(part)
-                tableau = self._at(content.node, lambda: content.make(self.part, self.values))
-        if description.is_conjugate:
-            tableau = self._at(description.node, lambda: conjugate(tableau))
-        return tableau
+                return self._at(content.node, lambda: content.make(self.part, self.values))
 
     def part(self, part: PartText) -> Tableau:
         """A method that another is made from, built as if it stood alone."""
         if id(part) not in self._parts:
-            builder = Builder(part.source, self.values, part.families, part.nodes)
-            self._parts[id(part)] = builder.tableau(part.description)
+            self._parts[id(part)] = Builder(part, self.values).tableau
         return self._parts[id(part)]
 
-    def further(self, description: Description, tableau: Tableau) -> Further:
-        """The embedded weights and the dense output of a file, for the colours of its tableau.
+    @cached_property
+    def further(self) -> Further:
+        """The embedded weights and the dense output, for the colours of the tableau.
 
         In a pair V^{l} and F^{l} evaluate at the same stages and have the same weights.
         """
-        texts = further_of(description.content)
+        texts = further_of(self.text.description.content)
         if not texts:  # what a construction makes has none
             return Further()
-        given = [texts[colour.term] for colour in tableau.colours]
+        given = [texts[colour.term] for colour in self.tableau.colours]
         embedded = [self.values.vector(x.embedded) for x in given if x.embedded is not None]
         blocks = [self.values.matrix(x.dense) for x in given if x.dense is not None]
         dense = None
@@ -312,29 +310,10 @@ class Builder:
             self.source.fault(node, error.message, error.help, code=error.code)
             raise self.source.error() from None
 
-    def _vector(self, row: Row | None) -> Vector | None:
-        """The values of a row that may be left out."""
-        return None if row is None else self.values.vector(row)
-
-    def _matrix(self, rows: Rows | None) -> Matrix | None:
-        """The values of a block that may be null."""
-        return None if rows is None else self.values.matrix(rows)
-
-    def _spelled_out(self, text: TableauText) -> Tableau:
-        A = [[self._matrix(block) for block in row] for row in text.A]
-        b = [self.values.vector(row) for row in text.b]
-        return spelled_out(A, b, [self._vector(row) for row in text.c], text.linear)
-
-    def _prk(self, text: PrkText, structure: Structure) -> Tableau:
-        q, p = self._part(text.q), self._part(text.p)
-        if structure == "general":
-            return partitioned(butcher(*q), butcher(*p))
-        tableau = separable_prk(q, p)
-        return with_linear(tableau, ["q"]) if structure == "nystrom" else tableau
-
-    def _part(self, text: ButcherText) -> tuple[Matrix, Vector, Vector | None]:
-        """A, b and c of one part."""
-        return self.values.matrix(text.A), self.values.vector(text.b), self._vector(text.c)
+    def _plain(self, text: ButcherText) -> tuple[Matrix, Vector, Vector | None]:
+        """A, b and c of one spelled-out method."""
+        c = None if text.c is None else self.values.vector(text.c)
+        return self.values.matrix(text.A), self.values.vector(text.b), c
 
     def _methods(self, text: MethodsText, description: Description) -> Tableau:
         methods = [self._diagonal(l, method) for l, method in enumerate(text.methods)]
@@ -349,53 +328,42 @@ class Builder:
         return with_linear(both, ["V1"]) if structure == "nystrom" else both
 
     def _diagonal(self, l: int, text: FamilyText | ButcherText) -> Method:
-        if isinstance(text, FamilyText):
-            if l not in self.families:
-                return text.recipe.make(self.values.vector(text.numbers))
-            method = self.families[l]
-            if l not in self.nodes:
-                return method
-            from garkcli.tableau.pointwise import method_in_points
+        if isinstance(text, ButcherText):
+            return butcher(*self._plain(text), text.name)
+        if l not in self.text.families:
+            return text.recipe.make(self.values.vector(text.numbers))
+        method = self.text.families[l]
+        if l not in self.text.nodes:
+            return method
+        from garkcli.tableau.pointwise import method_in_points
 
-            return method_in_points(method, self.values.vector(self.nodes[l]))
-        return butcher(*self._part(text), text.name)
+        return method_in_points(method, self.values.vector(self.text.nodes[l]))
 
 
-def families_of(description: Description) -> dict[int, Method]:
-    """The methods of a file that are members of families, by number from 0, each made once; not
-    those that are made of numbers of the file.
+def part_of(source: Source, numbers: Numbers, description: Description, why: str = "") -> PartText:
+    """What a description says, with the members of families in it and the nodes of those that are
+    taken at points.
+
+    The entries of a block that is spelled out, and weights that a file has beside a member, refer
+    to single stages, so its methods need one coordinate a stage.
+
+    Args:
+        source: the file.
+        numbers: the coefficients of the file, to which the nodes are added.
+        description: of the method.
+        why: what needs the nodes of all members; empty where nothing does.
     """
     content = description.content
     if not isinstance(content, MethodsText):
-        return {}
+        return PartText(source, description, {}, {})
     made: dict[object, Method] = {}
-    found: dict[int, Method] = {}
+    families: dict[int, Method] = {}
     for l, text in enumerate(content.methods):
         if isinstance(text, FamilyText) and not text.numbers:
             key = text.name, text.chosen
             if key not in made:
                 made[key] = text.recipe.make(())
-            found[l] = made[key]
-    return found
-
-
-def nodes_to_spell_out(
-    description: Description, families: Mapping[int, Method], numbers: Numbers, why: str = ""
-) -> dict[int, Row]:
-    """For each family that meets a spelled-out block, or has weights of the file beside it, its
-    nodes as coefficients of the file.
-
-    The entries of such a block refer to single stages, so its methods need one coordinate a stage.
-
-    Args:
-        description: of the method.
-        families: its members of families.
-        numbers: the coefficients of the file, to which the nodes are added.
-        why: what needs the nodes of all of them; empty where nothing does.
-    """
-    content = description.content
-    if not isinstance(content, MethodsText):
-        return {}
+            families[l] = made[key]
     blocks = content.transfer.blocks.items()
     beside = [k for place, block in blocks if isinstance(block, MatrixText) for k in place]
     beside += [l for l, x in enumerate(content.methods) if x.further.node is not None or why]
@@ -408,7 +376,7 @@ def nodes_to_spell_out(
         if nodes is not None:
             rows[k] = nodes
             numbers.entries += nodes
-    return rows
+    return PartText(source, description, families, rows)
 
 
 def _family_nodes(text: FamilyText, space: StageSpace, numbers: Numbers, why: str) -> Row | None:

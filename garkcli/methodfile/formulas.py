@@ -194,34 +194,39 @@ class Term(Frozen):
     made: Expr
 
 
-class TermReader(Frozen):
-    """Reads formulas with variables; faults are noted in the source."""
+class Maker:
+    """What makes the problem of one file; faults are noted in its source.
 
-    source: Source
-    formulas: Formulas
+    Attributes:
+        source: the file.
+        formulas: its parameters, read already.
+        text: what it says.
+        symbols: of all names.
+    """
+
+    def __init__(self, formulas: Formulas, text: ProblemText, symbols: Iterable[Any]) -> None:
+        self.source = formulas.source
+        self.formulas = formulas
+        self.text = text
+        self.symbols: Mapping[str, Expr] = {str(x): x for x in symbols}
 
     def terms(
-        self,
-        items: Sequence[tuple[Node, str]],
-        symbols: Mapping[str, Expr],
-        names: Mapping[str, str] | None,
-        noun: str,
+        self, items: Iterable[tuple[Node, str]], names: Mapping[str, str], noun: str
     ) -> list[Term]:
-        """The formulas without faults.
+        """The formulas without faults; where the variables have faults there are none.
 
         Args:
             items: each formula with what it is called in messages.
-            symbols: of all names.
-            names: for names that may not be here, the cure; "" for those that may. None where
-                the variables have faults: then nothing is translated.
+            names: for names that may not stand here, the cure; "" for those that may.
             noun: what a name can be here.
         """
-        allowed = [name for name, cure in (names or {}).items() if not cure]
-        translator = self.formulas.translator({name: symbols[name] for name in allowed})
+        known = names if self.text.are_named else None
+        allowed = [name for name, cure in (known or {}).items() if not cure]
+        translator = self.formulas.translator({name: self.symbols[name] for name in allowed})
         found = []
         for node, where in items:
-            expression = self.formulas.parsed(node, where, names, noun)
-            if expression is None or names is None:
+            expression = self.formulas.parsed(node, where, known, noun)
+            if expression is None or known is None:
                 continue
             try:
                 made = translator.translate(expression)
@@ -230,6 +235,11 @@ class TermReader(Frozen):
             else:
                 found.append(Term(node, where, expression, made))
         return found
+
+    def invariants(self, names: Mapping[str, str], noun: str) -> list[Term]:
+        """The first integrals; ``names`` and ``noun`` as for ``terms``."""
+        items = ((node, f"invariants: {name}") for name, node in self.text.invariants)
+        return self.terms(items, names, noun)
 
     def check_values(self, terms: Sequence[Term], start: Mapping[str, fmpq]) -> None:
         """Note formulas that have no value at the start, as far as that is known."""
@@ -314,11 +324,6 @@ class TermReader(Frozen):
                 message = f"{term.where}: a coefficient of about {digits} digits"
                 cure = "choose units in which coefficients are shorter"
                 self.source.fault(term.node, message, cure, code="number-too-large")
-
-
-def formulas_of_invariants(text: ProblemText) -> list[tuple[Node, str]]:
-    """The formulas of first integrals, each with what it is called in messages."""
-    return [(node, f"invariants: {name}") for name, node in text.invariants]
 
 
 def named(invariants: Sequence[Term]) -> Invariants:

@@ -5,21 +5,13 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Mapping
 from contextlib import suppress
-from typing import Generic, TypeVar
 
 from garkcli.doing import doing
 from garkcli.errors import Fault, HasFreeParameters, MethodFileError
 from garkcli.files import STDIN
-from garkcli.frozen import Frozen
 from garkcli.methodfile.bibliography import reference_of
-from garkcli.methodfile.build import Builder, MethodFile, families_of, nodes_to_spell_out
-from garkcli.methodfile.description import (
-    Description,
-    PartText,
-    left_behind,
-    rules_of_blocks,
-    works_of,
-)
+from garkcli.methodfile.build import Builder, MethodFile, V, part_of
+from garkcli.methodfile.description import Description, left_behind, rules_of_blocks, works_of
 from garkcli.methodfile.finding import find_files
 from garkcli.methodfile.naming import is_both, read_argument
 from garkcli.methodfile.nodes import one_line
@@ -30,11 +22,8 @@ from garkcli.methodfile.reading import SUFFIX
 from garkcli.methodfile.source import Source
 from garkcli.methodfile.values import Values
 from garkcli.reference import Work
-from garkcli.tableau.embedded import Further
-from garkcli.tableau.tableau import Tableau
 
 NO_SETTINGS: Mapping[str, str] = {}
-V = TypeVar("V", bound=Values)
 
 
 def load(path: str, settings: Mapping[str, str] = NO_SETTINGS) -> MethodFile:
@@ -166,24 +155,10 @@ def described(text: str, source: str, settings: Mapping[str, str]) -> tuple[Read
     return reader, description
 
 
-class Built(Frozen, Generic[V]):
-    """What the coefficients of a file make.
-
-    Attributes:
-        tableau: the method.
-        further: its embedded weights and its dense output.
-        values: of all coefficients.
-        part: gives the methods that a construction is made from.
-    """
-
-    tableau: Tableau
-    further: Further
-    values: V
-    part: Callable[[PartText], Tableau]
-
-
-def built(reader: Reader, description: Description, values_of: Callable[[Numbers], V]) -> Built[V]:
-    """The tableau that a file describes, with what else its coefficients say.
+def built(
+    reader: Reader, description: Description, values_of: Callable[[Numbers], V]
+) -> Builder[V]:
+    """The method that a file describes, with what else its coefficients say.
 
     Args:
         reader: as it read the file.
@@ -193,13 +168,8 @@ def built(reader: Reader, description: Description, values_of: Callable[[Numbers
     Raises:
         MethodFileError: the coefficients make no method.
     """
-    families = families_of(description)
-    nodes = nodes_to_spell_out(description, families, reader.numbers)
+    text = part_of(reader.source, reader.numbers, description)
     reader.source.close()
     values = values_of(reader.numbers)
     reader.source.close()
-    builder = Builder(reader.source, values, families, nodes)
-    tableau = builder.tableau(description)
-    further = builder.further(description, tableau)
-    reader.source.close()
-    return Built(tableau, further, values, builder.part)
+    return Builder(text, values)

@@ -33,7 +33,7 @@ from garkcli.methodfile.problem_keys import (
 from garkcli.methodfile.reading import read_text
 from garkcli.methodfile.sides import SidesMaker
 from garkcli.methodfile.source import PROBLEM_FILE, Entries, Source
-from garkcli.methodfile.terms import Maker
+from garkcli.methodfile.terms import HamiltonianMaker
 from garkcli.problems.vectorfield import TIME
 
 if TYPE_CHECKING:
@@ -72,8 +72,8 @@ def loads_problem(text: str, source: str = "<text>", stiffness: fmpq | None = No
     if read is None:
         raise reading.error()
     if read.form == "rhs":
-        return SidesMaker(reading, reader.formulas, read).problem()
-    return Maker(reading, reader.formulas, read).problem()
+        return SidesMaker(reader.formulas, read).problem()
+    return HamiltonianMaker(reader.formulas, read).problem()
 
 
 class _Variables(Frozen):
@@ -179,8 +179,10 @@ class _ProblemReader:
         wheres = [form if is_one else f"{letter}{{{l}}}" for l in range(1, len(items) + 1)]
         terms = tuple(zip(items, wheres, strict=True))
         known = tuple(places) if are_named else ()
+        node = entries.get("name")
+        text = None if node is None else self.source.scalar(node, "name")
         return ProblemText(
-            name=self._name(entries.get("name")),
+            name=_shown_name(text or Path(self.source.name).stem),
             variables=tuple(places),
             are_named=are_named,
             form=form,
@@ -230,10 +232,6 @@ class _ProblemReader:
             cure = f"write parameters: {{{STIFFNESS}: 1}} and use it in rhs"
             message = f"--stiffness, but no parameter called {STIFFNESS}"
             self.source.fault(root, message, cure, code="other-problem")
-
-    def _name(self, node: Node | None) -> str:
-        text = None if node is None else self.source.scalar(node, "name")
-        return _shown_name(text or Path(self.source.name).stem)
 
     def _value(self, key: str, entries: Entries) -> Any:
         """What is under a key; None where nothing does, or a fault was noted."""

@@ -10,16 +10,8 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from flint import arb, fmpq
 
-from garkcli.methodfile.formulas import (
-    Formulas,
-    Term,
-    TermReader,
-    formulas_of_invariants,
-    named,
-    nearby,
-)
+from garkcli.methodfile.formulas import Formulas, Maker, Term, named, nearby
 from garkcli.methodfile.problem_keys import STIFFNESS, ProblemText, Side
-from garkcli.methodfile.source import Source
 from garkcli.problems.vectorfield import TIME
 
 if TYPE_CHECKING:
@@ -33,17 +25,17 @@ Start: TypeAlias = dict[str, fmpq]
 """Initial values by the variables."""
 
 
-class SidesMaker:
-    """Makes the problem of one file; faults are noted in its source."""
+class SidesMaker(Maker):
+    """Makes the problem of a file with ``rhs``."""
 
-    def __init__(self, source: Source, formulas: Formulas, text: ProblemText) -> None:
+    def __init__(self, formulas: Formulas, text: ProblemText) -> None:
         from garkcli.problems.vectorfield import symbols
 
-        self.source, self.formulas, self.text = source, formulas, text
-        self.reader = TermReader(source, formulas)
         self.y = symbols(text.variables, "y")
         (self.t,) = symbols(text.variables, TIME)
-        self._symbols = {str(x): x for x in (*self.y, self.t)}
+        self.variables = text.variables if text.are_named else ()
+        """The names that values and formulas may have; none where these have faults."""
+        super().__init__(formulas, text, (*self.y, self.t))
 
     def problem(self) -> RightHandSide:
         """The problem.
@@ -55,20 +47,21 @@ class SidesMaker:
 
         exact = self._exact()
         start = self._initial(exact)
-        names = dict.fromkeys(self._symbols, "")
+        names = dict.fromkeys(self.symbols, "")
         noun = "variable or parameter, nor t"
         terms = [self._by_name(side, names, noun) for side in self.text.sides]
-        invariants = self._invariants()
+        names = names | {TIME: "an invariant depends on the variables alone"}
+        invariants = self.invariants(names, "variable or parameter")
         all_terms = list(chain(*(term.values() for term in terms)))
         if start is not None:
-            self.reader.check_values([*all_terms, *invariants], {**start, TIME: fmpq(0)})
-        self.reader.check_size(all_terms)
+            self.check_values([*all_terms, *invariants], {**start, TIME: fmpq(0)})
+        self.check_size(all_terms)
         solution = [] if exact is None else list(exact.values())
-        self.reader.check_numbers([*all_terms, *invariants, *solution])
+        self.check_numbers([*all_terms, *invariants, *solution])
         self.source.close()
         assert start is not None
         # Newton's method needs derivatives
-        self.reader.check_derivatives(all_terms, self.y, start, {self.t: arb(0)})
+        self.check_derivatives(all_terms, self.y, start, {self.t: arb(0)})
         self._refuse_constants(all_terms, terms, invariants)
         self.source.close()
         stiffness = self.formulas.values.get(STIFFNESS)
@@ -95,19 +88,11 @@ class SidesMaker:
         return tuple(term[x].made if x in term else zero for x in self.text.variables)
 
     def _by_name(self, items: Side, names: dict[str, str], noun: str) -> ByName:
-        known = names if self.text.are_named else None
         return {
             name: term
             for name, node, where in items
-            for term in self.reader.terms([(node, where)], self._symbols, known, noun)
+            for term in self.terms([(node, where)], names, noun)
         }
-
-    def _invariants(self) -> list[Term]:
-        names = dict.fromkeys(map(str, self.y), "")
-        names[TIME] = "an invariant depends on the variables alone"
-        known = names if self.text.are_named else None
-        items, noun = formulas_of_invariants(self.text), "variable or parameter"
-        return self.reader.terms(items, self._symbols, known, noun)
 
     def _exact(self) -> ByName | None:
         """The exact solution by names; None where there is none, or it has faults."""
@@ -115,14 +100,12 @@ class SidesMaker:
         if node is None:
             return None
         before = len(self.source.faults)
-        variables = self.text.variables if self.text.are_named else ()
-        entries = self.source.mapping(node, "exact", variables)
+        entries = self.source.mapping(node, "exact", self.variables)
         items = tuple((name, formula, f"exact: {name}") for name, formula in entries.items())
         names = dict.fromkeys(map(str, self.y), "the solution is a formula in t") | {TIME: ""}
         found = self._by_name(items, names, "parameter, nor t")
-        if self.text.are_named:
-            cure = f"a formula, such as {{}}: cos({TIME})"
-            self.reader.refuse_missing(node, "exact", variables, entries, cure)
+        cure = f"a formula, such as {{}}: cos({TIME})"
+        self.refuse_missing(node, "exact", self.variables, entries, cure)
         return found if len(self.source.faults) == before else None
 
     def _initial(self, exact: ByName | None) -> Start | None:
@@ -132,11 +115,10 @@ class SidesMaker:
         if node is None:
             return started
         before = len(self.source.faults)
-        variables = self.text.variables if self.text.are_named else ()
-        entries, values = self.reader.numbers(node, "initial", variables)
-        if self.text.are_named and len(self.source.faults) == before:
+        entries, values = self.numbers(node, "initial", self.variables)
+        if len(self.source.faults) == before:
             cure = "a number, such as {}: 1/2"
-            self.reader.refuse_missing(node, "initial", variables, entries, cure)
+            self.refuse_missing(node, "initial", self.variables, entries, cure)
         if len(self.source.faults) > before or not self.text.are_named:
             return None
         if exact is not None and started is not None:
@@ -172,7 +154,7 @@ class SidesMaker:
             message = "nothing moves: the right-hand sides sum to 0"
             cure = "write the derivative of a variable"
             self.source.fault(all_terms[0].node, message, cure, code="nothing-moves")
-        self.reader.refuse_constants(invariants, "the variables")
+        self.refuse_constants(invariants, "the variables")
 
     def _check_solution(self, problem: RightHandSide, exact: ByName) -> None:
         """Note a solution whose derivative differs from the right-hand sides at a later time, with

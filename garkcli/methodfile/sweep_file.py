@@ -20,6 +20,7 @@ from garkcli.errors import ExpressionError
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.rewriting import roots_in
+from garkcli.frozen import Frozen
 from garkcli.methodfile import grammar as g
 from garkcli.methodfile.expectations import claims
 from garkcli.methodfile.nodes import one_line, shortened, unquoted
@@ -31,8 +32,7 @@ from garkcli.methodfile.sweep_methods import (
     STARTS,
     TRANSFER,
     MethodsReader,
-    SearchText,
-    SweepText,
+    Template,
     rational,
     span,
 )
@@ -134,11 +134,6 @@ _SEARCH = g.mapping(
     ),
     form="write {seeds: 1..100, starts: 20}",
 )
-
-
-def _search(at: Any, node: Node, where: str) -> SearchText | None:
-    found: g.Found | None = _SEARCH.read(at, node, where)
-    return SearchText(**found) if found is not None and "seeds" in found else None
 
 
 _BOUND: g.Schema = {"type": ["number", "string"], "pattern": r"^(>=|<=|>|<|=)?\s*[-+0-9./eE]+$"}
@@ -245,7 +240,7 @@ def file_of(kinds: Mapping[str, str]) -> g.Kind:
         ),
         g.Key(
             "search: {seeds: 1..100}",
-            g.Kind(_SEARCH.schema, _search, _SEARCH.inside),
+            _SEARCH,
             "How parameters and unknowns without values are searched for.",
         ),
         g.Key(
@@ -294,7 +289,29 @@ def sweep_file_schema(kinds: Mapping[str, str]) -> g.Schema:
     }
 
 
-def read_sweep(path: str, kinds: Mapping[str, str]) -> SweepText:
+class Sweep(Frozen):
+    """What a spec file says.
+
+    Attributes:
+        name: of the sweep.
+        templates: the method files.
+        grids: the values of each parameter, as text.
+        columns: the criteria, those of conditions first.
+        conditions: column, relation and bound.
+        best: columns to sort by.
+        pareto: columns of the front.
+    """
+
+    name: str
+    templates: tuple[Template, ...]
+    grids: Mapping[str, tuple[str, ...]]
+    columns: tuple[str, ...]
+    conditions: tuple[tuple[str, str, bool | float], ...]
+    best: tuple[str, ...]
+    pareto: tuple[str, ...]
+
+
+def read_sweep(path: str, kinds: Mapping[str, str]) -> Sweep:
     """Read a spec file.
 
     Args:
@@ -304,32 +321,19 @@ def read_sweep(path: str, kinds: Mapping[str, str]) -> SweepText:
     Raises:
         MethodFileError: every fault of the file, with positions; or of a method file of it.
     """
-    text, source = read_text(path, SWEEP_FILE)
-    return reads_sweep(text, source, kinds, Path(path).parent)
-
-
-def reads_sweep(text: str, source: str, kinds: Mapping[str, str], folder: Path) -> SweepText:
-    """Read a spec file from its text; see ``read_sweep``."""
-    reading = Source(source, text, SWEEP_FILE)
-    root = reading.compose()
+    text, name = read_text(path, SWEEP_FILE)
+    source = Source(name, text, SWEEP_FILE)
+    root = source.compose()
     if root is None:
-        raise reading.error()
-    said: g.Found = file_of(kinds).read(SimpleNamespace(source=reading), root, g.FILE)
-    grids = said.get("parameters", {})
-    found = SweepText(
-        one_line(said.get("name", "")) or Path(source).stem,
-        grids={name: values for name, values in grids.items() if values is not None},
-        free=tuple(name for name, values in grids.items() if values is None),
-        search=said.get("search"),
-        conditions=[(name, *made) for name, made in said.get("where", {}).items()],
-        best=said.get("best", []),
-        pareto=said.get("pareto", []),
-    )
-    conditions = [name for name, _, _ in found.conditions]
-    asked = [*conditions, *said.get("columns", []), *found.best, *found.pareto]
-    found.columns = list(dict.fromkeys(asked))
-    methods = MethodsReader(reading, found)
-    before = len(reading.faults)
+        raise source.error()
+    said: g.Found = file_of(kinds).read(SimpleNamespace(source=source), root, g.FILE)
+    given = said.get("parameters", {})
+    grids = {name: values for name, values in given.items() if values is not None}
+    search: g.Found | None = said.get("search")
+    if search is not None and "seeds" not in search:
+        search = None
+    methods = MethodsReader(source, grids, [x for x in given if x not in grids], search)
+    before = len(source.faults)
     entries = said.get("methods", [])
     is_whole = "methods" not in said.nodes
     is_right = all(entry.is_right for entry in entries)
@@ -337,30 +341,43 @@ def reads_sweep(text: str, source: str, kinds: Mapping[str, str], folder: Path) 
         methods.read(said.nodes["methods"], entries, said.get("transfer"))
         is_whole = True
     if "files" in said:
-        methods.read_files(said["files"], folder)
-    if is_whole and found.templates and len(reading.faults) == before:
-        _refuse_unused(reading, said, found)
-    seeds = 1 if found.search is None else len(found.search.seeds)
-    total = sum(
-        prod(len(found.grids[x]) for x in template.parameters) * (seeds if template.order else 1)
-        for template in found.templates
-    )
+        methods.read_files(said["files"], Path(path).parent)
+    if is_whole and methods.templates and len(source.faults) == before:
+        _refuse_unused(source, said, methods)
+    total = sum(count_methods(x, grids) for x in methods.templates)
     if total > MOST_METHODS:
         message = f"{total} methods (limit {MOST_METHODS})"
-        reading.fault(root, message, "make several sweeps", code="too-many")
-    reading.close()
-    return found
+        source.fault(root, message, "make several sweeps", code="too-many")
+    source.close()
+    conditions = tuple((column, *made) for column, made in said.get("where", {}).items())
+    best, pareto = said.get("best", ()), said.get("pareto", ())
+    asked = [*(x[0] for x in conditions), *said.get("columns", ()), *best, *pareto]
+    return Sweep(
+        one_line(said.get("name", "")) or Path(name).stem,
+        tuple(methods.templates),
+        grids,
+        tuple(dict.fromkeys(asked)),
+        conditions,
+        tuple(best),
+        tuple(pareto),
+    )
 
 
-def _refuse_unused(source: Source, said: g.Found, found: SweepText) -> None:
+def count_methods(template: Template, grids: Mapping[str, tuple[str, ...]]) -> int:
+    """How many methods a template has."""
+    count = prod(len(grids[name]) for name in template.parameters)
+    return count * len(template.seeds) if template.is_searched else count
+
+
+def _refuse_unused(source: Source, said: g.Found, methods: MethodsReader) -> None:
     """Note parameters that no method has, and a search with nothing to look for."""
-    used = {name for x in found.templates for name in x.parameters}
-    for name in found.grids.keys() - used:
+    used = {name for x in methods.templates for name in x.parameters}
+    for name in methods.grids.keys() - used:
         message, cure = f"parameters: no method has {name}", "leave it out, or use it"
         source.fault(said.nodes["parameters"], message, cure, code="not-together")
-    is_searched = any(x.order for x in found.templates)
-    # a parameter without a value is reported already
-    if "search" in said.nodes and not is_searched and all(found.grids.values()):
+    is_searched = any(x.order for x in methods.templates)
+    # a parameter without a value is told already
+    if "search" in said.nodes and not is_searched and all(methods.grids.values()):
         message = "search: no method has an unknown that is left to it"
         cure = f"write parameters: {{tau: {FREE}}}, or a file with unknowns"
         source.fault(said.nodes["search"], message, cure, code="not-together")

@@ -5,7 +5,7 @@ rules, and method files.
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from itertools import chain, product
 from pathlib import Path
@@ -19,7 +19,7 @@ from garkcli.exact.nodes import Expression, Name
 from garkcli.exact.rewriting import substitute
 from garkcli.families.family import MAX_STAGES
 from garkcli.families.registry import BY_STAGES, recipe_of
-from garkcli.frozen import Frozen, Mutable, field
+from garkcli.frozen import Frozen
 from garkcli.methodfile import grammar as g
 from garkcli.methodfile.family import loads_family
 from garkcli.methodfile.load import NO_SETTINGS, described
@@ -34,60 +34,29 @@ STARTS = 20
 """Starts of a seed, where nothing is said."""
 
 
-class TemplateText(Frozen):
-    """A method file of a sweep, made or read.
+class Template(Frozen):
+    """A method file of a sweep, made or read, with the parameters that are given values.
 
     Attributes:
-        name: what it is called.
+        name: what it is called in rows.
         text: of the file.
-        parameters: that are given values in it.
-        order: that is searched for by other unknowns of it; 0 where there are none.
+        parameters: their names.
+        order: that its other unknowns are searched for; 0 where it has none.
+        seeds: of the searches, a method each.
+        starts: of each search.
     """
 
     name: str
     text: str
     parameters: tuple[str, ...]
     order: int = 0
+    seeds: range = range(0)
+    starts: int = 0
 
-
-class SearchText(Frozen):
-    """How methods are searched for.
-
-    Attributes:
-        seeds: one row each.
-        starts: from which each of them looks.
-        order: that is wanted; 0 for the order that the file wants.
-    """
-
-    seeds: range
-    starts: int = STARTS
-    order: int = 0
-
-
-class SweepText(Mutable):
-    """What a spec file says.
-
-    Attributes:
-        name: of the sweep.
-        templates: the method files.
-        grids: the values of each parameter, as text.
-        free: parameters of ``methods`` that are left to the search.
-        search: how unknowns are searched for, if they are.
-        columns: the criteria.
-        conditions: column, relation and bound.
-        best: columns to sort by.
-        pareto: columns of the front.
-    """
-
-    name: str = ""
-    templates: list[TemplateText] = field(default_factory=list)
-    grids: dict[str, tuple[str, ...]] = field(default_factory=dict)
-    free: tuple[str, ...] = ()
-    search: SearchText | None = None
-    columns: list[str] = field(default_factory=list)
-    conditions: list[tuple[str, str, bool | float]] = field(default_factory=list)
-    best: list[str] = field(default_factory=list)
-    pareto: list[str] = field(default_factory=list)
+    @property
+    def is_searched(self) -> bool:
+        """Whether methods are what is found in place of what is given."""
+        return self.order > 0
 
 
 _SPAN = re.compile(r"([0-9]{1,9})\.\.([0-9]{1,9})")
@@ -174,13 +143,27 @@ class MethodsReader:
 
     Args:
         source: the spec file.
-        found: where they go; it has the values of the parameters already.
+        grids: the values of each parameter, as text.
+        free: parameters of ``methods`` that are left to the search.
+        search: what stands under ``search``; None where nothing does.
+
+    Attributes:
+        templates: those that were made.
     """
 
-    def __init__(self, source: Source, found: SweepText) -> None:
+    def __init__(
+        self,
+        source: Source,
+        grids: Mapping[str, tuple[str, ...]],
+        free: Sequence[str],
+        search: g.Found | None,
+    ) -> None:
         self.source = source
-        self.found = found
-        self.names = {*found.grids, *found.free}
+        self.grids = grids
+        self.free = free
+        self.search = search
+        self.templates: list[Template] = []
+        self.names = {*grids, *free}
         """Parameters that weights may use."""
 
     def read(self, node: Node, entries: Sequence[g.Found], transfer: Node | None) -> None:
@@ -221,8 +204,8 @@ class MethodsReader:
         self, methods: Sequence[tuple[str, int]], rule: str, shown: str, names: set[str]
     ) -> None:
         """One template out of families and a rule."""
-        used = tuple(name for name in self.found.grids if name in names)
-        free = [name for name in self.found.free if name in names]
+        used = tuple(name for name in self.grids if name in names)
+        free = [name for name in self.free if name in names]
         members = [f'{{family: "{family}", stages: {s}}}' for family, s in methods]
         given = ", ".join(f"{name}: free" for name in (*used, *free))
         lines = [f"parameters: {{{given}}}"] if given else []
@@ -231,9 +214,15 @@ class MethodsReader:
         title = " + ".join(f"{family} {s}" for family, s in methods)
         name = f"{title}; {shown}" if shown else title
         order = self._order(self._at, name, free) if free else 0
-        template = TemplateText(name, "\n".join(lines) + "\n", used, order)
-        if template not in self.found.templates:
-            self.found.templates.append(template)
+        template = self._template(name, "\n".join(lines) + "\n", used, order)
+        if template not in self.templates:
+            self.templates.append(template)
+
+    def _template(self, name: str, text: str, used: tuple[str, ...], order: int) -> Template:
+        if not order or self.search is None:
+            return Template(name, text, used)
+        starts = self.search.get("starts", STARTS)
+        return Template(name, text, used, order, self.search["seeds"], starts)
 
     def _choices(self, entry: g.Found) -> list[tuple[str, int]]:
         """The members of one entry of ``methods``: those there are of families × stages."""
@@ -265,31 +254,31 @@ class MethodsReader:
                 name = source  # of the catalogue, however it was typed
             reader, _ = described(text, source, NO_SETTINGS)
             has = {**reader.numbers.places, **reader.numbers.free}
-            used = tuple(x for x in self.found.grids if x in has)
+            used = tuple(x for x in self.grids if x in has)
             missing = [x for x in reader.numbers.free if x not in used]
             order = 0
-            if missing and self.found.search is None:
+            if missing and self.search is None:
                 message = f"files: {shortened(name)} has the free parameter {missing[0]}"
                 cure = (
                     f"give it values: parameters: {{{missing[0]}: [1/4, 1/2]}}"
                     ", or search: {seeds: 1..100}"
                 )
                 self.source.fault(item, message, cure, code="free-parameters")
-            elif missing and all(self.found.grids[x] for x in used):
-                family = loads_family(text, source, {x: self.found.grids[x][0] for x in used})
+            elif missing and all(self.grids[x] for x in used):
+                family = loads_family(text, source, {x: self.grids[x][0] for x in used})
                 order = self._order(item, name, missing, family.order or 0)
-            self.found.templates.append(TemplateText(name, text, used, order))
+            self.templates.append(self._template(name, text, used, order))
 
     def _order(self, node: Node, name: str, unknowns: Sequence[str], own: int = 0) -> int:
         """The order that is searched for: that of ``search``, or the file's own."""
-        search = self.found.search
-        if search is None:
+        if self.search is None:
             message = f"{shortened(name)} leaves {unknowns[0]} to a search"
-            self.source.fault(
-                node, message, "write search: {seeds: 1..100}", code="free-parameters"
-            )
-        elif not (search.order or own):
+            cure = "write search: {seeds: 1..100}"
+            self.source.fault(node, message, cure, code="free-parameters")
+            return 0
+        order: int = self.search.get("order", own)
+        if not order:
             message = f"{shortened(name)}: a search is for an order"
             cure = "write search: {order: 4}, or in a file design: {order: 4}"
             self.source.fault(node, message, cure, code="option-alone")
-        return 0 if search is None else search.order or own
+        return order

@@ -9,23 +9,12 @@ from itertools import chain
 from typing import TYPE_CHECKING
 
 from flint import arb, ctx, fmpq
-from yaml.nodes import Node
 
 from garkcli.errors import NoLegendreTransform
 from garkcli.frozen import replace
 from garkcli.methodfile.expansion import too_long
-from garkcli.methodfile.formulas import (
-    BITS,
-    PLACES,
-    Formulas,
-    Term,
-    TermReader,
-    formulas_of_invariants,
-    named,
-    nearby,
-)
+from garkcli.methodfile.formulas import BITS, PLACES, Formulas, Maker, Term, named, nearby
 from garkcli.methodfile.problem_keys import ProblemText
-from garkcli.methodfile.source import Source
 from garkcli.problems.expr import Place, Vector
 
 if TYPE_CHECKING:
@@ -35,19 +24,18 @@ _NUMBER = "a number, such as {}: 1/2"
 _GOOD = 10.0**-PLACES  # the radius of momenta that may count as the start
 
 
-class Maker:
-    """Makes the problem of one file; faults are noted in its source."""
+class HamiltonianMaker(Maker):
+    """Makes the problem of a file with ``hamiltonian`` or ``lagrangian``."""
 
-    def __init__(self, source: Source, formulas: Formulas, text: ProblemText) -> None:
+    def __init__(self, formulas: Formulas, text: ProblemText) -> None:
         from garkcli.problems.mass import velocities
         from garkcli.problems.vectorfield import symbols
 
-        self.source, self.formulas, self.text = source, formulas, text
-        self.reader = TermReader(source, formulas)
         self.q = symbols(text.variables, "q")
         self.p = symbols(text.variables, "p")
         self.v = velocities(text.variables)
         self.is_lagrangian = text.form == "lagrangian"
+        super().__init__(formulas, text, (*self.q, *self.p, *self.v))
 
     def problem(self) -> Hamiltonian:
         """The problem.
@@ -58,19 +46,26 @@ class Maker:
         from garkcli.problems.hamiltonian import Hamiltonian
 
         start = self._initial()
-        terms = self._terms()
-        invariants = self._invariants()
+        noun = "variable, momentum or parameter"
+        if self.is_lagrangian:
+            names = self._names(self.v, self.p, "a Lagrangian has velocities: {}")
+            terms = self.terms(self.text.terms, names, "variable, velocity or parameter")
+        else:
+            names = self._names(self.p, self.v, "a Hamiltonian has momenta: {}")
+            terms = self.terms(self.text.terms, names, noun)
+        names = self._names(self.p, self.v, "invariants have momenta: {}")
+        invariants = self.invariants(names, noun)
         if start is not None:
-            self.reader.check_values(terms, start)
-        self.reader.check_size(terms)
-        self.reader.check_numbers([*terms, *invariants])
+            self.check_values(terms, start)
+        self.check_size(terms)
+        self.check_numbers([*terms, *invariants])
         self.source.close()
         assert start is not None
         if self.is_lagrangian:
             terms, start = self._transformed(terms, start)
         at = {str(x): start[str(x)] for x in (*self.q, *self.p)}
-        self.reader.check_derivatives(terms, (*self.q, *self.p), at, {})
-        self.reader.check_values(invariants, at)
+        self.check_derivatives(terms, (*self.q, *self.p), at, {})
+        self.check_values(invariants, at)
         self._refuse_constants(terms, invariants)
         self.source.close()
         return Hamiltonian(
@@ -88,47 +83,26 @@ class Maker:
         if node is None:
             return None
         if not self.text.are_named:
-            self.reader.numbers(node, "initial", ())
+            self.numbers(node, "initial", ())
             return None
         before = len(self.source.faults)
         # a Lagrangian starts with velocities or with momenta
         motions = [self.p, self.v] if self.is_lagrangian else [self.p]
         names = [str(x) for x in chain(self.q, *motions)]
-        entries, values = self.reader.numbers(node, "initial", names)
+        entries, values = self.numbers(node, "initial", names)
         given = [x for x in motions if not entries.keys().isdisjoint(map(str, x))]
         if len(given) > 1:
             cure = "give all velocities or all momenta"
             self.source.fault(node, "initial: velocities and momenta", cure, code="given-twice")
         elif len(self.source.faults) == before:
             (motion,) = given or motions[-1:]
-            self.reader.refuse_missing(node, "initial", (*self.q, *motion), entries, _NUMBER)
+            self.refuse_missing(node, "initial", (*self.q, *motion), entries, _NUMBER)
         return values if len(self.source.faults) == before else None
 
     def _names(self, motion: Vector, other: Vector, cure: str) -> dict[str, str]:
         """For names that may be in a formula nothing, for others the cure."""
         others = {str(y): cure.format(x) for x, y in zip(motion, other, strict=True)}
         return others | dict.fromkeys(map(str, (*self.q, *motion)), "")
-
-    def _terms(self) -> list[Term]:
-        if self.is_lagrangian:
-            names = self._names(self.v, self.p, "a Lagrangian has velocities: {}")
-            noun = "variable, velocity or parameter"
-        else:
-            names = self._names(self.p, self.v, "a Hamiltonian has momenta: {}")
-            noun = "variable, momentum or parameter"
-        return self._formulas(self.text.terms, names, noun)
-
-    def _invariants(self) -> list[Term]:
-        names = self._names(self.p, self.v, "invariants have momenta: {}")
-        noun = "variable, momentum or parameter"
-        return self._formulas(formulas_of_invariants(self.text), names, noun)
-
-    def _formulas(
-        self, items: Sequence[tuple[Node, str]], names: dict[str, str], noun: str
-    ) -> list[Term]:
-        symbols = {str(x): x for x in (*self.q, *self.p, *self.v)}
-        known = names if self.text.are_named else None
-        return self.reader.terms(items, symbols, known, noun)
 
     def _transformed(
         self, lagrangians: list[Term], start: dict[str, fmpq]
@@ -150,8 +124,8 @@ class Maker:
         transformed = (self._transform(term, known) for term in lagrangians)
         found = [term for term in transformed if term is not None]
         self.source.close()
-        self.reader.check_size(found)
-        self.reader.check_numbers(found)
+        self.check_size(found)
+        self.check_numbers(found)
         self.source.close()
         if has_velocities:
             start = start | self._momenta(lagrangians, found, at, moving[0])
@@ -212,4 +186,4 @@ class Maker:
             )
             cure = "write it in positions and momenta"
             self.source.fault(terms[0].node, message, cure, code="nothing-moves")
-        self.reader.refuse_constants(invariants, "positions and momenta")
+        self.refuse_constants(invariants, "positions and momenta")

@@ -13,8 +13,8 @@ from typing import Any, Literal, TypeAlias, cast
 from garkcli.frozen import Frozen
 from garkcli.glossary.key import Files, Key
 from garkcli.methodfile.grammar import told as entries_of
-from garkcli.methodfile.sweep_file import file_of, read_sweep, sweep_file_schema
-from garkcli.methodfile.sweep_methods import SearchText
+from garkcli.methodfile.sweep_file import count_methods, file_of, read_sweep, sweep_file_schema
+from garkcli.methodfile.sweep_methods import Template
 from garkcli.sweep.columns import INFINITY, Value, columns, property_kind
 
 Relation: TypeAlias = Literal["=", ">=", "<=", ">", "<"]
@@ -57,31 +57,6 @@ def number(value: Value) -> float:
         return math.inf
     assert value is not None
     return float(value)
-
-
-class Template(Frozen):
-    """A method file, with the parameters that a sweep gives values to.
-
-    Attributes:
-        name: what it is called in rows.
-        text: of the file.
-        parameters: their names.
-        order: that its other unknowns are searched for; 0 where it has none.
-        seeds: of the searches, a method each.
-        starts: of each search.
-    """
-
-    name: str
-    text: str
-    parameters: tuple[str, ...]
-    order: int = 0
-    seeds: range = range(0)
-    starts: int = 0
-
-    @property
-    def is_searched(self) -> bool:
-        """Whether methods are what is found in place of what is given."""
-        return self.order > 0
 
 
 class Point(Frozen):
@@ -152,36 +127,32 @@ class Plan(Frozen):
         return self._starts[-1]
 
     def _size(self, template: Template) -> int:
-        count = math.prod(len(self.grids[name]) for name in template.parameters)
-        return count * len(template.seeds) if template.is_searched else count
+        return count_methods(template, self.grids)
 
     def points(self) -> Iterator[Point]:
         """Every method, those of a template one after the other."""
         for template in self.templates:
             for index in range(self._size(template)):
-                yield self._point(template, index)
+                settings = {}
+                seed = None
+                if template.is_searched:
+                    index, place = divmod(index, len(template.seeds))
+                    seed = template.seeds[place]
+                for name in reversed(template.parameters):
+                    values = self.grids[name]
+                    index, place = divmod(index, len(values))
+                    settings[name] = values[place]
+                in_order = {name: settings[name] for name in template.parameters}
+                values_text = ", ".join(f"{name}={x}" for name, x in in_order.items())
+                parts = [template.name, values_text] if values_text else [template.name]
+                if seed is not None:
+                    parts.append(f"seed {seed}")
+                yield Point("; ".join(parts), template, in_order, seed)
 
     @property
     def has_searches(self) -> bool:
         """Whether some methods are searched for."""
         return any(template.is_searched for template in self.templates)
-
-    def _point(self, template: Template, index: int) -> Point:
-        settings = {}
-        seed = None
-        if template.is_searched:
-            index, place = divmod(index, len(template.seeds))
-            seed = template.seeds[place]
-        for name in reversed(template.parameters):
-            values = self.grids[name]
-            index, place = divmod(index, len(values))
-            settings[name] = values[place]
-        in_order = {name: settings[name] for name in template.parameters}
-        values_text = ", ".join(f"{name}={x}" for name, x in in_order.items())
-        parts = [template.name, values_text] if values_text else [template.name]
-        if seed is not None:
-            parts.append(f"seed {seed}")
-        return Point("; ".join(parts), template, in_order, seed)
 
     def more_is_better(self, name: str) -> bool:
         """Whether larger values of a column come first."""
@@ -194,22 +165,10 @@ def load_plan(path: str) -> Plan:
     Raises:
         MethodFileError: every fault of it, with positions.
     """
-    text = read_sweep(path, _kinds())
-    conditions = tuple(
-        Condition(name, cast(Relation, relation), bound)
-        for name, relation, bound in text.conditions
-    )
-    search = text.search or SearchText(range(0))
-    # with searches where unknowns are left to them
-    templates = tuple(
-        Template(x.name, x.text, x.parameters, x.order, search.seeds, search.starts)
-        if x.order
-        else Template(x.name, x.text, x.parameters)
-        for x in text.templates
-    )
-    criteria = Criteria(tuple(text.columns), conditions)
-    best, pareto = tuple(text.best), tuple(text.pareto)
-    return Plan(text.name, templates, text.grids, criteria, best, pareto)
+    said = read_sweep(path, _kinds())
+    conditions = (Condition(x, cast(Relation, sign), bound) for x, sign, bound in said.conditions)
+    criteria = Criteria(said.columns, tuple(conditions))
+    return Plan(said.name, said.templates, said.grids, criteria, said.best, said.pareto)
 
 
 def sweep_schema() -> dict[str, Any]:

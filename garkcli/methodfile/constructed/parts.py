@@ -11,7 +11,7 @@ from yaml.nodes import MappingNode, Node, ScalarNode
 from garkcli.errors import MethodError, MethodFileError
 from garkcli.families.registry import FAMILIES
 from garkcli.frozen import Frozen
-from garkcli.methodfile.build import families_of, nodes_to_spell_out
+from garkcli.methodfile.build import part_of
 from garkcli.methodfile.description import ConstructionText, Description, Make, PartText, Structure
 from garkcli.methodfile.grammar import defined
 from garkcli.methodfile.numbers import Numbers, Reading
@@ -86,7 +86,7 @@ class PartReader(Reading):
         description = self._written(node, where)
         if description is None:
             return None
-        part = _part(self.source, self.numbers, description, why)
+        part = part_of(self.source, self.numbers, description, why)
         self.parts.append(part)
         return part
 
@@ -135,7 +135,7 @@ class PartReader(Reading):
             cure = "write its coefficients here, with parameters of this file"
             opened.source.fault(None, message, cure, code="free-parameters")
         opened.source.close()
-        part = _part(opened.source, opened.numbers, opened.description, why)
+        part = part_of(opened.source, opened.numbers, opened.description, why)
         opened.source.close()
         self.numbers.entries += opened.numbers.entries
         return part
@@ -154,12 +154,6 @@ class PartReader(Reading):
         """That of what is made from the parts: the largest; None where all are exact."""
         found = [x for x in (*(part.tolerance for part in self.parts), *others) if x is not None]
         return max(found, default=None)
-
-
-def _part(source: Source, numbers: Numbers, description: Description, why: str) -> PartText:
-    families = families_of(description)
-    nodes = nodes_to_spell_out(description, families, numbers, why)
-    return PartText(source, description, families, nodes)
 
 
 def one_field(tableau: Tableau, message: str) -> Method:
