@@ -43,19 +43,15 @@ def entry_on(shelf: Shelf, method: Shelved, judges: bool = False) -> Entry:
     """
     facts = FOUND
     if isinstance(shelf, Package):
-        entry = _of_index(shelf.entries[method.name])
+        known = shelf.entries[method.name]
+        fields = (key.replace("-", "_") for key in KEYS)
+        missing = [field for field in fields if field not in known]
+        entry = {**known, **dict.fromkeys(missing), "undecided": [*known["undecided"], *missing]}
     else:
         entry, facts = _of_file(method, judges)
     for key in ("digest", "fingerprint"):
         entry.pop(key, None)
     return {**entry, "folder": method.folder, "catalogue": shelf.label, "facts": facts}
-
-
-def _of_index(known: Mapping[str, Any]) -> Entry:
-    """An entry of the index; a property that is newer than the index is not decided."""
-    fields = (key.replace("-", "_") for key in KEYS)
-    missing = [field for field in fields if field not in known]
-    return {**known, **dict.fromkeys(missing), "undecided": [*known["undecided"], *missing]}
 
 
 def _of_file(method: Shelved, judges: bool) -> tuple[Entry, str]:
@@ -66,7 +62,17 @@ def _of_file(method: Shelved, judges: bool) -> tuple[Entry, str]:
     try:
         read = loads(method.read(), method.name)
     except HasFreeParameters as error:
-        return {**_blank(method), **_family(error)}, CLAIMED
+        from garkcli.methodfile.load import described
+
+        _, description = described(error.text, error.source, {})
+        return {
+            **_blank(method),
+            "aliases": list(description.aliases),
+            "title": description.name,
+            "reference": description.reference,
+            "kind": "family",
+            "structure": description.structure,
+        }, CLAIMED
     except MethodFileError:
         return _blank(method), UNREAD
     if not judges:
@@ -94,20 +100,6 @@ def _blank(method: Shelved) -> Entry:
     from garkcli.catalogue.facts import blank
 
     return {**blank(), "name": method.name, "file": method.place}
-
-
-def _family(error: HasFreeParameters) -> Entry:
-    """An entry for a file with free parameters."""
-    from garkcli.methodfile.load import described
-
-    _, description = described(error.text, error.source, {})
-    return {
-        "aliases": list(description.aliases),
-        "title": description.name,
-        "reference": description.reference,
-        "kind": "family",
-        "structure": description.structure,
-    }
 
 
 def _claimed(read: MethodFile, method: Shelved) -> Entry:

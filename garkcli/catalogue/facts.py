@@ -113,12 +113,30 @@ def entry_of(path: str, name: str, file: str, text: str) -> Entry:
 
 def found_of(method: MethodFile, analysis: Analysis, name: str, file: str) -> Entry:
     """What was found of a method, and what its file says of itself."""
+    embedded = analysis.embedded
+    is_small = _is_small(analysis.tableau)
+    sought = [key for key in KEYS if is_small or key not in _SIZES]
+    verdicts = {key: analysis.subject.verdict(key) for key in sought}
+    values: Entry = {"symplectic": analysis.symplectic}
+    open_ones = []
+    for key in KEYS:
+        field = find(key).field
+        verdict = verdicts.get(key)
+        is_open = verdict is None or verdict.is_undecided or verdict.is_at_least
+        values[field] = None if verdict is None or is_open else _value(verdict)
+        if is_open:
+            open_ones.append(field)
     return {
         **head(method, name, file),
-        **_orders(analysis),
+        "order": analysis.order.order,
+        "embedded_order": _order(None if embedded is None else embedded.order),
+        "conjugate_order": _order(analysis.conjugate_order),
+        "pair_order": _order(analysis.pair_order),
+        "nonautonomous_order": _order(analysis.nonautonomous_order),
         **shape(method),
         "error_constant": _error_constant(analysis),
-        **_properties(analysis),
+        **values,
+        "undecided": open_ones,
     }
 
 
@@ -165,17 +183,6 @@ def shape(method: MethodFile) -> Entry:
     }
 
 
-def _orders(analysis: Analysis) -> Entry:
-    embedded = analysis.embedded
-    return {
-        "order": analysis.order.order,
-        "embedded_order": _order(None if embedded is None else embedded.order),
-        "conjugate_order": _order(analysis.conjugate_order),
-        "pair_order": _order(analysis.pair_order),
-        "nonautonomous_order": _order(analysis.nonautonomous_order),
-    }
-
-
 def _order(order: AnyOrder | None) -> int | None:
     return None if order is None else order.order
 
@@ -189,25 +196,6 @@ def _error_constant(analysis: Analysis) -> str | None:
     if constants is None:
         return None
     return f"{constants.all.two:.{_DIGITS}g}"
-
-
-def _properties(analysis: Analysis) -> Entry:
-    """Every property by its name in JSON; null where it has no meaning, is not decided, or is only
-    known to be so large at least.
-    """
-    is_small = _is_small(analysis.tableau)
-    sought = [key for key in KEYS if is_small or key not in _SIZES]
-    verdicts = {key: analysis.subject.verdict(key) for key in sought}
-    values: Entry = {"symplectic": analysis.symplectic}
-    open_ones = []
-    for key in KEYS:
-        field = find(key).field
-        verdict = verdicts.get(key)
-        is_open = verdict is None or verdict.is_undecided or verdict.is_at_least
-        values[field] = None if verdict is None or is_open else _value(verdict)
-        if is_open:
-            open_ones.append(field)
-    return {**values, "undecided": open_ones}
 
 
 def _is_small(tableau: Tableau) -> bool:

@@ -6,15 +6,13 @@ The room itself is this mapping, so that whoever imports it in whatever way has 
 
 from __future__ import annotations
 
-from collections.abc import ItemsView, Iterator, KeysView, Mapping, Sequence, ValuesView
+from collections.abc import ItemsView, Iterator, KeysView, Mapping, ValuesView
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, cast
 
 from garkcli.errors import GarkError, MethodFileError, UsageProblem, did_you_mean
 
 if TYPE_CHECKING:
-    from garkcli.catalogue.entries import Wanted
-    from garkcli.catalogue.facts import Entry
     from garkcli.methodfile.build import MethodFile
     from garkcli.methodfile.shelves import Shelved
 
@@ -96,10 +94,23 @@ class Catalogue(ModuleType):
         Raises:
             UsageProblem: nothing is known by a name, or a text is no range.
         """
-        from garkcli.catalogue.entries import all_entries, sorted_by
+        from garkcli.catalogue.entries import Range, Wanted, all_entries, read_range, sorted_by
 
         entries = list(all_entries())
-        chosen = _wanted(wanted, words, folder, entries[0])
+        ranges: dict[str, Range] = {}
+        truths: dict[str, bool] = {}
+        values: dict[str, str] = {}
+        for key, value in wanted.items():
+            if key not in entries[0]:
+                message = f"nothing is known by the name {key!r}"
+                raise UsageProblem(message, did_you_mean(key, entries[0]), code="unknown-word")
+            if isinstance(value, bool):
+                truths[key] = value
+            elif key in _WORDS:
+                values[key] = str(value)
+            else:
+                ranges[key] = read_range(str(value))
+        chosen = Wanted(ranges, truths, values, folder, words)
         taken = [entry for entry in entries if chosen.takes(entry)]
         return [entry["name"] for entry in sorted_by(taken, "order")]
 
@@ -117,32 +128,6 @@ Mapping.register(Catalogue)
 def _mapping(catalogue: Catalogue) -> Mapping[str, MethodFile]:
     """The same, for type checkers."""
     return cast("Mapping[str, MethodFile]", catalogue)
-
-
-def _wanted(
-    given: Mapping[str, bool | int | str], words: Sequence[str], folder: str, known: Entry
-) -> Wanted:
-    """What is wanted of an entry.
-
-    Raises:
-        UsageProblem: nothing is known by a name, or a text is no range.
-    """
-    from garkcli.catalogue.entries import Range, Wanted, read_range
-
-    ranges: dict[str, Range] = {}
-    truths: dict[str, bool] = {}
-    values: dict[str, str] = {}
-    for key, value in given.items():
-        if key not in known:
-            message = f"nothing is known by the name {key!r}"
-            raise UsageProblem(message, did_you_mean(key, known), code="unknown-word")
-        if isinstance(value, bool):
-            truths[key] = value
-        elif key in _WORDS:
-            values[key] = str(value)
-        else:
-            ranges[key] = read_range(str(value))
-    return Wanted(ranges, truths, values, folder, words)
 
 
 def _names() -> list[str]:

@@ -53,7 +53,11 @@ def check(given: Given, output: Output) -> int:
         raise click.MissingParameter(
             ctx=click.get_current_context(), param_hint="'FILE...'", param_type="argument"
         )
-    _take_defaults(project, given, output)
+    # what the project says in place of options that are not given
+    source = click.get_current_context().get_parameter_source
+    for name, value in project.defaults.items():
+        if source(name) is click.core.ParameterSource.DEFAULT:
+            setattr(output if name == "format" else given, name, value)
     if given.baseline is not None:
         return _compare(project, given, output)
     outcomes = _outcomes(project, given, output)
@@ -72,14 +76,6 @@ def _explain(key: str, output: Output) -> int:
         output.format = "text"
     output.tell(REPORT, *told(key, [claim_meaning(key)]))
     return 0
-
-
-def _take_defaults(project: Project, given: Given, output: Output) -> None:
-    """What the project says in place of options that are not given."""
-    source = click.get_current_context().get_parameter_source
-    for name, value in project.defaults.items():
-        if source(name) is click.core.ParameterSource.DEFAULT:
-            setattr(output if name == "format" else given, name, value)
 
 
 def _compare(project: Project, given: Given, output: Output) -> int:
@@ -172,7 +168,12 @@ def claims(given: Given, output: Output) -> None:
         raise UsageProblem("--write needs a file", "name one in place of -", code="option-alone")
     paths = given.files_meant(output)
     if given.write:
-        _refuse_names(paths)
+        from garkcli.methodfile.naming import find_named
+
+        for path in paths:
+            if find_named(path) is not None:
+                message = f"--write needs a file, and {path} is a name of the catalogue"
+                raise UsageProblem(message, "give the path of the file", code="option-alone")
     methods = [_loaded(path) for path in paths]
     found = []
     for method in methods:
@@ -189,16 +190,6 @@ def claims(given: Given, output: Output) -> None:
         output.write(yaml_text(told, output.width))
     else:
         output.tell(REPORT, *told)
-
-
-def _refuse_names(paths: list[str]) -> None:
-    """A method of the catalogue has no file that is the user's to write."""
-    from garkcli.methodfile.naming import find_named
-
-    for path in paths:
-        if find_named(path) is not None:
-            message = f"--write needs a file, and {path} is a name of the catalogue"
-            raise UsageProblem(message, "give the path of the file", code="option-alone")
 
 
 def _loaded(path: str) -> MethodFile:

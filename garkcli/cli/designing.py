@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from itertools import count, islice
 from pathlib import Path
@@ -30,7 +30,6 @@ if TYPE_CHECKING:
     from garkcli.design.stable_values import StableValues
     from garkcli.methodfile.family import FamilyFile
     from garkcli.methodfile.search_file import FileSearch
-    from garkcli.sweep.plan import Plan
     from garkcli.tableau.family import Stability
 
 _STANDARD_INPUT = {STDIN, "<stdin>"}
@@ -72,7 +71,9 @@ def design(given: Given, output: Output) -> int:
     if given.plot is not None:
         raise UsageProblem(_PLOT, "ask for --a-stable alone", code="option-alone")
     family = _as_stable(family, asked)
-    _prepare_places(given, output)
+    output.check_place(given.emit)
+    if given.folder is not None:
+        make_folder(given.folder)
     if given.search is not None:
         _refuse_unsettled(family)
         return _search(family, given, output)
@@ -141,13 +142,6 @@ def _refuse_unsettled(family: FamilyFile) -> None:
         raise UsageProblem(message, "give it more, or want less", code="not-found")
 
 
-def _prepare_places(given: Given, output: Output) -> None:
-    """Refuse places that cannot be written to, before the work."""
-    output.check_place(given.emit)
-    if given.folder is not None:
-        make_folder(given.folder)
-
-
 def make_folder(path: str) -> None:
     """Make a folder that files are written into, where there is none.
 
@@ -199,7 +193,8 @@ def _told(family: FamilyFile, chosen: list[Choice], given: Given, output: Output
         found = _found(family, given)
     sets = _sets(found, given)
     stable = [None] if sets is None else [x.has_values for x in sets]
-    is_reached = _all_of([found.reaches(given.order or 1), *stable])
+    answers = [found.reaches(given.order or 1), *stable]
+    is_reached = False if False in answers else None if None in answers else True
     minimum = None
     has_rest = given.order is None or found.last.kind != "undecided"
     is_compared = given.minimise is not None and is_reached is not False and has_rest
@@ -356,12 +351,6 @@ EXIT_CODES = {True: 0, False: 1, None: 3}
 """By what is reached; that it cannot be decided is no fault of the file, as what cannot be done."""
 
 
-def _all_of(answers: Iterable[bool | None]) -> bool | None:
-    """Whether all is so; None where that is not decided."""
-    known = list(answers)
-    return False if False in known else None if None in known else True
-
-
 def _search(family: FamilyFile, given: Given, output: Output) -> int:
     """Search for methods, report them and write their files."""
     from garkcli.methodfile.search_file import FileSearch
@@ -454,8 +443,12 @@ def sweep(given: Given, output: Output) -> None:
     from garkcli.sweep.plan import load_plan
 
     plan = load_plan(given.spec)
-    if given.plot is not None:
-        _refuse_plot(plan)
+    if given.plot is not None and len(plan.pareto) < 2:
+        raise UsageProblem(
+            "--plot needs two columns",
+            "write pareto: [error, stages] into the spec",
+            code="option-alone",
+        )
     if given.parquet is not None:
         refuse_parquet(given.parquet)
     asked = {"rows": str(Path(given.spec).with_suffix(".jsonl")), **given.of("run_sweep")}
@@ -477,13 +470,3 @@ def sweep(given: Given, output: Output) -> None:
         from garkcli.plots.sweep import sweep_scene
 
         output.save_plot(sweep_scene(report, *plan.pareto[:2]), given.plot)
-
-
-def _refuse_plot(plan: Plan) -> None:
-    """Refuse a plot without axes, before the work is done."""
-    if len(plan.pareto) < 2:
-        raise UsageProblem(
-            "--plot needs two columns",
-            "write pareto: [error, stages] into the spec",
-            code="option-alone",
-        )

@@ -142,11 +142,19 @@ def list_(given: Given, output: Output) -> None:
     """
     from garkcli.report import list_methods, listing
 
-    filters = {key: getattr(given, key) for key in (*_filter_keys(), "words")}
+    names = [str(option.name) for option in _filters()]
+    filters = {name: getattr(given, name) for name in (*names, "words")}
     if given.what == "methods":
         output.tell(list_methods.REPORT, _listed(filters))
         return
-    _refuse_filters(filters, output.format)
+    for key, value in filters.items():
+        if value not in (None, ()):
+            name = "words" if key == "words" else f"--{key.replace('_', '-')}"
+            message = f"{name}: chosen are methods alone"
+            raise UsageProblem(message, "write gark list methods", code="options-clash")
+    if output.format == "csv":
+        message = "--format csv is for methods"
+        raise UsageProblem(message, "write gark list methods", code="options-clash")
     if given.what == "exports":
         from garkcli.bridges.registry import bridges
 
@@ -154,26 +162,6 @@ def list_(given: Given, output: Output) -> None:
     else:
         one = listing.only(given.what) if given.what else listing.REPORT
         output.tell(one, listing.all_lists())
-
-
-def _filter_keys() -> list[str]:
-    return [str(option.name) for option in _filters()]
-
-
-def _refuse_filters(given: Mapping[str, object], format: str) -> None:
-    """Filters and formats of the list of methods, where something else is listed.
-
-    Raises:
-        UsageProblem: there is one.
-    """
-    for key, value in given.items():
-        if value not in (None, ()):
-            name = "words" if key == "words" else f"--{key.replace('_', '-')}"
-            message = f"{name}: chosen are methods alone"
-            raise UsageProblem(message, "write gark list methods", code="options-clash")
-    if format == "csv":
-        message = f"--format {format} is for methods"
-        raise UsageProblem(message, "write gark list methods", code="options-clash")
 
 
 def _listed(given: Mapping[str, Any]) -> list[Entry]:
@@ -261,7 +249,11 @@ def report(given: Given, output: Output) -> int:
     if output.path is None and not output.is_streamed:
         output.path = _page_name(paths, given.which)
         output.check_place()
-        _keep_other_files(output.path)
+        # a page that has its name from its method is written over pages alone
+        with suppress(OSError), open(output.path, "rb") as stream:
+            if b"gark report" not in stream.read(20_000).lower():
+                message = f"{output.path} is there already, and is no page"
+                raise UsageProblem(message, f"-o {output.path} writes over it", code="cannot-write")
     asked = given.order, given.pictures is not False, given.settings
     found = (reported(_meant(path, given), *asked) for path in paths)
     methods = list(counting("methods", found, len(paths)))
@@ -270,18 +262,6 @@ def report(given: Given, output: Output) -> int:
         if not method.outcome.is_read:
             say_faults(method.outcome)
     return max(method.outcome.exit_code for method in methods)
-
-
-def _keep_other_files(place: str) -> None:
-    """A page that has its name from its method is written over pages alone.
-
-    Raises:
-        UsageProblem: another file is there.
-    """
-    with suppress(OSError), open(place, "rb") as stream:
-        if b"gark report" not in stream.read(20_000).lower():
-            message = f"{place} is there already, and is no page"
-            raise UsageProblem(message, f"-o {place} writes over it", code="cannot-write")
 
 
 def _page_name(paths: list[str], which: str | None) -> str:

@@ -168,26 +168,17 @@ def _run(arguments: list[str]) -> int:
     which is the code of a claim that fails.
     """
     if arguments[:1] == [HELP]:
-        arguments = _help_for(arguments[1:])
+        names = [x for x in arguments[1:] if not x.startswith("-")]
+        if len(names) > 1:
+            message = f"gark help is for one command, not for {counted(len(names), 'word')}"
+            raise UsageProblem(message, f"gark help {names[0]}", code="wrong-value")
+        arguments = [*arguments[1:], "--help"]
     try:
         with gark.make_context("gark", list(arguments)) as context:
             result = gark.invoke(context)
     except click.exceptions.Exit as end:
         return end.exit_code
     return result if isinstance(result, int) else 0
-
-
-def _help_for(arguments: list[str]) -> list[str]:
-    """What ``gark help COMMAND`` is short for.
-
-    Raises:
-        UsageProblem: more than one command is named.
-    """
-    names = [x for x in arguments if not x.startswith("-")]
-    if len(names) > 1:
-        message = f"gark help is for one command, not for {counted(len(names), 'word')}"
-        raise UsageProblem(message, f"gark help {names[0]}", code="wrong-value")
-    return [*arguments, "--help"]
 
 
 def _own_up(error: Exception, with_traceback: bool) -> None:

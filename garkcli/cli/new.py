@@ -30,7 +30,12 @@ def new(given: Given, output: Output) -> None:
     from garkcli.methodfile.load import loads
     from garkcli.methodfile.template import of_families
 
-    place = _place(given, output)
+    place: str | None = output.path if given.file is None else given.file
+    output.check_place(place)
+    if place is not None and os.path.exists(place) and not given.force:
+        raise UsageProblem(
+            f"{place} is there already", "--force writes over it", code="cannot-write"
+        )
     if given.tableau is None and not given.families:
         _ask(given)
     stem = os.path.basename(given.file or "").removesuffix(".yaml").removesuffix(".gark")
@@ -50,21 +55,6 @@ def new(given: Given, output: Output) -> None:
 
     write_whole(place, [text])
     output.note(f"wrote {place}; gark check {place} proves its claims")
-
-
-def _place(given: Given, output: Output) -> str | None:
-    """Where the file goes; None for standard output.
-
-    Raises:
-        UsageProblem: it is there already.
-    """
-    place: str | None = output.path if given.file is None else given.file
-    output.check_place(place)
-    if place is not None and os.path.exists(place) and not given.force:
-        raise UsageProblem(
-            f"{place} is there already", "--force writes over it", code="cannot-write"
-        )
-    return place
 
 
 def of_tableau_text(name: str, text: str) -> str:

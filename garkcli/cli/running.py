@@ -77,17 +77,7 @@ def converge(given: Given, output: Output) -> int:
     paths = given.files_meant(output)
     if given.problem is None and (given.omega or given.split):
         given.problem = "oscillator"
-    _check(given)
-    given.against = given.against or ("evaluations" if given.work else "h")
-    return _one(paths[0], given, output) if len(paths) == 1 else _several(paths, given, output)
-
-
-def _check(given: Given) -> None:
-    """Refuse options that do not go together, before anything is read.
-
-    Raises:
-        UsageProblem: two of them do not.
-    """
+    # before anything is read
     if given.problem is not None:
         refuse_misplaced(given)
     elif given.stiffness is not None:
@@ -99,6 +89,8 @@ def _check(given: Given) -> None:
     if given.against not in (None, "h") and not given.work:
         message = f"--against {given.against} is not known without measuring it"
         raise UsageProblem(message, "add --work", code="other-problem")
+    given.against = given.against or ("evaluations" if given.work else "h")
+    return _one(paths[0], given, output) if len(paths) == 1 else _several(paths, given, output)
 
 
 def _one(path: str, given: Given, output: Output) -> int:

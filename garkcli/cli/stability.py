@@ -30,7 +30,9 @@ def stability(given: Given, output: Output) -> None:
     from garkcli.methodfile.naming import called
     from garkcli.report.stability import REPORT
 
-    _check_folder(given.plot)
+    if given.plot is not None and not Path(given.plot).parent.is_dir():
+        message = f"cannot write {given.plot}: there is no such folder"
+        raise UsageProblem(message, "choose another place", code="cannot-write")
     reports = []
     paths = given.files_meant(output)
     for file in paths:
@@ -39,7 +41,17 @@ def stability(given: Given, output: Output) -> None:
         except HasFreeParameters as error:
             if len(paths) > 1:
                 raise
-            _tell_for_every_value(error, given, output)
+            from garkcli.cli.tableaux import read_family
+            from garkcli.report.every import STABILITY, every_stability
+
+            needs = {
+                f"--{given.which}": given.which,
+                "--slow": given.slow,
+                "--ratio": given.ratio,
+                "--plot": given.plot,
+            }
+            read, family = read_family(error, given.settings, needs)
+            output.tell(STABILITY, every_stability(read.source, read.name, family))
             return
         reports.append(_report(called(file), method, given))
     output.tell(REPORT, *reports)
@@ -47,17 +59,6 @@ def stability(given: Given, output: Output) -> None:
         from garkcli.plots.regions import stability_scene
 
         output.save_plot(stability_scene(reports, given.order_star), given.plot)
-
-
-def _check_folder(plot: str | None) -> None:
-    """Whether there can be such a picture, before any work is done.
-
-    Raises:
-        UsageProblem: there cannot.
-    """
-    if plot is not None and not Path(plot).parent.is_dir():
-        message = f"cannot write {plot}: there is no such folder"
-        raise UsageProblem(message, "choose another place", code="cannot-write")
 
 
 def colour_named(tableau: Tableau, colour: str) -> int:
@@ -71,21 +72,6 @@ def colour_named(tableau: Tableau, colour: str) -> int:
         message = f"--fast: no colour {colour!r}"
         raise UsageProblem(message, did_you_mean(colour, names), code="wrong-value")
     return 1 + names.index(colour)
-
-
-def _tell_for_every_value(error: HasFreeParameters, given: Given, output: Output) -> None:
-    """A file with free parameters: R(z), and for which values it is stable."""
-    from garkcli.cli.tableaux import read_family
-    from garkcli.report.every import STABILITY, every_stability
-
-    needs = {
-        f"--{given.which}": given.which,
-        "--slow": given.slow,
-        "--ratio": given.ratio,
-        "--plot": given.plot,
-    }
-    file, family = read_family(error, given.settings, needs)
-    output.tell(STABILITY, every_stability(file.source, file.name, family))
 
 
 def _report(file: str, method: GarkMethod, given: Given) -> StabilityReport:

@@ -242,7 +242,11 @@ def conditions(given: Given, output: Output) -> None:
         met = (x for n in orders for x in all_conditions(valued.method, n))
         rows = (ConditionRow(x.tree, False, x) for x in met)
     else:
-        colours = _coloured(given, output.format)
+        # 0 colours: each row is for all colourings of a shape
+        coloured = given.coloured
+        if coloured is None:
+            coloured = output.format in {"json", "csv"} and given.colours is not None
+        colours = (given.colours or 1) if coloured else 0
         rows = _table(colours, orders)
     if given.sort == "worst":
         rows = iter(sorted(rows, key=_badness, reverse=True))
@@ -294,16 +298,6 @@ def _independent(subject: Subject, members: bool, valued: Valued | None) -> Iter
     for found, (tree, condition) in zip(classes, values, strict=True):
         shown = found.members if members else ()
         yield ConditionRow(tree, False, condition, stands_for=len(found.members), members=shown)
-
-
-def _coloured(given: Given, format: str) -> int:
-    """How many colours rows have: 0 where each is for all colourings of a shape, as people read
-    them, and programs that do not say how many colours there are.
-    """
-    coloured = given.coloured
-    if coloured is None:
-        coloured = format in {"json", "csv"} and given.colours is not None
-    return (given.colours or 1) if coloured else 0
 
 
 def _table(colours: int, orders: range) -> Iterator[ConditionRow]:

@@ -161,6 +161,14 @@ def compare(one: GarkMethod, other: GarkMethod, limit: int = DEFAULT_LIMIT) -> C
     if answer.sameness is not None and answer.sameness.is_plain:
         gaps = _decided(gaps, answer)
     first, second = _analysed(one, limit), _analysed(other, limit)
+    different = []
+    for key in KEYS:
+        pair = PropertyPair(key, first.subject.verdict(key), second.subject.verdict(key))
+        if _text(pair.one) != _text(pair.other):
+            different.append(pair)
+    if first.symplectic != second.symplectic:
+        verdicts = Verdict(first.symplectic), Verdict(second.symplectic)
+        different.append(PropertyPair("symplectic", *verdicts))
     return Comparison(
         one=one,
         other=other,
@@ -169,9 +177,15 @@ def compare(one: GarkMethod, other: GarkMethod, limit: int = DEFAULT_LIMIT) -> C
         sameness=answer.sameness,
         obstacle=answer.obstacle,
         allowed=allowed,
-        orders=_orders(first, second),
+        orders=(
+            OrderPair("order", first.order, second.order),
+            OrderPair(WITH_TIME, first.nonautonomous_order, second.nonautonomous_order),
+            OrderPair("order of the embedded weights", _of_embedded(first), _of_embedded(second)),
+            OrderPair("order of the conjugate", first.conjugate_order, second.conjugate_order),
+            OrderPair("order of the pair", first.pair_order, second.pair_order),
+        ),
         met=_met(first, second, answer, views.one, views.other),
-        properties=_properties(first, second),
+        properties=tuple(different),
     )
 
 
@@ -202,16 +216,6 @@ def form_of(tableau: Tableau) -> str:
     return "ark" if len(tableau.spaces) == 1 else "gark"
 
 
-def _orders(one: Analysis, other: Analysis) -> tuple[OrderPair, ...]:
-    return (
-        OrderPair("order", one.order, other.order),
-        OrderPair(WITH_TIME, one.nonautonomous_order, other.nonautonomous_order),
-        OrderPair("order of the embedded weights", _of_embedded(one), _of_embedded(other)),
-        OrderPair("order of the conjugate", one.conjugate_order, other.conjugate_order),
-        OrderPair("order of the pair", one.pair_order, other.pair_order),
-    )
-
-
 def _of_embedded(analysis: Analysis) -> AnyOrder | None:
     return None if analysis.embedded is None else analysis.embedded.order
 
@@ -222,18 +226,6 @@ def _met(one: Analysis, other: Analysis, answer: Answer, first: Grid, second: Gr
         return None
     methods = [meant(x.tableau, x.tolerance) for x in (one, other)]
     return conditions_met(methods[0], methods[1], (one.order.order, other.order.order))
-
-
-def _properties(one: Analysis, other: Analysis) -> tuple[PropertyPair, ...]:
-    different = []
-    for key in KEYS:
-        first, second = one.subject.verdict(key), other.subject.verdict(key)
-        if _text(first) != _text(second):
-            different.append(PropertyPair(key, first, second))
-    if one.symplectic != other.symplectic:
-        verdicts = Verdict(one.symplectic), Verdict(other.symplectic)
-        different.append(PropertyPair("symplectic", *verdicts))
-    return tuple(different)
 
 
 def _text(verdict: Verdict) -> tuple[str, bool, bool]:

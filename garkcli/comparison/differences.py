@@ -185,7 +185,13 @@ def conditions_met(one: AnyTableau, other: AnyTableau, orders: tuple[int, int]) 
         orders: the orders that they are known to have.
     """
     tableau = printed(one)
-    graph = _common_graph(tableau, printed(other))
+    edges, linear = coupling_graph(tableau)
+    others, linear_too = coupling_graph(printed(other))
+    both = tuple(
+        tuple(x and y for x, y in zip(row, second, strict=True))
+        for row, second in zip(edges, others, strict=True)
+    )
+    graph = both, linear | linear_too
     roots = _common_roots(tableau, printed(other))
     pairs: list[tuple[Condition, Condition]] = []
     reached, total = 0, 0
@@ -209,17 +215,6 @@ def conditions_met(one: AnyTableau, other: AnyTableau, orders: tuple[int, int]) 
 
 
 _Graph = tuple[tuple[tuple[bool, ...], ...], frozenset[int]]
-
-
-def _common_graph(one: Tableau, other: Tableau) -> _Graph:
-    """Which trees both methods admit."""
-    edges, linear = coupling_graph(one)
-    others, linear_too = coupling_graph(other)
-    both = tuple(
-        tuple(x and y for x, y in zip(row, second, strict=True))
-        for row, second in zip(edges, others, strict=True)
-    )
-    return both, linear | linear_too
 
 
 def _common_roots(one: Tableau, other: Tableau) -> list[int]:

@@ -83,7 +83,16 @@ def in_turn(substeps: Sequence[Substep]) -> Tableau:
         MethodError: the methods are for different vector fields, or there are too many stages.
     """
     tableaus = [substep.tableau for substep in substeps]
-    _check_alike(tableaus)
+    first = tableaus[0]
+    for number, other in enumerate(tableaus[1:], start=2):
+        if other.size != first.size:
+            of_first = counted(first.size, "colour")
+            of_other = counted(other.size, "colour")
+            message = f"substep {number} has {of_other}, the first {of_first}"
+            raise MethodError(message, _CURE, code="wrong-size")
+        if _fields(other) != _fields(first):
+            message = f"substep {number} is for other vector fields than the first"
+            raise MethodError(message, _CURE, code="wrong-size")
     stages = sum(map(count_stages, tableaus))
     refuse_large(stages, "take fewer substeps, or methods of fewer stages")
     return _Composition(substeps).tableau()
@@ -107,24 +116,6 @@ def advance(tableau: Tableau, l: int) -> Number:
     m = seen_in_nodes(tableau, l)
     colour = tableau.colours[l if m is None else m]
     return dot(colour.b, tableau.spaces[colour.space].one)
-
-
-def _check_alike(tableaus: Sequence[Tableau]) -> None:
-    """Refuse methods for different vector fields.
-
-    Raises:
-        MethodError: they have different colours, or different ones are seen.
-    """
-    first = tableaus[0]
-    for number, other in enumerate(tableaus[1:], start=2):
-        if other.size != first.size:
-            of_first = counted(first.size, "colour")
-            of_other = counted(other.size, "colour")
-            message = f"substep {number} has {of_other}, the first {of_first}"
-            raise MethodError(message, _CURE, code="wrong-size")
-        if _fields(other) != _fields(first):
-            message = f"substep {number} is for other vector fields than the first"
-            raise MethodError(message, _CURE, code="wrong-size")
 
 
 _CURE = "compose methods of the same form and structure"

@@ -267,20 +267,14 @@ def slowest_first(slow: Method, fast: Method, steps: int) -> Tableau:
     stages = range(first, first + whole.stages)
     integrals = [antiderivative(x) for x in slow.space.basis_polynomials()]
     for row, node in zip(whole.A, whole.c, strict=True):
-        powers = _powers(node, slow.stages + 1)
+        powers: list[Number] = [ONE]
+        for _ in range(slow.stages):
+            powers.append(powers[-1] * node)
         seen = [dot(f, powers) for f in integrals]
         value = summed(of_slopes(FAST, stages, row), of_slopes(SLOW, every, seen))
         program.add(FAST, value, node)
     result = summed(of_slopes(FAST, stages, whole.b), of_slopes(SLOW, every, slow.b))
     return merged(program.tableau(result))
-
-
-def _powers(x: Number, count: int) -> Vector:
-    """1, x, x², …"""
-    powers: list[Number] = [ONE]
-    while len(powers) < count:
-        powers.append(powers[-1] * x)
-    return tuple(powers)
 
 
 class Blocks(Frozen):

@@ -9,6 +9,7 @@ with parameters that are free.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from itertools import product
 from typing import TypeAlias
 
 from garkcli.frozen import Frozen
@@ -60,14 +61,11 @@ def repeated(fractions: Callable[[int], Sequence[str]]) -> Callable[[int, int], 
     def parts(base: int, wanted: int) -> Parts:
         texts = ["1"]
         for order in range(base, wanted, 2):
-            texts = [_times(g, text) for g in fractions(order) for text in texts]
+            pairs = product(fractions(order), texts)
+            texts = [g if text == "1" else f"({g})*({text})" for g, text in pairs]
         return tuple((text, False) for text in texts)
 
     return parts
-
-
-def _times(one: str, other: str) -> str:
-    return one if other == "1" else f"({one})*({other})"
 
 
 def _triple_jump(order: int) -> tuple[str, ...]:

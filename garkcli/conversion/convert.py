@@ -95,20 +95,15 @@ def convert(method: GarkMethod, to: str = "spelled-out", stages: int | None = No
             " this partitioned method",
             "--to gark has all of its colours",
         )
-    text = _with_head(_written(method, goal, sheet), method)
-    loses_further = bool(method.further) and not sheet.further
-    if not isinstance(method, MethodFile):
-        return Converted(loads(text), (), loses_further)
-    return replace(_claimed(text, method, goal), loses_further=loses_further)
-
-
-def _written(method: GarkMethod, goal: Target, sheet: Sheet) -> str:
-    """The file without claims and reference."""
     source = method.source if isinstance(method, MethodFile) else ""
     name = UNNAMED if method.name in ("", source) else method.name
     if goal.makes_another:
         name = derived_name(goal.name, name)
-    return write_method(sheet.tableau, name, method.tolerance, sheet.further)
+    text = _with_head(write_method(sheet.tableau, name, method.tolerance, sheet.further), method)
+    loses_further = bool(method.further) and not sheet.further
+    if not isinstance(method, MethodFile):
+        return Converted(loads(text), (), loses_further)
+    return replace(_claimed(text, method, goal), loses_further=loses_further)
 
 
 def _with_head(text: str, method: GarkMethod) -> str:

@@ -16,7 +16,7 @@ from garkcli.tableau.embedded import NOTHING, Further, as_colours, from_colours
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.pointwise import in_points
 from garkcli.tableau.stages import PointSpace
-from garkcli.tableau.tableau import Colour, Edge, Tableau
+from garkcli.tableau.tableau import Edge, Tableau
 
 
 class OneField:
@@ -160,29 +160,28 @@ def regrouped(sheet: Sheet, spaces: Sequence[Sequence[Place]], homes: Sequence[i
     Raises:
         CannotConvert: a new space has stages that see a colour, and others that do not.
     """
-    further = len(sheet.further.rows)
+    homes = [*homes] * (1 + len(sheet.further.rows))
 
     def change(tableau: Tableau) -> Tableau:
-        return _regrouped(tableau, spaces, [*homes] * (1 + further))
+        colours = []
+        for l, colour in enumerate(tableau.colours):
+            places = spaces[homes[l]]
+            b = _chosen(colour.b, colour.space, places)
+            nodes = list(_nodes(tableau, places))
+            for new, place in enumerate(places):
+                if place is not None and place[0] == colour.space:
+                    nodes[new] = colour.c[place[1]]
+            colours.append(replace(colour, space=homes[l], b=b, c=tuple(nodes)))
+        blocks: dict[Edge, Matrix] = {}
+        for k, places in enumerate(spaces):
+            for m, home in enumerate(homes):
+                block = _block(tableau, m, places, spaces[home])
+                if block is not None:
+                    blocks[k, m] = block
+        made = tuple(PointSpace(_nodes(tableau, places)) for places in spaces)
+        return Tableau(made, tuple(colours), blocks)
 
     return of_weights(sheet, change)
-
-
-def _regrouped(old: Tableau, spaces: Sequence[Sequence[Place]], homes: Sequence[int]) -> Tableau:
-    """The same of a tableau, whose colours need not be seen."""
-    colours = []
-    for l, colour in enumerate(old.colours):
-        places = spaces[homes[l]]
-        b = _chosen(colour.b, colour.space, places)
-        colours.append(replace(colour, space=homes[l], b=b, c=_nodes_of(old, colour, places)))
-    blocks: dict[Edge, Matrix] = {}
-    for k, places in enumerate(spaces):
-        for m, home in enumerate(homes):
-            block = _block(old, m, places, spaces[home])
-            if block is not None:
-                blocks[k, m] = block
-    made = tuple(PointSpace(_nodes(old, places)) for places in spaces)
-    return Tableau(made, tuple(colours), blocks)
 
 
 def arranged(sheet: Sheet, spaces: Sequence[Sequence[Place]]) -> Sheet:
@@ -195,15 +194,6 @@ def _nodes(tableau: Tableau, places: Iterable[Place]) -> Vector:
     return tuple(
         ZERO if place is None else tableau.spaces[place[0]].nodes[place[1]] for place in places
     )
-
-
-def _nodes_of(tableau: Tableau, colour: Colour, places: Sequence[Place]) -> Vector:
-    """The same, for the stages of a colour those that the colour has."""
-    nodes = list(_nodes(tableau, places))
-    for new, place in enumerate(places):
-        if place is not None and place[0] == colour.space:
-            nodes[new] = colour.c[place[1]]
-    return tuple(nodes)
 
 
 def _chosen(row: Vector, space: int, places: Iterable[Place]) -> Vector:

@@ -77,8 +77,21 @@ def as_ark(method: GarkMethod) -> Sheet:
         )
     together = shared(sheet)
     if together is None:
-        together = in_solving_order(_one_after_the_other(sheet))
-    return _with_one_row_of_nodes(together)
+        places: list[Place] = []
+        for k, space in enumerate(sheet.tableau.spaces):
+            places += [(k, i) for i in range(space.stages)]
+        in_one_space = regrouped(sheet, [places], [0] * sheet.tableau.size)
+        together = in_solving_order(of_weights(in_one_space, merged))
+    tableau = together.tableau
+    nodes = tableau.colours[0].c
+    for colour in tableau.colours:
+        if colour.c != nodes:
+            raise CannotConvert(
+                f"colour {colour.name} has nodes of its own; an additive"
+                " method has one row of them",
+                "--to gark keeps them",
+            )
+    return together
 
 
 def shared(sheet: Sheet) -> Sheet | None:
@@ -105,31 +118,6 @@ def _are_alike(tableau: Tableau, one: int, other: int) -> bool:
     )
 
 
-def _one_after_the_other(sheet: Sheet) -> Sheet:
-    places: list[Place] = []
-    for k, space in enumerate(sheet.tableau.spaces):
-        places += [(k, i) for i in range(space.stages)]
-    return of_weights(regrouped(sheet, [places], [0] * sheet.tableau.size), merged)
-
-
-def _with_one_row_of_nodes(sheet: Sheet) -> Sheet:
-    """The method, where its colours have the same nodes.
-
-    Raises:
-        CannotConvert: they do not.
-    """
-    tableau = sheet.tableau
-    nodes = tableau.colours[0].c
-    for colour in tableau.colours:
-        if colour.c != nodes:
-            raise CannotConvert(
-                f"colour {colour.name} has nodes of its own; an additive"
-                " method has one row of them",
-                "--to gark keeps them",
-            )
-    return sheet
-
-
 def as_prk(method: GarkMethod) -> Sheet:
     """The method as a partitioned one: colour 1 drives q, colour 2 drives p.
 
@@ -144,7 +132,7 @@ def as_prk(method: GarkMethod) -> Sheet:
             f"a partitioned method has two parts, this one has {counted(tableau.size, 'colour')}",
             "--to gark has every number of colours",
         )
-    if not _is_separable(tableau):
+    if not (len(tableau.spaces) == 2 and set(tableau.edges()) == {(0, 1), (1, 0)}):
         together = shared(sheet)
         if together is None:
             raise CannotConvert(
@@ -156,15 +144,6 @@ def as_prk(method: GarkMethod) -> Sheet:
         raise CannotConvert(
             "the file of a partitioned method says that q is linear, not p", "exchange the colours"
         )
-    return _with_parts(sheet)
-
-
-def _is_separable(tableau: Tableau) -> bool:
-    """Whether each colour sees the other alone."""
-    return len(tableau.spaces) == 2 and set(tableau.edges()) == {(0, 1), (1, 0)}
-
-
-def _with_parts(sheet: Sheet) -> Sheet:
     parts: tuple[Part, ...] = ("q", "p")
     colours = []
     for l, (colour, part) in enumerate(zip(sheet.tableau.colours, parts, strict=True)):

@@ -98,7 +98,10 @@ class Crew(Generic[Item, Outcome]):
 
         self.items = items
         self.waiting = deque(range(len(items)))
-        self._leave_the_dead()
+        # workers that died when they had nothing to do: no item is to blame for it
+        for worker in [x for x in self.workers if not x.process.is_alive()]:
+            worker.end()
+            self.workers.remove(worker)
         for worker in self.workers:
             self._supply(worker)
         self._hire()
@@ -120,12 +123,6 @@ class Crew(Generic[Item, Outcome]):
                 worker.items.popleft()
                 self._supply(worker)
                 yield number, outcome
-
-    def _leave_the_dead(self) -> None:
-        """Workers that died when they had nothing to do: no item is to blame for it."""
-        for worker in [x for x in self.workers if not x.process.is_alive()]:
-            worker.end()
-            self.workers.remove(worker)
 
     def _hire(self) -> None:
         """As many workers as there is work for."""

@@ -131,7 +131,8 @@ class _Corrections:
         before: Number = ZERO
         for m, node in enumerate(self.nodes):
             width = node - before
-            increment = self._between(m, old)
+            upper = self._integral(m, old)
+            increment = combined([(1, upper), (-1, self._integral(m - 1, old) if m else START)])
             if not width:  # the step begins at the first node
                 new.append(old[m])
                 continue
@@ -148,11 +149,6 @@ class _Corrections:
             new.append(slope)
             before = node
         return value, new
-
-    def _between(self, m: int, slopes: _Slopes) -> Weights:
-        """The integral from the node before to node m of the polynomial through the slopes."""
-        upper = self._integral(m, slopes)
-        return combined([(1, upper), (-1, self._integral(m - 1, slopes) if m else START)])
 
     def _integral(self, m: int, slopes: _Slopes) -> Weights:
         """From 0 to node m, or to 1 where m is the number of nodes."""

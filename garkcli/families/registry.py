@@ -103,7 +103,11 @@ def recipe_of(name: str, size: int | None = None, options: Options = NO_OPTIONS)
     """
     family = FAMILIES.get(name)
     if family is None:
-        raise _unknown(name)
+        other = OTHER_NAMES.get(name.lower().replace("_", "-").replace(" ", "-"))
+        cure = did_you_mean(name, FAMILIES)
+        if other:
+            cure = f"it is called {other} here"
+        raise UnknownFamily(f"no family {name[:MAX_NAME]!r}", cure, code="unknown-word")
     size = _size_of(family, size)
     recipe = family.recipe(size, _complete(family, options))
     if recipe.stages > MAX_STAGES:
@@ -111,15 +115,6 @@ def recipe_of(name: str, size: int | None = None, options: Options = NO_OPTIONS)
         message = f"{name} with {family.size}: {size} has {stages}"
         raise UnknownFamily(message, f"at most {MAX_STAGES} are made", code="wrong-value")
     return recipe
-
-
-def _unknown(name: str) -> UnknownFamily:
-    """A family that there is not, and what it is called here."""
-    other = OTHER_NAMES.get(name.lower().replace("_", "-").replace(" ", "-"))
-    cure = did_you_mean(name, FAMILIES)
-    if other:
-        cure = f"it is called {other} here"
-    return UnknownFamily(f"no family {name[:MAX_NAME]!r}", cure, code="unknown-word")
 
 
 def _size_of(family: Family, size: int | None) -> int:

@@ -53,20 +53,16 @@ class StageList:
 
     def method(self, name: str, result: Weights) -> Method:
         """The method whose step ends at the value ``result``; its nodes are the row sums."""
-        used = self._used(result)
-        A = tuple(_row(self._rows[i], used) for i in used)
-        return butcher(A, _row(result, used), name=name)
-
-    def _used(self, result: Weights) -> list[int]:
-        """The stages on which the result depends."""
-        used: set[int] = set()
+        seen: set[int] = set()
         pending = list(result)
         while pending:
             i = pending.pop()
-            if i not in used:
-                used.add(i)
+            if i not in seen:
+                seen.add(i)
                 pending += self._rows[i]
-        return sorted(used)
+        used = sorted(seen)
+        A = tuple(_row(self._rows[i], used) for i in used)
+        return butcher(A, _row(result, used), name=name)
 
 
 def _row(weights: Weights, used: Iterable[int]) -> Vector:

@@ -176,7 +176,8 @@ def _replacements(text: str, expect: MappingNode, claims: Mapping[str, str]) -> 
     """Other values for claims that are there."""
     for key, node in expect.value:
         value = claims.get(key.value)
-        if value is None or _says(node, value):
+        is_plain = isinstance(node, ScalarNode)
+        if value is None or (is_plain and node.value == value.strip('"')):
             continue
         start, _ = extent(text, node, node)
         yield start, _end(text, node), value
@@ -215,8 +216,3 @@ def _end(text: str, node: Node) -> int:
         node = node.value[-1]
     _, end = extent(text, node, node)
     return end
-
-
-def _says(node: Node, value: str) -> bool:
-    """Whether a value is written already, in quotes or without."""
-    return isinstance(node, ScalarNode) and bool(node.value == value.strip('"'))

@@ -84,7 +84,9 @@ def _expanded(place: str, parts: Sequence[str]) -> Iterator[str]:
             yield from _expanded(folder, rest or ("*",))
     elif _MAGIC & set(part):
         for name in _names(place):
-            if _matches(name, part):
+            # a hidden one has to be asked for
+            is_shown = part.startswith(".") or not name.startswith(".")
+            if is_shown and fnmatchcase(name, part):
                 yield from _expanded(os.path.join(place, name), rest)
     else:
         yield from _expanded(os.path.join(place, part), rest)
@@ -97,12 +99,6 @@ def _folders(place: str) -> Iterator[str]:
         below[:] = [name for name in below if not name.startswith(".")]
         inside = folder if place else os.path.relpath(folder)
         yield "" if inside == "." else inside
-
-
-def _matches(name: str, pattern: str) -> bool:
-    """Whether a name is one of a pattern; a hidden one has to be requested."""
-    is_hidden = name.startswith(".")
-    return False if is_hidden and not pattern.startswith(".") else fnmatchcase(name, pattern)
 
 
 def _names(folder: str) -> list[str]:

@@ -217,7 +217,7 @@ class Maker:
 
         Args:
             items: each formula with what it is called in messages.
-            names: for names that may not stand here, the cure; "" for those that may.
+            names: for names that may not be here, the cure; "" for those that may.
             noun: what a name can be here.
         """
         known = names if self.text.are_named else None

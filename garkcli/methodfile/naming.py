@@ -81,7 +81,9 @@ def find_named(argument: str, path: str = "") -> Shelved | None:
     if method is None and not is_file:
         raise MethodFileError(argument, [_unknown(name)])
     if method is not None and is_file:
-        raise MethodFileError(argument, [_both(argument, method)])
+        both = f"there is a file of this name here, and the method {method.name} in the catalogue"
+        cure = f"write .{os.sep}{argument} for the file, {PREFIX}{argument} for the method"
+        raise MethodFileError(argument, [Fault(both, cure, code="name-in-doubt")])
     return method
 
 
@@ -194,18 +196,17 @@ def _only(name: str, methods: Sequence[Shelved]) -> Shelved:
     raise MethodFileError(name, [Fault(message, "name one of them", code="name-in-doubt")])
 
 
-def _both(argument: str, method: Shelved) -> Fault:
-    """What exists here and is a name of the catalogue too."""
-    message = f"there is a file of this name here, and the method {method.name} in the catalogue"
-    cure = f"write .{os.sep}{argument} for the file, {PREFIX}{argument} for the method"
-    return Fault(message, cure, code="name-in-doubt")
-
-
 def _unknown(name: str) -> Fault:
     """Neither file nor name."""
     message = "no such file, and no method of this name in the catalogue"
-    cure, near = "gark list methods shows the names", nearest(name, _names())
-    if near:
+    known = [
+        word
+        for shelf in every_shelf()
+        for method in chain.from_iterable(shelf.methods.values())
+        for word in (method.name, *shelf.called(method))
+    ]
+    cure = "gark list methods shows the names"
+    if near := nearest(name, known):
         cure = f"did you mean {near!r}?"
     elif begun := names_beginning(name):
         cure = f"names that begin so: {_first(begun)}"
@@ -216,16 +217,6 @@ def _first(names: Sequence[str]) -> str:
     """Some names in a line."""
     shown = ", ".join(names[:_MOST_SHOWN])
     return f"{shown}, …" if len(names) > _MOST_SHOWN else shown
-
-
-def _names() -> list[str]:
-    """Every name and every alias."""
-    return [
-        name
-        for shelf in every_shelf()
-        for method in chain.from_iterable(shelf.methods.values())
-        for name in (method.name, *shelf.called(method))
-    ]
 
 
 def every_shelf() -> list[Shelf]:

@@ -126,7 +126,10 @@ def read_pasted(text: str) -> Pasted:
             code="pasted-tableau",
         )
     if sign in _OF_TABLES and lines[-1].node:
-        lines = _without_nodes(lines)
+        # the first column is none of nodes: weights have an entry there
+        rows = [(line.node or "0", *line.row) for line in lines]
+        longest = max(map(len, rows))
+        lines = [_Line(None, _filled(row, longest)) for row in rows]
     has_bars = any(line.node is not None for line in lines)
     return _with_nodes(lines) if has_bars else _without_bars(lines)
 
@@ -145,13 +148,6 @@ def _between_cells(text: str) -> str:
     if any("\t" in x.rstrip() for x in rows):
         return "\t"
     return "," if _EMPTY_CELL.search("\n".join(rows)) else ""
-
-
-def _without_nodes(lines: list[_Line]) -> list[_Line]:
-    """Rows of a table whose first column is no column of nodes: weights have an entry there."""
-    rows = [(line.node or "0", *line.row) for line in lines]
-    longest = max(map(len, rows))
-    return [_Line(None, _filled(row, longest)) for row in rows]
 
 
 def _filled(row: _Row, length: int) -> _Row:

@@ -186,13 +186,25 @@ def problem_file_schema() -> g.Schema:
     >>> problem_file_schema()["title"]
     'gark problem file'
     """
-    of_names = [g.OfSchema({"if": g.required("rhs"), "then": _of_rhs(), "else": _of_momenta()})]
+    of_momenta = _told_anew("variables", _names(_name_but({*RESERVED, *_CLASHING})))
+    without_time = g.Kind(lambda: {"propertyNames": {"not": {"const": TIME}}})
+    of_rhs = {
+        "variables": _told_anew("variables", _names(_name_but({*RESERVED, TIME}))),
+        "parameters": _told_anew("parameters", without_time),
+    }
+    of_names = g.OfSchema(
+        {
+            "if": g.required("rhs"),
+            "then": {"properties": of_rhs},
+            "else": {"properties": {"variables": of_momenta}},
+        }
+    )
     number: g.Schema = {"type": ["number", "string"], "pattern": _SIGNS}
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",
         "title": "gark problem file",
         "description": "A Hamiltonian, a Lagrangian or right-hand sides, with initial values.",
-        **g.mapping(*KEYS.values(), rules=[FORM, SOLUTION, START, *of_names]).schema(),
+        **g.mapping(*KEYS.values(), rules=[FORM, SOLUTION, START, of_names]).schema(),
         "definitions": {
             "formula": {"description": "A formula such as px**2/2 - cos(x).", **number},
             "constant": {
@@ -200,23 +212,6 @@ def problem_file_schema() -> g.Schema:
                 **number,
             },
         },
-    }
-
-
-def _of_momenta() -> g.Schema:
-    """What names the variables of a Hamiltonian or a Lagrangian may have."""
-    variables = _told_anew("variables", _names(_name_but({*RESERVED, *_CLASHING})))
-    return {"properties": {"variables": variables}}
-
-
-def _of_rhs() -> g.Schema:
-    """The same of right-hand sides, with parameters."""
-    without_time = g.Kind(lambda: {"propertyNames": {"not": {"const": TIME}}})
-    return {
-        "properties": {
-            "variables": _told_anew("variables", _names(_name_but({*RESERVED, TIME}))),
-            "parameters": _told_anew("parameters", without_time),
-        }
     }
 
 

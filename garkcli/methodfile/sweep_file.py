@@ -376,7 +376,7 @@ def _refuse_unused(source: Source, said: g.Found, methods: MethodsReader) -> Non
         message, cure = f"parameters: no method has {name}", "leave it out, or use it"
         source.fault(said.nodes["parameters"], message, cure, code="not-together")
     is_searched = any(x.order for x in methods.templates)
-    # a parameter without a value is told already
+    # a parameter without a value is reported already
     if "search" in said.nodes and not is_searched and all(methods.grids.values()):
         message = "search: no method has an unknown that is left to it"
         cure = f"write parameters: {{tau: {FREE}}}, or a file with unknowns"

@@ -207,11 +207,6 @@ def meaning_of(
             meanings.append(Meaning(unsettled=(wish.want.key,)))
         except GarkError as error:
             source.fault(wish.node, error.message, error.help, code=error.code)
-    return _together(meanings)
-
-
-def _together(meanings: list[Meaning]) -> Meaning:
-    """What several wishes mean, together."""
     together: dict[str, Any] = {}
     for name in fields(Meaning):
         parts = (getattr(one, name) for one in meanings)
