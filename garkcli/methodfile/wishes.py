@@ -14,9 +14,9 @@ from garkcli.design.want import Asked, Meaning, Want
 from garkcli.errors import GarkError, NotDecided, counted, did_you_mean
 from garkcli.exact.nodes import Name
 from garkcli.frozen import Frozen, fields
+from garkcli.methodfile.build import Builder
 from garkcli.methodfile.family_values import FamilyValues
 from garkcli.methodfile.grammar import FLAG, Found, Key, Kind, by_name, count, either, mapping
-from garkcli.methodfile.load import Built
 from garkcli.methodfile.numbers import Entry, Free, Numbers
 from garkcli.methodfile.parameters import NUMBER, RANGE
 from garkcli.methodfile.source import Source
@@ -177,7 +177,7 @@ def _colours_of(wish: Wish, size: int, source: Source) -> tuple[int, ...]:
 
 
 def meaning_of(
-    wishes: Wishes, made: Built[FamilyValues], source: Source, deadline: float | None = None
+    wishes: Wishes, made: Builder[FamilyValues], source: Source, deadline: float | None = None
 ) -> Meaning:
     """Everything that is wanted, as conditions on the parameters.
 
