@@ -11,7 +11,7 @@ from garkcli.bridges.elsewhere import declared_orders, order_of
 from garkcli.bridges.importing import orders_of, read, with_orders
 from garkcli.bridges.judging import Judged, judged
 from garkcli.bridges.plausible import is_plausible
-from garkcli.bridges.readers.registry import find_tables, readers_for, unlike_tables
+from garkcli.bridges.readers.registry import find_tables, readers_for
 from garkcli.bridges.said import order_said_of
 from garkcli.bridges.sources import source_text
 from garkcli.bridges.subject import Subject, short
@@ -24,6 +24,7 @@ from garkcli.exact.field import ZERO, Number
 from garkcli.files import STDIN
 from garkcli.frozen import Frozen, replace
 from garkcli.methodfile.build import MethodFile
+from garkcli.methodfile.reading import no_one
 from garkcli.order.rounded import find_order_within
 from garkcli.order.tolerance import within
 from garkcli.sources.finder import UNRECOGNISED
@@ -114,12 +115,16 @@ class Audited(Frozen, eq=False):
         return f"<Audited {name} of {self.table.source}: {findings}>"
 
 
-def audited(paths: Iterable[str], jobs: int = 1) -> Iterator[Audited]:
+def audited(
+    paths: Iterable[str], jobs: int = 1, told: Callable[[str], None] = no_one
+) -> Iterator[Audited]:
     """Every table of some sources, in order.
 
     Args:
         paths: of the sources.
         jobs: how many processes read them; 0 is one per processor.
+        told: who is told of arrays that have the names of a method and other shapes, each with its
+            place and why they are none.
 
     Raises:
         UsageProblem: a source cannot be read.
@@ -130,7 +135,11 @@ def audited(paths: Iterable[str], jobs: int = 1) -> Iterator[Audited]:
         for found in counting("files", in_order(workers, given), len(given)):
             if isinstance(found, Exception):
                 raise found
-            yield from found
+            for each in found:
+                if each.table.is_unlike:
+                    told(f"{each.table.source}:{each.table.line}: {each.table.trouble}")
+                else:
+                    yield each
 
 
 def _done(path: str, orders: Mapping[str, int]) -> list[Audited] | Exception:
@@ -156,16 +165,6 @@ def _audited(path: str, orders: Mapping[str, int]) -> list[Audited]:
             table = replace(table, order=order_of(table, orders), said_order=said)
         judged.append(audit(table))
     return [found for found in judged if found is not None]
-
-
-def unlike(paths: Iterable[str]) -> Iterator[str]:
-    """What some sources have instead of tables: arrays whose names are those of a method, and why
-    they are none, each with its place.
-    """
-    for path in paths:
-        text, source = source_text(path)
-        for table in unlike_tables(text, source, readers_for(path)):
-            yield f"{table.source}:{table.line}: {table.trouble}"
 
 
 def audit(table: FoundTable) -> Audited | None:

@@ -105,6 +105,8 @@ def collected(
         text, source = source_text(path)
         readers = chosen or readers_for(path)
         for table in find_tables(text, source, readers):
+            if table.is_unlike:
+                continue
             name = plain_line(table.name) or default_name(source)
             result = _result(table, name, is_recognising)
             method = result.method

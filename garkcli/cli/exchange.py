@@ -145,14 +145,15 @@ def audit(given: Given, output: Output) -> int:
     Exit code: 0 nothing is wrong, 1 a finding is an error, or with --strict a likely table was not
     read, 2 there is no table, or none that can be read.
     """
-    from garkcli.bridges.audit import audited, unlike
+    from garkcli.bridges.audit import audited
     from garkcli.bridges.sources import source_files
     from garkcli.report.audited import FORMATS as RENDERERS
 
     files = list(source_files(given.paths, output.note))
-    found = list(audited(files, given.jobs))
+    unlike: list[str] = []
+    found = list(audited(files, given.jobs, unlike.append))
     if not found:
-        message = "; ".join([_no_table(given.paths, len(files)), *list(unlike(files))[:1]])
+        message = "; ".join([_no_table(given.paths, len(files)), *unlike[:1]])
         raise UsageProblem(message, "docs/import.md says what is read", code="cannot-import")
     output.suit()
     output.write(RENDERERS[output.format](found, output.paint, output.verbosity, output.width))

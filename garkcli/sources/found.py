@@ -118,6 +118,11 @@ class FoundTable(Frozen):
             return len(self.b[0]) if self.b else 0
         return sum(len(row) for row in self.b)
 
+    @property
+    def is_unlike(self) -> bool:
+        """Whether names alone speak for a table, and its shapes against it."""
+        return bool(self.trouble) and not self.is_sure
+
     def __repr__(self) -> str:
         name = self.name or f"line {self.line}"
         return f"<FoundTable {name} of {self.source}>"

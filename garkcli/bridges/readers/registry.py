@@ -59,26 +59,6 @@ def find_tables(text: str, source: str, chosen: Sequence[Reader]) -> list[FoundT
     """
     if len(text) > MAX_CHARACTERS:
         return []
-    found = _found(text, source, chosen)
-    return [x for x in found if not _is_unlike(x)]
-
-
-def unlike_tables(text: str, source: str, chosen: Sequence[Reader]) -> list[FoundTable]:
-    """Arrays of a source that have the names of a method and shapes that do not go together; the
-    arguments are those of ``find_tables``.
-    """
-    if len(text) > MAX_CHARACTERS:
-        return []
-    found = _found(text, source, chosen)
-    return [x for x in found if _is_unlike(x)]
-
-
-def _is_unlike(table: FoundTable) -> bool:
-    """Whether names alone speak for a table, and its shapes against it."""
-    return bool(table.trouble) and not table.is_sure
-
-
-def _found(text: str, source: str, chosen: Sequence[Reader]) -> list[FoundTable]:
     if len(chosen) == len(all_readers()):
         return _by_the_best(text, source, chosen)
     found: list[FoundTable] = []
