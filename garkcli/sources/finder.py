@@ -12,11 +12,18 @@ from garkcli.sources.assembling import Meant, NoTable, Roles, is_complete, table
 from garkcli.sources.evaluate import Space
 from garkcli.sources.found import FoundTable, troubled
 from garkcli.sources.naming import ROLES, role_of
-from garkcli.sources.parts import role_of_part, roles_of_parts, with_hats
+from garkcli.sources.parts import PLAIN, role_of_part, roles_of_parts, with_hats
 from garkcli.sources.rklab import blocks_in
-from garkcli.sources.scalar_names import are_coefficients, scalar_roles
-from garkcli.sources.signatures import PARTS, PRINTED, SIGNATURES, other_kind
-from garkcli.sources.steps import Follower, NoStep
+from garkcli.sources.scalar_names import FEWEST_COEFFICIENTS, are_coefficients, scalar_roles
+from garkcli.sources.signatures import (
+    CONSTRUCTOR,
+    DRIFT_FIRST,
+    PARTS,
+    PRINTED,
+    SIGNATURES,
+    other_kind,
+)
+from garkcli.sources.steps import NoStep, step_of
 from garkcli.sources.values import Array, Null, Number, Record, Type, Unknown, Value, Word, whole
 
 _NUMBERED = re.compile(
@@ -24,8 +31,12 @@ _NUMBERED = re.compile(
     r"_?(?P<l>[0-9]{1,2})(?:_(?P<m>[0-9]{1,2}))?"
 )
 """Names of arrays with the numbers of vector fields."""
-_ARRAY = re.compile(r"(?P<stem>\w{1,200}?)_(?P<role>a[0-9]{1,2}|b|db|c)")
+_ARRAY = re.compile(r"(?P<stem>\w{1,200}?)_(?P<role>(?:a[0-9]{1,2}|b|db|c)|[ab]_type)")
 """Names of classes that are arrays."""
+_WHOLE = re.compile(
+    r"(?:(?P<stem>\w{1,200}?)_)??(?:butcher_?)?(?:tableau|table|matrix)(?:_?matrix)?"
+)
+"""Names of whole tableaus, and of their matrices."""
 _TABLE = "ARKodeButcherTable_Alloc"
 _MADE = frozenset({"", _TABLE, "ARKodeSPRKTable_Alloc"})
 """Records that are filled after they are made."""
@@ -81,7 +92,9 @@ class TableFinder:
     # a scope
 
     def ended(self, scope: ir.Scope, space: Space) -> None:
-        """The tables of a scope."""
+        """The tables of a scope: by calls and records, by the names of arrays, as a step that is
+        written out, by the names of numbers.
+        """
         named = _ARRAY.fullmatch(scope.name)
         entries = space.get("this")
         if named and isinstance(entries, Array):
@@ -93,17 +106,27 @@ class TableFinder:
         made += [x for x in space.values() if isinstance(x, Record) and x.kind in _MADE]
         if scope.kind == "class":
             self._declared_by_class(scope, space)
-        count = len(self._meant) + len(self._other)
+        count = self._count()
         for record in made:
             self._record(record, scope)
-        if len(self._meant) + len(self._other) > count:
-            return
         values, lines = dict(space), space.lines
-        self._named(values, lines, scope)
-        if len(self._meant) + len(self._other) == count and not self._step(scope, space):
-            for owner, own in _by_owner(values).items():
-                line = scope.line if not owner else min(lines.get(f"{owner}::{x}", 1) for x in own)
-                self._scalars(owner or scope.title, own, line)
+        if self._count() == count:
+            self._named(values, lines, scope)
+        looks_like_a_step = self._count() == count and self._step(scope, space)
+        if self._count() > count:
+            return
+        for owner, own in _by_owner(values).items():
+            line = scope.line if not owner else min(lines.get(f"{owner}::{x}", 1) for x in own)
+            self._scalars(owner or scope.title, own, line)
+        if self._count() > count:
+            return
+        if looks_like_a_step:
+            self._unread(scope.title, scope.line, "a step that is not followed")
+        elif CONSTRUCTOR.fullmatch(scope.name) and _fractions(values) >= FEWEST_COEFFICIENTS:
+            self._unread(scope.title, scope.line, UNRECOGNISED, other_kind(scope.name))
+
+    def _count(self) -> int:
+        return len(self._meant) + len(self._other)
 
     def replaced(self, scope: ir.Scope, space: Space, name: str) -> None:
         """Arrays that are complete are a table before one of them is assigned anew."""
@@ -126,6 +149,10 @@ class TableFinder:
     def _of_classes(self) -> Iterator[Meant]:
         """Tables whose arrays are classes: a1, a2, …, b, db, c."""
         for stem, arrays in self._arrays.items():
+            if {"a_type", "b_type"} <= set(arrays):
+                (drifts, line), (kicks, _) = arrays["a_type"], arrays["b_type"]
+                of_steps: Roles = {"drifts": drifts, "kicks": kicks}
+                yield Meant("", line, of_steps, "", DRIFT_FIRST, is_sure=True)
             rows = [arrays.get(f"a{i}") for i in range(1, len(arrays) + 1)]
             A = [Array([]), *(x[0] for x in rows if x is not None)]
             roles: Roles = {"A": Array(list(A))}
@@ -159,7 +186,7 @@ class TableFinder:
             if len(values) >= 3 and (has_numbers or not is_use):
                 line = scope.line if scope.kind == "entry" else record.line
                 name = self._name(record, scope)
-                self._other[name, line] = _other(self._source, line, self._format, name, kind)
+                self._unread(name, line, kind=kind)
             return
         signature = SIGNATURES.get(record.kind)
         fields = record.fields
@@ -231,13 +258,13 @@ class TableFinder:
         self, values: Mapping[str, Value], lines: Mapping[str, int], scope: ir.Scope
     ) -> None:
         if _is_general_linear(values):
-            table = _other(self._source, scope.line, self._format, scope.title, "general linear")
-            self._other[scope.title, scope.line] = table
+            self._unread(scope.title, scope.line, kind="general linear")
             return
+        beside = _matrices_beside_weights(values)
         tableaus = [
             (key, dict(block), lines.get(key, lines.get(name, scope.line)))
             for name, value in values.items()
-            if not _is_matrix_of_stages(name)
+            if name not in beside and not _is_matrix_of_stages(name)
             for key, block in blocks_in(name, value, scope.title)
         ]
         for key, block, line in tableaus:
@@ -248,7 +275,8 @@ class TableFinder:
         parts = roles_of_parts(values)
         if parts is not None:
             is_pair = "H" in values
-            given = {x for x in values if role_of_part(x)} | ({"A", "H", "c"} if is_pair else set())
+            given = {x for x in values if role_of_part(x) or x in PLAIN}
+            given |= {"A", "H", "c"} if is_pair else set()
             line = min(lines.get(x, scope.line) for x in given)
             made = Meant(scope.title, line, parts, "", PARTS)
             self._meant.append(made)
@@ -258,7 +286,7 @@ class TableFinder:
         begins: dict[str, int] = {}
         for name, value in values.items():
             owner, _, plain = name.rpartition("::")
-            told = role_of(plain)
+            told = beside.get(name) or role_of(plain.lstrip("_"))
             numbered = _NUMBERED.fullmatch(plain)
             line = lines.get(name, scope.line)
             if numbered and isinstance(value, Array):
@@ -281,6 +309,9 @@ class TableFinder:
                 pair = {"b": of_role["b"][1,], "embedded": of_role["b"][2,]}
                 groups[stem] = {**pair, **groups[stem]}
         for stem, roles in groups.items():
+            if {"A", "c", "gamma"} <= set(roles) and _is_triangle(roles["c"], roles["gamma"]):
+                # α, β, γ are the matrix in one row, the weights and the nodes
+                roles |= {"A": roles["c"], "b": roles["A"], "c": roles.pop("gamma")}
             if not is_complete(roles):
                 continue
             title = roles.pop("title", None)
@@ -298,39 +329,36 @@ class TableFinder:
             self._meant.append(meant)
 
     def _step(self, scope: ir.Scope, space: Space) -> bool:
-        """Whether a function is a step that is written out."""
+        """The method of a function that is a step; whether another one looks like a step."""
         if scope.kind != "function":
             return False
-        follower = Follower(space, self._format in _WHOLE_QUOTIENTS)
         try:
-            follower.follow(scope.body)
-            roles = follower.roles()
-        except NoStep:
-            return False
+            roles = step_of(scope.body, space.find, self._format in _WHOLE_QUOTIENTS)
+        except NoStep as error:
+            return error.looks_like
         note = "the coefficients are those of a step that is written out"
         meant = Meant(scope.title, scope.line, roles, "a step", None, is_sure=True, notes=(note,))
         self._meant.append(meant)
-        return True
+        return False
+
+    def _unread(self, name: str, line: int, trouble: str = "", kind: str = "") -> None:
+        """A place with a table that is of another kind, or else not read."""
+        found = FoundTable(self._source, line, self._format, name, (), (), (), kind=kind)
+        self._other[name, line] = found if kind else troubled(found, trouble)
 
     def _scalars(self, name: str, values: Mapping[str, Value], line: int) -> None:
         """Coefficients with names of their own: a21, b1."""
         found = scalar_roles(values)
         if found is None:
             if are_coefficients(values):
-                place = FoundTable(self._source, line, self._format, name, (), (), is_sure=True)
-                self._other[name, line] = troubled(place, UNRECOGNISED)
+                self._unread(name, line, UNRECOGNISED)
             return
         if found.kind:
-            table = _other(self._source, line, self._format, name, found.kind)
-            self._other[name, line] = table
+            self._unread(name, line, kind=found.kind)
             return
         self._meant.append(
             Meant(name, line, found.roles, "", None, notes=found.notes, is_assembled=True)
         )
-
-
-def _other(source: str, line: int, format: str, name: str, kind: str) -> FoundTable:
-    return FoundTable(source, line, format, name, (), (), (), kind=kind)
 
 
 def _is_matrix_of_stages(name: str) -> bool:
@@ -338,6 +366,23 @@ def _is_matrix_of_stages(name: str) -> bool:
     plain = name.rpartition("::")[2]
     told = role_of(plain)
     return (told is not None and told[1] == "A") or _NUMBERED.fullmatch(plain) is not None
+
+
+def _matrices_beside_weights(values: Mapping[str, Value]) -> Mapping[str, tuple[str, str]]:
+    """Matrices called tableaus that have a row per weight, with what their names tell."""
+    counts = {
+        role_of(name): len(x.items)
+        for name, x in values.items()
+        if isinstance(x, Array) and not x.is_matrix
+    }
+    return {
+        name: (told["stem"] or "", "A")
+        for name, value in values.items()
+        if isinstance(value, Array)
+        and value.is_matrix
+        and (told := _WHOLE.fullmatch(name)) is not None
+        and counts.get((told["stem"] or "", "b")) == len(value.items)
+    }
 
 
 def _is_general_linear(values: Mapping[str, Value]) -> bool:
@@ -387,6 +432,18 @@ def _grid(of_role: Mapping[str, Mapping[tuple[int, ...], Value]]) -> Roles:
         if role != "A" and all(len(at) == 1 for at in rows):
             found[role] = Array([rows.get((l,), Null()) for l in numbers])
     return found
+
+
+def _fractions(values: Mapping[str, Value]) -> int:
+    """How many numbers there are that are not whole."""
+    flat = Array(list(values.values())).flat()
+    return sum(isinstance(x, Number) and not x.is_whole for x in flat)
+
+
+def _is_triangle(entries: Value, row: Value) -> bool:
+    """Whether there is an entry for each pair of what is in a row."""
+    counts = [len(x.items) for x in (entries, row) if isinstance(x, Array) and not x.is_matrix]
+    return len(counts) == 2 and 2 * counts[0] == counts[1] * (counts[1] - 1)
 
 
 def _with_diagonal(roles: Roles, fields: Mapping[str, Value]) -> None:

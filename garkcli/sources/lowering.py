@@ -16,7 +16,7 @@ SHORT = 300
 _WORDS = re.compile(
     r"tableau|butcher|register|[abc]coefficients|\*this\)\[|(?<![A-Za-z])[^\W\d_]{1,2}_?[0-9]+(?:_?[0-9]+)?\s*(?:=|,|\))"
     r"|(?<![A-Za-z])(?:[a-z]{0,3}_)?(?:A|a|b|B|c|C|amat|rka|α|β|γ|alpha|beta|weights|nodes)\w?\w?"
-    r"(?:_\w+)?\s*(?:\[|\(|=|\{|\.=)",
+    r"(?:_\w+)?\s*(?::\s*[\w.]+(?:\[[\w., ]*\])?\s*=|\[|\(|=|\{|\.=)",
     re.IGNORECASE,
 )
 MAX_NESTING = 60

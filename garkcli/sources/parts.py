@@ -8,12 +8,14 @@ from collections.abc import Mapping
 from garkcli.sources.values import ONE, ZERO, Array, Value
 
 _NAME = re.compile(
-    r"(?P<word>butcher|[abc]|b_?hat|b_?embed)_?(?P<part>exp?|explicit|imp?|implicit)(?:_tableau)?",
+    r"(?P<word>butcher|matrix|weights|nodes|[abc]|b_?hat|b_?embed)_?(?P<part>exp?|explicit|imp?|implicit)(?:_tableau)?",
     re.IGNORECASE,
 )
 _PAIR = {"A": "A", "H": "A2"}
 """Classes of Dedalus: A is explicit, H implicit, and the last rows are the weights."""
-_ROLES = {"butcher": "A", "a": "A", "b": "b", "c": "c"}
+_ROLES = {"butcher": "A", "matrix": "A", "a": "A", "weights": "b", "b": "b", "nodes": "c", "c": "c"}
+PLAIN = {"matrix": "A", "weights": "b", "nodes": "c"}
+"""The part beside one that says which it is."""
 
 
 def role_of_part(name: str) -> str:
@@ -42,6 +44,10 @@ def roles_of_parts(values: Mapping[str, Value]) -> dict[str, Value] | None:
         found["c"] = values["c"]
         if not _ends_at_one(found["c"]):
             return None
+    if "matrix" in values:
+        given = {role: values[name] for name, role in PLAIN.items() if name in values}
+        found |= {role: x for role, x in given.items() if role != "A" and role not in found}
+        found |= {f"{role}2": x for role, x in given.items() if f"{role}2" not in found}
     matrices = [found.get(x) for x in ("A", "A2")]
     if not all(isinstance(x, Array) and x.is_matrix for x in matrices):
         return None

@@ -64,6 +64,9 @@ def _block_roles(value: Array, name: str) -> Mapping[str, Value] | None:
     is_named = is_tableau or (name.startswith("b") and order is not None and order > 0)
     is_block = off < FAR and 2 * agreeing >= stages
     is_plain = off < NEAR and agreeing >= max(2, stages - 1)
+    # the weights alone may be wrong where the rows are those of an explicit method
+    is_explicit = not any(x for i, row in enumerate(near[:stages]) for x in row[i + 1 :])
+    is_plain |= off < FAR and is_explicit and agreeing == stages > 2
     if not (is_block if is_named else is_plain):
         # a matrix like any other
         return None

@@ -55,6 +55,8 @@ NDSOLVE = "coefficients of NDSolve"
 """The same for the lists that a function of Mathematica gives."""
 PARTS = Signature(["A", "b", "c", "A2", "b2", "c2"], "ark")
 """An explicit part and an implicit one."""
+DRIFT_FIRST = Signature(["drifts", "kicks"], "drift-first")
+"""Weights of drifts and kicks, drifts first."""
 SIGNATURES: Mapping[str, Signature] = {
     PRINTED: Signature([], is_guess=True),
     NDSOLVE: Signature(["A", "b", "c", "error"], is_guess=True),
@@ -118,18 +120,23 @@ SIGNATURES: Mapping[str, Signature] = {
 OTHER_KINDS = (
     (re.compile(r"RosW|Rodas|Rosenbrock|ROS\d|ROW(?![a-z])"), "Rosenbrock"),
     (re.compile(r"MPRK|Patankar"), "modified Patankar"),
-    (re.compile(r"MRIStep|MRI_|MIStoMRI|Multirate|MRTableau"), "multirate"),
+    (re.compile(r"MRI(?![a-z])|MIS(?:\d|toMRI)|MRAB|Multirate|MRTableau"), "multirate"),
     (re.compile(r"Nystr(?:o|ö|oe)m|RKN(?![a-z])|Nystrom"), "Nyström"),
     (re.compile(r"GLEE|GLLE|GLM(?![a-z])|GeneralLinear"), "general linear"),
     (re.compile(r"LowStorage|2[NR]S?\+?(?:$|_)|3S\*?|LSRK"), "low-storage"),
     (re.compile(r"SplittingStep|SplittingCoefficients"), "splitting"),
     (re.compile(r"ExpRK|ETDRK|Exponential(?!ly)"), "exponential"),
-    (re.compile(r"Rossler|(?:SRI|SRA)\w*(?:Tableau|Cache)"), "stochastic"),
+    (re.compile(r"S?ROCK|E?SERK\d|RKC(?![a-z])"), "stabilized"),
+    (re.compile(r"R(?:o|oe|ö)ssler|Komori|(?:SRI|SRA)\w*(?:Tableau|Cache)"), "stochastic"),
     (re.compile(r"TSIRK|(?<!TR)BDF(?![a-z0-9]*Tableau)|Adams"), "multistep"),
 )
 """Tables of other methods, by the names of the calls that make them."""
-MAKER = re.compile(r"\w*(?:Tableau|Register|_Create|_Alloc|Coupling|Cache|MIStoMRI|Rossler)\w*")
+MAKER = re.compile(
+    r"\w*(?:Tableau|Register|_Create|_Alloc|Coupling|Cache|MIStoMRI|ssler|Komori)\w*"
+)
 """Calls that make tables, by their names."""
+CONSTRUCTOR = re.compile(rf"{MAKER.pattern}|construct[A-Z]\w*")
+"""Functions that do."""
 
 
 def other_kind(name: str) -> str:

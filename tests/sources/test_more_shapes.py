@@ -250,3 +250,92 @@ def test_numbers_with_names_of_coefficients_are_told() -> None:
     found = audit(table)
     assert found is not None
     assert found.looks_like
+
+
+BESIDE = """
+case Types::Heun:
+    nodes = {0.0, 1.0};
+    tableau = {{0.0}, {1.0, 0.0}};
+    weights = {0.5, 0.5};
+    break;
+case Types::RK4:
+    nodes = {0.0, 0.5, 0.5, 1.0};
+    tableau = {{0.0}, {0.5, 0.0}, {0.0, 0.5, 0.0}, {0.0, 0.0, 1.0, 0.0}};
+    weights = {1./6., 1./3., 1./3., 1./6.};
+    break;
+"""
+KICKS = """
+struct coef_a_type : public std::array<Value, 2>
+{ coef_a_type(void) { (*this)[0] = 0.5; (*this)[1] = (*this)[0]; } };
+struct coef_b_type : public std::array<Value, 2>
+{ coef_b_type(void) { (*this)[0] = 1.0; (*this)[1] = 0.0; } };
+"""
+LETTERS = """
+class RK3(Coefficients):
+    def __init__(self):
+        self._alpha: NDArray[np.double] = np.asarray([1/2, -1.0, 2.0])
+        self._gamma: NDArray[np.double] = np.asarray([0.0, 1/2, 1.0])
+        self._beta: NDArray[np.double] = np.asarray([1/6, 2/3, 1/6])
+        self._beta_star: NDArray[np.double] = np.asarray([0.0, 1.0, 0.0])
+"""
+PARTS = """
+class IMEX(RungeKuttaIMEX):
+    nodes = np.array([0, 1])
+    weights = np.array([0, 1])
+    weights_explicit = np.array([1, 0])
+    matrix = np.array([[0, 0], [0, 1]])
+    matrix_explicit = np.array([[0, 0], [1, 0]])
+"""
+BARS = """
+class RKN(RungeKuttaNystrom):
+    nodes = np.array([0.0, 0.5, 0.5, 1])
+    weights = np.array([1.0, 2.0, 2.0, 1.0]) / 6.0
+    matrix = np.array([[0, 0, 0, 0], [1/2, 0, 0, 0], [0, 1/2, 0, 0], [0, 0, 1, 0]])
+    weights_bar = np.array([1.0, 1.0, 1.0, 0]) / 6.0
+    matrix_bar = np.array([[0, 0, 0, 0], [1/8, 0, 0, 0], [1/8, 0, 0, 0], [0, 0, 1/2, 0]])
+"""
+OF_STAGES = """
+heun_tableau_matrix = [[0, 0, 0], [1/3, 1/3, 0], [2/3, 0, 2/3]]
+heun_b = [1/4, 0, 3/4]
+heun_c = [0, 1/3, 2/3]
+"""
+
+
+@pytest.mark.parametrize(
+    ("find", "text", "wanted"),
+    [
+        (c.find, f"void f() {{ switch (t) {{ {BESIDE} }} }}", [(2, 1, None), (4, 1, None)]),
+        (c.find, KICKS, [(2, 2, None)]),
+        (python.find, LETTERS, [(3, 1, 2)]),
+        (python.find, PARTS, [(1, 2, None)]),
+        (python.find, BARS, [(4, 2, None)]),
+        (python.find, OF_STAGES, [(1, 1, None)]),
+    ],
+)
+def test_matrices_beside_weights_and_parts(find: Find, text: str, wanted: list[object]) -> None:
+    """Tableaus with weights of their own are A; both parts of a pair are read; α, β, γ in rows."""
+    found = [audit(table) for table in find(text, "x")]
+    told = [
+        (x.order and x.order.order, x.table.colours, x.embedded_order and x.embedded_order.order)
+        for x in found
+        if x is not None
+    ]
+    assert told == wanted
+
+
+def test_weights_of_a_block_matrix_may_be_wrong() -> None:
+    """[c A; q b] without a name: the rows are those of an explicit method, 1/7 should be 1/6."""
+    text = "x = [[0, 0, 0, 0, 0], [1/2, 1/2, 0, 0, 0], [1/2, 0, 1/2, 0, 0], [1, 0, 0, 1, 0]"
+    (table,) = python.find(f"{text}, [0, 1/6, 1/3, 1/3, 1/7]]", "x")
+    found = audit(table)
+    assert found is not None
+    assert [x.code for x in found.findings] == ["weights"]
+
+
+def test_functions_that_make_tables_are_told() -> None:
+    """By their names, with numbers that have no roles: of another kind, or not read."""
+    numbers = ", ".join(f"{i}.5" for i in range(9))
+    for name, kind in (("ROCK2ConstantCache", "stabilized"), ("constructXY", "")):
+        (table,) = julia.find(f"function {name}(T)\n    q = [{numbers}]\n    q\nend\n", "x")
+        assert (table.kind, bool(table.trouble)) == (kind, not kind)
+    assert julia.find(f"function other(T)\n    q = [{numbers}]\n    q\nend\n", "x") == []

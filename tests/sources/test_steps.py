@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from garkcli.bridges.audit import audit
-from garkcli.sources.languages import fortran, julia, matlab, python
+from garkcli.sources.languages import c, fortran, julia, matlab, python
 
 KUTTA = """
 subroutine rk4(me, t, x, h, xf)
@@ -63,7 +63,65 @@ k3 = f(t + 2*h/3, y0 + 2*h/3*k2);
 y = y0 + h*(k1 + 3*k3)/4;
 end
 """
+LOOPS = """
+void rk4(float y[], float dydx[], int n, float x, float h, float yout[], Slopes derivs)
+{
+  float xh, hh, h6, dym[9], dyt[9], yt[9];
+  hh = h*0.5;
+  h6 = h/6.0;
+  xh = x+hh;
+  for (i = 1; i <= n; i++) yt[i] = y[i]+hh*dydx[i];
+  (*derivs)(xh, yt, dyt);
+  for (i = 1; i <= n; i++) yt[i] = y[i]+hh*dyt[i];
+  (*derivs)(xh, yt, dym);
+  for (i = 1; i <= n; i++) { yt[i] = y[i]+h*dym[i]; dym[i] += dyt[i]; }
+  (*derivs)(x+h, yt, dyt);
+  for (i = 1; i <= n; i++) yout[i] = y[i]+h6*(dydx[i]+dyt[i]+2.0*dym[i]);
+}
+"""
+STATUS = """
+static const double ah[] = { 1.0/2.0, 1.0 };
+static const double b3[] = { -1.0, 2.0 };
+int apply(void *s, size_t dim, double t, double h, double y[], double yerr[],
+          const double dydt_in[], double dydt_out[], const system *sys)
+{
+  double *const k1 = s->k1;
+  double *const k2 = s->k2;
+  if (dydt_in != NULL) {
+    memcpy(k1, dydt_in, dim);
+  } else {
+    int s = EVAL(sys, t, y, k1);
+    if (s != SUCCESS) { return s; }
+  }
+  for (i = 0; i < dim; i++)
+    ytmp[i] = y[i] + ah[0] * h * k1[i];
+  int s = EVAL(sys, t + ah[0] * h, ytmp, k2);
+  for (i = 0; i < dim; i++)
+    ytmp[i] = y[i] + h * (b3[0] * k1[i] + b3[1] * k2[i]);
+  s = EVAL(sys, t + ah[1] * h, ytmp, k3);
+  for (i = 0; i < dim; i++) {
+    const double d_i = (k1[i] + 4.0 * k2[i] + k3[i]) / 6.0;
+    y[i] += h * d_i;
+    yerr[i] = h * (d_i - k2[i]);
+  }
+  if (dydt_out != NULL) {
+    s = EVAL(sys, t + h, y, dydt_out);
+    if (s != SUCCESS) { memcpy(y, y0, dim); return s; }
+  }
+  return SUCCESS;
+}
+"""
+AUTONOMOUS = """
+def step(system, state, dt):
+    k1 = system.slope(state)
+    k2 = system.slope(state + dt / 2 * k1)
+    k3 = system.slope(state + dt * (2 * k2 - k1))
+    return state + dt / 6 * (k1 + 4 * k2 + k3)
+"""
 STEPS = {
+    "loops over components, the first slope is given": (c.find, LOOPS, 4, None),
+    "what is evaluated before and after, errors": (c.find, STATUS, 3, 2),
+    "no time": (python.find, AUTONOMOUS, 3, None),
     "Kutta": (fortran.find, KUTTA, 4, None),
     "Shu and Osher": (fortran.find, SHU_OSHER, 3, None),
     "Bogacki and Shampine": (fortran.find, PAIR, 3, 2),
@@ -83,6 +141,23 @@ def test_the_order_of_a_step(name: str) -> None:
     assert found.order is not None
     assert (found.order.order, found.findings) == (order, ())
     assert (found.embedded_order and found.embedded_order.order) == low
+
+
+@pytest.mark.parametrize(
+    ("text", "old", "new"),
+    [
+        (LOOPS, "yt[i] = y[i]+hh*dyt[i]", "yt[i] = y[i]+hh*dyt[i-1]"),
+        (LOOPS, "(*derivs)(x+h, yt, dyt)", "if (x > 0) (*derivs)(x+h, yt, dyt)"),
+        (LOOPS, "{ yt[i] = ", "{ s += y[i]; yt[i] = "),
+        (STATUS, "memcpy(k1, dydt_in", "memcpy(k1, y"),
+        (STATUS, "k1[i] + 4.0", "g(k1[i]) + 4.0"),
+    ],
+)
+def test_a_step_that_is_not_followed_is_told(text: str, old: str, new: str) -> None:
+    """Other entries, another way that is another step, sums over entries, calls in loops."""
+    assert old in text
+    (found,) = c.find(text.replace(old, new), "x")
+    assert (found.name, found.trouble) == (found.name, "a step that is not followed")
 
 
 def test_a_wrong_number_is_found() -> None:
@@ -113,7 +188,7 @@ def test_what_is_no_step(text: str) -> None:
     another order.
     """
     find = julia.find if text is JULIA else python.find
-    assert find(text, "x") == []
+    assert not any(x.b for x in find(text, "x"))
 
 
 @pytest.mark.parametrize(
@@ -129,8 +204,8 @@ def test_a_slope_that_may_have_changed_makes_no_step(between: str) -> None:
     """What is done to it in place, or where it is not followed."""
     text = "def step(f, t, x, h, m):\n    k1 = f(t, x)\n{}\n    k2 = f(t + h/2, x + h/2*k1)\n"
     text += "    return x + h*k2\n"
-    assert len(python.find(text.format("    print(m)"), "x")) == 1
-    assert python.find(text.format(between), "x") == []
+    assert [x.trouble for x in python.find(text.format("    print(m)"), "x")] == [""]
+    assert not any(x.b for x in python.find(text.format(between), "x"))
 
 
 @pytest.mark.parametrize(
@@ -154,5 +229,5 @@ def test_a_slope_of_fortran_that_may_have_changed(between: str) -> None:
     """The same in Fortran."""
     text = "subroutine step(t,x,h,xf)\ncall f(t,x,f1)\n{}\n"
     text += "call f(t+h/2.0_wp,x+h/2.0_wp*f1,f2)\nxf = x + h*f2\nend subroutine\n"
-    assert len(fortran.find(text.format(""), "x")) == 1
-    assert fortran.find(text.format(between), "x") == []
+    assert [x.trouble for x in fortran.find(text.format(""), "x")] == [""]
+    assert not any(x.b for x in fortran.find(text.format(between), "x"))
