@@ -123,7 +123,7 @@ def audited(
     Args:
         paths: of the sources.
         jobs: how many processes read them; 0 is one per processor.
-        told: who is told of arrays that have the names of a method and other shapes, each with its
+        told: receives arrays that have the names of a method and other shapes, each with its
             place and why they are none.
 
     Raises:
