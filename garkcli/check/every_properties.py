@@ -58,7 +58,13 @@ def find_property(family: EveryFamily, key: str, limit: int) -> Fact:
         key: of the property.
         limit: at which the search for B, C and D stops.
     """
-    ask = _asking(key, limit)
+
+    def ask(tableau: Tableau) -> Any:
+        # the order is requested with rounded coefficients only, B, C and D for one property
+        known = simplifying(tableau, limit) if key == "stage-order" else _NOTHING
+        value = Subject(tableau, 1, known, limit).verdict(key).value
+        return value if isinstance(value, (bool, int)) else str(value)
+
     if key in COMPARING:
         return find(family, ask, is_of_stages=True)
     if family.has_one and key in STABLE:
@@ -77,18 +83,6 @@ def find_property(family: EveryFamily, key: str, limit: int) -> Fact:
 def _is_complete(tableau: Tableau) -> bool:
     colours = range(tableau.size)
     return all(tableau.block(l, m) is not None for l in colours for m in colours)
-
-
-def _asking(key: str, limit: int) -> Question:
-    """The question after a property."""
-
-    def ask(tableau: Tableau) -> Any:
-        # the order is requested with rounded coefficients only, B, C and D for one property
-        known = simplifying(tableau, limit) if key == "stage-order" else _NOTHING
-        value = Subject(tableau, 1, known, limit).verdict(key).value
-        return value if isinstance(value, (bool, int)) else str(value)
-
-    return ask
 
 
 def _of_set(

@@ -6,8 +6,6 @@ from collections.abc import Mapping, Sequence
 from functools import cached_property
 from operator import attrgetter
 
-from flint import fmpq_mpoly
-
 from garkcli.check.analysis import inconsistent_blocks
 from garkcli.check.claims import agrees, capped, claim_of, claimed_text
 from garkcli.check.every_facts import Fact, fact_reason, find
@@ -18,7 +16,6 @@ from garkcli.check.outcome import Claim, Outcome
 from garkcli.design.ideal import Ideal
 from garkcli.doing import doing
 from garkcli.errors import Fault, GarkError, HasFreeParameters, MethodFileError, ZeroWeight
-from garkcli.exact.field import ONE
 from garkcli.exact.parametric import Parametric
 from garkcli.frozen import Frozen, field, replace
 from garkcli.methodfile.description import ClaimText
@@ -173,20 +170,15 @@ def _symplectic(family: EveryFamily) -> Fact:
     found = find(family, is_symplectic)
     if found.value is not False or not found.open:
         return found
-    ideal = Ideal(family.ring, family.poles).with_zeros([*family.relations, *_defects(family)])
+    # what is zero where a method is symplectic
+    numbers: list[object] = [*symplectic_defects(family.tableau)]
+    if any(x and not isinstance(x, Parametric) for x in numbers):
+        return Fact(False)
+    zeros = [x.numerator for x in numbers if isinstance(x, Parametric)]
+    ideal = Ideal(family.ring, family.poles).with_zeros([*family.relations, *zeros])
     if ideal.is_everything:
         return Fact(False)
     return Fact(False, zeros=family.common_zeros(ideal.polynomials))
-
-
-def _defects(family: EveryFamily) -> list[fmpq_mpoly]:
-    """What is zero where a method is symplectic."""
-    tableau, ring = family.tableau, family.ring
-    numbers: list[object] = [*symplectic_defects(tableau)]
-    zeros = [x.numerator for x in numbers if isinstance(x, Parametric)]
-    if any(x and not isinstance(x, Parametric) for x in numbers):
-        return [ring.constant(ONE)]
-    return zeros
 
 
 MOST_PARAMETERS = 30

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping
-from functools import lru_cache, partial
+from functools import lru_cache
 
 from garkcli.errors import UNKNOWN, UsageProblem, did_you_mean
 from garkcli.frozen import Frozen
 from garkcli.glossary.faults import COMMANDS, by_code, code_of, findings_of
 from garkcli.glossary.fields import field_entries
-from garkcli.glossary.key import KINDS, Key, keys_of
+from garkcli.glossary.key import KINDS, keys_of
 from garkcli.glossary.labels import key_of
 from garkcli.glossary.term import Term, by_word, plain
 
@@ -63,7 +63,10 @@ class Sense(Frozen):
 def every_sense() -> Iterator[Sense]:
     """Every kind of word, in the order in which meanings are reported."""
     yield Sense(_plainly(by_word()), lambda word: term_meaning(by_word()[word]))
-    yield Sense(_claims(), claim_meaning)
+    from garkcli.methodfile.expectations import CLAIMS
+
+    claims = {key: (f"expect.{key}", key.replace("-", "_")) for key in CLAIMS}
+    yield Sense(claims, claim_meaning)
     for kind in KINDS:
         yield _keys(kind)
     yield from _choices()
@@ -81,12 +84,6 @@ def term_meaning(term: Term) -> Meaning:
     return Meaning(
         "term", term.name, term.text, formula=term.formula, source=term.source, see=term.see
     )
-
-
-def _claims() -> dict[str, tuple[str, ...]]:
-    from garkcli.methodfile.expectations import CLAIMS
-
-    return {key: (f"expect.{key}", key.replace("-", "_")) for key in CLAIMS}
 
 
 def claim_meaning(key: str) -> Meaning:
@@ -111,22 +108,19 @@ def claim_meaning(key: str) -> Meaning:
 def _keys(kind: str) -> Sense:
     """The keys of a kind of files: each is found by its path and by its own name."""
     keys = keys_of(kind)
-    names: dict[str, tuple[str, ...]] = {}
-    for path, key in keys.items():
-        own = path.rpartition(".")[2]
-        names[path] = (own,) if key.is_word else ()
-    return Sense(names, partial(_key, kind, keys))
-
-
-def _key(kind: str, keys: Mapping[str, Key], path: str) -> Meaning:
-    key = keys[path]
     files, _ = KINDS[kind]
-    default = "" if key.default is None else str(key.default)
-    if isinstance(key.default, bool):
-        default = default.lower()
-    return Meaning(
-        f"key of {files}", path, key.text, default=default, example=key.example, source=key.page
-    )
+
+    def mean(path: str) -> Meaning:
+        key = keys[path]
+        default = "" if key.default is None else str(key.default)
+        if isinstance(key.default, bool):
+            default = default.lower()
+        return Meaning(
+            f"key of {files}", path, key.text, default=default, example=key.example, source=key.page
+        )
+
+    names = {path: (path.rpartition(".")[2],) if x.is_word else () for path, x in keys.items()}
+    return Sense(names, mean)
 
 
 def _choices() -> Iterator[Sense]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from flint import fmpq
 
-from garkcli.exact.matrix import Matrix, SingularMatrixError, apply, dot, identity, multiply, solve
+from garkcli.exact.matrix import Matrix, apply, dot, is_singular, multiply
 from garkcli.frozen import Frozen
 from garkcli.order.pair_order import Condition, added, pair_criterion
 from garkcli.order.simplifying import simplifying
@@ -257,7 +257,7 @@ def _interpolation(l: Method, m: Method, p: int) -> Fit | None:
     numbers = f"degree {delta}, ρ − k = {rho - k}"
     if delta <= rho - k and (p % 2 or of_power <= rho - k - 1):
         return Fit(True, numbers)
-    if delta > rho and _is_singular(m.A):
+    if delta > rho and is_singular(m.A):
         return Fit(None, numbers)
     return Fit(False, numbers)
 
@@ -275,11 +275,3 @@ def _agreement(l: Method, m: Method) -> int | None:
             return rho
         mine, other = l.space.product(mine, l.c), m.space.product(other, m.c)
     return None
-
-
-def _is_singular(A: Matrix) -> bool:
-    try:
-        solve(A, identity(len(A)))
-    except SingularMatrixError:
-        return True
-    return False

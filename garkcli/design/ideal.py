@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from functools import cached_property
+from operator import methodcaller
 from typing import Any
 
 from flint import Ordering, fmpq, fmpq_mat, fmpq_mpoly, fmpq_poly, fmpz, fmpz_mpoly, fmpz_mpoly_ctx
@@ -406,13 +407,9 @@ def characteristic_polynomial(matrix: fmpq_mat) -> fmpq_poly:
         NotDecided: the time is not enough.
     """
     check_time()
-    if matrix.nrows() <= MOST_ROWS:
-        return matrix.charpoly()
-    return apart(_characteristic_polynomial, matrix)
-
-
-def _characteristic_polynomial(matrix: fmpq_mat) -> fmpq_poly:
-    return matrix.charpoly()
+    work = methodcaller("charpoly")
+    found: fmpq_poly = work(matrix) if matrix.nrows() <= MOST_ROWS else apart(work, matrix)
+    return found
 
 
 def integral_scale(polynomial: fmpq_mpoly) -> fmpz:

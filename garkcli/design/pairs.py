@@ -4,7 +4,7 @@ conditions are linear in unknown transfers, and the transfers of least error.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from functools import cached_property
 from itertools import chain
 from typing import cast
@@ -45,22 +45,16 @@ class PairConditions:
     def of_order(self, order: int) -> list[fmpq_mpoly]:
         """The polynomials that are zero where the conditions hold that an order adds."""
         edges = list(self.family.tableau.edges())
+        diagonal = [(l, l) for l in range(self.family.tableau.size)]
         found = []
         for letter, number in added(order):
-            if letter == "B":
-                found += self.zeros(self._B(number))
-            else:
-                found += self.on(edges, letter, number)
+            found += self.on(diagonal if letter == "B" else edges, letter, number)
         return found
 
     def on(self, edges: Iterable[Edge], letter: str, number: int) -> list[fmpq_mpoly]:
-        """C(k), D(k) or the even condition on some blocks."""
-        rows = {"C": self.defects.C, "D": self.defects.D, "even": self.defects.even}
-        return self.zeros(chain.from_iterable(rows[letter](l, m, number) for l, m in edges))
-
-    def _B(self, number: int) -> Iterator[Number]:  # noqa: N802 -- the paper's letter
-        for l in range(self.family.tableau.size):
-            yield from self.defects.B(l, number)
+        """B(k), C(k), D(k) or the even condition on some blocks."""
+        found = (self.defects.of(letter, l, m, number) for l, m in edges)
+        return self.zeros(chain.from_iterable(found))
 
     def zeros(self, defects: Iterable[Number]) -> list[fmpq_mpoly]:
         """The numerators that are not identically zero."""

@@ -92,7 +92,9 @@ def where(
     grown: Interval | None = None
     for cell in _cells(roots, left is not None):
         check_time()
-        if holds(_sample(cell)):
+        # a point of the cell: itself, or a rational number with a small denominator
+        first = cell.start
+        if holds(first if first is not None and cell.is_point else between(first, cell.end)):
             if grown is not None:  # the cell is next to it
                 cell = Interval(grown.start, cell.end, grown.has_start, cell.has_end)
             grown = cell
@@ -121,14 +123,6 @@ def _cells(roots: Sequence[RealRoot], is_bounded: bool) -> Iterator[Interval]:
     for root, following in zip(roots, ends[1:], strict=True):
         yield Interval(root, root, has_start=True, has_end=True)
         yield Interval(root, following)
-
-
-def _sample(cell: Interval) -> Point:
-    """A point of a cell: itself, or a rational number with a small denominator."""
-    if cell.is_point:
-        assert cell.start is not None
-        return cell.start
-    return between(cell.start, cell.end)
 
 
 def between(left: RealRoot | None, right: RealRoot | None) -> fmpq:

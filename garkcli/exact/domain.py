@@ -8,10 +8,9 @@ root, see ``garkcli.exact.tower``.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from functools import partial
 from typing import TYPE_CHECKING, TypeAlias
 
-from flint import arb, ctx, fmpq, fmpq_poly, fmpz
+from flint import ctx, fmpq, fmpq_poly, fmpz
 
 from garkcli.errors import LimitExceeded, UndefinedValue
 from garkcli.exact.enclosing import OPERATIONS, enclose
@@ -277,8 +276,7 @@ class Domain:
                 cure = "write the coefficients in fewer or simpler radicals"
                 raise LimitExceeded(message, cure, root.start, root.end)
             kept.append(root)
-            # the list grows with the loop, so its present state is bound here
-            tower = tower.adjoin(relation, partial(_enclosures, tuple(kept)))
+            tower = tower.adjoin(relation, lambda: [*map(enclose, kept)])
         elements = list(zip(kept, tower.elements, strict=True))
         if tower.degree > 1:
             self.field = NumberField(tower.modulus, elements)
@@ -306,10 +304,6 @@ class Domain:
         if isinstance(value, Algebraic):
             return value.poly
         return fmpq_poly([value])
-
-
-def _enclosures(roots: tuple[Radical, ...]) -> list[arb]:
-    return [enclose(root) for root in roots]
 
 
 def _sign(expression: Expression) -> int:

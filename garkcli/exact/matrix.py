@@ -127,6 +127,15 @@ def solve(a: Matrix, b: Matrix) -> Matrix:
     return _eliminated([[*row, *right_side] for row, right_side in zip(a, b, strict=True)])
 
 
+def is_singular(a: Matrix) -> bool:
+    """Whether a square matrix has no inverse."""
+    try:
+        solve(a, tuple((ZERO,) for _ in a))
+    except SingularMatrixError:
+        return True
+    return False
+
+
 def _eliminated(rows: list[list[Number]]) -> Matrix:
     """A⁻¹ B from the rows of (A B), by Gauss and Jordan's elimination."""
     n = len(rows)

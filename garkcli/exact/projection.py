@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import combinations
+from operator import methodcaller
 
 from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 
@@ -19,7 +20,7 @@ from garkcli.exact.cells import Interval, between_roots, ends_of, has
 from garkcli.exact.field import Number
 from garkcli.exact.parametric import factors, unknowns_of
 from garkcli.exact.polynomial import Polynomial, in_one
-from garkcli.exact.roots import RealRoot, number_of, real_roots, sign
+from garkcli.exact.roots import RealRoot, is_nonnegative, number_of
 
 PLANE = fmpq_mpoly_ctx.get(["y", "t"], Ordering.lex)
 """ℚ[y, t]: y is what is looked along, t is what stays."""
@@ -69,7 +70,9 @@ def discriminant(p: fmpq_mpoly) -> fmpq_mpoly:
     """
     check_time()
     y, t = p.degrees()
-    return p.discriminant("y") if y**3 * t <= LARGE else apart(_discriminant, p)
+    work = methodcaller("discriminant", "y")
+    found: fmpq_mpoly = work(p) if y**3 * t <= LARGE else apart(work, p)
+    return found
 
 
 def resultant(p: fmpq_mpoly, q: fmpq_mpoly, variable: str = "y") -> fmpq_mpoly:
@@ -81,17 +84,9 @@ def resultant(p: fmpq_mpoly, q: fmpq_mpoly, variable: str = "y") -> fmpq_mpoly:
     check_time()
     largest = [max(degrees) for degrees in zip(p.degrees(), q.degrees(), strict=True)]
     gone, left = largest if variable == "y" else reversed(largest)
-    if gone**3 * left <= LARGE:
-        return p.resultant(q, variable)
-    return apart(_resultant, p, q, variable)
-
-
-def _discriminant(p: fmpq_mpoly) -> fmpq_mpoly:
-    return p.discriminant("y")
-
-
-def _resultant(p: fmpq_mpoly, q: fmpq_mpoly, variable: str) -> fmpq_mpoly:
-    return p.resultant(q, variable)
+    work = methodcaller("resultant", q, variable)
+    found: fmpq_mpoly = work(p) if gone**3 * left <= LARGE else apart(work, p)
+    return found
 
 
 def of_root(t: RealRoot) -> fmpq_mpoly:
@@ -200,18 +195,9 @@ def is_nowhere_negative(p: fmpq_mpoly, within: Sequence[Interval] | None = None)
     if within is None or not all(x.is_point for x in within):
         critical = [*projected(factors([p]), []), *ends_of(within or ())]
         lines += [t for t in between_roots(critical) if within is None or has(within, t)]
-    return all(_is_nowhere_negative(on_line(p, t)) for t in lines)
+    return all(is_nonnegative(on_line(p, t)) for t in lines)
 
 
 def on_line(p: fmpq_mpoly, t: Number) -> Polynomial:
     """p(y, t) for one t."""
     return Polynomial([in_t(coefficient_of(p, k))(t) for k in range(p.degrees()[0] + 1)])
-
-
-def _is_nowhere_negative(p: Polynomial) -> bool:
-    """Whether p(y) ≥ 0 for all y."""
-    if not p:
-        return True
-    if sign(p.leading) < 0:
-        return False
-    return all(power % 2 == 0 for _, power in real_roots(p))

@@ -120,6 +120,20 @@ def real_roots(p: Polynomial) -> list[tuple[RealRoot, int]]:
     return sorted(roots, key=lambda pair: pair[0])
 
 
+def is_nonnegative(p: Polynomial) -> bool:
+    """Whether p(y) ≥ 0 for all real y, decided exactly.
+
+    >>> is_nonnegative(Polynomial([1, -2, 1])), is_nonnegative(Polynomial([1, -3, 1]))
+    (True, False)
+    """
+    if not p:
+        return True
+    if sign(p.leading) < 0 or p.degree % 2:
+        return False
+    # the sign changes at the roots of odd multiplicity
+    return not any(power % 2 for _, power in real_roots(p))
+
+
 def multiplicity_at(p: Polynomial, root: RealRoot) -> int:
     """How often ``root`` is a root of p ≠ 0, decided exactly."""
     multiplicity = 0

@@ -5,7 +5,7 @@ docs/pair-order.md.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 from garkcli.frozen import Frozen
 from garkcli.order.certificate import DEFAULT_LIMIT
@@ -88,16 +88,5 @@ def _missing(defects: Defects, order: int) -> Iterator[Condition]:
     diagonal = [(l, l) for l in range(tableau.size)]
     for letter, number in added(order):
         for l, m in diagonal if letter == "B" else tableau.edges():
-            if not defects.vanish(_defect(defects, letter, number, l, m)):
+            if not defects.vanish(defects.of(letter, l, m, number)):
                 yield Condition(letter, number, l, m)
-
-
-def _defect(defects: Defects, letter: str, number: int, l: int, m: int) -> Any:
-    match letter:
-        case "B":
-            return defects.B(l, number)
-        case "C":
-            return defects.C(l, m, number)
-        case "D":
-            return defects.D(l, m, number)
-    return defects.even(l, m, number)

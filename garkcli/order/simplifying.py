@@ -103,6 +103,11 @@ class Defects:
             weighted = self.entries.space(l).times(b_l, self.power(l, k))
             return (dot(weighted, image) - fmpq(1, 2 * (k + 1) ** 2),)
 
+    def of(self, letter: str, l: int, m: int, k: int) -> Vector:
+        """The defect of a condition by its letter; B is of one colour, l."""
+        found: Vector = self.B(l, k) if letter == "B" else getattr(self, letter)(l, m, k)
+        return found
+
     def _map(self, l: int, m: int) -> LinearMap | EntrywiseMap:
         key = self.tableau.colours[l].space, m
         if key not in self._maps:

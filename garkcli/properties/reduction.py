@@ -14,7 +14,7 @@ from flint import fmpq, fmpq_poly
 
 from garkcli.doing import doing
 from garkcli.exact.field import ZERO, Number
-from garkcli.exact.matrix import Matrix, SingularMatrixError, Vector, apply, solve
+from garkcli.exact.matrix import Vector, apply, is_singular
 from garkcli.exact.roots import roots_below
 from garkcli.frozen import replace
 from garkcli.properties.pattern import Vertex, is_nonzero, spaces_that_matter
@@ -121,15 +121,7 @@ def _has_weights(tableau: Tableau, k: int, tolerance: fmpq) -> bool:
         return bool(rows) and all(any(is_nonzero(x, tolerance) for x in b) for b in stages)
     if tolerance:
         return False
-    return any(_is_gaussian(space, b) or _is_regular(space.gram(b)) for b in rows)
-
-
-def _is_regular(form: Matrix) -> bool:
-    try:
-        solve(form, tuple((ZERO,) for _ in form))
-    except SingularMatrixError:
-        return False
-    return True
+    return any(_is_gaussian(space, b) or not is_singular(space.gram(b)) for b in rows)
 
 
 def are_positive(space: StageSpace, b: Vector) -> bool:

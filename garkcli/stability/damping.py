@@ -26,7 +26,7 @@ from garkcli.exact.enclosing import cauchy_index, root_count
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.multivariate import Exponents, Multivariate
 from garkcli.exact.polynomial import Polynomial, gcd
-from garkcli.exact.roots import RealRoot, real_roots, sign
+from garkcli.exact.roots import RealRoot, is_nonnegative
 from garkcli.frozen import Frozen
 from garkcli.graph import components
 from garkcli.stability.fraction import Fraction
@@ -236,20 +236,6 @@ def _is_explicit(tableau: Tableau, l: int) -> bool:
         neighbours[i] = needed
     sizes = map(len, components(neighbours))
     return all(size == 1 for size in sizes)
-
-
-def is_nonnegative(p: Polynomial) -> bool:
-    """Whether p(y) ≥ 0 for all real y, decided exactly.
-
-    >>> is_nonnegative(Polynomial([1, -2, 1])), is_nonnegative(Polynomial([1, -3, 1]))
-    (True, False)
-    """
-    if not p:
-        return True
-    if sign(p.leading) < 0 or p.degree % 2:
-        return False
-    # the sign changes at the roots of odd multiplicity
-    return not any(power % 2 for _, power in real_roots(p))
 
 
 def _critical(E: Sequence[Polynomial]) -> list[Polynomial] | None:

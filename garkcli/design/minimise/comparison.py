@@ -22,7 +22,7 @@ from garkcli.design.solutions import Solution, solutions
 from garkcli.design.stable_parts import is_on, stable_part
 from garkcli.design.want import sign_polynomial
 from garkcli.errors import NotDecided
-from garkcli.exact.cells import Interval, ends_of
+from garkcli.exact.cells import ends_of
 from garkcli.exact.field import Number
 from garkcli.exact.parametric import fraction
 from garkcli.exact.polynomial import Polynomial, in_one
@@ -262,14 +262,12 @@ class Comparison(Mutable):
             [in_one(p) for p in part.nonzero],
             signs(family.positive),
             signs(not_negative(family)),
-            [self._within(part, *x) for x in part.sets],
+            [
+                Within(in_one(over), in_one(under), intervals)
+                for name, intervals in part.sets
+                for over, under in [fraction(part.values[name], part.ring)]
+            ],
         )
-
-    @staticmethod
-    def _within(part: Part, name: str, intervals: tuple[Interval, ...]) -> Within:
-        """That the value of an unknown is in a set, on a line."""
-        over, under = fraction(part.values[name], part.ring)
-        return Within(in_one(over), in_one(under), intervals)
 
 
 def _points(part: Part) -> Iterator[Solution]:

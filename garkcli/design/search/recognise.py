@@ -130,16 +130,9 @@ def minimal_polynomial(number: arb, bits: int) -> fmpz_poly | None:
         if relation is not None:
             polynomial = fmpz_poly(relation)
             _, factors = polynomial.factor()
-            return min((f for f, _ in factors), key=lambda f: _size_at(f, number, bits))
+            with ctx.workprec(bits):
+                return min((f for f, _ in factors), key=lambda f: abs(f(number)).mid())
     return None
-
-
-def _size_at(polynomial: fmpz_poly, number: arb, bits: int) -> arb:
-    with ctx.workprec(bits):
-        total = arb(0)
-        for k in range(polynomial.degree(), -1, -1):
-            total = total * number + arb(polynomial[k])
-        return abs(total).mid()
 
 
 def _relation(numbers: Sequence[arb], bits: int) -> list[fmpz] | None:
