@@ -341,11 +341,10 @@ class Builder(Generic[V]):
 
 
 def part_of(source: Source, numbers: Numbers, description: Description, why: str = "") -> PartText:
-    """What a description says, with the members of families in it and the nodes of those that are
-    taken at points.
+    """A description with its members of families, and with the nodes of members taken at points.
 
-    The entries of a block that is spelled out, and weights that a file has beside a member, refer
-    to single stages, so its methods need one coordinate a stage.
+    The entries of a spelled-out block, and weights that a file has beside a member, refer to single
+    stages, so the methods need one coordinate a stage.
 
     Args:
         source: the file.

@@ -84,7 +84,7 @@ def _expanded(place: str, parts: Sequence[str]) -> Iterator[str]:
             yield from _expanded(folder, rest or ("*",))
     elif _MAGIC & set(part):
         for name in _names(place):
-            # a hidden one has to be asked for
+            # a hidden one has to be requested
             is_shown = part.startswith(".") or not name.startswith(".")
             if is_shown and fnmatchcase(name, part):
                 yield from _expanded(os.path.join(place, name), rest)

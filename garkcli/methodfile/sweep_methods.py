@@ -145,7 +145,7 @@ class MethodsReader:
         source: the spec file.
         grids: the values of each parameter, as text.
         free: parameters of ``methods`` that are left to the search.
-        search: what stands under ``search``; None where nothing does.
+        search: what ``search`` says; None without it.
 
     Attributes:
         templates: those that were made.
