@@ -17,7 +17,7 @@ from garkcli.design.member import TABLEAUS, Whose, is_admissible, is_as_stable, 
 from garkcli.design.minimise.squared_error import squared_error
 from garkcli.design.msolve import find_msolve
 from garkcli.design.pairs import PairConditions, pair_conditions
-from garkcli.design.parts import diagonal_unknowns, nodes_as_coordinates, parts_of
+from garkcli.design.parts import Part, diagonal_unknowns, nodes_as_coordinates, parts_of
 from garkcli.design.real_points import has_methods, without_complex
 from garkcli.design.solutions import Solution, solutions
 from garkcli.design.stable_parts import has_stable_method, joined, stable_part
@@ -151,6 +151,28 @@ class Design(Shown, Frozen):
     def last(self) -> Step:
         """The step of the highest order."""
         return self.steps[-1]
+
+    def parts(self, step: Step) -> list[Part]:
+        """The solution set of a step in parts, nodes among the coordinates; where stability is
+        wanted, entries of diagonals too.
+
+        Raises:
+            NotDecided: a Gröbner basis takes too long.
+        """
+        ideal, family = step.ideal, self.family
+        assert ideal is not None
+        kept = diagonal_unknowns(self.tableau, ideal.ring) if family.stable else ()
+
+        def generators() -> Iterator[fmpq_mpoly]:
+            yield from (x.relation for x in family.radicals)
+            yield from family.relations
+            conditions = FamilyConditions(self.tableau, family.ring)
+            for k in range(1, step.order + 1):
+                yield from (x.polynomial for x in conditions.of_order(k) if x.polynomial)
+
+        is_of_trees = step.criterion is None and ideal.is_proved
+        nodes = nodes_as_coordinates(self.tableau, ideal.ring)
+        return list(parts_of(ideal, nodes, kept, generators if is_of_trees else None))
 
     def reaches(self, order: int = 1) -> bool | None:
         """Whether methods of the file have the order; None where that is not decided."""
@@ -335,18 +357,17 @@ class _Finding(Frozen):
             is_real = True if any(x.accepted for x in found) else None if is_open else False
             return replace(step, found=found, is_real=is_real)
         if self.family.stable and step.kind == "family":
-            return self._with_stable(step, ideal)
+            return self._with_stable(step)
         return replace(step, is_real=has_methods(self.family, ideal, real, self._is_method))
 
-    def _with_stable(self, step: Step, ideal: Ideal) -> Step:
+    def _with_stable(self, step: Step) -> Step:
         """A family of which stable methods are wanted with what is known of them.
 
         Raises:
             NotDecided: the time is not enough, or stability depends on several unknowns.
         """
         tableau = TABLEAUS[self.whose](self.family.tableau)
-        kept = diagonal_unknowns(tableau, ideal.ring)
-        parts = list(parts_of(ideal, nodes_as_coordinates(tableau, ideal.ring), kept))
+        parts = Design(self.family, self.whose, tableau, (step,)).parts(step)
         found = []
         for part in parts:
             if part.dimension > 0:

@@ -7,15 +7,17 @@ solution is in one part, and no part is lost.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import nullcontext
 from typing import Any, TypeAlias, cast
 
 from flint import fmpq, fmpq_mpoly, fmpq_poly
 
-from garkcli.deadline import check_time
+from garkcli.deadline import check_time, only_small
 from garkcli.design.ideal import Ideal, rational
 from garkcli.design.member import value_of
 from garkcli.design.solutions import Solution
+from garkcli.errors import NotDecided
 from garkcli.exact.cells import Interval, ends_of, has, sign_of, where
 from garkcli.exact.field import Number, NumberField
 from garkcli.exact.parametric import Mixed, Parameters, Parametric, factors, fraction
@@ -33,11 +35,13 @@ class Changes(Frozen):
         old: the ring of the unknowns.
         ring: that of the new ones, in the same places.
         instead: by the place of an old unknown what it is, in the new ones.
+        nodes: unknowns that are nodes.
     """
 
     old: Parameters
     ring: Parameters
     instead: Mapping[int, fmpq_mpoly]
+    nodes: tuple[str, ...] = ()
 
     def polynomial(self, p: fmpq_mpoly) -> fmpq_mpoly:
         """A polynomial in the new unknowns."""
@@ -80,7 +84,9 @@ def nodes_as_coordinates(tableau: Tableau, ring: Parameters) -> Changes:
         here = new.context.gen(i)
         # node = slope x + rest, and its place now has the node itself
         instead[i] = here / slope - (moved - here * slope) / slope
-    return Changes(ring, new if instead else ring, instead)
+    single = (str(x) for colour in tableau.colours for x in colour.c)
+    known = (*(names[i] for i in chosen), *(x for x in single if x in ring.names))
+    return Changes(ring, new if instead else ring, instead, tuple(dict.fromkeys(known)))
 
 
 def _nodes(tableau: Tableau) -> Iterator[tuple[str, fmpq_mpoly]]:
@@ -246,8 +252,17 @@ def diagonal_unknowns(tableau: Tableau, ring: Parameters) -> list[str]:
     return list(found)
 
 
+LARGE = 50
+"""A basis of more terms is taken apart by polynomials that generate it."""
+SHORT = 12
+"""Members of it with so many terms at most help."""
+
+
 def parts_of(
-    ideal: Ideal, changes: Changes | None = None, kept: Sequence[str] = ()
+    ideal: Ideal,
+    changes: Changes | None = None,
+    kept: Sequence[str] = (),
+    generators: Callable[[], Iterable[fmpq_mpoly]] | None = None,
 ) -> Iterator[Part]:
     """The zeros of an ideal in parts.
 
@@ -255,6 +270,8 @@ def parts_of(
         ideal: of what is asked of all unknowns.
         changes: unknowns that are replaced by others.
         kept: unknowns that are coordinates rather than others.
+        generators: makes polynomials that generate the ideal, but for its UNIT: in conditions of
+            orders weights and many entries are linear, in a large basis they are not.
 
     Raises:
         NotDecided: a Gröbner basis takes too long.
@@ -262,7 +279,11 @@ def parts_of(
     changed = changes or Changes(ideal.ring, ideal.ring, {})
     splitting = _Splitting(changed.ring, tuple(kept))
     nonzero = factors(map(changed.polynomial, ideal.nonzero))
-    polynomials = [changed.polynomial(p) for p in ideal.cleared]
+    given = ideal.cleared
+    if generators is not None and sum(map(len, given)) > LARGE:
+        given = [*generators(), *(p for p in given if len(p) <= SHORT)]
+        splitting = replace(splitting, kept=(*kept, *changed.nodes), is_large=True)
+    polynomials = [changed.polynomial(p) for p in given]
     yield from splitting.parts(polynomials, nonzero, changed.values(), changed.ring.names)
 
 
@@ -284,6 +305,7 @@ def parts_within(part: Part, zeros: Iterable[fmpq_mpoly]) -> Iterator[Part]:
 class _Linear(Frozen):
     """A v + B, a polynomial in which v has degree one."""
 
+    whole: fmpq_mpoly
     name: str
     A: fmpq_mpoly
     B: fmpq_mpoly
@@ -291,10 +313,18 @@ class _Linear(Frozen):
 
 
 class _Splitting(Frozen):
-    """Takes solution sets apart; polynomials are in the ring of all unknowns."""
+    """Takes solution sets apart; polynomials are in the ring of all unknowns.
+
+    Attributes:
+        ring: that.
+        kept: unknowns that are coordinates rather than others.
+        is_large: whether Gröbner bases are made only where they are small, while unknowns are
+            linear in what there is.
+    """
 
     ring: Parameters
     kept: tuple[str, ...] = ()
+    is_large: bool = False
 
     def all_parts(
         self, polynomials: Sequence[fmpq_mpoly], nonzero: Sequence[fmpq_mpoly]
@@ -322,29 +352,42 @@ class _Splitting(Frozen):
             left: the names of these.
         """
         check_time()
-        simpler = [self._without(p, nonzero) for p in polynomials]
-        ideal = Ideal(self.ring).with_zeros(simpler)
-        if ideal.is_everything:
+        basis = self._basis([self._without(p, nonzero) for p in polynomials])
+        if any(p.is_constant() for p in basis):
             return
-        basis = [rational(p, self.ring) for p in ideal.basis]
         zeros = []
         for p in basis:
             found = [x for x in factors([p]) if x not in nonzero]
             if len(found) != 1:
-                yield from self._factored(found, basis, nonzero, values, left)
+                others = [x for x in basis if x is not p]
+                yield from self._factored(found, others, nonzero, values, left)
                 return
             zeros += found
         if any(p.total_degree() > q.total_degree() for p, q in zip(basis, zeros, strict=True)):
             yield from self.parts(zeros, nonzero, values, left)
             return
         linear = self._linear(zeros, nonzero, left)
+        if linear is None and self.is_large:
+            yield from replace(self, is_large=False).parts(zeros, nonzero, values, left)
+            return
         if linear is None:
             yield self._part(zeros, nonzero, values, left)
             return
         if linear.cost[1]:
-            yield from self.parts([*zeros, linear.A, linear.B], nonzero, values, left)
+            others = [x for x in zeros if x is not linear.whole]
+            yield from self.parts([*others, linear.A, linear.B], nonzero, values, left)
             nonzero = [*nonzero, *factors([linear.A])]
         yield from self._substituted(linear, zeros, nonzero, values, left)
+
+    def _basis(self, polynomials: Sequence[fmpq_mpoly]) -> Sequence[fmpq_mpoly]:
+        """A Gröbner basis; the polynomials where it would be large and need not be made yet."""
+        try:
+            with only_small() if self.is_large else nullcontext():
+                ideal = Ideal(self.ring).with_zeros(polynomials)
+        except NotDecided:
+            check_time()
+            return polynomials
+        return [rational(p, self.ring) for p in ideal.basis]
 
     def _without(self, p: fmpq_mpoly, nonzero: Sequence[fmpq_mpoly]) -> fmpq_mpoly:
         """Each factor once, but those that are not zero."""
@@ -382,8 +425,9 @@ class _Splitting(Frozen):
                 is_new = any(x not in nonzero for x in factors([A]))
                 degree = int(p.total_degree())
                 name = self.ring.names[index]
-                cost = (name in self.kept, is_new, len(A.to_dict()), degree, -index)
-                found.append(_Linear(name, A, p - A * v, cost))
+                is_kept = name in self.kept and len(_places(p)) > 1
+                cost = (is_kept, is_new, len(A.to_dict()), degree, -index)
+                found.append(_Linear(p, name, A, p - A * v, cost))
         usable = [x for x in found if x.name in left]
         return min(usable, key=lambda x: x.cost, default=None)
 
@@ -409,8 +453,18 @@ class _Splitting(Frozen):
             under = value_of(denominator, ring, known)
             return cast("Mixed", over / under)
 
+        place = ring.names.index(linear.name)
+
         def numerator_at(p: fmpq_mpoly) -> fmpq_mpoly:
-            return fraction(value_of(p, ring, cast("Mapping[str, Number]", instead)), ring)[0]
+            """Σ p_k (−B)^k A^(d−k) for p = Σ p_k v^k of degree d in v; zero where p is."""
+            degree = p.degrees()[place]
+            total = p * 0
+            for k in range(degree + 1):
+                alone = {e: a for e, a in p.to_dict().items() if e[place] == k}
+                lowered = {(*e[:place], 0, *e[place + 1 :]): a for e, a in alone.items()}
+                power = (-linear.B) ** k * linear.A ** (degree - k)
+                total += ring.context.from_dict(lowered) * power
+            return total
 
         smaller = [p for p in map(numerator_at, zeros) if p]
         others = [numerator_at(p) for p in nonzero]

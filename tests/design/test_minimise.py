@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from fractions import Fraction
 from pathlib import Path
+from typing import cast
 
 import pytest
 from flint import ctx, fmpq, fmpq_mpoly
@@ -30,7 +31,7 @@ from garkcli.design.parts import Part
 from garkcli.design.solutions import value_at
 from garkcli.errors import NotDecided
 from garkcli.exact.display import to_ball
-from garkcli.exact.parametric import Parameters
+from garkcli.exact.parametric import Mixed, Parameters, fraction
 from garkcli.exact.polynomial_text import root_text
 from garkcli.exact.projection import PLANE
 from garkcli.exact.roots import RealRoot
@@ -149,6 +150,75 @@ def test_two_explicit_stages() -> None:
     assert floats(minimum, candidate) == {"c": 2 / 3}
     assert minimum.gradient is not None
     assert minimum.gradient.monic()(fmpq(2, 3)) == 0
+
+
+KUTTA = "unknown: {stages: 4, shape: explicit}\n"
+
+
+def test_explicit_methods_of_four_stages() -> None:
+    """W. Kutta (1901): order 4 is a family in c2 and c3 and three lines, c = (1/2, 1/2), (1/2, 0)
+    and (1, 1/2). Members have order 4 by the certificate; one of the family is the 3/8 rule.
+    """
+    design = find_parameters(loads_family(KUTTA), 4)
+    parts = design.parts(design.last)
+    nodes = [(str(x.values["c2"]), str(x.values["c3"])) for x in parts]
+    assert sorted(nodes) == [("1", "1/2"), ("1/2", "0"), ("1/2", "1/2"), ("c2", "c3")]
+    assert all(x.is_free for x in parts)
+    for part in parts:
+        for k in range(2, 5):
+            names = part.ring.names
+            at = {name: fmpq(k + 3 * i, 7 + i) for i, name in enumerate(names)}
+            values = {x: value_at_point(y, part.ring, at) for x, y in part.values.items()}
+            tableau = member(design.tableau, design.family.ring, values)
+            assert find_order(tableau).order == 4
+    general = next(x for x in parts if x.dimension == 2)
+    u, v = fmpq(2, 5), fmpq(3, 5)  # the formulas of Hairer, Nørsett, Wanner, section II.1
+    b2 = (2 * v - 1) / (12 * u * (1 - u) * (v - u))
+    assert value_at_point(general.values["b2"], general.ring, {"c2": u, "c3": v}) == b2
+    third = {"c2": fmpq(1, 3), "c3": fmpq(2, 3)}
+    known = load("kutta-38").tableau.block(0, 0)
+    assert known is not None
+    a32 = value_at_point(general.values["a32"], general.ring, third)
+    a43 = value_at_point(general.values["a43"], general.ring, third)
+    assert (a32, a43) == (known[2][1], known[3][2])
+
+
+def value_at_point(x: object, ring: Parameters, at: dict[str, fmpq]) -> fmpq:
+    """A function of coordinates at a rational point."""
+    over, under = fraction(cast("Mixed", x), ring)
+    point = [at[name] for name in ring.names]
+    return over(*point) / under(*point)
+
+
+def test_the_best_of_four_stages_with_a_node() -> None:
+    """With c3 = 3/5 the least error of order 4, of all methods, against Kutta's formulas in floats:
+    no c2 of a grid has less.
+    """
+    minimum = least(f"{KUTTA}design: {{fix: {{c3: 3/5}}}}\n", "error", 4)
+    assert minimum.extent == "all"
+    assert minimum.value is not None
+    [candidate] = minimum.minimisers
+    found = floats(minimum, candidate)
+    at_best = float(minimum.value)
+    assert kutta_error(fmpq(round(found["c2"] * 10**9), 10**9)) == pytest.approx(at_best, rel=1e-9)
+    assert all(kutta_error(fmpq(k, 100)) > at_best for k in (5, 20, 30, 34, 37, 40, 70, 90, 130))
+
+
+def kutta_error(u: fmpq) -> float:
+    """Σ e(u)² of the method with c2 = u and c3 = 3/5, by the list of all trees."""
+    v, one = fmpq(3, 5), fmpq(1)
+    b2 = (2 * v - 1) / (12 * u * (1 - u) * (v - u))
+    b3 = (1 - 2 * u) / (12 * v * (1 - v) * (v - u))
+    b4 = (6 * u * v - 4 * u - 4 * v + 3) / (12 * (1 - u) * (1 - v))
+    a32 = v * (v - u) / (2 * u * (1 - 2 * u))
+    a43 = (b3 * (1 - v)) / b4
+    a42 = (b2 * (1 - u) - b3 * a32) / b4
+    rows = [[0, 0, 0, 0], [u, 0, 0, 0], [v - a32, a32, 0, 0], [1 - a42 - a43, a42, a43, 0]]
+    text = [[str(x) for x in row] for row in rows]
+    weights = [str(x) for x in (one - b2 - b3 - b4, b2, b3, b4)]
+    constants = error_constants(loads(f"A: {text}\nb: {weights}\n").tableau, 5)
+    assert constants is not None
+    return float(fmpq(constants.all.two_squared))
 
 
 def test_unknown_entries() -> None:

@@ -18,7 +18,6 @@ from garkcli.design.minimise.objective import Either, Level, Objective
 from garkcli.design.minimise.objectives import OBJECTIVES
 from garkcli.design.minimise.result import Minimum
 from garkcli.design.minimise.smallest import Smallest
-from garkcli.design.parts import diagonal_unknowns, nodes_as_coordinates, parts_of
 from garkcli.errors import UsageProblem
 
 SHARE = 0.25
@@ -74,13 +73,8 @@ def minimise(
         if step.kind == "solutions":
             comparison.selection()
         elif not (objective is OBJECTIVES["error"] and comparison.by_theorem()):
-            assert step.ideal is not None
-            nodes = nodes_as_coordinates(design.tableau, step.ideal.ring)
-            kept: list[str] = []
-            if design.family.stable:
-                kept = diagonal_unknowns(design.tableau, step.ideal.ring)
             with until(comparison.share):
-                parts = list(parts_of(step.ideal, nodes, kept))
+                parts = design.parts(step)
             for part in parts:
                 comparison.over_whole(part)
         return comparison.result()
