@@ -199,7 +199,7 @@ class Domain:
     def _apply(self, sign: str, left: Number, right: Number, at: Expression) -> Number:
         """A sum, a difference, a product or a quotient."""
         if sign == "/" and not right:
-            cure = "the divisor is exactly zero"
+            cure = "the divisor is exactly zero: write another one"
             raise UndefinedValue(
                 "division by zero", cure, at.start, at.end, code="division-by-zero"
             )

@@ -66,7 +66,7 @@ OTHER_NAMES: Mapping[str, str] = {
 """What people call members of the families, and how the program does."""
 
 
-_MEMBER = re.compile(r"(?P<family>.+?)[-:](?P<size>[0-9]{1,3})")
+_MEMBER = re.compile(r"(?P<family>.+?)[-:](?P<size>[0-9]{1,6})")
 """A member of a family in one word."""
 
 

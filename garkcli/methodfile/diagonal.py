@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
-from garkcli.errors import UnknownFamily, nearest
+from garkcli.errors import UnknownFamily, did_you_mean, nearest
 from garkcli.families.family import MAX_STAGES, Family, Given, Option, Recipe
 from garkcli.families.registry import FAMILIES, member_named, recipe_of
 from garkcli.frozen import replace
@@ -21,7 +21,7 @@ from garkcli.methodfile.description import (
     of_colour,
 )
 from garkcli.methodfile.grammar import Key, Kind, OfSchema, Schema, count, entries_in, mapping, word
-from garkcli.methodfile.nodes import keys_of
+from garkcli.methodfile.nodes import keys_of, shortened
 from garkcli.methodfile.numbers import Entry, Reading, Row
 from garkcli.methodfile.parameters import NUMBER
 from garkcli.methodfile.source import Entries
@@ -128,8 +128,14 @@ def _method(at: Reading, node: Node, l: int) -> FamilyText | ButcherText | None:
     node = _in_a_word(node) or node
     keys, where = keys_of(node), f"method {l}"
     if isinstance(node, ScalarNode):
-        message = f"{where}: a mapping is expected here"
-        at.source.fault(node, message, _written_out(node), code="mapping-expected")
+        named = member_named(node.value, is_known=False)
+        if named is None:
+            message = f"{where}: a mapping is expected here"
+            at.source.fault(node, message, _written_out(node), code="mapping-expected")
+        else:
+            message = f"{where}: no family {shortened(named[0])}"
+            cure = did_you_mean(named[0], FAMILIES)
+            at.source.fault(node, message, cure, code="unknown-word")
         return None
     # of anything but a mapping there are no keys
     if "stages" in keys and not keys & {"family", "A", "b"}:

@@ -14,14 +14,12 @@ from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 from garkcli.doing import doing
 from garkcli.exact.formula import RESERVED
 from garkcli.frozen import Frozen, replace
-from garkcli.methodfile.description import FORMS as METHOD_FORMS
 from garkcli.methodfile.formulas import Formulas, bad_name
 from garkcli.methodfile.grammar import FILE, entries_in
-from garkcli.methodfile.nodes import keys_of, one_line, shortened
+from garkcli.methodfile.nodes import one_line, shortened
 from garkcli.methodfile.problem_keys import (
     DEFAULT_T_END,
     FORM,
-    FORMS,
     KEYS,
     MAX_INVARIANTS,
     SOLUTION,
@@ -150,7 +148,7 @@ class _ProblemReader:
         """The text; None where it makes no sense to go on."""
         source = self.source
         root = source.compose()
-        if root is None or self._is_method_file(root):
+        if root is None:
             return None
         entries = entries_in(source, root, FILE, KEYS)
         for key in ("gark", "description", "reference"):
@@ -193,15 +191,6 @@ class _ProblemReader:
             sides=tuple(_side(source, *x, known) for x in terms) if form == "rhs" else (),
             exact=entries.get("exact"),
         )
-
-    def _is_method_file(self, root: Node) -> bool:
-        """Note a file of the other kind."""
-        keys = keys_of(root)
-        is_one = bool(keys & set(METHOD_FORMS)) and not keys & set(FORMS)
-        if is_one:
-            message = "this is a method file, not a problem file"
-            self.source.fault(root, message, "see docs/problem-file.md", code="other-file")
-        return is_one
 
     def _places(self, root: Node, entries: Entries) -> Entries:
         """The names of the variables, and where they are; what is wrong with them is noted."""

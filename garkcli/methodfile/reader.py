@@ -193,7 +193,7 @@ class Reader(Reading):
         """The description; None, with faults noted in the source, where there is none."""
         source = self.source
         root = source.compose()
-        if root is None or self._is_problem_file(root):
+        if root is None:
             return None
         entries = entries_in(source, root, FILE, KEYS, elsewhere)
         self.keys = frozenset(entries)
@@ -247,16 +247,6 @@ class Reader(Reading):
         if description is None:
             raise source.error()
         return Opened(source, reader.numbers, description)
-
-    def _is_problem_file(self, root: Node) -> bool:
-        """Note a file of the other kind."""
-        keys = keys_of(root)
-        is_one = bool(keys & {"hamiltonian", "lagrangian"}) and not keys & set(FORMS)
-        if is_one:
-            message = "this is a problem file, not a method file"
-            cure = "give it beside a method file: gark converge METHOD --problem FILE"
-            self.source.fault(root, message, cure, code="other-file")
-        return is_one
 
     def place_of(self, key: str) -> Extent | None:
         """From where to where a key with its value is; None where there is none."""

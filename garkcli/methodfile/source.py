@@ -72,6 +72,7 @@ class FileKind(Frozen):
         smallest: what the smallest one has.
         start: how one begins.
         page: where it is described.
+        use: what runs it.
     """
 
     name: str
@@ -79,6 +80,7 @@ class FileKind(Frozen):
     smallest: str
     start: str
     page: str
+    use: str
 
 
 METHOD_FILE = FileKind(
@@ -90,6 +92,7 @@ METHOD_FILE = FileKind(
     "the smallest file has A and b, or methods",
     "start with A: and b:, or with methods:",
     "docs/method-file.md",
+    "gark check FILE reads it",
 )
 PROBLEM_FILE = FileKind(
     "problem file",
@@ -97,6 +100,15 @@ PROBLEM_FILE = FileKind(
     "the smallest file has variables, hamiltonian and initial",
     "start with variables:",
     "docs/problem-file.md",
+    "give it beside a method file: gark converge METHOD --problem FILE",
+)
+SWEEP_FILE = FileKind(
+    "sweep file",
+    ("columns", "methods", "files", "where", "best", "pareto"),
+    "the smallest file has methods or files, and columns",
+    "start with methods:",
+    "docs/sweep.md",
+    "gark sweep FILE runs it",
 )
 
 
@@ -249,7 +261,22 @@ class Source:
             message = f"a {self.kind.name} is a mapping of keys to values"
             self.fault(root, message, self._foreign(True) or self.kind.start, code="other-file")
             return None
+        other = self._kind_of(root)
+        if other is not None:
+            message = f"this is a {other.name}, not a {self.kind.name}"
+            self.fault(root, message, other.use, code="other-file")
+            return None
         return root
+
+    def _kind_of(self, root: MappingNode) -> FileKind | None:
+        """The other kind of file that the keys are of; None for this one, or in doubt."""
+        keys, own = keys_of(root) - {"gark"}, set(self.kind.keys)
+        others = (
+            kind
+            for kind in (METHOD_FILE, PROBLEM_FILE, SWEEP_FILE)
+            if keys & (set(kind.keys) - own) and not keys & (own - set(kind.keys))
+        )
+        return max(others, key=lambda kind: len(keys.intersection(kind.keys)), default=None)
 
     def _foreign(self, is_yaml: bool) -> str:
         """The cure for a file that is none of YAML, where a method file is expected."""

@@ -25,7 +25,7 @@ from garkcli.methodfile import grammar as g
 from garkcli.methodfile.expectations import claims
 from garkcli.methodfile.nodes import one_line, shortened, unquoted
 from garkcli.methodfile.reading import read_text
-from garkcli.methodfile.source import FileKind, Source
+from garkcli.methodfile.source import SWEEP_FILE, Source
 from garkcli.methodfile.sweep_methods import (
     METHODS,
     NAME,
@@ -37,13 +37,6 @@ from garkcli.methodfile.sweep_methods import (
     span,
 )
 
-SWEEP_FILE = FileKind(
-    "sweep file",
-    ("columns", "methods"),
-    "the smallest file has methods or files, and columns",
-    "start with methods:",
-    "docs/sweep.md",
-)
 MOST_METHODS = 10_000_000
 """Largest sweep."""
 MOST_VALUES = 1_000_000

@@ -140,6 +140,32 @@ def test_a_problem_file_is_no_method_file() -> None:
     assert "--problem FILE" in run.err
 
 
+KINDS = {
+    "method": "A: [[0, 0], [1/2, 0]]\nb: [0, 1]\n",
+    "problem": "gark: 1\nvariables: [x]\nrhs: {x: -x}\ninitial: {x: 1}\n",
+    "sweep": "methods: [{family: gauss, stages: 1..4}]\ncolumns: [order]\n",
+}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize(
+    ("command", "wanted"),
+    [(("check",), "method"), (("converge", "rk4", "--problem"), "problem"), (("sweep",), "sweep")],
+)
+def test_a_file_of_another_kind_is_one_fault(
+    kind: str, command: tuple[str, ...], wanted: str, tmp_path: Path
+) -> None:
+    """It has the kind of the file in it, whatever the command wants."""
+    path = tmp_path / "file.yaml"
+    path.write_text(KINDS[kind])
+    run = gark(*command, str(path), cwd=tmp_path)
+    said = f"error[other-file]: this is a {kind} file, not a {wanted} file"
+    text = " ".join((run.out + run.err).split())
+    assert (said in text) == (kind != wanted)
+    assert text.count("error[") == (kind != wanted)
+    assert (run.code == 2) == (kind != wanted)
+
+
 def test_names_are_those_of_the_list() -> None:
     """What --problem takes is what gark list shows, in one order; each name makes a problem."""
     listed = json.loads(gark("list", "--format", "json").out)["problems"]
