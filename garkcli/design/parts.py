@@ -253,7 +253,7 @@ def diagonal_unknowns(tableau: Tableau, ring: Parameters) -> list[str]:
 
 
 LARGE = 50
-"""A basis of more terms is taken apart by polynomials that generate it."""
+"""A basis of more terms is taken apart by polynomials that generate it, where they are shorter."""
 SHORT = 12
 """Members of it with so many terms at most help."""
 
@@ -280,9 +280,11 @@ def parts_of(
     splitting = _Splitting(changed.ring, tuple(kept))
     nonzero = factors(map(changed.polynomial, ideal.nonzero))
     given = ideal.cleared
-    if generators is not None and sum(map(len, given)) > LARGE:
-        given = [*generators(), *(p for p in given if len(p) <= SHORT)]
-        splitting = replace(splitting, kept=(*kept, *changed.nodes), is_large=True)
+    if generators is not None and not kept and sum(map(len, given)) > LARGE:
+        asked = list(generators())
+        if 2 * sum(map(len, asked)) < sum(map(len, given)):
+            given = [*asked, *(p for p in given if len(p) <= SHORT)]
+            splitting = replace(splitting, kept=changed.nodes, is_large=True)
     polynomials = [changed.polynomial(p) for p in given]
     yield from splitting.parts(polynomials, nonzero, changed.values(), changed.ring.names)
 
@@ -375,7 +377,8 @@ class _Splitting(Frozen):
             return
         if linear.cost[1]:
             others = [x for x in zeros if x is not linear.whole]
-            yield from self.parts([*others, linear.A, linear.B], nonzero, values, left)
+            smaller = replace(self, is_large=False)  # it may be empty, as a basis shows
+            yield from smaller.parts([*others, linear.A, linear.B], nonzero, values, left)
             nonzero = [*nonzero, *factors([linear.A])]
         yield from self._substituted(linear, zeros, nonzero, values, left)
 
