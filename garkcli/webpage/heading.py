@@ -2,68 +2,42 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from markupsafe import Markup
 
 from garkcli.check.outcome import Outcome
 from garkcli.errors import counted
-from garkcli.frozen import Frozen
 from garkcli.report.check import METHOD, verdict_words
 from garkcli.report.checked import REPORT
 from garkcli.tell.dialect import Plain
 from garkcli.tell.outputs import cell, phrase, words
 from garkcli.webpage.mathml import Typeset
-from garkcli.webpage.reported import Reported
+from garkcli.webpage.reported import Content, Reported
 from garkcli.webpage.sections.orders import how
 
 MARKS = {0: "holds", 1: "fails", 2: "fault", 3: "fault"}
 """The class of a verdict, by the exit code of ``gark check``; with a claim undecided, open."""
 
 
-class Heading(Frozen):
-    """What is above the sections of a method.
-
-    Attributes:
-        title: its name.
-        file: the file or the name that it came from.
-        about: what is judged, and in which arithmetic.
-        verdict: in a sentence or two.
-        mark: holds, fails, open or fault.
-        description: what its file says of it.
+def heading(method: Reported) -> Content:
+    """What is above the sections of a method: what is judged in which arithmetic, the verdict
+    in a sentence or two, and what its file says of it.
     """
-
-    title: str
-    file: str
-    about: str
-    verdict: str
-    mark: str
-    description: str
-
-
-def heading(method: Reported) -> Heading:
-    """What is above the sections of a method."""
     outcome = method.outcome
-    return Heading(
-        outcome.name,
-        outcome.file,
-        words(METHOD.fact(outcome), Plain()) if outcome.is_read else "",
-        Markup(_verdict(outcome)),
-        _mark(outcome),
-        method.description,
-    )
+    verdict = f"The file cannot be read as a method: {counted(len(outcome.faults), 'fault')}."
+    if outcome.is_read:
+        verdict = f"{_found(outcome)} {claims_text(outcome)}"
+    return {
+        "title": outcome.name,
+        "file": outcome.file,
+        "about": words(METHOD.fact(outcome), Plain()) if outcome.is_read else "",
+        "verdict": Markup(verdict),
+        "mark": _mark(outcome),
+        "description": method.description,
+    }
 
 
 def _mark(outcome: Outcome) -> str:
     return "open" if outcome.is_open else MARKS[outcome.exit_code]
-
-
-def _verdict(outcome: Outcome) -> str:
-    """The order, what decided it, symplecticity, and what becomes of the claims."""
-    if not outcome.is_read:
-        faults = counted(len(outcome.faults), "fault")
-        return f"The file cannot be read as a method: {faults}."
-    return f"{_found(outcome)} {claims_text(outcome)}"
 
 
 def _found(outcome: Outcome) -> str:
@@ -82,8 +56,7 @@ def claims_text(outcome: Outcome) -> str:
     if not outcome.claims:
         return "Its file claims nothing."
     claims = counted(len(outcome.claims), "claim")
-    answers = [x.holds for x in outcome.claims]
-    failed, left_open = answers.count(False), answers.count(None)
+    failed, left_open = len(outcome.failed_claims), len(outcome.undecided_claims)
     told = [f"{failed} fail{'s' if failed == 1 else ''}"] if failed else []
     told += [f"{left_open} {'is' if left_open == 1 else 'are'} undecided"] if left_open else []
     if told:
@@ -108,7 +81,7 @@ COLUMNS = {
 """Of the comparison, with the rows of ``gark check`` that they have; the first has the verdict."""
 
 
-def comparison_row(method: Reported) -> dict[str, Any]:
+def comparison_row(method: Reported) -> Content:
     """A method among others: its numbers, as ``gark check`` has them."""
     outcome, tableau = method.outcome, method.tableau
     cells: dict[str, str] = dict.fromkeys(COLUMNS, "–")

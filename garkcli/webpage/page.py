@@ -19,23 +19,28 @@ from garkcli.errors import MethodError, counted, printable
 from garkcli.frozen import replace
 from garkcli.plots.svg import STYLE
 from garkcli.webpage.heading import COLUMNS, comparison_row, heading
-from garkcli.webpage.reported import MOST_CONDITIONS, Reported, reported
-from garkcli.webpage.section import Content, Section
+from garkcli.webpage.reported import MOST_CONDITIONS, Content, Reported, reported
 from garkcli.webpage.sections.pictures import of_several
 from garkcli.webpage.tree_picture import dots
 
 MOST_ROWS = 2000
 """Conditions of all methods of a page together: about 3 MB."""
 
-SECTIONS: tuple[Section, ...] = tuple(
-    import_module(f"garkcli.webpage.sections.{name}").SECTION
-    for name in (
-        *("faults", "tableau", "orders", "claims", "simplifying", "properties", "stability"),
-        *("reference", "pictures"),
-        "conditions",  # the longest, and across on paper: pages of its own
-    )
-)
-"""The sections of the page, in their order."""
+SECTIONS = {
+    "faults": "What is wrong with the file",
+    "tableau": "Tableau",
+    "orders": "Orders",
+    "claims": "Claims",
+    "simplifying": "Simplifying assumptions",
+    "properties": "Properties",
+    "stability": "Stability",
+    "reference": "Reference",
+    "pictures": "Pictures",
+    "conditions": "Order conditions",  # the longest, and across on paper: pages of its own
+}
+"""The sections in their order with their headings: a file each in ``sections``, whose ``content``
+the template of its name is given.
+"""
 
 
 def report_page(*methods: AnyMethod, order: Whole | None = None, pictures: bool = True) -> str:
@@ -68,13 +73,16 @@ def render(methods: Sequence[Reported]) -> str:
     has_several = len(methods) > 1
     room = min(MOST_CONDITIONS, MOST_ROWS // max(len(methods), 1))
     methods = [replace(x, most_conditions=room) for x in methods]
-    shown = [_method(method, number) for number, method in enumerate(methods, 1)]
+    shown = [
+        {"place": f"m{number}", "heading": heading(x), "sections": list(_sections(x))}
+        for number, x in enumerate(methods, 1)
+    ]
     compared = [comparison_row(x) for x in methods] if has_several else []
     sizes = [x.tableau.size for x in methods if x.tableau is not None]
     script = _static("page.js")
     page = _environment().get_template("page.html")
     return page.render(
-        title=_title(methods),
+        title=counted(len(methods), "method") if has_several else methods[0].outcome.name,
         methods=shown,
         has_several=has_several,
         compared=compared,
@@ -87,22 +95,13 @@ def render(methods: Sequence[Reported]) -> str:
     )
 
 
-def _title(methods: Sequence[Reported]) -> str:
-    return methods[0].outcome.name if len(methods) == 1 else counted(len(methods), "method")
-
-
-def _method(method: Reported, number: int) -> Content:
-    """A method with its sections."""
-    return {"place": f"m{number}", "heading": heading(method), "sections": list(_sections(method))}
-
-
-def _sections(method: Reported) -> Iterator[tuple[Section, Content]]:
+def _sections(method: Reported) -> Iterator[tuple[Content, Content]]:
     """The sections that have something to say, with what their templates are given."""
-    for section in SECTIONS:
-        with doing(f"{method.outcome.name}: {section.title}"):
-            content = section.content(method)
+    for name, title in SECTIONS.items():
+        with doing(f"{method.outcome.name}: {title}"):
+            content = import_module(f"garkcli.webpage.sections.{name}").content(method)
         if content is not None:
-            yield section, content
+            yield {"name": name, "title": title}, content
 
 
 def _policy(script: str) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, TypeAlias
 
 from flint import fmpq
 
@@ -23,6 +23,8 @@ from garkcli.reference import Reference
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.tableau import Tableau
 
+Content: TypeAlias = Mapping[str, Any]
+"""What a template is given, by the names that it has there."""
 MOST_CONDITIONS = 500
 """Of one method in one page; of many methods fewer each."""
 MOST_STAGES = 12

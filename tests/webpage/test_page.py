@@ -513,10 +513,8 @@ def test_exit_codes_are_those_of_the_check(tmp_path: Path) -> None:
 def test_a_section_is_a_file_with_its_template() -> None:
     """Every file of the folder is in the list, under its name, and no template is left over."""
     room = ROOT / "garkcli" / "webpage"
-    names = [one.name for one in SECTIONS]
     files = {x.stem for x in (room / "sections").glob("*.py")} - {"__init__"}
-    assert files == set(names)
-    assert len(names) == len(files)
+    assert files == set(SECTIONS)
     shared = {"page", "head", "contents", "comparison"}
     templates = {x.stem for x in (room / "templates").glob("*.html")}
     assert templates == files | shared
@@ -579,13 +577,13 @@ def test_what_takes_long_is_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
     slow = reported(ROUNDED)
     assert slow.is_slow
     assert not reported("rk4").is_slow
-    content = stability.SECTION.content(slow)
+    content = stability.content(slow)
     assert content is not None
     assert "parts" not in content
     shown = read(report_page(ROUNDED, order=1, pictures=False))
     said = text_of(by_id(shown, "m1-stability"))
     assert f"takes long for this method: gark stability {ROUNDED}" in said
-    left_out = properties.SECTION.content(slow)
+    left_out = properties.content(slow)
     assert left_out is not None
     assert "real-stability" in left_out["left_out"]
     keys = [one["key"] for one in left_out["verdicts"]]

@@ -9,13 +9,13 @@ from markupsafe import Markup
 from garkcli.check.findings import claim_hint, claim_witness
 from garkcli.check.outcome import Claim, Outcome
 from garkcli.webpage.mathml import Typeset
-from garkcli.webpage.reported import Reported
-from garkcli.webpage.section import Content, Section
+from garkcli.webpage.reported import Content, Reported
 
 _FORMULA = re.compile(r"sqrt|/")
 
 
-def _content(method: Reported) -> Content | None:
+def content(method: Reported) -> Content | None:
+    """What the template is given; None where the section has nothing to say."""
     outcome = method.outcome
     return None if not outcome.is_read else {"claims": [_shown(outcome, x) for x in outcome.claims]}
 
@@ -41,6 +41,3 @@ def _shown(outcome: Outcome, claim: Claim) -> Content:
 def _value(text: str, d: Typeset) -> str:
     """A value as it is claimed; what has a root or a fraction is a formula."""
     return d.expression(text) if _FORMULA.search(text) else d.prose(text)
-
-
-SECTION = Section("claims", "Claims", _content)

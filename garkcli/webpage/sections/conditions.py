@@ -13,8 +13,7 @@ from garkcli.tableau.meant import meant
 from garkcli.tableau.tableau import Tableau
 from garkcli.tell.dialect import Plain
 from garkcli.webpage.mathml import typeset_condition, typeset_number
-from garkcli.webpage.reported import Reported
-from garkcli.webpage.section import Content, Section
+from garkcli.webpage.reported import Content, Reported
 from garkcli.webpage.tree_picture import tree_picture
 
 _STATES = ("holds", "within", "varies", "fails")
@@ -34,7 +33,8 @@ class Listed(Frozen):
     left_out: int
 
 
-def _content(method: Reported) -> Content | None:
+def content(method: Reported) -> Content | None:
+    """What the template is given; None where the section has nothing to say."""
     tableau = method.tableau
     if tableau is None:
         return None
@@ -101,6 +101,3 @@ def _state(condition: Condition) -> str:
     if is_parametric(condition.residual):
         return "varies"
     return "within" if condition.holds else "fails"
-
-
-SECTION = Section("conditions", "Order conditions", _content)

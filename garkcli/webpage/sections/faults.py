@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from garkcli.errors import Fault
-from garkcli.webpage.reported import Reported
-from garkcli.webpage.section import Content, Section
+from garkcli.webpage.reported import Content, Reported
 
 
-def _content(method: Reported) -> Content | None:
+def content(method: Reported) -> Content | None:
+    """What the template is given; None where the section has nothing to say."""
     outcome = method.outcome
     if outcome.is_read:
         return None
@@ -26,6 +26,3 @@ def _shown(fault: Fault, lines: list[str]) -> Content:
         "message": fault.message,
         "help": fault.help,
     }
-
-
-SECTION = Section("faults", "What is wrong with the file", _content)

@@ -8,7 +8,6 @@ from markupsafe import Markup
 
 from garkcli.check.outcome import Outcome
 from garkcli.exact.display import decimal
-from garkcli.frozen import Frozen
 from garkcli.ntrees.notation import format_tree
 from garkcli.order.certificate import Witness
 from garkcli.report.check import hints
@@ -16,8 +15,7 @@ from garkcli.report.checked import REPORT
 from garkcli.tell.facts import Fact, Level
 from garkcli.tell.outputs import cell, label, words
 from garkcli.webpage.mathml import Typeset, typeset, typeset_condition, typeset_number
-from garkcli.webpage.reported import Reported
-from garkcli.webpage.section import Content, Section
+from garkcli.webpage.reported import Content, Reported
 from garkcli.webpage.tree_picture import tree_picture
 
 WITH_TIME = ("nonautonomous_order", "embedded_nonautonomous_order")
@@ -29,43 +27,23 @@ NOTES = {"embedded_order": "error_estimate", "dense_order": "dense"}
 """Rows that are reported below others."""
 
 
-class Shown(Frozen):
-    """An order as the page has it.
-
-    Attributes:
-        label: whose order it is.
-        number: it, as it is known.
-        how: whether it is exact, and what is open.
-        text: what decides it.
-        witness: the condition at which it ends.
-        notes: further sentences.
-        is_again: whether another order above ends at the same condition.
-    """
-
-    label: str
-    number: str
-    how: str
-    text: str
-    witness: Content | None
-    notes: tuple[str, ...]
-    is_again: bool
-
-
-def _content(method: Reported) -> Content | None:
+def content(method: Reported) -> Content | None:
+    """What the template is given; None where the section has nothing to say."""
     outcome = method.outcome
     if not outcome.is_read:
         return None
     told = [] if outcome.analysis is None else hints(outcome)
-    left_behind = " and ".join(outcome.left_behind)
     return {
         "orders": list(_orders(outcome)),
         "hints": [Markup(Typeset().reason(x)) for x in told],
-        "left_behind": left_behind,
+        "left_behind": " and ".join(outcome.left_behind),
     }
 
 
-def _orders(outcome: Outcome) -> Iterator[Shown]:
-    """Every order that there is, in the order of ``gark check``."""
+def _orders(outcome: Outcome) -> Iterator[Content]:
+    """Every order that there is, in the order of ``gark check``, with the condition at which it
+    ends, and whether another one above ends there too.
+    """
     d = Typeset(**REPORT.signs(outcome))
     facts = REPORT.form(outcome).named(outcome, {*ORDERS, *NOTES.values()})
     met: set[tuple[str, str]] = set()
@@ -85,9 +63,15 @@ def _orders(outcome: Outcome) -> Iterator[Shown]:
         has_colours = len(d.colours) > 1 or key == "pair_order" or is_with_time
         shown = None if witness is None else _witness(witness, has_colours)
         where = ("", "") if witness is None else (str(witness.tree), str(witness.residual))
-        number = Markup("none" if fact.value is None else cell(fact, d))
-        name, text = Markup(label(fact, d)), Markup(words(fact, d))
-        yield Shown(name, number, how(fact), text, shown, tuple(notes), where in met)
+        yield {
+            "label": Markup(label(fact, d)),
+            "number": Markup("none" if fact.value is None else cell(fact, d)),
+            "how": how(fact),
+            "text": Markup(words(fact, d)),
+            "witness": shown,
+            "notes": notes,
+            "is_again": where in met,
+        }
         met |= {where} - {("", "")}
 
 
@@ -113,6 +97,3 @@ def _witness(witness: Witness, has_colours: bool) -> Content:
         "required": typeset_number(witness.required),
         "residual": typeset_number(witness.residual),
     }
-
-
-SECTION = Section("orders", "Orders", _content)

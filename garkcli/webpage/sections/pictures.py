@@ -8,11 +8,11 @@ from markupsafe import Markup
 
 from garkcli.webpage.mathml import Typeset
 from garkcli.webpage.pictures import Picture, compared_pictures, pictures
-from garkcli.webpage.reported import Reported
-from garkcli.webpage.section import Content, Section
+from garkcli.webpage.reported import Content, Reported
 
 
-def _content(method: Reported) -> Content | None:
+def content(method: Reported) -> Content | None:
+    """What the template is given; None where the section has nothing to say."""
     if method.has_pictures and method.free is not None:
         return {"free": method.free, "file": method.outcome.file}
     if method.method is None or not method.has_pictures:
@@ -32,6 +32,3 @@ def _shown(picture: Picture) -> Content:
     """A picture, whose SVG is made of numbers and of text that is escaped there."""
     note = Markup(Typeset().prose(picture.note))
     return {"about": picture, "svg": Markup(picture.svg), "note": note}
-
-
-SECTION = Section("pictures", "Pictures", _content)

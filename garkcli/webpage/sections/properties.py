@@ -12,11 +12,11 @@ from garkcli.report.check import CHECKED, verdict_words
 from garkcli.report.checked import REPORT
 from garkcli.tell.outputs import label, words
 from garkcli.webpage.mathml import Typeset
-from garkcli.webpage.reported import Reported
-from garkcli.webpage.section import Content, Section
+from garkcli.webpage.reported import Content, Reported
 
 
-def _content(method: Reported) -> Content | None:
+def content(method: Reported) -> Content | None:
+    """What the template is given; None where the section has nothing to say."""
     outcome = method.outcome
     if outcome.found is None:
         return None
@@ -59,6 +59,3 @@ def _mark(verdict: Verdict) -> str:
     if verdict.value is True:
         return "yes"
     return "no" if verdict.value is False else "value"
-
-
-SECTION = Section("properties", "Properties", _content)

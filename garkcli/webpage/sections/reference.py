@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from garkcli.report.citation import Cited, bibliography
-from garkcli.webpage.reported import Reported
-from garkcli.webpage.section import Content, Section
+from garkcli.webpage.reported import Content, Reported
 
 _ADDRESSES = ("https://", "http://")
 """What an address of a reference begins with that may be a link."""
 
 
-def _content(method: Reported) -> Content | None:
+def content(method: Reported) -> Content | None:
+    """What the template is given; None where the section has nothing to say."""
     if not method.reference:
         return None
     fields = method.bibliography
@@ -30,6 +30,3 @@ def _content(method: Reported) -> Content | None:
         if fields.url.startswith(_ADDRESSES):
             found["url"] = fields.url
     return found
-
-
-SECTION = Section("reference", "Reference", _content)

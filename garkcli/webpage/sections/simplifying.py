@@ -11,15 +11,15 @@ from garkcli.check.every_facts import Fact
 from garkcli.check.findings import BOUND, SHARP_BOUND
 from garkcli.order.simplifying import Simplifying
 from garkcli.webpage.mathml import typeset
-from garkcli.webpage.reported import Reported
-from garkcli.webpage.section import Content, Section
+from garkcli.webpage.reported import Content, Reported
 
 _GREEK = {"η": r"\eta ", "ζ": r"\zeta ", "ξ": r"\xi ", "χ": r"\chi "}
 _LEVELS = 6
 """Shades of the grid; larger numbers have the last one."""
 
 
-def _content(method: Reported) -> Content | None:
+def content(method: Reported) -> Content | None:
+    """What the template is given; None where the section has nothing to say."""
     whole: Any = method.outcome.found
     if whole is None:
         return None
@@ -74,6 +74,3 @@ def _numbers(found: Simplifying) -> list[Markup]:
         sign, latex = ("≥", r"\ge ") if found.is_open(number) else ("=", "=")
         shown.append(typeset(f"{_GREEK.get(name, name)}{latex}{number}", f"{name} {sign} {number}"))
     return shown
-
-
-SECTION = Section("simplifying", "Simplifying assumptions", _content)

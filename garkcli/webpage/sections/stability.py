@@ -8,15 +8,15 @@ from garkcli.api.calls import find_stability
 from garkcli.exact.display import decimal
 from garkcli.report.stability import REPORT, StabilityReport, formulas
 from garkcli.webpage.mathml import Typeset, typeset
-from garkcli.webpage.reported import Reported
-from garkcli.webpage.section import Content, Section
+from garkcli.webpage.reported import Content, Reported
 
 _TYPESET = ("R", "R_alike", "trace", "determinant")
 _LONGEST = 400
 """Signs of a formula in LaTeX; longer ones are left to ``gark stability``."""
 
 
-def _content(method: Reported) -> Content | None:
+def content(method: Reported) -> Content | None:
+    """What the template is given; None where the section has nothing to say."""
     file = method.outcome.file
     if method.free is not None:
         return {"free": method.free, "file": file}
@@ -36,6 +36,3 @@ def _content(method: Reported) -> Content | None:
         "near": method.tolerance and decimal(method.tolerance),
         "file": file,
     }
-
-
-SECTION = Section("stability", "Stability", _content)
