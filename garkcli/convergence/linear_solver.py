@@ -95,7 +95,11 @@ class LinearSolver(Mutable):
         return 0.0
 
     def row(self, h: fmpq, before: Row | None) -> Row:
-        """The errors of steps of size ``h``, exact to ``ERROR_BITS``; see ``Solver.row``."""
+        """The errors of steps of size ``h``, exact to ``ERROR_BITS``.
+
+        Raises:
+            NoUniqueStep: the stage equations have no unique solution at this step size.
+        """
         steps = whole_steps(self.t_end, h)
         try:
             R = self.step.at(h)

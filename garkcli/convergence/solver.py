@@ -3,99 +3,39 @@
 from __future__ import annotations
 
 from time import process_time
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, TypeAlias
 
-from flint import arb, fmpq
+from flint import fmpq
 
-from garkcli.convergence.result import Cost, Row, Visible
+from garkcli.convergence.result import Cost
 from garkcli.errors import UsageProblem
 from garkcli.stepping.integrator import Integrator, Stepper
 
 if TYPE_CHECKING:
-    from garkcli.problems.oscillator import Oscillator
-    from garkcli.problems.problem import Problem
+    from garkcli.convergence.linear_solver import LinearSolver
+    from garkcli.convergence.stepped_solver import SteppedSolver
 
 
 class NoUniqueStep(UsageProblem):
     """The stage equations of a linear problem have no unique solution at one step size."""
 
 
-class Solver(Protocol):
-    """A method that solves a problem up to one time."""
+Solver: TypeAlias = "LinearSolver | SteppedSolver"
+"""A method on a problem, up to a time: by exact powers of its step map, or step by step. Both have
 
-    @property
-    def problem(self) -> Oscillator | Problem:
-        """What is solved, in as many terms as the method is for."""
-        ...
-
-    @property
-    def t_end(self) -> fmpq:
-        """When errors are taken."""
-        ...
-
-    @property
-    def visible(self) -> Visible:
-        """What the problem can see of the method."""
-        ...
-
-    @property
-    def unit(self) -> fmpq:
-        """A unit of time that is natural for the problem."""
-        ...
-
-    @property
-    def longest(self) -> fmpq:
-        """The longest step that a ladder may begin with."""
-        ...
-
-    def is_too_short(self, h: fmpq) -> bool:
-        """Whether a ladder ends before ``h``, because a stiff problem would no longer look so."""
-        ...
-
-    def resolution(self, h: fmpq) -> float:
-        """H ‖∂f/∂y‖ of a right-hand side; 0 for other problems."""
-        ...
-
-    @property
-    def most_steps(self) -> int:
-        """That a row may take."""
-        ...
-
-    @property
-    def decades(self) -> tuple[int, ...]:
-        """Of the short times that are tried: parts 10^−k of the usual time of the problem."""
-        ...
-
-    def row(self, h: fmpq, before: Row | None) -> Row:
-        """The errors of steps of size ``h``, with a slope from the row ``before``.
-
-        Raises:
-            StepFailed: the stage equations of a step were not solved.
-            NoUniqueStep: they have no unique solution at this step size.
-        """
-        ...
-
-    def size(self) -> arb:
-        """How large the solution is: the sum of its numbers at the start and at the end."""
-        ...
-
-    def rests(self) -> bool:
-        """Whether the solution ends where it starts, as far as floats can tell."""
-        ...
-
-    def rounding(self) -> arb:
-        """About the error that the rounding of coefficients makes; 0 for exact ones."""
-        ...
-
-    def timed(self, row: Row) -> Row:
-        """A row with what its steps cost when they are taken one by one."""
-        ...
-
-    def over(self, t_end: fmpq) -> Solver:
-        """The same up to another time."""
-        ...
-
-
+- ``problem``, ``t_end`` and ``visible``: what the problem can see of the method;
+- ``unit`` and ``longest``: a unit of time that is natural for it, the longest step of a ladder;
+- ``most_steps`` of a row, ``decades``: parts 10^−k of the usual time, short times that are tried;
+- ``row``: the errors of steps of one size, with a slope from the row before;
+- ``size`` of the solution: the sum of its numbers at the start and at the end;
+- ``rests``: whether it ends where it starts, as far as floats can tell;
+- ``rounding``: about the error that the rounding of coefficients makes; 0 for exact ones;
+- ``resolution``: h ‖∂f/∂y‖ of a right-hand side; 0 for other problems;
+- ``is_too_short``: whether a ladder ends before a step size, where a stiff problem would no longer
+  look so;
+- ``timed``: a row with what its steps cost when they are taken one by one;
+- ``over``: the same up to another time.
+"""
 ENOUGH = 0.1
 """Seconds of processor time after which a run is not repeated."""
 MAX_RUNS = 20

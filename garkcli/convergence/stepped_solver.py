@@ -117,9 +117,11 @@ class SteppedSolver(Mutable):
         return not any(abs(now - arb(then)) > least for now, then in pairs)
 
     def row(self, h: fmpq, before: Row | None) -> Row:
-        """The errors of steps of size ``h``, with digits enough for them; see ``Solver.row``.
+        """The errors of steps of size ``h``, with digits enough for them, with a slope from the row
+        ``before``. The error is 0 where digits enough do not show any.
 
-        The error is 0 where digits enough do not show any.
+        Raises:
+            StepFailed: the stage equations of a step were not solved.
         """
         steps = whole_steps(self.t_end, h)
         digits = self._digits(h, before)

@@ -9,7 +9,7 @@ digits.
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from flint import fmpq
 
@@ -106,60 +106,19 @@ def long_run(
     else:
         states = [(number * h, y) for number, y in record.states.items()]
         rate = invariant_rate(tableau, tolerance, problem, states)
-    evidence = _Evidence(tableau, problem, tolerance, rate * record.done * h)
-    return _judged(record, bound, evidence, step, t_end)
-
-
-class _Evidence(Frozen):
-    """What is known of a method besides its run.
-
-    Attributes:
-        tableau: the method.
-        problem: what it steps.
-        tolerance: of rounded coefficients.
-        excused: the error of the energy that these can cause in all.
-    """
-
-    tableau: Tableau
-    problem: Problem
-    tolerance: fmpq | None
-    excused: float
-
-    @cached_property
-    def is_symplectic(self) -> bool:
-        """Whether its steps are symplectic by its coefficients."""
-        problem = self.problem
-        if not isinstance(problem, Hamiltonian):
-            return False
-        return is_proved(self.tableau, problem, self.tolerance)
-
-
-def _judged(
-    record: Record, bound: Binding, evidence: _Evidence, step: fmpq, t_end: fmpq
-) -> LongRun:
-    """What has become of the invariants."""
-    h = to_float(step)
-    digits = record.measure.digits
-    noise = _noise(record, bound, step, digits)
-    judge = _Judge(record, step, evidence)
-    histories = [judge.history(k, float(x)) for k, x in enumerate(noise)]
-    states = []
-    for number, y in sorted(record.states.items()):
-        states.append((number * step, y))
-    times = record.kept_numbers * h
-    escape = judge.escape
-    escaped = None if escape is None else escape * step
+    judge = _Judge(record, step, tableau, problem, tolerance, rate * record.done * h)
+    noise = _noise(record, bound, step, method.digits)
     return LongRun(
-        bound.problem,
+        problem,
         step,
         t_end,
         record.done,
-        digits,
-        tuple(histories),
-        tuple(times.tolist()),
-        tuple(states),
+        method.digits,
+        tuple(judge.history(k, float(x)) for k, x in enumerate(noise)),
+        tuple((record.kept_numbers * h).tolist()),
+        tuple((number * step, y) for number, y in sorted(record.states.items())),
         record.excursions.turns,
-        escaped,
+        None if judge.escape is None else judge.escape * step,
     )
 
 
@@ -185,12 +144,8 @@ def _noise(record: Record, bound: Binding, step: fmpq, digits: int) -> Floats:
     return np.array([power_of_ten(float(x)) for x in np.maximum(derived, expected)])
 
 
-class _Finding(Frozen):
-    """What has become of one invariant: a verdict, with the trend or the doubt that it rests on."""
-
-    verdict: Verdict
-    shape: Shape = "none"
-    doubt: Doubt | None = None
+_Finding: TypeAlias = tuple[Verdict, Shape, Doubt | None]
+"""What has become of one invariant: a verdict, with the trend or the doubt that it rests on."""
 
 
 class _Judge(Frozen):
@@ -199,12 +154,24 @@ class _Judge(Frozen):
     Attributes:
         record: of the run.
         step: h.
-        evidence: what is known of the method besides.
+        tableau: the method.
+        problem: what it steps.
+        tolerance: of rounded coefficients.
+        excused: the error of the energy that these can cause in all.
     """
 
     record: Record
     step: fmpq
-    evidence: _Evidence
+    tableau: Tableau
+    problem: Problem
+    tolerance: fmpq | None
+    excused: float
+
+    @cached_property
+    def is_symplectic(self) -> bool:
+        """Whether the steps are symplectic by the coefficients."""
+        problem = self.problem
+        return isinstance(problem, Hamiltonian) and is_proved(self.tableau, problem, self.tolerance)
 
     @property
     def escape(self) -> int | None:
@@ -216,9 +183,7 @@ class _Judge(Frozen):
             return None
         error = float(record.kept_errors[-1, 0])
         is_wrong = abs(error) > _LARGE * record.measure.scale
-        if not is_wrong:
-            return None
-        return record.excursions.escape
+        return record.excursions.escape if is_wrong else None
 
     def history(self, k: int, noise: float) -> InvariantHistory:
         """Of the invariant ``k``, whose errors are good to ``noise``."""
@@ -227,13 +192,13 @@ class _Judge(Frozen):
         record, h = self.record, to_float(self.step)
         # the bound is one of the energy; other invariants are taken to change in proportion
         share = 1.0 if k == 0 else self._size(k) / self._size(0)
-        excused = self.evidence.excused * share
+        excused = self.excused * share
         trend = None
         if not record.blew_up and record.count >= LEAST and k not in record.lost:
             trend = record.trends.of(k, noise)
-        finding = self._finding(k, noise, excused, trend)
+        verdict, shape, doubt = self._finding(k, noise, excused, trend)
         drift, uncertainty, slope = None, None, 0.0
-        if trend and finding.verdict != "unstable":
+        if trend and verdict != "unstable":
             slope = trend.slope
             drift = slope / h
             uncertainty = trend.uncertainty / h
@@ -250,25 +215,25 @@ class _Judge(Frozen):
             amplitude=height / 2,
             round_off=noise,
             coefficients=excused,
-            verdict=finding.verdict,
-            shape=finding.shape,
+            verdict=verdict,
+            shape=shape,
             errors=tuple(errors.tolist()),
-            longer=self._longer(trend, finding.doubt),
-            doubt=finding.doubt,
+            longer=self._longer(trend, doubt),
+            doubt=doubt,
             no_value_at=None if lost is None else lost * self.step,
         )
 
     def _finding(self, k: int, noise: float, excused: float, trend: Trend | None) -> _Finding:
         record = self.record
         if record.blew_up or self.escape is not None:
-            return _Finding("unstable")
+            return "unstable", "none", None
         if not record.has_moved:
             return _undecided("rest")
         if k in record.lost:
             return _undecided("value")
         if record.largest[k] <= noise:
             is_told = noise < _LARGE * self._size(k)
-            return _Finding("round-off") if is_told else _undecided("round-off")
+            return ("round-off", "none", None) if is_told else _undecided("round-off")
         if trend is None:
             return _undecided("steps")
         # an error of that size leaves no doubt about the shortness of the run
@@ -278,14 +243,14 @@ class _Judge(Frozen):
         if is_short and not is_large:
             return _undecided("turns")
         if trend.finding == "none":
-            return _Finding("bounded")
+            return "bounded", "none", None
         if not self._drifts(k, trend):
             return _undecided("modulation" if trend.shape == "line" else "level", trend.shape)
         if excused and not self._drifts(k, record.trends.of(k, noise + excused)):
             return _undecided("rounding", trend.shape)
-        if self.evidence.is_symplectic and record.largest[k] < _LARGE * self._size(k):
+        if self.is_symplectic and record.largest[k] < _LARGE * self._size(k):
             return _undecided("symplectic", trend.shape)
-        return _Finding("drifts", trend.shape)
+        return "drifts", trend.shape, None
 
     def _drifts(self, k: int, trend: Trend) -> bool:
         """Whether a trend is a drift: no modulation explains it, or the quantity is gone."""
@@ -315,4 +280,4 @@ class _Judge(Frozen):
 
 
 def _undecided(doubt: Doubt, shape: Shape = "none") -> _Finding:
-    return _Finding("undecided", shape, doubt)
+    return "undecided", shape, doubt

@@ -64,8 +64,56 @@ class Windows(Frozen):
     heights: Floats
 
 
-class Sums:
-    """The sums of several signals of the same length from which lines are fitted.
+Shape: TypeAlias = Literal["none", "line", "curve", "step"]
+"""What a trend looks like: a line, something that rises or falls all along, or a move to another
+level.
+"""
+Finding: TypeAlias = Literal["none", "undecided", "drift"]
+"""No trend to be distinguished from oscillation and noise; one that a modulation may explain; a
+drift.
+"""
+LEAST = 64
+"""Fewest steps that are judged: eight for each eighth."""
+CERTAIN = 10.0
+"""How many times its uncertainty a slope has to be for a drift.
+
+Of 480 runs of symplectic methods on systems of two planets none comes to that, see
+docs/energy.md.
+"""
+# (length / quarter)^(3/2): how much less noise there is in the slope of all than of a quarter
+_SHORTENING = 8.0
+# 99 percent of Student's t with the five degrees of freedom that seven overlapping quarters have
+_SIGMAS = 4.0
+_CLEAR = 3.0  # how many times the heights of two eighths their levels differ when one has moved
+# how many of the seven moves between eighths are clear in a rise that goes on
+_CLIMBS = 4
+# how many times their range the first or the last eighth is away from the others
+_APART = 3.0
+_FLOAT = 2.0**-42  # rounding of the sums, of the largest error
+
+
+class Trend(Frozen):
+    """The slow part of one signal e_0 … e_N.
+
+    Attributes:
+        slope: of the fitted line, per step.
+        uncertainty: of ``slope``.
+        finding: whether the trend is a drift.
+        shape: of the trend; "none" where there is none to be distinguished from oscillation and
+            noise.
+        move: the size of what is undecided, where that is no line.
+    """
+
+    slope: float
+    uncertainty: float
+    finding: Finding
+    shape: Shape
+    move: float = 0.0
+
+
+class Trends:
+    """Collects several signals of the same length, in pieces, and finds the trend of each: by sums
+    from which lines are fitted.
 
     Args:
         count: N, the number of the last error.
@@ -148,7 +196,7 @@ class Sums:
         sums[:2] += rows @ x
         sums[2] += w @ (x * x)
 
-    def fitted(self, signal: int) -> Windows:
+    def _fitted(self, signal: int) -> Windows:
         """The lines through all windows."""
         import numpy as np
 
@@ -169,69 +217,6 @@ class Sums:
         levels += self._starts[:, signal]
         return Windows(slopes, levels, np.sqrt(left))
 
-
-Shape: TypeAlias = Literal["none", "line", "curve", "step"]
-"""What a trend looks like: a line, something that rises or falls all along, or a move to another
-level.
-"""
-Finding: TypeAlias = Literal["none", "undecided", "drift"]
-"""No trend to be distinguished from oscillation and noise; one that a modulation may explain; a
-drift.
-"""
-LEAST = 64
-"""Fewest steps that are judged: eight for each eighth."""
-CERTAIN = 10.0
-"""How many times its uncertainty a slope has to be for a drift.
-
-Of 480 runs of symplectic methods on systems of two planets none comes to that, see
-docs/energy.md.
-"""
-# (length / quarter)^(3/2): how much less noise there is in the slope of all than of a quarter
-_SHORTENING = 8.0
-# 99 percent of Student's t with the five degrees of freedom that seven overlapping quarters have
-_SIGMAS = 4.0
-_CLEAR = 3.0  # how many times the heights of two eighths their levels differ when one has moved
-# how many of the seven moves between eighths are clear in a rise that goes on
-_CLIMBS = 4
-# how many times their range the first or the last eighth is away from the others
-_APART = 3.0
-_FLOAT = 2.0**-42  # rounding of the sums, of the largest error
-
-
-class Trend(Frozen):
-    """The slow part of one signal e_0 … e_N.
-
-    Attributes:
-        slope: of the fitted line, per step.
-        uncertainty: of ``slope``.
-        finding: whether the trend is a drift.
-        shape: of the trend; "none" where there is none to be distinguished from oscillation and
-            noise.
-        move: the size of what is undecided, where that is no line.
-    """
-
-    slope: float
-    uncertainty: float
-    finding: Finding
-    shape: Shape
-    move: float = 0.0
-
-
-class Trends:
-    """Collects several signals of the same length, in pieces, and finds the trend of each.
-
-    Args:
-        count: N, the number of the last error.
-        signals: how many there are.
-    """
-
-    def __init__(self, count: int, signals: int) -> None:
-        self._sums = Sums(count, signals)
-
-    def add(self, first: int, errors: Floats) -> None:
-        """The errors e_first, e_{first+1}, …, shape (m, signals)."""
-        self._sums.add(first, errors)
-
     def of(self, signal: int, noise: float = 0.0) -> Trend:
         """The trend of one signal, all of whose errors have been added; ``LEAST`` at least.
 
@@ -239,8 +224,8 @@ class Trends:
             signal: which one.
             noise: what the errors are good to; no trend is smaller.
         """
-        found = self._sums.fitted(signal)
-        least = noise + _FLOAT * float(self._sums.largest[signal])
+        found = self._fitted(signal)
+        least = noise + _FLOAT * float(self.largest[signal])
         slope = float(found.slopes[0])
         uncertainty = _uncertainty(found) + least
         move = self._move(signal, found, least)
@@ -256,7 +241,7 @@ class Trends:
             finding, shape = "undecided", "step"
         elif (move := _net(found, least)) > 0.0:
             finding, shape = "undecided", "curve"
-        count = self._sums.count
+        count = self.count
         return Trend(slope / count, uncertainty / count, finding, shape, move)
 
     def _move(self, signal: int, found: Windows, least: float) -> float:
@@ -264,7 +249,7 @@ class Trends:
         the other; 0 where neither does.
         """
         move = _move_of_an_end(found, least)
-        first, second = self._sums.ranges[:, :, signal].tolist()
+        first, second = self.ranges[:, :, signal].tolist()
         for one, other in ((first, second), (second, first)):
             low, high = one
             lowest, highest = other
