@@ -97,33 +97,34 @@ def _because(history: InvariantHistory, run: LongRun) -> str:
         case "exact":
             return " by every step, exactly"
         case "round-off":
-            return _round_off(history, run)
+            text = f" above round-off, at most {history.round_off:.0e} here"
+            if run.digits and run.digits <= 100:
+                text += f"; --digits {2 * run.digits} shows more"
+            return text
         case "unstable":
-            return _unstable(history, run)
+            if run.escaped is None:
+                return f": blown up after {run.steps} steps, at t = {run.end:g}"
+            time = to_float(run.escaped)
+            error = measured(history.errors[-1], history.round_off, 2)
+            return f": the orbit escapes after t = {time:g}, where the error is {error}"
         case "undecided":
             return f": {'; '.join(filter(None, _undecided(history, run)))}"
+        case "bounded" if run.stability is not None and run.stability.fate == "elliptic":
+            return " for all time: det R(h) = 1 and |tr R(h)| < 2, decided exactly"
         case "bounded":
-            return _bounded(run)
-    return f": {_reason(history, run)}"
+            return ": no drift beyond its uncertainty"
+    if run.stability is not None:
+        return f": det R(h) − 1 = {_determinant(run.stability)}, {FATES[run.stability.fate]}"
+    if history.shape == "line":
+        return f": the slope is {_times(history)} times its uncertainty"
+    if history.shape == "curve":
+        # the fitted slope of what is no line may be nothing but rounding
+        return f": it {_direction(history)} all along, by more than it oscillates"
+    return ": it moves to another level and stays there"
 
 
 def _verdicts(run: LongRun, d: Plain) -> list[tuple[str, str]]:
     return [(d.prose(x.name), _word(x, d) + d.prose(_because(x, run))) for x in run.invariants]
-
-
-def _round_off(history: InvariantHistory, run: LongRun) -> str:
-    text = f" above round-off, at most {history.round_off:.0e} here"
-    if run.digits and run.digits <= 100:
-        text += f"; --digits {2 * run.digits} shows more"
-    return text
-
-
-def _unstable(history: InvariantHistory, run: LongRun) -> str:
-    if run.escaped is None:
-        return f": blown up after {run.steps} steps, at t = {run.end:g}"
-    time = to_float(run.escaped)
-    error = measured(history.errors[-1], history.round_off, 2)
-    return f": the orbit escapes after t = {time:g}, where the error is {error}"
 
 
 def _undecided(history: InvariantHistory, run: LongRun) -> tuple[str, str]:
@@ -162,23 +163,6 @@ def _undecided(history: InvariantHistory, run: LongRun) -> tuple[str, str]:
     return doubts.get(history.doubt or "", (level, can_tell if history.doubt else ""))
 
 
-def _bounded(run: LongRun) -> str:
-    if run.stability is not None and run.stability.fate == "elliptic":
-        return " for all time: det R(h) = 1 and |tr R(h)| < 2, decided exactly"
-    return ": no drift beyond its uncertainty"
-
-
-def _reason(history: InvariantHistory, run: LongRun) -> str:
-    if run.stability is not None:
-        return f"det R(h) − 1 = {_determinant(run.stability)}, {FATES[run.stability.fate]}"
-    if history.shape == "line":
-        return f"the slope is {_times(history)} times its uncertainty"
-    if history.shape == "curve":
-        # the fitted slope of what is no line may be nothing but rounding
-        return f"it {_direction(history)} all along, by more than it oscillates"
-    return "it moves to another level and stays there"
-
-
 def _direction(history: InvariantHistory) -> str:
     """Where a trend goes: by its slope, or by its end where no line fits it."""
     drift = history.drift or 0.0
@@ -212,26 +196,22 @@ def _oscillates(history: InvariantHistory) -> bool:
     return _is_measured(history) and not is_noise
 
 
-def _largest(x: Quantity) -> str | None:
-    history = x.history
+def _largest(history: InvariantHistory) -> str | None:
     return measured(history.max_error, history.round_off) if _is_measured(history) else None
 
 
-def _oscillation(x: Quantity) -> str | None:
-    history = x.history
-    return (
-        f"± {measured(history.amplitude, history.round_off, 3)}" if _oscillates(history) else None
-    )
+def _oscillation(history: InvariantHistory) -> str | None:
+    if not _oscillates(history):
+        return None
+    return f"± {measured(history.amplitude, history.round_off, 3)}"
 
 
-def _drift_in_words(x: Quantity) -> str | None:
-    is_told = _oscillates(x.history) and x.history.drift is not None
-    return _drift(x.history, x.run) if is_told else None
-
-
-def _drift(history: InvariantHistory, run: LongRun) -> str:
+def _drift(x: Quantity) -> str | None:
     """Per unit of time and in all; digits below the uncertainty say nothing."""
-    drift = history.drift or 0.0
+    history, run = x
+    if not _oscillates(history) or history.drift is None:
+        return None
+    drift = history.drift
     uncertainty = history.uncertainty or 0.0
     in_all = drift * run.end
     uncertain_in_all = uncertainty * run.end
@@ -324,11 +304,8 @@ def _plot(run: LongRun, _: Any) -> list[str]:
     return terminal_band(times, errors, label).splitlines()
 
 
-def _float(x: Any) -> float | None:
-    return None if x is None else to_float(x)
-
-
 SIZE, NUMBER = Kind(S.SIZE), Kind(S.NUMBER)
+TIME = Kind(S.SIZE, lambda x, _: to_float(x))
 QUANTITY = Section(
     Row("name", TEXT, "history.name", label=""),
     Row(
@@ -337,48 +314,49 @@ QUANTITY = Section(
         "history.initial",
         label="at the start",
     ),
-    Row("largest", WORDS, _largest, label="largest error"),
-    Row("oscillation_in_words", WORDS, _oscillation, label="oscillation"),
-    Row("drift_in_words", WORDS, _drift_in_words, label="drift"),
-    *(
-        Row(key, kind, get, DATA)
-        for key, kind, get in (
-            ("max_error", SIZE, lambda x: x.history.max_error),
-            ("drift", NUMBER, lambda x: x.history.drift),
-            ("drift_uncertainty", SIZE, lambda x: x.history.uncertainty),
-            (
-                "drift_in_all",
-                NUMBER,
-                lambda x: None if x.history.drift is None else x.history.drift * x.run.end,
-            ),
-            ("oscillation", SIZE, lambda x: x.history.amplitude),
-            ("round_off", SIZE, lambda x: x.history.round_off),
-            ("rounded_coefficients", SIZE, lambda x: x.history.coefficients),
-            ("verdict", choice(*get_args(Verdict)), lambda x: x.history.verdict),
-            ("trend", choice(*get_args(Shape)), lambda x: x.history.shape),
-            ("t_end_to_decide", SIZE, lambda x: _float(x.history.longer)),
-            ("doubt", choice(*get_args(Doubt), None), lambda x: x.history.doubt),
-            ("no_value_at", SIZE, lambda x: _float(x.history.no_value_at)),
-        )
+    *via(
+        lambda x: x.history,
+        [
+            Row("largest", WORDS, _largest, label="largest error"),
+            Row("oscillation_in_words", WORDS, _oscillation, label="oscillation"),
+        ],
+    ),
+    Row("drift_in_words", WORDS, _drift, label="drift"),
+    Row("max_error", SIZE, "history.max_error", DATA),
+    Row("drift", NUMBER, "history.drift", DATA),
+    Row("drift_uncertainty", SIZE, "history.uncertainty", DATA),
+    Row(
+        "drift_in_all",
+        NUMBER,
+        lambda x: None if x.history.drift is None else x.history.drift * x.run.end,
+        DATA,
+    ),
+    *via(
+        lambda x: x.history,
+        [
+            Row("oscillation", SIZE, "amplitude", DATA),
+            Row("round_off", SIZE, level=DATA),
+            Row("rounded_coefficients", SIZE, "coefficients", DATA),
+            Row("verdict", choice(*get_args(Verdict)), level=DATA),
+            Row("trend", choice(*get_args(Shape)), "shape", DATA),
+            Row("t_end_to_decide", TIME, "longer", DATA),
+            Row("doubt", choice(*get_args(Doubt), None), level=DATA),
+            Row("no_value_at", TIME, level=DATA),
+        ],
     ),
 )
 RUN = [
     Row("steps_in_words", WORDS, _steps, label="steps"),
-    *(
-        maybe(key, kind, get, DATA) if key in ("digits", "turns") else Row(key, kind, get, DATA)
-        for key, kind, get in (
-            ("step", SIZE, lambda x: to_float(x.step)),
-            ("step_exact", EXACT, lambda x: x.step),
-            ("t_end", SIZE, lambda x: to_float(x.t_end)),
-            ("t_end_exact", EXACT, lambda x: x.t_end),
-            ("steps", COUNT, lambda x: x.steps),
-            ("digits", POSITION, lambda x: x.digits),
-            ("turns", COUNT, lambda x: None if x.digits is None else x.turns),
-            ("blew_up", TRUTH, lambda x: x.is_unstable and x.escaped is None),
-            ("escaped_at", SIZE, lambda x: _float(x.escaped)),
-            ("drifts", TRUTH, lambda x: x.drifts),
-        )
-    ),
+    Row("step", TIME, level=DATA),
+    Row("step_exact", EXACT, "step", DATA),
+    Row("t_end", TIME, level=DATA),
+    Row("t_end_exact", EXACT, "t_end", DATA),
+    Row("steps", COUNT, level=DATA),
+    maybe("digits", POSITION, level=DATA),
+    maybe("turns", COUNT, lambda x: None if x.digits is None else x.turns, DATA),
+    Row("blew_up", TRUTH, lambda x: x.is_unstable and x.escaped is None, DATA),
+    Row("escaped_at", TIME, "escaped", DATA),
+    Row("drifts", TRUTH, level=DATA),
     Row("answer", told(lambda _, d: "", _answer), ".", HEADLINE, label=""),
     Row("verdicts", rows_of(_verdicts), "."),
     Row(
@@ -388,9 +366,7 @@ RUN = [
         label="",
     ),
 ]
-DEFECT = Section(
-    Row("t", SIZE, lambda x: to_float(x.time)), Row("size", SIZE), Row("good_to", SIZE, "error")
-)
+DEFECT = Section(Row("t", TIME, "time"), Row("size", SIZE), Row("good_to", SIZE, "error"))
 SYMPLECTIC = Section(
     Row("proved", TRUTH, "symplecticity.is_proved"),
     optional(

@@ -27,57 +27,38 @@ def name_of(problem: Stepped) -> str:
 
 
 def describe(problem: Stepped) -> str:
-    """A problem and its split in one line."""
+    """A problem and its split in one line; long terms are counted."""
+    if isinstance(problem, Oscillator):
+        energies = [_energy(k, v) for k, v in problem.shares]
+        return f"q̈ = −ω²q, ω = {problem.omega}; {', '.join(_numbered('H', energies))}"
+    name, variables = problem.name, ", ".join(problem.variables)
     if isinstance(problem, Hamiltonian):
-        return _described(problem)
-    if isinstance(problem, RightHandSide):
-        return _described_fields(problem)
-    energies = [_energy(k, v) for k, v in problem.shares]
-    return f"q̈ = −ω²q, ω = {problem.omega}; {_numbered(energies)}"
+        texts = [_formula(term) for term in problem.terms]
+        if _is_short(texts):
+            return f"{name}; {', '.join(_numbered('H', texts))}"
+        terms = f"{len(texts)} terms" if len(texts) > 1 else "one term"
+        return f"{name}, H in {terms} of {variables} and their momenta"
+    if problem.stiffness is not None:
+        name += f", stiffness {problem.stiffness}"
+    sides = [", ".join(map(_formula, term)) for term in problem.terms]
+    fields = _numbered("f", [f"({x})" if problem.dimension > 1 else x for x in sides])
+    if _is_short(fields):
+        return f"{name}; {', '.join(fields)}"
+    count = f"{len(fields)} right-hand sides" if len(fields) > 1 else "one right-hand side"
+    return f"{name}, {count} of {variables}"
 
 
-def _numbered(energies: Sequence[str]) -> str:
-    """The terms of a Hamiltonian by the numbers of their colours."""
-    return ", ".join([f"H{{{l}}}: {text}" for l, text in enumerate(energies, start=1)])
+def _numbered(letter: str, texts: Sequence[str]) -> list[str]:
+    """Terms by the numbers of their colours."""
+    return [f"{letter}{{{l}}}: {text}" for l, text in enumerate(texts, start=1)]
 
 
 def _energy(k: object, v: object) -> str:
     terms = []
     for share, energy in ((k, "½p²"), (v, "½ω²q²")):
-        if share == 1:
-            terms.append(energy)
-        elif share != 0:
-            terms.append(f"{share}·{energy}")
+        if share != 0:
+            terms.append(energy if share == 1 else f"{share}·{energy}")
     return " + ".join(terms) or "0"
-
-
-def _described(problem: Hamiltonian) -> str:
-    texts = [_formula(term) for term in problem.terms]
-    if not _is_short(texts):
-        count = len(texts)
-        terms = f"{count} terms" if count > 1 else "one term"
-        positions = ", ".join(problem.variables)
-        return f"{problem.name}, H in {terms} of {positions} and their momenta"
-    return f"{problem.name}; {_numbered(texts)}"
-
-
-def _described_fields(problem: RightHandSide) -> str:
-    name = problem.name
-    if problem.stiffness is not None:
-        name += f", stiffness {problem.stiffness}"
-    fields = []
-    for l, term in enumerate(problem.terms, start=1):
-        components = [_formula(x) for x in term]
-        side = ", ".join(components)
-        if len(components) > 1:
-            side = f"({side})"
-        fields.append(f"f{{{l}}}: {side}")
-    if _is_short(fields):
-        shown = ", ".join(fields)
-        return f"{name}; {shown}"
-    sides = f"{len(fields)} right-hand sides" if len(fields) > 1 else "one right-hand side"
-    variables = ", ".join(problem.variables)
-    return f"{name}, {sides} of {variables}"
 
 
 def _formula(expression: object) -> str:

@@ -11,11 +11,10 @@ from garkcli.page.paint import Paint
 from garkcli.tell.report import FORMATS, Report
 
 if TYPE_CHECKING:
-    from garkcli.report.sweep import SweepReport
     from garkcli.tableau.garkmethod import GarkMethod
 
-Writer: TypeAlias = "Callable[[Any, str, str], str]"
-"""Of a value, a format, and what to call the method."""
+Writer: TypeAlias = "Callable[[Sequence[Any], str, str], str]"
+"""Of values, a format, and what to call the method."""
 WIDTH = 80
 """Columns of texts."""
 _PLAIN = Paint()
@@ -71,14 +70,14 @@ def render(value: object, format: str = "text", name: str = "") -> str:
     >>> json.loads(render(compare("heun", "rk4"), "json"))["schema"]
     'gark/diff/1'
     """
-    one = value[0] if isinstance(value, (list, tuple)) and value else value
-    kind, write, formats = _writer_of(one)
+    values = value if isinstance(value, (list, tuple)) and value else [value]
+    kind, write, formats = _writer_of(values[0])
     if format not in formats:
         cure = did_you_mean(format, formats)
         raise UsageProblem(
             f"no format {format!r} of {kind.partition('.')[2]}", cure, code="unknown-word"
         )
-    return write(value, format, name)
+    return write(values, format, name)
 
 
 def latex(method: GarkMethod) -> str:
@@ -115,7 +114,7 @@ def _writer_of(value: object) -> tuple[str, Writer, Sequence[str]]:
     if kind := _kind(value, TOLD_BY):
         report, whole = _told_by(TOLD_BY[kind])
         formats = FORMATS if report.lines is None else (*FORMATS, "csv")
-        return kind, lambda x, format, name: report.render([whole(x, name)], format), formats
+        return kind, lambda xs, f, name: report.render([whole(x, name) for x in xs], f), formats
     raise MethodError(
         f"no command prints values of the kind {type(value).__name__}",
         "give a method, or what analyse, check_file or another call that"
@@ -124,36 +123,35 @@ def _writer_of(value: object) -> tuple[str, Writer, Sequence[str]]:
     )
 
 
-def _method(method: GarkMethod, format: str, _: str) -> str:
+def _methods(methods: Sequence[Any], format: str, _: str) -> str:
     from garkcli.report.tableau import REPORT, of_method
 
-    return REPORT.render([of_method(method)], format)
+    return REPORT.render([of_method(x) for x in methods], format)
 
 
-def _outcomes(value: Any, format: str, _: str) -> str:
+def _outcomes(outcomes: Sequence[Any], format: str, _: str) -> str:
     from garkcli.report.check_formats import FORMATS
 
-    outcomes = value if isinstance(value, (list, tuple)) else [value]
     return FORMATS[format](outcomes, _PLAIN, 0, None, WIDTH)
 
 
-def _sweep(report: SweepReport, format: str, _: str) -> str:
+def _sweeps(reports: Sequence[Any], format: str, _: str) -> str:
     from garkcli.report import sweep
 
-    return sweep.json_lines(report) if format == "jsonl" else sweep.REPORT.render([report], format)
+    if format == "jsonl":
+        return "".join(map(sweep.json_lines, reports))
+    return sweep.REPORT.render(reports, format)
 
 
-def _meanings(value: Any, format: str, name: str) -> str:
+def _meanings(found: Sequence[Any], format: str, name: str) -> str:
     from garkcli.report.meaning import REPORT, told
 
-    found = value if isinstance(value, (list, tuple)) else [value]
     return REPORT.render(told(name or found[0].name, found), format)
 
 
-def _audited(value: Any, format: str, _: str) -> str:
+def _audited(tables: Sequence[Any], format: str, _: str) -> str:
     from garkcli.report.audited import FORMATS
 
-    tables = value if isinstance(value, (list, tuple)) else [value]
     return FORMATS[format](tables)
 
 
@@ -161,7 +159,7 @@ WRITERS: Mapping[str, tuple[Writer, Sequence[str]]] = {
     "bridges.Audited": (_audited, (*FORMATS, "github", "sarif")),
     "check.Meaning": (_meanings, FORMATS),
     "check.Outcome": (_outcomes, (*FORMATS, "sarif", "junit", "github")),
-    "report.SweepReport": (_sweep, (*FORMATS, "csv", "jsonl")),
-    "tableau.GarkMethod": (_method, FORMATS),
+    "report.SweepReport": (_sweeps, (*FORMATS, "csv", "jsonl")),
+    "tableau.GarkMethod": (_methods, FORMATS),
 }
 """The same of values that have formats besides, or no rows: what writes them, in which formats."""
