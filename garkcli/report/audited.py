@@ -14,7 +14,7 @@ from garkcli.page.paint import Paint
 from garkcli.report.check_findings import annotation, commands_off, log_of
 from garkcli.tell.facts import Level, Row, Section, maybe
 from garkcli.tell.kinds import COUNT, POSITION, TEXT, choice
-from garkcli.tell.parts import part, parts, rows_of, shown, told
+from garkcli.tell.parts import answer, part, parts, rows_of, shown
 from garkcli.tell.report import FORMATS as TOLD
 from garkcli.tell.report import Report
 
@@ -146,7 +146,7 @@ REPORT: Report[Audit] = Report.only(
     "gark/audit/1",
     "report of gark audit",
     Section(
-        Row("answer", told(_answer), ".", HEADLINE, label=""),
+        answer(_answer),
         Row("tables", parts(TABLE), level=DETAIL),
         Row("wrong_tables", shown(WRONG, MOST), "wrong", label="tables", is_short=True),
         Row("summary", part(SUMMARY), "tables", DATA),

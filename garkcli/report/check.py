@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from garkcli.check.findings import BOUND, SHARP_BOUND, bound_numbers, dense_witness_text, order_of
 from garkcli.check.findings import CLAIM as CLAIM_CURE
@@ -26,6 +26,7 @@ from garkcli.tell.parts import part, parts, picture, rows_of, told
 if TYPE_CHECKING:
     from garkcli.check.every_family import EveryFamily
     from garkcli.order.dense import DenseOrder
+    from garkcli.properties.pattern import Shape
     from garkcli.tell.dialect import Plain
 
 HEADLINE, USUAL, DETAIL, DATA = Level
@@ -230,10 +231,7 @@ def _simplifying_phrase(_: str, answer: Answer, d: Plain) -> str:
 
 SIMPLIFYING = Section(
     *map(tables, "BCD"),
-    *(
-        Row(x, kinds.COUNT, lambda a, x=x: getattr(a.simplifying, x), DATA)  # type: ignore[misc]
-        for x in ("r", "eta", "zeta", "xi", "chi")
-    ),
+    *(Row(x, kinds.COUNT, f"simplifying.{x}", DATA) for x in ("r", "eta", "zeta", "xi", "chi")),
     Row("bound", kinds.COUNT, bound("bound", "bound", BOUND), DETAIL),
     optional(
         "limit",
@@ -369,66 +367,72 @@ RENUMBERED = kinds.record(
 )
 
 
-def _is_open(subject: Any, l: int) -> bool:
-    return bool(subject.simplifying.stage_orders[l] >= subject.limit)
+class OfColour(NamedTuple):
+    """What a colour is like."""
+
+    name: str
+    shape: Shape | None
+    stage_order: int
+    limit: int
+
+    @property
+    def is_open(self) -> bool:
+        """Whether its stage order may be larger."""
+        return self.stage_order >= self.limit
+
+
+def by_colour(a: Any) -> list[OfColour]:
+    """All colours."""
+    names = [colour.name for colour in a.tableau.colours]
+    found = zip(names, a.subject.shapes, a.subject.simplifying.stage_orders, strict=True)
+    return [OfColour(*x, a.subject.limit) for x in found]
 
 
 COLOUR = Section(
-    Row("name", kinds.TEXT, lambda x: x[0].tableau.colours[x[1]].name, DATA),
+    Row("name", kinds.TEXT, level=DATA),
     Row(
         "kind",
         kinds.choice("explicit", "diagonally implicit", "fully implicit", None),
-        lambda x: getattr(x[0].shapes[x[1]], "kind", None),
+        "shape.kind",
     ),
-    maybe("gamma", kinds.EXACT, lambda x: getattr(x[0].shapes[x[1]], "gamma", None)),
-    Row(
-        "stage_order",
-        kinds.COUNT,
-        lambda x: Answer(x[0].simplifying.stage_orders[x[1]], Status(at_least=_is_open(*x))),
-    ),
-    optional("stage_order_is_lower_bound", kinds.TRUE, lambda x: _is_open(*x) or None, DATA),
-    title=lambda x, d: f"colour {d.prose(x[0].tableau.colours[x[1]].name)}",
+    maybe("gamma", kinds.EXACT, "shape.gamma"),
+    Row("stage_order", kinds.COUNT, lambda x: kinds.at_least(x.stage_order, x.is_open)),
+    optional("stage_order_is_lower_bound", kinds.TRUE, lambda x: x.is_open or None, DATA),
+    title=lambda x, d: f"colour {d.prose(x.name)}",
 )
 
 
 def whole_number(key: str) -> Callable[[Any], Answer]:
     """A property that is a whole number, and may be a lower bound."""
-
-    def get(a: Any) -> Answer:
-        found = a.subject.verdict(key)
-        return Answer(found.value, Status(at_least=found.is_at_least))
-
-    return get
+    return lambda a: kinds.at_least(
+        a.subject.verdict(key).value, a.subject.verdict(key).is_at_least
+    )
 
 
 def count_rows(key: str) -> tuple[Row, ...]:
     """Its number, and in JSON whether that is a lower bound."""
-    field, get = find(key).field, whole_number(key)
+    field, is_open = find(key).field, lambda a: a.subject.verdict(key).is_at_least or None
     return (
-        Row(field, kinds.COUNT, get, DETAIL),
-        optional(
-            f"{field}_is_lower_bound", kinds.TRUE, lambda a: get(a).status.at_least or None, DATA
-        ),
+        Row(field, kinds.COUNT, whole_number(key), DETAIL),
+        optional(f"{field}_is_lower_bound", kinds.TRUE, is_open, DATA),
     )
 
 
-def colours_apart(a: Any) -> list[Any] | None:
+def colours_apart(a: Any) -> list[OfColour] | None:
     """The colours, where they are not alike."""
-    shapes = {getattr(shape, "kind", None) for shape in a.subject.shapes}
-    if len(shapes) == 1 and len({*a.subject.simplifying.stage_orders}) == 1:
-        return None
-    return [(a.subject, l) for l in range(a.tableau.size)]
+    found = by_colour(a)
+    kinds_of = {(x.shape and x.shape.kind, x.stage_order) for x in found}
+    return found if len(kinds_of) > 1 else None
 
 
-def _colours_words(found: Any, d: Plain) -> str:
+def _colours_words(found: Sequence[OfColour], d: Plain) -> str:
     texts = []
-    for subject, l in found:
-        shape = subject.shapes[l]
-        gamma = getattr(shape, "gamma", None)
-        said = [] if shape is None else [shape.name]
-        said += [] if gamma is None else [f"γ = {d.number(gamma)}"]
-        said.append(f"stage order {d.capped(subject.simplifying.stage_orders[l], subject.limit)}")
-        texts.append(f"{d.prose(subject.tableau.colours[l].name)} {', '.join(said)}")
+    for x in found:
+        said = [] if x.shape is None else [x.shape.name]
+        if x.shape is not None and x.shape.gamma is not None:
+            said.append(f"γ = {d.number(x.shape.gamma)}")
+        said.append(f"stage order {d.capped(x.stage_order, x.limit)}")
+        texts.append(f"{d.prose(x.name)} {', '.join(said)}")
     return "; ".join(texts)
 
 
@@ -461,12 +465,7 @@ def property_rows() -> Iterator[Row]:
 
 PROPERTIES = Section(
     *property_rows(),
-    Row(
-        "by_colour",
-        parts(COLOUR),
-        lambda a: [(a.subject, l) for l in range(a.tableau.size)],
-        lambda x: DETAIL if len(x.value) > 1 else DATA,
-    ),
+    Row("by_colour", parts(COLOUR), by_colour, lambda x: DETAIL if len(x.value) > 1 else DATA),
     Row(
         "undecided",
         kinds.TEXTS,

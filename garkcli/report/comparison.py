@@ -22,11 +22,10 @@ from garkcli.problems.righthandside import RightHandSide
 from garkcli.report import convergence as alone
 from garkcli.report.costs import Tested, at_equal_errors, curve
 from garkcli.report.failure import FAULT
-from garkcli.report.problem import WORDS
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Answer, Choice, Level, Row, Section, maybe, via
+from garkcli.tell.facts import Choice, Level, Row, Section, maybe, via
 from garkcli.tell.kinds import COUNT, TEXT, TRUTH, constant
-from garkcli.tell.parts import part, parts, picture, rows_of, shown, told
+from garkcli.tell.parts import SAID, answer, part, parts, picture, rows_of, shown, told
 from garkcli.tell.report import Report
 
 HEADLINE, USUAL, DETAIL, DATA = Level
@@ -249,9 +248,9 @@ def _about(result: Convergence) -> str:
     return problem.name + (f"; H = {text}" if len(text) <= _LONGEST else "")
 
 
-def _answer(_: str, answer: Answer, d: Plain) -> str:
+def _answer(compared: Compared, d: Plain) -> str:
     """How many have which verdict."""
-    found = Counter(x.result.verdict if x.result else "failed" for x in answer.value.entries)
+    found = Counter(x.result.verdict if x.result else "failed" for x in compared.entries)
     good, bad = found["agree"], found["disagree"]
     texts = [
         d.good("1 agrees" if good == 1 else f"{good} agree") if good else "",
@@ -260,7 +259,7 @@ def _answer(_: str, answer: Answer, d: Plain) -> str:
         d.note(f"{found['undecided']} undecided") if found["undecided"] else "",
         d.bad(f"{found['failed']} FAILED") if found["failed"] else "",
     ]
-    return f"{counted(len(answer.value.entries), 'method')}: {', '.join(filter(None, texts))}"
+    return f"{counted(len(compared.entries), 'method')}: {', '.join(filter(None, texts))}"
 
 
 HEAD = (Row("file", TEXT, "entry.file"), Row("ok", TRUTH, lambda x: x.entry.exit_code == 0))
@@ -289,8 +288,8 @@ REPORT: Report[Compared] = Report.only(
     "gark/converge-comparison/1",
     "report of gark converge of several methods",
     Section(
-        Row("answer", told(lambda _, d: "", _answer), ".", HEADLINE, label=""),
-        Row("problem_in_words", WORDS, _problem, label="problem"),
+        answer(_answer),
+        Row("problem_in_words", SAID, _problem, label="problem"),
         Row("remarks", rows_of(lambda xs, d: [(x, d.prose(text)) for x, text in xs]), _remarks),
         Row("methods", shown(METHOD, MOST_METHODS), "named", label=""),
         Row("sizes", shown(SIZE, MOST_METHODS), _sizes, label="errors"),

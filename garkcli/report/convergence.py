@@ -33,7 +33,7 @@ from garkcli.tell.facts import (
     via,
 )
 from garkcli.tell.kinds import COUNT, EXACT, POSITION, TEXT, TEXTS, TRUTH, choice
-from garkcli.tell.parts import part, picture, rows_of, table, told
+from garkcli.tell.parts import answer, part, picture, rows_of, table
 from garkcli.tell.report import Report
 
 HEADLINE, USUAL, DETAIL, DATA = Level
@@ -192,8 +192,7 @@ def verdict_words(verdict: str, d: Plain) -> str:
     return d.good("they agree") if verdict == "agree" else d.bad("THEY DISAGREE")
 
 
-def _answer_phrase(_: str, answer: Answer, d: Plain) -> str:
-    x = answer.value
+def _answer(x: Convergence, d: Plain) -> str:
     seen = d.known(str(x.visible_order), visible(x).status)
     observed = order_text(x.observed_order)
     return f"order {observed} observed, {seen} visible: {verdict_words(x.verdict, d)}"
@@ -279,7 +278,7 @@ STIFF = Section(
 )
 _RESULT = [
     Row("t_end", EXACT, level=DATA),
-    Row("answer", told(lambda _, d: "", _answer_phrase), ".", HEADLINE, label=""),
+    answer(_answer),
     Row("visible_order", COUNT, visible),
     Row("visible_order_is_exact", TRUTH, "visible.is_sharp", DATA),
     Row("predicted_order", COUNT, predicted),

@@ -28,7 +28,7 @@ from garkcli.report.stable_values import VALUES, ends, number, stability
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Kind, Level, Row, Section, maybe, optional, via
 from garkcli.tell.kinds import COUNT, INTEGER, POSITION, TEXT, TEXTS, TREE, TRUTH, choice, constant
-from garkcli.tell.parts import part, parts, rows_of, told
+from garkcli.tell.parts import answer, part, parts, rows_of, told
 from garkcli.tell.report import Report
 
 HEADLINE, USUAL, DETAIL, DATA = Level
@@ -305,7 +305,7 @@ def _best(design: Design) -> Step | None:
     return reached[-1] if reached else None
 
 
-def answer(x: DesignReport, d: Plain) -> str:
+def _answer(x: DesignReport, d: Plain) -> str:
     """The highest order and its values; what stops the next one."""
     design, last, best = x.design, x.design.last, _best(x.design)
     if not design.family.parameters:
@@ -583,7 +583,7 @@ WHOLE = Section(
     Row("file", TEXT, level=DATA),
     Row("name", TEXT, "design.family.name", DETAIL),
     Row("of", choice(*get_args(Whose)), "design.whose", DATA),
-    Row("answer", told(answer), ".", HEADLINE, label=""),
+    answer(_answer),
     Row("least", told(_least), "minimum", HEADLINE, label=""),
     Row("unknowns", TEXTS, lambda x: list(x.design.family.parameters)),
     Row("choices", parts(CHOICE), level=DATA),

@@ -18,12 +18,12 @@ from garkcli.page.figures import measured
 from garkcli.page.paint import counted
 from garkcli.problems.hamiltonian import FLOAT_DIGITS
 from garkcli.report.failure import FAILURE, Failure
-from garkcli.report.problem import STEPPED, WORDS
+from garkcli.report.problem import STEPPED
 from garkcli.tableau.garkmethod import derivation_of, word_for
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Answer, Kind, Level, Row, Section, maybe, optional, via
+from garkcli.tell.facts import Kind, Level, Row, Section, maybe, optional, via
 from garkcli.tell.kinds import COUNT, EXACT, POSITION, TEXT, TRUTH, choice, claim_word
-from garkcli.tell.parts import part, parts, picture, rows_of, table, told
+from garkcli.tell.parts import SAID, answer, part, parts, picture, rows_of, table
 from garkcli.tell.report import Report
 
 HEADLINE, USUAL, DETAIL, DATA = Level
@@ -278,8 +278,8 @@ def _steps(run: LongRun) -> str:
     return f"{run.steps} of {run.step}, {how}"
 
 
-def _answer(_: str, answer: Answer, d: Plain) -> str:
-    return ", ".join(f"{d.prose(x.name)} {_word(x, d)}" for x in answer.value.invariants)
+def _answer(run: LongRun, d: Plain) -> str:
+    return ", ".join(f"{d.prose(x.name)} {_word(x, d)}" for x in run.invariants)
 
 
 def _claims(claims: tuple[Claim, ...], d: Plain) -> list[tuple[str, str]]:
@@ -317,11 +317,11 @@ QUANTITY = Section(
     *via(
         lambda x: x.history,
         [
-            Row("largest", WORDS, _largest, label="largest error"),
-            Row("oscillation_in_words", WORDS, _oscillation, label="oscillation"),
+            Row("largest", SAID, _largest, label="largest error"),
+            Row("oscillation_in_words", SAID, _oscillation, label="oscillation"),
         ],
     ),
-    Row("drift_in_words", WORDS, _drift, label="drift"),
+    Row("drift_in_words", SAID, _drift, label="drift"),
     Row("max_error", SIZE, "history.max_error", DATA),
     Row("drift", NUMBER, "history.drift", DATA),
     Row("drift_uncertainty", SIZE, "history.uncertainty", DATA),
@@ -346,7 +346,7 @@ QUANTITY = Section(
     ),
 )
 RUN = [
-    Row("steps_in_words", WORDS, _steps, label="steps"),
+    Row("steps_in_words", SAID, _steps, label="steps"),
     Row("step", TIME, level=DATA),
     Row("step_exact", EXACT, "step", DATA),
     Row("t_end", TIME, level=DATA),
@@ -357,7 +357,7 @@ RUN = [
     Row("blew_up", TRUTH, lambda x: x.is_unstable and x.escaped is None, DATA),
     Row("escaped_at", TIME, "escaped", DATA),
     Row("drifts", TRUTH, level=DATA),
-    Row("answer", told(lambda _, d: "", _answer), ".", HEADLINE, label=""),
+    answer(_answer),
     Row("verdicts", rows_of(_verdicts), "."),
     Row(
         "quantities",
@@ -380,7 +380,7 @@ FORMS = {
         Row("name", TEXT, level=DATA),
         Row("derivation", Kind(S.DERIVATION), lambda x: derivation_of(x.run.method), DATA),
         *via(lambda x: x.run, [*rows, *RUN]),
-        Row("symplectic_in_words", WORDS, lambda x: "; ".join(_symplectic(x)), label="symplectic"),
+        Row("symplectic_in_words", SAID, lambda x: "; ".join(_symplectic(x)), label="symplectic"),
         Row("claims_in_words", rows_of(_claims), "claims"),
         Row("plot", picture(_plot), _drawn, DETAIL),
         maybe(

@@ -13,7 +13,7 @@ from garkcli.ntrees.tree import Tree
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.paint import counted, numbered
 from garkcli.reason import NO_REASON, Reason
-from garkcli.report.problem import WORDS, describe
+from garkcli.report.problem import describe
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Answer, Beside, Kind, Level, Row, Section, Status, maybe, via
 from garkcli.tell.kinds import (
@@ -28,7 +28,7 @@ from garkcli.tell.kinds import (
     TRUTH,
     choice,
 )
-from garkcli.tell.parts import part, parts, rows_of, table, told
+from garkcli.tell.parts import SAID, part, parts, rows_of, table, told
 from garkcli.tell.report import Report
 
 HEADLINE, USUAL, DETAIL, DATA = Level
@@ -243,11 +243,11 @@ MODIFIED = Section(
             _order("effective_order"),
         ],
     ),
-    Row("trees", WORDS, _vertices),
-    Row("colours_in_words", WORDS, lambda x: numbered(x.names), label="colours"),
+    Row("trees", SAID, _vertices),
+    Row("colours_in_words", SAID, lambda x: numbered(x.names), label="colours"),
     Row("colours", TEXTS, "names", DATA),
     Row("max_order", POSITION, "found.equation.max_order", DATA),
-    Row("note", WORDS, _note),
+    Row("note", SAID, _note),
     Row("formula_in_words", rows_of(lambda x, d: list(_formula_rows(x, d))), "formula"),
     maybe(
         "hamiltonian",

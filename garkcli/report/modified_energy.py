@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from math import ceil
 from typing import Any, NamedTuple, get_args
 
@@ -13,12 +13,12 @@ from garkcli.page import schema as S  # noqa: N812 -- its names are those of kin
 from garkcli.page.figures import scientific
 from garkcli.report.convergence import STEP_SIZE
 from garkcli.report.failure import FAILURE, Failure
-from garkcli.report.problem import WORDS, describe, driving
+from garkcli.report.problem import describe, driving
 from garkcli.tableau.garkmethod import derivation_of
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, maybe, via
 from garkcli.tell.kinds import COUNT, EXACT, POSITION, TEXT, TRUTH, choice
-from garkcli.tell.parts import parts, rows_of, shown, table, told
+from garkcli.tell.parts import SAID, answer, parts, rows_of, shown, table
 from garkcli.tell.report import Report
 
 HEADLINE, USUAL, DETAIL, DATA = Level
@@ -59,10 +59,10 @@ def _verdict(verdict: str, d: Plain) -> str:
     return d.good(verdict) if verdict == "agree" else d.note(verdict)
 
 
-def _answer(_: str, answer: Answer, d: Plain) -> str:
+def _answer(energies: Sequence[ModifiedEnergy], d: Plain) -> str:
     """The verdicts, with what they are of."""
     found: dict[str, list[str]] = {}
-    for energy in answer.value:
+    for energy in energies:
         found.setdefault(energy.verdict, []).append(_terms(energy))
     texts = (f"{_verdict(x, d)} for {d.prose(', '.join(terms))}" for x, terms in found.items())
     return f"orders {'; '.join(texts)}"
@@ -92,12 +92,12 @@ def _cells(errors: list[tuple[ModifiedEnergy, Step]], d: Plain) -> list[tuple[st
 NUMBER = Kind({"type": "number"})
 STEP = Section(Row("h", EXACT), Row("error", NUMBER, _error), maybe("slope", NUMBER))
 ENERGY = Section(
-    Row("terms", WORDS, _terms, label=""),
+    Row("terms", SAID, _terms, label=""),
     Row("power", COUNT, level=DATA),
     Row("verdict", Kind(choice(*get_args(Verdict)).schema, words=_verdict)),
     Row("exact_order", COUNT, lambda x: Answer(x.exact_order, Status(at_least=x.is_lower_bound))),
     Row("exact_order_is_lower_bound", TRUTH, "is_lower_bound", DATA),
-    Row("observed", WORDS, _observed, label="observed order"),
+    Row("observed", SAID, _observed, label="observed order"),
     maybe("observed_order", NUMBER, level=DATA),
     maybe("uncertainty", NUMBER, level=DATA),
     Row("rows", parts(STEP), level=DATA),
@@ -110,14 +110,14 @@ MEASURED = Section(
         lambda x: x.run,
         [
             Row("problem", TEXT, "problem.name", DATA),
-            Row("answer", told(lambda _, d: "", _answer), "energies", HEADLINE, label=""),
+            answer(_answer, "energies"),
             Row(
                 "problem_in_words",
-                WORDS,
+                SAID,
                 lambda x: f"{describe(x.problem)}; to t = {x.t_end}, {x.digits} digits",
                 label="problem",
             ),
-            Row("colours_in_words", WORDS, driving, label="colours"),
+            Row("colours_in_words", SAID, driving, label="colours"),
             Row("t_end", EXACT, level=DATA),
             Row("max_order", POSITION, level=DATA),
             Row("digits", POSITION, level=DATA),

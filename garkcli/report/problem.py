@@ -13,7 +13,7 @@ from garkcli.problems.righthandside import RightHandSide
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tell.facts import Kind, Level, Row, maybe
 from garkcli.tell.kinds import EXACT, TEXT
-from garkcli.tell.parts import told
+from garkcli.tell.parts import SAID
 
 Stepped: TypeAlias = Oscillator | Problem
 
@@ -70,8 +70,6 @@ def _is_short(texts: Sequence[str]) -> bool:
     return sum(map(len, texts)) <= _LONGEST
 
 
-WORDS = told(lambda x, d: d.prose(x))
-"""A sentence of ours."""
 _LISTS = Kind(S.array(S.array(S.TEXT)), lambda xs, _: [[str(x) for x in term] for term in xs])
 _FORMULAS = Kind(S.array(S.TEXT), lambda xs, _: [str(x) for x in xs])
 _TERMS: dict[type[Stepped], tuple[Row, ...]] = {
@@ -87,11 +85,11 @@ STEPPED: dict[type[Stepped], list[Row]] = {
         Row("problem", TEXT, lambda x: name_of(x.problem), Level.DATA),
         Row(
             "problem_in_words",
-            WORDS,
+            SAID,
             lambda x: f"{describe(x.problem)}; to t = {x.t_end}",
             label="problem",
         ),
-        Row("colours_in_words", WORDS, lambda x: driving(x), label="colours"),
+        Row("colours_in_words", SAID, lambda x: driving(x), label="colours"),
         *(row.of(lambda x: x.problem) for row in rows),
     ]
     for kind, rows in _TERMS.items()

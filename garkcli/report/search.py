@@ -14,7 +14,7 @@ from garkcli.page import schema as S  # noqa: N812 -- its names are those of kin
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Kind, Level, Row, Section, maybe, via
 from garkcli.tell.kinds import COUNT, POSITION, TEXT, TEXTS, TRUTH, choice
-from garkcli.tell.parts import parts, rows_of, told
+from garkcli.tell.parts import answer, parts, rows_of
 from garkcli.tell.report import Report
 
 HEADLINE, USUAL, DETAIL, DATA = Level
@@ -117,7 +117,7 @@ WHOLE = Section(
     Row("file", TEXT, level=DATA),
     Row("name", TEXT, "search.family.name", DETAIL),
     Row("of", choice(*get_args(Whose)), "search.whose", DATA),
-    Row("answer", told(_found), ".", HEADLINE, label=""),
+    answer(_found),
     Row("unknowns", TEXTS, lambda x: list(x.search.family.parameters)),
     Row("order", POSITION, "search.order", DATA),
     *via(

@@ -19,7 +19,7 @@ from garkcli.tableau.family import Stability
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Kind, Level, Row, Section, maybe
 from garkcli.tell.kinds import INDEX, INTERVAL, ROOTS, TEXT, TEXTS, choice, interval_data, record
-from garkcli.tell.parts import rows_of, told
+from garkcli.tell.parts import answer, rows_of
 from garkcli.tell.report import Report
 
 HEADLINE, USUAL, DETAIL, DATA = Level
@@ -153,7 +153,7 @@ WHOLE = Section(
             Row("unknowns", TEXTS, lambda x: list(x.family.ring.names), DATA),
             Row("wanted", choice("a-stable"), lambda _: "a-stable", DATA),
             maybe("colour", INDEX, level=DATA),
-            Row("answer", told(lambda x, d: _answer(x, d)), ".", HEADLINE, label=""),
+            answer(lambda x, d: _answer(x, d)),
             Row("ends", rows_of(strips), "."),
             Row("strips", STRIPS, ".", DATA),
             Row("undecided", ROOTS, level=DATA),

@@ -18,7 +18,7 @@ from garkcli.sweep.row import Row as Judged
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Kind, Level, Row, Section, via
 from garkcli.tell.kinds import COUNT, TEXT, TEXTS, record
-from garkcli.tell.parts import table, told
+from garkcli.tell.parts import answer, table, told
 from garkcli.tell.report import Report
 from garkcli.upward import Shown
 
@@ -152,7 +152,7 @@ def section(report: SweepReport | None = None) -> Section:
     return Section(
         Row("file", TEXT, "source", DATA),
         Row("name", TEXT, "plan.name", DATA),
-        Row("answer", told(_answer), ".", HEADLINE, label=""),
+        answer(_answer),
         Row("methods", COUNT, lambda x: len(x.plan), DATA),
         Row("kept", COUNT, lambda x: len(x.best), DATA),
         Row("repeated", COUNT, level=DATA),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from garkcli.tell.facts import Answer, Kind, Row, Section, Words
+from garkcli.tell.facts import Answer, Getter, Kind, Level, Row, Section, Words
 
 if TYPE_CHECKING:
     from garkcli.tell.dialect import Plain
@@ -23,6 +23,11 @@ def told(words: Words, phrase: Callable[[str, Answer, Plain], str] | None = None
 
 SAID = Kind({}, words=lambda text, d: d.prose(text), is_data=False)
 """Words for people alone."""
+
+
+def answer(words: Words, get: Getter = ".") -> Row:
+    """The answer, in the first line."""
+    return Row("answer", told(words), get, Level.HEADLINE, label="")
 
 
 def rows_of(rows: Callable[[Any, Plain], list[tuple[str, str]]]) -> Kind:
