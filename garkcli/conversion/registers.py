@@ -91,6 +91,31 @@ def two_registers(A: Numbers, B: Numbers) -> Steps:
     return made.steps(y)
 
 
+def in_two_registers(A: Sequence[Numbers], b: Numbers) -> tuple[list[Any], list[Any]] | int:
+    """A and B of Williamson's 2N for an explicit method of exact numbers; the first stage, from 1,
+    whose slope and the next one have no ratio where the method has no such form.
+
+    The differences of one row of A and the next, the last of them b, have the form
+    d_mj = B_m A_{j+1} ⋯ A_m. So B is their diagonal, and a method has the form if and only if each
+    column is A_i times the next one, from the diagonal of that on.
+
+    >>> from flint import fmpq
+    >>> in_two_registers([[0, 0], [fmpq(2, 3), 0]], [fmpq(1, 4), fmpq(3, 4)])
+    ([0, -5/9], [2/3, 3/4])
+    """
+    stages = len(b)
+    rows = [*A, b]
+    differences = [[y - x for x, y in zip(*rows[m : m + 2], strict=True)] for m in range(stages)]
+    factors: list[Any] = [0]
+    for i in range(1, stages):
+        pairs = [(row[i - 1], row[i]) for row in differences[i:]]
+        factor = next((x / y for x, y in pairs if y), 0)
+        if any(x - factor * y for x, y in pairs):
+            return i
+        factors.append(factor)
+    return factors, [row[i] for i, row in enumerate(differences)]
+
+
 def minus_two_registers(A: Numbers, B: Numbers) -> Steps:
     """The same with dy ← h f(y) − A_i dy."""
     return two_registers([-x for x in A], B)

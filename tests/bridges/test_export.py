@@ -170,7 +170,7 @@ def test_nothing_is_written_where_there_is_no_test(tmp_path: Path) -> None:
 @pytest.mark.parametrize("target", sorted(bridges()))
 def test_files_are_what_a_target_writes(target: str, tmp_path: Path) -> None:
     """No sign of it is changed on its way to the file or to the terminal, tabs of tables neither."""
-    path = ROOT / "methods/rk4.gark.yaml"
+    path = ROOT / "garkcli/catalogue/data/erk/ralston-euler.gark.yaml"
     payload = prepared(load(str(path)))
     bridge = bridges()[target]
     if payload.kind not in bridge.kinds:

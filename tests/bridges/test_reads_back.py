@@ -19,6 +19,7 @@ READ_BACK = {
     "matlab": "matlab",
     "rklab": "matlab",
     "ordinarydiffeq": "julia",
+    "climatimesteppers": "julia",
     "rungekutta-jl": "tsv",
 }
 """From a target to the reader of what it writes."""
@@ -43,7 +44,7 @@ def test_what_is_written_is_read(target: str, method: str) -> None:
             for row, texts in zip(block or (), other or (), strict=True):
                 assert near(row, texts)
         assert near(payload.b[l], found.b[l])
-    if payload.embedded and target != "rungekutta-jl":
+    if payload.embedded and target not in {"rungekutta-jl", "climatimesteppers"}:
         assert found.embedded
         assert near(payload.embedded[0], found.embedded[0])
 

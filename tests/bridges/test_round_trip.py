@@ -46,6 +46,7 @@ READERS = {
     "rklab": "matlab",
     "julia": "julia",
     "ordinarydiffeq": "julia",
+    "climatimesteppers": "julia",
     "rungekutta-jl": "tsv",
     "mathematica": "mathematica",
     "latex": "latex",
@@ -183,9 +184,11 @@ def test_what_is_written_is_read(target: str) -> None:
     bridge = bridges()[target]
     reader = reader_named(READERS[target])
     count = 0
-    for path in sample():
+    # few methods have the 2N form
+    of_erk = [x for x in CATALOGUE if x.parent.name == "erk"]
+    for path in of_erk if target == "climatimesteppers" else sample():
         method = payload(path)
-        if target == "rungekutta-jl":
+        if target in {"rungekutta-jl", "climatimesteppers"}:
             method = replace(method, embedded=None)
         if not of_one_table(target, method):
             continue

@@ -117,7 +117,16 @@ def test_the_page_names_no_other_target() -> None:
     assert sorted(re.findall("`([^`]+)`", " ".join(rows))) == sorted(bridges())
 
 
-EXPLICIT = ("amrex", "boost", "desolve", "mfem", "ordinarydiffeq", "torchdiffeq", "torchode")
+EXPLICIT = (
+    "amrex",
+    "boost",
+    "climatimesteppers",
+    "desolve",
+    "mfem",
+    "ordinarydiffeq",
+    "torchdiffeq",
+    "torchode",
+)
 
 
 @pytest.mark.parametrize("target", EXPLICIT)

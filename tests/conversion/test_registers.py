@@ -10,10 +10,13 @@ from typing import Any
 
 import pytest
 from flint import fmpq
+from hypothesis import given
+from hypothesis import strategies as st
 
 from garkcli.conversion.registers import (
     Steps,
     ahead,
+    in_two_registers,
     minus_two_registers,
     nystrom,
     shu_osher,
@@ -200,3 +203,34 @@ structure: nystrom
 """
     found = find_order(loads(text).tableau, 6)
     assert (found.order, found.is_lower_bound) == (4, False)
+
+
+FRACTIONS = st.fractions(min_value=-2, max_value=2, max_denominator=9)
+
+
+@given(st.lists(st.tuples(FRACTIONS, FRACTIONS), min_size=1, max_size=5))
+def test_a_method_of_two_registers_has_that_form(numbers: list[tuple[F, F]]) -> None:
+    """Also where some of them are 0: the form that is found makes the same method."""
+    A, B = [F(0), *(a for a, _ in numbers[1:])], [b for _, b in numbers]
+    made = two_registers(A, B)
+    form = in_two_registers(made.A, made.b)
+    assert not isinstance(form, int)
+    again = two_registers(*form)
+    assert (again.A, again.b) == (made.A, made.b)
+
+
+@given(st.lists(FRACTIONS, min_size=6, max_size=6))
+def test_a_form_is_that_of_the_method_or_there_is_none(entries: list[F]) -> None:
+    """Of three stages: what is found makes the method; where nothing is found Williamson's equation
+    for one of three stages fails, or a slope is not used.
+    """
+    a21, a31, a32, b1, b2, b3 = entries
+    A = [[F(0)] * 3, [a21, F(0), F(0)], [a31, a32, F(0)]]
+    form = in_two_registers(A, [b1, b2, b3])
+    ratio = (a31 - a21) * (b2 - a32) == (b1 - a31) * a32
+    if isinstance(form, int):
+        assert not (ratio and a32 and b3)
+    else:
+        assert ratio
+        made = two_registers(*form)
+        assert (made.A, made.b) == (A, [b1, b2, b3])

@@ -13,6 +13,7 @@ from garkcli.bridges.rounding import Cell
 from garkcli.bridges.structure import composition, shared, vanishes
 from garkcli.bridges.tables import explicit_table, is_first_same_as_last
 from garkcli.bridges.texts import Values
+from garkcli.conversion.registers import in_two_registers
 from garkcli.exact.field import Algebraic
 from garkcli.exact.nodes import AlgebraicRoot
 
@@ -80,6 +81,28 @@ def splitting(payload: Payload) -> Values:
     return {"drifts": drifts[:pairs], "kicks": kicks[:pairs]}
 
 
+def low_storage(payload: Payload) -> Values:
+    """A, B and c of the 2N form."""
+    found = explicit_table(payload, "climatimesteppers")
+    if not payload.is_exact:
+        raise CannotExport(
+            f"climatimesteppers has methods in Williamson's 2N form, which {payload.name} has"
+            " exactly or not at all; its numbers are of several fields",
+            "julia and ordinarydiffeq have all explicit methods",
+        )
+    form = in_two_registers(found.A, found.b)
+    if isinstance(form, int):
+        raise CannotExport(
+            f"climatimesteppers has methods in Williamson's 2N form; {payload.name} has none: from"
+            f" one stage to the next the slopes of stages {form} and {form + 1} do not enter in one"
+            " ratio",
+            "julia and ordinarydiffeq have all explicit methods",
+        )
+    A, B = form
+    rows = {"A": tuple(fmpq(x) if x == 0 else x for x in A), "B": tuple(B), "C": found.c}
+    return {"class": payload.class_name("julia"), "rows": rows}
+
+
 BRIDGES = (
     Bridge(
         name="julia",
@@ -111,6 +134,15 @@ BRIDGES = (
         summary="Julia: the table in tabs of RungeKutta.jl",
         kinds=("rk",),
         suffix=".tsv",
+        reads_back=True,
+    ),
+    Bridge(
+        name="climatimesteppers",
+        summary="Julia: Williamson's 2N form for ClimaTimeSteppers, where a method has it",
+        kinds=("rk",),
+        suffix=".jl",
+        style=JULIA,
+        values=low_storage,
         reads_back=True,
     ),
     Bridge(
