@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cached_property
+from itertools import chain
 
 from garkcli.backward.modified import ModifiedEquation
 from garkcli.exact.field import ZERO, Number
@@ -22,34 +23,13 @@ from garkcli.stepping.fields import with_joined_terms
 from garkcli.tableau.tableau import Tableau
 
 
-class FreeTree(Frozen):
-    """A free tree, by its rooting at the centroid.
-
-    Attributes:
-        found: it with its structure.
-    """
-
-    found: ConditionClass
-
-    @property
-    def order(self) -> int:
-        """The number of vertices."""
-        return self.found.order
-
-    @property
-    def structure(self) -> Structure:
-        """Its colours."""
-        return self.found.structure
-
-    @cached_property
-    def representative(self) -> Tree:
-        """The rooting that stands for it."""
-        return self.found.representative
+class FreeTree(ConditionClass):
+    """A free tree, by its rooting at the centroid."""
 
     @property
     def has_hamiltonian(self) -> bool:
         """Whether its elementary Hamiltonian is not always zero."""
-        return not self.found.is_superfluous
+        return not self.is_superfluous
 
     @cached_property
     def rootings(self) -> tuple[tuple[Tree, int], ...]:
@@ -85,10 +65,9 @@ class FreeTree(Frozen):
 
 def free_trees(structure: Structure, order: int) -> Iterator[FreeTree]:
     """The free trees of one order, those without an elementary Hamiltonian last."""
-    for found in independent_classes(structure, order):
-        yield FreeTree(found)
-    for found in superfluous_classes(structure, order):
-        yield FreeTree(found)
+    independent = independent_classes(structure, order)
+    for found in chain(independent, superfluous_classes(structure, order)):
+        yield FreeTree(found.centred, structure)
 
 
 def hamiltonian_structure(tableau: Tableau) -> Structure | None:

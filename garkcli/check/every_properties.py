@@ -8,7 +8,7 @@ one parameter between the zeros of the polynomials whose signs matter; A-, L- an
 from __future__ import annotations
 
 from collections.abc import Callable
-from itertools import chain, pairwise
+from itertools import pairwise
 from typing import Any
 
 from flint import fmpq
@@ -25,7 +25,7 @@ from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.roots import RealRoot
 from garkcli.order.simplifying import Simplifying, simplifying
 from garkcli.properties.subject import Subject
-from garkcli.tableau.conjugate import symplectic_defect
+from garkcli.stability.algebraic import contractivity
 from garkcli.tableau.tableau import Tableau
 
 COMPARING = (
@@ -162,12 +162,7 @@ def _nodes(tableau: Tableau) -> list[object]:
 
 def _algebraic(tableau: Tableau) -> list[object]:
     """Whether M is positive semidefinite depends on the signs in det(1 − z M)."""
-    rows: list[tuple[Any, ...]] = []
-    colours = range(tableau.size)
-    for l in colours:
-        blocks = [symplectic_defect(tableau, l, m) for m in colours]
-        rows += [tuple(chain.from_iterable(parts)) for parts in zip(*blocks, strict=True)]
-    return [*characteristic_coefficients(tuple(rows)), *_weights(tableau)]
+    return [*characteristic_coefficients(contractivity(tableau)), *_weights(tableau)]
 
 
 SIGNS: dict[str, Callable[[Tableau], list[object]]] = {

@@ -11,9 +11,10 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import pairwise
 from typing import TypeAlias
 
-from flint import arb, ctx, fmpq
+from flint import ctx, fmpq
 
 from garkcli.deadline import check_time
+from garkcli.exact.enclosing import midpoint
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import FIRST_BITS, RealRoot, real_roots, sign, sign_at
 from garkcli.frozen import Frozen
@@ -139,9 +140,9 @@ def between(left: RealRoot | None, right: RealRoot | None) -> fmpq:
         low = high = None
         with ctx.workprec(bits):  # of the ends of balls too
             if left is not None:
-                low = _dyadic(left.ball(bits).upper())
+                low = midpoint(left.ball(bits).upper())
             if right is not None:
-                high = _dyadic(right.ball(bits).lower())
+                high = midpoint(right.ball(bits).lower())
         if low is None:
             assert high is not None
             return high.floor() - fmpq(1)
@@ -159,12 +160,6 @@ def between_roots(polynomials: Iterable[Polynomial]) -> Iterator[fmpq]:
         yield between(left, right)
 
 
-def _dyadic(end: arb) -> fmpq:
-    """The end of a ball, which is a number m · 2^e."""
-    mantissa, exponent = end.man_exp()
-    return fmpq(mantissa) * fmpq(2) ** int(exponent)
-
-
 def _simplest(low: fmpq, high: fmpq) -> fmpq:
     """The number of smallest denominator strictly between two, by continued fractions."""
     whole = low.floor()
@@ -174,6 +169,11 @@ def _simplest(low: fmpq, high: fmpq) -> fmpq:
     if low == whole:
         return whole + fmpq(1) / ((1 / rest).floor() + 1)
     return whole + 1 / _simplest(1 / rest, 1 / (low - whole))
+
+
+def is_half_line(intervals: Sequence[Interval]) -> bool:
+    """Whether subsets of x ≥ 0 are one interval that goes on to ∞ and has its start."""
+    return len(intervals) == 1 and intervals[0].has_start and intervals[0].end is None
 
 
 def first_end(intervals: Sequence[Interval]) -> RealRoot | None:

@@ -89,6 +89,12 @@ def enclose(expression: Expression) -> arb:
     raise TypeError(f"no value: {expression!r}")
 
 
+def midpoint(ball: arb) -> fmpq:
+    """The middle of a ball, exactly."""
+    mantissa, exponent = ball.mid().man_exp()
+    return fmpq(mantissa) * fmpq(2) ** int(exponent)
+
+
 def root_count(coefficients: Sequence[arb]) -> int | None:
     """The number of distinct real roots, by Sturm's chain; None too where roots are multiple.
 

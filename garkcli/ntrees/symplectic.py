@@ -106,7 +106,7 @@ class ConditionClass(Frozen):
         """The number of vertices."""
         return self.centred.order
 
-    @property
+    @cached_property
     def representative(self) -> Tree:
         """The tree whose condition stands for the class: the rooting at the centroid.
 

@@ -14,7 +14,7 @@ from typing import Any
 
 from flint import arb, arb_mat, ctx, fmpq
 
-from garkcli.exact.enclosing import scalar_product
+from garkcli.exact.enclosing import midpoint, scalar_product
 from garkcli.exact.matrix import Vector
 from garkcli.ntrees.tree import Tree
 from garkcli.order.tree_vectors import TreeVectors
@@ -51,8 +51,7 @@ class Effects:
 
     def bound(self, tree: Tree) -> fmpq:
         """The same as a rational number."""
-        mantissa, exponent = self.effect(tree).man_exp()
-        return fmpq(mantissa) * fmpq(2) ** int(exponent)
+        return midpoint(self.effect(tree))
 
     def _add_slopes(self, tree: Tree, y: Vector, slopes: dict[Edge, arb_mat]) -> None:
         """Add the derivatives to the blocks on the edges of a tree, whose weight is yᵀ 𝒜^[u]."""

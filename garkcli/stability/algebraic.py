@@ -16,10 +16,10 @@ from flint import arb, ctx, fmpq
 
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import ZERO, Number
-from garkcli.exact.matrix import Matrix, Vector, outer, subtract, transpose
-from garkcli.exact.matrix import add as add_matrices
+from garkcli.exact.matrix import Matrix, Vector
 from garkcli.exact.roots import sign
 from garkcli.frozen import Frozen
+from garkcli.tableau.conjugate import symplectic_defect
 from garkcli.tableau.tableau import Tableau
 
 
@@ -66,22 +66,9 @@ def contractivity(tableau: Tableau) -> Matrix:
     colours = range(tableau.size)
     rows: list[Vector] = []
     for l in colours:
-        blocks = [_form(tableau, l, m) for m in colours]
+        blocks = [symplectic_defect(tableau, l, m) for m in colours]
         rows += (tuple(chain.from_iterable(parts)) for parts in zip(*blocks, strict=True))
     return tuple(rows)
-
-
-def _form(tableau: Tableau, l: int, m: int) -> Matrix:
-    """B^l A^{l,m} + (A^{m,l})ᵀ B^m − b^l (b^m)ᵀ, in the bases of the two stage spaces."""
-    there = tableau.block(l, m)
-    back = tableau.block(m, l)
-    assert there is not None
-    assert back is not None
-    weights = tableau.colours[l].b
-    others = tableau.colours[m].b
-    outgoing = tableau.space(l).form(weights, there)
-    incoming = transpose(tableau.space(m).form(others, back))
-    return subtract(add_matrices(outgoing, incoming), outer(weights, others))
 
 
 def is_positive_semidefinite(form: Matrix) -> bool:

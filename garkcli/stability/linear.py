@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import pairwise
 
-from garkcli.exact.cells import Interval, Point, sign_of, where
+from garkcli.exact.cells import Interval, Point, is_half_line, sign_of, where
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Vector, apply, reciprocal_characteristic, transpose
 from garkcli.exact.polynomial import Polynomial, gcd
@@ -184,11 +184,7 @@ def real_set(R: StabilityFunction) -> tuple[Interval, ...]:
 
 def is_i_stable(R: StabilityFunction) -> bool:
     """Whether |R(iy)| ≤ 1 for all real y."""
-    found = imaginary_set(R)
-    if len(found) != 1:
-        return False
-    [only] = found
-    return only.has_start and only.end is None
+    return is_half_line(imaginary_set(R))
 
 
 def poles_are_right(Q: Polynomial) -> bool:

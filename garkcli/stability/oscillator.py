@@ -13,11 +13,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import chain
+from math import factorial
 
 from flint import fmpq
 
 from garkcli.errors import UsageProblem
-from garkcli.exact.cells import Interval, Point, sign_of, where
+from garkcli.exact.cells import Interval, Point, is_half_line, sign_of, where
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix
 from garkcli.exact.polynomial import Polynomial, gcd
@@ -89,10 +90,7 @@ class OscillatorStability(Frozen):
     @property
     def is_p_stable(self) -> bool:
         """Whether no step size is unstable."""
-        if len(self.stable) != 1:
-            return False
-        [only] = self.stable
-        return only.has_start and only.end is None
+        return is_half_line(self.stable)
 
     @property
     def conserved(self) -> tuple[Polynomial, Polynomial, Polynomial] | None:
@@ -149,12 +147,14 @@ def analysed(tableau: Tableau, fields: Sequence[Matrix]) -> OscillatorStability:
     trace = Ratio.of(_even(a + d), poles)
     determinant = Ratio.of(_even(a * d - b * c), poles * poles)
     N, D = trace.numerator, trace.denominator
+    # the entries off the diagonal, odd in z, times z as polynomials in x
+    off_diagonal = [Polynomial([ZERO, *p.coefficients[1::2]]) for p in (b, c)]
     return OscillatorStability(
         step=step,
         trace=trace,
         determinant=determinant,
         discriminant=D * D * 4 - N * N,
-        stable=stable_set(trace, determinant, _off_diagonal(step), poles),
+        stable=stable_set(trace, determinant, off_diagonal, poles),
         phase=phase_error(trace, determinant),
     )
 
@@ -206,14 +206,6 @@ def stable_set(
     return where(is_stable, deciding, start=ZERO)
 
 
-def _off_diagonal(step: StepFunction) -> tuple[Polynomial, Polynomial]:
-    """The entries off the diagonal, odd in z, times z as polynomials in x."""
-    (_, b), (c, _) = step.numerators
-    upper = Polynomial([ZERO, *b.coefficients[1::2]])
-    lower = Polynomial([ZERO, *c.coefficients[1::2]])
-    return upper, lower
-
-
 def phase_error(trace: Ratio, determinant: Ratio) -> PhaseError:
     """The leading error of the frequency, by power series in x.
 
@@ -228,7 +220,9 @@ def phase_error(trace: Ratio, determinant: Ratio) -> PhaseError:
     terms = 16
     limit = 4 * (over.degree + under.degree) + 40
     while terms <= limit:
-        difference = over - under * _cosine_squared(terms)
+        # cos² z = (1 + cos 2z)/2 as a series in x = z²
+        series = (fmpq((-4) ** k, 2 * factorial(2 * k)) for k in range(1, terms))
+        difference = over - under * Polynomial([ONE, *series])
         known = difference.coefficients[:terms]
         leading = next((k for k, a in enumerate(known) if a), None)
         if leading is not None:
@@ -240,14 +234,3 @@ def phase_error(trace: Ratio, determinant: Ratio) -> PhaseError:
             return PhaseError(order, constant)
         terms *= 2
     return PhaseError(None, ZERO)
-
-
-def _cosine_squared(terms: int) -> Polynomial:
-    """cos² z = (1 + cos 2z)/2 as a series in x = z²."""
-    coefficients = [ONE]
-    term = fmpq(1)
-    for k in range(1, terms):
-        factorials = (2 * k - 1) * (2 * k)
-        term = term * -4 / factorials
-        coefficients.append(term / 2)
-    return Polynomial(coefficients)

@@ -15,7 +15,7 @@ from collections.abc import Callable, Sequence
 
 from flint import fmpq
 
-from garkcli.exact.cells import between
+from garkcli.exact.cells import between, roots_of
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.polynomial import Polynomial, interpolated, subresultant
 from garkcli.exact.roots import RealRoot, real_roots, sign
@@ -69,15 +69,8 @@ def roots_between(
 
     Over a number field they are the roots of the norms: one too many only makes one cell more.
     """
-    found: set[RealRoot] = set()
-    for p in polynomials:
-        if p:
-            norm = Polynomial.from_flint(p.norm())
-            found |= {root for root, _ in real_roots(norm)}
-    inside = [x for x in found if low < x]
-    if high is not None:
-        inside = [x for x in inside if x < high]
-    return sorted(inside)
+    norms = (Polynomial.from_flint(p.norm()) for p in polynomials if p)
+    return [x for x in roots_of(norms) if low < x and (high is None or x < high)]
 
 
 class Sector(Frozen):

@@ -122,13 +122,14 @@ def two_frequencies(tableau: Tableau, split: SplitSprings, slow: fmpq) -> TwoFre
     """
     check_structure(tableau, _like_an_oscillator(split))
     M = _reduced(line_of_determinants(tableau, split, slow))
-    N, D = M.trace.numerator, M.trace.denominator
+    trace, determinant, *_ = M
+    N, D = trace.numerator, trace.denominator
     return TwoFrequencies(
         slow=slow,
-        trace=M.trace,
-        determinant=M.determinant,
+        trace=trace,
+        determinant=determinant,
         discriminant=D * D * 4 - N * N,
-        stable=M.stable(),
+        stable=stable_set(*M),
     )
 
 
@@ -170,40 +171,20 @@ def plane_of_determinants(tableau: Tableau, split: SplitSprings) -> tuple[Multiv
 
 def stable_where(determinants: Sequence[Polynomial]) -> tuple[Interval, ...]:
     """The x ≥ 0 with all powers of M bounded, from det(I − W) and the entries of M times it."""
-    return _reduced(determinants).stable()
+    return stable_set(*_reduced(determinants))
 
 
-class _StepMatrix(Frozen):
-    """M over its common denominator, all polynomials in x.
-
-    Attributes:
-        trace: tr M.
-        determinant: det M.
-        off_diagonal: the entries of M off the diagonal, times the denominator.
-        denominator: the poles of M are its roots.
-    """
-
-    trace: Ratio
-    determinant: Ratio
-    off_diagonal: tuple[Polynomial, Polynomial]
-    denominator: Polynomial
-
-    def stable(self) -> tuple[Interval, ...]:
-        """The x ≥ 0 with all powers of M bounded."""
-        return stable_set(self.trace, self.determinant, self.off_diagonal, self.denominator)
-
-
-def _reduced(polynomials: Sequence[Polynomial]) -> _StepMatrix:
-    """M from det(I − W) and its entries times that, without their common factor: roots of it are
-    no poles of M.
+def _reduced(
+    polynomials: Sequence[Polynomial],
+) -> tuple[Ratio, Ratio, tuple[Polynomial, Polynomial], Polynomial]:
+    """What ``stable_set`` decides by, from det(I − W) and the entries of M times that: without
+    their common factor, whose roots are no poles of M.
     """
     common = polynomials[0]
     for p in polynomials:
         common = gcd(common, p)
     D, a, b, c, d = (p // common for p in polynomials)
-    trace = Ratio.of(a + d, D)
-    determinant = Ratio.of(a * d - b * c, D * D)
-    return _StepMatrix(trace, determinant, (b, c), D)
+    return Ratio.of(a + d, D), Ratio.of(a * d - b * c, D * D), (b, c), D
 
 
 def _like_an_oscillator(split: SplitSprings) -> Oscillator:

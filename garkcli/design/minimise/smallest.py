@@ -19,16 +19,11 @@ from garkcli.design.minimise.objective import ORIGIN, Objective, Size
 from garkcli.design.minimise.result import Candidate, Extent, Limit, Proof
 from garkcli.design.parts import Chart, Part, at_root, charts, parts_within, values_on
 from garkcli.design.search.points import Fixings, is_proved, polished
-from garkcli.design.search.rational import (
-    System,
-    as_float,
-    in_decimals,
-    midpoint,
-    polynomial_functions,
-)
+from garkcli.design.search.rational import System, as_float, in_decimals, polynomial_functions
 from garkcli.design.solutions import Solution, value_at
 from garkcli.errors import NotDecided
 from garkcli.exact.cells import Interval, between
+from garkcli.exact.enclosing import midpoint
 from garkcli.exact.parametric import Parameters, factors, fraction
 from garkcli.exact.polynomial import in_one
 from garkcli.exact.projection import MOST_DEGREE, in_plane, is_nowhere_negative

@@ -233,10 +233,9 @@ def is_proved(
             return False
         _, slopes = system.at(box)
         try:
-            inverse = _midpoints(_matrix(jacobians)).inv()
+            inverse = _matrix(jacobians).mid().inv().mid()
         except ZeroDivisionError:
             return False
-        inverse = _midpoints(inverse)
         unit = arb_mat([[int(i == j) for j in range(unknowns)] for i in range(unknowns)])
         values = arb_mat([[value] for value in residuals[:, 0]])
         contraction = unit - inverse * _matrix(slopes)
@@ -246,7 +245,3 @@ def is_proved(
 
 def _matrix(jacobians: Array) -> Any:
     return arb_mat([list(row) for row in jacobians[:, :, 0]])
-
-
-def _midpoints(matrix: Any) -> Any:
-    return arb_mat([[x.mid() for x in row] for row in matrix.tolist()])

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from flint import arb, fmpq, fmpq_mpoly
 
+from garkcli.exact.enclosing import midpoint
 from garkcli.exact.parametric import Parameters, fraction
 from garkcli.frozen import Frozen
 
@@ -33,12 +34,6 @@ def as_float(number: fmpq) -> float:
 def as_ball(number: fmpq) -> arb:
     """A ball with the number in it."""
     return arb(number)
-
-
-def midpoint(ball: arb) -> fmpq:
-    """The middle of a ball, exactly."""
-    mantissa, exponent = ball.mid().man_exp()
-    return fmpq(mantissa) * fmpq(2) ** int(exponent)
 
 
 def in_decimals(ball: arb, count: int) -> int:

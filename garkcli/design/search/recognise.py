@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from flint import arb, ctx, fmpq, fmpq_poly, fmpz, fmpz_mat, fmpz_poly
 
 from garkcli.deadline import check_time
-from garkcli.design.search.rational import midpoint
+from garkcli.exact.enclosing import midpoint
 from garkcli.exact.field import Number, NumberField
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot, real_roots
