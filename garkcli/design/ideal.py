@@ -10,18 +10,7 @@ from typing import Any
 from flint import Ordering, fmpq, fmpq_mat, fmpq_mpoly, fmpq_poly, fmpz, fmpz_mpoly, fmpz_mpoly_ctx
 
 from garkcli.deadline import check_time
-from garkcli.design.groebner import (
-    Exponents,
-    degrevlex,
-    divides,
-    groebner_basis,
-    grown_basis,
-    is_small,
-    leading,
-    reduced_basis,
-    remainder,
-    unproved_basis,
-)
+from garkcli.design import groebner
 from garkcli.exact.apart import apart
 from garkcli.exact.parametric import Parameters, factors
 from garkcli.exact.polynomial import Polynomial
@@ -114,7 +103,7 @@ class Ideal:
         product = self._context.gen(self.variables - 1)
         for polynomial in self.nonzero:
             product *= self._integral(polynomial)
-        return reduced_basis([product - 1], self._context)
+        return groebner.reduced_basis([product - 1], self._context)
 
     def _with_basis(self, basis: list[fmpz_mpoly], is_proved: bool = True) -> Ideal:
         grown = Ideal(self.ring)
@@ -144,12 +133,14 @@ class Ideal:
         return self._with_generators([self._integral(polynomial) for polynomial in polynomials])
 
     def _with_generators(self, new: list[fmpz_mpoly]) -> Ideal:
-        if is_small([*self.basis, *new]):
-            new = [remainder(p, self.basis, self._context) for p in new]
+        if groebner.is_small([*self.basis, *new]):
+            new = [groebner.remainder(p, self.basis, self._context) for p in new]
         new = [p for p in new if p]
         if not new or self.is_everything:
             return self
-        return self._with_basis(groebner_basis([*self.basis, *new], self._context), self.is_proved)
+        return self._with_basis(
+            groebner.groebner_basis([*self.basis, *new], self._context), self.is_proved
+        )
 
     def with_zeros_in_turn(
         self, polynomials: Iterable[fmpq_mpoly], generators: Iterable[fmpq_mpoly]
@@ -169,7 +160,7 @@ class Ideal:
         """
         new = [self._integral(p) for p in polynomials]
         given = [*self._unit, *(self._integral(p) for p in generators)]
-        basis, taken = grown_basis(self.basis, given, new, self._context)
+        basis, taken = groebner.grown_basis(self.basis, given, new, self._context)
         return self._with_basis(basis, self.is_proved), taken
 
     def with_values(self, values: Mapping[int, fmpq]) -> Ideal:
@@ -201,11 +192,13 @@ class Ideal:
             NotDecided: msolve is not there, or its answer is not in time.
         """
         new = [self._integral(polynomial) for polynomial in polynomials]
-        return self._with_basis(unproved_basis([*self.basis, *new], self._context), is_proved=False)
+        return self._with_basis(
+            groebner.unproved_basis([*self.basis, *new], self._context), is_proved=False
+        )
 
     def contains(self, polynomial: fmpq_mpoly) -> bool:
         """Whether a polynomial vanishes wherever the ideal does, with multiplicity."""
-        return not remainder(self._integral(polynomial), self.basis, self._context)
+        return not groebner.remainder(self._integral(polynomial), self.basis, self._context)
 
     @property
     def is_everything(self) -> bool:
@@ -233,7 +226,7 @@ class Ideal:
         basis, weight = self.basis, 1
         while True:
             if self.nonzero:
-                without = [p for p in basis if not leading(p)[-1]]
+                without = [p for p in basis if not groebner.leading(p)[-1]]
                 degrees = [int(p.total_degree()) for p in without if p.degrees()[-1]]
             else:
                 without, degrees = basis, []
@@ -243,7 +236,7 @@ class Ideal:
             weight = max(2 * weight, 1 + max(degrees))
             powers = [*[1] * (self.variables - 1), weight]
             raised = [p.inflate(powers) for p in self.basis]
-            basis = groebner_basis(raised, self._context)
+            basis = groebner.groebner_basis(raised, self._context)
 
     @property
     def without_unit(self) -> list[fmpq_mpoly]:
@@ -320,7 +313,9 @@ class Ideal:
         if self.is_everything:
             return -1
         # a leading monomial by the unknowns in it
-        supports = {frozenset(i for i, k in enumerate(leading(p)) if k) for p in self.basis}
+        supports = {
+            frozenset(i for i, k in enumerate(groebner.leading(p)) if k) for p in self.basis
+        }
         return self.variables - least_meeting(supports)
 
     @cached_property
@@ -329,23 +324,23 @@ class Ideal:
         return len(self.monomials)
 
     @cached_property
-    def monomials(self) -> list[Exponents]:
+    def monomials(self) -> list[groebner.Exponents]:
         """Those that no leading one divides, the smallest first: a basis of ℚ[t]/ideal, which has
         dimension 0.
 
         Raises:
             NotDecided: the time is not enough.
         """
-        first = [leading(p) for p in self.basis]
-        found: list[Exponents] = []
+        first = [groebner.leading(p) for p in self.basis]
+        found: list[groebner.Exponents] = []
         level = [(0,) * self.variables]
         while level:
             found += level
-            following: dict[Exponents, None] = {}
+            following: dict[groebner.Exponents, None] = {}
             for e in level:
                 check_time()
                 for raised in _raised(e):
-                    if not any(divides(x, raised) for x in first):
+                    if not any(groebner.divides(x, raised) for x in first):
                         following[raised] = None
             level = list(following)
         return found
@@ -367,13 +362,13 @@ class Ideal:
         index = {e: k for k, e in enumerate(self.monomials)}
         size = len(index)
         matrices = [fmpq_mat(size, size) for _ in range(self.variables)]
-        tails = {leading(p): _tail(p, index) for p in self.basis}
-        columns: dict[Exponents, fmpq_mat] = {}
-        places: dict[Exponents, list[tuple[int, int]]] = {}
+        tails = {groebner.leading(p): _tail(p, index) for p in self.basis}
+        columns: dict[groebner.Exponents, fmpq_mat] = {}
+        places: dict[groebner.Exponents, list[tuple[int, int]]] = {}
         for e, k in index.items():
             for i, raised in enumerate(_raised(e)):
                 places.setdefault(raised, []).append((i, k))
-        for raised in sorted(places, key=degrevlex):
+        for raised in sorted(places, key=groebner.degrevlex):
             check_time()
             if raised in index:
                 column = _unit(index[raised], size)
@@ -439,19 +434,19 @@ def without_multiples(p: Any) -> Any:
     return product
 
 
-def _raised(e: Exponents) -> list[Exponents]:
+def _raised(e: groebner.Exponents) -> list[groebner.Exponents]:
     """A monomial times each unknown."""
     return [(*e[:i], e[i] + 1, *e[i + 1 :]) for i in range(len(e))]
 
 
-def lowered(e: Exponents) -> Iterator[tuple[int, Exponents]]:
+def lowered(e: groebner.Exponents) -> Iterator[tuple[int, groebner.Exponents]]:
     """A monomial without each of its unknowns."""
     for i, exponent in enumerate(e):
         if exponent:
             yield i, (*e[:i], exponent - 1, *e[i + 1 :])
 
 
-def _tail(p: fmpz_mpoly, index: Mapping[Exponents, int]) -> fmpq_mat:
+def _tail(p: fmpz_mpoly, index: Mapping[groebner.Exponents, int]) -> fmpq_mat:
     """What the leading monomial is equal to modulo p, as a column."""
     column = fmpq_mat(len(index), 1)
     scale = -fmpq(p.leading_coefficient())

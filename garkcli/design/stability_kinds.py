@@ -14,20 +14,12 @@ from flint import fmpq, fmpq_mpoly
 from garkcli.design.member import TABLEAUS, Whose, member, shares_of
 from garkcli.design.step_plane import Step, StepPlane, step_plane, through_members
 from garkcli.errors import UsageProblem, ZeroWeight
+from garkcli.exact import projection
 from garkcli.exact.cells import Interval, Point, between, sign_of
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Matrix
 from garkcli.exact.parametric import factors
 from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.projection import (
-    PLANE,
-    at_y,
-    coefficient_of,
-    in_t,
-    leading,
-    projected,
-    resultant,
-)
 from garkcli.exact.roots import RealRoot
 from garkcli.frozen import Frozen
 from garkcli.problems.oscillator import Oscillator, check_structure, terms_of
@@ -124,12 +116,12 @@ class AStability:
         self.E = squared_modulus(self.Q) - squared_modulus(self.P)
         u, v = _real_and_imaginary(self.Q)
         self.essential: list[Polynomial] = []
-        self.critical = projected(factors([self.E]), [ZERO])
+        self.critical = projection.projected(factors([self.E]), [ZERO])
         # a pole at infinity or on the axis, another degree of R, other lowest terms
-        common = resultant(self.P, self.Q)
-        on_axis = resultant(u, v)
-        for p in (leading(self.Q), leading(self.P), on_axis, common):
-            self.critical.append(in_t(p))
+        common = projection.resultant(self.P, self.Q)
+        on_axis = projection.resultant(u, v)
+        for p in (projection.leading(self.Q), projection.leading(self.P), on_axis, common):
+            self.critical.append(projection.in_t(p))
 
     def decide(self, value: Number) -> bool:
         tableau = self.members.at(value)
@@ -142,7 +134,7 @@ class AStability:
         return first_gap(imaginary_set(stability_function(tableau, self.shares)))
 
     def conditions(self, x: fmpq) -> list[Polynomial]:
-        return [at_y(self.E, x)]
+        return [projection.at_y(self.E, x)]
 
     def is_damped(self, t: Point) -> bool:
         """Whether R(∞) = 0; common factors of P and Q change both degrees alike."""
@@ -159,9 +151,9 @@ class PStability:
         self.plane = members.plane(tableau, fields)
         self.signs, others = oscillator_curves(self.plane)
         poles = in_square(self.plane.denominator)
-        self.essential = projected(factors([poles, *self.signs]), [ZERO])
+        self.essential = projection.projected(factors([poles, *self.signs]), [ZERO])
         deciding = [*self.signs, *others]
-        self.critical = projected(factors(deciding), [ZERO])
+        self.critical = projection.projected(factors(deciding), [ZERO])
 
     def decide(self, value: Number) -> bool:
         tableau = self.members.at(value)
@@ -176,7 +168,7 @@ class PStability:
         return first_gap(oscillator_stability(tableau, self.problem).stable)
 
     def conditions(self, x: fmpq) -> list[Polynomial]:
-        return [at_y(p, x) for p in self.signs]
+        return [projection.at_y(p, x) for p in self.signs]
 
 
 def oscillator_curves(plane: StepPlane) -> tuple[list[fmpq_mpoly], list[fmpq_mpoly]]:
@@ -189,7 +181,7 @@ def oscillator_curves(plane: StepPlane) -> tuple[list[fmpq_mpoly], list[fmpq_mpo
     D = plane.denominator
     (a, b), (c, d) = plane.numerators
     # b and c are odd in z, all others even
-    z, _ = PLANE.gens()
+    z, _ = projection.PLANE.gens()
     others = [D, a + d, a * d - b * c, z * b, z * c]
     conditions = eigenvalue_conditions(D, a, b, c, d)
     return list(map(in_square, conditions)), list(map(in_square, others))
@@ -210,7 +202,7 @@ def first_gap(intervals: Sequence[Interval]) -> fmpq | None:
 def _degree_at(p: fmpq_mpoly, t: Point) -> int:
     """The degree in y of p(y, t)."""
     for k in range(p.degrees()[0], -1, -1):
-        coefficient = in_t(coefficient_of(p, k))
+        coefficient = projection.in_t(projection.coefficient_of(p, k))
         if sign_of(coefficient, t):
             return k
     return -1
@@ -224,13 +216,13 @@ def _real_and_imaginary(p: fmpq_mpoly) -> tuple[fmpq_mpoly, fmpq_mpoly]:
         part = imaginary if j % 2 else real
         # i⁰, i¹, i², i³ = 1, i, −1, −i
         part[j // 2, k] = -a if j % 4 in {2, 3} else a
-    return PLANE.from_dict(real), PLANE.from_dict(imaginary)
+    return projection.PLANE.from_dict(real), projection.PLANE.from_dict(imaginary)
 
 
 def squared_modulus(p: fmpq_mpoly) -> fmpq_mpoly:
     """|p(iy)|² in x = y²."""
     u, v = _real_and_imaginary(p)
-    x, _ = PLANE.gens()
+    x, _ = projection.PLANE.gens()
     return u * u + x * v * v
 
 
@@ -240,7 +232,7 @@ def in_square(p: fmpq_mpoly) -> fmpq_mpoly:
     for (j, k), a in p.to_dict().items():
         assert j % 2 == 0
         terms[j // 2, k] = a
-    return PLANE.from_dict(terms)
+    return projection.PLANE.from_dict(terms)
 
 
 class TwoSprings(Frozen):
@@ -279,9 +271,9 @@ class SpringStability:
         ends = [ZERO]
         if wanted.greatest is not None:
             ends.append(wanted.greatest)
-        self.essential = projected(factors([D, *self.signs]), ends)
+        self.essential = projection.projected(factors([D, *self.signs]), ends)
         deciding = [*self.signs, D, a + d, a * d - b * c, b, c]
-        self.critical = projected(factors(deciding), ends)
+        self.critical = projection.projected(factors(deciding), ends)
 
     def decide(self, value: Number) -> bool:
         return any(self._is_enough(x) for x in self._stable(value))
@@ -294,7 +286,7 @@ class SpringStability:
         return x
 
     def conditions(self, x: fmpq) -> list[Polynomial]:
-        return [at_y(p, x) for p in self.signs]
+        return [projection.at_y(p, x) for p in self.signs]
 
     def _stable(self, value: Number) -> tuple[Interval, ...]:
         tableau = self.members.at(value)

@@ -35,21 +35,11 @@ from garkcli.design.stable_values import (
     too_many,
 )
 from garkcli.errors import UsageProblem
+from garkcli.exact import projection
 from garkcli.exact.cells import Interval, between, roots_of
 from garkcli.exact.enclosing import value
 from garkcli.exact.parametric import Parameters, common_denominator, evaluated, factors
 from garkcli.exact.polynomial import Polynomial, in_one
-from garkcli.exact.projection import (
-    coefficient_of,
-    discriminant,
-    in_plane,
-    in_t,
-    leading,
-    of_root,
-    on_line,
-    projected,
-    resultant,
-)
 from garkcli.exact.roots import RealRoot, real_roots, sign_at
 from garkcli.frozen import Frozen, replace
 from garkcli.tableau.family import Family
@@ -85,17 +75,27 @@ class Branch(Frozen, eq=False):
         """Numerator and denominator where it is a rational function of t."""
         if self.curve.degrees()[0] > 1:
             return None
-        return -in_t(coefficient_of(self.curve, 0)), in_t(coefficient_of(self.curve, 1))
+        return -projection.in_t(projection.coefficient_of(self.curve, 0)), projection.in_t(
+            projection.coefficient_of(self.curve, 1)
+        )
 
     def at(self, t: RealRoot) -> RealRoot | None:
         """Its value at a number or at an end of the strip, as a limit; None where roots meet or
         leave there.
         """
         degree = self.curve.degrees()[0]
-        critical = [leading(self.curve), *([discriminant(self.curve)] if degree > 1 else [])]
-        if any(sign_at(in_t(p), t) == 0 for p in critical):
+        critical = [
+            projection.leading(self.curve),
+            *([projection.discriminant(self.curve)] if degree > 1 else []),
+        ]
+        if any(sign_at(projection.in_t(p), t) == 0 for p in critical):
             return None
-        candidates = [y for y, _ in real_roots(in_one(resultant(self.curve, of_root(t), "t")))]
+        candidates = [
+            y
+            for y, _ in real_roots(
+                in_one(projection.resultant(self.curve, projection.of_root(t), "t"))
+            )
+        ]
         bits = 64
         while len(candidates) > self.count:
             check_time()
@@ -232,11 +232,11 @@ class _Plane:
         R = function_of(family.tableau, family.ring, "", shares)
         self.R = R
         self.curves = _deciding(R, family.ring)
-        self.vertical = [in_t(p) for p in self.curves if p.degrees()[0] == 0]
+        self.vertical = [projection.in_t(p) for p in self.curves if p.degrees()[0] == 0]
         self.undecided: list[RealRoot] = []
 
     def run(self) -> StablePlane:
-        critical = roots_of(projected(self.curves, []))
+        critical = roots_of(projection.projected(self.curves, []))
         ends: list[RealRoot | None] = [None, *critical, None]
         opened = [
             Strip(Interval(left, right), self._parts(between(left, right)))
@@ -275,7 +275,7 @@ class _Plane:
         branches: list[tuple[RealRoot, Branch]] = []
         for curve in self.curves:
             if curve.degrees()[0]:
-                roots = real_roots(on_line(curve, t))
+                roots = real_roots(projection.on_line(curve, t))
                 branches += [(y, Branch(curve, k, len(roots))) for k, (y, _) in enumerate(roots)]
 
         def end(y: RealRoot | None) -> Branch | None:
@@ -308,7 +308,7 @@ class _Plane:
         for curve in self.curves:
             if not curve.degrees()[0]:
                 continue
-            for y, _ in real_roots(in_one(resultant(curve, of_root(t), "t"))):
+            for y, _ in real_roots(in_one(projection.resultant(curve, projection.of_root(t), "t"))):
                 inside = _contain(found, Interval(y, y, has_start=True, has_end=True))
                 if not inside and not self._is_violated(t, y):
                     return False
@@ -341,7 +341,7 @@ def _deciding(R: FamilyFunction, ring: Parameters) -> list[fmpq_mpoly]:
             found.append(factor)
             continue
         crossing.append(factor)
-        found += [leading(factor), factor.compose(zero, *P.context().gens()[1:])]
+        found += [projection.leading(factor), factor.compose(zero, *P.context().gens()[1:])]
         if degree > 1:
             found.append(factor.discriminant("_z"))
     found += [p.resultant(q, "_z") for p, q in combinations(crossing, 2)]
@@ -349,11 +349,11 @@ def _deciding(R: FamilyFunction, ring: Parameters) -> list[fmpq_mpoly]:
     for (k, *rest), a in Q.to_dict().items():
         term = P.context().from_dict({(int(k) // 2, *map(int, rest)): -a if int(k) % 4 > 1 else a})
         u, v = (u, v + term) if int(k) % 2 else (u + term, v)
-    found += [leading(P), leading(Q)]
+    found += [projection.leading(P), projection.leading(Q)]
     for p, q in ((P, Q), (u, v)):
         if p and q and (p.degrees()[0] or q.degrees()[0]):
             found.append(p.resultant(q, "_z"))
-    return factors(in_plane(p, y=2, t=1) for p in found)
+    return factors(projection.in_plane(p, y=2, t=1) for p in found)
 
 
 def _over(strip: Strip, t: RealRoot) -> list[Interval] | None:

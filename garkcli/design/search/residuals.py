@@ -13,16 +13,7 @@ from flint import fmpq, fmpq_mpoly
 
 from garkcli.deadline import check_time
 from garkcli.design.conditions import FamilyConditions
-from garkcli.design.search.rational import (
-    Constant,
-    RationalFunction,
-    Slope,
-    System,
-    as_ball,
-    as_float,
-    polynomial_functions,
-    with_gradients,
-)
+from garkcli.design.search import rational
 from garkcli.exact.parametric import Parameters
 from garkcli.ntrees.stage_vectors import StageVectors
 from garkcli.order.conditions import coupling_graph
@@ -56,7 +47,7 @@ class Residuals:
         self.table = TreeTable.upto(tableau.size, order, edges, linear)
         self.blocks = {key: _functions(block, ring) for key, block in tableau.blocks.items()}
         self.weights = _functions([colour.b for colour in tableau.colours], ring)
-        self.more = polynomial_functions(more, ring)
+        self.more = rational.polynomial_functions(more, ring)
 
     def __len__(self) -> int:
         return len(self.table) + len(self.more)
@@ -78,7 +69,7 @@ class Residuals:
         return _Evaluation(self, points).run()
 
 
-class Generators(System):
+class Generators(rational.System):
     """Polynomials that generate all order conditions of a family, none of them zero, each once.
 
     They are fewer than the trees: what is proved of all of them is proved of all conditions.
@@ -107,12 +98,14 @@ class Generators(System):
             monic = polynomial / polynomial.leading_coefficient()
             if monic not in known:
                 known.append(monic)
-        super().__init__(polynomial_functions(known, ring))
-        self.denominators = polynomial_functions(conditions.denominators, ring)
+        super().__init__(rational.polynomial_functions(known, ring))
+        self.denominators = rational.polynomial_functions(conditions.denominators, ring)
 
 
-def _functions(rows: Sequence[Sequence[object]], ring: Parameters) -> list[list[RationalFunction]]:
-    return [[RationalFunction(x, ring) for x in row] for row in rows]
+def _functions(
+    rows: Sequence[Sequence[object]], ring: Parameters
+) -> list[list[rational.RationalFunction]]:
+    return [[rational.RationalFunction(x, ring) for x in row] for row in rows]
 
 
 class _Vectors:
@@ -140,7 +133,7 @@ class _Evaluation(StageVectors[_Vectors]):
         self.system = system
         self.points = points
         self.is_exact = points.dtype == object
-        self.constant: Constant = as_ball if self.is_exact else as_float
+        self.constant: rational.Constant = rational.as_ball if self.is_exact else rational.as_float
         self.blocks = {
             key: [[x if x.is_zero else x.at(points, self.constant) for x in row] for row in block]
             for key, block in system.blocks.items()
@@ -159,7 +152,9 @@ class _Evaluation(StageVectors[_Vectors]):
         for l, ids, vectors in self.everything(self.table):
             self._close(l, ids, vectors)
         more = slice(len(self.table), None)
-        self.values[more], self.gradients[more] = with_gradients(self.system.more, self.points)
+        self.values[more], self.gradients[more] = rational.with_gradients(
+            self.system.more, self.points
+        )
         return self.values, self.gradients
 
     def _vertex(self, l: int) -> _Vectors:
@@ -180,7 +175,7 @@ class _Evaluation(StageVectors[_Vectors]):
         )
         for i, row in enumerate(block):
             for j, slope in enumerate(row):
-                if isinstance(slope, Slope):
+                if isinstance(slope, rational.Slope):
                     check_time()
                     v = vectors.values[:, j]
                     image.values[:, i] += slope.value * v
