@@ -6,34 +6,19 @@ from yaml.nodes import Node, SequenceNode
 
 from garkcli.errors import counted
 from garkcli.frozen import replace
-from garkcli.methodfile.description import ArkText, ButcherText, PrkText, Structure, of_colour
+from garkcli.methodfile import description as d
+from garkcli.methodfile import spelled_out
 from garkcli.methodfile.grammar import Found, Key, Kind, defined, mapping
 from garkcli.methodfile.nodes import key_nodes
 from garkcli.methodfile.numbers import Reading, Rows
-from garkcli.methodfile.spelled_out import (
-    BUTCHER,
-    EXAMPLE,
-    Weights,
-    colours_in,
-    depth_of_lists,
-    entries_of,
-    further_of_colours,
-    further_of_method,
-    names_beside,
-    nodes_fit,
-    one_each,
-    refuse_partial,
-    rows_of,
-    with_coefficients,
-)
 
 _FORM_OF_PRK = "give q: {A, b} and p: {A, b}"
 _ROW = defined("row").schema()
 _ROWS = Kind(lambda: {"anyOf": [_ROW, {"type": "array", "items": _ROW}]})
-ARK = with_coefficients(
+ARK = spelled_out.with_coefficients(
     Key(
         "A: [[[0, 0], [1, 0]], [[0, 0], [0, 1]]]",
-        Kind(lambda: rows_of(defined("matrix").schema())),
+        Kind(lambda: spelled_out.rows_of(defined("matrix").schema())),
         "One matrix per colour, all of the same size.",
     ),
     Key("b: [0, 1]", _ROWS, "The weights: one row per colour, or a single shared row."),
@@ -48,7 +33,7 @@ ARK = with_coefficients(
         defined("dense"),
         "Dense output: a block of polynomials a colour.",
     ),
-    form=EXAMPLE,
+    form=spelled_out.EXAMPLE,
 )
 """An additive method: its colours share their stages."""
 PRK = mapping(
@@ -71,7 +56,7 @@ PRK = mapping(
 """A partitioned method: a tableau for the positions, one for the momenta."""
 
 
-def ark(at: Reading, node: Node) -> ArkText | None:
+def ark(at: Reading, node: Node) -> d.ArkText | None:
     """The form ``ark``: a matrix per colour on one set of stages; None where it makes no method."""
     entries: Found | None = ARK.read(at, node, "ark")
     if entries is None or not {"A", "b"} <= entries.keys():
@@ -83,47 +68,51 @@ def ark(at: Reading, node: Node) -> ArkText | None:
     b = _weights(at, entries["b"], colours)
     c = at.numbers.row(entries["c"], "c") if "c" in entries else None
     cure = "give a row per colour, or a single shared row"
-    if not one_each(at, entries["b"], "b", b, "row", "colour", colours, cure):
+    if not spelled_out.one_each(at, entries["b"], "b", b, "row", "colour", colours, cure):
         return None
     if not matrices or not all(matrices) or not all(b):
         return None
     stages = len(matrices[0])
     why = "the colours of an ark share stages"
     A = tuple(
-        at.numbers.fitted(rows, item, of_colour("A", m), (stages, stages), why)
+        at.numbers.fitted(rows, item, d.of_colour("A", m), (stages, stages), why)
         for m, (rows, item) in enumerate(zip(matrices, entries["A"].value, strict=True))
     )
     is_shared = all(row is b[0] for row in b)
     for m, row in enumerate(b[:1] if is_shared else b):
-        name = "b" if is_shared else of_colour("b", m)
-        one_each(at, entries["b"], name, row, "entry", "stage", stages, "give a weight per stage")
+        name = "b" if is_shared else d.of_colour("b", m)
+        spelled_out.one_each(
+            at, entries["b"], name, row, "entry", "stage", stages, "give a weight per stage"
+        )
     if c is not None:
-        nodes_fit(at, entries["c"], "c", c, stages)
-    return ArkText(A, b, c, further_of_colours(at, entries, [stages] * colours, is_shared=True))
+        spelled_out.nodes_fit(at, entries["c"], "c", c, stages)
+    return d.ArkText(
+        A, b, c, spelled_out.further_of_colours(at, entries, [stages] * colours, is_shared=True)
+    )
 
 
 def _matrices(at: Reading, node: Node) -> list[Rows] | None:
     """The matrices as they are; None where A is no list of matrices."""
-    items = colours_in(at, node, "A")
-    if items and depth_of_lists(node) == 2:
+    items = spelled_out.colours_in(at, node, "A")
+    if items and spelled_out.depth_of_lists(node) == 2:
         message = "A is one matrix, and an ark has one per colour"
         cure = "write A: [AE, AI]; or tableau: for one colour"
         at.source.fault(node, message, cure, code="wrong-size")
         return None
     if items is None:
         return None
-    return [at.numbers.matrix(item, of_colour("A", m)) for m, item in enumerate(items)]
+    return [at.numbers.matrix(item, d.of_colour("A", m)) for m, item in enumerate(items)]
 
 
-def _weights(at: Reading, node: Node, colours: int) -> Weights:
+def _weights(at: Reading, node: Node, colours: int) -> spelled_out.Weights:
     """The weights of each colour; the same row for all where there is a single one."""
     items = at.source.items(node, "b")
     if not any(isinstance(item, SequenceNode) for item in items):
         return (at.numbers.row(node, "b"),) * colours
-    return tuple(at.numbers.row(item, of_colour("b", m)) for m, item in enumerate(items))
+    return tuple(at.numbers.row(item, d.of_colour("b", m)) for m, item in enumerate(items))
 
 
-def prk(at: Reading, node: Node, structure: Structure) -> PrkText | None:
+def prk(at: Reading, node: Node, structure: d.Structure) -> d.PrkText | None:
     """The form ``prk``; its blocks are rectangular unless the structure is general."""
     entries: Found | None = PRK.read(at, node, "prk")
     if entries is None or len(entries) < 2:
@@ -138,14 +127,14 @@ def prk(at: Reading, node: Node, structure: Structure) -> PrkText | None:
         cure = "a general problem needs one set of stages; or structure: separable"
         at.source.fault(node, message, cure, code="wrong-size")
         return None
-    why = f"q.b has {entries_of(s_v)} and p.b has {s_f}"
-    refuse_partial(at, (q.further, p.further), ("q", "p"), node)
-    return PrkText(_fitted(at, q, "q", (s_f, s_v), why), _fitted(at, p, "p", (s_v, s_f), why))
+    why = f"q.b has {spelled_out.entries_of(s_v)} and p.b has {s_f}"
+    spelled_out.refuse_partial(at, (q.further, p.further), ("q", "p"), node)
+    return d.PrkText(_fitted(at, q, "q", (s_f, s_v), why), _fitted(at, p, "p", (s_v, s_f), why))
 
 
-def _part(at: Reading, node: Node, part: str) -> ButcherText | None:
+def _part(at: Reading, node: Node, part: str) -> d.ButcherText | None:
     """Q or p of a prk, its sizes not yet looked at."""
-    entries: Found | None = BUTCHER.read(at, node, f"prk, {part}")
+    entries: Found | None = spelled_out.BUTCHER.read(at, node, f"prk, {part}")
     if entries is None or not {"A", "b"} <= entries.keys():
         return None
     A = at.numbers.matrix(entries["A"], f"{part}.A")
@@ -153,17 +142,19 @@ def _part(at: Reading, node: Node, part: str) -> ButcherText | None:
     c = at.numbers.row(entries["c"], f"{part}.c") if "c" in entries else None
     if not A or not b:
         return None
-    beside = further_of_method(at, entries, len(b), names_beside(f"{part}.b"))
-    return ButcherText(node, entries.get("name", ""), A, b, c, beside)
+    beside = spelled_out.further_of_method(
+        at, entries, len(b), spelled_out.names_beside(f"{part}.b")
+    )
+    return d.ButcherText(node, entries.get("name", ""), A, b, c, beside)
 
 
 def _fitted(
-    at: Reading, text: ButcherText, part: str, shape: tuple[int, int], why: str
-) -> ButcherText:
+    at: Reading, text: d.ButcherText, part: str, shape: tuple[int, int], why: str
+) -> d.ButcherText:
     """A part whose matrix has the shape that the weights of both ask for."""
     keys = key_nodes(text.node)
     A = at.numbers.fitted(text.A, keys.get("A", text.node), f"{part}.A", shape, why)
     if text.c is not None:
         place, cure = keys.get("c", text.node), "give one of each"
-        one_each(at, place, f"{part}.c", text.c, "entry", "node", shape[0], cure)
+        spelled_out.one_each(at, place, f"{part}.c", text.c, "entry", "node", shape[0], cure)
     return replace(text, A=A)

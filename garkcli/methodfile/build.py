@@ -13,42 +13,15 @@ from yaml.nodes import Node
 from garkcli.errors import GarkError, MethodError, MethodFileError, ShapeMismatch
 from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.matrix import Matrix, Vector
-from garkcli.methodfile.description import (
-    ArkText,
-    BlockRule,
-    ButcherText,
-    ClaimText,
-    ConstructionText,
-    Content,
-    Description,
-    FamilyText,
-    Form,
-    MatrixText,
-    MethodsText,
-    PartText,
-    PrkText,
-    RuleText,
-    Structure,
-    TableauText,
-    block_name,
-    further_of,
-)
+from garkcli.methodfile import description as d
 from garkcli.methodfile.numbers import Entry, Numbers, Row
 from garkcli.methodfile.source import Source
 from garkcli.methodfile.values import Values
 from garkcli.order.certificate import find_order
 from garkcli.reference import Reference
+from garkcli.tableau import forms
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.embedded import DenseOutput, Further, padded
-from garkcli.tableau.forms import (
-    additive,
-    gark,
-    partitioned,
-    separable_prk,
-    spelled_out,
-    symplectic_pair,
-    with_linear,
-)
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.meant import AnyTableau, meant
 from garkcli.tableau.polynomial_space import PolynomialSpace
@@ -86,7 +59,7 @@ class BlockBuilder:
         self,
         source: Source,
         values: Values,
-        text: MethodsText,
+        text: d.MethodsText,
         methods: list[Method],
         tolerance: fmpq | None,
     ) -> None:
@@ -110,25 +83,25 @@ class BlockBuilder:
                 blocks[l, m] = self._block(text, l, m)
             except GarkError as error:
                 place = self.text.methods[0] if text is None else text
-                message = f"{block_name(l, m)}: {error.message}"
+                message = f"{d.block_name(l, m)}: {error.message}"
                 self.source.fault(place.node, message, error.help, code=error.code)
         self.source.close()
         return blocks
 
-    def _text_of(self, l: int, m: int) -> MatrixText | RuleText | None:
+    def _text_of(self, l: int, m: int) -> d.MatrixText | d.RuleText | None:
         """What the file says of a block: itself, with the opposite one, or of all."""
         transfer = self.text.transfer
         own, opposite = transfer.blocks.get((l, m)), transfer.blocks.get((m, l))
-        if own is None and isinstance(opposite, RuleText) and opposite.terms[0][0] in PAIR_RULES:
+        if own is None and isinstance(opposite, d.RuleText) and opposite.terms[0][0] in PAIR_RULES:
             return opposite
         return own or transfer.default
 
-    def _block(self, text: MatrixText | RuleText | None, l: int, m: int) -> Matrix:
+    def _block(self, text: d.MatrixText | d.RuleText | None, l: int, m: int) -> Matrix:
         """A block that is spelled out, or made by one rule, or by several with weights."""
         if text is None:
             cure = "give it one, or a default, under transfer"
             raise MethodError("it has no rule", cure, code="missing-key")
-        if isinstance(text, MatrixText):
+        if isinstance(text, d.MatrixText):
             wanted = self.methods[l].stages, self.methods[m].stages
             found = len(text.rows), len(text.rows[0])
             if found != wanted:
@@ -147,7 +120,7 @@ class BlockBuilder:
             return symplectic_blocks(PAIR_RULES[rule], self.methods, base, other)[l, m]
         return self._rule(rule, text.degree)(self.methods[l], self.methods[m])
 
-    def _combined(self, text: RuleText, l: int, m: int) -> Matrix:
+    def _combined(self, text: d.RuleText, l: int, m: int) -> Matrix:
         """A combination of blocks by rules.
 
         Raises:
@@ -172,12 +145,12 @@ class BlockBuilder:
     @cached_property
     def _alone(self) -> list[AnyTableau]:
         """The diagonal methods on their own, rounded where the file is."""
-        return [meant(gark([method], {}), self.tolerance) for method in self.methods]
+        return [meant(forms.gark([method], {}), self.tolerance) for method in self.methods]
 
     @cached_property
     def _orders(self) -> list[int]:
         """Their orders."""
-        return [find_order(gark([method], {})).order for method in self.methods]
+        return [find_order(forms.gark([method], {})).order for method in self.methods]
 
 
 T = TypeVar("T")
@@ -211,17 +184,17 @@ class MethodFile(GarkMethod, kw_only=True):
 
     source: str
     text: str
-    form: Form
-    structure: Structure
+    form: d.Form
+    structure: d.Structure
     is_conjugate: bool
-    claims: tuple[ClaimText, ...]
+    claims: tuple[d.ClaimText, ...]
     reference: str = ""
     description: str = ""
     aliases: tuple[str, ...] = ()
     bibliography: Reference | None = None
     printed: Printed = ()
     left_behind: tuple[str, ...] = ()
-    rules: tuple[BlockRule, ...] = ()
+    rules: tuple[d.BlockRule, ...] = ()
 
 
 V = TypeVar("V", bound=Values)
@@ -239,7 +212,7 @@ class Builder(Generic[V]):
         MethodFileError: the numbers do not make a method.
     """
 
-    def __init__(self, text: PartText, values: V) -> None:
+    def __init__(self, text: d.PartText, values: V) -> None:
         self.source = text.source
         self.text = text
         self.values = values
@@ -249,34 +222,34 @@ class Builder(Generic[V]):
         if description.is_conjugate:
             self.tableau = self._at(description.node, lambda: conjugate(self.tableau))
 
-    def _tableau(self, content: Content, description: Description) -> Tableau:
+    def _tableau(self, content: d.Content, description: d.Description) -> Tableau:
         matrix, vector = self.values.matrix, self.values.vector
         match content:
-            case MethodsText():
+            case d.MethodsText():
                 return self._methods(content, description)
-            case TableauText(A=A, b=b, c=c, linear=linear):
-                return spelled_out(
+            case d.TableauText(A=A, b=b, c=c, linear=linear):
+                return forms.spelled_out(
                     [[None if block is None else matrix(block) for block in row] for row in A],
                     [*map(vector, b)],
                     [None if row is None else vector(row) for row in c],
                     linear,
                 )
-            case ArkText(A=A, b=b, c=c):
+            case d.ArkText(A=A, b=b, c=c):
                 nodes = None if c is None else vector(c)
-                return additive([*map(matrix, A)], [*map(vector, b)], nodes)
-            case PrkText():
+                return forms.additive([*map(matrix, A)], [*map(vector, b)], nodes)
+            case d.PrkText():
                 q, p = self._plain(content.q), self._plain(content.p)
                 if description.structure == "general":
-                    return partitioned(butcher(*q), butcher(*p))
-                tableau = separable_prk(q, p)
+                    return forms.partitioned(butcher(*q), butcher(*p))
+                tableau = forms.separable_prk(q, p)
                 is_nystrom = description.structure == "nystrom"
-                return with_linear(tableau, ["q"]) if is_nystrom else tableau
-            case ConstructionText():
+                return forms.with_linear(tableau, ["q"]) if is_nystrom else tableau
+            case d.ConstructionText():
                 for part in content.parts:  # all are built
                     self.part(part)
                 return self._at(content.node, lambda: content.make(self.part, self.values))
 
-    def part(self, part: PartText) -> Tableau:
+    def part(self, part: d.PartText) -> Tableau:
         """A method that another is made from, built as if it stood alone."""
         if id(part) not in self._parts:
             self._parts[id(part)] = Builder(part, self.values).tableau
@@ -288,7 +261,7 @@ class Builder(Generic[V]):
 
         In a pair V^{l} and F^{l} evaluate at the same stages and have the same weights.
         """
-        texts = further_of(self.text.description.content)
+        texts = d.further_of(self.text.description.content)
         if not texts:  # what a construction makes has none
             return Further()
         given = [texts[colour.term] for colour in self.tableau.colours]
@@ -310,25 +283,25 @@ class Builder(Generic[V]):
             self.source.fault(node, error.message, error.help, code=error.code)
             raise self.source.error() from None
 
-    def _plain(self, text: ButcherText) -> tuple[Matrix, Vector, Vector | None]:
+    def _plain(self, text: d.ButcherText) -> tuple[Matrix, Vector, Vector | None]:
         """A, b and c of one spelled-out method."""
         c = None if text.c is None else self.values.vector(text.c)
         return self.values.matrix(text.A), self.values.vector(text.b), c
 
-    def _methods(self, text: MethodsText, description: Description) -> Tableau:
+    def _methods(self, text: d.MethodsText, description: d.Description) -> Tableau:
         methods = [self._diagonal(l, method) for l, method in enumerate(text.methods)]
         structure = description.structure
         is_general = structure == "general"
         blocks = BlockBuilder(self.source, self.values, text, methods, description.tolerance)
-        tableau = gark(methods, blocks.built(is_general))
+        tableau = forms.gark(methods, blocks.built(is_general))
         if is_general:
             return tableau
         forces = [0, 1] if structure == "semi-separable" else [1]
-        both = self._at(text.methods[0].node, lambda: symplectic_pair(tableau, [0], forces))
-        return with_linear(both, ["V1"]) if structure == "nystrom" else both
+        both = self._at(text.methods[0].node, lambda: forms.symplectic_pair(tableau, [0], forces))
+        return forms.with_linear(both, ["V1"]) if structure == "nystrom" else both
 
-    def _diagonal(self, l: int, text: FamilyText | ButcherText) -> Method:
-        if isinstance(text, ButcherText):
+    def _diagonal(self, l: int, text: d.FamilyText | d.ButcherText) -> Method:
+        if isinstance(text, d.ButcherText):
             return butcher(*self._plain(text), text.name)
         if l not in self.text.families:
             return text.recipe.make(self.values.vector(text.numbers))
@@ -340,7 +313,9 @@ class Builder(Generic[V]):
         return method_in_points(method, self.values.vector(self.text.nodes[l]))
 
 
-def part_of(source: Source, numbers: Numbers, description: Description, why: str = "") -> PartText:
+def part_of(
+    source: Source, numbers: Numbers, description: d.Description, why: str = ""
+) -> d.PartText:
     """A description with its members of families, and with the nodes of members taken at points.
 
     The entries of a spelled-out block, and weights that a file has beside a member, refer to single
@@ -353,32 +328,32 @@ def part_of(source: Source, numbers: Numbers, description: Description, why: str
         why: what needs the nodes of all members; empty where nothing does.
     """
     content = description.content
-    if not isinstance(content, MethodsText):
-        return PartText(source, description, {}, {})
+    if not isinstance(content, d.MethodsText):
+        return d.PartText(source, description, {}, {})
     made: dict[object, Method] = {}
     families: dict[int, Method] = {}
     for l, text in enumerate(content.methods):
-        if isinstance(text, FamilyText) and not text.numbers:
+        if isinstance(text, d.FamilyText) and not text.numbers:
             key = text.name, text.chosen
             if key not in made:
                 made[key] = text.recipe.make(())
             families[l] = made[key]
     blocks = content.transfer.blocks.items()
-    beside = [k for place, block in blocks if isinstance(block, MatrixText) for k in place]
+    beside = [k for place, block in blocks if isinstance(block, d.MatrixText) for k in place]
     beside += [l for l, x in enumerate(content.methods) if x.further.node is not None or why]
     rows: dict[int, Row] = {}
     for k in dict.fromkeys(beside):
         text = content.methods[k]
-        if not isinstance(text, FamilyText) or k not in families:
+        if not isinstance(text, d.FamilyText) or k not in families:
             continue
         nodes = _family_nodes(text, families[k].space, numbers, why)
         if nodes is not None:
             rows[k] = nodes
             numbers.entries += nodes
-    return PartText(source, description, families, rows)
+    return d.PartText(source, description, families, rows)
 
 
-def _family_nodes(text: FamilyText, space: StageSpace, numbers: Numbers, why: str) -> Row | None:
+def _family_nodes(text: d.FamilyText, space: StageSpace, numbers: Numbers, why: str) -> Row | None:
     """The nodes of a family as coefficients; None where there is nothing to spell out, or a fault
     where it cannot be.
     """

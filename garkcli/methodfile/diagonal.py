@@ -10,16 +10,7 @@ from garkcli.errors import UnknownFamily, did_you_mean, nearest
 from garkcli.families.family import MAX_STAGES, Family, Given, Option, Recipe
 from garkcli.families.registry import FAMILIES, member_named, recipe_of
 from garkcli.frozen import replace
-from garkcli.methodfile.description import (
-    MAX_ENTRIES,
-    ButcherText,
-    FamilyText,
-    MethodsText,
-    Structure,
-    TransferText,
-    block_name,
-    of_colour,
-)
+from garkcli.methodfile import description as d
 from garkcli.methodfile.grammar import Key, Kind, OfSchema, Schema, count, entries_in, mapping, word
 from garkcli.methodfile.nodes import keys_of, shortened
 from garkcli.methodfile.numbers import Entry, Reading, Row
@@ -81,8 +72,8 @@ _KEYS = {key.name: key for key in FAMILY.inside()}
 
 
 def methods(
-    at: Reading, node: Node, structure: Structure, transfer: Node | None
-) -> MethodsText | None:
+    at: Reading, node: Node, structure: d.Structure, transfer: Node | None
+) -> d.MethodsText | None:
     """The form ``methods``; None where it does not make a method."""
     if keys_of(node) & {"A", "b", "family", "stages"} or _in_a_word(node) is not None:
         items = [node]  # one method needs no brackets around it
@@ -97,7 +88,7 @@ def methods(
     if structure != "general" and len(items) != 2:
         message = f"structure: {structure} is for two colours, not {len(items)}"
         at.source.fault(node, message, code="not-together")
-    rules = TransferText(None, {})
+    rules = d.TransferText(None, {})
     if transfer is not None:
         from garkcli.methodfile.transfers import rules_of  # one method has none
 
@@ -106,24 +97,24 @@ def methods(
         return None
     names = [f"method {l}" for l in range(1, len(found) + 1)]
     refuse_partial(at, [x.further for x in found], names, node)
-    return MethodsText(tuple(found), rules)
+    return d.MethodsText(tuple(found), rules)
 
 
-def _stages(text: FamilyText | ButcherText) -> int:
-    return text.stages if isinstance(text, FamilyText) else len(text.b)
+def _stages(text: d.FamilyText | d.ButcherText) -> int:
+    return text.stages if isinstance(text, d.FamilyText) else len(text.b)
 
 
-def _is_too_large(at: Reading, found: Sequence[FamilyText | ButcherText], node: Node) -> bool:
+def _is_too_large(at: Reading, found: Sequence[d.FamilyText | d.ButcherText], node: Node) -> bool:
     """Note blocks between the methods that together have too many entries to be made."""
     stages = list(map(_stages, found))
     entries = sum(stages) ** 2 - sum(s * s for s in stages)
-    if entries > MAX_ENTRIES:
-        message = f"{entries} entries in the blocks between the methods (limit {MAX_ENTRIES})"
+    if entries > d.MAX_ENTRIES:
+        message = f"{entries} entries in the blocks between the methods (limit {d.MAX_ENTRIES})"
         at.source.fault(node, message, "use fewer methods, or fewer stages", code="too-many")
-    return entries > MAX_ENTRIES
+    return entries > d.MAX_ENTRIES
 
 
-def _method(at: Reading, node: Node, l: int) -> FamilyText | ButcherText | None:
+def _method(at: Reading, node: Node, l: int) -> d.FamilyText | d.ButcherText | None:
     """The method of colour ``l``, counted from 1."""
     node = _in_a_word(node) or node
     keys, where = keys_of(node), f"method {l}"
@@ -142,9 +133,9 @@ def _method(at: Reading, node: Node, l: int) -> FamilyText | ButcherText | None:
         cure = "write for instance family: gauss"
         at.source.fault(node, f"{where}: family missing", cure, code="missing-key")
         return None
-    b = of_colour("b", l - 1)
+    b = d.of_colour("b", l - 1)
     if "family" not in keys and isinstance(node, MappingNode):
-        return butcher(at, node, where, (block_name(l - 1, l - 1), b, of_colour("c", l - 1)))
+        return butcher(at, node, where, (d.block_name(l - 1, l - 1), b, d.of_colour("c", l - 1)))
     found = _family(at, node, where)
     if found is None:
         return None
@@ -179,7 +170,7 @@ def _written_out(node: ScalarNode) -> str:
     return f"write for instance {{family: {name}, {family.size}: {size}}}"
 
 
-def _family(at: Reading, node: Node, where: str) -> tuple[FamilyText, Entries] | None:
+def _family(at: Reading, node: Node, where: str) -> tuple[d.FamilyText, Entries] | None:
     """A member of a family, which exists, with its keys; None where a fault was noted."""
     before = len(at.source.faults)
     family = _family_named(node)
@@ -205,7 +196,7 @@ def _family(at: Reading, node: Node, where: str) -> tuple[FamilyText, Entries] |
     # what a member is chosen by, as it is
     nodes = ((key, entries.get(key)) for key in FAMILIES[name].keys)
     chosen = tuple((key, str(x.value)) for key, x in nodes if isinstance(x, ScalarNode))
-    return FamilyText(node, name, chosen, recipe, _entries(at, recipe, node, name)), entries
+    return d.FamilyText(node, name, chosen, recipe, _entries(at, recipe, node, name)), entries
 
 
 def _chosen(

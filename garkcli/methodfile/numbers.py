@@ -14,16 +14,9 @@ from garkcli.exact.field import ZERO
 from garkcli.exact.nodes import Expression, Literal, Name
 from garkcli.exact.rewriting import depth_of, size_of, substitute
 from garkcli.frozen import Frozen, Mutable, field
+from garkcli.methodfile import spellings
 from garkcli.methodfile.nodes import shortened
 from garkcli.methodfile.source import Entries, Source
-from garkcli.methodfile.spellings import (
-    explained,
-    first_list_in_rows,
-    is_misread,
-    is_triangle,
-    opens,
-    printed_row,
-)
 
 UNKNOWN = "?"
 """What is in a file for a coefficient that is not known."""
@@ -147,12 +140,12 @@ class Numbers(Mutable):
         text = self.source.scalar(node, where)
         if text == UNKNOWN:
             return self._unknown(node, where)
-        if text is None or is_misread(self.source, node, text, where):
+        if text is None or spellings.is_misread(self.source, node, text, where):
             return Literal(ZERO)
         try:
             return self._expression(text)
         except ExpressionError as error:
-            told = explained(error, text)
+            told = spellings.explained(error, text)
             self.source.expression_fault(node, where, *told)
             return Literal(ZERO)
 
@@ -235,7 +228,7 @@ class Numbers(Mutable):
         row: list[Entry] = []
         is_open = False
         for item in items:
-            was_open, is_open = is_open, opens(item)
+            was_open, is_open = is_open, spellings.opens(item)
             if was_open:
                 is_open = False
                 continue
@@ -257,7 +250,7 @@ class Numbers(Mutable):
             return ()
         cure = "write it row by row: [[0, 0], [1/2, 0]]"
         items = self.source.items(node, where, cure)
-        deep = first_list_in_rows(items)
+        deep = spellings.first_list_in_rows(items)
         if deep is not None:
             message = f"{where}: a list in place of a coefficient"
             cure = "a matrix is a list of rows: [[0, 0], [1/2, 0]]"
@@ -278,7 +271,7 @@ class Numbers(Mutable):
     def _is_text(self, rows: Sequence[Node], where: str, what: str) -> bool:
         """Note, once, rows that are a text of several numbers, as other programs print them."""
         example = "[0, 1/2]" if what == "a row" else "[[0, 0], [1/2, 0]]"
-        found = printed_row(rows, example)
+        found = spellings.printed_row(rows, example)
         if found is None:
             return False
         first, text, as_list = found
@@ -306,7 +299,7 @@ class Numbers(Mutable):
         lengths = [len(row) for row in rows]
         stages, columns = shape
         is_square = stages == columns
-        if is_square and count == stages and is_triangle(lengths):
+        if is_square and count == stages and spellings.is_triangle(lengths):
             return self._completed(rows, node, where)
         if count == stages and set(lengths) == {columns}:
             return rows
@@ -314,7 +307,7 @@ class Numbers(Mutable):
             message = f"{where} is {count} by {lengths[0]} and should be {stages} by {columns}"
             self.source.fault(node, message, why, code="wrong-size")
             return rows
-        if is_square and count + 1 == stages and is_triangle([0, *lengths]):
+        if is_square and count + 1 == stages and spellings.is_triangle([0, *lengths]):
             message = f"{where} has {counted(count, 'row')} for {counted(stages, 'stage')}"
             cure = "begin with the empty row of the first stage: [[], [1/2], …]"
             self.source.fault(node, message, cure, code="wrong-size")

@@ -11,17 +11,7 @@ from flint import fmpq
 from yaml.nodes import MappingNode, Node, ScalarNode
 
 from garkcli.frozen import replace
-from garkcli.methodfile.description import (
-    CONSTRUCTIONS,
-    FORMS,
-    PLAIN,
-    ConstructionText,
-    Content,
-    Description,
-    Form,
-    Structure,
-    further_of,
-)
+from garkcli.methodfile import description as d
 from garkcli.methodfile.diagonal import methods
 from garkcli.methodfile.file_keys import BESIDE_FORM, FORM, KEYS, KEYS_OF_METHOD, elsewhere
 from garkcli.methodfile.grammar import FILE, entries_in
@@ -57,7 +47,7 @@ class ContentReader(Reading):
         self.shaped: Shaped | None = None
         self.tolerance: fmpq | None = None
 
-    def read(self, root: MappingNode, entries: Entries) -> Description | None:
+    def read(self, root: MappingNode, entries: Entries) -> d.Description | None:
         """What the keys of a method say; None, with faults noted, where they make none."""
         is_conjugate = bool(self._value("conjugate", entries))
         form = self._form(root, entries)
@@ -77,29 +67,29 @@ class ContentReader(Reading):
         content = self._content(form, structure, entries)
         if content is None:
             return None
-        further = [text.node for text in further_of(content) if text.node is not None]
+        further = [text.node for text in d.further_of(content) if text.node is not None]
         if is_conjugate and further:
             message = (
                 "conjugate: the symplectic conjugate has no embedded weights and no dense output"
             )
             self.source.fault(further[0], message, "leave them out", code="not-together")
         place = next(entries[key] for key in (form, "unknown", "b") if key in entries)
-        return Description(form, content, place, structure, is_conjugate)
+        return d.Description(form, content, place, structure, is_conjugate)
 
-    def _form(self, root: Node, entries: Entries) -> Form | Literal["unknown"] | None:
+    def _form(self, root: Node, entries: Entries) -> d.Form | Literal["unknown"] | None:
         """Which form the coefficients have; A, b and c at the top are those of a tableau."""
         given = FORM.given(entries)
         if not given:
             begun = [home.key for key, home in elsewhere().items() if key in keys_of(root)]
-            if not {"transfer", *FORMS}.isdisjoint(begun):
+            if not {"transfer", *d.FORMS}.isdisjoint(begun):
                 return None  # such a key was noted with its cure, which is where to begin
         before = len(self.source.faults)
         FORM.refuse(self.source, root, FILE, entries)
         if given and len(self.source.faults) == before:
-            return cast("Form", "tableau" if given[0] in PLAIN else given[0])  # or "unknown"
+            return cast("d.Form", "tableau" if given[0] in d.PLAIN else given[0])  # or "unknown"
         return None
 
-    def _structure(self, form: Form, entries: Entries) -> Structure:
+    def _structure(self, form: d.Form, entries: Entries) -> d.Structure:
         """Which vector fields the problem has; noted where it does not go with the form."""
         word = self._value("structure", entries)
         is_of_flows = form == "splitting" and "of" not in keys_of(entries[form])
@@ -115,13 +105,13 @@ class ContentReader(Reading):
         if cure and word != "general":
             message = f"structure does not go with {form}"
             self.source.fault(entries["structure"], message, cure, code="not-together")
-        return cast("Structure", word or "general")
+        return cast("d.Structure", word or "general")
 
     def _value(self, key: str, entries: Entries) -> Any:
         """What is under a key; None where nothing does, or a fault was noted."""
         return KEYS[key].kind.read(self, entries[key], key) if key in entries else None
 
-    def _inside(self, node: Node, where: str) -> Description | None:
+    def _inside(self, node: Node, where: str) -> d.Description | None:
         """A method inside of a construction, which may be one itself."""
         reader = ContentReader(self.numbers, self._open)
         reader.tolerance = self.tolerance
@@ -134,7 +124,7 @@ class ContentReader(Reading):
         entries = entries_in(self.source, node, where, keys, elsewhere, _EXAMPLE)
         return reader.read(node, entries) if isinstance(node, MappingNode) else None
 
-    def _content(self, form: Form, structure: Structure, entries: Entries) -> Content | None:
+    def _content(self, form: d.Form, structure: d.Structure, entries: Entries) -> d.Content | None:
         if self.shaped is not None:
             return self.shaped.content
         if form not in entries:
@@ -145,12 +135,12 @@ class ContentReader(Reading):
         if form == "tableau":
             return tableau(self, node, entries.get("linear"))
         # rare forms
-        if form in CONSTRUCTIONS:
+        if form in d.CONSTRUCTIONS:
             from garkcli.methodfile.constructed.parts import PartReader
 
             inside = self._inside, self._open
             parts = PartReader(self.numbers, *inside, self.tolerance, structure)
-            found: ConstructionText | None = KEYS[form].kind.read(parts, node, form)
+            found: d.ConstructionText | None = KEYS[form].kind.read(parts, node, form)
             return found
         from garkcli.methodfile.ark_prk import ark, prk
 
@@ -189,7 +179,7 @@ class Reader(Reading):
         self._entries: Entries = {}
         self._root: MappingNode | None = None
 
-    def read(self) -> Description | None:
+    def read(self) -> d.Description | None:
         """The description; None, with faults noted in the source, where there is none."""
         source = self.source
         root = source.compose()
@@ -209,7 +199,7 @@ class Reader(Reading):
         if found is None:
             return None
         refuse_unknown_settings(self.numbers)
-        if tolerance is None and isinstance(found.content, ConstructionText):
+        if tolerance is None and isinstance(found.content, d.ConstructionText):
             tolerance = found.content.tolerance
         reference, bibliography = said.get("reference", ("", None))
         return replace(

@@ -13,16 +13,7 @@ from yaml.nodes import Node
 
 from garkcli.errors import MethodError, did_you_mean
 from garkcli.frozen import Frozen, replace
-from garkcli.methodfile.description import (
-    NOTHING_FURTHER,
-    ArkText,
-    ButcherText,
-    Form,
-    FurtherText,
-    PrkText,
-    TableauText,
-    of_colour,
-)
+from garkcli.methodfile import description as d
 from garkcli.methodfile.grammar import FLAG, Found, Key, Kind, count, mapping, one_or_more, word
 from garkcli.methodfile.nodes import Extent, extent, shortened
 from garkcli.methodfile.numbers import Reading, Row
@@ -341,8 +332,8 @@ class Shaped(Frozen):
         place: from where to where in the file ``unknown: …`` is.
     """
 
-    form: Form
-    content: TableauText | ArkText | PrkText
+    form: d.Form
+    content: d.TableauText | d.ArkText | d.PrkText
     layout: Layout
     place: Extent
 
@@ -376,7 +367,7 @@ def shaped(at: Reading, key: Node, node: Node) -> Shaped | None:
     return Shaped(layout.kind, _content(at, layout, node), layout, place)
 
 
-def _content(at: Reading, layout: Layout, node: Node) -> TableauText | ArkText | PrkText:
+def _content(at: Reading, layout: Layout, node: Node) -> d.TableauText | d.ArkText | d.PrkText:
     """The coefficients of a layout."""
 
     def row(texts: TextRow, where: str) -> Row:
@@ -386,21 +377,21 @@ def _content(at: Reading, layout: Layout, node: Node) -> TableauText | ArkText |
     matrices = []
     for colour, texts in enumerate(layout.A):
         numbered = enumerate(texts, start=1)
-        where = of_colour("A", colour)
+        where = d.of_colour("A", colour)
         matrices.append(tuple(row(x, f"{where}, row {i}") for i, x in numbered))
-    weights = [row(x, of_colour("b", colour)) for colour, x in enumerate(layout.b)]
+    weights = [row(x, d.of_colour("b", colour)) for colour, x in enumerate(layout.b)]
     beside = [
-        FurtherText(row(x, of_colour("embedded", colour)), node=node)
+        d.FurtherText(row(x, d.of_colour("embedded", colour)), node=node)
         for colour, x in enumerate(layout.embedded or ())
     ]
-    further = tuple(beside or [NOTHING_FURTHER])
+    further = tuple(beside or [d.NOTHING_FURTHER])
     further *= len(matrices) // len(further)
     if layout.kind == "prk":
         parts = zip(matrices, weights, further, strict=True)
-        return PrkText(*(ButcherText(node, "", A, b, None, x) for A, b, x in parts))
+        return d.PrkText(*(d.ButcherText(node, "", A, b, None, x) for A, b, x in parts))
     if layout.kind == "ark":
-        return ArkText(tuple(matrices), (weights[0],) * len(matrices), None, further)
-    return TableauText(((matrices[0],),), (weights[0],), (None,), (), further)
+        return d.ArkText(tuple(matrices), (weights[0],) * len(matrices), None, further)
+    return d.TableauText(((matrices[0],),), (weights[0],), (None,), (), further)
 
 
 def spelled(layout: Layout) -> str:

@@ -11,17 +11,8 @@ from yaml.nodes import MappingNode, Node, SequenceNode
 
 from garkcli.errors import counted
 from garkcli.frozen import replace
+from garkcli.methodfile import description as d
 from garkcli.methodfile import grammar as g
-from garkcli.methodfile.description import (
-    BESIDE,
-    MAX_COLOURS,
-    NOTHING_FURTHER,
-    ButcherText,
-    FurtherText,
-    TableauText,
-    block_name,
-    of_colour,
-)
 from garkcli.methodfile.nodes import is_null
 from garkcli.methodfile.numbers import Reading, Row, Rows
 from garkcli.methodfile.parameters import MATRIX, ROW
@@ -219,14 +210,14 @@ def colours_in(at: Reading, node: Node, name: str) -> list[Node] | None:
 
 def are_too_many(at: Reading, colours: Sized, node: Node) -> bool:
     """Note more colours than any method has."""
-    if len(colours) <= MAX_COLOURS:
+    if len(colours) <= d.MAX_COLOURS:
         return False
-    message = f"{len(colours)} colours (limit {MAX_COLOURS})"
+    message = f"{len(colours)} colours (limit {d.MAX_COLOURS})"
     at.source.fault(node, message, "no method needs that many", code="too-many")
     return True
 
 
-def butcher(at: Reading, node: Node, where: str, names: Names) -> ButcherText | None:
+def butcher(at: Reading, node: Node, where: str, names: Names) -> d.ButcherText | None:
     """A method spelled out; ``names`` are what its A, b and c are called in messages."""
     entries: g.Found | None = _METHOD.read(at, node, where)
     if entries is None or not {"A", "b"} <= entries.keys():
@@ -235,7 +226,7 @@ def butcher(at: Reading, node: Node, where: str, names: Names) -> ButcherText | 
     if found is None:
         return None
     beside = further_of_method(at, entries, len(found[1]), names_beside(names[1]))
-    return ButcherText(node, entries.get("name", ""), *found, beside)
+    return d.ButcherText(node, entries.get("name", ""), *found, beside)
 
 
 def _method(at: Reading, entries: Entries, names: Names) -> tuple[Rows, Row, Row | None] | None:
@@ -266,7 +257,7 @@ def nodes_fit(at: Reading, node: Node, name: str, c: Row, stages: int) -> bool:
     return one_each(at, node, name, c, "entry", "stage", stages, cure)
 
 
-def tableau(at: Reading, node: Node, linear: Node | None) -> TableauText | None:
+def tableau(at: Reading, node: Node, linear: Node | None) -> d.TableauText | None:
     """The form ``tableau``; ``linear`` lists its linear colours."""
     entries: g.Found | None = TABLEAU.read(at, node, "tableau")
     if entries is None or not {"A", "b"} <= entries.keys():
@@ -274,7 +265,7 @@ def tableau(at: Reading, node: Node, linear: Node | None) -> TableauText | None:
     return tableau_of(at, entries, linear)
 
 
-def tableau_of(at: Reading, entries: Entries, linear: Node | None) -> TableauText | None:
+def tableau_of(at: Reading, entries: Entries, linear: Node | None) -> d.TableauText | None:
     """A, b and c of one colour or of several, told apart by how deep A is nested."""
     A, b = entries["A"], entries["b"]
     depth, is_one_row = depth_of_lists(A), depth_of_lists(b) < 2
@@ -286,7 +277,7 @@ def tableau_of(at: Reading, entries: Entries, linear: Node | None) -> TableauTex
             return None
         beside = further_of_method(at, entries, len(found[1]))
         colours = _linear(at, linear, 1)
-        return TableauText(((found[0],),), (found[1],), (found[2],), colours, (beside,))
+        return d.TableauText(((found[0],),), (found[1],), (found[2],), colours, (beside,))
     if is_one_matrix:
         cure = "write the second row as embedded: […], beside b"
         if len(b.value) == 1:
@@ -307,12 +298,12 @@ def tableau_of(at: Reading, entries: Entries, linear: Node | None) -> TableauTex
     return _blocks(at, entries, linear)
 
 
-def _blocks(at: Reading, entries: Entries, linear: Node | None) -> TableauText | None:
+def _blocks(at: Reading, entries: Entries, linear: Node | None) -> d.TableauText | None:
     """A tableau block by block."""
     items = colours_in(at, entries["b"], "b")
     if items is None:
         return None
-    b = tuple(at.numbers.row(item, of_colour("b", l)) for l, item in enumerate(items))
+    b = tuple(at.numbers.row(item, d.of_colour("b", l)) for l, item in enumerate(items))
     rows = at.source.items(entries["A"], "A")
     if not isinstance(entries["A"], SequenceNode):
         return None  # said above
@@ -325,7 +316,7 @@ def _blocks(at: Reading, entries: Entries, linear: Node | None) -> TableauText |
     if not b or not all(b) or any(len(row) != len(b) for row in A):
         return None
     colours = _linear(at, linear, len(b))
-    return TableauText(A, b, c, colours, further_of_colours(at, entries, [len(row) for row in b]))
+    return d.TableauText(A, b, c, colours, further_of_colours(at, entries, [len(row) for row in b]))
 
 
 def _block_row(at: Reading, l: int, node: Node, b: Weights) -> tuple[Rows | None, ...]:
@@ -341,11 +332,11 @@ def _block(at: Reading, node: Node, l: int, m: int, b: Weights) -> Rows | None:
     """The block A^{l,m}, a row for each weight of l, a column for each of m; None for null."""
     if is_null(node):
         return None
-    where, (rows, columns) = block_name(l, m), (len(b[l]), len(b[m]))
+    where, (rows, columns) = d.block_name(l, m), (len(b[l]), len(b[m]))
     block = at.numbers.matrix(node, where)
     if not rows or not columns:
         return block
-    why = f"{of_colour('b', l)} has {entries_of(rows)} and {of_colour('b', m)} has {columns}"
+    why = f"{d.of_colour('b', l)} has {entries_of(rows)} and {d.of_colour('b', m)} has {columns}"
     return at.numbers.fitted(block, node, where, (rows, columns), why)
 
 
@@ -357,7 +348,7 @@ def _node_rows(at: Reading, node: Node | None, b: Weights) -> tuple[Row | None, 
         return (None,) * len(b)
     found: list[Row | None] = []
     for l, item in enumerate(items):
-        where = of_colour("c", l)
+        where = d.of_colour("c", l)
         row = None if is_null(item) else at.numbers.row(item, where)
         if row and b[l]:
             nodes_fit(at, item, where, row, len(b[l]))
@@ -389,8 +380,8 @@ def names_beside(name_of_b: str) -> tuple[str, str]:
 
 
 def further_of_method(
-    at: Reading, entries: Entries, stages: int, names: tuple[str, str] = BESIDE
-) -> FurtherText:
+    at: Reading, entries: Entries, stages: int, names: tuple[str, str] = d.BESIDE
+) -> d.FurtherText:
     """The further weights of one colour.
 
     Args:
@@ -411,7 +402,7 @@ def further_of_method(
 
 def further_of_colours(
     at: Reading, entries: Entries, stages: Sequence[int], is_shared: bool = False
-) -> tuple[FurtherText, ...]:
+) -> tuple[d.FurtherText, ...]:
     """The further weights of several colours in one place.
 
     Args:
@@ -447,7 +438,7 @@ def _a_colour(
     items = at.source.items(node, where, cure)
     if len(items) == colours and not is_one:
         key, comma, part = where.partition(",")
-        yield from ((l, x, of_colour(key, l) + comma + part) for l, x in enumerate(items))
+        yield from ((l, x, d.of_colour(key, l) + comma + part) for l, x in enumerate(items))
     elif isinstance(node, SequenceNode):
         found = f"one {noun}" if is_one else counted(len(items), noun)
         message = f"{where} has {found} for {counted(colours, 'colour')}"
@@ -502,10 +493,10 @@ def _polynomials(at: Reading, node: Node, where: str, stages: int, degree: int) 
 
 
 def refuse_partial(
-    at: Reading, further: Sequence[FurtherText], names: Sequence[str], node: Node
+    at: Reading, further: Sequence[d.FurtherText], names: Sequence[str], node: Node
 ) -> None:
     """Note further weights of some colours, where others have none."""
-    for key in BESIDE:
+    for key in d.BESIDE:
         given = [getattr(text, key) is not None for text in further]
         if any(given) and not all(given):
             having, lacking = names[given.index(True)], names[given.index(False)]
@@ -514,10 +505,10 @@ def refuse_partial(
             at.source.fault(node, message, cure, code="missing-key")
 
 
-def _further(entries: Entries, embedded: Row | None, dense: Rows | None) -> FurtherText:
+def _further(entries: Entries, embedded: Row | None, dense: Rows | None) -> d.FurtherText:
     if embedded is None and dense is None:
-        return NOTHING_FURTHER
-    return FurtherText(embedded, dense, next(entries[key] for key in BESIDE if key in entries))
+        return d.NOTHING_FURTHER
+    return d.FurtherText(embedded, dense, next(entries[key] for key in d.BESIDE if key in entries))
 
 
 def _depth(node: Node) -> int:

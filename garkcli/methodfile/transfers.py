@@ -8,15 +8,8 @@ from itertools import permutations
 
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
+from garkcli.methodfile import description as d
 from garkcli.methodfile import grammar as g
-from garkcli.methodfile.description import (
-    BlockText,
-    BlockTexts,
-    MatrixText,
-    RuleText,
-    TransferText,
-    block_name,
-)
 from garkcli.methodfile.nodes import key_nodes, keys_of, shortened
 from garkcli.methodfile.numbers import UNKNOWN, Reading, name_of_place
 from garkcli.methodfile.parameters import NUMBER
@@ -92,11 +85,11 @@ def _block_of(key: str) -> tuple[int, int]:
     return l - 1, m - 1
 
 
-def rules_of(at: Reading, node: Node, stages: Sequence[int]) -> TransferText:
+def rules_of(at: Reading, node: Node, stages: Sequence[int]) -> d.TransferText:
     """``transfer``: the rules, and the blocks given one by one, of colours with so many stages."""
     if _is_unknown(node):
         edges = permutations(range(len(stages)), 2)
-        return TransferText(None, {edge: _unknown(at, node, edge, stages) for edge in edges})
+        return d.TransferText(None, {edge: _unknown(at, node, edge, stages) for edge in edges})
     if not keys_of(node) & {"default", "blocks"}:
         # without quotes {1,2: rule} has the keys 1 and 2
         for key in key_nodes(node).values():
@@ -104,27 +97,29 @@ def rules_of(at: Reading, node: Node, stages: Sequence[int]) -> TransferText:
                 message = "transfer: single blocks go under blocks"
                 cure = 'write transfer: {default: …, blocks: {"1,2": …}}'
                 at.source.fault(key, message, cure, code="given-twice")
-                return TransferText(None, {})
-        return TransferText(_rule(at, node, "transfer"), {})
+                return d.TransferText(None, {})
+        return d.TransferText(_rule(at, node, "transfer"), {})
     entries = at.source.mapping(node, "transfer", ("default", "blocks"))
     default, blocks = entries.get("default"), entries.get("blocks")
     rule = None if default is None else _rule(at, default, "transfer, default")
-    return TransferText(rule, {} if blocks is None else _blocks(at, blocks, stages))
+    return d.TransferText(rule, {} if blocks is None else _blocks(at, blocks, stages))
 
 
 def _is_unknown(node: Node) -> bool:
     return isinstance(node, ScalarNode) and node.value == UNKNOWN
 
 
-def _unknown(at: Reading, node: Node, edge: tuple[int, int], stages: Sequence[int]) -> MatrixText:
+def _unknown(at: Reading, node: Node, edge: tuple[int, int], stages: Sequence[int]) -> d.MatrixText:
     """A block with an unknown for each entry, named by its place."""
     rows, columns = (range(1, stages[k] + 1) for k in edge)
-    name = block_name(*edge)
+    name = d.block_name(*edge)
     places = [[f"{name}, row {i}, entry {j}" for j in columns] for i in rows]
-    return MatrixText(node, tuple(tuple(at.numbers.entry(node, x) for x in row) for row in places))
+    return d.MatrixText(
+        node, tuple(tuple(at.numbers.entry(node, x) for x in row) for row in places)
+    )
 
 
-def spelled(blocks: Mapping[tuple[int, int], MatrixText]) -> str:
+def spelled(blocks: Mapping[tuple[int, int], d.MatrixText]) -> str:
     """Unknown blocks with the names of their entries, as method files have them: a single matrix,
     or all of them as the value of ``transfer``.
     """
@@ -138,9 +133,9 @@ def spelled(blocks: Mapping[tuple[int, int], MatrixText]) -> str:
     return f"{{blocks: {{{lines}}}}}"
 
 
-def _blocks(at: Reading, node: Node, stages: Sequence[int]) -> BlockTexts:
+def _blocks(at: Reading, node: Node, stages: Sequence[int]) -> d.BlockTexts:
     """The blocks that are given one by one; keys such as ``1,2`` count colours from 1."""
-    blocks: BlockTexts = {}
+    blocks: d.BlockTexts = {}
     colours = len(stages)
     keys = key_nodes(node)
     form = 'write for instance {"1,2": interpolation}'
@@ -152,7 +147,7 @@ def _blocks(at: Reading, node: Node, stages: Sequence[int]) -> BlockTexts:
             cure = 'write for instance "1,2" for the block A^{1,2}'
             at.source.fault(keys[key], message, cure, code="wrong-value")
             continue
-        where = block_name(l, m)
+        where = d.block_name(l, m)
         if (l, m) in blocks:
             message = f"transfer, blocks: {where} is given twice"
             at.source.fault(keys[key], message, "keep one of them", code="doubled")
@@ -163,24 +158,24 @@ def _blocks(at: Reading, node: Node, stages: Sequence[int]) -> BlockTexts:
     return blocks
 
 
-def _block(at: Reading, node: Node, where: str) -> BlockText | None:
+def _block(at: Reading, node: Node, where: str) -> d.BlockText | None:
     """A block as a matrix or as a rule."""
     if not isinstance(node, SequenceNode):
         return _rule(at, node, where)
     rows = at.numbers.matrix(node, where)
     at.numbers.rectangular(rows, node, where)
-    return MatrixText(node, rows) if rows else None
+    return d.MatrixText(node, rows) if rows else None
 
 
-def _rule(at: Reading, node: Node, where: str) -> RuleText | None:
+def _rule(at: Reading, node: Node, where: str) -> d.RuleText | None:
     if isinstance(node, ScalarNode):
         rule = at.source.choice(node, where, ALL_RULES)
-        return RuleText(node, ((rule, None),)) if rule else None
+        return d.RuleText(node, ((rule, None),)) if rule else None
     if keys_of(node) & {"rule", "degree"}:
         found: g.Found | None = OF_DEGREE.read(at, node, where)
         if found is None or not found.is_right:
             return None
-        return RuleText(node, (("legendre", None),), found.get("degree"))
+        return d.RuleText(node, (("legendre", None),), found.get("degree"))
     of_pairs = sorted(keys_of(node) & set(PAIR_RULES))
     if of_pairs:
         why = "makes both blocks of a pair of colours"
@@ -196,4 +191,4 @@ def _rule(at: Reading, node: Node, where: str) -> RuleText | None:
         (rule, at.numbers.entry(weight, f"{where}, weight of {rule}"))
         for rule, weight in entries.items()
     ]
-    return RuleText(node, tuple(terms)) if terms else None
+    return d.RuleText(node, tuple(terms)) if terms else None
