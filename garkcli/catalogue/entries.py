@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from garkcli.errors import HasFreeParameters, MethodFileError, UsageProblem
-from garkcli.frozen import Frozen, field
+from garkcli.frozen import Frozen
 from garkcli.methodfile.naming import every_shelf, visible
 from garkcli.methodfile.shelves import Package, Shelf, Shelved, letters_of
 from garkcli.properties.registry import KEYS
@@ -170,29 +170,25 @@ class Wanted(Frozen):
     """What is wanted; all of it at once.
 
     Attributes:
-        ranges: of numbers, by their keys in entries.
-        truths: of properties, by their keys; one that is not known is neither true nor false.
-        values: of texts, by their keys.
+        values: by their keys in entries: ranges of numbers, truths, texts; what is not known is
+            none of them.
         folder: of the catalogue; empty for any.
         words: each is in the name, an alias, the title or the reference, or is one of the first
             two in another spelling.
     """
 
-    ranges: Mapping[str, Range] = field(default_factory=dict)
-    truths: Mapping[str, bool] = field(default_factory=dict)
-    values: Mapping[str, str] = field(default_factory=dict)
+    values: Mapping[str, Range | bool | str]
     folder: str = ""
     words: Sequence[str] = ()
 
     def takes(self, entry: Entry) -> bool:
         """Whether a method is as wanted."""
-        return (
-            all(x.has(entry[key]) for key, x in self.ranges.items())
-            and all(entry[key] is x for key, x in self.truths.items())
-            and all(entry[key] == x for key, x in self.values.items())
-            and self.folder in {"", entry["folder"]}
-            and self._says_it(entry)
-        )
+        for key, x in self.values.items():
+            value = entry[key]
+            is_so = type(x) is type(value) and x == value
+            if not (x.has(value) if isinstance(x, Range) else is_so):
+                return False
+        return self.folder in {"", entry["folder"]} and self._says_it(entry)
 
     def _says_it(self, entry: Entry) -> bool:
         if not self.words:

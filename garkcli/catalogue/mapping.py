@@ -97,20 +97,16 @@ class Catalogue(ModuleType):
         from garkcli.catalogue.entries import Range, Wanted, all_entries, read_range, sorted_by
 
         entries = list(all_entries())
-        ranges: dict[str, Range] = {}
-        truths: dict[str, bool] = {}
-        values: dict[str, str] = {}
+        values: dict[str, Range | bool | str] = {}
         for key, value in wanted.items():
             if key not in entries[0]:
                 message = f"nothing is known by the name {key!r}"
                 raise UsageProblem(message, did_you_mean(key, entries[0]), code="unknown-word")
             if isinstance(value, bool):
-                truths[key] = value
-            elif key in _WORDS:
-                values[key] = str(value)
+                values[key] = value
             else:
-                ranges[key] = read_range(str(value))
-        chosen = Wanted(ranges, truths, values, folder, words)
+                values[key] = str(value) if key in _WORDS else read_range(str(value))
+        chosen = Wanted(values, folder, words)
         taken = [entry for entry in entries if chosen.takes(entry)]
         return [entry["name"] for entry in sorted_by(taken, "order")]
 

@@ -166,17 +166,11 @@ def list_(given: Given, output: Output) -> None:
 
 def _listed(given: Mapping[str, Any]) -> list[Entry]:
     """The methods that are as wanted, sorted."""
-    from garkcli.catalogue.entries import Range, Wanted, all_entries, sorted_by
+    from garkcli.catalogue.entries import Wanted, all_entries, sorted_by
 
-    ranges: dict[str, Range] = {}
-    truths: dict[str, bool] = {}
-    for key, value in given.items():
-        if isinstance(value, Range):
-            ranges[key] = value
-        elif isinstance(value, bool) and key != "judge":
-            truths[key] = value
-    values = {key: given[key] for key in ("kind", "structure") if given[key]}
-    wanted = Wanted(ranges, truths, values, given["folder"] or "", given["words"])
+    others = ("judge", "sort", "folder", "words")
+    values = {key: x for key, x in given.items() if key not in others and x not in (None, "")}
+    wanted = Wanted(values, given["folder"] or "", given["words"])
     found = [x for x in all_entries(bool(given["judge"])) if wanted.takes(x)]
     return sorted_by(found, given["sort"] or "order")
 

@@ -9,8 +9,8 @@ from flint import fmpq
 from garkcli.check.analysis import Analysis
 from garkcli.check.deciding import analyse
 from garkcli.comparison.differences import BlockGap, Met, block_gaps, conditions_met
-from garkcli.comparison.grid import Grid, Likeness
-from garkcli.comparison.sameness import Answer, Sameness, find_sameness, views_of
+from garkcli.comparison.grid import Likeness
+from garkcli.comparison.sameness import Sameness, find_sameness, views_of
 from garkcli.doing import doing
 from garkcli.exact.field import ZERO
 from garkcli.frozen import Frozen
@@ -158,9 +158,15 @@ def compare(one: GarkMethod, other: GarkMethod, limit: int = DEFAULT_LIMIT) -> C
     if views.one.size == views.other.size:
         gaps = tuple(block_gaps(views.one, views.other, Likeness(allowed)))
     answer = find_sameness(one, other, views, allowed)
-    if answer.sameness is not None and answer.sameness.is_plain:
-        gaps = _decided(gaps, answer)
+    same = answer.sameness
+    if same is not None and same.is_plain and not same.step_only:
+        # what enclosures left open, where the methods are known to agree
+        gaps = tuple(x for x in gaps if not all(y.is_open for y in x.gaps))
     first, second = _analysed(one, limit), _analysed(other, limit)
+    met = None
+    if same is None and views.one.size == views.other.size:
+        known_as = [meant(x.tableau, x.tolerance) for x in (first, second)]
+        met = conditions_met(known_as[0], known_as[1], (first.order.order, second.order.order))
     different = []
     for key in KEYS:
         pair = PropertyPair(key, first.subject.verdict(key), second.subject.verdict(key))
@@ -174,7 +180,7 @@ def compare(one: GarkMethod, other: GarkMethod, limit: int = DEFAULT_LIMIT) -> C
         other=other,
         forms=(form_of(one.tableau), form_of(other.tableau)),
         gaps=gaps,
-        sameness=answer.sameness,
+        sameness=same,
         obstacle=answer.obstacle,
         allowed=allowed,
         orders=(
@@ -184,7 +190,7 @@ def compare(one: GarkMethod, other: GarkMethod, limit: int = DEFAULT_LIMIT) -> C
             OrderPair("order of the conjugate", first.conjugate_order, second.conjugate_order),
             OrderPair("order of the pair", first.pair_order, second.pair_order),
         ),
-        met=_met(first, second, answer, views.one, views.other),
+        met=met,
         properties=tuple(different),
     )
 
@@ -195,14 +201,6 @@ def _linear(method: GarkMethod) -> tuple[bool, ...]:
 
 def _analysed(method: GarkMethod, limit: int) -> Analysis:
     return analyse(method.tableau, limit, method.tolerance, further=method.further)
-
-
-def _decided(gaps: tuple[BlockGap, ...], answer: Answer) -> tuple[BlockGap, ...]:
-    """The gaps without those that enclosures left open, where the methods are known to agree."""
-    same = answer.sameness
-    if same is None or same.step_only:
-        return gaps
-    return tuple(x for x in gaps if not all(y.is_open for y in x.gaps))
 
 
 def form_of(tableau: Tableau) -> str:
@@ -218,14 +216,6 @@ def form_of(tableau: Tableau) -> str:
 
 def _of_embedded(analysis: Analysis) -> AnyOrder | None:
     return None if analysis.embedded is None else analysis.embedded.order
-
-
-def _met(one: Analysis, other: Analysis, answer: Answer, first: Grid, second: Grid) -> Met | None:
-    """The conditions up to the first order at which both fail."""
-    if answer.sameness is not None or first.size != second.size:
-        return None
-    methods = [meant(x.tableau, x.tolerance) for x in (one, other)]
-    return conditions_met(methods[0], methods[1], (one.order.order, other.order.order))
 
 
 def _text(verdict: Verdict) -> tuple[str, bool, bool]:

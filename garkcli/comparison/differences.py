@@ -14,7 +14,6 @@ from garkcli.ntrees.tree import Tree
 from garkcli.order.conditions import Condition, conditions, coupling_graph, twin_roots
 from garkcli.tableau.meant import AnyTableau, printed
 from garkcli.tableau.pointwise import Block, Cell
-from garkcli.tableau.tableau import Tableau
 
 
 class EntryGap(Frozen):
@@ -192,7 +191,9 @@ def conditions_met(one: AnyTableau, other: AnyTableau, orders: tuple[int, int]) 
         for row, second in zip(edges, others, strict=True)
     )
     graph = both, linear | linear_too
-    roots = _common_roots(tableau, printed(other))
+    # root colours, one of each group whose conditions are the same in both methods
+    twins = twin_roots(tableau)
+    roots = [*twins] if twins == twin_roots(printed(other)) else [*range(tableau.size)]
     pairs: list[tuple[Condition, Condition]] = []
     reached, total = 0, 0
     for order in range(1, max(orders) + 2):
@@ -215,14 +216,6 @@ def conditions_met(one: AnyTableau, other: AnyTableau, orders: tuple[int, int]) 
 
 
 _Graph = tuple[tuple[tuple[bool, ...], ...], frozenset[int]]
-
-
-def _common_roots(one: Tableau, other: Tableau) -> list[int]:
-    """Root colours, one of each group whose conditions are the same in both methods."""
-    twins = twin_roots(one)
-    if twins == twin_roots(other):
-        return list(twins)
-    return list(range(one.size))
 
 
 def _trees(colours: int, order: int, graph: _Graph, roots: Sequence[int]) -> Iterator[Tree]:

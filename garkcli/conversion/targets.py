@@ -19,7 +19,7 @@ from garkcli.frozen import Frozen, field, replace
 from garkcli.properties.reduction import merged, reduced
 from garkcli.tableau.forms import pair
 from garkcli.tableau.garkmethod import GarkMethod
-from garkcli.tableau.tableau import Part, Tableau
+from garkcli.tableau.tableau import Part
 
 
 class Target(Frozen):
@@ -98,24 +98,18 @@ def shared(sheet: Sheet) -> Sheet | None:
     """The method with one stage space, where stage i of every colour is the same; else None."""
     tableau = sheet.tableau
     first, *others = range(len(tableau.spaces))
+    colours = range(tableau.size)
     for k in others:
-        if not _are_alike(tableau, first, k):
+        if tableau.spaces[k].nodes != tableau.spaces[first].nodes:
+            return None
+        if any(tableau.blocks.get((k, m)) != tableau.blocks.get((first, m)) for m in colours):
             return None
     places: list[Place] = [(first, i) for i in range(tableau.spaces[first].stages)]
     # the weights stay as they are: every space is the first one
-    colours = [replace(x, space=first) for x in tableau.colours]
+    seen = tuple(replace(x, space=first) for x in tableau.colours)
     blocks = {key: x for key, x in tableau.blocks.items() if key[0] == first}
-    alone = replace(sheet, tableau=replace(tableau, colours=tuple(colours), blocks=blocks))
+    alone = replace(sheet, tableau=replace(tableau, colours=seen, blocks=blocks))
     return regrouped(alone, [places], [0] * tableau.size)
-
-
-def _are_alike(tableau: Tableau, one: int, other: int) -> bool:
-    """Whether two spaces have the same nodes and see the same."""
-    if tableau.spaces[one].nodes != tableau.spaces[other].nodes:
-        return False
-    return all(
-        tableau.blocks.get((one, m)) == tableau.blocks.get((other, m)) for m in range(tableau.size)
-    )
 
 
 def as_prk(method: GarkMethod) -> Sheet:

@@ -22,17 +22,11 @@ def distinct(rows: Iterable[Row]) -> list[Row]:
     """The first row of each method: several seeds may find the same."""
     found: dict[str, Row] = {}
     for row in rows:
-        found.setdefault(_known_by(row), row)
+        known_by = str(row["key"])
+        if "values" in row:  # it was searched for
+            known_by = json.dumps([row.get(x) for x in ("method", "parameters", "values")])
+        found.setdefault(known_by, row)
     return list(found.values())
-
-
-def _known_by(row: Row) -> str:
-    """What rows of one method have in common: its values, or the key where it was not searched
-    for.
-    """
-    if "values" not in row:
-        return str(row["key"])
-    return json.dumps([row.get(name) for name in ("method", "parameters", "values")])
 
 
 def best_first(rows: Sequence[Row], by: Sequence[str]) -> list[Row]:
