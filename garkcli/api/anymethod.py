@@ -56,11 +56,9 @@ def method_of(given: AnyMethod, tolerance: object = None) -> GarkMethod:
         return _of_mapping({**_rounded(tolerance), **given})
     if isinstance(given, (tuple, list)):
         if not 2 <= len(given) <= len(_ROWS):
-            raise MethodError(
-                f"{len(given)} arrays are no method",
-                "give (A, b), (A, b, c) or (A, b, c, embedded)",
-                code="arrays",
-            )
+            message = f"{len(given)} arrays are no method"
+            cure = "give (A, b), (A, b, c) or (A, b, c, embedded)"
+            raise MethodError(message, cure, code="arrays")
         return from_arrays(*given, **_rounded(tolerance))
     raise MethodError(f"a method is expected, not {type(given).__name__}", _CURE, code="arrays")
 
@@ -87,9 +85,8 @@ def tolerance_of(method: object, given: object = None) -> fmpq | None:
         return method.tolerance if isinstance(method, GarkMethod) else None
     value = rational_of(given, "tolerance", is_rounded=True)
     if not 0 <= value < 1:
-        raise MethodError(
-            "a tolerance lies between 0 and 1", "for instance '1e-13'", code="wrong-value"
-        )
+        message = "a tolerance lies between 0 and 1"
+        raise MethodError(message, "for instance '1e-13'", code="wrong-value")
     return value or None
 
 
@@ -105,11 +102,8 @@ def refuse_rounded(method: GarkMethod, derivation: str = "") -> None:
     """
     derivation = derivation or method.derivation
     if derivation and method.tolerance is not None:
-        raise MethodError(
-            f"the coefficients are rounded, and those of the {derivation} by more",
-            "give exact coefficients, without tolerance",
-            code="rounded",
-        )
+        message = f"the coefficients are rounded, and those of the {derivation} by more"
+        raise MethodError(message, "give exact coefficients, without tolerance", code="rounded")
 
 
 def with_tolerance(given: AnyMethod, tolerance: object = None) -> tuple[GarkMethod, fmpq | None]:

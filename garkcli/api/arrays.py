@@ -121,20 +121,14 @@ def _in_rows(value: Any, where: str) -> Any:
         if not is_right or not all(_is_colour(x) for x in parts):
             what = "pair of colours" if is_of_blocks else "colour"
             example = "{(1, 2): [[1]]}" if is_of_blocks else "{1: [1]}"
-            raise MethodError(
-                f"{where}: {key!r} is no {what}",
-                f"colours count from 1, as in {example}",
-                code="wrong-value",
-            )
+            message = f"{where}: {key!r} is no {what}"
+            raise MethodError(message, f"colours count from 1, as in {example}", code="wrong-value")
     if not is_of_blocks:
         colours = range(1, max(value, default=0) + 1)
         missing = [l for l in colours if l not in value]
         if missing:
-            raise MethodError(
-                f"{where}: nothing for colour {missing[0]}",
-                "give every colour a row",
-                code="pasted-tableau",
-            )
+            message = f"{where}: nothing for colour {missing[0]}"
+            raise MethodError(message, "give every colour a row", code="pasted-tableau")
         return [value[l] for l in colours]
     size = range(1, max(map(max, value), default=0) + 1)
     return [[value.get((l, m)) for m in size] for l in size]
@@ -155,11 +149,8 @@ def _listed(value: Any) -> Any:
     if isinstance(value, Mapping):
         raise MethodError("a mapping is no array", "give A, b and c as lists", code="list-expected")
     if isinstance(value, Set):
-        raise MethodError(
-            "a set is no array: it has no order, and no entry twice",
-            "give A, b and c as lists",
-            code="unknown-word",
-        )
+        message = "a set is no array: it has no order, and no entry twice"
+        raise MethodError(message, "give A, b and c as lists", code="unknown-word")
     if isinstance(value, Iterable) and not isinstance(value, str):
         return [_listed(item) for item in value]
     return value

@@ -132,11 +132,9 @@ def _embedded(method: GarkMethod) -> GarkMethod:
         MethodError: it has none.
     """
     if method.embedded is None:
-        raise MethodError(
-            f"{_called(method)} has no embedded weights",
-            "from_arrays(A, b, c, embedded), or embedded: […] in its file",
-            code="arrays",
-        )
+        message = f"{_called(method)} has no embedded weights"
+        cure = "from_arrays(A, b, c, embedded), or embedded: […] in its file"
+        raise MethodError(message, cure, code="arrays")
     tableau = with_weights(method.tableau, method.embedded)
     return GarkMethod(tableau=tableau, name=method.name, tolerance=method.tolerance)
 

@@ -93,11 +93,8 @@ def with_claims(method: AnyMethod, keys: str | Iterable[str] = ()) -> str:
     """
     found = method_of(method)
     if not isinstance(found, MethodFile):
-        raise MethodError(
-            f"{found!r} has no text",
-            "give what load, loads or from_arrays return",
-            code="other-file",
-        )
+        message = f"{found!r} has no text"
+        raise MethodError(message, "give what load, loads or from_arrays return", code="other-file")
     claims = claims_of(found, keys)
     return write_claims(found.source, found.text, claims)
 
@@ -126,9 +123,8 @@ def find_stability(
     refuse_rounded(method)
     further = rationals(ratios, "ratios")
     if further and (near is not None or method.tableau.size != 2):
-        raise MethodError(
-            "ratios are for exact methods of two colours", "leave them out", code="pasted-tableau"
-        )
+        message = "ratios are for exact methods of two colours"
+        raise MethodError(message, "leave them out", code="pasted-tableau")
     if any(ratio <= 0 for ratio in further):
         raise MethodError("ratios are positive", "the axes are always there", code="option-value")
     if near is None:
@@ -160,11 +156,8 @@ def two_springs(
     """
     method = method_of(method)
     if method.tolerance is not None:
-        raise MethodError(
-            "with rounded coefficients nothing is decided about two springs",
-            "give exact coefficients, without tolerance",
-            code="rounded",
-        )
+        message = "with rounded coefficients nothing is decided about two springs"
+        raise MethodError(message, "give exact coefficients, without tolerance", code="rounded")
     tableau = method.tableau
     colour = colour_of(fast, "fast", tableau.size)
     split = springs(tableau, tableau.colours[colour].term)
@@ -172,18 +165,16 @@ def two_springs(
         return two_frequencies(tableau, split, _square(slow))
     low, high = map(_square, slow)
     if low >= high:
-        raise MethodError(
-            "slow: the ends are not in ascending order", "give (low, high)", code="option-value"
-        )
+        message = "slow: the ends are not in ascending order"
+        raise MethodError(message, "give (low, high)", code="option-value")
     return slow_interval(tableau, split, low, high)
 
 
 def _square(given: Number) -> fmpq:
     number = rational(given, "slow")
     if number < 0:
-        raise MethodError(
-            f"slow: {number}: a square is not negative", "give 0 or more", code="option-value"
-        )
+        message = f"slow: {number}: a square is not negative"
+        raise MethodError(message, "give 0 or more", code="option-value")
     return number
 
 

@@ -60,21 +60,18 @@ def gark(
     {(1, 1): ((1/2,),), (1, 2): ((1,),), (2, 1): None, (2, 2): ((0,),)}
     """
     if isinstance(methods, str) or not methods:
-        raise MethodError(
-            "gark takes a list of methods", "give one per colour: ['gauss-2', …]", code="arrays"
-        )
+        message = "gark takes a list of methods"
+        raise MethodError(message, "give one per colour: ['gauss-2', …]", code="arrays")
     given = [method_of(method) for method in methods]
     diagonal = [_diagonal(method) for method in given]
     if not isinstance(transfer, str):
         return _with_blocks(given, transfer)
     if transfer not in RULES:
-        raise MethodError(
-            f"no transfer rule {transfer!r}", did_you_mean(transfer, RULES), code="unknown-word"
-        )
+        message = f"no transfer rule {transfer!r}"
+        raise MethodError(message, did_you_mean(transfer, RULES), code="unknown-word")
     if degree is not None and transfer != "legendre":
-        raise MethodError(
-            f"{transfer} has no degree", "leave it out, or take legendre", code="not-together"
-        )
+        message = f"{transfer} has no degree"
+        raise MethodError(message, "leave it out, or take legendre", code="not-together")
     rule = RULES[transfer]
     if transfer == "legendre":
         K = None if degree is None else whole(degree, "degree")
@@ -89,11 +86,9 @@ def _with_blocks(methods: Sequence[GarkMethod], blocks: Blocks) -> GarkMethod:
     size = range(1, len(methods) + 1)
     for key in blocks:
         if key not in {(l, m) for l in size for m in size if l != m}:
-            raise MethodError(
-                f"transfer: {key!r} is no block between two of the methods",
-                f"give pairs of different colours from 1 to {len(methods)}",
-                code="wrong-value",
-            )
+            message = f"transfer: {key!r} is no block between two of the methods"
+            cure = f"give pairs of different colours from 1 to {len(methods)}"
+            raise MethodError(message, cure, code="wrong-value")
     A = {**blocks}
     for l, method in enumerate(methods, start=1):
         A[l, l] = method.A
@@ -107,7 +102,6 @@ def _diagonal(method: GarkMethod) -> Method:
     tableau = method.tableau
     block = tableau.block(0, 0)
     if tableau.size != 1 or block is None:
-        raise MethodError(
-            f"{method!r} is no diagonal method", "give methods of one colour", code="wrong-size"
-        )
+        message = f"{method!r} is no diagonal method"
+        raise MethodError(message, "give methods of one colour", code="wrong-size")
     return Method(method.name, tableau.space(0), block, tableau.colours[0].b)

@@ -259,8 +259,6 @@ def _text(given: object) -> str:
     """
     if isinstance(given, str):
         return given
-    raise MethodError(
-        f"a text is expected, not {type(given).__name__}",
-        "load(path) and its like read a file, from_arrays takes arrays",
-        code="arrays",
-    )
+    message = f"a text is expected, not {type(given).__name__}"
+    cure = "load(path) and its like read a file, from_arrays takes arrays"
+    raise MethodError(message, cure, code="arrays")

@@ -234,9 +234,8 @@ def symplectic_pair(
     V = colours_of(velocities, "velocities", count)
     F = colours_of(forces, "forces", count)
     if not V and not F:
-        raise MethodError(
-            "a pair of no colour", "give colours of velocities and of forces", code="arrays"
-        )
+        message = "a pair of no colour"
+        raise MethodError(message, "give colours of velocities and of forces", code="arrays")
     return method_of(forms.symplectic_pair(tableau, V, F))
 
 

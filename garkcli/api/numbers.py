@@ -63,11 +63,8 @@ def whole(given: Any, where: str, least: int = 0) -> int:
     """
     value = rational_of(given, where)
     if value.q != 1 or value < least:
-        raise MethodError(
-            f"{where}: {given} is no whole number from {least} on",
-            f"give one, such as {max(least, 1)}",
-            code="wrong-value",
-        )
+        message = f"{where}: {given} is no whole number from {least} on"
+        raise MethodError(message, f"give one, such as {max(least, 1)}", code="wrong-value")
     return int(value.p)
 
 

@@ -257,11 +257,9 @@ def _start(integrator: Integrator, initial: Sequence[Any] | None) -> list[Any] |
         return None
     wanted = integrator.problem.layout.unknowns
     if len(initial) != wanted:
-        raise MethodError(
-            f"initial: {counted(len(initial), 'number')} for {counted(wanted, 'unknown')}",
-            "positions first, then momenta, as problem.initial has them",
-            code="pasted-tableau",
-        )
+        message = f"initial: {counted(len(initial), 'number')} for {counted(wanted, 'unknown')}"
+        cure = "positions first, then momenta, as problem.initial has them"
+        raise MethodError(message, cure, code="pasted-tableau")
     return [
         x if isinstance(x, (float, arb)) else rational(x, f"initial[{i}]")
         for i, x in enumerate(initial)

@@ -259,9 +259,8 @@ def rational(option: str, text: str, cure: str = "such as 1/2") -> fmpq:
         expression = parse(text)
         number = Domain([expression]).evaluate(expression)
     except ExpressionError as error:
-        raise UsageProblem(
-            f"{option} {text}: {error.message}", error.help, code=error.code
-        ) from None
+        message = f"{option} {text}: {error.message}"
+        raise UsageProblem(message, error.help, code=error.code) from None
     if isinstance(number, Algebraic):
         message = f"{option} {text}: a rational number is expected"
         raise UsageProblem(message, cure, code="option-value")
@@ -280,10 +279,8 @@ def positive(option: str, text: str) -> fmpq:
     if number <= 0:
         raise UsageProblem(f"{option} {text}: a positive number is expected", code="option-value")
     if not fmpq(1, 10**DECADES) <= number <= 10**DECADES:
-        raise UsageProblem(
-            f"{option} {text}: a number from 1e-{DECADES} to 1e{DECADES} is expected",
-            code="option-value",
-        )
+        message = f"{option} {text}: a number from 1e-{DECADES} to 1e{DECADES} is expected"
+        raise UsageProblem(message, code="option-value")
     return number
 
 
@@ -300,9 +297,8 @@ def ratio(option: str, text: str) -> fmpq:
     """
     number = rational(option, text)
     if number <= 0:
-        raise UsageProblem(
-            f"--ratio {text}: radii are positive", "the axes are always there", code="option-value"
-        )
+        message = f"--ratio {text}: radii are positive"
+        raise UsageProblem(message, "the axes are always there", code="option-value")
     return number
 
 
@@ -314,7 +310,6 @@ def square(option: str, text: str) -> fmpq:
     """
     number = rational(option, text)
     if number < 0:
-        raise UsageProblem(
-            f"{option} {text}: a square is not negative", "give 0 or more", code="option-value"
-        )
+        message = f"{option} {text}: a square is not negative"
+        raise UsageProblem(message, "give 0 or more", code="option-value")
     return number

@@ -204,8 +204,6 @@ def _loaded(path: str) -> MethodFile:
     try:
         return load(path)
     except HasFreeParameters as error:
-        raise UsageProblem(
-            f"{error.source} has free parameters, and claims are of one method",
-            "gark check says what holds for every value",
-            code="free-parameters",
-        ) from None
+        message = f"{error.source} has free parameters, and claims are of one method"
+        cure = "gark check says what holds for every value"
+        raise UsageProblem(message, cure, code="free-parameters") from None

@@ -318,11 +318,9 @@ def _emit(found: Design | Minimum, family: FamilyFile, given: Given, output: Out
 
     files = list(found_files(found, family))
     if not files and isinstance(found, Minimum):
-        raise UsageProblem(
-            f"--emit: no method has the infimum of {given.minimise}",
-            "a range for the parameter, closed at its ends, has a minimum",
-            code="not-found",
-        )
+        message = f"--emit: no method has the infimum of {given.minimise}"
+        cure = "a range for the parameter, closed at its ends, has a minimum"
+        raise UsageProblem(message, cure, code="not-found")
     if not files:
         message = "there is no single method to be written: no order has finitely many"
         cure = "choose values with --set, or ask for a higher order"
@@ -398,9 +396,8 @@ def _searched(asked: FileSearch, given: Given) -> tuple[Result, int | None]:
 
 def _lost(_task: Task, why: str) -> Timed:
     """A piece of a search that ended its process; the others' are kept."""
-    raise WorkerLost(
-        f"a process of the search was ended {why}", "where memory is short use fewer --jobs"
-    )
+    message = f"a process of the search was ended {why}"
+    raise WorkerLost(message, "where memory is short use fewer --jobs")
 
 
 def _written(
@@ -444,11 +441,9 @@ def sweep(given: Given, output: Output) -> None:
 
     plan = load_plan(given.spec)
     if given.plot is not None and len(plan.pareto) < 2:
-        raise UsageProblem(
-            "--plot needs two columns",
-            "write pareto: [error, stages] into the spec",
-            code="option-alone",
-        )
+        message = "--plot needs two columns"
+        cure = "write pareto: [error, stages] into the spec"
+        raise UsageProblem(message, cure, code="option-alone")
     if given.parquet is not None:
         refuse_parquet(given.parquet)
     asked = {"rows": str(Path(given.spec).with_suffix(".jsonl")), **given.of("run_sweep")}

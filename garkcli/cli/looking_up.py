@@ -312,10 +312,7 @@ def schema(given: Given, output: Output) -> None:
     if given.report is not None:
         makers["--report"] = partial(report_schema, given.report)
     if len(makers) > 1:
-        raise UsageProblem(
-            f"{' and '.join(makers)} are {len(makers)} schemas",
-            "ask for one at a time",
-            code="options-clash",
-        )
+        message = f"{' and '.join(makers)} are {len(makers)} schemas"
+        raise UsageProblem(message, "ask for one at a time", code="options-clash")
     make = next(iter(makers.values()), method_file_schema)
     output.write(json.dumps(make(), indent=2, ensure_ascii=False) + "\n")

@@ -33,9 +33,8 @@ def new(given: Given, output: Output) -> None:
     place: str | None = output.path if given.file is None else given.file
     output.check_place(place)
     if place is not None and os.path.exists(place) and not given.force:
-        raise UsageProblem(
-            f"{place} is there already", "--force writes over it", code="cannot-write"
-        )
+        message = f"{place} is there already"
+        raise UsageProblem(message, "--force writes over it", code="cannot-write")
     if given.tableau is None and not given.families:
         _ask(given)
     stem = os.path.basename(given.file or "").removesuffix(".yaml").removesuffix(".gark")
@@ -86,11 +85,9 @@ def _member(text: str) -> Member:
 
     found = member_named(text, is_known=False)
     if found is None:
-        raise UsageProblem(
-            f"--family {text}: a name and stages are expected",
-            "for instance --family gauss-2; gark list families has the names",
-            code="option-value",
-        )
+        message = f"--family {text}: a name and stages are expected"
+        cure = "for instance --family gauss-2; gark list families has the names"
+        raise UsageProblem(message, cure, code="option-value")
     return Member(*found)
 
 

@@ -354,9 +354,8 @@ class Given(SimpleNamespace):
             note_input(path)
         output.check_place()
         if len(found) > 1 and getattr(self, "settings", None):
-            raise UsageProblem(
-                "--set is for one FILE", "give the files one by one", code="options-clash"
-            )
+            message = "--set is for one FILE"
+            raise UsageProblem(message, "give the files one by one", code="options-clash")
         return found
 
 

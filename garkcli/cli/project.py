@@ -81,11 +81,8 @@ def _table(path: str, name: str) -> dict[str, Any] | None:
         if name == SHARED and b"gark" not in data:
             return None
         if len(data) > MOST_BYTES:
-            raise UsageProblem(
-                f"{printable(path)}: more than {MOST_BYTES} bytes",
-                "split it",
-                code="file-too-large",
-            )
+            message = f"{printable(path)}: more than {MOST_BYTES} bytes"
+            raise UsageProblem(message, "split it", code="file-too-large")
         whole = tomllib.loads(data.decode("utf-8"))
     except (OSError, ValueError) as error:
         message = f"{printable(os.path.relpath(path))}: {error}"
@@ -98,11 +95,8 @@ def _table(path: str, name: str) -> dict[str, Any] | None:
     table = tools.get("gark") if isinstance(tools, dict) else None
     if table is None or isinstance(table, dict):
         return table
-    raise UsageProblem(
-        f"{printable(os.path.relpath(path))}: tool.gark is no table",
-        "write its keys below [tool.gark]",
-        code="project-file",
-    )
+    message = f"{printable(os.path.relpath(path))}: tool.gark is no table"
+    raise UsageProblem(message, "write its keys below [tool.gark]", code="project-file")
 
 
 def _project(file: str, folder: str, table: dict[str, Any]) -> Project:
@@ -118,9 +112,8 @@ def _project(file: str, folder: str, table: dict[str, Any]) -> Project:
             raise UsageProblem(f"{shown}: no key {key!r}", cure, code="unknown-key")
         if not KEYS[key].is_right(value):
             cure = f"write {key} = {KEYS[key].example}"
-            raise UsageProblem(
-                f"{shown}: {key} is not {KEYS[key].wanted}", cure, code="wrong-value"
-            )
+            message = f"{shown}: {key} is not {KEYS[key].wanted}"
+            raise UsageProblem(message, cure, code="wrong-value")
     from garkcli.methodfile.finding import fixed_part
 
     required = table.get("require-claims", False)

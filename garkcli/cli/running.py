@@ -81,11 +81,9 @@ def converge(given: Given, output: Output) -> int:
     if given.problem is not None:
         refuse_misplaced(given)
     elif given.stiffness is not None:
-        raise UsageProblem(
-            "--stiffness is for a problem that has one",
-            "name it with --problem, such as --problem van-der-pol",
-            code="other-problem",
-        )
+        message = "--stiffness is for a problem that has one"
+        cure = "name it with --problem, such as --problem van-der-pol"
+        raise UsageProblem(message, cure, code="other-problem")
     if given.against not in (None, "h") and not given.work:
         message = f"--against {given.against} is not known without measuring it"
         raise UsageProblem(message, "add --work", code="other-problem")
@@ -347,17 +345,12 @@ def _followed(tableau: Tableau, given: Given, output: Output) -> Oscillator | Pr
     if isinstance(problem, Oscillator):
         return problem
     if not problem.quantities:
-        raise UsageProblem(
-            f"{problem.name} has no energy and no invariants to follow",
-            "give invariants in a problem file, or choose a Hamiltonian problem",
-            code="other-problem",
-        )
+        message = f"{problem.name} has no energy and no invariants to follow"
+        cure = "give invariants in a problem file, or choose a Hamiltonian problem"
+        raise UsageProblem(message, cure, code="other-problem")
     if given.symplecticity and not isinstance(problem, Hamiltonian):
-        raise UsageProblem(
-            f"--symplecticity is for Hamiltonian problems, and {problem.name} is none",
-            "leave it out",
-            code="other-problem",
-        )
+        message = f"--symplecticity is for Hamiltonian problems, and {problem.name} is none"
+        raise UsageProblem(message, "leave it out", code="other-problem")
     if is_path(given.problem):
         note_changing(problem, output)
     return problem
@@ -485,10 +478,7 @@ def _formula(method: GarkMethod, given: Given) -> ModifiedFormula:
     from garkcli.api.problems import hamiltonian_for
 
     if method.tolerance is not None:
-        raise UsageProblem(
-            "--problem: a formula has exact coefficients, and those of the file are rounded",
-            "give exact coefficients, without tolerance",
-            code="rounded",
-        )
+        message = "--problem: a formula has exact coefficients, and those of the file are rounded"
+        raise UsageProblem(message, "give exact coefficients, without tolerance", code="rounded")
     solved = hamiltonian_for(given.problem, method.tableau, given.seed)
     return modified_formula(method, solved, given.order).expanded()

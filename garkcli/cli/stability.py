@@ -113,9 +113,6 @@ def _strengths(slow: str) -> tuple[fmpq, fmpq]:
     low = square("--slow", first)
     high = rational("--slow", last) if dots else low
     if dots and not low < high:
-        raise UsageProblem(
-            f"--slow {slow}: the ends are not in ascending order",
-            "give --slow A..B",
-            code="option-value",
-        )
+        message = f"--slow {slow}: the ends are not in ascending order"
+        raise UsageProblem(message, "give --slow A..B", code="option-value")
     return low, high

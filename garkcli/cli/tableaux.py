@@ -94,11 +94,9 @@ def _method_file(method: GarkMethod, digits: int | None) -> str:
         return write_rounded(method.tableau, entries, method.name, method.further)
     exact = in_points(method.tableau)
     if exact is None:
-        raise UsageProblem(
-            "the nodes have no simple radicals, so the tableau cannot be spelled out exactly",
-            f"--digits {DEFAULT_DIGITS} writes decimals",
-            code="no-radicals",
-        )
+        message = "the nodes have no simple radicals, so the tableau cannot be spelled out exactly"
+        cure = f"--digits {DEFAULT_DIGITS} writes decimals"
+        raise UsageProblem(message, cure, code="no-radicals")
     return write_tableau_file(exact, method.name, method.tolerance, further=method.further)
 
 
@@ -117,11 +115,9 @@ def _derived_file(made: GarkMethod, output: Output) -> str:
     if exact is not None and (is_pair or can_spell_out(exact)):
         return write_tableau_file(exact, made.name, made.tolerance)
     if is_pair:
-        raise UsageProblem(
-            "the nodes have no simple radicals, so the pair cannot be spelled out exactly",
-            "gark check reports on the pair; --format json gives decimals",
-            code="no-radicals",
-        )
+        message = "the nodes have no simple radicals, so the pair cannot be spelled out exactly"
+        cure = "gark check reports on the pair; --format json gives decimals"
+        raise UsageProblem(message, cure, code="no-radicals")
     output.note("the conjugate is described by the key conjugate: true, exactly, not spelled out")
     base: Any = made.base
     return write_conjugate_of(base, made.name)
@@ -185,11 +181,8 @@ def _write_family(error: HasFreeParameters, given: Given, output: Output) -> Non
     shown = family.printed(printed(derived(family.tableau, given.which)))
     cure = f"--set {file.parameters[0]}=1/2"
     if shown is None:
-        raise UsageProblem(
-            "the nodes have no simple radicals beside free parameters",
-            f"choose a value: {cure}",
-            code="no-radicals",
-        )
+        message = "the nodes have no simple radicals beside free parameters"
+        raise UsageProblem(message, f"choose a value: {cure}", code="no-radicals")
     if file.further:
         output.note(
             f"the embedded weights and the dense output are left out; with values there are: {cure}"
@@ -239,11 +232,8 @@ def reduce(given: Given, output: Output) -> None:
     file = called(given.file)
     made = reduced(method)
     if made is None:
-        raise UsageProblem(
-            f"{file}: the nodes have no simple radicals, so equal stages are not looked for",
-            "spell the method out",
-            code="no-radicals",
-        )
+        message = f"{file}: the nodes have no simple radicals, so equal stages are not looked for"
+        raise UsageProblem(message, "spell the method out", code="no-radicals")
     if made is method:
         output.note(f"{file}: nothing to reduce")
     else:
@@ -256,11 +246,9 @@ def reduce(given: Given, output: Output) -> None:
     elif can_spell_out(made.tableau):
         output.write(write_method(made.tableau, made.name, made.tolerance, made.further))
     else:
-        raise UsageProblem(
-            f"{file}: a method of this structure cannot be spelled out in a file",
-            "--format json has the entries of the smaller method",
-            code="cannot-convert",
-        )
+        message = f"{file}: a method of this structure cannot be spelled out in a file"
+        cure = "--format json has the entries of the smaller method"
+        raise UsageProblem(message, cure, code="cannot-convert")
 
 
 def _stages(tableau: Tableau) -> str:

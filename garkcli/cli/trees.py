@@ -141,9 +141,8 @@ def _refuse_millions(lines: int | None, yes: bool) -> None:
         hush()
         if sys.stdin.readline().strip().lower() in {"y", "yes"}:
             return
-    raise UsageProblem(
-        f"{lines} trees", "--yes lists them, --count counts them", code="option-value"
-    )
+    message = f"{lines} trees"
+    raise UsageProblem(message, "--yes lists them, --count counts them", code="option-value")
 
 
 def _free_trees(given: Given, output: Output) -> None:

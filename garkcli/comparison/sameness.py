@@ -85,11 +85,8 @@ class _Search:
         for j in candidates[stage]:
             self.trials += 1
             if self.trials > MAX_TRIALS:
-                raise LimitExceeded(
-                    f"more than {MAX_TRIALS} renumberings of stages",
-                    "compare the canonical forms",
-                    code="too-many",
-                )
+                message = f"more than {MAX_TRIALS} renumberings of stages"
+                raise LimitExceeded(message, "compare the canonical forms", code="too-many")
             if not self._fits(stage, j, stage, j):
                 continue
             rest = self._narrowed(candidates, stage, j)

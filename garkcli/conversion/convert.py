@@ -32,11 +32,9 @@ def padded(sheet: Sheet, stages: int) -> Sheet:
     for k, space in enumerate(sheet.tableau.spaces):
         missing = stages - space.stages
         if missing < 0:
-            raise CannotConvert(
-                f"a colour has {space.stages} stages, more than {stages}",
-                "--to canonical leaves out those without influence",
-                code="too-many",
-            )
+            message = f"a colour has {space.stages} stages, more than {stages}"
+            cure = "--to canonical leaves out those without influence"
+            raise CannotConvert(message, cure, code="too-many")
         places: list[Place] = [None] * missing
         places += [(k, i) for i in range(space.stages)]
         spaces.append(places)

@@ -101,11 +101,9 @@ def sheet_of(method: GarkMethod) -> Sheet:
     """
     exact = in_points(method.tableau)
     if exact is None:
-        raise CannotConvert(
-            "the nodes have no simple radicals, so the method cannot be spelled out exactly",
-            "gark tableau --format yaml --digits 17 writes decimals",
-            code="no-radicals",
-        )
+        message = "the nodes have no simple radicals, so the method cannot be spelled out exactly"
+        cure = "gark tableau --format yaml --digits 17 writes decimals"
+        raise CannotConvert(message, cure, code="no-radicals")
     return in_one_field([Sheet(exact, method.further)])[0]
 
 
@@ -119,11 +117,8 @@ def in_one_field(sheets: Sequence[Sheet]) -> list[Sheet]:
     try:
         field = OneField(chain.from_iterable(rows))
     except LimitExceeded as error:
-        raise CannotConvert(
-            f"the numbers have no common field: {error.message}",
-            "compare decimals",
-            code="no-radicals",
-        ) from None
+        message = f"the numbers have no common field: {error.message}"
+        raise CannotConvert(message, "compare decimals", code="no-radicals") from None
     return [_mapped(sheet, field) for sheet in sheets]
 
 

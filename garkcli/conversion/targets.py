@@ -71,10 +71,8 @@ def as_ark(method: GarkMethod) -> Sheet:
     sheet = without_parts(sheet_of(method))
     linear = [x.name for x in sheet.tableau.colours if x.is_linear]
     if linear:
-        raise CannotConvert(
-            f"colour {linear[0]} is linear, which an additive method does not say",
-            "--to gark keeps it",
-        )
+        message = f"colour {linear[0]} is linear, which an additive method does not say"
+        raise CannotConvert(message, "--to gark keeps it")
     together = shared(sheet)
     if together is None:
         places: list[Place] = []
@@ -129,15 +127,12 @@ def as_prk(method: GarkMethod) -> Sheet:
     if not (len(tableau.spaces) == 2 and set(tableau.edges()) == {(0, 1), (1, 0)}):
         together = shared(sheet)
         if together is None:
-            raise CannotConvert(
-                "the colours neither have the same stages nor leave themselves unseen (null)",
-                "--to ark puts all stages together first",
-            )
+            message = "the colours neither have the same stages nor leave themselves unseen (null)"
+            raise CannotConvert(message, "--to ark puts all stages together first")
         sheet = together
     elif tableau.colours[1].is_linear:
-        raise CannotConvert(
-            "the file of a partitioned method says that q is linear, not p", "exchange the colours"
-        )
+        message = "the file of a partitioned method says that q is linear, not p"
+        raise CannotConvert(message, "exchange the colours")
     parts: tuple[Part, ...] = ("q", "p")
     colours = []
     for l, (colour, part) in enumerate(zip(sheet.tableau.colours, parts, strict=True)):

@@ -68,11 +68,8 @@ class Cluster(Generic[Item, Outcome]):
             # an address of another kind: what is raised depends on the kind
             self._quiet.close()
             what = (str(error) or type(error).__name__).splitlines()[0]
-            raise UsageProblem(
-                f"no Dask scheduler answers at {self.scheduler}: {what}",
-                "dask scheduler starts one",
-                code="worker-lost",
-            ) from None
+            message = f"no Dask scheduler answers at {self.scheduler}: {what}"
+            raise UsageProblem(message, "dask scheduler starts one", code="worker-lost") from None
         return self
 
     def __exit__(
@@ -121,20 +118,16 @@ class Cluster(Generic[Item, Outcome]):
         if isinstance(fault, KilledWorker):
             return self.crashed(item, "on the cluster, several times")
         if isinstance(fault, ModuleNotFoundError):
-            raise UsageProblem(
-                f"a worker of {self.scheduler} cannot do the work: {fault}",
-                f"install garkcli {__version__} on all workers",
-                code="worker-lost",
-            )
+            message = f"a worker of {self.scheduler} cannot do the work: {fault}"
+            cure = f"install garkcli {__version__} on all workers"
+            raise UsageProblem(message, cure, code="worker-lost")
         version: str
         outcome: Outcome
         version, outcome = future.result()
         if version != __version__:
-            raise UsageProblem(
-                f"a worker of {self.scheduler} has garkcli {version}",
-                f"install garkcli {__version__} on all workers",
-                code="worker-lost",
-            )
+            message = f"a worker of {self.scheduler} has garkcli {version}"
+            cure = f"install garkcli {__version__} on all workers"
+            raise UsageProblem(message, cure, code="worker-lost")
         return outcome
 
 

@@ -131,11 +131,9 @@ class BlockBuilder:
         ]
         total = sum((tau for tau, _ in terms), start=ZERO)
         if total != ONE:
-            raise MethodError(
-                f"the weights of the combination sum to {total}, not to 1",
-                "weights that sum to 1 keep the block consistent",
-                code="weights-of-combination",
-            )
+            message = f"the weights of the combination sum to {total}, not to 1"
+            cure = "weights that sum to 1 keep the block consistent"
+            raise MethodError(message, cure, code="weights-of-combination")
         return combination(terms, self.methods[l], self.methods[m])
 
     def _rule(self, name: str, degree: int | None = None) -> Rule:

@@ -462,9 +462,8 @@ def list_of(
     def read(at: Any, node: Node, where: str) -> list[Any] | None:
         items: list[Node] = at.source.items(node, where, form)
         if most is not None and len(items) > most:
-            at.source.fault(
-                node, f"{len(items)} {noun} (limit {most})", "use fewer", code="too-many"
-            )
+            message = f"{len(items)} {noun} (limit {most})"
+            at.source.fault(node, message, "use fewer", code="too-many")
             return None
         if not items and isinstance(node, SequenceNode):
             at.source.fault(node, f"{where} is empty", form, code="empty")

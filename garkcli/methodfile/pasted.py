@@ -120,11 +120,8 @@ def read_pasted(text: str) -> Pasted:
     if len(lines) > MOST_LINES:
         raise MethodError("the tableau has too many lines", "paste one", code="too-many")
     if len(lines) < 2:
-        raise MethodError(
-            "no tableau: a line per stage and a line of weights are expected",
-            _IN_BRACKETS if "[" in text else _EXAMPLE,
-            code="pasted-tableau",
-        )
+        message = "no tableau: a line per stage and a line of weights are expected"
+        raise MethodError(message, _IN_BRACKETS if "[" in text else _EXAMPLE, code="pasted-tableau")
     if sign in _OF_TABLES and lines[-1].node:
         # the first column is none of nodes: weights have an entry there
         rows = [(line.node or "0", *line.row) for line in lines]
@@ -188,11 +185,9 @@ def _without_bars(lines: list[_Line]) -> Pasted:
         weights.insert(0, rows.pop())
     stages = len(rows)
     if stages > 1 and [len(row) for row in rows] == list(range(1, stages + 1)):
-        raise MethodError(
-            "rows of 1, 2, … numbers: nodes may come first, or the diagonal last",
-            "part nodes from their rows by |, or write the zeros",
-            code="pasted-tableau",
-        )
+        message = "rows of 1, 2, … numbers: nodes may come first, or the diagonal last"
+        cure = "part nodes from their rows by |, or write the zeros"
+        raise MethodError(message, cure, code="pasted-tableau")
     if longest == stages + 1 == len(rows[-1]):
         return _made([row[1:] for row in rows], weights, tuple(row[0] for row in rows))
     return _made(rows, weights, None)
@@ -201,30 +196,21 @@ def _without_bars(lines: list[_Line]) -> Pasted:
 def _made(rows: Sequence[_Row], weights: Sequence[_Row], nodes: _Row | None) -> Pasted:
     stages = len(rows)
     if not weights or not stages:
-        raise MethodError(
-            "the tableau has no line of weights",
-            "a line below the stages, with nothing before the bar",
-            code="pasted-tableau",
-        )
+        message = "the tableau has no line of weights"
+        cure = "a line below the stages, with nothing before the bar"
+        raise MethodError(message, cure, code="pasted-tableau")
     if len(weights) > 2:
-        raise MethodError(
-            f"{len(weights)} lines follow the stages",
-            "one of weights, and another of embedded ones",
-            code="pasted-tableau",
-        )
+        message = f"{len(weights)} lines follow the stages"
+        cure = "one of weights, and another of embedded ones"
+        raise MethodError(message, cure, code="pasted-tableau")
     of_stages = counted(stages, "stage")
     for i, row in enumerate(rows, start=1):
         if len(row) > stages:
-            raise MethodError(
-                f"row {i} has {len(row)} entries, for {of_stages}",
-                "a line per stage, and a line of weights below",
-                code="pasted-tableau",
-            )
+            message = f"row {i} has {len(row)} entries, for {of_stages}"
+            cure = "a line per stage, and a line of weights below"
+            raise MethodError(message, cure, code="pasted-tableau")
     for row in weights:
         if len(row) != stages:
-            raise MethodError(
-                f"{counted(len(row), 'weight')} for {of_stages}",
-                "a weight per stage, zeros too",
-                code="pasted-tableau",
-            )
+            message = f"{counted(len(row), 'weight')} for {of_stages}"
+            raise MethodError(message, "a weight per stage, zeros too", code="pasted-tableau")
     return Pasted(tuple(_filled(row, stages) for row in rows), weights[0], nodes, *weights[1:])

@@ -161,11 +161,8 @@ def _splitting(layout: Layout) -> Layout:
 
 def _stiffly_accurate(layout: Layout) -> Layout:
     if layout.kind == "prk":
-        raise MethodError(
-            "a partitioned shape is not stiffly accurate",
-            "leave one of them out",
-            code="not-together",
-        )
+        message = "a partitioned shape is not stiffly accurate"
+        raise MethodError(message, "leave one of them out", code="not-together")
     last = layout.A[-1][-1]
     bottom = layout.stages - 1
     # names of weights stay; what the shapes before it fixed in the last row fixes weights: an
@@ -182,11 +179,8 @@ def _palindromic(layout: Layout) -> Layout:
     G. Wanner, *Runge-Kutta-methods with expansion in even powers of h*, Computing 11, 1973.
     """
     if layout.kind != "tableau" or "gamma" in layout.unknowns:
-        raise MethodError(
-            "palindromic goes with full, dirk and symplectic-dirk",
-            "leave one of them out",
-            code="not-together",
-        )
+        message = "palindromic goes with full, dirk and symplectic-dirk"
+        raise MethodError(message, "leave one of them out", code="not-together")
     s = layout.stages
     (weights,), (matrix,) = layout.b, layout.A
     mirrored = {weights[i]: weights[s - 1 - i] for i in range(s // 2, s)}
@@ -207,11 +201,8 @@ def _mirror(rows: list[list[str]], b: tuple[str, ...], i: int, j: int) -> None:
     k, l = last - i, last - j
     entry, opposite = rows[i][j], rows[k][l]
     if entry == ZERO and opposite == ZERO:
-        raise MethodError(
-            "no explicit shape is palindromic",
-            "take full, dirk or symplectic-dirk",
-            code="not-together",
-        )
+        message = "no explicit shape is palindromic"
+        raise MethodError(message, "take full, dirk or symplectic-dirk", code="not-together")
     if not opposite.startswith("a"):
         return
     if entry == ZERO:
@@ -277,9 +268,8 @@ def layout_of(stages: int, names: Sequence[str]) -> Layout:
     for place, name in enumerate(names):
         shape = SHAPES[name]
         if shape.begins and place:
-            raise MethodError(
-                f"{name} comes after {names[0]}", f"begin with {name}", code="not-together"
-            )
+            message = f"{name} comes after {names[0]}"
+            raise MethodError(message, f"begin with {name}", code="not-together")
         layout = shape.applied(layout)
     return with_nodes(layout)
 
@@ -293,12 +283,8 @@ def _shape(at: Any, node: Node, where: str) -> str | None:
     name: str | None = at.source.scalar(node, where)
     if name is None or name in SHAPES:
         return name
-    at.source.fault(
-        node,
-        f"{where}: {shortened(name)} is no shape",
-        did_you_mean(name, SHAPES),
-        code="unknown-word",
-    )
+    message = f"{where}: {shortened(name)} is no shape"
+    at.source.fault(node, message, did_you_mean(name, SHAPES), code="unknown-word")
     return None
 
 

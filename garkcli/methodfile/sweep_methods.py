@@ -180,9 +180,8 @@ class MethodsReader:
                     self._rule(x) for x in TRANSFER.read(self, transfer, "transfer") or () if x
                 ]
         elif transfer is not None and choices:
-            self.source.fault(
-                transfer, "one method has no transfer", "leave it out", code="not-together"
-            )
+            message = "one method has no transfer"
+            self.source.fault(transfer, message, "leave it out", code="not-together")
         for methods in product(*choices):
             for rule, shown, names in rules:
                 self._add(methods, rule, shown, names)

@@ -75,9 +75,8 @@ def _unknowns(at: Any, node: Node, where: str) -> Iterator[tuple[str, Node, str]
             yield name, value, place
         elif name not in numbers.settings:
             cure = did_you_mean(name, list(numbers.free))
-            numbers.source.fault(
-                value, f"{place} is no unknown of the file", cure, code="unknown-word"
-            )
+            message = f"{place} is no unknown of the file"
+            numbers.source.fault(value, message, cure, code="unknown-word")
 
 
 DESIGN = mapping(

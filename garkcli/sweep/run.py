@@ -71,11 +71,9 @@ def sweep(plan: Plan, store: RowStore, jobs: int = 1, scheduler: str = "") -> It
         if row is None:
             missing.append(point)
         elif row.get("spec") != plan.criteria.fingerprint(point.template):
-            raise UsageProblem(
-                f"{store.path} has rows of another spec, such as that of {point.key}",
-                "columns, conditions or a method file have changed: choose another --rows",
-                code="other-file",
-            )
+            message = f"{store.path} has rows of another spec, such as that of {point.key}"
+            cure = "columns, conditions or a method file have changed: choose another --rows"
+            raise UsageProblem(message, cure, code="other-file")
     progress = Progress(len(plan), len(plan) - len(missing))
     yield progress
     quick = [x for x in missing if not x.template.is_searched]

@@ -41,9 +41,8 @@ class RowStore:
             self._file = os.open(path, os.O_RDWR | os.O_CREAT | _BINARY, 0o666)
         except OSError as error:
             why = error.strerror
-            raise UsageProblem(
-                f"{path} cannot be written: {why}", "choose another --rows", code="cannot-write"
-            ) from None
+            message = f"{path} cannot be written: {why}"
+            raise UsageProblem(message, "choose another --rows", code="cannot-write") from None
         note_input(path)
         try:
             if self._is_file():
@@ -72,9 +71,8 @@ class RowStore:
         with suppress(OSError):
             if os.path.samestat(status, os.stat(os.devnull)):
                 return False
-        raise UsageProblem(
-            f"{self.path} is not a regular file", "choose another --rows", code="cannot-read"
-        )
+        message = f"{self.path} is not a regular file"
+        raise UsageProblem(message, "choose another --rows", code="cannot-read")
 
     def _lock(self) -> None:
         with suppress(ImportError):
@@ -84,9 +82,8 @@ class RowStore:
                 # of this process alone: workers that outlive it do not keep the lock
                 fcntl.lockf(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except (BlockingIOError, PermissionError):
-                raise UsageProblem(
-                    f"another sweep writes to {self.path}", "wait for it", code="cannot-write"
-                ) from None
+                message = f"another sweep writes to {self.path}"
+                raise UsageProblem(message, "wait for it", code="cannot-write") from None
             except OSError:
                 return  # a file system without locks
 
@@ -95,11 +92,9 @@ class RowStore:
         while block := os.read(self._file, _BLOCK):
             data += block
         if data and not is_resumed:
-            raise UsageProblem(
-                f"{self.path} exists",
-                "--resume does what is missing in it; or choose another --rows",
-                code="cannot-write",
-            )
+            message = f"{self.path} exists"
+            cure = "--resume does what is missing in it; or choose another --rows"
+            raise UsageProblem(message, cure, code="cannot-write")
         whole = data.rfind(b"\n") + 1
         for number, line in enumerate(bytes(data[:whole]).splitlines(), start=1):
             row = self._row(line, number)
@@ -115,11 +110,8 @@ class RowStore:
             row = None
         if is_row(row):
             return row
-        raise UsageProblem(
-            f"{self.path}, line {number}: this is no row of a sweep",
-            "choose another --rows, or remove the line",
-            code="other-file",
-        )
+        message = f"{self.path}, line {number}: this is no row of a sweep"
+        raise UsageProblem(message, "choose another --rows, or remove the line", code="other-file")
 
     def add(self, row: Row) -> None:
         """Append a row that is not there yet."""

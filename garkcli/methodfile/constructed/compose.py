@@ -42,9 +42,8 @@ def _scheme(at: PartReader, node: Node, where: str) -> Scheme | None:
     name = at.source.scalar(node, where)
     other = OTHER_NAMES.get(name or "")
     if other:
-        at.source.fault(
-            node, f"{where}: {name} is called {other} here", "write it so", code="unknown-key"
-        )
+        message = f"{where}: {name} is called {other} here"
+        at.source.fault(node, message, "write it so", code="unknown-key")
         return None
     return SCHEMES.get(at.source.choice(node, where, SCHEMES) or "")
 
@@ -150,12 +149,8 @@ def _steps(at: PartReader, found: g.Found, where: str) -> Iterator[_Step]:
         is_number = isinstance(step, Entry)
         part = whole if is_number else step.get("of", whole)
         if part is None:
-            at.source.fault(
-                place,
-                f"compose, step {number}: the step of no method",
-                _NAME_IT,
-                code="missing-key",
-            )
+            message = f"compose, step {number}: the step of no method"
+            at.source.fault(place, message, _NAME_IT, code="missing-key")
         elif is_number:
             yield part, step, False
         else:
