@@ -170,8 +170,8 @@ class Wanted(Frozen):
     """What is wanted; all of it at once.
 
     Attributes:
-        values: by their keys in entries: ranges of numbers, truths, texts; what is not known is
-            none of them.
+        values: by their keys in entries: ranges of numbers, truths, texts; unknown values
+            match nothing.
         folder: of the catalogue; empty for any.
         words: each is in the name, an alias, the title or the reference, or is one of the first
             two in another spelling.
