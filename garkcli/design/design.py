@@ -258,10 +258,14 @@ class _Finding(Frozen):
 
     def _start(self) -> Ideal:
         """The ideal of the equations that all parameters satisfy."""
-        nonzero = (*self.conditions.denominators, *self.family.nonzero)
-        if self.criterion is not None:
-            nonzero = tuple(p for p in nonzero if not self.criterion.is_never_zero(p))
-        return Ideal(self.family.ring, nonzero).with_zeros(x.relation for x in self.family.radicals)
+        ring, count = self.family.ring, len(self.family.parameters)
+        roots = Ideal(ring).with_zeros(x.relation for x in self.family.radicals)
+        nonzero = [
+            p
+            for p in (*self.conditions.denominators, *self.family.nonzero)
+            if any(p.degrees()[:count]) or not roots.with_zeros([p]).is_everything
+        ]
+        return Ideal(ring, nonzero).with_zeros(x.relation for x in self.family.radicals)
 
     def _step(self, order: int, lower: Ideal | None) -> Step:
         """What one order more asks of the parameters, and whatever else is wanted.

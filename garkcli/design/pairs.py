@@ -72,11 +72,6 @@ class PairConditions:
         """What radicals satisfy."""
         return Ideal(self.family.ring).with_zeros(x.relation for x in self.family.radicals)
 
-    def is_never_zero(self, polynomial: fmpq_mpoly) -> bool:
-        """Whether a polynomial is a number in radicals that is not 0."""
-        has_parameters = any(polynomial.degrees()[: len(self.family.parameters)])
-        return not has_parameters and self.start.with_zeros([polynomial]).is_everything
-
     def point(self, ideal: Ideal) -> Ideal | None:
         """The zeros of an ideal at which the unknowns that are functions of no others are 0."""
         solved = self.solved(ideal)

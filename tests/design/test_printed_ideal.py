@@ -198,3 +198,16 @@ def test_a_large_set_is_said_with_what_is_not_zero() -> None:
     assert [str(p) for p in step.nonzero] == ["gamma"]
     assert step.has_methods is True
     assert len(step.polynomials) > 20
+
+
+def test_denominators_that_are_numbers_are_not_said() -> None:
+    """√5 and 5 ± √5 divide coefficients of Lobatto IIIA with four stages. They are not zero, and
+    nothing but 3 = √3² and 5 = √5² is said of numbers alone.
+    """
+    family = loads_family('methods: [gauss-2, lobatto-iiia-4]\ntransfer: "?"\n')
+    step = find_parameters(family, 3).last
+    assert step.nonzero == ()
+    count = len(family.parameters)
+    of_numbers = [p for p in step.polynomials if not any(p.degrees()[:count])]
+    assert len(of_numbers) == len(family.radicals) == 2
+    assert all(p.total_degree() == 2 for p in of_numbers)
