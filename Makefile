@@ -73,6 +73,7 @@ catalogue: $(READY) ## make the index of the catalogue anew, and the copies in m
 figures: $(READY) ## draw the figures of the documentation anew
 	mkdir -p build
 	$(BIN)/python docs/figures/wrong_entry.py
+	$(BIN)/python docs/figures/least_error.py
 	$(BIN)/python docs/figures/rectangular.py
 	$(BIN)/python docs/figures/gallery.py > build/figures.txt
 

@@ -46,6 +46,16 @@ def test_the_picture_of_the_readme_is_what_gark_finds() -> None:
     assert "with a[3,2] = 1/2 instead of 1/3" in " ".join(found.split())
 
 
+def test_the_picture_of_least_errors_is_that_of_the_table() -> None:
+    """It has the pairs of the table whose least error is known; no rule has less."""
+    folder = ROOT / "docs" / "figures"
+    made = runpy.run_path(str(folder / "least_error.py"))
+    assert made["picture"]() == (folder / "least-error.svg").read_text(encoding="utf-8")
+    rows = made["table"]()
+    assert len(rows) == 5
+    assert all(min(row.values()) == row["least"] for row in rows.values())
+
+
 def test_figures_of_the_readme_exist() -> None:
     """Every picture it shows is there."""
     pictures = re.findall(r"!\[[^\]]*\]\(([^)]+)\)", README)
