@@ -7,10 +7,11 @@ from pathlib import Path
 import pytest
 from flint import Ordering, ctx, fmpq, fmpq_mpoly_ctx
 
-from garkcli import find_parameters, load, load_family, loads
+from garkcli import find_parameters, load, load_family, loads, loads_family, minimise
 from garkcli.design.ideal import Ideal
 from garkcli.exact.display import to_ball
 from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.polynomial_text import root_text
 from garkcli.order.certificate import find_order
 from garkcli.order.constants import error_constants
 from garkcli.problems.oscillator import Oscillator, terms_of
@@ -142,7 +143,7 @@ def test_the_error_is_less_than_that_of_published_pairs(
         assert found.all.largest < constants.all.largest
 
 
-@pytest.mark.parametrize("name", ["imex6-order4", "imex4-order3"])
+@pytest.mark.parametrize("name", ["imex6-order4", "imex4-order3", "imex4-order3-imaginary"])
 def test_the_parts_are_those_of_the_pair(name: str) -> None:
     """What is claimed of a part alone is claimed of the same coefficients."""
     whole = tableau_of(name)
@@ -150,10 +151,48 @@ def test_the_parts_are_those_of_the_pair(name: str) -> None:
     # numbers of two fields are compared as they are written
     assert str(implicit.blocks[0, 0]) == str(whole.blocks[0, 1])
     assert str(implicit.colours[0].b) == str(whole.colours[1].b)
-    if name == "imex6-order4":
-        explicit = tableau_of("imex6-order4-explicit")
-        assert explicit.blocks[0, 0] == whole.blocks[0, 0]
-        assert explicit.colours[0].b == whole.colours[0].b
+    if name != "imex4-order3":
+        explicit = tableau_of(f"{name}-explicit")
+        assert str(explicit.blocks[0, 0]) == str(whole.blocks[0, 0])
+        assert str(explicit.colours[0].b) == str(whole.colours[0].b)
+
+
+@pytest.mark.parametrize(
+    ("name", "norm", "reach"),
+    [
+        ("methods/found/imex4-order3-imaginary.gark.yaml", 0.1740, 2.828),
+        ("methods/found/imex4-order3.gark.yaml", 0.1624, 2.160),
+        ("ark324l2sa", 0.1663, 2.484),
+    ],
+)
+def test_imaginary_axes_of_explicit_parts(name: str, norm: float, reach: float) -> None:
+    """The table of docs/found.md: |R(iy)|² − 1 = y⁴(2κ − 1/12 + (1/36 − κ)y² + κ²y⁴) in floats,
+    κ = bᵀA³𝟙 of the explicit part, and the norm over all trees.
+    """
+    tableau = load(name).tableau
+    constants = error_constants(tableau, 4)
+    assert constants is not None
+    assert float(constants.all.two) == pytest.approx(norm, abs=6e-5)
+    matrix = [[float(to_ball(x, 80)) for x in row] for row in tableau.blocks[0, 0]]
+    v = [1.0] * 4
+    for _ in range(3):
+        v = [sum(a * x for a, x in zip(row, v, strict=True)) for row in matrix]
+    kappa = sum(float(to_ball(b, 80)) * x for b, x in zip(tableau.colours[0].b, v, strict=True))
+    middle, last = 1 / 36 - kappa, kappa**2
+    first = min(2 * kappa - 1 / 12, 0.0)  # 0 but for rounding where κ = 1/24
+    squared = (-middle + (middle**2 - 4 * last * first) ** 0.5) / (2 * last)
+    assert squared**0.5 == pytest.approx(reach, abs=6e-4)
+
+
+def test_no_explicit_part_reaches_farther() -> None:
+    """2√2 at κ = 1/24, of all R = 1 + z + z²/2 + z³/6 + κz⁴, decided by gark."""
+    chain = "parameters: {k: free}\nA: [[], [6*k], [0, 1/3], [0, 0, 1/2]]\nb: [0, 0, 0, 1]\n"
+    found = minimise(loads_family(chain), "-imaginary-interval")
+    assert found.extent == "all"
+    assert found.value is not None
+    assert root_text(found.value) == "2*sqrt(2)"
+    [best] = found.minimisers
+    assert best.found.solution.values["k"] == fmpq(1, 24)
 
 
 def test_the_polynomials_of_the_family_of_transfers_are_all() -> None:
