@@ -8,11 +8,12 @@ from typing import Any, TypeAlias
 from garkcli.api.anymethod import AnyMethod, method_of
 from garkcli.api.arrays import from_arrays
 from garkcli.api.numbers import Whole, whole
+from garkcli.conversion.sheet import in_one_field, sheet_of
 from garkcli.errors import MethodError, did_you_mean
 from garkcli.families import registry
 from garkcli.tableau import forms
 from garkcli.tableau.garkmethod import GarkMethod
-from garkcli.tableau.tableau import Method
+from garkcli.tableau.tableau import Method, Tableau
 from garkcli.transfer import RULES, legendre_rule
 
 Blocks: TypeAlias = "Mapping[tuple[int, int], Any]"
@@ -63,7 +64,7 @@ def gark(
         message = "gark takes a list of methods"
         raise MethodError(message, "give one per colour: ['gauss-2', …]", code="arrays")
     given = [method_of(method) for method in methods]
-    diagonal = [_diagonal(method) for method in given]
+    diagonal = _diagonal_methods(given)
     if not isinstance(transfer, str):
         return _with_blocks(given, transfer)
     if transfer not in RULES:
@@ -97,9 +98,21 @@ def _with_blocks(methods: Sequence[GarkMethod], blocks: Blocks) -> GarkMethod:
     return from_arrays(A, b, c)
 
 
-def _diagonal(method: GarkMethod) -> Method:
+def _diagonal_methods(methods: Sequence[GarkMethod]) -> list[Method]:
+    """The one colour of each method in its stage space, with numbers of one field.
+
+    Raises:
+        CannotConvert: the numbers have no common field.
+    """
+    tableaus = [method.tableau for method in methods]
+    fields = {id(x.field) for x in tableaus if x.field is not None}
+    if len(fields) > 1:
+        tableaus = [sheet.tableau for sheet in in_one_field([*map(sheet_of, methods)])]
+    return list(map(_diagonal, methods, tableaus))
+
+
+def _diagonal(method: GarkMethod, tableau: Tableau) -> Method:
     """The one colour of a method, in its own stage space."""
-    tableau = method.tableau
     block = tableau.block(0, 0)
     if tableau.size != 1 or block is None:
         message = f"{method!r} is no diagonal method"

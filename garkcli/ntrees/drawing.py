@@ -239,14 +239,16 @@ def draw_svg_sheet(trees: Sequence[Tree], captions: Lines | None = None, columns
 
     By default a row has six trees, or three where there are few, so that a phone shows them.
 
-    The dots carry the colours' numbers, from 1, and fills of ``PALETTE``. ``captions``: a
-    line of text for each tree. Raises ``ValueError`` when there are not as many captions as trees.
+    The dots carry the colours' numbers, from 1, and fills of ``PALETTE``; trees of colour 1 alone
+    have plain dots. ``captions``: a line of text for each tree. Raises ``ValueError`` when there
+    are not as many captions as trees.
     """
     count = len(trees)
     if captions is not None and len(captions) != count:
         counts = f"{len(captions)} captions for {count} trees"
         raise ValueError(f"{counts}; give each tree one")
     placed = [layout(u) for u in trees]
+    has_colours = any(v.colour for vertices in placed for v in vertices)
     lines = [[f"σ = {u.symmetry}, γ = {u.density}"] for u in trees]
     for k, caption in enumerate(captions or ()):
         lines[k].insert(0, caption)
@@ -259,7 +261,7 @@ def draw_svg_sheet(trees: Sequence[Tree], captions: Lines | None = None, columns
         row, column = divmod(k, columns)
         middle = sum(widths[:column]) + widths[column] / 2
         base = MARGIN + sum(heights[: row + 1]) + row * foot
-        body += _svg_tree(vertices, middle, base - RADIUS)
+        body += _svg_tree(vertices, middle, base - RADIUS, has_colours)
         body += _svg_caption(lines[k], middle, base)
     wide = f"{sum(widths):.0f}"
     high = f"{(MARGIN + sum(heights) + len(heights) * foot - ROW_GAP):.0f}"
@@ -292,7 +294,7 @@ def _grid(
     return widths, heights
 
 
-def _svg_tree(vertices: Vertices, middle: float, ground: float) -> list[str]:
+def _svg_tree(vertices: Vertices, middle: float, ground: float, has_colours: bool) -> list[str]:
     """Edges first, so that the dots lie on them; the drawing is centred at ``middle``."""
     left = middle - max(v.x for v in vertices) * STEP_X / 2
     xs = [left + v.x * STEP_X for v in vertices]
@@ -300,7 +302,7 @@ def _svg_tree(vertices: Vertices, middle: float, ground: float) -> list[str]:
     edges: list[str] = []
     dots: list[str] = []
     for v, x, y in zip(vertices, xs, ys, strict=True):
-        dots += _svg_dot(v.colour, x, y)
+        dots += _svg_dot(v.colour, x, y, has_colours)
         if v.parent < 0:
             continue
         start = _pixels(x1=xs[v.parent], y1=ys[v.parent])
@@ -310,8 +312,10 @@ def _svg_tree(vertices: Vertices, middle: float, ground: float) -> list[str]:
     return [group, *edges, "</g>", *dots]
 
 
-def _svg_dot(colour: int, x: float, y: float) -> list[str]:
-    """A vertex, and the number of its colour on it."""
+def _svg_dot(colour: int, x: float, y: float, has_number: bool) -> list[str]:
+    """A vertex, and perhaps the number of its colour on it."""
+    if not has_number:
+        return [f'<circle {_pixels(cx=x, cy=y)} r="{RADIUS / 2:g}" fill="#333333"/>']
     fill, ink = paint(colour)
     number = colour + 1
     centre = _pixels(cx=x, cy=y)

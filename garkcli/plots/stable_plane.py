@@ -41,7 +41,7 @@ def stable_plane_scene(values: StablePlane, title: str) -> Scene:
         height=260,
         has_grid=True,
     )
-    return Scene(title, [panel])
+    return Scene(f"A-stable methods of {title}", [panel])
 
 
 def _widened(numbers: Sequence[float]) -> list[float]:

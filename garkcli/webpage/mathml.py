@@ -49,7 +49,9 @@ _IN_WORDS = {
     r"x=(h\omega_{\mathrm{fast}})^2", "(ωq)²": r"(\omega q)^2", "ωq p": r"\omega q\,p", "p²": "p^2",
     "B A + Aᵀ B − b bᵀ": r"BA+A^TB-bb^T", "tr M = N/D": r"\operatorname{tr}M=N/D",
     "|y|": r"\lvert y\rvert", "−z": "-z", "α": r"\alpha", "θ": r"\theta", "γ": r"\gamma",
-    "z ≤ 0": r"z\le 0", "y = 0": "y=0", "z = 0": "z=0",
+    "|R(z1, z2)| ≤ 1": r"\lvert R(z_1,z_2)\rvert\le 1",
+    "|R(z2, z1)| ≤ 1": r"\lvert R(z_2,z_1)\rvert\le 1", "|R| ≤ 1": r"\lvert R\rvert\le 1",
+    "Re ≤ 0": r"\operatorname{Re}\le 0", "z ≤ 0": r"z\le 0", "y = 0": "y=0", "z = 0": "z=0",
 }  # fmt: skip
 """Formulas in sentences of ours, as LaTeX."""
 _ANY_IN_WORDS = re.compile("|".join(map(re.escape, sorted(_IN_WORDS, key=len, reverse=True))))

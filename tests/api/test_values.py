@@ -297,3 +297,12 @@ def test_powers_of_entries_are_whole() -> None:
     assert entry**-1 * entry == 1
     with pytest.raises(TypeError):
         entry**0.5
+
+
+@pytest.mark.parametrize("rule", ["collocation", "interpolation", "legendre"])
+def test_methods_of_two_number_fields_are_coupled(rule: str) -> None:
+    """As the file with the same methods, whose numbers come from one field."""
+    names = ["gauss-2", "gauss-3"]
+    made = garkcli.gark(names, rule)
+    read = garkcli.loads(f"methods: [{', '.join(names)}]\ntransfer: {rule}")
+    assert garkcli.compare(made, read).relation == "identical"

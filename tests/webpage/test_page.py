@@ -38,6 +38,7 @@ from tests.cli.harness import ROOT, gark
 from tests.webpage.reading import by_id, elements, name_of, number_of, read, rows_of, text_of
 
 VERLET = "methods/stoermer-verlet.gark.yaml"
+PAIRED = "methods/collocation.gark.yaml"
 RECTANGULAR = "methods/rectangular.gark.yaml"
 DENSE = "tests/examples/valid/embedded-and-dense.gark.yaml"
 ROUNDED = "tests/examples/valid/rounded.gark.yaml"
@@ -329,7 +330,7 @@ def test_a_large_table_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
     (table,) = elements(shown, "table")
     assert len(rows_of(table)) == sum(count[:fitting])
     said = text_of(shown)
-    assert f"The {count[fitting]} of order {fitting + 1} are left out" in said
+    assert f"The {count[fitting]} of order {fitting + 1} and all later ones are left out" in said
     assert f"gark conditions {VERLET} --only" in said
 
 
@@ -615,3 +616,18 @@ def test_another_file_is_not_written_over(tmp_path: Path) -> None:
         assert gark("report", "heun", "--no-pictures", cwd=tmp_path).code == 0
     assert gark("report", "lobatto-iiic*-5", "--no-pictures", cwd=tmp_path).code == 0
     assert (tmp_path / "lobatto-iiic-star-5.html").exists()
+
+
+def test_the_command_for_more_conditions_is_that_of_the_pair(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Also of a conjugate; a method from arrays has no file, and no command."""
+    monkeypatch.setattr(page_module, "MOST_ROWS", 10)
+    pair = garkcli.load(PAIRED).pair
+    assert isinstance(pair, garkcli.GarkMethod)
+    said = text_of(by_id(read(report_page(pair, pictures=False)), "m1-conditions"))
+    assert f"gark conditions {PAIRED} --pair --only --order" in said
+    arrays = garkcli.gark(["gauss-2", "gauss-3"], "legendre")
+    said = text_of(by_id(read(report_page(arrays, pictures=False)), "m1-conditions"))
+    assert "left out" in said
+    assert "gark conditions" not in said

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from shlex import quote
 
 from garkcli.exact.display import decimal
 from garkcli.frozen import Frozen
+from garkcli.methodfile.build import MethodFile
 from garkcli.ntrees.notation import format_tree
 from garkcli.order.conditions import Condition, all_conditions, count_conditions
 from garkcli.report.conditions import ConditionRow, is_parametric, row_of
+from garkcli.tableau.garkmethod import derivation_of
 from garkcli.tableau.meant import meant
 from garkcli.tableau.tableau import Tableau
 from garkcli.tell.dialect import Plain
@@ -52,8 +55,19 @@ def content(method: Reported) -> Content | None:
         "states": [state for state in _STATES if state in states],
         "failing": sum(row["state"] in ("fails", "varies") for row in rows),
         "tolerance": method.tolerance and decimal(method.tolerance),
-        "file": method.outcome.file,
+        "arguments": _arguments(method),
     }
+
+
+def _arguments(method: Reported) -> str:
+    """FILE of ``gark conditions`` for this method, perhaps with --pair; empty without a file."""
+    shown = method.method
+    derivation = derivation_of(shown)
+    base = shown.base if shown is not None and derivation else shown
+    if base is not None and not isinstance(base, MethodFile):
+        return ""
+    file = quote(method.outcome.file if base is None else base.source)
+    return f"{file} --{derivation}" if derivation else file
 
 
 def _wanted(method: Reported) -> int:

@@ -16,6 +16,7 @@ from garkcli.page.tableau_text import readable
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.embedded import NOTHING, Further
 from garkcli.tableau.forms import pair
+from garkcli.tableau.garkmethod import derivation_of
 from garkcli.tableau.pointwise import Cell, Entries, entries
 from garkcli.tableau.tableau import Tableau
 from garkcli.webpage.mathml import Typeset, typeset, typeset_cell
@@ -28,6 +29,10 @@ LONGEST = 64
 _DIGITS = 17
 _WIDE, _VAST = 6, 12
 """More columns need smaller letters on paper."""
+
+
+_TITLES = {"": "The method", "conjugate": "The symplectic conjugate", "pair": "The symplectic pair"}
+"""Of the tableau that the page is about, by how it was made."""
 
 
 def content(method: Reported) -> Content | None:
@@ -43,7 +48,7 @@ def content(method: Reported) -> Content | None:
         further = NOTHING if method.method is None else method.method.further
         tableau, tolerance = analysis.tableau, method.tolerance
         found = _entries(tableau, tolerance, further)
-        shown = [_table("The method", tableau, found)]
+        shown = [_table(_TITLES[derivation_of(method.method)], tableau, found)]
         dense = [(typeset(left), typeset(right)) for left, right in dense_polynomials(found)]
         others = {
             "Its symplectic conjugate": analysis.conjugate,
