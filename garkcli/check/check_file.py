@@ -120,7 +120,12 @@ def _blame(method: MethodFile, analysis: Analysis) -> Blame | None:
 
 
 def _blame_for(
-    tableau: Tableau, found: AnyOrder, claimed: int, key: str, which: str = ""
+    tableau: Tableau,
+    found: AnyOrder,
+    claimed: int,
+    key: str,
+    which: str = "",
+    is_embedded: bool = False,
 ) -> Blame | None:
     """What is to blame for an order that is smaller than claimed."""
     from garkcli.order.blame import (
@@ -128,7 +133,7 @@ def _blame_for(
         blame_of,  # paid for by failures alone
     )
 
-    missed = Missed(found.order + 1, claimed, key, which)
+    missed = Missed(found.order + 1, claimed, key, which, is_embedded=is_embedded)
     if not isinstance(found, Order):
         missed = replace(missed, tolerance=found.tolerance, near=NEAR * found.tolerance)
     return blame_of(tableau, missed)
@@ -145,12 +150,8 @@ def _blame_of_embedded(method: MethodFile, analysis: Analysis) -> Blame | None:
         return None
     if facts.order.is_lower_bound:
         return None
-    found = _blame_for(facts.tableau, facts.order, claimed, key)
-    if found is None:
-        return None
-    of_weights = [x for x in found.repairs if x.m is None]
-    repairs = tuple(replace(x, is_embedded=True) for x in of_weights)
-    return replace(found, repairs=repairs, culprit=None, in_every=(), in_none=())
+    found = _blame_for(facts.tableau, facts.order, claimed, key, is_embedded=True)
+    return found and replace(found, culprit=None, in_every=(), in_none=())
 
 
 def _with_consequences(

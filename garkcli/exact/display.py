@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from flint import arb, ctx, fmpq
 
 from garkcli.exact.enclosing import enclose
@@ -41,9 +43,28 @@ def _latex_term(coefficient: fmpq, factors: str) -> str:
     return rf"{sign}\frac{{{top}}}{{{coefficient.q}}}"
 
 
+def to_balls(numbers: Iterable[Number], digits: int) -> list[arb]:
+    """Enclosures of numbers as of ``to_ball``; irrational ones that are equal are enclosed once."""
+    known: dict[Algebraic, arb] = {}
+    balls = []
+    with ctx.workprec(_bits(digits) + 32):
+        for number in numbers:
+            if not isinstance(number, Algebraic):
+                balls.append(arb(number))
+                continue
+            if number not in known:
+                known[number] = to_ball(number, digits)
+            balls.append(known[number])
+    return balls
+
+
+def _bits(digits: int) -> int:
+    return int(digits * 3.33) + 8
+
+
 def to_ball(number: Number, digits: int = 17) -> arb:
     """An enclosure of ``number`` with at least ``digits`` correct decimal digits."""
-    goal = int(digits * 3.33) + 8
+    goal = _bits(digits)
     with ctx.workprec(goal + 32):
         while True:
             ball = _ball(number)

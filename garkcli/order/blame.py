@@ -93,6 +93,7 @@ class Missed(Frozen):
         tolerance: the rounding of the coefficients; conditions fail beyond what it explains.
         near: the rounding with which they are restored: more than ``tolerance`` where coefficients
             are rounded, as the entry that is changed carries the rounding of all others.
+        is_embedded: whether it is claimed of embedded weights: only one of these may be wrong.
     """
 
     order: int
@@ -101,6 +102,7 @@ class Missed(Frozen):
     which: str = ""
     tolerance: fmpq = ZERO
     near: fmpq = ZERO
+    is_embedded: bool = False
 
     def judged(self, method: Tableau) -> AnyTableau:
         """What the order is claimed of, as its conditions fail.
@@ -132,7 +134,7 @@ def repairs(method: Tableau, missed: Missed, failing: list[Condition]) -> Iterat
         solved = sorted(failing, key=lambda x: _size(x.residual), reverse=True)[:FEW_CONDITIONS]
     if not solved:
         return
-    for tried, entry in enumerate(_entries(method)):
+    for tried, entry in enumerate(_entries(method, missed.is_embedded)):
         if tried >= MAX_ENTRIES:
             return
         new = _solution(method, missed, entry, solved)
@@ -145,7 +147,7 @@ def repairs(method: Tableau, missed: Missed, failing: list[Condition]) -> Iterat
         if not all(condition.holds for condition in conditions(changed, few)):
             continue
         if order_of(changed, missed.claimed).order >= missed.claimed:
-            yield Repair(entry.l, entry.m, entry.i, entry.j, entry.old, new)
+            yield Repair(entry.l, entry.m, entry.i, entry.j, entry.old, new, missed.is_embedded)
 
 
 def named_block(tableau: Tableau, edge: Edge) -> Edge:
@@ -165,9 +167,9 @@ def _size(number: Number) -> float:
     return float(abs(to_ball(number, 20)))
 
 
-def _entries(method: Tableau) -> Iterator[Entry]:
+def _entries(method: Tableau, only_weights: bool) -> Iterator[Entry]:
     """The entries that are entries of stages: those of stage spaces of points."""
-    for l, m in named_blocks(method):
+    for l, m in [] if only_weights else named_blocks(method):
         if not (_has_points(method, l) and _has_points(method, m)):
             continue
         for i, row in enumerate(method.blocks[method.colours[l].space, m]):

@@ -115,12 +115,15 @@ class TreeResiduals(StageVectors[Rows]):
     def _values(self, table: TreeTable, segment: Segment) -> Row:
         """b_lᵀ 𝒜^[u] for every stem with every branch, stem by stem."""
         b = self.enclosure.b[segment.root].entries()
-        stems, branches = self.stems(table, segment), self.branches(table, segment)
-        if len(stems) < len(branches):  # the weights go where they are fewer
-            stems = [times(row, b) for row in stems]
+        stems = self.stems(table, segment)
+        if len(stems) < len(segment.branches):  # the weights and A go where they are fewer
+            left = arb_mat([times(row, b) for row in stems])
+            left *= self.enclosure.A[self.rows[segment.root], segment.branch_root]
+            branches = self.of(table, segment.branch_order, segment.branch_root)
         else:
-            branches = [times(row, b) for row in branches]
-        return (arb_mat(stems) * arb_mat(branches).transpose()).entries()
+            left = arb_mat(stems)
+            branches = [times(row, b) for row in self.branches(table, segment)]
+        return (left * arb_mat(branches).transpose()).entries()
 
     def _part(self, vectors: Rows, places: Column) -> Rows:
         return [vectors[i] for i in places.tolist()]

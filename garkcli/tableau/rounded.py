@@ -12,11 +12,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import cached_property
+from itertools import chain
 from typing import Any, TypeAlias, cast
 
 from flint import arb, arb_mat, ctx, fmpq
 
-from garkcli.exact.display import to_ball
+from garkcli.exact.display import to_ball, to_balls
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import apply
 from garkcli.frozen import Frozen, replace
@@ -102,14 +103,7 @@ def _matrix(rows: Sequence[Sequence[Cell]]) -> arb_mat:
 
 
 def _balls(rows: Sequence[Sequence[Number]], digits: int) -> arb_mat:
-    known: dict[Number, arb] = {}
-    enclosed: list[list[arb]] = []
-    for row in rows:
-        for x in row:
-            if x not in known:
-                known[x] = to_ball(x, digits)
-        enclosed.append([known[x] for x in row])
-    return arb_mat(enclosed)
+    return arb_mat(len(rows), len(rows[0]), to_balls(chain.from_iterable(rows), digits))
 
 
 GUARD = 96
