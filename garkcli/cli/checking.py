@@ -1,6 +1,4 @@
-"""``gark check``, many files side by side with the same outcome as one after the other; and
-``gark claims``.
-"""
+"""``gark check``, many files side by side with the same outcome as one after the other."""
 
 from __future__ import annotations
 
@@ -8,7 +6,6 @@ import os
 import sys
 from collections.abc import Callable, Iterator
 from functools import partial
-from typing import TYPE_CHECKING
 
 import click
 
@@ -19,14 +16,10 @@ from garkcli.cli.project import Project, find_project
 from garkcli.crew.hiring import hired
 from garkcli.crew.work import in_order
 from garkcli.doing import counting, doing
-from garkcli.errors import Fault, HasFreeParameters, UsageProblem
+from garkcli.errors import Fault
 from garkcli.files import is_stream
 from garkcli.frozen import replace
 from garkcli.report.check_formats import FORMATS
-from garkcli.tell.report import FORMATS as TOLD
-
-if TYPE_CHECKING:
-    from garkcli.methodfile.build import MethodFile
 
 
 @declared("check", ["auto", *FORMATS])
@@ -62,8 +55,12 @@ def check(given: Given, output: Output) -> int:
         return _compare(project, given, output)
     outcomes = _outcomes(project, given, output)
     output.suit()
-    render = FORMATS[output.format]
-    output.write(render(outcomes, output.paint, output.verbosity, given.digits, output.width))
+    text = ""
+    # where all is well and nobody wants to hear it, what would tell is not even imported
+    if output.format != "text" or output.verbosity >= 0 or not all(x.ok for x in outcomes):
+        render = FORMATS[output.format]
+        text = render(outcomes, output.paint, output.verbosity, given.digits, output.width)
+    output.write(text)
     return max(outcome.exit_code for outcome in outcomes)
 
 
@@ -71,6 +68,7 @@ def _explain(key: str, output: Output) -> int:
     """Write what a claim means."""
     from garkcli.check.meanings import claim_meaning
     from garkcli.report.meaning import REPORT, told
+    from garkcli.tell.report import FORMATS as TOLD
 
     if output.format not in TOLD:
         output.format = "text"
@@ -145,65 +143,3 @@ def _ended(path: str, why: str) -> Outcome:
     """The outcome of a file that ended its worker."""
     cure = "check it alone; where memory is short use fewer --jobs"
     return _crashed(path, f"its check was ended {why}", cure, "worker-lost")
-
-
-@declared("claims", TOLD)
-def claims(given: Given, output: Output) -> None:
-    """What is true of a method, as a file claims it under `expect`.
-
-    For a file with claims: these, corrected. Otherwise the orders, whether it is symplectic, its
-    stage order, and the properties that it has. What has no meaning or is not decided is left out.
-    FILE as for gark check.
-
-    --write puts the claims into the files, so that gark check fails once the method changes.
-    """
-    from garkcli.api.calls import refuse_unknown, true_claims_of
-    from garkcli.methodfile.carried import write_claims
-    from garkcli.methodfile.expectations import CLAIMS
-    from garkcli.page.writing import write_whole
-    from garkcli.report.claims import REPORT, Claims, yaml_text
-
-    refuse_unknown(given.keys)
-    if given.write and "-" in given.files:
-        raise UsageProblem("--write needs a file", "name one in place of -", code="option-alone")
-    paths = given.files_meant(output)
-    if given.write:
-        from garkcli.methodfile.naming import find_named
-
-        for path in paths:
-            if find_named(path) is not None:
-                message = f"--write needs a file, and {path} is a name of the catalogue"
-                raise UsageProblem(message, "give the path of the file", code="option-alone")
-    methods = [_loaded(path) for path in paths]
-    found = []
-    for method in methods:
-        made = (claim.key for claim in method.claims)
-        wanted = list(CLAIMS) if given.all else [*made, *given.keys]
-        found.append(true_claims_of(method, wanted))
-    if given.write:
-        for method, true in zip(methods, found, strict=True):
-            text = write_claims(method.source, method.text, true.claims)
-            if text != method.text:
-                write_whole(method.source, [text], is_renewed=True)
-    told = [Claims(true, given.write) for true in found]
-    if output.format == "text":
-        output.write(yaml_text(told, output.width))
-    else:
-        output.tell(REPORT, *told)
-
-
-def _loaded(path: str) -> MethodFile:
-    """A method with its claims.
-
-    Raises:
-        MethodFileError: the file is no method.
-        UsageProblem: it is a family of them.
-    """
-    from garkcli.methodfile.load import load
-
-    try:
-        return load(path)
-    except HasFreeParameters as error:
-        message = f"{error.source} has free parameters, and claims are of one method"
-        cure = "gark check says what holds for every value"
-        raise UsageProblem(message, cure, code="free-parameters") from None

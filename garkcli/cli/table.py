@@ -349,7 +349,7 @@ exchange: export FILE | a method for SciPy, SUNDIALS, PETSc, C, JSON and others
 exchange: audit PATH... | the tables in a source tree: are their declared orders true?
     = audit
     --strict --jobs
-checking: claims FILE... | what is true of a method, as claims for its file
+claims: claims FILE... | what is true of a method, as claims for its file
     = claims_of with_claims
     --write --all --key
 looking_up: certificate FILE | a proof of the orders, which a separate short script checks

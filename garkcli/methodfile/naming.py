@@ -124,8 +124,8 @@ def look_up(name: str) -> Shelved | None:
     key = key_of(name)
     for shelves in _in_turn():
         for shelf in shelves:
-            if key in shelf.methods:
-                return _only(name, shelf.methods[key])
+            if found := shelf.named(key):
+                return _only(name, found)
         found = _called(key, (shelf.aliases for shelf in shelves))
         found = found or _called(letters_of(name), (shelf.spellings for shelf in shelves))
         if found:

@@ -102,6 +102,10 @@ class Shelf:
         """By their names."""
         return _by(lambda x: [key_of(x.name)], self._shelved())
 
+    def named(self, key: str) -> Sequence[Shelved]:
+        """Those of a name, by its key."""
+        return self.methods.get(key, ())
+
     @cached_property
     def aliases(self) -> Found:
         """By what else they are called."""
@@ -146,9 +150,20 @@ class Package(Shelf):
     """The methods that come with the program, by their index."""
 
     @cached_property
+    def _index(self) -> str:
+        return _resource(INDEX).decode("ascii")
+
+    @cached_property
     def entries(self) -> Mapping[str, Mapping[str, Any]]:
         """What the index says of each, by its name."""
-        return {x["name"]: x for x in json.loads(_resource(INDEX).decode("utf-8"))["methods"]}
+        return {x["name"]: x for x in json.loads(self._index)["methods"]}
+
+    def named(self, key: str) -> Sequence[Shelved]:
+        """Those of a name, by its key, which it is itself; no other entry of the index is read."""
+        start = self._index.find(f'\n{{"name": {json.dumps(key)}, ')
+        if start < 0:
+            return ()
+        return [self._entered(json.JSONDecoder().raw_decode(self._index, start + 1)[0])]
 
     def called(self, method: Shelved) -> Sequence[str]:
         """The aliases of one of its methods; no file is read for it."""
@@ -156,10 +171,12 @@ class Package(Shelf):
         return aliases
 
     def _shelved(self) -> Iterator[Shelved]:
-        for name, entry in self.entries.items():
-            file = entry["file"]
-            folder = file.partition("/")[0]
-            yield Shelved(name, folder, file, self.label, _text_within(f"{DATA}/{file}", name))
+        return map(self._entered, self.entries.values())
+
+    def _entered(self, entry: Mapping[str, Any]) -> Shelved:
+        name, file = entry["name"], entry["file"]
+        folder = file.partition("/")[0]
+        return Shelved(name, folder, file, self.label, _text_within(f"{DATA}/{file}", name))
 
 
 def _text_within(file: str, name: str) -> Callable[[], str]:

@@ -99,25 +99,19 @@ def printed_row(rows: Sequence[Node], example: str) -> tuple[Node, str, str] | N
 _PLAIN = re.compile(r"[-+]?[0-9][0-9./]*", re.ASCII)
 
 
-_SPELLINGS: tuple[tuple[re.Pattern[str], str], ...] = tuple(
-    (re.compile(pattern, re.ASCII), cure)
-    for pattern, cure in (
-        (r"(?P<x>[0-9.]+)[dD](?P<n>[-+]?[0-9]+)", "write the exponent with e: {x}e{n}"),
-        (r"(?P<x>[0-9.]+([eE][-+]?[0-9]+)?)_[A-Za-z]\w*", "leave the kind out: {x}"),
-        (r"(?P<x>[0-9]*\.[0-9]+|[0-9]+\.)[fFlLq]\b", "leave the suffix out: {x}"),
-        (r"\b(?P<f>sqrt|cbrt)(?P<x>[0-9]+)", "write {f}({x})"),
-        (r"\b(math|np|numpy|sympy|sp|cmath|jnp)\.(?P<f>sqrt|cbrt)", "write {f}(x)"),
-        (r"\b(?P<f>Sqrt|SQRT)\b", "write sqrt(x)"),
-        (r"\\d?frac", "write fractions as 1/2"),
-        (r"\\sqrt", "write sqrt(x)"),
-        (r"\b(Fraction|Rational)\b", "write fractions as 1/2"),
-        (r"(?P<x>[0-9]+)//(?P<y>[0-9]+)", "write {x}/{y}"),
-        (
-            r"(?<![A-Za-z_])[0-9.]*[ijIJ](?![A-Za-z_0-9])",
-            "coefficients are real here: no complex ones",
-        ),
-        (r"[0-9)][ \t]+[0-9.]+", "put commas between the entries: [0, 1/2]"),
-    )
+_SPELLINGS: tuple[tuple[str, str], ...] = (
+    (r"(?P<x>[0-9.]+)[dD](?P<n>[-+]?[0-9]+)", "write the exponent with e: {x}e{n}"),
+    (r"(?P<x>[0-9.]+([eE][-+]?[0-9]+)?)_[A-Za-z]\w*", "leave the kind out: {x}"),
+    (r"(?P<x>[0-9]*\.[0-9]+|[0-9]+\.)[fFlLq]\b", "leave the suffix out: {x}"),
+    (r"\b(?P<f>sqrt|cbrt)(?P<x>[0-9]+)", "write {f}({x})"),
+    (r"\b(math|np|numpy|sympy|sp|cmath|jnp)\.(?P<f>sqrt|cbrt)", "write {f}(x)"),
+    (r"\b(?P<f>Sqrt|SQRT)\b", "write sqrt(x)"),
+    (r"\\d?frac", "write fractions as 1/2"),
+    (r"\\sqrt", "write sqrt(x)"),
+    (r"\b(Fraction|Rational)\b", "write fractions as 1/2"),
+    (r"(?P<x>[0-9]+)//(?P<y>[0-9]+)", "write {x}/{y}"),
+    (r"(?<![A-Za-z_])[0-9.]*[ijIJ](?![A-Za-z_0-9])", "coefficients are real here: no complex ones"),
+    (r"[0-9)][ \t]+[0-9.]+", "put commas between the entries: [0, 1/2]"),
 )
 """Numbers as other languages write them, and how a method file does."""
 
@@ -130,7 +124,7 @@ def explained(error: ExpressionError, text: str) -> tuple[ExpressionError, str]:
     if len(text) > MAX_PRINTED:
         return error, ""
     for pattern, better in _SPELLINGS:
-        found = pattern.search(text)
+        found = re.search(pattern, text, re.ASCII)
         # the fault lies in what the pattern found, or right behind it
         if found and found.start() <= start <= found.end():
             message, code = error.message, error.code
@@ -140,7 +134,7 @@ def explained(error: ExpressionError, text: str) -> tuple[ExpressionError, str]:
                 code = "not-a-number"
             cure = better.format(**found.groupdict())
             explanation = ExpressionError(message, cure, found.start(), found.end(), code=code)
-            return explanation, pattern.pattern
+            return explanation, pattern
     # a tableau copied with its symbols; a slip in the name of a parameter is another matter
     is_name = isinstance(error, UndefinedValue) and not error.help.startswith("did you mean")
     is_symbol = is_name and _SYMBOLS.fullmatch(text[error.start : error.end])
