@@ -10,10 +10,17 @@ SYMPY = process([*PYTHON, "-c", "import sympy"])
 
 
 @pytest.mark.parametrize(
-    ("arguments", "target"), [(["check", "methods/collocation.gark.yaml"], 0.5), (["--help"], 0.3)]
+    ("arguments", "target"),
+    [
+        (["check", "-q", "rk4"], 0.35),
+        (["check", "methods/collocation.gark.yaml"], 0.5),
+        (["--help"], 0.3),
+    ],
 )
 def test_startup(arguments: list[str], target: float) -> None:
-    """A check of the collocation example, and the help, cost a fraction of importing sympy."""
+    """A quiet check, one of the collocation example, and the help cost a fraction of importing
+    sympy.
+    """
     ours, sympys = interleaved(process([*GARK, *arguments]), SYMPY)
     assert_ratio(
         f"gark {' '.join(arguments)} / import sympy",

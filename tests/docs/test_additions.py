@@ -41,7 +41,9 @@ class Copy:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
-        shutil.copytree(PACKAGE, folder / "garkcli")  # with the byte code of what stays as it is
+        # with the byte code of what stays as it is, but for that of pytest
+        unused = shutil.ignore_patterns("*-pytest-*")
+        shutil.copytree(PACKAGE, folder / "garkcli", ignore=unused)
         (folder / "m.yaml").write_text(RK4)
 
     def write(self, path: str, text: str) -> None:
