@@ -332,13 +332,14 @@ def is_on(family: Family, part: Part, solution: Solution, root: RealRoot) -> boo
 
 def joined(family: Family, parts: Sequence[StablePart]) -> tuple[StableValues, ...]:
     """For each kind of stability the values of one unknown, within its range, that the parts have
-    together; nothing where they depend on different ones, or where the file asks for more.
+    together; nothing where they depend on different ones.
     """
     together = []
     for same in zip(*(x.kinds for x in parts), strict=True):
         name = same[0].parameter
         asked = {key for key, ends in family.ranges.items() if ends != (None, None)} - {name}
-        if asked or family.positive or family.not_negative or {x.parameter for x in same} != {name}:
+        is_apart = bool(asked or family.positive or family.not_negative)
+        if {x.parameter for x in same} != {name}:
             return ()
         start, end = (
             None if x is None else RealRoot.rational(x)
@@ -350,7 +351,7 @@ def joined(family: Family, parts: Sequence[StablePart]) -> tuple[StableValues, .
         found = where(partial(_is_in_one, sets, admitted), critical)
         undecided = dict.fromkeys(t for x in same for t in x.undecided)
         left = tuple(t for t in undecided if has(admitted, t) and not has(found, t))
-        together.append(replace(same[0], found=found, undecided=left))
+        together.append(replace(same[0], found=found, undecided=left, is_apart=is_apart))
     return tuple(together)
 
 

@@ -59,6 +59,7 @@ class StableValues(Shown, Frozen):
         colour: which colour alone is driven, counted from 0; None for all of them alike.
         form: the one number, linear in several parameters, that the step depends on, and whose
             values are meant; None for a parameter itself.
+        is_apart: whether some of its methods may lack what else the file wants, such as signs.
     """
 
     family: Family
@@ -69,6 +70,7 @@ class StableValues(Shown, Frozen):
     two_springs: TwoSprings | None = None
     colour: int | None = None
     form: Form | None = None
+    is_apart: bool = False
 
     @property
     def parameter(self) -> str:

@@ -15,7 +15,17 @@ from garkcli.page.exactly import ALGEBRAIC, root_data
 from garkcli.tableau.family import Stability
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Kind, Level, Row, Section, maybe, optional
-from garkcli.tell.kinds import INDEX, INTERVAL, ROOTS, TEXT, TEXTS, choice, interval_data, record
+from garkcli.tell.kinds import (
+    INDEX,
+    INTERVAL,
+    ROOTS,
+    TEXT,
+    TEXTS,
+    TRUTH,
+    choice,
+    interval_data,
+    record,
+)
 from garkcli.tell.parts import part, rows_of, told
 from garkcli.tell.report import Report
 
@@ -42,6 +52,8 @@ def stability(values: StableValues, d: Plain) -> str:
     name = ", ".join(map(d.expression, values.family.parameters))
     if values.has_wishes:
         text += ", and as the file wants it,"
+    if values.is_apart:
+        text += ", apart from what else is wanted,"
     if not values.found:
         return (
             f"{text} for {'no value that is decided' if values.undecided else 'no value'} of {name}"
@@ -101,7 +113,8 @@ SPRINGS = Section(
 WANTED = Row("wanted", choice(*get_args(Wanted)), level=DATA)
 COLOUR = maybe("colour", INDEX, level=DATA)
 FOUND = [Row("set", SET, "found", DATA), Row("undecided", ROOTS, level=DATA)]
-VALUES = Section(WANTED, COLOUR, *FOUND)
+APART = optional("apart", TRUTH, lambda x: x.is_apart or None, DATA)
+VALUES = Section(WANTED, COLOUR, *FOUND, APART)
 """The values as a part of the report of an order."""
 
 

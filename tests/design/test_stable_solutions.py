@@ -281,11 +281,19 @@ def test_stable_values_are_within_the_range(
     assert told in " ".join(run.out.split())
 
 
-def test_more_wishes_leave_no_set() -> None:
-    """Which of the stable methods have positive weights is not looked at: the set is not told."""
-    text = "unknown: {stages: 2, shape: sdirk}\n"
-    text += "design: {order: 2, l-stable: true, positive-weights: true}\n"
-    assert "exactly" not in gark("design", "-", stdin=text).out
+def test_the_set_with_other_wishes() -> None:
+    """Which of the stable methods have positive weights is not looked at: the set is told apart
+    from that, and is the one without it.
+    """
+    text = "unknown: {stages: 2, shape: sdirk}\ndesign: {order: 2, l-stable: true"
+    alone = gark("design", "-", stdin=f"{text}}}").out.split("unknowns")[0]
+    beside = gark("design", "-", stdin=f"{text}, positive-weights: true}}").out.split("unknowns")[0]
+    assert " ".join(beside.split()) == " ".join(alone.split()).replace(
+        "L-stable for", "L-stable, apart from what else is wanted, for"
+    )
+    told = gark("design", "-", "--format", "json", stdin=f"{text}, positive-weights: true}}")
+    [values] = json.loads(told.out)["stable"]
+    assert values["apart"]
 
 
 def test_a_stable_point_beside_a_line() -> None:
