@@ -22,7 +22,7 @@ def backward_analysis(
 
     Args:
         method: whatever ``method_of`` takes.
-        max_order: of the trees, at least 1.
+        max_order: the most vertices of a tree, at least 1.
         tolerance: the rounding of the coefficients; that of the method where it is not given, 0 for
             none.
 

@@ -433,7 +433,7 @@ def sweep(given: Given, output: Output) -> None:
 
     SPEC names the methods, the criteria, which methods to keep and what is better; see
     docs/sweep.md. Each criterion is decided exactly. Rows are written one by one, and --resume
-    continues a sweep that was ended at any moment.
+    continues an interrupted sweep.
     """
     from garkcli.report.calls import swept
     from garkcli.report.sweep import REPORT, json_lines, refuse_parquet, write_parquet

@@ -27,12 +27,12 @@ if TYPE_CHECKING:
     from garkcli.tableau.garkmethod import GarkMethod
 
 _COUNTS = {
-    "order": "The order, such as 4, '>=4' or 2..4; so the others.",
+    "order": "The order: 4, '>=4' or 2..4, as every RANGE.",
     "embedded-order": "The order of embedded weights.",
     "conjugate-order": "The order of the symplectic conjugate.",
     "pair-order": "The order of the symplectic pair.",
     "nonautonomous-order": "The order for y' = f(t, y), with the printed nodes.",
-    "stages": "The stages, of several colours the most.",
+    "stages": "The stages; with several colours the largest number.",
     "colours": "The vector fields.",
 }
 _TRUTHS = {
@@ -122,7 +122,7 @@ def _filters() -> list[click.Option]:
         *(click.Option([f"--{key}/--no-{key}"], default=None, help=x) for key, x in truths.items()),
         *(click.Option([f"--{x}"], type=click.Choice(y), help=z) for x, (y, z) in words.items()),
         click.Option(["--structure"], metavar="WORD", help=structures),
-        click.Option(["--folder"], metavar="NAME", help="Of the catalogue, such as erk."),
+        click.Option(["--folder"], metavar="NAME", help="A folder of the catalogue, such as erk."),
         click.Option(["--judge"], is_flag=True, default=None, help=judging),
     ]
 
@@ -137,8 +137,8 @@ def list_(given: Given, output: Output) -> None:
     """Families of diagonal methods, transfer rules, schemes of compositions, problems; or WHAT:
     one of these lists; methods, those of the catalogue; or exports, the targets of gark export.
 
-    Methods are those that are as every option says and that have every WORD in their name, an
-    alias, their title or their reference; --no-... those for which it is known not to hold.
+    gark lists a method if every option holds and its name, an alias, its title or its reference has
+    every WORD; --no-... takes methods of which the property is known to fail.
     """
     from garkcli.report import list_methods, listing
 

@@ -167,7 +167,7 @@ conditions --order -n n 1..100 default=4 = all_conditions.order | Every order up
 conditions --sort words=tree,worst default=tree
     | Order of the rows; worst: the largest residual first.
 
-convert --to words=forms = convert.to
+convert --to words=forms = convert.to | The form of the result.
 --stages N 1..1000 = convert.stages
 --strict | Exit with 1 unless every entry is identical.
 
@@ -189,10 +189,11 @@ energy --problem problem default=oscillator = long_run.problem
     | The problem to follow: a name of gark list problems, or a file.
 --omega W positive = Oscillator.omega | The frequency of the oscillator; 1 by default.
 --split K:V,... = Oscillator.shares | The oscillator's shares of kinetic and potential energy.
---seed N 0.. default= = problem.seed | The coefficients of random problems; 1 by default.
-design --seed N 0.. default= = search_methods.seed | With --search: of the starts; 0 by default.
+--seed N 0.. default= = problem.seed | The seed of random coefficients; 1 by default.
+design --seed N 0.. default= = search_methods.seed
+    | With --search: the seed of the starts; 0 by default.
 --stiffness S positive = problem.stiffness
-    | Of the stiff problems, and the parameter of this name in a problem file.
+    | The stiffness of a stiff problem; in a file the parameter of this name.
 --t-end T positive = long_run.t_end | The final time; each problem has its own.
 --steps H,... positives = converge.steps
     | Step sizes, instead of a ladder of halvings that fits the errors.

@@ -19,12 +19,11 @@ from garkcli.report.schemas import REPORTS, report_schema
 
 
 def codes_page() -> str:
-    """Every code of an error in Markdown, a table per topic; each message has its own cure."""
-    parts = []
-    for topic, title in TOPICS.items():
-        rows = [(f"`{x.code}`", cell(_phrase(x.text, ";:"))) for x in faults_of(topic)]
-        parts.append(f"### {title}\n\n{table(('code', 'what it means'), rows)}")
-    return "\n".join(parts)
+    """Every code of an error in Markdown, a row per topic; gark explain says what one means."""
+    return table(
+        ("of", "codes"),
+        [(title, ", ".join(f"`{x.code}`" for x in faults_of(x))) for x, title in TOPICS.items()],
+    )
 
 
 _WORKS = {
