@@ -87,15 +87,7 @@ class Columns(Frozen):
 
     def all(self) -> tuple[Column, ...]:
         """The seven columns, in the order of the fields."""
-        return (
-            self.stem,
-            self.branch,
-            self.root,
-            self.order,
-            self.multiplicity,
-            self.sigma,
-            self.gamma,
-        )
+        return tuple(getattr(self, name) for name in self.__struct_fields__)
 
     def part(self, which: slice | Column) -> Columns:
         """The trees of a slice, a mask or an array of positions."""

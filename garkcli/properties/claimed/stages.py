@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import chain, combinations
 
-from flint import arb, ctx, fmpq, fmpq_poly
+from flint import fmpq, fmpq_poly
 
-from garkcli.exact.display import to_ball
 from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.roots import roots_below, sign
 from garkcli.frozen import replace
@@ -25,14 +23,11 @@ from garkcli.properties.reduction import are_positive, is_plainly_irreducible, r
 from garkcli.properties.subject import MISSING_BLOCKS, Subject
 from garkcli.properties.symmetry import MOST_RENUMBERINGS, symmetry
 from garkcli.reason import NO_REASON, Reason
-from garkcli.stability.algebraic import contractivity, form_within, negative_pivot
+from garkcli.stability.algebraic import algebraic_within, contractivity, negative_pivot
 from garkcli.tableau.meant import meant
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
-
-_BITS = 256
-"""Precision of balls; far below any tolerance that files have."""
 
 
 def obstacle(tableau: Tableau) -> Reason:
@@ -69,51 +64,16 @@ def _negative_weight(tableau: Tableau, tolerance: fmpq = ZERO) -> Reason:
 def obstacle_within(tableau: Tableau, tolerance: fmpq) -> Reason | None:
     """The same for all methods within a tolerance: empty where none has an obstacle, None where
     that is not decided.
-
-    An entry of M is a sum of two products and a product; a minor of one or two rows that is
-    negative for all numbers in the balls decides, or a definite M.
     """
     if not all(isinstance(space, PointSpace) for space in tableau.spaces):
         return None
     negative = _negative_weight(tableau, tolerance)
     if negative:
         return negative
-    with ctx.workprec(_BITS):
-        form = form_within(tableau, tolerance)
-        if _has_negative_minor(form):
-            return Reason("a minor of M is negative")
-        weights = map(to_ball, chain.from_iterable(colour.b for colour in tableau.colours))
-        if all(b > tolerance for b in weights) and _is_definite(form):
-            return NO_REASON
+    holds = algebraic_within(tableau, tolerance)
+    if holds is None:
         return None
-
-
-def _has_negative_minor(form: list[list[arb]]) -> bool:
-    """Whether a minor of one row, or of two, is negative for all numbers in the balls."""
-    numbers = range(len(form))
-    if any(form[i][i] < 0 for i in numbers):
-        return True
-    for i, j in combinations(numbers, 2):
-        diagonal = form[i][i] * form[j][j]
-        others = form[i][j] * form[j][i]
-        if diagonal < others:
-            return True
-    return False
-
-
-def _is_definite(form: list[list[arb]]) -> bool:
-    """Whether elimination meets positive pivots alone, for all numbers in the balls."""
-    rows = [list(row) for row in form]
-    while rows:
-        (pivot, *right), *others = rows
-        if not pivot > 0:
-            return False
-        rows = []
-        for first, *row in others:
-            factor = first / pivot
-            pairs = zip(row, right, strict=True)
-            rows.append([x - factor * y for x, y in pairs])
-    return True
+    return NO_REASON if holds else Reason("a minor of M is negative")
 
 
 @claimed(
