@@ -236,3 +236,35 @@ def test_nothing_goes_by_what_is_not_worked_out(options: list[str], tmp_path: Pa
     told = gark("design", str(path), "--seconds", "0.001")
     assert told.code == 3
     assert "the conditions of pair-order under design" in " ".join(told.out.split())
+
+
+@pytest.mark.parametrize(
+    ("ends", "least", "greatest"),
+    [
+        ("[0, sqrt(2)/2]", 0.0, 0.5**0.5),
+        ("[-1*sqrt(2), sqrt(2)]", -(2**0.5), 2**0.5),
+        ("[sqrt(2) - 1, 'root(2, 3)']", 2**0.5 - 1, 2 ** (1 / 3)),
+    ],
+)
+def test_ranges_with_algebraic_ends(ends: str, least: float, greatest: float) -> None:
+    """Solutions g = k/16 are taken just where they are between the ends, compared in floats."""
+    wanted = (-23, -22, 0, 6, 7, 11, 12, 20, 21, 22, 23)
+    zeros = "*".join(f"(g - {k}/16)" for k in wanted)
+    head = f"parameters: {{g: free}}\nA: [['1/2']]\nb: ['1 + {zeros}']\n"
+    found = find_parameters(loads_family(f"{head}design: {{range: {{g: {ends}}}}}\n"), 1).last.found
+    values = {
+        float(at["g"].ball(80)): index in x.accepted
+        for x in found
+        for index, at in enumerate(x.solution.real_values)
+    }
+    assert sorted(values) == [k / 16 for k in wanted]
+    assert all(taken == (least <= g <= greatest) for g, taken in values.items())
+
+
+@pytest.mark.parametrize("ends", ["[sqrt(2), 1]", "[-1, sqrt(3)/6]", "[0, sqrt(-1)]"])
+def test_ranges_that_are_refused(ends: str) -> None:
+    """The ends are in order and real, and no other zero of their polynomials is between them."""
+    with pytest.raises(MethodFileError):
+        loads_family(
+            f"parameters: {{g: free}}\nA: [[g]]\nb: [1]\ndesign: {{range: {{g: {ends}}}}}\n"
+        )
