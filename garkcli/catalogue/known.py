@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from operator import mul
 from typing import TYPE_CHECKING
 
@@ -111,18 +112,17 @@ def _first_same(method: GarkMethod, texts: Mapping[str, str]) -> Known | None:
     """The first of some methods, given by their files, that a method is."""
     from garkcli.comparison.sameness import find_sameness, views_of
     from garkcli.exact.field import ZERO
-    from garkcli.methodfile.load import loads
-    from garkcli.tableau.garkmethod import GarkMethod
 
     others = []
     for name, text in texts.items():
-        read = loads(text, name)
-        other = GarkMethod(tableau=read.tableau, tolerance=read.tolerance, embedded=read.embedded)
+        other = _read(name, text)
         others.append((name, other, views_of(method, other)))
     for least in (ZERO, *ROUNDINGS):
         found = []
         for name, other, views in others:
             admitted = (method.tolerance or ZERO) + (other.tolerance or ZERO)
+            if ZERO < least <= admitted:
+                continue  # as the first time
             same = find_sameness(method, other, views, max(least, admitted)).sameness
             if same is not None:
                 is_apart = same.allowed > admitted
@@ -131,3 +131,13 @@ def _first_same(method: GarkMethod, texts: Mapping[str, str]) -> Known | None:
             step_only, _, name, within, is_same = min(found, key=lambda x: x[:3])
             return Known(name, within or None, step_only, is_same)
     return None
+
+
+@lru_cache(maxsize=100)  # many files may be near to one method
+def _read(name: str, text: str) -> GarkMethod:
+    """A method of the catalogue, by its file."""
+    from garkcli.methodfile.load import loads
+    from garkcli.tableau.garkmethod import GarkMethod
+
+    read = loads(text, name)
+    return GarkMethod(tableau=read.tableau, tolerance=read.tolerance, embedded=read.embedded)
