@@ -15,6 +15,7 @@ import shutil
 import signal
 import subprocess
 import sys
+from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 from os import cpu_count
 from pathlib import Path
@@ -82,11 +83,11 @@ def coqc(name: str) -> subprocess.CompletedProcess[str]:
 
 
 def told(name: str, text: str) -> tuple[str, str]:
-    """What Coq says of a file: "proved", "refused" with its words, or "left out"."""
+    """What Coq says of a file: "proved", "refused" with its words, or "too long"."""
     (BUILD / f"{name}.v").write_text(text, encoding="utf-8")
     done = coqc(name)
     if done.returncode == -signal.SIGXCPU:
-        return "left out", f"more than {LONGEST} s"
+        return "too long", f"more than {LONGEST} s"
     asked = text.count("\nPrint Assumptions ")
     if done.returncode or done.stdout.count(NO_AXIOMS) != asked:
         return "refused", done.stderr or done.stdout
@@ -175,6 +176,7 @@ def main() -> int:
         bad += verdict != "proved"
     files = sorted(str(p) for p in (ROOT / "methods").rglob("*.gark.yaml"))
     sources = [x for x in [*files, *catalogue] if only in x]
+    verdicts: Counter[str] = Counter()
     with ThreadPoolExecutor(cpu_count()) as pool:
         for source, (verdict, why) in zip(
             sources, pool.map(judged, range(len(sources)), sources), strict=True
@@ -183,7 +185,9 @@ def main() -> int:
                 f"{verdict:9} {source.removeprefix(str(ROOT) + '/')}: {why.splitlines()[0]}",
                 flush=True,
             )
-            bad += verdict == "refused"
+            verdicts[verdict] += 1
+    print(f"{len(sources)} methods:", ", ".join(f"{n} {x}" for x, n in verdicts.most_common()))
+    bad += verdicts["refused"]
     rng = random.Random(1)
     taken = 0
     for number, source in enumerate(x for x in MUTATED if only in x):
