@@ -31,7 +31,6 @@ if TYPE_CHECKING:
     from garkcli.check.outcome import Outcome
     from garkcli.methodfile.build import MethodFile
     from garkcli.order.certificate import AnyOrder
-    from garkcli.properties.property import Verdict
     from garkcli.tableau.tableau import Tableau
 
 
@@ -123,7 +122,8 @@ def found_of(method: MethodFile, analysis: Analysis, name: str, file: str) -> En
         field = find(key).field
         verdict = verdicts.get(key)
         is_open = verdict is None or verdict.is_undecided or verdict.is_at_least
-        values[field] = None if verdict is None or is_open else _value(verdict)
+        value = None if verdict is None or is_open else verdict.value
+        values[field] = str(value) if isinstance(value, Size) else value
         if is_open:
             open_ones.append(field)
     return {
@@ -208,11 +208,6 @@ def _is_small(tableau: Tableau) -> bool:
     for block in points.blocks.values():
         rows += block
     return all(len(to_text(x)) <= LONGEST for row in rows for x in row)
-
-
-def _value(verdict: Verdict) -> bool | int | str | None:
-    value = verdict.value
-    return str(value) if isinstance(value, Size) else value
 
 
 Tell = Callable[[str], None]

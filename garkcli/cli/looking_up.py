@@ -23,7 +23,6 @@ from garkcli.tell.report import FORMATS
 
 if TYPE_CHECKING:
     from garkcli.catalogue.facts import Entry
-    from garkcli.methodfile.build import MethodFile
     from garkcli.tableau.garkmethod import GarkMethod
 
 _COUNTS = {
@@ -181,24 +180,19 @@ def show(given: Given, output: Output) -> None:
 
     For a method of the package gark reads its index; it judges every other one as gark check does.
     """
+    from garkcli.catalogue.entries import entry_of_method, entry_on
     from garkcli.methodfile.load import load
+    from garkcli.methodfile.naming import FAMILY, find_named, shelf_of
     from garkcli.report.show import REPORT, Shown
 
     method = load(given.file, given.settings)
-    entry = _entry(given, method)
-    tableau, description = method.tableau, method.description
-    output.tell(REPORT, Shown(entry, tableau, method.entries, description, method.bibliography))
-
-
-def _entry(given: Given, method: MethodFile) -> Entry:
-    """What is known of the method."""
-    from garkcli.catalogue.entries import entry_of_method, entry_on
-    from garkcli.methodfile.naming import FAMILY, find_named, shelf_of
-
     named = find_named(given.file)
     if named is not None and named.shelf != FAMILY and not given.settings:
-        return entry_on(shelf_of(named), named, judges=True)
-    return entry_of_method(method, given.file)
+        entry = entry_on(shelf_of(named), named, judges=True)
+    else:
+        entry = entry_of_method(method, given.file)
+    tableau, description = method.tableau, method.description
+    output.tell(REPORT, Shown(entry, tableau, method.entries, description, method.bibliography))
 
 
 @declared("cite", ("bibtex", *FORMATS))

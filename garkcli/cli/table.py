@@ -445,20 +445,16 @@ def _commands(table: str) -> Iterator[tuple[str, Command]]:
     for row in _paragraphs(table):
         if row.startswith("["):
             group = row.strip("[]")
-        else:
-            yield _command(group, row)
-
-
-def _command(group: str, row: str) -> tuple[str, Command]:
-    row, _, common = row.partition(" only ")
-    head, _, rest = row.partition(" | ")
-    summary, _, rest = rest.partition(" = ")
-    calls, sign, options = rest.partition(" --")
-    file, _, usage = head.partition(": ")
-    name, _, arguments = usage.partition(" ")
-    return name, Command(
-        group, file, arguments, summary, calls.strip(), sign.strip() + options, common or _COMMON
-    )
+            continue
+        row, _, common = row.partition(" only ")
+        head, _, rest = row.partition(" | ")
+        summary, _, rest = rest.partition(" = ")
+        calls, sign, rest = rest.partition(" --")
+        file, _, usage = head.partition(": ")
+        name, _, arguments = usage.partition(" ")
+        options = sign.strip() + rest
+        common = common or _COMMON
+        yield name, Command(group, file, arguments, summary, calls.strip(), options, common)
 
 
 OPTIONS = {row.key: row for row in map(_option, _paragraphs(_OPTIONS))}

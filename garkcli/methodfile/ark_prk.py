@@ -65,7 +65,11 @@ def ark(at: Reading, node: Node) -> d.ArkText | None:
     if matrices is None:
         return None
     colours = len(matrices)
-    b = _weights(at, entries["b"], colours)
+    items = at.source.items(entries["b"], "b")
+    if any(isinstance(item, SequenceNode) for item in items):
+        b = tuple(at.numbers.row(item, d.of_colour("b", m)) for m, item in enumerate(items))
+    else:  # the same row for all
+        b = (at.numbers.row(entries["b"], "b"),) * colours
     c = at.numbers.row(entries["c"], "c") if "c" in entries else None
     cure = "give a row per colour, or a single shared row"
     if not spelled_out.one_each(at, entries["b"], "b", b, "row", "colour", colours, cure):
@@ -102,14 +106,6 @@ def _matrices(at: Reading, node: Node) -> list[Rows] | None:
     if items is None:
         return None
     return [at.numbers.matrix(item, d.of_colour("A", m)) for m, item in enumerate(items)]
-
-
-def _weights(at: Reading, node: Node, colours: int) -> spelled_out.Weights:
-    """The weights of each colour; the same row for all where there is a single one."""
-    items = at.source.items(node, "b")
-    if not any(isinstance(item, SequenceNode) for item in items):
-        return (at.numbers.row(node, "b"),) * colours
-    return tuple(at.numbers.row(item, d.of_colour("b", m)) for m, item in enumerate(items))
 
 
 def prk(at: Reading, node: Node, structure: d.Structure) -> d.PrkText | None:

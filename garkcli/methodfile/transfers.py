@@ -53,7 +53,7 @@ _ALL_UNKNOWN: g.Schema = {
 _PARTS = g.mapping(
     g.Key(
         "default: collocation",
-        g.defined("rule"),
+        g.defined("rule", lambda at, node, where: _rule(at, node, where)),
         "The rule for the blocks that blocks does not name.",
     ),
     g.Key(
@@ -99,10 +99,9 @@ def rules_of(at: Reading, node: Node, stages: Sequence[int]) -> d.TransferText:
                 at.source.fault(key, message, cure, code="given-twice")
                 return d.TransferText(None, {})
         return d.TransferText(_rule(at, node, "transfer"), {})
-    entries = at.source.mapping(node, "transfer", ("default", "blocks"))
-    default, blocks = entries.get("default"), entries.get("blocks")
-    rule = None if default is None else _rule(at, default, "transfer, default")
-    return d.TransferText(rule, {} if blocks is None else _blocks(at, blocks, stages))
+    found: g.Found = _PARTS.read(at, node, "transfer")
+    blocks = _blocks(at, found["blocks"], stages) if "blocks" in found else {}
+    return d.TransferText(found.get("default"), blocks)
 
 
 def _is_unknown(node: Node) -> bool:

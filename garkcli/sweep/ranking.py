@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Sequence
 
-from garkcli.sweep.columns import Value, columns
+from garkcli.sweep.columns import columns
 from garkcli.sweep.plan import number
 from garkcli.sweep.row import Row
 
@@ -50,17 +50,11 @@ def pareto_front(rows: Sequence[Row], by: Sequence[str]) -> list[Row]:
     # whatever surpasses a row comes before it in lexicographic order
     for row in best_first(complete, by):
         point = [badness for _, badness in _badness(row, by)]
-        if any(_surpasses(other, point) for other in points):
-            continue
-        front.append(row)
-        points.append(point)
+        as_good = (x for x in points if all(a <= b for a, b in zip(x, point, strict=True)))
+        if all(x == point for x in as_good):
+            front.append(row)
+            points.append(point)
     return front
-
-
-def _surpasses(other: _Point, point: _Point) -> bool:
-    """Whether one point is as good in every column and better in one."""
-    is_as_good = all(a <= b for a, b in zip(other, point, strict=True))
-    return is_as_good and other != point
 
 
 def _badness(row: Row, by: Sequence[str]) -> list[tuple[bool, float]]:
@@ -69,12 +63,6 @@ def _badness(row: Row, by: Sequence[str]) -> list[tuple[bool, float]]:
     for name in by:
         value = row.get(name)
         assert not isinstance(value, dict)
-        found.append((value is None, _size(name, value)))
+        size = 0.0 if value is None else number(value)
+        found.append((value is None, -size if columns()[name].more_is_better else size))
     return found
-
-
-def _size(name: str, value: Value) -> float:
-    if value is None:
-        return 0.0
-    size = number(value)
-    return -size if columns()[name].more_is_better else size
