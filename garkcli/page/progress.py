@@ -17,7 +17,7 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from time import monotonic
-from typing import NoReturn, Protocol
+from typing import NoReturn, TypeAlias
 
 from garkcli import doing
 from garkcli.doing import Work
@@ -73,20 +73,8 @@ def aside() -> Iterator[None]:
     line.tell()
 
 
-class Draws(Protocol):
-    """Draws the line."""
-
-    def draw(self, text: str) -> None:
-        """Show this from now on, once it is time."""
-        ...
-
-    def wipe(self) -> None:
-        """Take the line away until there is something to be drawn."""
-        ...
-
-    def end(self) -> None:
-        """Take the line away for good."""
-        ...
+Draws: TypeAlias = "Pen | Process"
+"""What draws the line, wipes it out until there is something to be drawn, and ends."""
 
 
 class Line:

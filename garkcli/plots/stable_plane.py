@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from flint import fmpq
 
 from garkcli.design.stable_plane import End, Part, StablePlane, Strip
-from garkcli.exact.cells import Interval, between
+from garkcli.exact.cells import between
 from garkcli.exact.roots import RealRoot
 from garkcli.plots.scene import Area, Axis, Curve, Panel, Point, Scene, Shape
 
@@ -55,7 +55,7 @@ def _shape(strip: Strip, part: Part, x: Axis, y: Axis) -> Shape:
     if base.is_point:
         assert base.start is not None
         at = float(base.start)
-        low, high = (_within(_number(e, None), y, k) for k, e in enumerate((part.start, part.end)))
+        low, high = (_within(end, y, k) for k, end in enumerate((part.start, part.end)))
         return Curve(0, [(at, low), (at, high)])
     left = x.low if base.start is None else max(x.low, float(base.start))
     right = x.high if base.end is None else min(x.high, float(base.end))
@@ -66,23 +66,15 @@ def _shape(strip: Strip, part: Part, x: Axis, y: Axis) -> Shape:
     for place in places:
         over = part.over(RealRoot.rational(fmpq(round(place * 2**30), 2**30)))
         if over is not None:
-            lower.append((place, _within(_end(over, 0), y, 0)))
-            upper.append((place, _within(_end(over, 1), y, 1)))
+            lower.append((place, _within(over.start, y, 0)))
+            upper.append((place, _within(over.end, y, 1)))
     if part.start is not None and part.start == part.end:
         return Curve(0, lower)
     return Area(0, [[*lower, *reversed(upper)]], 0.25, has_outline=False)
 
 
-def _end(over: Interval, which: int) -> float | None:
-    return _number((over.start, over.end)[which], None)
-
-
-def _number(end: End, unknown: float | None) -> float | None:
-    return float(end) if isinstance(end, RealRoot) else unknown
-
-
-def _within(number: float | None, y: Axis, which: int) -> float:
-    """A number inside of the picture; its lower or upper end for infinity."""
-    if number is None:
+def _within(end: End, y: Axis, which: int) -> float:
+    """A number inside of the picture; its lower or upper end for what is none."""
+    if not isinstance(end, RealRoot):
         return (y.low, y.high)[which]
-    return min(max(number, y.low), y.high)
+    return min(max(float(end), y.low), y.high)

@@ -582,7 +582,7 @@ def estimate_words(e: Any, d: Plain) -> str:
     if e.is_zero:
         return "zero: the embedded weights are b"
     order_text = "leading term not found" if e.order is None else f"of order {e.order}"
-    return f"{order_text}, sum of b − embedded {kinds.EXACTS.words(e.sums, d)}"  # type: ignore[misc]
+    return f"{order_text}, sum of b − embedded {kinds.EXACTS(e.sums).words(d)}"
 
 
 ESTIMATE = Section(

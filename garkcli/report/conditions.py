@@ -186,7 +186,7 @@ def _number(condition: Condition, key: str, d: Plain) -> str:
     """A number of a condition, in decimals where one is long or these are requested."""
     x = getattr(condition, key)
     if d.places is not None:
-        return NUMERAL.words(x, d)  # type: ignore[misc]
+        return NUMERAL(x).words(d)
     longest = max(len(to_text(condition.value)), len(to_text(condition.residual)))
     if not x or longest <= MOST_DIGITS or is_parametric(x):
         return d.expression(to_text(x), lambda: to_latex(x))

@@ -147,14 +147,11 @@ BLOCK_LISTS = Kind(
 def of(name: str) -> Callable[[Any], Fact]:
     """A part of B, C and D."""
 
-    def get(e: Any) -> Fact:
-        def pick(s: Any) -> Any:
-            value = getattr(s, name)
-            return kinds.Table(value, s.limit) if name in "BCD" else value
+    def pick(s: Any) -> Any:
+        value = getattr(s, name)
+        return kinds.Table(value, s.limit) if name in "BCD" else value
 
-        return e.simplifying.of(pick)  # type: ignore[no-any-return]
-
-    return get
+    return lambda e: e.simplifying.of(pick)
 
 
 def of_several(key: str) -> Row:
@@ -299,7 +296,7 @@ def _function_rows(found: Any, d: Plain) -> list[tuple[str, str]]:
         rows.append(
             (f"{d.prose('R(∞)')}{which}", "unbounded" if limit is None else d.number(limit))
         )
-        rows.append((f"E(x){which}", _sum("x").words(f.e_polynomial, d)))  # type: ignore[misc]
+        rows.append((f"E(x){which}", _sum("x")(f.e_polynomial).words(d)))
     return rows
 
 

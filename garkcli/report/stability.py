@@ -129,14 +129,8 @@ IMAGINARY = replace(REAL, words=_around_zero("y² ≤ ", "y = 0 only", "all y", 
 SSP = Kind(
     S.one_of(S.TEXT, ROOT_OF, kinds.BOUNDS),
     lambda x, d: kinds.bounds_data(x) if isinstance(x, Bounds) else kinds.RADIUS.data(x, d),
-    lambda x, d: d.bounds(x) if isinstance(x, Bounds) else _radius_words(x, d),
+    lambda x, d: d.bounds(x) if isinstance(x, Bounds) else kinds.RADIUS(x).words(d),
 )
-
-
-def _radius_words(x: Any, d: Plain) -> str:
-    return d.infinity if x.value is None else d.root(x.value)
-
-
 SECTOR = Kind(
     kinds.record(degrees=S.TEXT, cosine=ALGEBRAIC),
     lambda x, d: {"degrees": _degrees(x.cosine, d.digits), "cosine": root_data(x.cosine, d.digits)},
@@ -385,24 +379,18 @@ def _radii_words(found: Any, d: Plain) -> str:
             return "not decided: the nodes have no simple radicals"
         direction = ", ".join({0: "0", 1: "r"}.get(q, f"{q} r") for q in r.ratios)
         direction = d.formula(f"({direction})", f"({direction})")
-        texts.append(f"{direction}, {d.prose('r ≤')} {_radius_words(r.radius, d)}")
+        texts.append(f"{direction}, {d.prose('r ≤')} {kinds.RADIUS(r.radius).words(d)}")
     return "; ".join(texts)
 
 
-def _ray_words(sign: str) -> Callable[[Any, Plain], str]:
+def _ray(sign: str) -> Kind:
     def words(ray: Any, d: Plain) -> str:
         if ray.end is None:
             return "no limit"
         return "none" if ray.end.exact == 0 else d.upto(sign, ray.end)
 
-    return words
-
-
-def _ray(sign: str) -> Kind:
     return Kind(
-        _END,
-        lambda x, d: {"to": None if x.end is None else root_data(x.end, d.digits)},
-        _ray_words(sign),
+        _END, lambda x, d: {"to": None if x.end is None else root_data(x.end, d.digits)}, words
     )
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 from flint import fmpq
 
@@ -19,13 +19,8 @@ EDGE = 1 + 1e-9
 
 def region_lines(R: StabilityFunction) -> Iterator[str]:
     """A small picture of the region |R(z)| ≤ 1."""
-    P, Q = _floats(R)
-    reach = reach_of([P, Q])
-    right = reach / 3 if len(Q) == 1 else reach
-
-    def is_inside(z: complex) -> bool:
-        return _is_bounded(P, Q, z)
-
+    is_inside, reach = _bounded(R)
+    right = reach if R.denominator.degree else reach / 3
     picture = terminal_region(is_inside, -reach, right, reach, COLUMNS, LINES)
     yield "|R(z)| ≤ 1, roughly"
     yield from picture.splitlines()
@@ -38,38 +33,27 @@ def damped_lines(pair: ImexPair, explicit: StabilityFunction) -> Iterator[str]:
         pair: the method.
         explicit: the stability function of its explicit colour alone.
     """
-    P, Q = _floats(explicit)
-    reach = reach_of([P, Q])
+    is_bounded, reach = _bounded(explicit)
 
     def is_damped(z: complex) -> bool:
-        a, b = _rational(z.real), _rational(z.imag)
+        a, b = (fmpq(*x.as_integer_ratio()) for x in (z.real, z.imag))
         return pair.is_damped(a, abs(b))
 
-    def is_bounded(z: complex) -> bool:
-        return _is_bounded(P, Q, z)
-
     picture = terminal_region(is_damped, -reach, reach / 3, reach, COLUMNS, LINES, is_bounded)
-    e = f"z{pair.explicit + 1}"
-    i = f"z{pair.implicit + 1}"
+    e, i = f"z{pair.explicit + 1}", f"z{pair.implicit + 1}"
     yield f"█ {e} with every {i} damped, decided at each sign"
     yield f": further {e} damped where {i} = 0, roughly"
     yield from picture.splitlines()
 
 
-def _rational(x: float) -> fmpq:
-    numerator, denominator = x.as_integer_ratio()
-    return fmpq(numerator, denominator)
+def _bounded(R: StabilityFunction) -> tuple[Callable[[complex], bool], float]:
+    """Whether |R(z)| ≤ 1 in floats, and a radius for a picture of that."""
+    P, Q = ([to_float(a) for a in p.coefficients] for p in (R.numerator, R.denominator))
 
+    def is_bounded(z: complex) -> bool:
+        return abs(_horner(P, z)) <= abs(_horner(Q, z)) * EDGE
 
-def _floats(R: StabilityFunction) -> tuple[list[float], list[float]]:
-    P = [to_float(a) for a in R.numerator.coefficients]
-    return P, [to_float(a) for a in R.denominator.coefficients]
-
-
-def _is_bounded(P: Sequence[float], Q: Sequence[float], z: complex) -> bool:
-    over = abs(_horner(P, z))
-    under = abs(_horner(Q, z))
-    return over <= under * EDGE
+    return is_bounded, reach_of([P, Q])
 
 
 def reach_of(polynomials: Sequence[Sequence[float]]) -> float:
@@ -78,8 +62,7 @@ def reach_of(polynomials: Sequence[Sequence[float]]) -> float:
     for *others, leading in polynomials:
         for k, a in enumerate(reversed(others), start=1):
             reach = max(reach, abs(a / leading) ** (1 / k))
-    with_room = 1.6 * reach
-    return float(f"{with_room:.1g}")
+    return float(f"{1.6 * reach:.1g}")
 
 
 def _horner(coefficients: Sequence[float], z: complex) -> complex:
