@@ -80,7 +80,7 @@ def solutions(ideal: Ideal) -> list[Solution]:
         # all but finitely many of the forms (1, c, c², …) separate the solutions
         u = algebra.combined([c**i for i in range(len(ideal.ring.names))])
         characteristic = characteristic_polynomial(u)
-        square_free = _square_free(characteristic)
+        square_free = characteristic // characteristic.gcd(characteristic.derivative())
         if square_free.degree() == distinct:
             every = algebra.solutions(u, characteristic, square_free)
             return sorted(every, key=lambda x: (not x.real, x.degree))
@@ -160,10 +160,6 @@ class _Algebra:
                 multiplicity=_multiplicity(characteristic, modulus),
                 real=tuple(root for root, _ in roots),
             )
-
-
-def _square_free(polynomial: fmpq_poly) -> fmpq_poly:
-    return polynomial // polynomial.gcd(polynomial.derivative())
 
 
 def _multiplicity(characteristic: fmpq_poly, modulus: fmpq_poly) -> int:
