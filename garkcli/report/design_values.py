@@ -42,7 +42,14 @@ def conditions(family: Family, nonzero: Iterable[fmpq_mpoly]) -> list[Reason]:
     def holds(p: fmpq_mpoly, relation: str) -> Reason:
         return Reason(f"{{}} {relation} 0", EXPRESSION(_text(family, p)))
 
-    found = [holds(p, "≠") for p in factors(nonzero) if _may_vanish(family, p)]
+    numbers: set[str] = set()
+    for radical in family.radicals:
+        if _is_number(family, radical, numbers):
+            numbers.add(radical.name)
+    names = family.ring.names
+    named = {*family.parameters, *(x.name for x in family.radicals if x.name not in numbers)}
+    given = [p for p in factors(nonzero) if not named.isdisjoint(_names(names, p))]
+    found = [holds(p, "≠") for p in given if _may_vanish(family, p)]
     ends, others = _bounds(family)
     for name, bounds in ends.items():
         least, greatest = (None if x is None else EXPRESSION(str(x)) for x in bounds)
@@ -51,15 +58,16 @@ def conditions(family: Family, nonzero: Iterable[fmpq_mpoly]) -> list[Reason]:
             found.append(Reason("{} ≤ {}", *parts))
         else:
             found.append(Reason("{} ≤ {} ≤ {}", least, EXPRESSION(name), greatest))
-    numbers: set[str] = set()
-    for radical in family.radicals:
-        if _is_number(family, radical, numbers):
-            numbers.add(radical.name)
-        elif radical.is_even:
-            found.append(Reason("{} is real", EXPRESSION(radical.text)))
+    roots = [x for x in family.radicals if x.is_even and x.name not in numbers]
+    found += [Reason("{} is real", EXPRESSION(x.text)) for x in roots]
     for relation, polynomials in ((">", family.positive), ("≥", others)):
         found += [holds(p, relation) for p in polynomials if not p.is_constant()]
     return list(dict.fromkeys(found))
+
+
+def _names(names: Sequence[str], p: fmpq_mpoly) -> list[str]:
+    """The unknowns in a polynomial."""
+    return [name for name, degree in zip(names, p.degrees(), strict=True) if degree]
 
 
 def where(texts: Sequence[Reason], d: Plain) -> str:
@@ -106,7 +114,8 @@ def _text(family: Family, p: AnyPolynomial) -> str:
     """A multiple with whole coefficients, by a positive number."""
     if isinstance(p, fmpq_mpoly):
         p = p * integral_scale(p)
-    written = {x.name: x.text for x in family.radicals}
+    written = {name: text for name, (text, _) in family.ring.shown.items()}
+    written |= {x.name: x.text for x in family.radicals}
     return _NAME.sub(lambda found: written.get(found[0], found[0]), str(p))
 
 

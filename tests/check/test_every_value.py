@@ -245,3 +245,14 @@ def test_every_value_is_one_where_there_is_a_method() -> None:
         data = json.loads(gark(command, "-", "--format", "json", stdin=family).out)
         (found,) = data.get("files", [data])
         assert found["restrictions"] == ["t ≠ 0", "-1 ≤ t ≤ 2"]
+
+
+@pytest.mark.parametrize(
+    ("entry", "where"), [("t/(sqrt(5) - 1)", ""), ("t/(t*sqrt(5) - 1)", " where t*sqrt(5) - 1 ≠ 0")]
+)
+def test_restrictions_with_roots(entry: str, where: str) -> None:
+    """Roots of numbers are told as they are written, and what is a number is no restriction."""
+    family = f"parameters: {{t: free}}\nA: [[0, 0], ['{entry}', 0]]\nb: [1/2, 1/2]\n"
+    assert f"every value of t{where}: order 1" in " ".join(
+        gark("check", "-", stdin=family).out.split()
+    )

@@ -16,7 +16,8 @@ from flint import fmpq, fmpq_mpoly
 
 from garkcli import find_order, loads
 from garkcli.design.design import find_parameters
-from garkcli.design.ideal import Ideal, leading
+from garkcli.design.groebner import leading
+from garkcli.design.ideal import Ideal
 from garkcli.exact.parametric import Parameters
 from garkcli.methodfile.family import loads_family
 from garkcli.problems.draw import Draw
