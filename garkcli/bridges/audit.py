@@ -7,6 +7,8 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from typing import Literal, TypeAlias
 
+from flint import fmpq
+
 from garkcli.bridges.elsewhere import declared_orders, order_of
 from garkcli.bridges.importing import orders_of, read, with_orders
 from garkcli.bridges.judging import Judged, judged
@@ -181,7 +183,7 @@ def audit(table: FoundTable) -> Audited | None:
         finding = AuditFinding("unread", message, level="note")
         return Audited(table, findings=(finding,))
     if not is_plausible(table, method):
-        return None
+        return None if table.c[0] is not None else _without_nodes(table, method)
     declared = table.order or 0
     is_high = declared == 0 or declared >= HIGH
     found = with_orders(table, method, HIGH if is_high else None)
@@ -193,6 +195,20 @@ def audit(table: FoundTable) -> Audited | None:
     for check in CHECKS:
         findings += [_weighed(x, subject) for x in check(subject)]
     return Audited(table, method, order, embedded_order, subject.nonautonomous, tuple(findings))
+
+
+def _without_nodes(table: FoundTable, method: MethodFile) -> Audited | None:
+    """A and b that may be no method: b has the sum 1, or A is strictly triangular; not all of it
+    whole numbers.
+    """
+    block, b = method.tableau.block(0, 0), method.tableau.colours[0].b
+    is_explicit = block is not None and not any(any(row[i:]) for i, row in enumerate(block))
+    if len(b) < 2 or block is None or not (sum(b, ZERO) == 1 or (is_explicit and any(block[-1]))):
+        return None
+    if all(isinstance(x, fmpq) and x.q == 1 for row in (*block, b) for x in row):
+        return None
+    message = "A and b without nodes, which may be no method"
+    return Audited(table, findings=(AuditFinding("unread", message, level="note"),))
 
 
 def _weighed(finding: AuditFinding, subject: Subject) -> AuditFinding:

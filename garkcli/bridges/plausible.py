@@ -22,7 +22,7 @@ def is_plausible(table: FoundTable, method: MethodFile) -> bool:
     """Whether a table is a method: its source says so, or its numbers do.
 
     The nodes of a method are the row sums of its matrix, most of them even where one is misprinted;
-    without nodes its matrix is triangular and the sum of its weights 1.
+    without nodes the sum of its weights is 1, and its matrix is triangular or meets order 2.
     """
     if table.is_sure or table.order is not None:
         return True
@@ -35,7 +35,10 @@ def is_plausible(table: FoundTable, method: MethodFile) -> bool:
         return False
     off = abs(_sum(colour.b) - 1)
     if table.c[0] is None:
-        return bool(off < NEAR) and len(block) > 1 and _is_triangular(block)
+        products = [to_ball(x) * _sum(row) for x, row in zip(colour.b, block, strict=True)]
+        has_order_two = abs(sum(products, arb(0)) - 0.5) < NEAR
+        is_method = _is_triangular(block) or bool(has_order_two)
+        return bool(off < NEAR) and len(block) > 1 and is_method
     columns = tuple(zip(*block, strict=True))
     least = (len(block) + 1) // 2
     agreeing = max(_agreeing(block, colour.c), _agreeing(columns, colour.c))

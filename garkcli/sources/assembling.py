@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import isqrt
 from typing import TypeAlias
 
 from garkcli.frozen import Frozen, field, replace
@@ -338,7 +339,7 @@ def _stages(roles: Roles) -> int:
 def _single(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
     """A table of one colour."""
     stages = 0
-    roles = _with_ends(_with_both_rows(roles))
+    roles = _without_further_stages(_with_ends(_with_both_rows(roles)))
     if meant.signature and "stages" in meant.signature.roles:
         stages = _stages(roles)
     elif whole(roles.get("stages")) and meant.is_sure:
@@ -384,6 +385,26 @@ def _with_both_rows(roles: Roles) -> Roles:
     if any(isinstance(x, Array) and len(x.items) < 2 for x in rows.items):
         return roles
     return {**roles, "b": rows.items[0], "embedded": rows.items[1]}
+
+
+def _without_further_stages(roles: Roles) -> Roles:
+    """The stages that have weights, where A is a triangle in one row and has further stages: those
+    of dense output. The nodes are the row sums.
+    """
+    given = [roles.get(x) for x in ("A", "b", "c")]
+    A, b, c = (x.items if isinstance(x, Array) and not x.is_matrix else [] for x in given)
+    stages = (1 + isqrt(1 + 8 * len(A))) // 2
+    nodes = c[1 - stages :]
+    if 2 * len(A) != stages * (stages - 1) or len(nodes) != stages - 1 or not 1 < len(b) < stages:
+        return roles
+    if len(b) == len(c) and abs(_near(Array(c[:1]))) < _SAME:
+        # A has its diagonal
+        return roles
+    rows = [Array(A[i * (i - 1) // 2 : i * (i + 1) // 2]) for i in range(stages)]
+    pairs = zip(rows[1:], nodes, strict=True)
+    if sum(abs(_near(row) - _near(Array([node]))) > _SAME for row, node in pairs) > 1:
+        return roles
+    return {**roles, "A": Array([*rows[: len(b)]]), "c": Array(nodes[: len(b) - 1])}
 
 
 def _orders(roles: Roles) -> tuple[int | None, int | None]:

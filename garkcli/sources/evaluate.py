@@ -423,8 +423,7 @@ class Evaluator:
     def _box(self, of: ir.Expr, space: Space) -> Array | None:
         """The array whose entry is assigned, made where there is none."""
         found = self._held(of, space)
-        is_new = found is None or (isinstance(found, Unknown) and found.reason == "never assigned")
-        if is_new or found is FILL or isinstance(found, Null):
+        if found is None or isinstance(found, Null) or _is_unset(found):
             made = Array([], self.base, is_growing=True)
             match of:
                 case ir.Name(name=name):
@@ -476,7 +475,7 @@ class Evaluator:
                 places.append((box, i))
                 continue
             row = box.items[i]
-            if box.is_growing and row is FILL:
+            if box.is_growing and _is_unset(row):
                 row = box.items[i] = Array([], self.base, is_growing=True)
             if not isinstance(row, Array):
                 return []
@@ -791,6 +790,11 @@ class Evaluator:
             kept = box.items if name == "resize" and len(counts) == 1 else []
             box.items[:] = [*kept[: len(shaped.items)], *shaped.items[len(kept) :]]
         return NULL
+
+
+def _is_unset(value: Value) -> bool:
+    """Whether nothing was written there so far."""
+    return value is FILL or (isinstance(value, Unknown) and value.reason == "never assigned")
 
 
 def _is_of_self(expr: ir.Expr) -> bool:

@@ -318,14 +318,17 @@ def _length(call: Call) -> Value | None:
 
 
 def _diagonal(call: Call) -> Value | None:
-    """A matrix with the entries of a list on its diagonal."""
-    value = call.args[0] if len(call.args) == 1 else NULL
-    if not isinstance(value, Array) or value.is_matrix:
+    """A matrix with the entries of a list on its diagonal, or on one so far above it."""
+    value, above = (*call.args, ZERO)[:2] if len(call.args) in (1, 2) else (NULL, NULL)
+    off = whole(above)
+    if not isinstance(value, Array) or value.is_matrix or off is None or abs(off) > MAX_STAGES:
         return call.unknown()
-    count = len(value.items)
+    count = len(value.items) + abs(off)
     array = call.evaluator.array
     call.evaluator.allowance.spend(count * count)
-    rows = [[x if i == j else ZERO for j in range(count)] for i, x in enumerate(value.items)]
+    rows: list[list[Value]] = [[ZERO] * count for _ in range(count)]
+    for i, x in enumerate(value.items):
+        rows[i + max(-off, 0)][i + max(off, 0)] = x
     return array(array(row) for row in rows)
 
 

@@ -85,7 +85,7 @@ def test_arrays_that_may_be_no_method_are_told(tmp_path: Path) -> None:
     """Of a file that is named: as the error where there is nothing else, and beside what there is."""
     path = tmp_path / "gauss.jl"
     matrix = "[1//4 1//4-sqrt(3)/6; 1//4+sqrt(3)/6 1//4]"
-    path.write_text(f"A = {matrix}\nb = [1//2, 1//2]\n", encoding="utf-8")
+    path.write_text(f"A = {matrix}\nb = [1//4, 3//4]\n", encoding="utf-8")
     refused = gark("import", "gauss.jl", cwd=tmp_path)
     assert refused.code == 2
     assert "gauss.jl:1: A and b without nodes may be no" in refused.err

@@ -6,7 +6,7 @@ import pytest
 
 from garkcli.bridges.audit import Audited, audit
 from garkcli.sources.found import Find
-from garkcli.sources.languages import c, julia, python
+from garkcli.sources.languages import c, fortran, julia, python
 
 SHU_OSHER = """
 function SSPRK33ConstantCache(::Type{T}, ::Type{T2}) where {T, T2}
@@ -339,3 +339,68 @@ def test_functions_that_make_tables_are_told() -> None:
         (table,) = julia.find(f"function {name}(T)\n    q = [{numbers}]\n    q\nend\n", "x")
         assert (table.kind, bool(table.trouble)) == (kind, not kind)
     assert julia.find(f"function other(T)\n    q = [{numbers}]\n    q\nend\n", "x") == []
+
+
+FURTHER = """
+module tables
+real(wp), parameter :: rk_c(2:*) = [1.0_wp/2.0_wp, 1.0_wp, 1.0_wp]
+real(wp), parameter :: rk_b(*) = [1.0_wp/6.0_wp, 2.0_wp/3.0_wp, 1.0_wp/6.0_wp]
+real(wp), parameter :: rk_bh(*) = [0.0_wp, 1.0_wp, 0.0_wp]
+real(wp), parameter :: rk_a(1:*) = [1.0_wp/2.0_wp, -1.0_wp, 2.0_wp, &
+  1.0_wp/6.0_wp, 2.0_wp/3.0_wp, 1.0_wp/6.0_wp]
+end module
+"""
+NEW = """
+Gauss4::Gauss4(int n) {
+    int nk = 2;
+    a = new double*[nk];
+    for (int i = 0; i < nk; i++) a[i] = new double[nk];
+    b = new double[nk];
+    double r = sqrt(3.0)/6;
+    a[0][0] = 1.0/4; a[0][1] = 1.0/4 - r;
+    a[1][0] = 1.0/4 + r; a[1][1] = 1.0/4;
+    b[0] = 1.0/2; b[1] = 1.0/2;
+}
+"""
+SHIFTED = """
+alpha = np.diag(np.ones(3), -1)
+alpha[3, 0] = 1/3
+alpha[2, 0] = 3/4
+alpha[2, 1] = 1/4
+alpha[3, 2] = 2/3
+alpha = alpha[:, :3]
+beta = np.zeros([4, 3])
+beta[1, 0] = 1
+beta[2, 1] = 1/4
+beta[3, 2] = 2/3
+"""
+
+
+@pytest.mark.parametrize(
+    ("find", "text", "order", "low"),
+    [(fortran.find, FURTHER, 3, 2), (c.find, NEW, 4, None), (python.find, SHIFTED, 3, None)],
+)
+def test_further_stages_new_arrays_diagonals(
+    find: Find, text: str, order: int, low: int | None
+) -> None:
+    """A flat triangle with stages of dense output beside fewer weights; a matrix without nodes that
+    meets order 2; a diagonal below the main one.
+    """
+    (table,) = find(text, "x")
+    found = audit(table)
+    assert found is not None
+    assert found.order is not None
+    assert (found.order.order, found.findings) == (order, ())
+    assert (found.embedded_order and found.embedded_order.order) == low
+
+
+@pytest.mark.parametrize(
+    ("last", "b", "is_told"),
+    [("0, 1, 0]", "[0.0, 0.6, 0.5]", True), ("1, 2, 3]", "[3.0, 4.0, 5.0]", False)],
+)
+def test_a_matrix_and_a_row_without_nodes_are_told(last: str, b: str, is_told: bool) -> None:
+    """A strictly triangular matrix whose weights may be wrong, but no linear system."""
+    (table,) = python.find(f"rk_A = [[0, 0, 0], [0.5, 0, 0], [{last}]\nrk_b = {b}\n", "x")
+    found = audit(table)
+    assert (found is not None) == is_told
+    assert not is_told or (found is not None and found.looks_like)

@@ -324,6 +324,8 @@ class CLowering(Lowering):
                 return ir.Name(self.text(node))
             case "qualified_identifier" | "primitive_type":
                 return ir.Name(self.text(node).partition("<")[0])
+            case "new_expression":
+                return ir.Opaque("never assigned")
             case "null" | "nullptr":
                 return ir.Nothing()
             case "parenthesized_expression" if inside:
