@@ -186,15 +186,13 @@ def is_positive(form: list[list[arb]]) -> bool | None:
     while remaining:
         if any(rows[i][i] < 0 for i in remaining):
             return False
+        for i, j in combinations(remaining, 2):
+            diagonal = rows[i][i] * rows[j][j]
+            if diagonal < rows[i][j] * rows[j][i]:
+                return False
         pivots = [i for i in remaining if rows[i][i] > 0]
         if not pivots:
-            for i, j in combinations(remaining, 2):
-                diagonal = rows[i][i] * rows[j][j]
-                if diagonal < rows[i][j] * rows[j][i]:
-                    return False
-            for i in remaining:
-                if not all(rows[i][j].is_zero() for j in remaining):
-                    return None
-            return True
+            is_zero = all(rows[i][j].is_zero() for i in remaining for j in remaining)
+            return True if is_zero else None
         _eliminate(rows, pivots[0], remaining)
     return True
