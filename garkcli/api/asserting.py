@@ -17,7 +17,8 @@ from garkcli.errors import MethodError, ZeroWeight
 from garkcli.frozen import Frozen, replace
 from garkcli.methodfile.expectations import AtLeast
 from garkcli.order.blame import Missed, blame_of
-from garkcli.order.certificate import DEFAULT_LIMIT, AnyOrder, Order
+from garkcli.order.certificate import DEFAULT_LIMIT, Order
+from garkcli.order.deciding import AnyOrder
 from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.tableau import Tableau

@@ -24,7 +24,8 @@ from garkcli.check.analysis import Analysis
 from garkcli.errors import MethodError, UsageProblem, did_you_mean
 from garkcli.exact.field import ZERO
 from garkcli.order import simplifying as conditions
-from garkcli.order.certificate import DEFAULT_LIMIT, AnyOrder, order_of
+from garkcli.order.certificate import DEFAULT_LIMIT
+from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.simplifying import Simplifying
 from garkcli.properties.property import Verdict
 from garkcli.properties.reduction import smallest

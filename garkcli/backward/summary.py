@@ -15,7 +15,7 @@ from garkcli.backward.hamiltonian import (
 from garkcli.backward.modified import ModifiedEquation, modified_equation
 from garkcli.doing import doing
 from garkcli.frozen import Frozen
-from garkcli.order.certificate import order_of
+from garkcli.order.deciding import order_of
 from garkcli.order.simplifying import is_symplectic
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown

@@ -6,7 +6,8 @@ from flint import fmpq
 
 from garkcli.exact.display import decimal
 from garkcli.frozen import Frozen
-from garkcli.order.certificate import DEFAULT_LIMIT, order_of
+from garkcli.order.certificate import DEFAULT_LIMIT
+from garkcli.order.deciding import order_of
 from garkcli.order.simplifying import consistent_blocks
 from garkcli.tableau.forms import with_time
 from garkcli.tableau.meant import meant

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from garkcli.check.analysis import Analysis
     from garkcli.check.outcome import Outcome
     from garkcli.methodfile.build import MethodFile
-    from garkcli.order.certificate import AnyOrder
+    from garkcli.order.deciding import AnyOrder
     from garkcli.tableau.tableau import Tableau
 
 

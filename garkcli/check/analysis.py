@@ -11,7 +11,8 @@ from garkcli.doing import doing
 from garkcli.errors import MethodError, ZeroWeight
 from garkcli.exact.field import ZERO
 from garkcli.frozen import Frozen
-from garkcli.order.certificate import DEFAULT_LIMIT, AnyOrder, Proof, order_of, prove
+from garkcli.order.certificate import DEFAULT_LIMIT, Proof, prove
+from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.simplifying import Simplifying, consistent_blocks
 from garkcli.reason import NO_REASON, Reason
 from garkcli.tableau.forms import with_time

@@ -13,7 +13,8 @@ from garkcli.frozen import replace
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.expectations import highest_order
 from garkcli.methodfile.load import NO_SETTINGS, load
-from garkcli.order.certificate import DEFAULT_LIMIT, AnyOrder, Order
+from garkcli.order.certificate import DEFAULT_LIMIT, Order
+from garkcli.order.deciding import AnyOrder
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:

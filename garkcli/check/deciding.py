@@ -17,7 +17,8 @@ from garkcli.check.analysis import (
 )
 from garkcli.doing import doing
 from garkcli.frozen import replace
-from garkcli.order.certificate import DEFAULT_LIMIT, AnyOrder, Order, StageSpans, order_of
+from garkcli.order.certificate import DEFAULT_LIMIT, Order, StageSpans
+from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.simplifying import Simplifying, is_symplectic, simplifying
 from garkcli.order.tolerance import TINY, within
 from garkcli.tableau.embedded import NOTHING, Further

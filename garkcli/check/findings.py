@@ -21,7 +21,7 @@ from garkcli.tableau.forms import with_time
 if TYPE_CHECKING:
     from garkcli.check.analysis import Analysis
     from garkcli.order.blame import Repair
-    from garkcli.order.certificate import AnyOrder
+    from garkcli.order.deciding import AnyOrder
     from garkcli.order.dense import DenseWitness
     from garkcli.order.simplifying import Simplifying
     from garkcli.tableau.tableau import Tableau

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 from garkcli.check.analysis import nonautonomous
 from garkcli.frozen import Frozen
-from garkcli.order.certificate import AnyOrder, StageSpans, order_of
+from garkcli.order.certificate import StageSpans
+from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.dense import DenseOrder, Slopes, dense_order, ends_at_step, slopes
 from garkcli.order.functionals import Estimator, Orders, estimator
 from garkcli.tableau.embedded import Further, with_weights

@@ -16,8 +16,9 @@ from collections.abc import Sequence
 from garkcli.exact.display import to_ball
 from garkcli.frozen import replace
 from garkcli.ntrees.tree import Tree
-from garkcli.order.certificate import AnyOrder, Witness
+from garkcli.order.certificate import Witness
 from garkcli.order.conditions import elementary_weight, is_admissible
+from garkcli.order.deciding import AnyOrder
 from garkcli.order.rounded import RoundedOrder
 from garkcli.order.simplifying import Simplifying
 from garkcli.tableau.meant import AnyTableau, printed

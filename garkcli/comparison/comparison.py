@@ -14,7 +14,8 @@ from garkcli.comparison.sameness import Sameness, find_sameness, views_of
 from garkcli.doing import doing
 from garkcli.exact.field import ZERO
 from garkcli.frozen import Frozen
-from garkcli.order.certificate import DEFAULT_LIMIT, AnyOrder
+from garkcli.order.certificate import DEFAULT_LIMIT
+from garkcli.order.deciding import AnyOrder
 from garkcli.properties.property import Verdict
 from garkcli.properties.registry import KEYS
 from garkcli.tableau.garkmethod import GarkMethod

@@ -25,7 +25,7 @@ from garkcli.convergence.result import (
 )
 from garkcli.convergence.solver import Solver
 from garkcli.errors import UsageProblem
-from garkcli.order import certificate
+from garkcli.order import deciding
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.simplifying import simplifying
 from garkcli.order.weak_stages import weak_stage_order
@@ -235,7 +235,7 @@ def check_steps(problem: Oscillator | Problem, t_end: fmpq, steps: Sequence[fmpq
 
 def order_of(tableau: Tableau, tolerance: fmpq | None) -> int:
     """By the certificate, up to ``MAX_ORDER``; within the tolerance of rounded coefficients."""
-    return certificate.order_of(meant(tableau, tolerance), MAX_ORDER).order
+    return deciding.order_of(meant(tableau, tolerance), MAX_ORDER).order
 
 
 def _solver(

@@ -17,8 +17,8 @@ from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Vector
 from garkcli.frozen import Frozen, replace
 from garkcli.ntrees.tree import Tree
-from garkcli.order.certificate import order_of
 from garkcli.order.conditions import Condition, all_conditions, conditions, count_conditions
+from garkcli.order.deciding import order_of
 from garkcli.tableau.meant import AnyTableau, derived, meant, printed
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Edge, Tableau

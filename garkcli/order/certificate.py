@@ -13,7 +13,7 @@ for a set of trees whose ψ span, and there are at most s + 1 of those a colour.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING, TypeAlias, Union, cast
+from typing import cast
 
 from flint import fmpq
 
@@ -25,12 +25,8 @@ from garkcli.exact.span import AffineSpan
 from garkcli.frozen import Frozen
 from garkcli.ntrees.tree import Tree
 from garkcli.order.recursion import Forest, Forests, Spans
-from garkcli.tableau.meant import AnyTableau
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
-
-if TYPE_CHECKING:
-    from garkcli.order.rounded import RoundedOrder
 
 DEFAULT_LIMIT = 60
 """The order at which the search stops when nothing has failed."""
@@ -179,27 +175,3 @@ def prove(tableau: Tableau, limit: int = DEFAULT_LIMIT) -> Proof:
     """The exact order of a tableau and what decides it; up to the order ``limit``."""
     order = find_order(tableau, limit)
     return Proof(tableau, order, tuple(all_spanning_trees(tableau, range(1, order.order + 1))))
-
-
-AnyOrder: TypeAlias = Union[Order, "RoundedOrder"]
-"""An order found exactly, or within a tolerance: both have ``order``, ``witness`` and
-``is_lower_bound``.
-"""
-
-
-def order_of(
-    method: AnyTableau, limit: int = DEFAULT_LIMIT, spans: StageSpans | None = None
-) -> AnyOrder:
-    """The largest r ≤ ``limit`` for which the conditions of all trees of order ≤ r are met.
-
-    Args:
-        method: a tableau, with its rounding where it is rounded.
-        limit: the order at which to stop.
-        spans: of its stage vectors, where some are known; they do not depend on weights.
-    """
-    if isinstance(method, Tableau):
-        return find_order(method, limit, spans)
-    # balls, which exact methods do without
-    from garkcli.order.rounded import find_order_within
-
-    return find_order_within(method, limit)

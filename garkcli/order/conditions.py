@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 from flint import fmpq
 
 from garkcli.errors import MethodError
 from garkcli.exact.field import ZERO, Number
-from garkcli.exact.matrix import Vector, apply, dot
+from garkcli.exact.matrix import dot
 from garkcli.frozen import Frozen, replace
 from garkcli.ntrees.count import count_by_root
 from garkcli.ntrees.tree import Tree
 from garkcli.order.tolerance import within
+from garkcli.order.tree_vectors import TreeVectors
 from garkcli.tableau.meant import AnyTableau, printed
 from garkcli.tableau.tableau import Colour, Tableau
 from garkcli.upward import Shown
@@ -76,54 +77,6 @@ class Condition(Shown, Frozen):
         if self.is_exact:
             return f"<Condition {what}>"
         return f"<Condition {what} instead of {self.required}>"
-
-
-_Place: TypeAlias = tuple[int, Tree]
-"""Who sees a branch, by its stage space, and the branch."""
-
-
-class TreeVectors:
-    """Stage vectors of single trees; what the blocks make of their branches is kept.
-
-    Args:
-        tableau: of numbers, polynomials or balls.
-    """
-
-    def __init__(self, tableau: Tableau) -> None:
-        self.tableau = tableau
-        self._images: dict[_Place, Vector] = {}
-
-    def of(self, tree: Tree) -> Vector:
-        """𝒜^[u], eqs. (Ataul) and (Au).
-
-        Raises:
-            MethodError: the coupling graph does not admit the tree.
-        """
-        colour = self.tableau.colours[tree.root]
-        if colour.is_linear and len(tree.branches) > 1:
-            message = f"colour {colour.name} is linear: its vertices have one branch at most"
-            raise MethodError(message, code="tree-not-admissible")
-        space = self.tableau.space(tree.root)
-        vector = space.one
-        for branch in tree.branches:
-            vector = space.product(vector, self.image(tree.root, branch))
-        return vector
-
-    def image(self, l: int, branch: Tree) -> Vector:
-        """A 𝒜^[u] of a branch u, as the stages of a colour see it."""
-        colour = self.tableau.colours[l]
-        place = colour.space, branch
-        if place not in self._images:
-            block = self.tableau.blocks.get((colour.space, branch.root))
-            if block is None:
-                seen = self.tableau.colours[branch.root]
-                raise MethodError(
-                    f"colour {colour.name} does not see colour {seen.name}: "
-                    "the tree is not admissible",
-                    code="tree-not-admissible",
-                )
-            self._images[place] = apply(block, self.of(branch))
-        return self._images[place]
 
 
 def conditions(method: AnyTableau, trees: Iterable[Tree]) -> Iterator[Condition]:

@@ -17,7 +17,7 @@ from flint import arb, arb_mat, ctx, fmpq
 from garkcli.exact.enclosing import midpoint, scalar_product
 from garkcli.exact.matrix import Vector
 from garkcli.ntrees.tree import Tree
-from garkcli.order.conditions import TreeVectors
+from garkcli.order.tree_vectors import TreeVectors
 from garkcli.tableau.rounded import RoundedTableau, Row
 from garkcli.tableau.tableau import Edge
 

@@ -12,8 +12,9 @@ from garkcli.frozen import FrozenBut
 from garkcli.ntrees.count import Admissible, counts_upto
 from garkcli.order.approximate_spans import ApproximateSpans, HullSizes
 from garkcli.order.blame import Missed, Repair, blame_of
-from garkcli.order.certificate import DEFAULT_LIMIT, AnyOrder, Order, order_of
+from garkcli.order.certificate import DEFAULT_LIMIT, Order
 from garkcli.order.conditions import count_conditions, coupling_graph
+from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.effects import Effects
 from garkcli.order.rounded import FEW_TREES, Conditions, RoundedOrder, Sizes, TreeResiduals
 from garkcli.order.tolerance import unnatural, within

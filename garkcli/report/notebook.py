@@ -18,8 +18,9 @@ from garkcli.page.tableau_html import tableau_lines
 from garkcli.page.tableau_latex import displays
 
 if TYPE_CHECKING:
-    from garkcli.order.certificate import AnyOrder, Witness
+    from garkcli.order.certificate import Witness
     from garkcli.order.conditions import Condition
+    from garkcli.order.deciding import AnyOrder
     from garkcli.order.dense import DenseOrder
     from garkcli.stability.linear import StabilityFunction
     from garkcli.stability.summary import Stability

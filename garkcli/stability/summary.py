@@ -13,7 +13,7 @@ from garkcli.exact.cells import Interval
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.polynomial import Polynomial
 from garkcli.frozen import Frozen
-from garkcli.order.certificate import order_of
+from garkcli.order.deciding import order_of
 from garkcli.problems.oscillator import Oscillator
 from garkcli.stability.algebraic import AlgebraicStability, algebraic_stability, algebraic_within
 from garkcli.stability.damping import ImexPair, Ray, imex_pair

@@ -23,7 +23,8 @@ from garkcli.tell.facts import Answer, Beside, Kind, Level, Row, Status
 
 if TYPE_CHECKING:
     from garkcli.exact.cells import Interval
-    from garkcli.order.certificate import AnyOrder, Witness
+    from garkcli.order.certificate import Witness
+    from garkcli.order.deciding import AnyOrder
     from garkcli.stability.ball_polynomials import Bounds
     from garkcli.tell.dialect import Plain
 

@@ -16,7 +16,7 @@ from garkcli.methodfile import grammar as g
 from garkcli.methodfile.constructed.parts import METHOD, PartReader
 from garkcli.methodfile.description import ConstructionText, PartText
 from garkcli.methodfile.values import Values as Numbers
-from garkcli.order.certificate import order_of
+from garkcli.order.deciding import order_of
 from garkcli.properties.symmetry import symmetry
 from garkcli.tableau.meant import meant
 from garkcli.tableau.tableau import Tableau

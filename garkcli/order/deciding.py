@@ -1,0 +1,35 @@
+"""The order of a method, exactly or within the rounding of its coefficients."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, TypeAlias, Union
+
+from garkcli.order.certificate import DEFAULT_LIMIT, Order, StageSpans, find_order
+from garkcli.tableau.meant import AnyTableau
+from garkcli.tableau.tableau import Tableau
+
+if TYPE_CHECKING:
+    from garkcli.order.rounded import RoundedOrder
+
+AnyOrder: TypeAlias = Union[Order, "RoundedOrder"]
+"""An order found exactly, or within a tolerance: both have ``order``, ``witness`` and
+``is_lower_bound``.
+"""
+
+
+def order_of(
+    method: AnyTableau, limit: int = DEFAULT_LIMIT, spans: StageSpans | None = None
+) -> AnyOrder:
+    """The largest r ≤ ``limit`` for which the conditions of all trees of order ≤ r are met.
+
+    Args:
+        method: a tableau, with its rounding where it is rounded.
+        limit: the order at which to stop.
+        spans: of its stage vectors, where some are known; they do not depend on weights.
+    """
+    if isinstance(method, Tableau):
+        return find_order(method, limit, spans)
+    # balls, which exact methods do without
+    from garkcli.order.rounded import find_order_within
+
+    return find_order_within(method, limit)

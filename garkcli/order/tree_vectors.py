@@ -1,0 +1,57 @@
+"""The stage vectors 𝒜^[u] of single trees, whatever the entries are."""
+
+from __future__ import annotations
+
+from typing import TypeAlias
+
+from garkcli.errors import MethodError
+from garkcli.exact.matrix import Vector, apply
+from garkcli.ntrees.tree import Tree
+from garkcli.tableau.tableau import Tableau
+
+_Place: TypeAlias = tuple[int, Tree]
+"""Who sees a branch, by its stage space, and the branch."""
+
+
+class TreeVectors:
+    """Stage vectors of single trees; what the blocks make of their branches is kept.
+
+    Args:
+        tableau: of numbers, polynomials or balls.
+    """
+
+    def __init__(self, tableau: Tableau) -> None:
+        self.tableau = tableau
+        self._images: dict[_Place, Vector] = {}
+
+    def of(self, tree: Tree) -> Vector:
+        """𝒜^[u], eqs. (Ataul) and (Au).
+
+        Raises:
+            MethodError: the coupling graph does not admit the tree.
+        """
+        colour = self.tableau.colours[tree.root]
+        if colour.is_linear and len(tree.branches) > 1:
+            message = f"colour {colour.name} is linear: its vertices have one branch at most"
+            raise MethodError(message, code="tree-not-admissible")
+        space = self.tableau.space(tree.root)
+        vector = space.one
+        for branch in tree.branches:
+            vector = space.product(vector, self.image(tree.root, branch))
+        return vector
+
+    def image(self, l: int, branch: Tree) -> Vector:
+        """A 𝒜^[u] of a branch u, as the stages of a colour see it."""
+        colour = self.tableau.colours[l]
+        place = colour.space, branch
+        if place not in self._images:
+            block = self.tableau.blocks.get((colour.space, branch.root))
+            if block is None:
+                seen = self.tableau.colours[branch.root]
+                raise MethodError(
+                    f"colour {colour.name} does not see colour {seen.name}: "
+                    "the tree is not admissible",
+                    code="tree-not-admissible",
+                )
+            self._images[place] = apply(block, self.of(branch))
+        return self._images[place]
