@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from garkcli.tableau.garkmethod import GarkMethod
 
 _COUNTS = {
-    "order": "The order: 4, '>=4' or 2..4, as every RANGE.",
+    "order": "The order; a RANGE is 4, '>=4' or 2..4.",
     "embedded-order": "The order of embedded weights.",
     "conjugate-order": "The order of the symplectic conjugate.",
     "pair-order": "The order of the symplectic pair.",
@@ -148,8 +148,8 @@ def list_(given: Given, output: Output) -> None:
         return
     for key, value in filters.items():
         if value not in (None, ()):
-            name = "words" if key == "words" else f"--{key.replace('_', '-')}"
-            message = f"{name}: chosen are methods alone"
+            name = "WORD" if key == "words" else f"--{key.replace('_', '-')}"
+            message = f"{name} is for methods"
             raise UsageProblem(message, "write gark list methods", code="options-clash")
     if output.format == "csv":
         message = "--format csv is for methods"

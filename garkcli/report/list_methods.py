@@ -167,7 +167,7 @@ LINE = Section(
 def _title(entries: Sequence[Entry], d: Plain) -> str:
     """How many there are, and what the letters mean."""
     if not entries:
-        return "no method of the catalogue is such"
+        return "no method of the catalogue matches"
     present = {mark for entry in entries for mark in marks(entry)} if d.is_brief else set()
     legend = [f"{mark}: {MARKS[mark][1]}" for mark in MARKS if mark in present]
     if any(x["facts"] == "claimed" and x["order"] is not None for x in entries):

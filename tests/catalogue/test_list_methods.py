@@ -113,7 +113,7 @@ def test_words_are_found_without_accents_and_in_references() -> None:
     assert "ark-ars222" in names("ascher", "spiteri")
     assert names("ascher", "zanna") == set()
     run = gark("list", "methods", "ascher", "zanna")
-    assert run.out == "no method of the catalogue is such\n"
+    assert run.out == "no method of the catalogue matches\n"
 
 
 @pytest.mark.parametrize("column", ORDERS)

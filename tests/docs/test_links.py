@@ -83,6 +83,19 @@ def test_every_link_leads_somewhere(page: Path) -> None:
     assert missing(page) == []
 
 
+def test_pages_of_the_site_lead_to_pages_of_the_site() -> None:
+    """One page outside of docs is a page of the site too: conf.py copies CONTRIBUTING.md."""
+    docs = ROOT / "docs"
+    targets = {
+        (page.parent / link.partition("#")[0]).resolve()
+        for page in docs.rglob("*.md")
+        if page != PACKAGE_PAGE
+        for link in links(page)
+    }
+    outside_docs = {x for x in targets if x.suffix == ".md" and not x.is_relative_to(docs)}
+    assert outside_docs == {ROOT / "CONTRIBUTING.md"}
+
+
 def test_links_to_other_sites_are_well_formed() -> None:
     """Whether they lead somewhere is for ``make links``, which needs a network."""
     found = [link for page in PAGES for link in outside(page.read_text(encoding="utf-8"))]
