@@ -64,11 +64,8 @@ def trees(order: Whole, colours: Whole = 1) -> Iterator[Tree]:
     >>> [format_tree(u, colours=False) for u in trees(3)]
     ['[[],[]]', '[[[]]]']
     """
-    order = whole(order, "order", 1)
-    colours = whole(colours, "colours", 1)
-    for block in iter_blocks(colours, order):
-        for text in block.notation():
-            yield parse_tree(text)
+    blocks = iter_blocks(whole(colours, "colours", 1), whole(order, "order", 1))
+    return (parse_tree(text) for block in blocks for text in block.notation())
 
 
 def count_trees(
