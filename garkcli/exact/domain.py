@@ -191,9 +191,9 @@ class Domain:
                 return self._values[expression]
             case Name(name=name):
                 message = f"{name!r} has no value"
-                raise UndefinedValue(
-                    message, "", expression.start, expression.end, code="missing-key"
-                )
+                cure = "write a number, such as 1/2 or sqrt(2)"
+                where = expression.start, expression.end
+                raise UndefinedValue(message, cure, *where, code="missing-key")
         raise TypeError(f"no expression: {expression!r}")
 
     def _apply(self, sign: str, left: Number, right: Number, at: Expression) -> Number:

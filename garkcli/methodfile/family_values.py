@@ -158,7 +158,7 @@ class _FamilyDomain(Domain):
         return value
 
     def evaluate(self, expression: Expression) -> Number:
-        if isinstance(expression, Name):
+        if isinstance(expression, Name) and expression.name in self.ring.names:
             return cast("Number", self.ring.parameter(expression.name))
         return super().evaluate(expression)
 

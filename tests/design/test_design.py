@@ -335,6 +335,16 @@ def test_as_a_command(tmp_path: Path) -> None:
     assert (refused.code, "gark design finds values" in refused.out + refused.err) == (2, True)
 
 
+def test_an_unknown_name_is_no_value(tmp_path: Path) -> None:
+    """A parameter of a family that is set to a name that the file lacks."""
+    path = tmp_path / "two.yaml"
+    path.write_text(SDIRK2.replace("{", "{w: free, ").replace("1/2, 1/2", "1-w, w"))
+    for text in ("x", "2*x", "sqrt(x)"):
+        for command in ("design", "check"):
+            run = gark(command, str(path), "--set", f"g={text}")
+            assert (run.code, "'x' has no value" in run.out + run.err) == (2, True)
+
+
 CLASSICAL = ("1/2 1/2 1/2 1 0 1 1/6 1/3 1/3 1/6", "1/3 2/3 1 1 -1 1 1/8 3/8 3/8 1/8")
 """Kutta's methods: c2, c3, a32, c4, a42, a43 and the weights."""
 
