@@ -349,8 +349,10 @@ class Follower:
         nodes = _nodes([x for i, x in enumerate(columns) if i != place], step)
         given = {x for each in (*values, form) for at in each if step in at for x in at}
         given -= {step, start, *names}
-        if len(given) == 1 and nodes and not any(" " in x for x in given):
-            # the first slope is an argument
+        is_elsewhere = all(len(x) > 1 for x in values)
+        if len(given) == 1 and nodes and is_elsewhere and not any(" " in x for x in given):
+            # the first slope is an argument; where f is evaluated at the start too, that is
+            # a slope of another step
             names, values, nodes = [*given, *names], [{(start,): ONE}, *values], [ZERO, *nodes]
         if not nodes and len(names) < 2:
             raise NoStep

@@ -63,6 +63,17 @@ k3 = f(t + 2*h/3, y0 + 2*h/3*k2);
 y = y0 + h*(k1 + 3*k3)/4;
 end
 """
+ADAMS = """
+def step(f, t, y, h, old):
+    new = f(t, y)
+    return y + h*(3/2*new - 1/2*old)
+"""
+CORRECTED = """
+def step(f, t, y, h, old):
+    new = f(t, y)
+    end = f(t + h, y + h*(3/2*new - 1/2*old))
+    return y + h*(5/12*end + 8/12*new - 1/12*old)
+"""
 LOOPS = """
 void rk4(float y[], float dydx[], int n, float x, float h, float yout[], Slopes derivs)
 {
@@ -158,6 +169,15 @@ def test_a_step_that_is_not_followed_is_told(text: str, old: str, new: str) -> N
     assert old in text
     (found,) = c.find(text.replace(old, new), "x")
     assert (found.name, found.trouble) == (found.name, "a step that is not followed")
+
+
+def test_multistep_methods_are_no_steps() -> None:
+    """A slope that is given beside the first one is that of an earlier step; where a stage has
+    another slope in it, it is not passed over.
+    """
+    assert python.find(ADAMS, "x") == []
+    (found,) = python.find(CORRECTED, "x")
+    assert found.trouble == "a step that is not followed"
 
 
 def test_a_wrong_number_is_found() -> None:
