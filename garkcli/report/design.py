@@ -284,7 +284,7 @@ def single_rows(last: Step, d: Plain) -> Rows:
     """Which condition stops a method without unknowns."""
     if last.witness is None:
         return []
-    return [(f"order {last.order}", f"no: that of {d.tree(last.witness)} does not hold")]
+    return [(f"order {last.order}", f"no: the condition of {d.tree(last.witness)} fails")]
 
 
 def choice_rows(choices: Sequence[Choice], d: Plain) -> Rows:

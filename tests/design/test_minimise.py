@@ -126,7 +126,7 @@ def test_a_method_without_unknowns(path: str, is_pair: bool, order: int) -> None
     assert decimal == pytest.approx(float(to_ball(listed.all.two_squared, 80)))
     text = gark("design", path, *options).out
     assert text.startswith(f"{path}: order {order} of the {'pair' if is_pair else 'method'}; error")
-    assert f"order {order + 1}  no: that of" in text
+    assert f"order {order + 1}  no: the condition of" in text
     assert gark("design", path, *options, "--order", str(order + 1)).code == 1
 
 
