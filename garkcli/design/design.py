@@ -21,6 +21,7 @@ from garkcli.design.parts import Part, diagonal_unknowns, nodes_as_coordinates, 
 from garkcli.design.real_points import has_methods, without_complex
 from garkcli.design.solutions import Solution, solutions
 from garkcli.design.stable_parts import has_stable_method, joined, stable_part
+from garkcli.design.stable_transfers import stable_zeros
 from garkcli.design.stable_values import StableValues, Wanted, stable_values
 from garkcli.errors import NotDecided, ZeroWeight
 from garkcli.exact.field import Number
@@ -82,6 +83,9 @@ class Step(Frozen):
         criterion: by which the real values were found; None where all conditions were examined.
         stable: where stability is wanted of a family and of every value, and depends on one
             unknown: the values of that, for each kind.
+        of_stable: where P-stability is wanted of all transfers of a pair and decided, the ideal
+            whose real zeros are the stable methods.
+        polynomials_of_stable: of its basis those that are not in the ideal of the order.
     """
 
     order: int
@@ -96,6 +100,8 @@ class Step(Frozen):
     is_real: bool | None = None
     criterion: PairConditions | None = None
     stable: tuple[StableValues, ...] = ()
+    of_stable: Ideal | None = None
+    polynomials_of_stable: tuple[fmpq_mpoly, ...] = ()
 
     @property
     def has_methods(self) -> bool | None:
@@ -191,6 +197,8 @@ SHARE = 0.25
 """The part of the time that python-flint has where msolve is there too: what it finds is proved."""
 PART = 0.25
 """The part of the time that is left in which a real method of a family is sought."""
+STABLE = 0.5
+"""That in which the P-stable transfers of a pair are sought."""
 CLAIMS: dict[Whose, str] = {"method": "order", "conjugate": "conjugate-order", "pair": "pair-order"}
 """What a file claims of the order found, by whose it is."""
 
@@ -337,10 +345,15 @@ class _Finding(Frozen):
                 step = replace(step, found=self._found(ideal))
         except NotDecided:
             return replace(step, kind="undecided")
+        if not is_last or step.kind not in {"every-value", "family"}:
+            return step
         left = seconds_left()
+        if self.criterion is not None and self.family.stable:
+            with suppress(NotDecided), within(None if left is None else STABLE * left):
+                return self._with_stable_transfers(step, ideal, self.criterion)
+            left = seconds_left()
         with suppress(NotDecided), within(None if left is None else PART * left):
-            if is_last and step.kind in {"every-value", "family"}:
-                return self._with_real(step, ideal)
+            return self._with_real(step, ideal)
         return step
 
     def _with_real(self, step: Step, ideal: Ideal) -> Step:
@@ -385,6 +398,23 @@ class _Finding(Frozen):
         if is_real is None and any(not x.found and not x.undecided for x in stable):
             is_real = False
         return replace(step, is_real=is_real, stable=stable)
+
+    def _with_stable_transfers(self, step: Step, ideal: Ideal, criterion: PairConditions) -> Step:
+        """All transfers of a pair with the ideal of the P-stable ones.
+
+        Raises:
+            NotDecided: it is not known.
+        """
+        stable = ideal.with_zeros(stable_zeros(criterion, ideal))
+        solved, is_real = criterion.solved(stable), None
+        if solved is None:
+            raise NotDecided
+        if stable.is_everything:
+            is_real = False
+        elif self._has_point(criterion, stable):
+            is_real = True
+        new = tuple(p for p in solved if not ideal.contains(p))
+        return replace(step, is_real=is_real, of_stable=stable, polynomials_of_stable=new)
 
     def _has_point(self, criterion: PairConditions, ideal: Ideal) -> bool:
         """Whether there is a method where the unknowns that are free are 0."""

@@ -152,7 +152,9 @@ def _are_positive(family: Family, start: Ideal, numbers: list[Number]) -> bool:
     return True
 
 
-def least_error(conditions: PairConditions, order: int, ideal: Ideal) -> Ideal | None:
+def least_error(
+    conditions: PairConditions, order: int, ideal: Ideal, is_stable: bool = False
+) -> Ideal | None:
     """One method with the least principal error of its pair, of all with real transfers whose pair
     has an order: that of the Legendre transfer.
 
@@ -160,6 +162,8 @@ def least_error(conditions: PairConditions, order: int, ideal: Ideal) -> Ideal |
         conditions: of the family.
         order: of the pair, p.
         ideal: of the values with this order.
+        is_stable: whether these are the P-stable ones alone. Where the first colour is Gauss s with
+            p = 2s, the block from it is the one that stability asks for.
 
     Returns:
         the ideal of its values; None where the theorem does not say that it is the least, or it is
@@ -176,13 +180,15 @@ def least_error(conditions: PairConditions, order: int, ideal: Ideal) -> Ideal |
         methods.append(Method(colour.name, tableau.space(l), block, colour.b))
     if len(conditions.off_diagonal) != size * (size - 1):
         return None
+    if is_stable and (size != 2 or order != 2 * tableau.space(0).stages):
+        return None
     if order % 2 == 0 and not all(
         all(map(conditions.start.contains, conditions.zeros(_of_even_order(conditions, l, order))))
         for l in range(size)
     ):
         return None
     zeros: list[Number] = []
-    for l, m in conditions.off_diagonal:
+    for l, m in [(0, 1)] if is_stable else conditions.off_diagonal:
         wanted = legendre(methods[l], methods[m], order // 2)
         given = tableau.block(l, m)
         assert given is not None

@@ -23,8 +23,14 @@ from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot
 from garkcli.frozen import Frozen
 from garkcli.problems.oscillator import Oscillator, check_structure, terms_of
-from garkcli.stability.linear import imaginary_set, is_a_stable, stability_function
-from garkcli.stability.oscillator import oscillator_stability
+from garkcli.stability.linear import (
+    StepFunction,
+    imaginary_set,
+    is_a_stable,
+    reduced,
+    stability_function,
+)
+from garkcli.stability.oscillator import OscillatorStability, of_step, oscillator_stability
 from garkcli.stability.two_frequencies import (
     eigenvalue_conditions,
     line_of_determinants,
@@ -147,28 +153,42 @@ class PStability:
     def __init__(self, members: Members, tableau: Tableau) -> None:
         self.members = members
         self.problem = Oscillator.default(terms_of(tableau), fmpq(1))
-        fields = driven(tableau, "p-stable")
-        self.plane = members.plane(tableau, fields)
-        self.signs, others = oscillator_curves(self.plane)
-        poles = in_square(self.plane.denominator)
+        self._in(members.plane(tableau, driven(tableau, "p-stable")))
+
+    def _in(self, plane: StepPlane) -> None:
+        self.plane = plane
+        self.signs, others = oscillator_curves(plane)
+        poles = in_square(plane.denominator)
         self.essential = projection.projected(factors([poles, *self.signs]), [ZERO])
         deciding = [*self.signs, *others]
         self.critical = projection.projected(factors(deciding), [ZERO])
 
-    def decide(self, value: Number) -> bool:
+    def _at(self, value: Number) -> OscillatorStability | None:
         tableau = self.members.at(value)
-        if tableau is None:
-            return False
-        return oscillator_stability(tableau, self.problem).is_p_stable
+        return None if tableau is None else oscillator_stability(tableau, self.problem)
+
+    def decide(self, value: Number) -> bool:
+        found = self._at(value)
+        return found is not None and found.is_p_stable
 
     def witness(self, value: fmpq) -> fmpq | None:
-        tableau = self.members.at(value)
-        if tableau is None:
-            return None
-        return first_gap(oscillator_stability(tableau, self.problem).stable)
+        found = self._at(value)
+        return None if found is None else first_gap(found.stable)
 
     def conditions(self, x: fmpq) -> list[Polynomial]:
         return [projection.at_y(p, x) for p in self.signs]
+
+
+class StepStability(PStability):
+    """The same of a step that is known as a function of z and t."""
+
+    def __init__(self, plane: StepPlane) -> None:
+        self._in(plane)
+
+    def _at(self, value: Number) -> OscillatorStability:
+        D = projection.on_line(self.plane.denominator, value)
+        rows = (tuple(projection.on_line(p, value) for p in row) for row in self.plane.numerators)
+        return of_step(reduced(StepFunction(D, tuple(rows))))
 
 
 def oscillator_curves(plane: StepPlane) -> tuple[list[fmpq_mpoly], list[fmpq_mpoly]]:

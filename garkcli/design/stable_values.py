@@ -137,16 +137,17 @@ def stable_values(
         raise too_many(family)
     tableau = TABLEAUS[whose](family.tableau)
     members = members or Members(family, whose)
+    (ends,) = family.ranges.values()
     if wanted == "p-stable":
         oscillating: Kind
         if two_springs is None:
             oscillating = PStability(members, tableau)
         else:
             oscillating = SpringStability(members, tableau, two_springs)
-        found, undecided = _wanted(family, *_decided(family, oscillating))
+        found, undecided = _wanted(family, *decided(oscillating, ends))
         return StableValues(family, whose, wanted, found, undecided, two_springs)
     kind = AStability(members, tableau, colour)
-    found, undecided = _decided(family, kind)
+    found, undecided = decided(kind, ends)
     if wanted == "l-stable":
         critical = [*kind.critical, *ends_of(found)]
         stable = found
@@ -156,9 +157,11 @@ def stable_values(
     return StableValues(family, whose, wanted, found, undecided, colour=colour)
 
 
-def _decided(family: Family, kind: Kind) -> tuple[tuple[Interval, ...], tuple[RealRoot, ...]]:
-    """The set, and the values that are undecided."""
-    decision = _Decision(family, kind)
+def decided(
+    kind: Kind, ends: tuple[fmpq | None, fmpq | None]
+) -> tuple[tuple[Interval, ...], tuple[RealRoot, ...]]:
+    """The set between two ends, and the values that are undecided."""
+    decision = _Decision(kind, ends)
     found = decision.run()
     undecided = tuple(decision.undecided)
     return _without(found, undecided), undecided
@@ -220,8 +223,7 @@ def refuse_radicals(family: Family) -> None:
 class _Decision:
     """One decomposition of the line of a parameter."""
 
-    def __init__(self, family: Family, kind: Kind) -> None:
-        (ends,) = family.ranges.values()
+    def __init__(self, kind: Kind, ends: tuple[fmpq | None, fmpq | None]) -> None:
         self.least, self.greatest = ends
         self.kind = kind
         self.undecided: list[RealRoot] = []

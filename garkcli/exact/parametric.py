@@ -126,13 +126,15 @@ class Parameters:
         """An equal polynomial of the smallest degrees."""
         for rule in reversed(self.rules):
             while polynomial.degrees()[rule.index] >= rule.degree:
-                total = self.constant(fmpq(0))
+                parts: dict[int, dict[tuple[int, ...], fmpq]] = {}
                 for exponents, a in polynomial.to_dict().items():
                     powers = [int(e) for e in exponents]
                     count, powers[rule.index] = divmod(powers[rule.index], rule.degree)
-                    rest = self.context.from_dict({tuple(powers): a})
-                    total += times(rest, power(rule.instead, count))
-                polynomial = total
+                    parts.setdefault(count, {})[tuple(powers)] = a
+                polynomial = self.constant(fmpq(0))
+                for count, terms in parts.items():
+                    rest = self.context.from_dict(dict(terms))
+                    polynomial += times(rest, power(rule.instead, count))
         return polynomial
 
     @contextmanager

@@ -319,6 +319,11 @@ def _answer(x: DesignReport, d: Plain) -> str:
         text = f"order {last.order}{'' if best else whose}"
         texts.append(f"{text} {no.get(last.kind, 'for no method of the file')}")
     texts += [f"{'' if best else whose}{stability(values, d)}" for values in x.sets]
+    if best is not None and best.of_stable is not None:
+        which = "every value of it"
+        if best.polynomials_of_stable:
+            which = f"exactly a part of it of dimension {best.of_stable.dimension}"
+        texts.append(f"P-stable for {which}")
     return "; ".join(texts)
 
 
@@ -347,9 +352,14 @@ def _briefly(step: Step) -> str:
 
 def stable_rows(x: DesignReport, d: Plain) -> Rows:
     """What the ends of the stable values are; how stability is decided where it is not."""
-    kinds = ", ".join(map(str, x.design.family.stable))
-    if not x.design.family.parameters:
+    family, best = x.design.family, _best(x.design)
+    kinds = ", ".join(map(str, family.stable))
+    if not family.parameters:
         return []
+    if best is not None and best.of_stable is not None:
+        texts = zeros(family, best.polynomials_of_stable)
+        found = f"P-stable for exactly {_polynomials(texts, d, 'real ones')}"
+        return [("stable", found)] if texts else []
     if kinds and not x.sets and x.design.last.kind in {"every-value", "family"}:
         text = f"{kinds}: not decided for all methods of the family: fix unknowns by --set"
         return [("stable", d.prose(text))]
@@ -526,6 +536,12 @@ STEP = [
         "real_ideal",
         TEXTS,
         lambda x: x.step.real and zeros(x.design.family, x.step.polynomials_of_real),
+        DATA,
+    ),
+    optional(
+        "stable_ideal",
+        TEXTS,
+        lambda x: x.step.of_stable and zeros(x.design.family, x.step.polynomials_of_stable),
         DATA,
     ),
     optional("dimension", INTEGER, _known(lambda x: x.step.ideal.dimension), DATA),

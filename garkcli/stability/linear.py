@@ -40,7 +40,7 @@ class StepFunction(Frozen):
 
 def step_function(system: StageSystem) -> StepFunction:
     """The step y₁ = M(z) y₀ with M(z) = I + z B (I − zW)⁻¹ E of a stage system, in lowest terms."""
-    return _reduced(unreduced(system))
+    return reduced(unreduced(system))
 
 
 def unreduced(system: StageSystem) -> StepFunction:
@@ -78,7 +78,8 @@ def _series(system: StageSystem, column: Vector, terms: int) -> list[list[Number
     return found
 
 
-def _reduced(step: StepFunction) -> StepFunction:
+def reduced(step: StepFunction) -> StepFunction:
+    """The same in lowest terms."""
     common = step.denominator
     for row in step.numerators:
         for p in row:

@@ -278,7 +278,7 @@ _PLAIN = set(
     representative required restores restrictions results right_hand_sides root_of round_off
     rounded_coefficients rounding row rows same_as schema schemes second_only seconds seed set
     shapes sigma slope slope_at_end slope_at_start solutions spaces spec splittings springs ssp
-    ssp_radii stability stages_by_colour start starts step step_exact steps stiffness strips suffix
+    ssp_radii stability stable_ideal stages_by_colour start starts step step_exact steps stiffness strips suffix
     suggestion symplectic_order t t_end t_end_exact tableau tables term terms title to to_included
     tolerance toward trace trees two_norm two_norm_squared uncertainty unknown unknowns unread up_to
     upto version visible_order wanted witness word worst worst_value written written_by wrong xi

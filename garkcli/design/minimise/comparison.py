@@ -138,7 +138,7 @@ class Comparison(Mutable):
         criterion, ideal = self.step.criterion, self.step.ideal
         if criterion is None or ideal is None:
             return False
-        best = least_error(criterion, self.step.order, ideal)
+        best = least_error(criterion, self.step.order, ideal, self.step.of_stable is not None)
         for solution in () if best is None else solutions(best):
             for index, root in enumerate(solution.real):
                 if self.takes(solution, root):

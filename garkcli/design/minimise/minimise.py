@@ -19,6 +19,7 @@ from garkcli.design.minimise.objectives import OBJECTIVES
 from garkcli.design.minimise.result import Minimum
 from garkcli.design.minimise.smallest import Smallest
 from garkcli.errors import UsageProblem
+from garkcli.frozen import replace
 
 SHARE = 0.25
 """The part of the time in which critical points are sought by Gröbner bases; what is tried
@@ -63,10 +64,15 @@ def minimise(
     if isinstance(objective, Either):
         objective = objective.meant(design.tableau)
     comparison: Comparison
+    of_whom, among = design, step
+    if step.of_stable is not None:
+        # all methods of this ideal are as stable as is wanted
+        of_whom = replace(design, family=replace(design.family, stable=()))
+        among = replace(step, ideal=step.of_stable)
     if isinstance(objective, Level):
-        comparison = Highest(design, step, objective)
+        comparison = Highest(of_whom, among, objective)
     else:
-        comparison = Smallest(design, step, objective)
+        comparison = Smallest(of_whom, among, objective)
     with within(seconds):
         left = seconds_left()
         comparison.share = None if left is None else monotonic() + SHARE * left
@@ -74,7 +80,7 @@ def minimise(
             comparison.selection()
         elif not (objective is OBJECTIVES["error"] and comparison.by_theorem()):
             with until(comparison.share):
-                parts = design.parts(step)
+                parts = of_whom.parts(among)
             for part in parts:
                 comparison.over_whole(part)
-        return comparison.result()
+        return replace(comparison.result(), design=design, step=step)
