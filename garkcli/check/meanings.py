@@ -131,7 +131,7 @@ def _choices() -> Iterator[Sense]:
     from garkcli.problems.builtin import PROBLEMS
     from garkcli.transfer import SUMMARIES
 
-    families = {name: f"{sentence(x.summary)} Order {x.order}." for name, x in FAMILIES.items()}
+    families = {name: f"{sentence(x.summary)} {_order(x.order)}" for name, x in FAMILIES.items()}
     yield _listed("family of methods", families)
     yield _listed("transfer rule", SUMMARIES)
     for kind, schemes in (("compose", SCHEMES), ("splitting", SPLITTINGS)):
@@ -141,6 +141,11 @@ def _choices() -> Iterator[Sense]:
     shapes = {name: x.summary for name, x in SHAPES.items()}
     yield _listed("shape of unknown tableaus", shapes, dict.fromkeys(SHAPES, "docs/design.md"))
     yield _listed("problem", {name: x.summary for name, x in PROBLEMS.items()})
+
+
+def _order(order: str) -> str:
+    """The order of a family: a number, a formula, or the key that gives it."""
+    return f"The key {order} sets the order." if order.isalpha() else f"Order {order}."
 
 
 def _listed(kind: str, texts: Mapping[str, str], sources: Mapping[str, str] | None = None) -> Sense:
@@ -189,12 +194,12 @@ def field_meanings(word: str) -> list[Meaning]:
 
 
 def sentence(text: str) -> str:
-    """A remark as a sentence.
+    """A remark as a sentence; a formula at its start stays.
 
-    >>> sentence("zero above the diagonal")
-    'Zero above the diagonal.'
+    >>> sentence("zero above the diagonal"), sentence("s = n^2; strong-stability-preserving")
+    ('Zero above the diagonal.', 's = n^2; strong-stability-preserving.')
     """
-    begun = text[:1].upper() + text[1:]
+    begun = text[:1].upper() + text[1:] if re.match(r"[a-z]+\b(?! =)", text) else text
     return begun if begun.endswith(".") else f"{begun}."
 
 

@@ -275,7 +275,7 @@ _ENTRIES = (
     ),
     stiff_one(
         "van-der-pol",
-        "its smooth solution; stiff and non-stiff parts; not Hamiltonian",
+        "the oscillator near the smooth solution; two parts, one stiff; not Hamiltonian",
         "ẏ = z, ż = σ ((1 − y²) z − y), σ the stiffness: z and the rest",
         "all, with at most 3 branches at a vertex of the stiff part",
         stiff.van_der_pol,
@@ -304,7 +304,7 @@ _ENTRIES = (
     ),
     BuiltIn(
         "generic-semi-separable",
-        "the same; all terms but the first of positions",
+        "like generic, all terms but the first of positions",
         "H¹(q, p) + Σ U(q), powers as in `generic`",
         "all of a semi-separable structure, with at most 7 branches at a vertex",
         semi_separable,
@@ -312,7 +312,7 @@ _ENTRIES = (
     ),
     BuiltIn(
         "generic-separable",
-        "the same as T(p) + Σ U(q); sees every tree of this form",
+        "like generic, as T(p) + Σ U(q); sees every tree of this form",
         "T(p) + Σ U(q), powers as in `generic`",
         "all alternating trees, with at most 7 branches at a vertex",
         separable,
@@ -320,7 +320,7 @@ _ENTRIES = (
     ),
     BuiltIn(
         "generic-nystrom",
-        "the same as ½|p|² + Σ U(q); sees every tree of this form",
+        "like generic, as ½|p|² + Σ U(q); sees every tree of this form",
         "½|p|² + Σ U(q), powers as in `generic`",
         "alternating trees in which velocities do not branch, forces at most 7 times",
         nystrom,
