@@ -23,7 +23,7 @@ from garkcli.exact.roots import RealRoot
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ALGEBRAIC, root_data
 from garkcli.reason import Reason
-from garkcli.report.design_values import conditions, where, zeros
+from garkcli.report.design_values import conditions, equation, where, zeros
 from garkcli.report.stable_values import VALUES, ends, number, stability
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Kind, Level, Row, Section, maybe, optional, via
@@ -129,6 +129,11 @@ def joined(values: dict[str, RealRoot], d: Plain) -> str:
 
 def _polynomials(texts: Sequence[str], d: Plain, which: str = "real and complex") -> str:
     """Polynomials that are zero; usually the first of many."""
+    return f"the zeros, {which}, of {_listed(texts, d, 'polynomial')}"
+
+
+def _listed(texts: Sequence[str], d: Plain, noun: str) -> str:
+    """Polynomials or equations; usually the first of many."""
     shown: list[str] = []
     room = ROOM if d.is_brief else len(texts) * LONG
     for text in texts:
@@ -136,10 +141,11 @@ def _polynomials(texts: Sequence[str], d: Plain, which: str = "real and complex"
         if shown and room < 0:
             break
         is_long = len(text) > LONG
-        shown.append(f"a polynomial of {len(text)} signs" if is_long else d.expression(text))
-    found = f"the zeros, {which}, of " + "; ".join(shown)
+        sides = " = ".join(map(d.expression, text.split(" = ")))
+        shown.append(f"a polynomial of {len(text)} signs" if is_long else sides)
+    found = "; ".join(shown)
     if more := len(texts) - len(shown):
-        return f"{found} and {counted(more, 'polynomial')} more with -v"
+        return f"{found} and {counted(more, noun)} more with -v"
     return f"{found}, see --format json" if any(len(x) > LONG for x in texts) else found
 
 
@@ -357,8 +363,8 @@ def stable_rows(x: DesignReport, d: Plain) -> Rows:
     if not family.parameters:
         return []
     if best is not None and best.of_stable is not None:
-        texts = zeros(family, best.polynomials_of_stable)
-        found = f"P-stable for exactly {_polynomials(texts, d, 'real ones')}"
+        texts = [equation(family, p) for p in best.polynomials_of_stable]
+        found = f"P-stable for exactly {_listed(texts, d, 'equation')}"
         return [("stable", found)] if texts else []
     if kinds and not x.sets and x.design.last.kind in {"every-value", "family"}:
         text = f"{kinds}: not decided for all methods of the family: fix unknowns by --set"

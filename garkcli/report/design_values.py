@@ -31,6 +31,15 @@ def zeros(family: Family, polynomials: Sequence[AnyPolynomial]) -> list[str]:
     return [_text(family, p) for p in polynomials if _terms(p) not in known]
 
 
+def equation(family: Family, p: fmpq_mpoly) -> str:
+    """That a polynomial is zero, solved for its first unknown where that is alone."""
+    exponents = [int(k) for k in p.monoms()[0]]
+    if sum(exponents) > 1:
+        return f"{_text(family, p)} = 0"
+    first = p.context().gens()[exponents.index(1)]
+    return f"{first} = {_written(family, first - p / p.leading_coefficient())}"
+
+
 def conditions(family: Family, nonzero: Iterable[fmpq_mpoly]) -> list[Reason]:
     """What else is true of the values: where there is a method, and which the file admits.
 
@@ -114,6 +123,11 @@ def _text(family: Family, p: AnyPolynomial) -> str:
     """A multiple with whole coefficients, by a positive number."""
     if isinstance(p, fmpq_mpoly):
         p = p * integral_scale(p)
+    return _written(family, p)
+
+
+def _written(family: Family, p: AnyPolynomial) -> str:
+    """A polynomial with roots as the file writes them."""
     written = {name: text for name, (text, _) in family.ring.shown.items()}
     written |= {x.name: x.text for x in family.radicals}
     return _NAME.sub(lambda found: written.get(found[0], found[0]), str(p))
