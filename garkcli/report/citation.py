@@ -94,10 +94,7 @@ def _key(cited: Cited) -> str:
     people: Sequence[str] = () if reference is None else reference.authors or reference.editors
     if reference is None or not people:
         return _key_of_method(cited.methods[0])
-    name = last_name(people[0])
-    if not name[:1].isupper():  # a group, such as the NodePy developers
-        name = people[0].removeprefix("The ").split()[0]
-    return ascii_letters(name) + reference.year
+    return ascii_letters(short_name(people[0])) + reference.year
 
 
 def _key_of_method(name: str) -> str:
@@ -113,6 +110,16 @@ def last_name(name: str) -> str:
     """
     before, comma, _ = name.partition(",")
     return before if comma else name.split()[-1]
+
+
+def short_name(name: str) -> str:
+    """The last name of a person, or what a group works on.
+
+    >>> short_name("J. C. Butcher"), short_name("The NodePy developers")
+    ('Butcher', 'NodePy')
+    """
+    last = last_name(name)
+    return last if last[:1].isupper() else name.removeprefix("The ").split()[0]
 
 
 def bibliography(cited: Sequence[Cited]) -> str:

@@ -11,6 +11,7 @@ from garkcli.exact.expression import read_decimal
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.paint import counted
 from garkcli.properties.registry import every_property
+from garkcli.report.citation import short_name
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, maybe
 from garkcli.tell.kinds import COUNT, POSITION, TEXT, TEXTS, TRUTH, choice
@@ -136,7 +137,7 @@ def _marks_words(entry: Entry, d: Plain) -> str:
 
 def short_reference(entry: Entry) -> str:
     """Last names and year, or the beginning of a reference that is plain text."""
-    names = [name.split()[-1] for name in entry["authors"]]
+    names = list(map(short_name, entry["authors"]))
     if not names:
         return str(entry["reference"])
     text = f"{names[0]} et al." if len(names) > 3 else ", ".join(names)
