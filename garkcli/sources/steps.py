@@ -119,14 +119,21 @@ class Follower:
         known: the numbers and arrays that names stand for.
         has_whole_quotients: whether ``1/2`` is 0.
         is_last_changed: whether ``status = f(t, x, k)`` gives k the slope.
+        counters: names that count steps: ``x[n]`` is a value, as x is.
     """
 
     def __init__(
-        self, known: Known, has_whole_quotients: bool = False, is_last_changed: bool = False
+        self,
+        known: Known,
+        has_whole_quotients: bool = False,
+        is_last_changed: bool = False,
+        counters: Sequence[str] = (),
     ) -> None:
         self._known = known
         self._has_whole_quotients = has_whole_quotients
         self._is_last_changed = is_last_changed
+        self._counters = counters
+        self._has_step_inside = False
         self._forms: dict[str, Form | None] = {}
         self._slopes: list[_Slope] = []
         self._assigned: list[str] = []
@@ -156,10 +163,19 @@ class Follower:
                         self._components.pop()
                     else:
                         self._lose(_targets([inner]))
+                        self._look_inside(name, inner)
                 case ir.Return(value=ir.Name(name=name)):
                     self._assigned.append(name)
                 case ir.Return(value=value):
                     self._set("the value of the function", self._form(value))
+
+    def _look_inside(self, name: str, body: ir.Body) -> None:
+        """Note whether a loop has what looks like a step in it: one step after the other."""
+        follower = Follower(
+            self._known, self._has_whole_quotients, self._is_last_changed, (*self._counters, name)
+        )
+        follower.follow(body)
+        self._has_step_inside |= follower.looks_like
 
     def _called(self, call: ir.Call) -> None:
         """A call for its effect: a copy, an evaluation of f, or a change of what it is given."""
@@ -209,9 +225,10 @@ class Follower:
         return {(slope,): ONE}
 
     def _whole(self, expr: ir.Expr) -> ir.Expr:
-        """The array of which a loop over components takes one after the other."""
+        """The array of which a loop takes one entry after the other."""
+        names = {*self._components, *self._counters}
         while isinstance(expr, ir.Index) and all(
-            isinstance(x, ir.Name) and x.name in self._components for x in expr.at
+            isinstance(x, ir.Name) and x.name in names for x in expr.at
         ):
             expr = expr.of
         return expr
@@ -309,7 +326,9 @@ class Follower:
 
     @property
     def looks_like(self) -> bool:
-        """Whether f is evaluated at ``x + h*k``, where k is another value of f."""
+        """Whether f is evaluated at ``x + h*k``, where k is another value of f, in a loop too."""
+        if self._has_step_inside:
+            return True
         called = {x.name: x.callee for x in self._slopes if not _is_mathematics(x.callee)}
         return any(
             called.get(name) == called.get(x.name, "") and any(len(each) == 1 for each in form)

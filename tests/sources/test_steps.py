@@ -180,6 +180,19 @@ def test_multistep_methods_are_no_steps() -> None:
     assert found.trouble == "a step that is not followed"
 
 
+@pytest.mark.parametrize("index", [("", ""), ("[n]", "[n+1]")])
+@pytest.mark.parametrize("loop", ["for n in range(N)", "while go()"])
+def test_steps_one_after_the_other_are_told(index: tuple[str, str], loop: str) -> None:
+    """A loop with a step in it, of numbers or of arrays with a value per step; not one of Euler."""
+    here, after = index if loop.startswith("for") else ("", "")
+    text = f"def run(f, t, y, h, N):\n    {loop}:\n        k = f(t{here}, y{here})\n"
+    end = f"        y{after} = y{here} + h*k\n    return y\n"
+    second = f"        k = f(t{here} + h/2, y{here} + h/2*k)\n"
+    (found,) = python.find(text + second + end, "x")
+    assert (found.name, found.trouble) == ("run", "a step that is not followed")
+    assert python.find(text + end, "x") == []
+
+
 def test_a_wrong_number_is_found() -> None:
     """A stage at another time than its value has; weights whose sum is not 1."""
     (table,) = fortran.find(KUTTA.replace("call me%f(t+h,x", "call me%f(t+h2,x"), "x")
