@@ -96,7 +96,7 @@ _JULIA = _words(
     abstract baremodule begin break catch const continue do else elseif end export false finally for
     function global if import in isa let local macro missing module mutable nothing outer primitive
     public quote return struct true try type using where while
-    adaptiveorder b bhat big bs c cs embedded_order fsal im map order pi a reshape sqrt
+    adaptiveorder as b bhat big bs c cs embedded_order fsal im map order pi a reshape sqrt tableau
     """
 )
 _MATLAB = _words(
