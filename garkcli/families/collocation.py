@@ -195,8 +195,10 @@ FAMILIES = (
     of_stages("gauss", gauss, 1, "2s", "collocation at the Gauss nodes; symplectic", STIFF),
     of_stages("radau-ia", radau_ia, 1, "2s - 1", "first node 0, D(s)", STIFF),
     of_stages("radau-iia", radau_iia, 1, "2s - 1", "collocation, last node 1", STIFF),
-    of_stages("radau-ib", radau_ib, 2, "2s - 1", "of IA; symplectic", SUN),
-    of_stages("radau-iib", radau_iib, 2, "2s - 1", "of IIA; symplectic", SUN),
+    of_stages("radau-ib", radau_ib, 2, "2s - 1", "mean of IA and its conjugate; symplectic", SUN),
+    of_stages(
+        "radau-iib", radau_iib, 2, "2s - 1", "mean of IIA and its conjugate; symplectic", SUN
+    ),
     of_stages("lobatto-iiia", lobatto_iiia, 2, _ORDER, "collocation, nodes 0 and 1", STIFF),
     of_stages("lobatto-iiib", lobatto_iiib, 2, _ORDER, "symplectic conjugate of IIIA", STIFF),
     of_stages("lobatto-iiic", lobatto_iiic, 2, _ORDER, "a_i1 = b_1, stiffly accurate", STIFF),

@@ -76,7 +76,7 @@ _ORDERS = (
     ),
     Definition(
         "pair-bound",
-        "The same bound for the symplectic pair.",
+        "The bound min{r, 2η+2, ξ+1, η+ζ+1} for the symplectic pair.",
         _PAPER,
         meaning="methods without zero weights",
     ),
