@@ -317,8 +317,7 @@ class MethodFileError(GarkError):
                 place += f":{fault.line}:{fault.column}"
             parts.append(f"{place}: {fault.message}")
             if 0 < fault.line <= len(lines):
-                line = lines[fault.line - 1]
-                parts += excerpt(line, fault.line, fault.column)
+                parts += excerpt(lines[fault.line - 1], fault.line, fault.column)
             if fault.help:
                 parts.append(f"      help: {fault.help}")
         return "\n".join(parts)
@@ -349,7 +348,6 @@ def excerpt(text: str, line: int, column: int, caret: str = "^") -> list[str]:
     centred = column - 1 - EXCERPT_WIDTH // 2
     last = len(text) - EXCERPT_WIDTH
     start = max(0, min(centred, last))
-    part = text[start : start + EXCERPT_WIDTH]
-    shown = part.replace("\t", " ")
+    shown = text[start : start + EXCERPT_WIDTH].replace("\t", " ")
     before = printable(shown[: column - 1 - start])
     return [f"{line:5} | {printable(shown)}", f"      | {' ' * len(before)}{caret}"]

@@ -192,8 +192,7 @@ SUMMARIES: Mapping[str, str] = {name: entry.summary for name, entry in _ENTRIES.
 
 def combination(terms: Sequence[tuple[Number, Rule]], l: Method, m: Method) -> Matrix:
     """Σ τ_k A_k^{l,m} over the rules; consistent where the weights τ_k sum to 1, eq. (lincomb)."""
-    blocks = [scale(weight, rule(l, m)) for weight, rule in terms]
-    return reduce(add, blocks)
+    return reduce(add, [scale(weight, rule(l, m)) for weight, rule in terms])
 
 
 def build_on(methods: Sequence[Method], orders: Sequence[int], l: int, m: int) -> int:

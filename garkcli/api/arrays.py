@@ -67,8 +67,7 @@ def from_arrays(
             entries[key] = writer.text(listed, key)
     if tolerance is not None:
         entries["tolerance"] = number_text(tolerance, "tolerance", is_rounded=True)
-    lines = [f"{key}: {text}\n" for key, text in entries.items()]
-    return loads("".join(lines), SOURCE)
+    return loads("".join([f"{key}: {text}\n" for key, text in entries.items()]), SOURCE)
 
 
 _PLAIN = re.compile(r"-?(0|[1-9][0-9]*)([./][0-9]+)?(e-?[0-9]+)?", re.ASCII)
@@ -87,8 +86,7 @@ class _Writer:
         if isinstance(value, list):
             items = [self.text(x, where, *place, i) for i, x in enumerate(value, start=1)]
             return f"[{', '.join(items)}]"
-        called = _called(where, place)
-        return _quoted(number_text(value, called, self.is_rounded))
+        return _quoted(number_text(value, _called(where, place), self.is_rounded))
 
 
 def _called(where: str, place: tuple[int, ...]) -> str:
@@ -159,8 +157,7 @@ def _listed(value: Any) -> Any:
 def _depth(value: Any) -> int:
     if not isinstance(value, list):
         return 0
-    inside = map(_depth, value)
-    return 1 + max(inside, default=0)
+    return 1 + max(map(_depth, value), default=0)
 
 
 def _triangle(A: Any) -> Any:

@@ -163,8 +163,7 @@ def _failure(method: GarkMethod, part: _Part, value: Any, tolerance: Any) -> Ite
     except ZeroWeight as error:
         yield f"{name} has no order: {error.message}"
         return
-    limit = max(DEFAULT_LIMIT, least + 1)
-    found = find_order(derived, limit, tolerance)
+    found = find_order(derived, max(DEFAULT_LIMIT, least + 1), tolerance)
     reached = AtLeast(found.order) if found.is_lower_bound else found.order
     if agrees(wanted, reached):
         return
@@ -200,8 +199,7 @@ def _blamed(tableau: Tableau, part: _Part, found: AnyOrder, claimed: int) -> Ite
     """The entries whose change would restore the order."""
     missed = Missed(found.order + 1, claimed, which=part.which)
     if not isinstance(found, Order):
-        near = NEAR * found.tolerance
-        missed = replace(missed, tolerance=found.tolerance, near=near)
+        missed = replace(missed, tolerance=found.tolerance, near=NEAR * found.tolerance)
     blame = blame_of(tableau, missed)
     if blame is None or not blame.repairs:
         return

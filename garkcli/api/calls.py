@@ -58,8 +58,7 @@ def refuse_unknown(keys: Iterable[str]) -> None:
     """
     for key in keys:
         if key not in CLAIMS:
-            cure = did_you_mean(key, CLAIMS)
-            raise UsageProblem(f"no claim {key!r}", cure, code="unknown-word")
+            raise UsageProblem(f"no claim {key!r}", did_you_mean(key, CLAIMS), code="unknown-word")
 
 
 def true_claims_of(method: GarkMethod, keys: Sequence[str]) -> TrueClaims:
@@ -95,8 +94,7 @@ def with_claims(method: AnyMethod, keys: str | Iterable[str] = ()) -> str:
     if not isinstance(found, MethodFile):
         message = f"{found!r} has no text"
         raise MethodError(message, "give what load, loads or from_arrays return", code="other-file")
-    claims = claims_of(found, keys)
-    return write_claims(found.source, found.text, claims)
+    return write_claims(found.source, found.text, claims_of(found, keys))
 
 
 def find_stability(
@@ -159,8 +157,7 @@ def two_springs(
         message = "with rounded coefficients nothing is decided about two springs"
         raise MethodError(message, "give exact coefficients, without tolerance", code="rounded")
     tableau = method.tableau
-    colour = colour_of(fast, "fast", tableau.size)
-    split = springs(tableau, tableau.colours[colour].term)
+    split = springs(tableau, tableau.colours[colour_of(fast, "fast", tableau.size)].term)
     if not isinstance(slow, tuple):
         return two_frequencies(tableau, split, _square(slow))
     low, high = map(_square, slow)

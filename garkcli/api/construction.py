@@ -93,9 +93,7 @@ def _with_blocks(methods: Sequence[GarkMethod], blocks: Blocks) -> GarkMethod:
     A = {**blocks}
     for l, method in enumerate(methods, start=1):
         A[l, l] = method.A
-    b = [method.b for method in methods]
-    c = [method.c for method in methods]
-    return from_arrays(A, b, c)
+    return from_arrays(A, [method.b for method in methods], [method.c for method in methods])
 
 
 def _diagonal_methods(methods: Sequence[GarkMethod]) -> list[Method]:
@@ -105,8 +103,7 @@ def _diagonal_methods(methods: Sequence[GarkMethod]) -> list[Method]:
         CannotConvert: the numbers have no common field.
     """
     tableaus = [method.tableau for method in methods]
-    fields = {id(x.field) for x in tableaus if x.field is not None}
-    if len(fields) > 1:
+    if len({id(x.field) for x in tableaus if x.field is not None}) > 1:
         tableaus = [sheet.tableau for sheet in in_one_field([*map(sheet_of, methods)])]
     return list(map(_diagonal, methods, tableaus))
 

@@ -91,8 +91,7 @@ def find_parameters(
     (<Design <text>: order 2 is reached>, ['every-value', 'solutions', 'none'])
     """
     most = None if order is None else whole(order, "order", 1)
-    found = family_of(family)
-    return designing.find_parameters(found, most, whose, seconds)
+    return designing.find_parameters(family_of(family), most, whose, seconds)
 
 
 def minimise(design: Design | AnyFamily, objective: str, seconds: float | None = None) -> Minimum:
@@ -122,8 +121,7 @@ def minimise(design: Design | AnyFamily, objective: str, seconds: float | None =
         message = f"no objective {objective!r}"
         raise UsageProblem(message, did_you_mean(objective, OBJECTIVES), code="unknown-word")
     if not isinstance(design, Design):
-        read = family_of(design, is_free=False)
-        design = designing.find_parameters(read, seconds=seconds)
+        design = designing.find_parameters(family_of(design, is_free=False), seconds=seconds)
     return minimising.minimise(design, objective, seconds)
 
 

@@ -173,8 +173,7 @@ def conjugate(method: AnyMethod) -> Tableau | GarkMethod:
     is_conjugate = method.derivation == "conjugate"
     if is_conjugate and method.base is not None:
         return method.base
-    made = conjugation.conjugate(method.tableau)
-    return _derived(method, made, "conjugate")
+    return _derived(method, conjugation.conjugate(method.tableau), "conjugate")
 
 
 @_of_same_kind
@@ -261,8 +260,7 @@ def find_property(method: AnyMethod, key: str, tolerance: Number | None = None) 
     near = tolerance_of(known_as)
     order = find_order(method, tolerance=None if is_own else near or 0).order
     assumed = conditions.simplifying(known_as)
-    subject = Subject(method.tableau, order, assumed, DEFAULT_LIMIT, near or ZERO)
-    return subject.verdict(key)
+    return Subject(method.tableau, order, assumed, DEFAULT_LIMIT, near or ZERO).verdict(key)
 
 
 def reduced(method: AnyMethod) -> GarkMethod | None:

@@ -58,8 +58,7 @@ def modified_formula(method: AnyMethod, problem: AnyProblem, max_order: Whole) -
     """
     tableau = tableau_of(method)
     most = whole(max_order, "max_order", 1)
-    split = hamiltonian_for(problem, tableau)
-    return formulas.modified_formula(tableau, split, most)
+    return formulas.modified_formula(tableau, hamiltonian_for(problem, tableau), most)
 
 
 def modified_run(

@@ -99,8 +99,7 @@ def problem_for(
             "give the name of a built-in one, or what load_problem returns",
             code="arrays",
         )
-    text = os.fspath(given)
-    if text == OSCILLATOR:
+    if os.fspath(given) == OSCILLATOR:
         terms = terms_of(tableau)
         frequency = fmpq(1) if omega is None else omega
         if split:

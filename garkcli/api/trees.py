@@ -93,8 +93,7 @@ def count_trees(
     """
     colours = whole(colours, "colours", 1)
     order = whole(order, "order", 1)
-    few = colours_of(linear, "linear", colours)
-    return count.count_trees(colours, order, edges, few)
+    return count.count_trees(colours, order, edges, colours_of(linear, "linear", colours))
 
 
 def conditions(
@@ -118,8 +117,7 @@ def conditions(
     method, known_as = meant_of(method, tolerance)
     if isinstance(trees, (str, Tree)):
         trees = [trees]
-    known = (_fitting(tree, method.tableau) for tree in trees)
-    return by_tree.conditions(known_as, known)
+    return by_tree.conditions(known_as, (_fitting(tree, method.tableau) for tree in trees))
 
 
 def all_conditions(

@@ -96,8 +96,7 @@ def effective_order(equation: ModifiedEquation) -> EffectiveOrder:
             return EffectiveOrder(k, is_unique)
         if len(rows) * len(columns) > MAX_SOLVED:
             return EffectiveOrder(k + 1, False)
-        matrix = _bracket_with_delta(forest, k)
-        solution = _solve(matrix, sides, equation.tableau.field)
+        solution = _solve(_bracket_with_delta(forest, k), sides, equation.tableau.field)
         change: list[Number] = [ZERO] * len(field)
         change[columns.start : columns.stop] = [-x for x in solution]
         field = transported(forest, field, change, k)

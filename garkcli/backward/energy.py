@@ -103,8 +103,7 @@ class Meter(Mutable):
         variables = self.bound.problem.variables
         q = symbols(variables, "q")
         p = symbols(variables, "p")
-        steps = trajectory(integrator, h, count)
-        path = counting(f"h = {h}", steps, count + 1)
+        path = counting(f"h = {h}", trajectory(integrator, h, count), count + 1)
         with ctx.workprec(integrator.bits):
             values_of = function(tuple(self.formulas), (*q, *p), True)
             squares = [arb(0) for _ in self.powers]
@@ -277,8 +276,7 @@ def modified_run(
     table = meter.table(first)
     energies = []
     for k, (power, (order, is_lower_bound)) in enumerate(zip(powers, following, strict=True)):
-        rows = tuple(row[k] for row in table)
-        energies.append(_energy(power, order, is_lower_bound, rows))
+        energies.append(_energy(power, order, is_lower_bound, tuple(row[k] for row in table)))
     return ModifiedRun(formula.problem, t_end, max_order, meter.digits, tuple(energies))
 
 

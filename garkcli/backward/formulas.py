@@ -49,9 +49,7 @@ class Differentials:
         self.tableau = tableau
         self.problem = problem
         self.energies = energies
-        q = symbols(problem.variables, "q")
-        p = symbols(problem.variables, "p")
-        self.unknowns = (*q, *p)
+        self.unknowns = (*symbols(problem.variables, "q"), *symbols(problem.variables, "p"))
         self._derivatives: dict[tuple[int, tuple[int, ...]], Formula] = {}
         self._fields: dict[Tree, FormulaVector] = {}
 
@@ -76,8 +74,7 @@ class Differentials:
     def hamiltonian(self, tree: Tree) -> Formula:
         """H(u) = H^{l (k)}(F(u_1), …, F(u_k))."""
         term = self.tableau.colours[tree.root].term
-        along = [self.field(u) for u in tree.branches]
-        return self._along(term, (), along)
+        return self._along(term, (), [self.field(u) for u in tree.branches])
 
     def _along(self, term: int, taken: tuple[int, ...], along: Sequence[FormulaVector]) -> Formula:
         """A derivative of H^{l} that was taken by some unknowns, further along vectors which are
@@ -99,8 +96,7 @@ class Differentials:
         if key not in self._derivatives:
             if by:
                 *before, last = by
-                lower = self._derivative(term, tuple(before))
-                value = lower.diff(self.unknowns[last])
+                value = self._derivative(term, tuple(before)).diff(self.unknowns[last])
             else:
                 import sympy
 
@@ -279,8 +275,7 @@ def _of_hamiltonian(
         if is_consistent and term.tree.order == 1:
             continue
         value = differentials.hamiltonian(term.tree.representative)
-        power = term.tree.order - 1
-        sums[power][0] += in_sympy(term.factor) * value
+        sums[term.tree.order - 1][0] += in_sympy(term.factor) * value
     return sums
 
 

@@ -111,8 +111,7 @@ class Forest(Frozen):
         Raises:
             UsageProblem: there are too many of them.
         """
-        admissible = Admissible.of(tableau.size, *coupling_graph(tableau))
-        return cls.of(admissible, order)
+        return cls.of(Admissible.of(tableau.size, *coupling_graph(tableau)), order)
 
     def of_order(self, order: int) -> range:
         """The numbers of the trees with ``order`` vertices."""
@@ -167,8 +166,7 @@ class _Cutter(Mutable):
 
 def possible_order(tableau: Tableau, order: int) -> int:
     """The largest order up to ``order`` with few enough trees."""
-    admissible = Admissible.of(tableau.size, *coupling_graph(tableau))
-    too_many = _first_beyond_limit(admissible, order)
+    too_many = _first_beyond_limit(Admissible.of(tableau.size, *coupling_graph(tableau)), order)
     if too_many is None:
         return order
     first, _ = too_many
@@ -207,8 +205,7 @@ def elementary_weights(tableau: Tableau, forest: Forest) -> list[Number]:
         space = tableau.space(root)
         vector = space.one
         for branch in branches:
-            below = forest.trees[branch].root
-            block = tableau.block(root, below)
+            block = tableau.block(root, forest.trees[branch].root)
             assert block is not None  # the trees are those that the tableau admits
             vector = space.product(vector, apply(block, vectors[branch]))
         vectors.append(vector)
@@ -233,8 +230,7 @@ def logarithm(forest: Forest, a: Coefficients) -> list[Number]:
     """
     powers = _Powers(forest)
     for number, weight in enumerate(a):
-        higher = powers.sum_of_higher(number)
-        powers.add(number, weight - higher)
+        powers.add(number, weight - powers.sum_of_higher(number))
     return powers.field
 
 

@@ -180,8 +180,7 @@ def audit(table: FoundTable) -> Audited | None:
         method = read(table)
     except MethodFileError as error:
         message = error.faults[0].message
-        finding = AuditFinding("unread", message, level="note")
-        return Audited(table, findings=(finding,))
+        return Audited(table, findings=(AuditFinding("unread", message, level="note"),))
     if not is_plausible(table, method):
         return None if table.c[0] is not None else _without_nodes(table, method)
     declared = table.order or 0
@@ -337,8 +336,7 @@ def _repair(subject: Subject, tableau: Tableau, found: Judged, declared: int) ->
     blame = blame_of(tableau, missed)
     if blame is None or len(blame.repairs) != 1:
         return ""
-    names = [colour.name for colour in tableau.colours]
-    return str(repair_text(blame.repairs[0], names))
+    return str(repair_text(blame.repairs[0], [colour.name for colour in tableau.colours]))
 
 
 def _embedded(subject: Subject) -> Iterator[AuditFinding]:
@@ -444,8 +442,7 @@ def _flags(subject: Subject) -> Iterator[AuditFinding]:
     tolerance = subject.rounded.tolerance
     pairs = zip(block[-1], tableau.colours[0].b, strict=True)
     if not all(within(x - y, 2 * tolerance) for x, y in pairs):
-        message = "declared first same as last, and the last row is not b"
-        yield AuditFinding("fsal", message)
+        yield AuditFinding("fsal", "declared first same as last, and the last row is not b")
 
 
 _Check: TypeAlias = Callable[[Subject], Iterator[AuditFinding]]

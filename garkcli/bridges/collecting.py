@@ -103,8 +103,7 @@ def collected(
     names = Stems()
     for path in paths:
         text, source = source_text(path)
-        readers = chosen or readers_for(path)
-        for table in find_tables(text, source, readers):
+        for table in find_tables(text, source, chosen or readers_for(path)):
             if table.is_unlike:
                 continue
             name = plain_line(table.name) or default_name(source)
@@ -126,8 +125,7 @@ def _result(table: FoundTable, name: str, is_recognising: bool) -> Result:
     try:
         method = imported(table, name)
     except MethodFileError as error:
-        fault = error.faults[0]
-        return Result(table, trouble=fault.message)
+        return Result(table, trouble=error.faults[0].message)
     if not is_recognising:
         return Result(table, method=method)
     found = recognised(method, name)

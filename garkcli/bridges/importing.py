@@ -68,8 +68,7 @@ def imported(table: FoundTable, name: str) -> Imported:
     """
     table, method, order, embedded_order = with_orders(table, read(table, name))
     tolerance = _tolerance(table, (order, embedded_order))
-    claims = _claims(order, embedded_order)
-    text = written(table, name, tolerance, claims)
+    text = written(table, name, tolerance, _claims(order, embedded_order))
     method = loads(text, place_of(table))
     return Imported(table, method, order, embedded_order, text)
 
@@ -126,8 +125,7 @@ def orders_of(
     if method.embedded is None:
         return order, None
     other = with_weights(method.tableau, method.embedded)
-    embedded = judged(digits, other, table.embedded_order, limit, admitted, spans)
-    return order, embedded
+    return order, judged(digits, other, table.embedded_order, limit, admitted, spans)
 
 
 def digits_of(method: MethodFile, table: FoundTable) -> Digits:

@@ -208,8 +208,7 @@ def _near(text: str, value: fmpq, unit: fmpq, exact: str, found: arb | fmpq) -> 
 
 
 def _nearest_root(polynomial: fmpz_poly, value: fmpq) -> RealRoot | None:
-    found = Polynomial.from_flint(fmpq_poly(polynomial))
-    roots = [root for root, _ in real_roots(found)]
+    roots = [root for root, _ in real_roots(Polynomial.from_flint(fmpq_poly(polynomial)))]
     if not roots:
         return None
     return min(roots, key=lambda root: abs(root.ball(256) - value).mid())

@@ -75,8 +75,7 @@ class Bridge(Frozen):
         ending = _ENDINGS.get(self.suffix, self.suffix)
         values = {**program_values(payload, file, ending), **own}
         text = text_of(f"{self.name}_test{ending}", payload, self.style, values)
-        problem = trial_of(payload).file
-        return [Written(f"_test{ending}", text), Written("_problem.yaml", problem)]
+        return [Written(f"_test{ending}", text), Written("_problem.yaml", trial_of(payload).file)]
 
     def written(self, payload: Payload) -> str:
         """The file of a method.
@@ -92,8 +91,7 @@ class Bridge(Frozen):
             )
         if self.write is not None:
             return self.write(payload)
-        values = self.values(payload)
-        return text_of(self.name + self.suffix, payload, self.style, values)
+        return text_of(self.name + self.suffix, payload, self.style, self.values(payload))
 
 
 _ENDINGS = {".hpp": ".cpp"}
@@ -116,8 +114,7 @@ def bridges() -> Mapping[str, Bridge]:
     """Every target by its name, in alphabetical order."""
     found: dict[str, Bridge] = {}
     for module in pkgutil.iter_modules(targets.__path__):
-        place = f"{targets.__name__}.{module.name}"
-        for bridge in import_module(place).BRIDGES:
+        for bridge in import_module(f"{targets.__name__}.{module.name}").BRIDGES:
             found[bridge.name] = bridge
     return dict(sorted(found.items()))
 

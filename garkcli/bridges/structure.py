@@ -112,8 +112,7 @@ def shared(payload: Payload) -> list[Table]:
     are equal are one stage.
     """
     merged = _merged(payload)
-    order = _sorted(merged)
-    stages = [merged[k] for k in order]
+    stages = [merged[k] for k in _sorted(merged)]
     return [_table_of(payload, stages, m) for m in range(payload.size)]
 
 
@@ -163,8 +162,7 @@ def _sorted(stages: Sequence[_Stage]) -> list[int]:
     waiting = {min(x): x for x in components(seen)}
     while waiting:
         ready = [k for k, x in waiting.items() if _is_ready(x, seen, {*order})]
-        first = min(ready)
-        order += sorted(waiting.pop(first))
+        order += sorted(waiting.pop(min(ready)))
     return order
 
 

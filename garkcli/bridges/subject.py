@@ -92,8 +92,7 @@ class Subject(Frozen):
             if has_own_times and l != m:
                 continue
             block = self.tableau.block(l, m) or ()
-            nodes = self.tableau.colours[l].c
-            rows = zip(block, nodes, defects.C(l, m, 1), strict=True)
+            rows = zip(block, self.tableau.colours[l].c, defects.C(l, m, 1), strict=True)
             for i, (row, node, defect) in enumerate(rows, start=1):
                 if not defects.vanish([defect]):
                     total = sum(row, ZERO)

@@ -60,8 +60,7 @@ def error_weights(found: Table) -> Row | None:
     """The weights b − b̂ of the error estimate."""
     if found.embedded is None:
         return None
-    pairs = zip(found.b, found.embedded, strict=True)
-    return tuple(difference(x, y) for x, y in pairs)
+    return tuple(difference(x, y) for x, y in zip(found.b, found.embedded, strict=True))
 
 
 def error_or_zero(found: Table) -> Row:

@@ -76,8 +76,7 @@ def text_of(file: str, payload: Payload, style: Style, values: Values) -> str:
         values: what the target has computed.
     """
     template = _environment().get_template(f"{file}.jinja")
-    language = LANGUAGES[PurePath(file).suffix]
-    return template.render(_given(payload, language, style), **values)
+    return template.render(_given(payload, LANGUAGES[PurePath(file).suffix], style), **values)
 
 
 def program_values(payload: Payload, file: str, ending: str) -> Values:

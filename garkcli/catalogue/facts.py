@@ -106,8 +106,7 @@ def entry_of(path: str, name: str, file: str, text: str) -> Entry:
     if outcome.analysis is None or not outcome.ok:
         raise NoMethod(f"{path}: {_what_fails(outcome)}", code="other-file")
     found = found_of(loads(text, path), outcome.analysis, name, file)
-    number = fingerprint(outcome.analysis.tableau)
-    return {**found, "digest": digest(text), "fingerprint": number}
+    return {**found, "digest": digest(text), "fingerprint": fingerprint(outcome.analysis.tableau)}
 
 
 def found_of(method: MethodFile, analysis: Analysis, name: str, file: str) -> Entry:

@@ -72,8 +72,7 @@ def _can_vanish(p: fmpq_mpoly, ring: Parameters, ranges: Mapping[str, Range]) ->
         # all of them are known
         roots = real_roots(in_one(p, used[0]))
         return any(is_within(root, inside[0]) for root, _ in roots)
-    cases = product(*map(_charts, inside))
-    return any(_may_vanish(p, used, inside, case) for case in cases)
+    return any(_may_vanish(p, used, inside, case) for case in product(*map(_charts, inside)))
 
 
 def is_within(value: RealRoot, ends: Range) -> bool:
@@ -216,8 +215,7 @@ def moved_rules(old: Parameters, new: Parameters) -> Iterator[Rule]:
     """The rules of a ring in one without some parameters."""
     shift = len(old.names) - len(new.names)
     for rule in old.rules:
-        instead = rule.instead.project_to_context(new.context)
-        yield Rule(rule.index - shift, rule.degree, instead)
+        yield Rule(rule.index - shift, rule.degree, rule.instead.project_to_context(new.context))
 
 
 def solved(
@@ -539,8 +537,7 @@ def every_family(family: Family) -> EveryFamily:
     values: dict[str, object] = {x: ring.parameter(x) for x in names}
     for name in reversed(fixed):
         values[name] = value_of(fixed[name], family.ring, values)
-    followed = {name: values[name] for name in fixed}
-    ranges = carried(followed, family.ranges, left)
+    ranges = carried({name: values[name] for name in fixed}, family.ranges, left)
     if any(least is not None and least == most for least, most in ranges.values()):
         # ranges that meet in one number fix a parameter
         return every_family(replace(family, ranges={**family.ranges, **ranges}))

@@ -122,8 +122,7 @@ def _by_signs(family: EveryFamily, ask: Question, numbers: list[object]) -> Fact
     critical: list[Polynomial] = []
     critical += [in_one(p) for p in family.poles]
     for x in numbers:
-        parts = fraction(x, family.ring)
-        critical += [in_one(p) for p in parts if p]
+        critical += [in_one(p) for p in fraction(x, family.ring) if p]
     for end in next(iter(family.family.ranges.values())):
         if end is not None:
             critical.append(Polynomial([-end, 1]))

@@ -170,8 +170,7 @@ def value_text(number: Number, digits: int = 17) -> Formula | str:
     if len(text) <= _SHORT:
         return Formula(text)
     shown = to_decimal(number, 60)
-    magnitude = shown.lstrip("-")
-    if isinstance(number, fmpq) and read_decimal(magnitude) == abs(number):
+    if isinstance(number, fmpq) and read_decimal(shown.lstrip("-")) == abs(number):
         # a decimal without the zeros at the end of its fraction
         mantissa, *exponent = shown.split("e")
         if "." in mantissa:

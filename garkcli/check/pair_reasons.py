@@ -223,8 +223,7 @@ def _quadrature_order(method: Method) -> int:
 
 def _quadrature_error(method: Method, exponent: int) -> Number:
     """1/(j + 1) − b(x^j)."""
-    power = method.space.power(method.c, exponent)
-    return fmpq(1, exponent + 1) - dot(method.b, power)
+    return fmpq(1, exponent + 1) - dot(method.b, method.space.power(method.c, exponent))
 
 
 def _collocation(l: Method, m: Method, p: int) -> Fit | None:

@@ -246,8 +246,7 @@ def _check(rules: Iterable[Rule], command: str, values: Mapping[str, Any]) -> No
     for rule in rules:
         option = next(filter(is_given, rule.options), "").partition("=")[0]
         if option and any(map(is_given, rule.others)) is not rule.needs:
-            message = rule.message.replace("OPTION", option)
-            raise UsageProblem(message, rule.cure, code=rule.code)
+            raise UsageProblem(rule.message.replace("OPTION", option), rule.cure, code=rule.code)
 
 
 def _argument(word: str, more: Mapping[str, Any]) -> click.Argument:

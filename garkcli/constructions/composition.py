@@ -305,8 +305,7 @@ def side_by_side(tableaus: Sequence[Tableau], weights: Vector) -> Tableau:
     for place in first.blocks:
         _, m = place
         widths = [len(x.colours[m].b) for x in tableaus]
-        parts = [x.blocks[place] for x in tableaus]
-        blocks[place] = tuple(_diagonal(parts, widths))
+        blocks[place] = tuple(_diagonal([x.blocks[place] for x in tableaus], widths))
     return Tableau(tuple(map(PointSpace, nodes)), tuple(colours), blocks)
 
 

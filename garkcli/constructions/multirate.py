@@ -184,8 +184,7 @@ class _Infinitesimal:
         times = [begin + length * c for c in self.fast.c]
         for row, time in zip(self.fast.A, times, strict=True):
             inner = self._moved(i, row, times, stages, length)
-            node = nodes[i] + width * time
-            self.program.add(FAST, summed(value, inner), node)
+            self.program.add(FAST, summed(value, inner), nodes[i] + width * time)
         return summed(value, self._moved(i, self.fast.b, times, stages, length))
 
     def _moved(
@@ -271,8 +270,7 @@ def slowest_first(slow: Method, fast: Method, steps: int) -> Tableau:
         for _ in range(slow.stages):
             powers.append(powers[-1] * node)
         seen = [dot(f, powers) for f in integrals]
-        value = summed(of_slopes(FAST, stages, row), of_slopes(SLOW, every, seen))
-        program.add(FAST, value, node)
+        program.add(FAST, summed(of_slopes(FAST, stages, row), of_slopes(SLOW, every, seen)), node)
     result = summed(of_slopes(FAST, stages, whole.b), of_slopes(SLOW, every, slow.b))
     return merged(program.tableau(result))
 

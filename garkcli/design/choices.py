@@ -61,8 +61,7 @@ def walk_down(design: Design, values: Mapping[str, tuple[str, fmpq]]) -> list[Ch
     for name, (text, value) in values.items():
         unknown = ring.context.gen(ring.names.index(name))
         smaller = ideal.with_zeros([unknown - value])
-        order = decided[-1].order
-        choices.append(Choice(name, text, order, ideal.dimension, smaller.dimension))
+        choices.append(Choice(name, text, decided[-1].order, ideal.dimension, smaller.dimension))
         ideal = smaller
     return choices
 

@@ -525,8 +525,7 @@ def _with_lower(steps: Sequence[Step]) -> list[Step]:
 def order_of(family: Family, whose: Whose, solution: Solution) -> Order | None:
     """The order of the method with some values, by the certificate; None where there is none."""
     try:
-        tableau = member(family.tableau, family.ring, solution.values)
-        return find_order(TABLEAUS[whose](tableau))
+        return find_order(TABLEAUS[whose](member(family.tableau, family.ring, solution.values)))
     except (ZeroDivisionError, ZeroWeight):
         return None
 

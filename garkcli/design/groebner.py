@@ -163,8 +163,7 @@ def reduced_basis(basis: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx) -> list[
         _, rest = p.primitive()
         if done:
             dividend: Any = rest  # the types of python-flint lack the method
-            lower = fmpz_mpoly_vec(done, context)
-            rest = dividend.reduction_primitive_part(lower)
+            rest = dividend.reduction_primitive_part(fmpz_mpoly_vec(done, context))
         done.append(rest if rest.leading_coefficient() > 0 else -rest)
         known.append(first)
     return done

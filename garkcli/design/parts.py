@@ -291,16 +291,13 @@ def parts_of(
 
 def parts_within(part: Part, zeros: Iterable[fmpq_mpoly]) -> Iterator[Part]:
     """The parts of a part at which further polynomials in its coordinates are zero."""
-    splitting = _Splitting(part.ring)
-    polynomials = [*part.equations, *zeros]
-    for smaller in splitting.all_parts(polynomials, part.nonzero):
+    for smaller in _Splitting(part.ring).all_parts([*part.equations, *zeros], part.nonzero):
         known = cast("Mapping[str, Number]", smaller.values)
         values: Values = {}
         for name, x in part.values.items():
             over, under = fraction(x, part.ring)
             numerator = value_of(over, part.ring, known)
-            denominator = value_of(under, part.ring, known)
-            values[name] = cast("Mixed", numerator / denominator)
+            values[name] = cast("Mixed", numerator / value_of(under, part.ring, known))
         yield replace(smaller, values=values, sets=part.sets)
 
 
@@ -431,8 +428,7 @@ class _Splitting(Frozen):
                 is_kept = name in self.kept and len(_places(p)) > 1
                 cost = (is_kept, is_new, len(A.to_dict()), degree, -index)
                 found.append(_Linear(p, name, A, p - A * v, cost))
-        usable = [x for x in found if x.name in left]
-        return min(usable, key=lambda x: x.cost, default=None)
+        return min([x for x in found if x.name in left], key=lambda x: x.cost, default=None)
 
     def _substituted(
         self,
@@ -453,8 +449,7 @@ class _Splitting(Frozen):
             numerator, denominator = fraction(x, ring)
             known = cast("Mapping[str, Number]", instead)
             over = value_of(numerator, ring, known)
-            under = value_of(denominator, ring, known)
-            return cast("Mixed", over / under)
+            return cast("Mixed", over / value_of(denominator, ring, known))
 
         place = ring.names.index(linear.name)
 

@@ -82,8 +82,7 @@ def function_of(
         pairs = zip(row, weights, strict=True)
         damped.append(tuple(a - one * b for a, b in pairs))
     P = characteristic_coefficients(tuple(damped))
-    Q = characteristic_coefficients(system.W)
-    return FamilyFunction(name, *_in_lowest_terms(P, Q, ring))
+    return FamilyFunction(name, *_in_lowest_terms(P, characteristic_coefficients(system.W), ring))
 
 
 def _in_lowest_terms(
@@ -119,11 +118,10 @@ def _by_power(polynomial: Any, ring: Parameters) -> list[Any]:
         k, *rest = map(int, exponents)
         powers.setdefault(k, {})[tuple(rest)] = a
     one = ring.constant(ONE)
-    found = []
-    for k in range(max(powers) + 1):
-        terms = ring.context.from_dict(powers.get(k, {}))
-        found.append(ring.quotient(terms, one))
-    return found
+    return [
+        ring.quotient(ring.context.from_dict(powers.get(k, {})), one)
+        for k in range(max(powers) + 1)
+    ]
 
 
 def _trimmed(coefficients: Sequence[Any]) -> Coefficients:

@@ -55,8 +55,7 @@ class Members(Frozen):
         family = self.family
         try:
             [name] = family.ring.names
-            tableau = member(family.tableau, family.ring, {name: value})
-            return TABLEAUS[self.whose](tableau)
+            return TABLEAUS[self.whose](member(family.tableau, family.ring, {name: value}))
         except (ZeroDivisionError, ZeroWeight):
             return None
 
@@ -160,8 +159,7 @@ class PStability:
         self.signs, others = oscillator_curves(plane)
         poles = in_square(plane.denominator)
         self.essential = projection.projected(factors([poles, *self.signs]), [ZERO])
-        deciding = [*self.signs, *others]
-        self.critical = projection.projected(factors(deciding), [ZERO])
+        self.critical = projection.projected(factors([*self.signs, *others]), [ZERO])
 
     def _at(self, value: Number) -> OscillatorStability | None:
         tableau = self.members.at(value)

@@ -228,8 +228,7 @@ class _Plane:
     def __init__(self, family: Family, colour: int | None) -> None:
         self.family, self.colour = family, colour
         driven(family.tableau, "a-stable", colour)
-        shares = shares_of(family.tableau, colour)
-        R = function_of(family.tableau, family.ring, "", shares)
+        R = function_of(family.tableau, family.ring, "", shares_of(family.tableau, colour))
         self.R = R
         self.curves = _deciding(R, family.ring)
         self.vertical = [projection.in_t(p) for p in self.curves if p.degrees()[0] == 0]

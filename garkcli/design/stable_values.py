@@ -233,8 +233,7 @@ class _Decision:
 
     def run(self) -> tuple[Interval, ...]:
         """The set; open intervals first, as they tell about their ends."""
-        ends = (self.least, self.greatest)
-        at_ends = [Polynomial([-end, 1]) for end in ends if end is not None]
+        at_ends = [Polynomial([-end, 1]) for end in (self.least, self.greatest) if end is not None]
         poles = [p for p in self.kind.plane.poles if p.degree > 0]
         critical = [p.square_free() for p in self.kind.critical if p.degree > 0]
         critical += at_ends + poles

@@ -103,8 +103,7 @@ def through_members(
         unknowns: the number of equations of the stages.
         step: of a member, before common factors are divided out; polynomials in y.
     """
-    rows = chain.from_iterable(tableau.blocks.values())
-    entries = list(chain.from_iterable(rows))
+    entries = list(chain.from_iterable(chain.from_iterable(tableau.blocks.values())))
     weights = list(chain.from_iterable(colour.b for colour in tableau.colours))
     of_blocks = common_denominator(entries, ring)
     of_weights = common_denominator(weights, ring)

@@ -221,8 +221,7 @@ class Algebraic:
 
     def __hash__(self) -> int:
         # of integers: flint hashes fractions by Python's, a slow import
-        numerators = tuple(self.poly.numer())
-        return hash((numerators, self.poly.denom()))
+        return hash((tuple(self.poly.numer()), self.poly.denom()))
 
     def terms(self) -> Iterator[tuple[fmpq, Word]]:
         """The number as a sum of radicals: each coefficient with its word, see

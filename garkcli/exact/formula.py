@@ -247,8 +247,7 @@ def _root(radicand: Value, index: int, at: Expression, of: Expression) -> Value:
     x = arb(radicand)
     if is_odd and x < 0:
         return -((-x).root(index))
-    kind = "a root" if is_odd else "an even root"
-    return _finite(x.root(index), at, kind, of, radicand)
+    return _finite(x.root(index), at, "a root" if is_odd else "an even root", of, radicand)
 
 
 def _finite(result: arb, at: Expression, function: str, of: Expression, x: Value) -> Value:

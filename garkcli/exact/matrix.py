@@ -101,9 +101,7 @@ def apply_left(u: Sequence[Number], a: Matrix) -> Vector:
 def multiply(a: Matrix, b: Matrix) -> Matrix:
     """The product A B."""
     if is_rational(a) and is_rational(b):
-        left = to_flint(a, len(b))
-        right = to_flint(b, len(b[0]))
-        return from_flint(left * right)
+        return from_flint(to_flint(a, len(b)) * to_flint(b, len(b[0])))
     columns = transpose(b)
     return tuple(tuple(dot(row, column) for column in columns) for row in a)
 
@@ -140,8 +138,7 @@ def _eliminated(rows: list[list[Number]]) -> Matrix:
     """A⁻¹ B from the rows of (A B), by Gauss and Jordan's elimination."""
     n = len(rows)
     for k in range(n):
-        candidates = (i for i in range(k, n) if rows[i][k])
-        chosen = next(candidates, None)
+        chosen = next((i for i in range(k, n) if rows[i][k]), None)
         if chosen is None:
             raise SingularMatrixError
         row = rows[chosen]

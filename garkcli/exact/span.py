@@ -24,8 +24,7 @@ def leading_columns(reduced: fmpq_mat) -> list[int]:
     """Where each row of a reduced echelon form that is not zero has its first entry."""
     columns = []
     for row in reduced.tolist():
-        entries = (j for j, x in enumerate(row) if x)
-        first = next(entries, None)
+        first = next((j for j, x in enumerate(row) if x), None)
         if first is not None:
             columns.append(first)
     return columns

@@ -83,8 +83,7 @@ def with_first_column(name: str, base: Method) -> Method:
     images = apply(base.A, first)
     scale_of_first = first[s - 1]
     missing = [(x - y) / scale_of_first for x, y in zip(wanted, images, strict=True)]
-    correction = outer(tuple(missing), leading)
-    return Method(name, space, add(base.A, correction), base.b)
+    return Method(name, space, add(base.A, outer(tuple(missing), leading)), base.b)
 
 
 def gauss(s: int) -> Method:

@@ -138,5 +138,4 @@ def of_stages(
     reference: Reference = Reference(),  # noqa: B008 -- a value that does not change
 ) -> Family:
     """A family whose members have any number of stages and no options."""
-    recipe = by_stages(make)
-    return Family(name, recipe, smallest, MAX_STAGES, order, summary, reference=reference)
+    return Family(name, by_stages(make), smallest, MAX_STAGES, order, summary, reference=reference)

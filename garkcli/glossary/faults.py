@@ -156,6 +156,5 @@ def findings_of(command: str) -> Mapping[str, FindingKind]:
     kinds = {}
     for code, entry in read("findings")[command].items():
         text = " ".join(entry["text"].split())
-        cure = " ".join(entry["cure"].split())
-        kinds[code] = FindingKind(code, text, cure)
+        kinds[code] = FindingKind(code, text, " ".join(entry["cure"].split()))
     return kinds

@@ -209,8 +209,7 @@ def _chosen(
     options: dict[str, Given] = {}
     for option in family.options:
         if option.name in entries:
-            place = f"{where}, {option.name}"
-            value = _kind_of(option).read(at, entries[option.name], place)
+            value = _kind_of(option).read(at, entries[option.name], f"{where}, {option.name}")
             if value is not None:
                 options[option.name] = value.expression if isinstance(value, Entry) else value
     return size, options

@@ -145,8 +145,7 @@ class Numbers(Mutable):
         try:
             return self._expression(text)
         except ExpressionError as error:
-            told = spellings.explained(error, text)
-            self.source.expression_fault(node, where, *told)
+            self.source.expression_fault(node, where, *spellings.explained(error, text))
             return Literal(ZERO)
 
     def _unknown(self, node: Node, where: str) -> Expression:

@@ -180,5 +180,4 @@ def _radius(ball: arb) -> fmpq:
     if not ball.is_finite():
         return fmpq(1)
     radius = ball.rad()
-    least = arb(10) ** -1000
-    return fmpq(0) if radius < least else rounded_up(radius)
+    return fmpq(0) if radius < arb(10) ** -1000 else rounded_up(radius)

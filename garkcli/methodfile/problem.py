@@ -141,8 +141,7 @@ class _ProblemReader:
 
     def __init__(self, source: Source, stiffness: fmpq | None) -> None:
         self.source, self.stiffness = source, stiffness
-        given = {} if stiffness is None else {STIFFNESS: stiffness}
-        self.formulas = Formulas(source, given)
+        self.formulas = Formulas(source, {} if stiffness is None else {STIFFNESS: stiffness})
 
     def read(self) -> ProblemText | None:
         """The text; None where it makes no sense to go on."""

@@ -220,8 +220,7 @@ class OtherPackage(Shelf):
                 name = item.name.removesuffix(SUFFIX)
                 place = "/".join((self.label, *inside, item.name))
                 text = _text_of_item(item, place)
-                first = inside[0] if inside else ""
-                yield Shelved(name, first, place, self.label, text)
+                yield Shelved(name, inside[0] if inside else "", place, self.label, text)
 
 
 def _text_of_item(item: Traversable, place: str) -> Callable[[], str]:

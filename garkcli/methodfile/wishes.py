@@ -275,6 +275,5 @@ def meaning_of(
             source.fault(wish.node, error.message, error.help, code=error.code)
     together: dict[str, Any] = {}
     for name in fields(Meaning):
-        parts = (getattr(one, name) for one in meanings)
-        together[name] = tuple(chain.from_iterable(parts))
+        together[name] = tuple(chain.from_iterable(getattr(one, name) for one in meanings))
     return Meaning(**together)

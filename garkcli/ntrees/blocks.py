@@ -50,9 +50,7 @@ class Block(Frozen):
             if branch < 0:
                 yield Tree(root)
                 continue
-            others = self.lower.tree(stem).branches
-            last = self.lower.tree(branch)
-            yield Tree(root, [*others, last])
+            yield Tree(root, [*self.lower.tree(stem).branches, self.lower.tree(branch)])
 
 
 def iter_blocks(

@@ -219,8 +219,7 @@ class _Growing:
             product = fmpz_poly(f) * fmpz_poly(c[:end])
         later = product.coeffs()[half:]
         # what reaches beyond ``stop`` belongs to larger intervals
-        orders = range(end, stop)
-        for n, coefficient in zip(orders, later, strict=False):
+        for n, coefficient in zip(range(end, stop), later, strict=False):
             self.sums[n] += coefficient
 
 

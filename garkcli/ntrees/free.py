@@ -262,8 +262,7 @@ class Grower(Frozen):
             for kind, alike in groupby(reversed(outline)):
                 order, colour = kind
                 trees = self.planted(colour, order)
-                times = len(list(alike))
-                choices.append(combinations_with_replacement(trees, times))
+                choices.append(combinations_with_replacement(trees, len(list(alike))))
             for parts in product(*choices):
                 yield tuple(chain.from_iterable(parts))
 

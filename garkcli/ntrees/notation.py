@@ -150,8 +150,7 @@ class _Reader:
             message = "a colour is missing after '_'"
             raise NotationError(message, "colours are numbers from 1", self.position)
         # the length comes first: Python reads no integer of many thousands of digits
-        longest = len(str(MAX_COLOUR))
-        is_short = len(number) <= longest
+        is_short = len(number) <= len(str(MAX_COLOUR))
         if not is_short or not 1 <= int(number) <= MAX_COLOUR:
             cure = f"colours are numbers from 1 to {MAX_COLOUR}"
             raise NotationError("no such colour", cure, self.position)
@@ -248,8 +247,7 @@ def condition_latex(tree: Tree, letters: Sequence[str] | None = None, colours: b
     b^T A \mathbbm{1} = \frac12
     """
     block, one = (r"A^{\{%s,%s\}} ", r"\mathbbm{1}^{\{%s\}}") if colours else ("A ", r"\mathbbm{1}")
-    formula = _Formula(block, one, r" \odot ", letters)
-    root, weight = formula.of(tree)
+    root, weight = _Formula(block, one, r" \odot ", letters).of(tree)
     required = _latex_inverse(tree.density)
     weights = rf"{{b^{{\{{{root}\}}}}}}^T" if colours else "b^T"
     return f"{weights} {weight} = {required}"

@@ -252,8 +252,7 @@ class Texts:
                 continue
             inside, _, _ = insides[branch]
             text = self._closed(inside, int(root[branch]))
-            size = int(order[branch])
-            made.append(_inserted(insides[stem], text, size))
+            made.append(_inserted(insides[stem], text, int(order[branch])))
         return made
 
     def _closed(self, inside: str, root: int) -> str:

@@ -104,10 +104,7 @@ class ApproximateSpans(OrderByOrder[_Hull]):
 
     def _image(self, k: int, m: int, order: int, trees: _Hull) -> _Hull:
         A = self.enclosure.A[k, m] * order
-        members = []
-        for x in trees.members:
-            branch = Tree(m, x.branches)
-            members.append(Forest(_image(A, x.vector), (branch,)))
+        members = [Forest(_image(A, x.vector), (Tree(m, x.branches),)) for x in trees.members]
         absolute = self._absolute[k, m] * order
         return _Hull(
             members, trees.weight, _image(absolute, trees.error), _image(absolute, trees.size)

@@ -344,8 +344,7 @@ class Conditions:
             for m in range(tableau.size):
                 bush = Tree(l, (Tree(m),) * (order - 1))
                 if is_admissible(tableau, bush):
-                    weight = elementary_weight(tableau, bush)
-                    witness = Witness(bush, weight, fmpq(1, bush.density))
+                    witness = Witness(bush, elementary_weight(tableau, bush), fmpq(1, bush.density))
                     if self.fails(witness):
                         return Verdict(arb(0), "trees", witness)
         return None

@@ -225,8 +225,7 @@ def _sizes(tableau: Tableau, first: arb, orders: range) -> Iterator[tuple[int, S
     trees = TreeResiduals(tableau, enclosure)
     admissible = Admissible.of(tableau.size, *coupling_graph(tableau))
     for order in orders:
-        few = sum(counts_upto(admissible, order)[-1]) <= FEW_TREES
-        if few:
+        if sum(counts_upto(admissible, order)[-1]) <= FEW_TREES:
             yield order, trees.sizes(order)
         else:
             yield order, spans.sizes(order)

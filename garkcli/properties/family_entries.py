@@ -33,8 +33,7 @@ def is_nonzero_at(tableau: Tableau, place: tuple[int, int], i: int, j: int) -> b
     block = tableau.blocks[place]
     if column_node.exact is not None:
         others = there.modulus // fmpq_poly([-column_node.exact, 1])
-        coefficients = [others[n] for n in range(there.stages)]
-        entry = Polynomial(apply(block, coefficients))
+        entry = Polynomial(apply(block, [others[n] for n in range(there.stages)]))
         return not vanishes_at(entry, row_node)
     if row_node.exact is not None:
         powers = [row_node.exact**n for n in range(here.stages)]

@@ -140,8 +140,7 @@ def _is_gaussian(space: StageSpace, b: Vector) -> bool:
     """
     first, *others = space.gram(b)
     moments = [*first, *(row[-1] for row in others)]
-    numbered = enumerate(moments, start=1)
-    known = [moment == fmpq(1, k) for k, moment in numbered]
+    known = [moment == fmpq(1, k) for k, moment in enumerate(moments, start=1)]
     if all(known):
         return True
     if not all(known[:-1]) or not isinstance(space, PolynomialSpace):
@@ -205,9 +204,7 @@ def _without(tableau: Tableau, kept: Sequence[Sequence[int]]) -> Tableau:
     colours = []
     for colour in tableau.colours:
         stages = kept[colour.space]
-        b = _chosen(colour.b, stages)
-        c = _chosen(colour.c, stages)
-        colours.append(replace(colour, b=b, c=c))
+        colours.append(replace(colour, b=_chosen(colour.b, stages), c=_chosen(colour.c, stages)))
     blocks = {}
     for (k, m), block in tableau.blocks.items():
         columns = kept[tableau.colours[m].space]
@@ -233,8 +230,7 @@ def merged(tableau: Tableau) -> Tableau:
     colours = []
     for colour in tableau.colours:
         b = _summed(colour.b, classes[colour.space])
-        c = _chosen(colour.c, firsts[colour.space])
-        colours.append(replace(colour, b=b, c=c))
+        colours.append(replace(colour, b=b, c=_chosen(colour.c, firsts[colour.space])))
     blocks = {}
     for (k, m), block in tableau.blocks.items():
         columns = classes[tableau.colours[m].space]
@@ -255,10 +251,7 @@ def _summed(row: Vector, classes: Sequence[Sequence[int]]) -> Vector:
 def _equal_stages(tableau: Tableau) -> list[list[list[int]]]:
     """For each space its stages in classes of equal ones, the coarsest partition that is stable."""
     numbers = range(len(tableau.spaces))
-    classes = []
-    for space in tableau.spaces:
-        stages = list(range(space.stages))
-        classes.append([stages])
+    classes = [[list(range(space.stages))] for space in tableau.spaces]
     while True:
         finer = [_split(tableau, k, classes) for k in numbers]
         if list(map(len, finer)) == list(map(len, classes)):

@@ -32,8 +32,7 @@ def find(key: str) -> Property:
     >>> find("a-stable").field
     'a_stable'
     """
-    file = import_module(f"garkcli.properties.claimed.{KEYS[key]}")
-    found = getattr(file, key.replace("-", "_"))
+    found = getattr(import_module(f"garkcli.properties.claimed.{KEYS[key]}"), key.replace("-", "_"))
     assert isinstance(found, Property)
     return found
 

@@ -74,8 +74,7 @@ class Subject(Frozen):
 
     def _of_families(self, colours: Sequence[int]) -> Shape | None:
         """The shape of some colours where no node is needed for it."""
-        spaces = self.tableau.spaces
-        if self.tolerance or any(isinstance(x, PointSpace) for x in spaces):
+        if self.tolerance or any(isinstance(x, PointSpace) for x in self.tableau.spaces):
             return None
         from garkcli.properties.algebra_shape import shape_of_families
 

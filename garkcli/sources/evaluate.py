@@ -149,8 +149,7 @@ class Evaluator:
 
     def module(self, body: ir.Body) -> None:
         """The whole source."""
-        top = ir.Scope("module", "", body, 1)
-        self._walked(top, Space())
+        self._walked(ir.Scope("module", "", body, 1), Space())
 
     def array(self, items: Iterable[Value]) -> Array:
         """An array of this language."""
@@ -230,8 +229,7 @@ class Evaluator:
                 # a method of a class, which gives the order
                 space[scope.name] = given
         if scope.kind == "class" and len(ended) == 1:
-            fields = dict(ended[0])
-            space[scope.name] = Record(scope.name, fields, (), scope.line)
+            space[scope.name] = Record(scope.name, dict(ended[0]), (), scope.line)
 
     def _branch(self, branch: ir.Branch, space: Space) -> list[Space]:
         arms = [arm for arm in branch.arms if _has_effect(arm)]
@@ -464,8 +462,7 @@ class Evaluator:
         if box is None:
             return []
         places: list[Place] = []
-        numbers = self._numbers(at[0], box, space)
-        for i in numbers:
+        for i in self._numbers(at[0], box, space):
             if box.is_growing and len(box.items) <= i < MAX_STAGES:
                 self.allowance.spend(i)
                 box.items += [FILL] * (i + 1 - len(box.items))

@@ -143,8 +143,7 @@ class TableFinder:
         roles = {told[1] for told in map(role_of, names) if told}
         if not {"A", "b"} <= roles:
             return
-        values = {x: space[x] for x in names}
-        self._named(values, space.lines, scope)
+        self._named({x: space[x] for x in names}, space.lines, scope)
 
     def _of_classes(self) -> Iterator[Meant]:
         """Tables whose arrays are classes: a1, a2, …, b, db, c."""
@@ -278,8 +277,7 @@ class TableFinder:
             given = {x for x in values if role_of_part(x) or x in PLAIN}
             given |= {"A", "H", "c"} if is_pair else set()
             line = min(lines.get(x, scope.line) for x in given)
-            made = Meant(scope.title, line, parts, "", PARTS)
-            self._meant.append(made)
+            self._meant.append(Meant(scope.title, line, parts, "", PARTS))
             values = {name: x for name, x in values.items() if name not in given}
         groups: dict[str, Roles] = {}
         blocks: dict[str, dict[str, dict[tuple[int, ...], Value]]] = {}

@@ -216,8 +216,7 @@ def _sum(call: Call) -> Value | None:
     if not values.is_matrix:
         return total(values.items)
     if axis == 1 + call.evaluator.base:
-        sums = [total(x.items) for x in values.items if isinstance(x, Array)]
-        return call.evaluator.array(sums)
+        return call.evaluator.array([total(x.items) for x in values.items if isinstance(x, Array)])
     return call.unknown()
 
 

@@ -62,8 +62,7 @@ def weights(value: Texts, stages: int = 0) -> Row:
         raise Unreadable(f"more than {MAX_STAGES} stages")
     if stages and len(row) > stages:
         raise Misshapen(f"{len(row)} numbers for {stages} stages")
-    missing = stages - len(row)
-    return row + (ZERO,) * missing
+    return row + (ZERO,) * (stages - len(row))
 
 
 def square(value: Texts, stages: int) -> Rows:

@@ -301,8 +301,7 @@ class Follower:
         for left, a in x.items():
             for right, b in y.items():
                 at = tuple(sorted((*left, *right)))
-                product = computed("*", a, b, 0)
-                found[at] = computed("+", found.get(at, ZERO), product, 0)
+                found[at] = computed("+", found.get(at, ZERO), computed("*", a, b, 0), 0)
         return found
 
     # what it makes

@@ -104,9 +104,7 @@ class ImexPair(Frozen):
     @cached_property
     def parts(self) -> tuple[tuple[Multivariate, Multivariate], ...]:
         """The real and imaginary parts of P(z_E, iy) and of Q(z_E, iy), in (a, b, y)."""
-        over = _split(self.R.numerator, self.explicit)
-        under = _split(self.R.denominator, self.explicit)
-        return over, under
+        return _split(self.R.numerator, self.explicit), _split(self.R.denominator, self.explicit)
 
     @cached_property
     def margin(self) -> Multivariate:
@@ -119,8 +117,7 @@ class ImexPair(Frozen):
     @cached_property
     def has_fixed_poles(self) -> bool:
         """Whether the poles in z_I do not depend on z_E."""
-        powers = [exponents[self.explicit] for exponents, _ in self.R.denominator.terms]
-        return not any(powers)
+        return not any(exponents[self.explicit] for exponents, _ in self.R.denominator.terms)
 
     @cached_property
     def fixed_poles_are_right(self) -> bool:
@@ -147,8 +144,7 @@ class ImexPair(Frozen):
             E = _values(self._enclosed.E, a, b)
             roots = root_count(E) if len(E) > 1 else None
         if roots is None:
-            exact = _at(self.margin, a, b)
-            return is_nonnegative(exact)
+            return is_nonnegative(_at(self.margin, a, b))
         return roots == 0 and bool(E[-1] > 0)
 
     def _poles_are_right(self, a: fmpq, b: fmpq) -> bool:
@@ -161,16 +157,13 @@ class ImexPair(Frozen):
         if found is not None:
             return found
         _, (real, imaginary) = self.parts
-        exact_u = _at(real, a, b)
-        exact_v = _at(imaginary, a, b)
-        return exact_roots_are_right(exact_u, exact_v)
+        return exact_roots_are_right(_at(real, a, b), _at(imaginary, a, b))
 
     def real_ray(self) -> Ray | None:
         """The z_E ≤ 0 from 0 on with all z_I damped; None where that is not decided."""
         # R has real coefficients: E is even in y, and a polynomial in y²
         by_y = [_on_axis(p, axis=0) for p in self.margin.by_last()]
-        by_squares = by_y[::2]
-        return self._ray(by_squares, is_in_squares=True)
+        return self._ray(by_y[::2], is_in_squares=True)
 
     def imaginary_ray(self) -> Ray | None:
         """The same for z_E = ib, b ≥ 0; b < 0 is its mirror image."""
@@ -234,8 +227,7 @@ def _is_explicit(tableau: Tableau, l: int) -> bool:
         if i in needed:
             return False
         neighbours[i] = needed
-    sizes = map(len, components(neighbours))
-    return all(size == 1 for size in sizes)
+    return all(size == 1 for size in map(len, components(neighbours)))
 
 
 def _critical(E: Sequence[Polynomial]) -> list[Polynomial] | None:
@@ -249,8 +241,7 @@ def _critical(E: Sequence[Polynomial]) -> list[Polynomial] | None:
     if count > MOST_POINTS:
         return None
     first = -(count // 2)
-    quarters = range(first, first + count)
-    points = [fmpq(k, 4) for k in quarters]
+    points = [fmpq(k, 4) for k in range(first, first + count)]
 
     def member(x: fmpq) -> Polynomial:
         return Polynomial([coefficient(x) for coefficient in E])

@@ -48,9 +48,7 @@ class Fraction(Frozen):
 
     def with_fixed(self, index: int, value: Number) -> tuple[Polynomial, Polynomial]:
         """P and Q of two colours as polynomials in the other variable, for z_index = value."""
-        over = _fixed(self.numerator, index, value)
-        under = _fixed(self.denominator, index, value)
-        return over, under
+        return _fixed(self.numerator, index, value), _fixed(self.denominator, index, value)
 
 
 def _fixed(p: Multivariate, index: int, value: Number) -> Polynomial:
@@ -58,10 +56,8 @@ def _fixed(p: Multivariate, index: int, value: Number) -> Polynomial:
     coefficients: list[Number] = []
     for exponents, a in p.terms:
         power = exponents[1 - index]
-        missing = power + 1 - len(coefficients)
-        coefficients += [ZERO] * missing
-        amount = a * value ** exponents[index]
-        coefficients[power] = coefficients[power] + amount
+        coefficients += [ZERO] * (power + 1 - len(coefficients))
+        coefficients[power] = coefficients[power] + a * value ** exponents[index]
     return Polynomial(coefficients)
 
 

@@ -59,8 +59,7 @@ def unreduced(system: StageSystem) -> StepFunction:
     for i in range(d):
         entries = []
         for j in range(d):
-            constant = ONE if i == j else ZERO
-            powers = Polynomial([constant, *series[j][i]])
+            powers = Polynomial([ONE if i == j else ZERO, *series[j][i]])
             # the first terms of D · M_ij are all there are
             entries.append(Polynomial((denominator * powers).coefficients[: n + 1]))
         numerators.append(tuple(entries))
@@ -129,8 +128,7 @@ def stability_function(
         shares: the w_l, one per colour; None for 1 each, the problem with all parts equal.
     """
     weights = [ONE] * tableau.size if shares is None else list(shares)
-    fields = [((w,),) for w in weights]
-    step = step_function(stage_system(tableau, fields))
+    step = step_function(stage_system(tableau, [((w,),) for w in weights]))
     [[numerator]] = step.numerators
     return StabilityFunction(numerator, step.denominator)
 
@@ -212,9 +210,7 @@ def exact_cauchy_index(f: Polynomial, g: Polynomial) -> int:
     while chain[-1]:
         chain.append(-(chain[-2] % chain[-1]))
     chain.pop()
-    at_minus = _variations(chain, at_plus=False)
-    at_plus = _variations(chain, at_plus=True)
-    return at_minus - at_plus
+    return _variations(chain, at_plus=False) - _variations(chain, at_plus=True)
 
 
 def _variations(chain: Sequence[Polynomial], at_plus: bool) -> int:

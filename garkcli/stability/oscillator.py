@@ -127,8 +127,7 @@ def oscillator_stability(tableau: Tableau, problem: Oscillator) -> OscillatorSta
     """
     unit = Oscillator(ONE, problem.shares)
     check_structure(tableau, unit)
-    fields = [unit.matrix(colour) for colour in tableau.colours]
-    return analysed(tableau, fields)
+    return analysed(tableau, [unit.matrix(colour) for colour in tableau.colours])
 
 
 def usual_oscillator(tableau: Tableau) -> OscillatorStability | None:
@@ -206,8 +205,7 @@ def stable_set(
         is_double = signs[0] == 0 and 0 in signs[1:]
         return not is_double or sign_of(defect, x) == 0
 
-    deciding = [scale, area, right, left, defect, poles]
-    return where(is_stable, deciding, start=ZERO)
+    return where(is_stable, [scale, area, right, left, defect, poles], start=ZERO)
 
 
 def phase_error(trace: Ratio, determinant: Ratio) -> PhaseError:

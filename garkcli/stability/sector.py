@@ -42,8 +42,7 @@ def critical_polynomials(
     """
     members = [member(x) for x in points]
     degree = max(p.degree for p in members)
-    at_points = [p[degree] for p in members]
-    leading = interpolated(points, at_points)
+    leading = interpolated(points, [p[degree] for p in members])
     for k in range(degree):
         double = interpolated(points, [_with_derivative(p, degree, k) for p in members])
         if double:
@@ -96,8 +95,7 @@ def largest_sector(R: StabilityFunction) -> Sector | None:
     if critical is None:
         return None
     edge = RealRoot.rational(ONE)
-    from_axis = [RealRoot.rational(ZERO), *critical]
-    for root in reversed(from_axis):
+    for root in reversed([RealRoot.rational(ZERO), *critical]):
         if not _is_bounded_at(R, between(root, edge)):
             return Sector(edge)
         edge = root
@@ -115,8 +113,7 @@ def _critical_cosines(R: StabilityFunction) -> list[RealRoot] | None:
         return None
     points = [fmpq(k, count + 1) for k in range(1, count + 1)]
     critical = critical_polynomials(lambda c: _on_ray(R, c), points)
-    zero = RealRoot.rational(ZERO)
-    return roots_between(critical, zero, RealRoot.rational(ONE))
+    return roots_between(critical, RealRoot.rational(ZERO), RealRoot.rational(ONE))
 
 
 def _on_ray(R: StabilityFunction, c: Number) -> Polynomial:

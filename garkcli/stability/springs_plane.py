@@ -111,5 +111,4 @@ def _floats(
 
 
 def _array(matrix: Matrix) -> Floats:
-    rows = [[to_float(x) for x in row] for row in matrix]
-    return np.array(rows)
+    return np.array([[to_float(x) for x in row] for row in matrix])

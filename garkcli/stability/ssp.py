@@ -108,8 +108,7 @@ def _radius(tableau: Tableau, ratios: Sequence[Number]) -> SspCoefficient | None
         failing = _first_failure(condition)
         if failing is not None:
             failures.append(failing)
-    smallest = min(failures, default=None)
-    return SspCoefficient(smallest)
+    return SspCoefficient(min(failures, default=None))
 
 
 def stacked(tableau: Tableau, ratios: Sequence[Number]) -> tuple[Matrix, list[Matrix]]:
@@ -127,8 +126,7 @@ def stacked(tableau: Tableau, ratios: Sequence[Number]) -> tuple[Matrix, list[Ma
         K = _square(size + 1)
         column = starts[colour.space]
         for k, start in enumerate(starts):
-            block = tableau.blocks.get((k, m), ())
-            for i, row in enumerate(block, start=start):
+            for i, row in enumerate(tableau.blocks.get((k, m), ()), start=start):
                 end = column + len(row)
                 K[i][column:end] = row
         end = column + len(colour.b)

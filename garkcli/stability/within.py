@@ -63,8 +63,7 @@ def fraction_within(tableau: Tableau, shares: Sequence[Number], tolerance: fmpq)
         shares: w_l with λ_l = w_l λ, one per colour.
         tolerance: the largest error of a coefficient that is not zero.
     """
-    fields = [((w,),) for w in shares]
-    system = stage_system(tableau, fields)
+    system = stage_system(tableau, [((w,),) for w in shares])
     # how many coefficients each entry of the system is the sum of, each counted |w_l| times
     blocks = {edge: tuple(map(_ones, block)) for edge, block in tableau.blocks.items()}
     colours = tuple(replace(colour, b=_ones(colour.b)) for colour in tableau.colours)
@@ -225,8 +224,7 @@ def is_stiffly_accurate(tableau: Tableau, shares: Sequence[Number]) -> bool:
         shares: w_l with λ_l = w_l λ; colours with 0 are not driven.
     """
     driven = [m for m, share in enumerate(shares) if share]
-    used_spaces = {tableau.colours[m].space for m in driven}
-    for k in used_spaces:
+    for k in {tableau.colours[m].space for m in driven}:
         for i in range(tableau.spaces[k].stages):
             if all(_has_weights_of(tableau, k, i, m) for m in driven):
                 return True

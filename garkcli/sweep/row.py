@@ -57,8 +57,7 @@ def is_row(row: Any) -> TypeGuard[Row]:
     """Whether what was read from a file is a row, every value of its kind."""
     if not isinstance(row, dict) or not isinstance(row.get("kept"), bool):
         return False
-    texts = [row.get(name) for name in _TEXTS]
-    if not all(isinstance(text, str) for text in texts):
+    if not all(isinstance(row.get(name), str) for name in _TEXTS):
         return False
     for settings in (row.get(name, {}) for name in _SETTINGS):
         if not isinstance(settings, dict):

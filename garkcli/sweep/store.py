@@ -40,8 +40,7 @@ class RowStore:
         try:
             self._file = os.open(path, os.O_RDWR | os.O_CREAT | _BINARY, 0o666)
         except OSError as error:
-            why = error.strerror
-            message = f"{path} cannot be written: {why}"
+            message = f"{path} cannot be written: {error.strerror}"
             raise UsageProblem(message, "choose another --rows", code="cannot-write") from None
         note_input(path)
         try:

@@ -146,8 +146,7 @@ def family_in_points(tableau: Tableau, ring: Parameters) -> Tableau | None:
     rules = []
     for k, (name, (root, _)) in enumerate(zip(names, roots, strict=True)):
         radicand = Domain([]).evaluate(cast("Root", root).radicand)
-        square = larger.constant(cast("fmpq", radicand))
-        rules.append(Rule(len(ring.names) + k, 2, square))
+        rules.append(Rule(len(ring.names) + k, 2, larger.constant(cast("fmpq", radicand))))
         larger.shown[name] = format_expression(root), format_expression(root, latex=True)
     larger.rules = tuple(rules)
     radicals = [larger.parameter(name) for name in names]

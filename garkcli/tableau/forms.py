@@ -68,8 +68,7 @@ def spelled_out(
 def _row_sums(l: int, row: Sequence[Matrix | None], stages: int) -> Vector:
     block = row[l]
     if block is None:
-        existing = (x for x in row if x is not None)
-        block = next(existing, None)
+        block = next((x for x in row if x is not None), None)
     if block is None:
         return (ZERO,) * stages
     return apply(block, PointSpace(block[0]).one)

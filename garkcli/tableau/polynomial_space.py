@@ -111,8 +111,7 @@ class PolynomialSpace(StageSpace):
 
     def _new_moments(self, functional: Vector) -> Vector:
         if is_rational((functional,)):
-            row = to_flint((functional,), self.stages)
-            return tuple((row * self._higher_in_flint).entries())
+            return tuple((to_flint((functional,), self.stages) * self._higher_in_flint).entries())
         return apply_left(functional, self._higher)
 
     def reductions(self, count: int) -> Matrix:
@@ -235,8 +234,7 @@ def _roots(factor: fmpq_poly) -> list[Expression]:
     radicand = middle * middle - constant / leading
     d = square_free(radicand)
     scale = Literal((radicand / d).sqrt())
-    root = Root(Literal(d), 2)
-    operands = (Literal(middle), Chain("**", (scale, root)))
+    operands = (Literal(middle), Chain("**", (scale, Root(Literal(d), 2))))
     return [Chain("+-", operands), Chain("++", operands)]
 
 

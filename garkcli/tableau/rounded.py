@@ -98,8 +98,7 @@ def _at_nodes(tableau: Tableau, digits: int) -> tuple[dict[Edge, arb_mat], list[
 
 
 def _matrix(rows: Sequence[Sequence[Cell]]) -> arb_mat:
-    balls = [[cast("arb", x) for x in row] for row in rows]
-    return arb_mat(balls)
+    return arb_mat([[cast("arb", x) for x in row] for row in rows])
 
 
 def _balls(rows: Sequence[Sequence[Number]], digits: int) -> arb_mat:

@@ -234,8 +234,7 @@ class PointSpace(StageSpace):
         if not all(weights):
             raise SingularMatrixError
         # One inverse a row: of irrational weights they take the time.
-        inverses = tuple(ONE / b for b in weights)
-        return _scaled_rows(inverses, right)
+        return _scaled_rows(tuple(ONE / b for b in weights), right)
 
 
 def _scaled_rows(factors: Vector, rows: Matrix) -> Matrix:

@@ -69,8 +69,7 @@ def _arrays(text: str) -> Iterator[_Array]:
             return
         line += text.count("\n", counted, begin.start())
         counted = begin.start()
-        inside = text[begin.end() : end.start()]
-        columns, body = _columns(inside)
+        columns, body = _columns(text[begin.end() : end.start()])
         if len(body) <= MAX_ARRAY:
             before = text[max(0, begin.start() - 60) : begin.start()]
             yield line, before, columns, body

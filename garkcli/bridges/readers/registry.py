@@ -72,8 +72,7 @@ def _read(reader: Reader, text: str, source: str) -> list[FoundTable]:
     try:
         return reader.find(text, source)
     except TooLarge as error:
-        place = FoundTable(source, error.line, reader.name, "", (), ())
-        return [troubled(place, error.message)]
+        return [troubled(FoundTable(source, error.line, reader.name, "", (), ()), error.message)]
 
 
 def _by_the_best(text: str, source: str, chosen: Sequence[Reader]) -> list[FoundTable]:

@@ -20,8 +20,7 @@ R = Style(fraction="{p}/{q}", point=False)
 
 def values(payload: Payload) -> Values:
     """Whether the last stage is the first of the next step."""
-    found = explicit_table(payload, "desolve")
-    return {"is_first_same_as_last": is_first_same_as_last(found)}
+    return {"is_first_same_as_last": is_first_same_as_last(explicit_table(payload, "desolve"))}
 
 
 def program(payload: Payload, file: str) -> Values:

@@ -74,8 +74,7 @@ def slow_part(payload: Payload) -> Slow:
         padding = (ZERO,) * (s - found.stages)
         row = _difference((*found.embedded, *padding), stages[-2])
         embedding = row, min(payload.orders.embedded or 0, 2)
-    matrix = (nothing, *increments)
-    return Slow(nodes, {"W": [matrix]}, order, embedding)
+    return Slow(nodes, {"W": [(nothing, *increments)]}, order, embedding)
 
 
 def _coupled(payload: Payload, coupling: Coupling) -> Slow:
@@ -130,8 +129,7 @@ def _with_value(found: Table) -> tuple[Rows, Row]:
 
 
 def _difference(row: Row, before: Row) -> Row:
-    pairs = zip(row, before, strict=True)
-    return tuple(x - y for x, y in pairs)
+    return tuple(x - y for x, y in zip(row, before, strict=True))
 
 
 def infinitesimal_order(found: Table, order: int) -> int:

@@ -109,8 +109,7 @@ def _neighbours(point: Point, step: fmpq) -> Iterator[Point]:
     size = len(point)
     for signs in product((-1, 0, 1), repeat=size):
         if size - signs.count(0) in {1, 2}:
-            moved = zip(point, signs, strict=True)
-            yield tuple(x + k * step for x, k in moved)
+            yield tuple(x + k * step for x, k in zip(point, signs, strict=True))
 
 
 def _rational(text: str) -> fmpq:

@@ -273,8 +273,7 @@ class Comparison(Mutable):
 def _points(part: Part) -> Iterator[Solution]:
     """The solutions of a part of dimension 0."""
     if not part.ring.names:
-        origin = RealRoot.rational(fmpq(0))
-        yield Solution(fmpq_poly([0, 1]), None, {}, 1, (origin,))
+        yield Solution(fmpq_poly([0, 1]), None, {}, 1, (RealRoot.rational(fmpq(0)),))
         return
     if part.ideal.degree > MOST_POINTS:
         raise NotDecided

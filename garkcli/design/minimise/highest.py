@@ -309,13 +309,11 @@ class Highest(Comparison):
         def level(t: fmpq) -> Size:
             return self.objective.value(member(tableau, part.ring, {name: t}))
 
-        signs = self.objective.signs(tableau, part.ring)
-        levels = on_levels(level, signs, self.conditions(part))
+        levels = on_levels(level, self.objective.signs(tableau, part.ring), self.conditions(part))
         if not levels.is_decided:
             self.extent = "found"
         for high in levels.attained:
-            solution = part.whole(at_root(name, high.t))
-            method = Found(solution, None, (high.t.number,))
+            method = Found(part.whole(at_root(name, high.t)), None, (high.t.number,))
             # between critical numbers levels are monotone: the greatest is one of a constant
             is_constant = high.is_sample and not levels.limits
             self.candidates.append(Candidate(levels.greatest, method, high.t.number, is_constant))

@@ -91,8 +91,7 @@ def in_plane(
     for t in points:
         check_time()
         scale = fmpq(denominator(t)) ** size
-        found = decided(member(tableau, ring, {name: t}))
-        rows.append([p * scale for p in found])
+        rows.append([p * scale for p in decided(member(tableau, ring, {name: t}))])
     return [through(points, values) for values in zip(*rows, strict=True)]
 
 
@@ -142,8 +141,7 @@ def _traces(space: StageSpace) -> Matrix:
 def _inverse(T: Matrix) -> Matrix:
     s = len(T)
     entries: list[Any] = list(chain.from_iterable(T))
-    inverse = fmpq_mat(s, s, entries).inv()
-    return tuple(map(tuple, inverse.tolist()))
+    return tuple(map(tuple, fmpq_mat(s, s, entries).inv().tolist()))
 
 
 def _product(left: Any, matrix: Matrix, right: Any) -> Any:
@@ -175,8 +173,7 @@ def _ssp_signs(tableau: Tableau, ring: Parameters) -> Signs:
             "spell the tableau out, stage by stage",
             code="no-radicals",
         )
-    rows = chain.from_iterable(tableau.blocks.values())
-    entries = list(chain.from_iterable(rows))
+    entries = list(chain.from_iterable(chain.from_iterable(tableau.blocks.values())))
     for colour in tableau.colours:
         entries += colour.b
     size = 2 + sum(space.stages for space in tableau.spaces)
@@ -223,8 +220,7 @@ def _oscillator_signs(tableau: Tableau, ring: Parameters) -> Signs:
     fields = [problem.matrix(colour) for colour in tableau.colours]
     conditions, others = oscillator_curves(step_plane(tableau, ring, fields))
     poles, _, _, upper, lower = others
-    polynomials = [poles, *conditions, upper, lower]
-    return Signs(polynomials, _is_bounded, is_closed=False, common=others)
+    return Signs([poles, *conditions, upper, lower], _is_bounded, is_closed=False, common=others)
 
 
 def _is_bounded(signs: Sequence[int]) -> bool:

@@ -60,8 +60,7 @@ def critical_equations(
         rows += [[p.derivative(i) for i in range(size)] for p in chosen]
         for columns in combinations(range(size), codimension + 1):
             check_time()
-            minor = [[row[j] for j in columns] for row in rows]
-            zeros.append(_determinant(minor))
+            zeros.append(_determinant([[row[j] for j in columns] for row in rows]))
     return zeros
 
 
@@ -237,8 +236,7 @@ class Smallest(Comparison):
         return bool(is_nowhere_less(*self._formula(part), _bound(best), place, lines))
 
     def value_of(self, solution: Solution, index: int) -> Size:
-        ring = self.design.family.ring
-        tableau = member(self.design.tableau, ring, solution.values)
+        tableau = member(self.design.tableau, self.design.family.ring, solution.values)
         quotient = self.objective.formula(tableau, self.step.order, None)
         return value_at(quotient.numerator / quotient.denominator, solution.real[index])
 
@@ -260,8 +258,7 @@ class Smallest(Comparison):
                 self._over_interval(part, name, interval)
             return
         for low in values.attained:
-            solution = part.whole(at_root(name, low.t))
-            method = Found(solution, None, (low.t.number,))
+            method = Found(part.whole(at_root(name, low.t)), None, (low.t.number,))
             self.candidates.append(Candidate(low.value, method, low.t.number))
         for toward in values.limits:
             self.limits.append(Limit(toward.value, name, toward))
@@ -273,8 +270,7 @@ class Smallest(Comparison):
             root = interval.start
         else:
             root = RealRoot.rational(between(interval.start, interval.end))
-        solution = part.whole(at_root(name, root))
-        self.add(solution, root.number, is_constant=not interval.is_point)
+        self.add(part.whole(at_root(name, root)), root.number, is_constant=not interval.is_point)
 
     def over_variety(self, part: Part) -> None:
         """The critical points of a part of larger dimension, and those on its edges."""
@@ -287,8 +283,7 @@ class Smallest(Comparison):
                 raise NotDecided
             with until(self.share):
                 numerator, denominator = self._formula(part)
-                critical = critical_equations(part, numerator, denominator)
-                self._over_smaller(part, critical)
+                self._over_smaller(part, critical_equations(part, numerator, denominator))
         except NotDecided:
             check_time()
             self._by_trial(part)
@@ -314,8 +309,7 @@ class Smallest(Comparison):
             if name in free
         ]
         near = [free[x] if x in free else self._about(chart, x) for x in names]
-        nonzero = [*part.nonzero, denominator]
-        refined = critical_point_near(near, zeros, nonzero, part.ring)
+        refined = critical_point_near(near, zeros, [*part.nonzero, denominator], part.ring)
         if refined is not None:
             refined = tuple(x for name, x in zip(names, refined, strict=True) if name in free)
         for coordinates, proof in ((refined, "exists"), (point, "numerical")):

@@ -231,8 +231,7 @@ class _Sums(OrderByOrder[Tensor]):
             if order % m:
                 continue
             for branch in self._all_branches(k, order // m):
-                power = algebra.power(branch.value, m)
-                x = squared(power)
+                x = squared(algebra.power(branch.value, m))
                 symmetries = fmpq(branch.symmetry) ** (2 * m)
                 weight = factors[m] / symmetries
                 total = total.plus(x.times(weight))
@@ -254,8 +253,7 @@ class _Sums(OrderByOrder[Tensor]):
             most = 1 if colour.is_linear else order
             for forest in self._all_forests(colour.space, order - 1, order - 1, most):
                 v = _applied(block, forest.value.v)
-                w = forest.value.w * D
-                yield _Branch(Pair(v, w * fmpq(1, order)), forest.symmetry)
+                yield _Branch(Pair(v, forest.value.w * D * fmpq(1, order)), forest.symmetry)
 
     def _all_forests(self, k: int, order: int, largest: int, most: int) -> Iterator[_Branch]:
         """Every forest of an order: trees of the largest order first, and of these each number."""
@@ -267,8 +265,7 @@ class _Sums(OrderByOrder[Tensor]):
             trees = self._all_branches(k, n)
             for count in range(1, min(order // n, most) + 1):
                 for chosen in _multisets(algebra, trees, count):
-                    rest = self._all_forests(k, order - n * count, n - 1, most - count)
-                    for forest in rest:
+                    for forest in self._all_forests(k, order - n * count, n - 1, most - count):
                         yield _joined(algebra, chosen, forest)
 
 

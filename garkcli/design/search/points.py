@@ -149,8 +149,7 @@ def polished(system: Fixings, point: Sequence[float], bits: int) -> Array | None
     import numpy as np
 
     x = balls(point)
-    start = np.array(point)[:, None]
-    _, jacobian = system.at(start)
+    _, jacobian = system.at(np.array(point)[:, None])
     chosen = rank(jacobian[:, :, 0])
     working = FIRST_BITS
     while True:

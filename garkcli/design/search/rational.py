@@ -95,8 +95,7 @@ class RationalFunction:
         for unknown in range(len(ring.names)):
             of_p, of_q = p.derivative(unknown), q.derivative(unknown)
             if of_p or of_q:
-                pair = _Polynomial.of(of_p), _Polynomial.of(of_q)
-                self._derivatives.append((unknown, pair))
+                self._derivatives.append((unknown, (_Polynomial.of(of_p), _Polynomial.of(of_q))))
 
     def at(self, points: Array, constant: Constant) -> Slope:
         """The value and the gradient at points, shape (unknowns, points)."""

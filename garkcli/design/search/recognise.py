@@ -128,8 +128,7 @@ def minimal_polynomial(number: arb, bits: int) -> fmpz_poly | None:
             powers = [number**k for k in range(degree + 1)]
         relation = _relation(powers, bits)
         if relation is not None:
-            polynomial = fmpz_poly(relation)
-            _, factors = polynomial.factor()
+            _, factors = fmpz_poly(relation).factor()
             with ctx.workprec(bits):
                 return min((f for f, _ in factors), key=lambda f: abs(f(number)).mid())
     return None

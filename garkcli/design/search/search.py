@@ -279,8 +279,7 @@ class Search:
         if order is None or order.order < self.order:
             return None
         stable = is_as_stable(self.family, self.whose, solution, guess.root)
-        found = Found(solution, order, (0,))
-        return Find(start, "exact", order.order, found, {}, bool(stable))
+        return Find(start, "exact", order.order, Found(solution, order, (0,)), {}, bool(stable))
 
 
 def _worth(find: Find) -> tuple[bool, int]:

@@ -93,8 +93,7 @@ def _roots(Q: Polynomial) -> list[acb]:
 
 def first_gap(intervals: Sequence[Interval]) -> Interval | None:
     """The first part of [0, ∞) that a set of intervals leaves out; None where there is none."""
-    origin = RealRoot.rational(ZERO)
-    end, is_left_out = origin, True
+    end, is_left_out = RealRoot.rational(ZERO), True
     for found in intervals:
         if found.start is not None and (end < found.start or not found.has_start):
             return Interval(end, found.start, is_left_out, not found.has_start)

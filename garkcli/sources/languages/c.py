@@ -166,8 +166,7 @@ class CLowering(Lowering):
             inside = self.children(given)
             if len(inside) > 1:
                 name = ir.Name(self.text(inside[0]).partition("<")[0])
-                args = self.exprs(inside[1].named_children)
-                yield ir.Do(ir.Call(name, args), line_of(given))
+                yield ir.Do(ir.Call(name, self.exprs(inside[1].named_children)), line_of(given))
 
     def _class(self, node: Node) -> Iterator[ir.Statement]:
         body = node.child_by_field_name("body")
@@ -268,8 +267,7 @@ class CLowering(Lowering):
             value = case.child_by_field_name("value")
             inside = self.block(x for x in case.named_children if x != value)
             if inside:
-                scope = ir.Scope("entry", self.text(value), inside, line_of(case))
-                arms.append((scope,))
+                arms.append((ir.Scope("entry", self.text(value), inside, line_of(case)),))
         yield ir.Branch((), tuple(arms), line_of(node))
 
     def _for(self, node: Node) -> Iterator[ir.Statement]:

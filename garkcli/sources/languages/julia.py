@@ -277,8 +277,7 @@ class JuliaLowering(Lowering):
         if kind == "binary_expression" and len(inside) == 3:
             return [*self._tokens(inside[0]), self._sign(inside[1]), *self._tokens(inside[2])]
         if self._is_signed(node):
-            sign = replace(self._sign(inside[0]), is_prefix=True)
-            return [sign, *self._tokens(inside[-1])]
+            return [replace(self._sign(inside[0]), is_prefix=True), *self._tokens(inside[-1])]
         if kind == "juxtaposition_expression" and inside:
             found = self._tokens(inside[0])
             for part in inside[1:]:

@@ -153,8 +153,7 @@ class MatlabLowering(Lowering):
         """``m.A`` and ``m.A{1,2}``, where the call is on the field."""
         for part in parts:
             if part.type == "function_call":
-                name = self.text(part.child_by_field_name("name"))
-                of = self._called(ir.Field(of, name), part)
+                of = self._called(ir.Field(of, self.text(part.child_by_field_name("name"))), part)
             else:
                 of = ir.Field(of, self.text(part))
         return of
