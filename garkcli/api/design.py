@@ -251,9 +251,8 @@ def found_methods(
     elif isinstance(found, Minimum):
         read = found.design.family
     elif family is None:
-        raise MethodError(
-            "a search does not know its family", "found_methods(result, family)", code="arrays"
-        )
+        message = "a search does not know its family"
+        raise MethodError(message, "found_methods(result, family)", code="arrays")
     else:
         read = family_of(family)
         found = replace(found, whose=whose or found.whose)

@@ -134,11 +134,8 @@ def to_step(given: AnyProblem, tableau: Tableau, seed: int | None = None) -> Pro
     found = problem_for(given, tableau, seed)
     if isinstance(found, Problem):
         return found
-    raise UsageProblem(
-        "the oscillator has exact step maps",
-        "take the problem split-oscillator",
-        code="other-problem",
-    )
+    message = "the oscillator has exact step maps"
+    raise UsageProblem(message, "take the problem split-oscillator", code="other-problem")
 
 
 def hamiltonian_for(given: AnyProblem, tableau: Tableau, seed: int | None = None) -> Hamiltonian:

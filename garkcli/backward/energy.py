@@ -246,15 +246,12 @@ def modified_run(
     """
     formula = modified_formula(tableau, problem, max_order)
     if formula.of != "hamiltonian":
-        raise UsageProblem(
-            "the method has no modified Hamiltonian: it is not symplectic by its coefficients",
-            "gark modified shows its modified equation",
-            code="not-symplectic",
-        )
+        message = "the method has no modified Hamiltonian: it is not symplectic by its coefficients"
+        cure = "gark modified shows its modified equation"
+        raise UsageProblem(message, cure, code="not-symplectic")
     if not formula.is_consistent:
-        raise UsageProblem(
-            "the method is not consistent", "it approximates no solution", code="not-consistent"
-        )
+        message = "the method is not consistent"
+        raise UsageProblem(message, "it approximates no solution", code="not-consistent")
     powers, formulas = _changing(formula)
     following = [(power, False) for power in powers[1:]]
     following.append(_next_power(tableau, formula))
@@ -265,11 +262,8 @@ def modified_run(
     whole_steps(t_end, t_end)  # refuses a time that is not positive
     count = int((t_end / longest).ceil())
     if count * 2 ** (ROWS - 1) > MAX_STEPS:
-        raise UsageProblem(
-            f"{count * 2 ** (ROWS - 1)} steps (limit {MAX_STEPS})",
-            "choose a shorter time or a larger step",
-            code="too-many",
-        )
+        message = f"{count * 2 ** (ROWS - 1)} steps (limit {MAX_STEPS})"
+        raise UsageProblem(message, "choose a shorter time or a larger step", code="too-many")
     first = max(count, 2)
     meter = Meter(bound, formulas, powers, t_end)
     meter.choose_digits(first, following[-1][0])

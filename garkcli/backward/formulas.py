@@ -291,17 +291,11 @@ def _expanded(formula: Formula, power: int) -> Formula:
     cure = f"ask for --order {power} at most, or choose a simpler problem"
     size = int(expression.count_ops())
     if size > MAX_OPERATIONS:
-        raise UsageProblem(
-            f"the formula of h^{power} has {size} operations (limit {MAX_OPERATIONS})",
-            cure,
-            code="too-many",
-        )
+        message = f"the formula of h^{power} has {size} operations (limit {MAX_OPERATIONS})"
+        raise UsageProblem(message, cure, code="too-many")
     if _summands(expression) > MAX_SUMMANDS:
-        raise UsageProblem(
-            f"the formula of h^{power} has too many summands (limit {MAX_SUMMANDS})",
-            cure,
-            code="too-many",
-        )
+        message = f"the formula of h^{power} has too many summands (limit {MAX_SUMMANDS})"
+        raise UsageProblem(message, cure, code="too-many")
     return sympy.expand(expression)
 
 
@@ -350,9 +344,7 @@ def _radical(radical: Expression) -> Any:
     from garkcli.problems.translate import Translator
 
     if any(isinstance(root, AlgebraicRoot) for root in roots_in(radical)):
-        raise UsageProblem(
-            "a formula is written in radicals, and a coefficient of the method is a root_of",
-            "gark modified without a problem lists the coefficients",
-            code="no-radicals",
-        )
+        message = "a formula is written in radicals, and a coefficient of the method is a root_of"
+        cure = "gark modified without a problem lists the coefficients"
+        raise UsageProblem(message, cure, code="no-radicals")
     return Translator({}, {}).translate(radical)

@@ -112,14 +112,12 @@ class Payload(Frozen, eq=False, kw_only=True):
         try:
             return style.text(x, self.digits)
         except TooWide:
-            raise CannotExport(
-                f"the rounding of an entry of {self.name} is not decided", "ask for other --digits"
-            ) from None
+            message = f"the rounding of an entry of {self.name} is not decided"
+            raise CannotExport(message, "ask for other --digits") from None
         except OverflowError:
-            raise CannotExport(
-                f"an entry of {self.name} is beyond the numbers of the target",
-                "ask for --digits 17, which are written with an exponent",
-            ) from None
+            message = f"an entry of {self.name} is beyond the numbers of the target"
+            cure = "ask for --digits 17, which are written with an exponent"
+            raise CannotExport(message, cure) from None
 
     def numbers(self, row: Row, style: Style = EXACT) -> list[str]:
         """A row of entries in the style of a language."""

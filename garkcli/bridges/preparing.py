@@ -42,18 +42,12 @@ def prepared(method: GarkMethod, digits: int | None = None) -> Payload:
     """
     file = method if method.base is None else method.base
     if not isinstance(file, MethodFile):
-        raise MethodError(
-            f"{method!r} is no method file",
-            "give what load, loads or from_arrays return",
-            code="other-file",
-        )
+        message = f"{method!r} is no method file"
+        raise MethodError(message, "give what load, loads or from_arrays return", code="other-file")
     tableau = method.tableau
     if tableau.has_parameters:
-        raise CannotExport(
-            f"{method.name} has free parameters",
-            "give each a value: --set NAME=VALUE",
-            code="free-parameters",
-        )
+        message = f"{method.name} has free parameters"
+        raise CannotExport(message, "give each a value: --set NAME=VALUE", code="free-parameters")
     found = _seen(_entries(tableau, digits))
     embedded, dense = method.embedded, method.dense
     other = None if embedded is None else with_weights(tableau, embedded)

@@ -84,11 +84,9 @@ class Bridge(Frozen):
             CannotExport: the target cannot hold it.
         """
         if payload.kind not in self.kinds:
-            raise CannotExport(
-                f"{self.name} has no {_KINDS[payload.kind]}",
-                f"these have: {', '.join(_holding(payload.kind))}",
-                code="unknown-word",
-            )
+            message = f"{self.name} has no {_KINDS[payload.kind]}"
+            cure = f"these have: {', '.join(_holding(payload.kind))}"
+            raise CannotExport(message, cure, code="unknown-word")
         if self.write is not None:
             return self.write(payload)
         return text_of(self.name + self.suffix, payload, self.style, self.values(payload))
@@ -127,7 +125,6 @@ def bridge_named(name: str) -> Bridge:
     """
     known = bridges()
     if name not in known:
-        raise UsageProblem(
-            f"no target {name!r}", did_you_mean(name, list(known)), code="unknown-word"
-        )
+        message = f"no target {name!r}"
+        raise UsageProblem(message, did_you_mean(name, list(known)), code="unknown-word")
     return known[name]

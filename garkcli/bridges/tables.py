@@ -188,10 +188,8 @@ def imex_tables(payload: Payload, target: str) -> tuple[Table, Table]:
         CannotExport: there are not two, or none of them is explicit.
     """
     if payload.size != 2:
-        raise CannotExport(
-            f"{target} has two vector fields; {payload.name} is for {payload.size}",
-            "json, numpy, matlab and rootedtrees have any number",
-        )
+        message = f"{target} has two vector fields; {payload.name} is for {payload.size}"
+        raise CannotExport(message, "json, numpy, matlab and rootedtrees have any number")
     first, second = shared(payload)
     for found in (first, second):
         if not found.is_diagonally_implicit:
@@ -200,10 +198,8 @@ def imex_tables(payload: Payload, target: str) -> tuple[Table, Table]:
         return first, second
     if second.is_explicit:
         return second, first
-    raise CannotExport(
-        f"{target} has an explicit and an implicit table; both of {payload.name} are implicit",
-        "json, numpy, matlab and rootedtrees have pairs like this",
-    )
+    message = f"{target} has an explicit and an implicit table; both of {payload.name} are implicit"
+    raise CannotExport(message, "json, numpy, matlab and rootedtrees have pairs like this")
 
 
 def _sees_later(payload: Payload, target: str) -> CannotExport:

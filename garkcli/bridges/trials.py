@@ -124,9 +124,7 @@ def cpp_values(payload: Payload, file: str) -> Mapping[str, object]:
         CannotExport: no header can have the name of the file.
     """
     if {'"', "\\"} & set(file) or not file.isprintable():
-        raise CannotExport(
-            f"C++ includes a header by the name of its file, and {file} is none",
-            "-o NAME.hpp, without quotes and backslashes",
-        )
+        message = f"C++ includes a header by the name of its file, and {file} is none"
+        raise CannotExport(message, "-o NAME.hpp, without quotes and backslashes")
     words = {**WORDS, "sin": "std::sin", "cos": "std::cos"}
     return {"header": file, "sides": trial_of(payload).formulas(0, words)}

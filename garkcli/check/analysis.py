@@ -186,11 +186,8 @@ def prove_method(method: GarkMethod, limit: int = DEFAULT_LIMIT) -> MethodProof:
         MethodError: the coefficients are rounded.
     """
     if method.tolerance is not None:
-        raise MethodError(
-            "the coefficients are rounded: an order within a tolerance has no exact proof",
-            "give them exactly, without a tolerance",
-            code="rounded",
-        )
+        message = "the coefficients are rounded: an order within a tolerance has no exact proof"
+        raise MethodError(message, "give them exactly, without a tolerance", code="rounded")
     conjugated, both, obstacle = conjugate_and_pair(method.tableau)
     return MethodProof(
         name=method.name,

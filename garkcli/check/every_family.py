@@ -158,11 +158,9 @@ def carried(
         high = None if greatest is None else greatest - rest
         if other is None:
             if (low is not None and low > 0) or (high is not None and high < 0):
-                raise MethodError(
-                    f"{name} = {value} follows, which is outside of its range",
-                    "change the range, or what fixes the value",
-                    code="no-value-left",
-                )
+                message = f"{name} = {value} follows, which is outside of its range"
+                cure = "change the range, or what fixes the value"
+                raise MethodError(message, cure, code="no-value-left")
             continue
         low = None if low is None else low / slope
         high = None if high is None else high / slope
@@ -183,11 +181,9 @@ def _affine(name: str, value: object, left: Sequence[str]) -> tuple[str | None, 
     is_affine = len(used) == 1 and p.degrees()[index] == 1
     if not is_polynomial or not is_affine or other not in left:
         text = value.ring.text(p)
-        raise MethodError(
-            f"{name} has a range, and its value {text} follows from others",
-            "give the range to one of these, or values with --set",
-            code="no-value-left",
-        )
+        message = f"{name} has a range, and its value {text} follows from others"
+        cure = "give the range to one of these, or values with --set"
+        raise MethodError(message, cure, code="no-value-left")
     line = in_one(p, index)
     slope, rest = line[1], line[0]
     assert isinstance(slope, fmpq)
@@ -203,11 +199,9 @@ def _common(name: str, one: Range, other: Range) -> Range:
     least = max(starts, default=None)
     greatest = min(ends, default=None)
     if least is not None and greatest is not None and greatest < least:
-        raise MethodError(
-            f"the ranges leave no value of {name}",
-            "change one of them, or what fixes the others",
-            code="no-value-left",
-        )
+        message = f"the ranges leave no value of {name}"
+        cure = "change one of them, or what fixes the others"
+        raise MethodError(message, cure, code="no-value-left")
     return least, greatest
 
 
@@ -228,11 +222,9 @@ def solved(
         p = waiting.pop(0)
         name = next((x for x in unknowns if is_linear(p, ring, x)), None)
         if name is None:
-            raise MethodError(
-                f"{p} = 0 is asked of the parameters, which is no value of one of them",
-                "give values with --set, or ask gark design",
-                code="no-value-left",
-            )
+            message = f"{p} = 0 is asked of the parameters, which is no value of one of them"
+            cure = "give values with --set, or ask gark design"
+            raise MethodError(message, cure, code="no-value-left")
         x = ring.context.gen(ring.names.index(name))
         value = x - p / p.derivative(ring.names.index(name)).leading_coefficient()
         fixed[name] = value
@@ -263,11 +255,9 @@ def moved_nonzero(family: Family, values: dict[str, object]) -> tuple[fmpq_mpoly
     for p in family.nonzero:
         value = value_of(p, family.ring, values)
         if not value:
-            raise MethodError(
-                f"the file divides by {family.ring.text(p)}, which is zero by what it asks",
-                "change what it asks of the parameters, such as given nodes",
-                code="division-by-zero",
-            )
+            message = f"the file divides by {family.ring.text(p)}, which is zero by what it asks"
+            cure = "change what it asks of the parameters, such as given nodes"
+            raise MethodError(message, cure, code="division-by-zero")
         if isinstance(value, Parametric):
             found.append(value.numerator)
     return tuple(found)
@@ -279,22 +269,17 @@ def rules_of(family: Family, ring: Parameters) -> Iterator[Rule]:
         index = family.ring.names.index(radical.name)
         before = {family.ring.names.index(x.name) for x in family.radicals}
         if not {*unknowns_of(radical.relation)} <= before:
-            raise MethodError(
-                f"{radical.text} depends on a free parameter",
-                "give values with --set: gark check, with a parameter for the root in its place",
-                code="no-value-left",
-            )
+            message = f"{radical.text} depends on a free parameter"
+            cure = "give values with --set: gark check, with a parameter for the root in its place"
+            raise MethodError(message, cure, code="no-value-left")
         degree = int(radical.relation.degrees()[index])
         # whether it has the degree of its relation over the field of those before it
         known = family.radicals[: number + 1]
         field = Domain([parse(x.text) for x in known]).field
         due = prod(int(x.relation.degrees()[family.ring.names.index(x.name)]) for x in known)
         if field is None or field.degree != due:
-            raise MethodError(
-                f"{radical.text} is a number of the roots before it",
-                "write it by these",
-                code="no-value-left",
-            )
+            message = f"{radical.text} is a number of the roots before it"
+            raise MethodError(message, "write it by these", code="no-value-left")
         place = ring.names.index(radical.name)
         leading = coefficient_of(radical.relation, degree, index).leading_coefficient()
         relation = radical.relation.project_to_context(ring.context) / leading
@@ -525,11 +510,8 @@ def every_family(family: Family) -> EveryFamily:
     fixed = solved(relations, family.ring, ranged_last(family))
     left = [x for x in family.parameters if x not in fixed]
     if not left:
-        raise MethodError(
-            "what the file asks of its parameters leaves none of them free",
-            "gark design finds their values",
-            code="no-value-left",
-        )
+        message = "what the file asks of its parameters leaves none of them free"
+        raise MethodError(message, "gark design finds their values", code="no-value-left")
     names = [*left, *(radical.name for radical in family.radicals)]
     ring = Parameters(names)
     ring.shown = {x.name: (x.text, x.latex) for x in family.radicals}

@@ -68,11 +68,8 @@ def seeing_problem(tableaux: Sequence[Tableau], seed: int = 1) -> str:
     if counts[most] == 0:
         if any(map(_fits, tableaux, in_common(GENERIC_RHS, tableaux, seed))):
             return GENERIC_RHS
-        raise UsageProblem(
-            "no problem with random coefficients is of the form that the structure is for",
-            "name one with --problem",
-            code="other-problem",
-        )
+        message = "no problem with random coefficients is of the form that the structure is for"
+        raise UsageProblem(message, "name one with --problem", code="other-problem")
     return most
 
 

@@ -49,11 +49,9 @@ def walk_down(design: Design, values: Mapping[str, tuple[str, fmpq]]) -> list[Ch
     """
     decided = [x for x in design.steps if x.ideal is not None and x.may_have_methods]
     if not decided:
-        raise MethodError(
-            "--choose: no order is known that methods of the file have",
-            "choose with --set, which makes the system smaller",
-            code="not-found",
-        )
+        message = "--choose: no order is known that methods of the file have"
+        cure = "choose with --set, which makes the system smaller"
+        raise MethodError(message, cure, code="not-found")
     ideal = decided[-1].ideal
     assert ideal is not None
     ring = design.family.ring
@@ -148,11 +146,9 @@ def _in_one_root(values: dict[str, Number], root: RealRoot) -> dict[str, str]:
     field = algebraic[0].field
     candidates = [x for x in algebraic if _powers(x, field).rank() == field.degree]
     if not candidates or field.degree > MAX_DEGREE:
-        raise MethodError(
-            f"the values are numbers of degree {field.degree} without simple radicals",
-            f"method files hold roots of polynomials up to degree {MAX_DEGREE}",
-            code="number-too-large",
-        )
+        message = f"the values are numbers of degree {field.degree} without simple radicals"
+        cure = f"method files hold roots of polynomials up to degree {MAX_DEGREE}"
+        raise MethodError(message, cure, code="number-too-large")
     generator = min(candidates, key=lambda x: len(str(value_at(x, root).polynomial)))
     number = value_at(generator, root)
     polynomial = polynomial_text(Polynomial.from_flint(number.polynomial), "x")

@@ -87,9 +87,8 @@ class _At:
             return cast("fmpq", x)
         denominator = self.polynomial(x.denominator)
         if not denominator:
-            raise VanishingDenominator(
-                "a denominator is zero: no method has these values", f"it is that of {x}"
-            )
+            message = "a denominator is zero: no method has these values"
+            raise VanishingDenominator(message, f"it is that of {x}")
         return self.polynomial(x.numerator) / denominator
 
     def polynomial(self, polynomial: fmpq_mpoly) -> Number:

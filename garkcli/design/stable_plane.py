@@ -261,11 +261,9 @@ class _Plane:
         )
         found = stable_values(line, "a-stable", colour=self.colour)
         if found.undecided:
-            raise UsageProblem(
-                f"over {first} = {t} not every value of {second} is decided",
-                f"fix one of the parameters, such as --set {first}={t}",
-                code="free-parameters",
-            )
+            message = f"over {first} = {t} not every value of {second} is decided"
+            cure = f"fix one of the parameters, such as --set {first}={t}"
+            raise UsageProblem(message, cure, code="free-parameters")
         return found.found
 
     def _parts(self, t: fmpq) -> tuple[Part, ...]:

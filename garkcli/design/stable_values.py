@@ -213,11 +213,9 @@ def refuse_radicals(family: Family) -> None:
     """Refuse a family with roots among its coefficients."""
     if family.radicals:
         name = family.parameters[0]
-        raise UsageProblem(
-            f"there are roots among the coefficients, beside {name}",
-            "write the method as a family by name, whose nodes are not needed",
-            code="no-radicals",
-        )
+        message = f"there are roots among the coefficients, beside {name}"
+        cure = "write the method as a family by name, whose nodes are not needed"
+        raise UsageProblem(message, cure, code="no-radicals")
 
 
 class _Decision:

@@ -45,11 +45,9 @@ class Asked(Frozen):
         """
         found = self.tableau.block(l, m)
         if found is None:
-            raise MethodError(
-                f"design: {key} is for tableaus without empty blocks",
-                f"name the colour: {key}: {{2: …}}",
-                code="wanted-without-meaning",
-            )
+            message = f"design: {key} is for tableaus without empty blocks"
+            cure = f"name the colour: {key}: {{2: …}}"
+            raise MethodError(message, cure, code="wanted-without-meaning")
         return found
 
     def diagonal(self, colour: int, key: str) -> tuple[Matrix, Vector]:
@@ -62,11 +60,9 @@ class Asked(Frozen):
         block = self.tableau.blocks.get((own.space, colour))
         space = self.tableau.spaces[own.space]
         if block is None or not isinstance(space, PointSpace):
-            raise MethodError(
-                f"design: {key} is for tableaus with a block of their own stages",
-                f"name the colour: {key}: {{2: …}}, or spell the tableau out",
-                code="wanted-without-meaning",
-            )
+            message = f"design: {key} is for tableaus with a block of their own stages"
+            cure = f"name the colour: {key}: {{2: …}}, or spell the tableau out"
+            raise MethodError(message, cure, code="wanted-without-meaning")
         return block, own.b
 
 

@@ -39,11 +39,9 @@ def _embedded_order(asked: Asked) -> Meaning:
     """The order of the method with b̂ in place of b, at least."""
     embedded = asked.further.embedded
     if embedded is None or len(asked.colours) < asked.tableau.size:
-        raise MethodError(
-            "design: embedded-order is meant of the embedded weights of the whole method",
-            'write embedded: ["?", "?"] beside b, or embedded: true under unknown',
-            code="wanted-without-meaning",
-        )
+        message = "design: embedded-order is meant of the embedded weights of the whole method"
+        cure = 'write embedded: ["?", "?"] beside b, or embedded: true under unknown'
+        raise MethodError(message, cure, code="wanted-without-meaning")
     return _order(with_weights(asked.tableau, embedded), asked)
 
 
@@ -55,11 +53,8 @@ def _symplectic(asked: Asked) -> Meaning:
     tableau = asked.tableau
     zeros: list[object] = []
     if tableau.is_partitioned:
-        raise MethodError(
-            "design: symplectic is for methods without parts",
-            "ask for the pair",
-            code="wanted-without-meaning",
-        )
+        message = "design: symplectic is for methods without parts"
+        raise MethodError(message, "ask for the pair", code="wanted-without-meaning")
     for l in asked.colours:
         for m in asked.colours:
             asked.diagonal(l, "symplectic")
@@ -93,11 +88,9 @@ def _r_infinity(asked: Asked) -> Meaning:
         )
         degree = max(k for k, x in enumerate(below) if x)
         if not degree:
-            raise MethodError(
-                "design: R-infinity: R(z) is a polynomial for every value",
-                "leave it out: explicit methods have no value at infinity",
-                code="wanted-without-meaning",
-            )
+            message = "design: R-infinity: R(z) is a polynomial for every value"
+            cure = "leave it out: explicit methods have no value at infinity"
+            raise MethodError(message, cure, code="wanted-without-meaning")
         value: Any = asked.value
         zeros.append(above[degree] - value * below[degree])
         zeros += above[degree + 1 :]
@@ -193,11 +186,8 @@ def _nodes_in_unit_interval(asked: Asked) -> Meaning:
 def _p_stable(asked: Asked) -> Meaning:
     """Decided at each solution, in its number field."""
     if len(asked.colours) < asked.tableau.size:
-        raise MethodError(
-            "design: p-stable is meant of the whole method",
-            "write p-stable: true",
-            code="wanted-without-meaning",
-        )
+        message = "design: p-stable is meant of the whole method"
+        raise MethodError(message, "write p-stable: true", code="wanted-without-meaning")
     return Meaning(stable=(Stability("p-stable"),))
 
 

@@ -200,9 +200,8 @@ class Domain:
         """A sum, a difference, a product or a quotient."""
         if sign == "/" and not right:
             cure = "the divisor is exactly zero: write another one"
-            raise UndefinedValue(
-                "division by zero", cure, at.start, at.end, code="division-by-zero"
-            )
+            message = "division by zero"
+            raise UndefinedValue(message, cure, at.start, at.end, code="division-by-zero")
         result: Number = OPERATIONS[sign](left, right)
         return result
 

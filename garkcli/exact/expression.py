@@ -92,12 +92,8 @@ class Parser:
 
     def __init__(self, text: str) -> None:
         if len(text) > MAX_LENGTH:
-            raise LimitExceeded(
-                f"a {self.noun} of {len(text)} characters (limit {MAX_LENGTH})",
-                "write it shorter",
-                0,
-                MAX_LENGTH,
-            )
+            message = f"a {self.noun} of {len(text)} characters (limit {MAX_LENGTH})"
+            raise LimitExceeded(message, "write it shorter", 0, MAX_LENGTH)
         self.text = text
         self.depth = 0
         self.tokens = self._tokens()
@@ -221,9 +217,8 @@ class Parser:
                 f"{what} is a small whole number", "for roots write sqrt(…), cbrt(…) or root(…, n)"
             )
         if len(self.value) > 4 or int(self.value) > limit:
-            raise LimitExceeded(
-                f"{what} is larger than {limit}", "use a smaller one", self.start, self.end
-            )
+            message = f"{what} is larger than {limit}"
+            raise LimitExceeded(message, "use a smaller one", self.start, self.end)
         return int(self._advance())
 
     def _atom(self) -> Expression:

@@ -65,16 +65,14 @@ class Admissible(Frozen):
         if edges is not None:
             if {len(edges), *map(len, edges)} != {colours}:
                 shape = f"a {colours} by {colours} matrix"
-                raise TreeError(
-                    f"edges must be {shape}, one row for each colour", code="pasted-tableau"
-                )
+                message = f"edges must be {shape}, one row for each colour"
+                raise TreeError(message, code="pasted-tableau")
             rows = [tuple(m for m in everything if row[m]) for row in edges]
         for colour in linear:
             if colour not in everything:
                 what = f"linear colour {colour}"
-                raise TreeError(
-                    f"{what} is not one of the {colours} colours 0, 1, …", code="wrong-value"
-                )
+                message = f"{what} is not one of the {colours} colours 0, 1, …"
+                raise TreeError(message, code="wrong-value")
         return cls(colours, tuple(rows), frozenset(linear))
 
     def is_linear(self, colour: int) -> bool:

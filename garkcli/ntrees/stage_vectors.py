@@ -145,9 +145,8 @@ def _check(
     table: TreeTable, rows: Sequence[int], blocks: Blocks, weights: Sequence[Floats]
 ) -> None:
     if not len(rows) == len(weights) == table.colours:
-        raise ValueError(
-            f"a table of {table.colours} colours needs as many stage spaces and weights"
-        )
+        message = f"a table of {table.colours} colours needs as many stage spaces and weights"
+        raise ValueError(message)
     for l, branches in enumerate(table.admissible.branches):
         b = weights[l]
         space = rows[l]

@@ -93,19 +93,15 @@ def _told(path: str) -> Iterator[None]:
         raise
     except OSError as error:
         why = error.strerror or str(error)
-        raise UsageProblem(
-            f"cannot write {path}: {why}", "choose another place", code="cannot-write"
-        ) from None
+        message = f"cannot write {path}: {why}"
+        raise UsageProblem(message, "choose another place", code="cannot-write") from None
 
 
 def _refuse_input(path: str, status: os.stat_result) -> None:
     """Never write over what was read or has just been written, whatever it is called."""
     if is_input(status):
-        raise UsageProblem(
-            f"cannot write {path}: the command reads it, or has just written it",
-            "choose another place",
-            code="cannot-write",
-        )
+        message = f"cannot write {path}: the command reads it, or has just written it"
+        raise UsageProblem(message, "choose another place", code="cannot-write")
 
 
 def _without_links(path: str) -> Path:

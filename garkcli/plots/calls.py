@@ -105,8 +105,7 @@ def _scene(
         return energy_scene(result)
     if isinstance(result, SweepReport):
         if len(result.plan.pareto) < 2:
-            raise MethodError(
-                "the sweep compares no two columns", "say pareto: [x, y] in its file", code="arrays"
-            )
+            message = "the sweep compares no two columns"
+            raise MethodError(message, "say pareto: [x, y] in its file", code="arrays")
         return sweep_scene(result, *result.plan.pareto[:2])
     raise MethodError(f"there is no figure of the kind {kind.__name__}", _CURE, code="arrays")

@@ -116,11 +116,8 @@ def check_stiffness(name: str) -> None:
     """
     if not built_in(name).takes_stiffness:
         takers = ", ".join(x.name for x in PROBLEMS.values() if x.takes_stiffness)
-        raise UsageProblem(
-            f"--stiffness is for the problems {takers}, not for {name}",
-            "leave it out, or choose one of these",
-            code="other-problem",
-        )
+        message = f"--stiffness is for the problems {takers}, not for {name}"
+        raise UsageProblem(message, "leave it out, or choose one of these", code="other-problem")
 
 
 def hamiltonian(name: str, terms: int, seed: int = 1) -> Hamiltonian:
@@ -135,9 +132,8 @@ def hamiltonian(name: str, terms: int, seed: int = 1) -> Hamiltonian:
     """
     made = built_in(name).make(terms, seed)
     if not isinstance(made, Hamiltonian):
-        raise UsageProblem(
-            f"{name} is not Hamiltonian", "its maker is problem(...)", code="other-problem"
-        )
+        message = f"{name} is not Hamiltonian"
+        raise UsageProblem(message, "its maker is problem(...)", code="other-problem")
     return made
 
 
@@ -148,9 +144,8 @@ def built_in(name: str) -> BuiltIn:
         UsageProblem: there is no such problem.
     """
     if name not in PROBLEMS:
-        raise UsageProblem(
-            f"no problem {name!r}", did_you_mean(name, tuple(PROBLEMS)), code="unknown-word"
-        )
+        message = f"no problem {name!r}"
+        raise UsageProblem(message, did_you_mean(name, tuple(PROBLEMS)), code="unknown-word")
     return PROBLEMS[name]
 
 
@@ -169,9 +164,8 @@ def check_seed(name: str, seed: int | None) -> None:
     if seed is not None and name not in takers:
         plural = "s" if len(takers) > 1 else ""
         whose = f"problem{plural} {', '.join(takers)}"
-        raise UsageProblem(
-            f"--seed is for the {whose}, not for {name}", "leave it out", code="other-problem"
-        )
+        message = f"--seed is for the {whose}, not for {name}"
+        raise UsageProblem(message, "leave it out", code="other-problem")
 
 
 _ALTERNATING = "alternating trees in which velocities do not branch"

@@ -230,10 +230,8 @@ def _solution(L: Expr, equations: Equations, p: Vector) -> Solved:
     first, *others = at_start
     for other in others:
         if not all(x.overlaps(y) for x, y in zip(first, other, strict=True)):
-            raise NoLegendreTransform(
-                "several velocities have these momenta at the start",
-                "give the initial velocities instead of momenta",
-            )
+            message = "several velocities have these momenta at the start"
+            raise NoLegendreTransform(message, "give the initial velocities instead of momenta")
     return right[0]
 
 
@@ -424,10 +422,9 @@ def initial_momenta(
         try:
             return [arb(x) for x in matrix.solve(right).entries()]
         except ZeroDivisionError:
-            raise NoLegendreTransform(
-                "the velocities do not determine the momenta at the start",
-                "give the initial momenta instead of velocities",
-            ) from None
+            message = "the velocities do not determine the momenta at the start"
+            cure = "give the initial momenta instead of velocities"
+            raise NoLegendreTransform(message, cure) from None
 
 
 def missing_derivative(made: Expr, by: Vector, start: Place) -> tuple[str, str] | None:

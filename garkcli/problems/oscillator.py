@@ -61,11 +61,9 @@ class Oscillator(Frozen):
     def __post_init__(self) -> None:
         omega = rational_of(self.omega, "omega")
         if not all(_is_pair(share) for share in self.shares):
-            raise UsageProblem(
-                f"the shares {self.shares!r} are no pairs",
-                "give (kinetic, potential) for each term, such as [(1, 0), (0, 1)]",
-                code="split",
-            )
+            message = f"the shares {self.shares!r} are no pairs"
+            cure = "give (kinetic, potential) for each term, such as [(1, 0), (0, 1)]"
+            raise UsageProblem(message, cure, code="split")
         shares = tuple(
             (
                 rational_of(k, f"shares of term {term}, kinetic"),
@@ -76,19 +74,14 @@ class Oscillator(Frozen):
         force_setattr(self, "omega", omega)
         force_setattr(self, "shares", shares)
         if self.omega <= 0:
-            raise UsageProblem(
-                f"the frequency {self.omega} is not positive",
-                "give a positive rational, such as 1",
-                code="split",
-            )
+            message = f"the frequency {self.omega} is not positive"
+            raise UsageProblem(message, "give a positive rational, such as 1", code="split")
         for column, energy in enumerate(("kinetic", "potential")):
             total = sum((share[column] for share in self.shares), ZERO)
             if total != 1:
-                raise UsageProblem(
-                    f"the {energy} shares sum to {total}",
-                    f"they are parts of one {energy} energy: make it 1",
-                    code="split",
-                )
+                message = f"the {energy} shares sum to {total}"
+                cure = f"they are parts of one {energy} energy: make it 1"
+                raise UsageProblem(message, cure, code="split")
 
     @classmethod
     def default(cls, terms: int, omega: AnyNumber = 1) -> Oscillator:
@@ -131,9 +124,8 @@ def parse_shares(text: str, terms: int) -> Shares:
     cure = f"write {terms} pairs kinetic:potential, such as {example_shares(terms)}"
     parts = text.split(",")
     if len(parts) != terms:
-        raise UsageProblem(
-            f"the split {text!r} has {len(parts)} pairs for {terms} terms", cure, code="split"
-        )
+        message = f"the split {text!r} has {len(parts)} pairs for {terms} terms"
+        raise UsageProblem(message, cure, code="split")
     shares = []
     for part in parts:
         texts = part.split(":")
@@ -164,11 +156,8 @@ def _share(text: str) -> fmpq:
             code="split",
         ) from None
     if not isinstance(number, fmpq):
-        raise UsageProblem(
-            f"the share {text.strip()!r} is irrational",
-            "write a rational number, such as 1/2",
-            code="split",
-        )
+        message = f"the share {text.strip()!r} is irrational"
+        raise UsageProblem(message, "write a rational number, such as 1/2", code="split")
     return number
 
 
@@ -184,11 +173,8 @@ def check_structure(tableau: Tableau, problem: Oscillator) -> None:
     """
     terms = terms_of(tableau)
     if len(problem.shares) != terms:
-        raise UsageProblem(
-            f"the split has {len(problem.shares)} terms, the method {terms}",
-            f"such as {example_shares(terms)}",
-            code="split",
-        )
+        message = f"the split has {len(problem.shares)} terms, the method {terms}"
+        raise UsageProblem(message, f"such as {example_shares(terms)}", code="split")
     for term, (kinetic, potential) in enumerate(problem.shares):
         if kinetic:
             _check_colour(tableau, term, "q", "kinetic")
@@ -218,8 +204,6 @@ def _unseen(tableau: Tableau, l: int, m: int) -> UsageProblem:
 def _check_colour(tableau: Tableau, term: int, part: str, energy: str) -> None:
     """Refuse a share of a term that no colour drives."""
     if {x.part for x in tableau.colours if x.term == term}.isdisjoint({"y", part}):
-        raise UsageProblem(
-            f"term {term + 1} has {energy} energy, but the method has no colour for it",
-            f"move the {energy} share to another term with --split",
-            code="split",
-        )
+        message = f"term {term + 1} has {energy} energy, but the method has no colour for it"
+        cure = f"move the {energy} share to another term with --split"
+        raise UsageProblem(message, cure, code="split")

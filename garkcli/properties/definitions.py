@@ -194,6 +194,5 @@ def definition(key: str) -> Definition:
         return _of_property(find(key))
     if key in ORDERS:
         return ORDERS[key]
-    raise UsageProblem(
-        f"no claim {key!r}", did_you_mean(key, [*ORDERS, *KEYS]), code="unknown-word"
-    )
+    message = f"no claim {key!r}"
+    raise UsageProblem(message, did_you_mean(key, [*ORDERS, *KEYS]), code="unknown-word")

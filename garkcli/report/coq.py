@@ -31,11 +31,9 @@ def coq_proof(proof: MethodProof) -> str:
     """
     tableau = proof.method.tableau
     if any(colour.is_linear for colour in tableau.colours):
-        raise MethodError(
-            "a colour has a linear vector field, which the theory of Coq does not know",
-            "leave `linear` out, or take --format json",
-            code="cannot-export",
-        )
+        message = "a colour has a linear vector field, which the theory of Coq does not know"
+        cure = "leave `linear` out, or take --format json"
+        raise MethodError(message, cure, code="cannot-export")
     parts = [_HEAD.format(name=_comment(proof.name), version=__version__)]
     parts.append(_data("the_method", tableau))
     parts.append(_order_of("method", "the_method", proof.method))

@@ -74,9 +74,8 @@ def render(value: object, format: str = "text", name: str = "") -> str:
     kind, write, formats = _writer_of(values[0])
     if format not in formats:
         cure = did_you_mean(format, formats)
-        raise UsageProblem(
-            f"no format {format!r} of {kind.partition('.')[2]}", cure, code="unknown-word"
-        )
+        message = f"no format {format!r} of {kind.partition('.')[2]}"
+        raise UsageProblem(message, cure, code="unknown-word")
     return write(values, format, name)
 
 

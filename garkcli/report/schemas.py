@@ -61,11 +61,8 @@ def report_schema(command: str) -> dict[str, Any]:
     'object'
     """
     if command not in REPORTS:
-        raise UsageProblem(
-            f"no schema of a report of {command!r}",
-            did_you_mean(command, REPORTS),
-            code="unknown-word",
-        )
+        message = f"no schema of a report of {command!r}"
+        raise UsageProblem(message, did_you_mean(command, REPORTS), code="unknown-word")
     module, function = REPORTS[command].split(":")
     maker = getattr(import_module(module), function)
     schema: dict[str, Any] = maker.schema if isinstance(maker, Report) else maker()

@@ -213,11 +213,9 @@ def refuse_parquet(path: str) -> None:
     from garkcli.page.writing import refuse_unwritable
 
     if find_spec("pyarrow") is None:
-        raise UsageProblem(
-            "--parquet needs pyarrow",
-            "install garkcli[parquet], or take --format csv",
-            code="missing-package",
-        )
+        message = "--parquet needs pyarrow"
+        cure = "install garkcli[parquet], or take --format csv"
+        raise UsageProblem(message, cure, code="missing-package")
     refuse_unwritable(path)
 
 

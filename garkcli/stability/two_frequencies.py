@@ -89,11 +89,8 @@ def springs(tableau: Tableau, fast: int) -> SplitSprings:
     """
     terms = terms_of(tableau)
     if terms < 2:
-        raise UsageProblem(
-            "a method of one term has no two colours for two springs",
-            "take a method with at least two terms",
-            code="split",
-        )
+        message = "a method of one term has no two colours for two springs"
+        raise UsageProblem(message, "take a method with at least two terms", code="split")
     with_force = {x.term for x in tableau.colours if x.part in "yp"}
     # the terms that share the slow spring: not the kinetic one, where others are left
     others = [l for l in range(terms) if l != fast and l in with_force]
@@ -277,11 +274,9 @@ def slow_interval(tableau: Tableau, split: SplitSprings, low: fmpq, high: fmpq) 
     """
     plane = plane_of_determinants(tableau, split)
     if not all(isinstance(a, fmpq) for p in plane for _, a in p.terms):
-        raise UsageProblem(
-            "an interval of slow frequencies needs rational coefficients",
-            "give --slow A for single ones, which are decided in number fields too",
-            code="no-radicals",
-        )
+        message = "an interval of slow frequencies needs rational coefficients"
+        cure = "give --slow A for single ones, which are decided in number fields too"
+        raise UsageProblem(message, cure, code="no-radicals")
     # with a for y and x for t
     D, a, b, c, d = (
         PLANE.from_dict({e: c for e, c in p.terms if isinstance(c, fmpq)}) for p in plane

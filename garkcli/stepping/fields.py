@@ -90,11 +90,9 @@ def stepped_terms(tableau: Tableau, problem: Problem) -> Tableau:
     if isinstance(problem, Hamiltonian):
         return with_joined_terms(tableau)
     if tableau.is_partitioned:
-        raise UsageProblem(
-            f"the method drives positions and momenta, and {problem.name} has none",
-            "choose a Hamiltonian problem, or a method whose colours drive all unknowns",
-            code="other-problem",
-        )
+        message = f"the method drives positions and momenta, and {problem.name} has none"
+        cure = "choose a Hamiltonian problem, or a method whose colours drive all unknowns"
+        raise UsageProblem(message, cure, code="other-problem")
     return tableau
 
 

@@ -144,11 +144,8 @@ def symplectic_pair(tableau: Tableau, velocities: Sequence[int], forces: Sequenc
         MethodError: the tableau is partitioned already.
     """
     if tableau.is_partitioned:
-        raise MethodError(
-            "the method is partitioned already",
-            "give the tableau of the positions",
-            code="cannot-construct",
-        )
+        message = "the method is partitioned already"
+        raise MethodError(message, "give the tableau of the positions", code="cannot-construct")
     driven = {*velocities, *forces}
     used = [l for l in range(tableau.size) if l in driven]
     spaces = tuple(tableau.space(l) for l in used)

@@ -55,11 +55,9 @@ class ByColour(Mapping[K, Any], Generic[K]):
         except (KeyError, TypeError):
             *_, last = self._parts
             what = "pair of colours" if isinstance(last, tuple) else "colour"
-            raise NoSuchColour(
-                f"{key!r} is no {what} of the method",
-                f"they count from 1, the last is {last!r}",
-                code="arrays",
-            ) from None
+            message = f"{key!r} is no {what} of the method"
+            cure = f"they count from 1, the last is {last!r}"
+            raise NoSuchColour(message, cure, code="arrays") from None
 
     def __iter__(self) -> Iterator[K]:
         return iter(self._parts)

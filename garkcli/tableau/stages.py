@@ -203,10 +203,9 @@ class PointSpace(StageSpace):
         for j, c in enumerate(self.points, start=1):
             i = first.setdefault(c, j)
             if i != j:
-                raise CoincidingNodes(
-                    f"nodes c_{i} and c_{j} are both {c}: no interpolation through them",
-                    "spell the blocks out, or choose a method with distinct nodes",
-                )
+                message = f"nodes c_{i} and c_{j} are both {c}: no interpolation through them"
+                cure = "spell the blocks out, or choose a method with distinct nodes"
+                raise CoincidingNodes(message, cure)
         if is_rational((self.points,)):
             yield from _rational_lagrange(cast("tuple[fmpq, ...]", self.points))
         else:

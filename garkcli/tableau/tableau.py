@@ -89,10 +89,8 @@ class Tableau(Frozen):
             seeing = counted(rows, "stage")
             space = k + 1
             colour_seen = m + 1
-            raise ShapeMismatch(
-                f"the block {space},{colour_seen} is not {rows} by {columns}",
-                f"it maps {seen} of colour {colour_seen} to {seeing}",
-            )
+            message = f"the block {space},{colour_seen} is not {rows} by {columns}"
+            raise ShapeMismatch(message, f"it maps {seen} of colour {colour_seen} to {seeing}")
 
     def __hash__(self) -> int:
         return hash((self.spaces, self.colours))

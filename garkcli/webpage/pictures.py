@@ -224,9 +224,8 @@ def _is_large(method: GarkMethod) -> bool:
 
 def _refuse_large(method: GarkMethod, command: str, what: str) -> None:
     if _is_large(method):
-        raise NotDrawn(
-            f"The method has too many stages to {what} for a picture; {command} does it."
-        )
+        message = f"The method has too many stages to {what} for a picture; {command} does it."
+        raise NotDrawn(message)
 
 
 PICTURES: dict[str, tuple[str, Callable[[GarkMethod], tuple[Panel, str]]]] = {

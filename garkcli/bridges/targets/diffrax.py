@@ -112,10 +112,8 @@ def _check_nodes(payload: Payload, found: Table) -> None:
         for x in row:
             rest = difference(rest, x)
         if abs(ball(rest)) > _CLOSE:
-            raise CannotExport(
-                f"diffrax's nodes are the row sums; node {i} of {payload.name} is not",
-                "json, numpy and matlab have any nodes",
-            )
+            message = f"diffrax's nodes are the row sums; node {i} of {payload.name} is not"
+            raise CannotExport(message, "json, numpy and matlab have any nodes")
 
 
 def program(payload: Payload, _file: str) -> Values:

@@ -28,10 +28,8 @@ def program(payload: Payload, file: str) -> Values:
     """
     stem = file.removesuffix(".m")
     if not re.fullmatch("[A-Za-z][A-Za-z0-9_]*", stem):
-        raise CannotExport(
-            f"MATLAB calls a function by the name of its file, and {file} is none",
-            "-o NAME.m, with letters, digits and _",
-        )
+        message = f"MATLAB calls a function by the name of its file, and {file} is none"
+        raise CannotExport(message, "-o NAME.m, with letters, digits and _")
     trial = trial_of(payload)
     if payload.kind != "prk":
         sides = [trial.formulas(l, _WORDS) for l in range(payload.size)]

@@ -20,10 +20,8 @@ def values(payload: Payload) -> Values:
     """The entries below the diagonal, one row after the other."""
     found = explicit_table(payload, "mfem")
     if not vanishes(found.c[0]):
-        raise CannotExport(
-            f"the first node of mfem's methods is 0; that of {payload.name} is not",
-            "boost, json and numpy have such methods",
-        )
+        message = f"the first node of mfem's methods is 0; that of {payload.name} is not"
+        raise CannotExport(message, "boost, json and numpy have such methods")
     return {"lower": tuple(chain.from_iterable(below_diagonal(found)))}
 
 

@@ -37,10 +37,8 @@ def _refuse(payload: Payload, found: Table) -> None:
         CannotExport: it cannot.
     """
     if not found.is_explicit:
-        raise CannotExport(
-            f"scipy takes explicit methods, and {payload.name} has implicit stages",
-            "sundials, petsc and diffrax take diagonally implicit ones",
-        )
+        message = f"scipy takes explicit methods, and {payload.name} has implicit stages"
+        raise CannotExport(message, "sundials, petsc and diffrax take diagonally implicit ones")
     if not vanishes(found.c[0]):
         raise CannotExport(
             "scipy evaluates the first stage at t, and the first node is "

@@ -114,10 +114,8 @@ def _check_first(payload: Payload, tables: Sequence[Table]) -> None:
     if not is_explicit or all(vanishes(x.c[0]) for x in tables):
         return
     node = payload.number(tables[0].c[0])
-    raise CannotExport(
-        f"sundials evaluates an explicit first stage at t, and the first node is {node}",
-        "where f does not depend on t, set the first node to 0",
-    )
+    message = f"sundials evaluates an explicit first stage at t, and the first node is {node}"
+    raise CannotExport(message, "where f does not depend on t, set the first node to 0")
 
 
 def program(payload: Payload, _file: str) -> Values:

@@ -58,10 +58,9 @@ def slow_part(payload: Payload) -> Slow:
     if payload.coupling is not None:
         return _coupled(payload, payload.coupling)
     if payload.kind != "rk":
-        raise CannotExport(
-            f"{payload.name} is no multirate infinitesimal step",
-            "give the slow method alone, or a file with multirate: {mis: ...} or {mri: ...}",
-        )
+        message = f"{payload.name} is no multirate infinitesimal step"
+        cure = "give the slow method alone, or a file with multirate: {mis: ...} or {mri: ...}"
+        raise CannotExport(message, cure)
     found = table(payload)
     _refuse(payload, found)
     stages, nodes = _with_value(found)
@@ -85,10 +84,8 @@ def _coupled(payload: Payload, coupling: Coupling) -> Slow:
         is_implicit = any(_looks_ahead(matrix) for matrix in powers)
         letter = "G" if is_implicit else "W"
         if letter in found:
-            raise CannotExport(
-                f"both slow parts of {payload.name} are {'im' if is_implicit else 'ex'}plicit",
-                "MRIStep takes an explicit and an implicit one",
-            )
+            message = f"both slow parts of {payload.name} are {'im' if is_implicit else 'ex'}plicit"
+            raise CannotExport(message, "MRIStep takes an explicit and an implicit one")
         found[letter] = [(nothing, *matrix) for matrix in powers]
     matrices = {letter: found[letter] for letter in "WG" if letter in found}
     return Slow(coupling.nodes, matrices, payload.orders.effective)

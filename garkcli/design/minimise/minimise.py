@@ -36,11 +36,9 @@ def step_to_minimise(design: Design) -> Step:
     for step in reversed(design.steps):
         if step.ideal is not None and step.may_have_methods:
             return step
-    raise UsageProblem(
-        "--minimise: no order is known that methods of the file have",
-        "values for some unknowns, by --set, make it decidable",
-        code="not-found",
-    )
+    message = "--minimise: no order is known that methods of the file have"
+    cure = "values for some unknowns, by --set, make it decidable"
+    raise UsageProblem(message, cure, code="not-found")
 
 
 def minimise(

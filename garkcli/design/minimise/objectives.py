@@ -97,11 +97,8 @@ def in_plane(
 
 def _coupling_error(tableau: Tableau, order: int, ring: Parameters | None) -> Quotient:
     if tableau.size == 1:
-        raise UsageProblem(
-            "error-coupling: the method has one colour, and no tree has two",
-            "minimise error",
-            code="wanted-without-meaning",
-        )
+        message = "error-coupling: the method has one colour, and no tree has two"
+        raise UsageProblem(message, "minimise error", code="wanted-without-meaning")
     return squared_coupling_error(tableau, order + 1, ring)
 
 
@@ -157,22 +154,16 @@ def _product(left: Any, matrix: Matrix, right: Any) -> Any:
 def _ssp(tableau: Tableau) -> Size:
     found = ssp_coefficient(tableau)
     if found is None:
-        raise UsageProblem(
-            "-ssp: some blocks are missing, or the nodes have no simple radicals",
-            "spell the tableau out",
-            code="no-radicals",
-        )
+        message = "-ssp: some blocks are missing, or the nodes have no simple radicals"
+        raise UsageProblem(message, "spell the tableau out", code="no-radicals")
     return found.value
 
 
 def _ssp_signs(tableau: Tableau, ring: Parameters) -> Signs:
     """det(I + rK) and det(I + rK) (I + rK)⁻¹ v are of degree one in each row of K."""
     if not all(isinstance(x, PointSpace) for x in tableau.spaces):
-        raise UsageProblem(
-            "-ssp: families by name have no rational entries",
-            "spell the tableau out, stage by stage",
-            code="no-radicals",
-        )
+        message = "-ssp: families by name have no rational entries"
+        raise UsageProblem(message, "spell the tableau out, stage by stage", code="no-radicals")
     entries = list(chain.from_iterable(chain.from_iterable(tableau.blocks.values())))
     for colour in tableau.colours:
         entries += colour.b
