@@ -15,42 +15,7 @@ The room is a mapping from these names to methods, see ``garkcli.catalogue.mappi
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING
 
 from garkcli.catalogue.mapping import Catalogue
-
-if TYPE_CHECKING:
-    from garkcli.methodfile.build import MethodFile
-
-
-def open_method(name: str) -> MethodFile:
-    """A method by its name or one of its aliases.
-
-    Args:
-        name: of the package, of a folder of ``GARK_PATH``, or of another package's catalogue;
-            capitals do not count, and blanks and underscores are hyphens.
-
-    Raises:
-        MethodFileError: there is no such method, or the name may mean several.
-
-    >>> open_method("Stoermer Verlet").name
-    'Störmer-Verlet'
-    """
-    from garkcli.methodfile.load import load
-    from garkcli.methodfile.naming import PREFIX
-
-    return load(name if name.startswith(PREFIX) else PREFIX + name)
-
-
-def method_names() -> list[str]:
-    """The names of all methods, those of your own folders first.
-
-    >>> "rk4" in method_names()
-    True
-    """
-    from garkcli.methodfile.naming import every_shelf, visible
-
-    return [method.name for _, method in visible(every_shelf())]
-
 
 sys.modules[__name__].__class__ = Catalogue

@@ -57,10 +57,10 @@ class Catalogue(ModuleType):
             return False
 
     def __iter__(self) -> Iterator[str]:
-        return iter(_names())
+        return iter(method_names())
 
     def __len__(self) -> int:
-        return len(_names())
+        return len(method_names())
 
     def __repr__(self) -> str:
         return f"<Catalogue of {len(self)} methods>"
@@ -126,8 +126,8 @@ def _mapping(catalogue: Catalogue) -> Mapping[str, MethodFile]:
     return cast("Mapping[str, MethodFile]", catalogue)
 
 
-def _names() -> list[str]:
-    """The names of all methods."""
+def method_names() -> list[str]:
+    """The names of all methods, those of your own folders first."""
     from garkcli.methodfile.naming import every_shelf, visible
 
     return [method.name for _, method in visible(every_shelf())]

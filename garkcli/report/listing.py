@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 from garkcli.bridges.registry import Bridge
-from garkcli.catalogue import method_names
+from garkcli.catalogue.mapping import method_names
 from garkcli.constructions.schemes import SCHEMES, SPLITTINGS, Scheme, Splitting
 from garkcli.families.family import Family, Option
 from garkcli.families.registry import FAMILIES

@@ -18,12 +18,12 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
+from garkcli import catalogue
 from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.preparing import prepared
 from garkcli.bridges.registry import bridges
 from garkcli.bridges.trials import STEPS
-from garkcli.catalogue import open_method
 from tests.bridges.comparing import allowed, own_errors
 from tests.bridges.machine import CACHE, CC, FORTRAN, ROOT, NotHad, need
 from tests.bridges.methods import METHODS, READ_BACK
@@ -72,7 +72,7 @@ class Outcome:
 @cache
 def of_name(name: str) -> tuple[Payload, tuple[float, ...]]:
     """What writers get of a method, and its errors in gark."""
-    method = open_method(name)
+    method = catalogue[name]
     payload = prepared(method)
     return payload, tuple(own_errors(method, payload))
 
@@ -199,7 +199,7 @@ def _bits(
     code = f"{target} {precision.name}"
     folder = CACHE / "read-back" / f"{target}-{name}"
     folder.mkdir(parents=True, exist_ok=True)
-    payload = prepared(open_method(name))
+    payload = prepared(catalogue[name])
     text = bridges()[target].written(payload)
     try:
         wrong = way(payload, text, folder, precision)

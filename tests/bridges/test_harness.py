@@ -12,13 +12,13 @@ from flint import fmpq
 from hypothesis import given
 from hypothesis import strategies as st
 
+from garkcli import catalogue
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.preparing import prepared
 from garkcli.bridges.registry import bridges
 from garkcli.bridges.rounding import nearest_float
 from garkcli.bridges.structure import composition, shared, table
 from garkcli.bridges.trials import STEPS, TRIALS, WHOLE, WORDS, Trial
-from garkcli.catalogue import open_method
 from garkcli.frozen import replace
 from tests.bridges import machine
 from tests.bridges.comparing import SIZES, allowed, own_errors
@@ -100,7 +100,7 @@ def test_the_sizes_of_problems_are_bounds(trial: Trial) -> None:
 @pytest.fixture(scope="module")
 def kutta() -> tuple[Payload, list[float]]:
     """The 3/8 rule, and the errors that gark finds."""
-    method = open_method("kutta-38")
+    method = catalogue["kutta-38"]
     payload = prepared(method)
     return payload, own_errors(method, payload)
 
@@ -158,7 +158,7 @@ def test_what_is_run_is_there() -> None:
 def test_methods_are_of_their_kinds() -> None:
     """By what the tables are."""
     payloads = {
-        kind: [prepared(open_method(name)) for name in names[:1]] for kind, names in METHODS.items()
+        kind: [prepared(catalogue[name]) for name in names[:1]] for kind, names in METHODS.items()
     }
     (explicit,), (dirk,) = payloads["explicit"], payloads["DIRK"]
     assert table(explicit).is_explicit

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 
 import pytest
 
+from garkcli import catalogue
 from garkcli.bridges.audit import AuditFinding, audit
 from garkcli.bridges.readers.registry import find_tables, readers_for
 from garkcli.bridges.rounding import rounded
-from garkcli.catalogue import open_method
 from garkcli.exact.field import Number
 
 TABLES = {
@@ -113,7 +113,7 @@ def test_a_changed_digit_is_found(name: str) -> None:
     it is printed has neither.
     """
     suffix, digits = TABLES[name]
-    method = open_method(name)
+    method = catalogue[name]
     tableau = method.tableau
     order = next(int(x.value) for x in method.claims if x.key == "order")
     block = tableau.block(0, 0)

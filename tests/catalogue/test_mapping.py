@@ -96,7 +96,7 @@ def test_however_it_is_imported_it_is_the_same() -> None:
         "first = garkcli.catalogue\n"
         "heavy = {'numpy', 'sympy', 'yaml'} & set(sys.modules)\n"
         "import garkcli.catalogue as second\n"
-        "from garkcli.catalogue import open_method\n"
+        "from garkcli.catalogue import mapping\n"
         "print(first is second, heavy, first['rk4'].stages)"
     )
     done = subprocess.run(

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from garkcli.catalogue import open_method
+from garkcli import catalogue
 from garkcli.check.check_file import check_file
 
 CHANGES = [
@@ -50,7 +50,7 @@ CHANGES = [
 @pytest.mark.parametrize(("name", "before", "after"), CHANGES)
 def test_a_changed_digit_is_seen(name: str, before: str, after: str, tmp_path: Path) -> None:
     """The file with the change is read, and at least one of its claims does not hold."""
-    text = open_method(name).text
+    text = catalogue[name].text
     assert before in text
     changed = tmp_path / f"{name}.gark.yaml"
     changed.write_text(text.replace(before, after, 1), encoding="utf-8")

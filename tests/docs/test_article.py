@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from garkcli.catalogue import method_names
+from garkcli.catalogue.mapping import method_names
 from tests.cli.harness import ROOT
 from tests.docs.transcripts import agrees, run, steps
 

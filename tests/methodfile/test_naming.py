@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from garkcli.catalogue import method_names, open_method
+from garkcli import catalogue
 from garkcli.errors import Fault, MethodFileError
 from garkcli.methodfile.finding import find_files
 from garkcli.methodfile.load import load
@@ -180,7 +180,7 @@ def test_all_of_a_folder_of_the_catalogue(own: Path) -> None:
     """``catalogue:`` is every method, with a folder those of it; own ones included."""
     put(own / "found", "mine")
     every = list(find_files(["catalogue:"]))
-    assert every == [f"catalogue:{name}" for name in method_names()]
+    assert every == [f"catalogue:{name}" for name in catalogue]
     found = expanded("catalogue:found")
     assert "catalogue:mine" in found
     assert "catalogue:rk4" not in found
@@ -229,8 +229,8 @@ def test_names_do_not_read_files() -> None:
         assert package().called(method) == package().entries["rk4"]["aliases"]
 
 
-def test_open_method_and_its_names() -> None:
-    """From Python, whatever files there are beside."""
-    assert open_method("Stoermer_Verlet").source == "stoermer-verlet"
-    assert open_method("catalogue:rk4").source == "rk4"
-    assert set(method_names()) >= {"rk4", "collocation", "imex6-order4"}
+def test_names_from_python() -> None:
+    """Whatever files there are beside."""
+    assert catalogue["Stoermer_Verlet"].source == "stoermer-verlet"
+    assert catalogue["catalogue:rk4"].source == "rk4"
+    assert set(catalogue) >= {"rk4", "collocation", "imex6-order4"}
