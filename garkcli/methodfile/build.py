@@ -143,12 +143,12 @@ class BlockBuilder:
     @cached_property
     def _alone(self) -> list[AnyTableau]:
         """The diagonal methods on their own, rounded where the file is."""
-        return [meant(forms.gark([method], {}), self.tolerance) for method in self.methods]
+        return [meant(self.values.alone(method), self.tolerance) for method in self.methods]
 
     @cached_property
     def _orders(self) -> list[int]:
         """Their orders."""
-        return [find_order(forms.gark([method], {})).order for method in self.methods]
+        return [find_order(self.values.alone(method)).order for method in self.methods]
 
 
 T = TypeVar("T")

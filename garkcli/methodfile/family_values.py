@@ -18,6 +18,7 @@ from garkcli.exact.nodes import AlgebraicRoot, Expression, Name, Root
 from garkcli.exact.parametric import (
     Parameters,
     Parametric,
+    Rule,
     fraction,
     terms_of_power,
     terms_of_product,
@@ -29,6 +30,7 @@ from garkcli.frozen import replace
 from garkcli.methodfile.numbers import Entry, Free, Numbers
 from garkcli.methodfile.values import Values
 from garkcli.tableau.family import Radical
+from garkcli.tableau.tableau import Method, Tableau
 
 MAX_DEGREE = 200
 """Largest degree of a coefficient in the parameters."""
@@ -53,6 +55,27 @@ class FamilyValues(Values):
         expressions = [entry.expression for entry in numbers.entries]
         self.domain = _FamilyDomain(list(numbers.free), expressions)
         self._evaluate(numbers, self.domain)
+
+    def alone(self, method: Method) -> Tableau:
+        """With reduced roots: what is zero looks like it."""
+        tableau = super().alone(method)
+        if not self.domain.radicals:
+            return tableau
+        from garkcli.design.member import member  # few files have such roots
+
+        ring = Parameters(self.domain.ring.names)
+        rules = []
+        for radical in self.domain.radicals:
+            place, relation = ring.names.index(radical.name), radical.relation
+            degree = int(relation.degrees()[place])
+            power = ring.context.gen(place) ** degree
+            leading = relation[power.monoms()[0]]
+            rest = power - relation / leading if leading else power
+            if rest.degrees()[place] < degree:  # no parameter is in a denominator of the radicand
+                rules.append(Rule(place, degree, rest))
+        ring.rules = tuple(rules)
+        values: Any = {name: ring.parameter(name) for name in ring.names}
+        return member(tableau, ring, values)
 
     def ends(self, free: Free) -> tuple[fmpq | None, fmpq | None]:
         """Between which rational numbers a parameter lies, by all of its ranges; an end that is

@@ -12,6 +12,8 @@ from garkcli.exact.nodes import Expression
 from garkcli.exact.rewriting import roots_in
 from garkcli.methodfile.numbers import Entry, Numbers, Row, Rows
 from garkcli.methodfile.source import Source
+from garkcli.tableau.forms import gark
+from garkcli.tableau.tableau import Method, Tableau
 
 
 class Values:
@@ -34,6 +36,10 @@ class Values:
         known = self._evaluate(numbers, domain)
         self.printed = tuple((expressions[key], number) for key, number in known.items())
         _note_faults(numbers.source, numbers.of_parameters)
+
+    def alone(self, method: Method) -> Tableau:
+        """A diagonal method as a tableau."""
+        return gark([method], {})
 
     def _evaluate(self, numbers: Numbers, domain: Domain) -> dict[int, Number]:
         """The values of the expressions by their identity, each found once; what has none is

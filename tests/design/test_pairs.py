@@ -55,6 +55,18 @@ def test_unknown_blocks() -> None:
         assert written.tableau.block(1, 0) == expected
 
 
+@pytest.mark.parametrize("methods", ["gauss-2, lobatto-iiia-4", "lobatto-iiia-4, gauss-2"])
+def test_legendre_beside_an_unknown_block(methods: str) -> None:
+    """Its degree is that of the orders of the methods, radicals among their coefficients or not."""
+
+    def block(rule: str) -> str:
+        transfer = f'{{default: {rule}, blocks: {{"1,2": "?"}}}}'
+        return str(loads_family(f"methods: [{methods}]\ntransfer: {transfer}").tableau.block(1, 0))
+
+    assert block("legendre") == block("{rule: legendre, degree: 2}")
+    assert block("legendre") != block("{rule: legendre, degree: 1}")
+
+
 def dimension(stages: list[int], order: int) -> int:
     """Σ ((s_l − k)(s_m − k) − [p even]) over pairs l ≠ m."""
     k = (order - 1) // 2
