@@ -137,6 +137,7 @@ class Follower:
         self._forms: dict[str, Form | None] = {}
         self._slopes: list[_Slope] = []
         self._assigned: list[str] = []
+        self._returned: list[str] = []
         self._is_lost = False
         self._components: list[str] = []
 
@@ -164,10 +165,12 @@ class Follower:
                     else:
                         self._lose(_targets([inner]))
                         self._look_inside(name, inner)
-                case ir.Return(value=ir.Name(name=name)):
-                    self._assigned.append(name)
                 case ir.Return(value=value):
-                    self._set("the value of the function", self._form(value))
+                    for i, x in enumerate(value.items if isinstance(value, ir.Items) else [value]):
+                        name = x.name if isinstance(x, ir.Name) else f"value {i} of the function"
+                        if not isinstance(x, ir.Name):
+                            self._set(name, self._form(x))
+                        self._returned.append(name)
 
     def _look_inside(self, name: str, body: ir.Body) -> None:
         """Note whether a loop has what looks like a step in it: one step after the other."""
@@ -354,10 +357,7 @@ class Follower:
         if not values or len(starts) != 1:
             raise NoStep
         start = starts[0]
-        result = next((x for x in reversed(self._assigned) if self._ends(x, start)), "")
-        form = self._forms.get(result)
-        if form is None:
-            raise NoStep
+        result, form = self._result(start, values)
         step = _step(form, set(names))
         others = {x.name for x in self._slopes} - set(names)
         used = {x for each in self._forms.values() for at in each or () if step in at for x in at}
@@ -391,6 +391,24 @@ class Follower:
         roles: dict[str, Value] = {"A": Array([Array(row) for row in A]), "b": Array(b)}
         rows = {"c": nodes, "error": error}
         return roles | {role: Array(row) for role, row in rows.items() if row}
+
+    def _result(self, start: str, values: Sequence[Form]) -> tuple[str, Form]:
+        """What the step comes to, with its name: what is returned, or else what is computed last.
+
+        Raises:
+            NoStep: nothing; or one of several, as those of a pair, which are no values of stages.
+        """
+        names = [x for x in self._returned if self._ends(x, start)]
+        names = names or [x for x in reversed(self._assigned) if self._ends(x, start)]
+        found = {x: form for x in names if (form := self._forms[x]) is not None}
+        others = {
+            str(sorted((at, _shown(x)) for at, x in form.items()))
+            for form in found.values()
+            if form not in values
+        }
+        if not found or len(others) > 1:
+            raise NoStep
+        return next(iter(found.items()))
 
     def _ends(self, name: str, start: str) -> bool:
         form = self._forms.get(name)

@@ -193,6 +193,22 @@ def test_steps_one_after_the_other_are_told(index: tuple[str, str], loop: str) -
     assert python.find(text + end, "x") == []
 
 
+def test_which_value_of_a_pair_is_the_step() -> None:
+    """The one that is returned, whichever is computed last; where nothing is, it is not known."""
+    text = "def step(f, t, y, h):\n    k1 = f(t, y)\n    k2 = f(t + h, y + h*k1)\n"
+    text += "    high = y + h/2*(k1 + k2)\n    low = y + h*(k1/4 + 3*k2/4)\n"
+    text += "    error = abs(high - low)\n"
+    for result, order in [("high", 2), ("high, error", 2), ("low, error", 1), ("t + h, high", 2)]:
+        (table,) = python.find(f"{text}    return {result}\n", "x")
+        found = audit(table)
+        assert found is not None
+        assert found.order is not None
+        assert found.order.order == order
+    for result in ("high, low", "error"):
+        (table,) = python.find(f"{text}    return {result}\n", "x")
+        assert table.trouble == "a step that is not followed"
+
+
 def test_a_wrong_number_is_found() -> None:
     """A stage at another time than its value has; weights whose sum is not 1."""
     (table,) = fortran.find(KUTTA.replace("call me%f(t+h,x", "call me%f(t+h2,x"), "x")
