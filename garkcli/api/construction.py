@@ -13,7 +13,7 @@ from garkcli.errors import MethodError, did_you_mean
 from garkcli.families import registry
 from garkcli.tableau import forms
 from garkcli.tableau.garkmethod import GarkMethod
-from garkcli.tableau.tableau import Method, Tableau
+from garkcli.tableau.tableau import Method
 from garkcli.transfer import RULES, legendre_rule
 
 Blocks: TypeAlias = "Mapping[tuple[int, int], Any]"
@@ -105,13 +105,7 @@ def _diagonal_methods(methods: Sequence[GarkMethod]) -> list[Method]:
     tableaus = [method.tableau for method in methods]
     if len({id(x.field) for x in tableaus if x.field is not None}) > 1:
         tableaus = [sheet.tableau for sheet in in_one_field([*map(sheet_of, methods)])]
-    return list(map(_diagonal, methods, tableaus))
-
-
-def _diagonal(method: GarkMethod, tableau: Tableau) -> Method:
-    """The one colour of a method, in its own stage space."""
-    block = tableau.block(0, 0)
-    if tableau.size != 1 or block is None:
-        message = f"{method!r} is no diagonal method"
-        raise MethodError(message, "give methods of one colour", code="wrong-size")
-    return Method(method.name, tableau.space(0), block, tableau.colours[0].b)
+    return [
+        forms.one_field(tableau, f"{method!r} is no diagonal method", method.name)
+        for method, tableau in zip(methods, tableaus, strict=True)
+    ]

@@ -38,6 +38,18 @@ def gark(methods: Sequence[Method], transfer: Blocks) -> Tableau:
     return Tableau(tuple(spaces), tuple(colours), blocks)
 
 
+def one_field(tableau: Tableau, message: str, name: str = "") -> Method:
+    """The one colour of a method, in its own stage space.
+
+    Raises:
+        MethodError: it has several.
+    """
+    block = tableau.block(0, 0)
+    if tableau.size != 1 or block is None:
+        raise MethodError(message, "give a method of one colour", code="wrong-size")
+    return Method(name, tableau.space(0), block, tableau.colours[0].b)
+
+
 def spelled_out(
     A: Sequence[Sequence[Matrix | None]],
     b: Sequence[Vector],

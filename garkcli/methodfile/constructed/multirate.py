@@ -23,12 +23,13 @@ from garkcli.exact.matrix import Matrix
 from garkcli.exact.nodes import Literal
 from garkcli.frozen import Frozen
 from garkcli.methodfile import grammar as g
-from garkcli.methodfile.constructed.parts import METHOD, PartReader, one_field
+from garkcli.methodfile.constructed.parts import METHOD, PartReader
 from garkcli.methodfile.description import ConstructionText, Make, PartText
 from garkcli.methodfile.load import NO_SETTINGS, built, described
 from garkcli.methodfile.numbers import Entry, Numbers, Row, Rows
 from garkcli.methodfile.parameters import MATRIX, ROW
 from garkcli.methodfile.values import Values
+from garkcli.tableau.forms import one_field
 from garkcli.tableau.tableau import Method, Tableau
 from garkcli.transfer import RULES
 

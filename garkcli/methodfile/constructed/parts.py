@@ -8,7 +8,7 @@ from typing import TypeAlias
 from flint import fmpq
 from yaml.nodes import MappingNode, Node, ScalarNode
 
-from garkcli.errors import MethodError, MethodFileError
+from garkcli.errors import MethodFileError
 from garkcli.families.registry import FAMILIES
 from garkcli.frozen import Frozen
 from garkcli.methodfile.build import part_of
@@ -16,7 +16,6 @@ from garkcli.methodfile.description import ConstructionText, Description, Make, 
 from garkcli.methodfile.grammar import defined
 from garkcli.methodfile.numbers import Numbers, Reading
 from garkcli.methodfile.source import Source
-from garkcli.tableau.tableau import Method, Tableau
 
 _FORM = "write for instance rk4, {family: heun} or {A: …, b: …}"
 _NO_FILE = "put it as NAME.gark.yaml in a folder of GARK_PATH, and write NAME"
@@ -154,15 +153,3 @@ class PartReader(Reading):
         """That of what is made from the parts: the largest; None where all are exact."""
         found = [x for x in (*(part.tolerance for part in self.parts), *others) if x is not None]
         return max(found, default=None)
-
-
-def one_field(tableau: Tableau, message: str) -> Method:
-    """The one colour of a method.
-
-    Raises:
-        MethodError: it has several.
-    """
-    block = tableau.block(0, 0)
-    if tableau.size != 1 or block is None:
-        raise MethodError(message, "give a method of one colour", code="wrong-size")
-    return Method("", tableau.space(0), block, tableau.colours[0].b)

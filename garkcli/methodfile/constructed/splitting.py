@@ -11,11 +11,12 @@ from garkcli.constructions.composition import drift_and_kick, split
 from garkcli.constructions.schemes import SPLITTINGS
 from garkcli.exact.expression import read_decimal
 from garkcli.methodfile import grammar as g
-from garkcli.methodfile.constructed.parts import METHOD, PartReader, one_field
+from garkcli.methodfile.constructed.parts import METHOD, PartReader
 from garkcli.methodfile.description import ConstructionText, PartText
 from garkcli.methodfile.numbers import Entry
 from garkcli.methodfile.parameters import NUMBER, ROW
 from garkcli.methodfile.values import Values
+from garkcli.tableau.forms import one_field
 from garkcli.tableau.tableau import Tableau
 
 _FORM = "write for instance {a: [1/2, 1/2], b: [1]} or {scheme: strang}"
