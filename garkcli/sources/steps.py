@@ -384,6 +384,9 @@ class Follower:
             of_error = self._forms.get(name)
             if of_error and name != result and _is_error(of_error, step, set(names)):
                 error = _row({**of_error, (start,): ONE}, start, step, names)
+                if result not in self._returned and _are_apart(b, A[-1], error):
+                    # either may be the step
+                    raise NoStep
                 break
         while len(b) > 1 and all(_is_zero(row[-1]) for row in (*A, b, error) if row):
             # what is evaluated for the next step
@@ -457,6 +460,15 @@ def _is_one(value: Value) -> bool:
 
 def _is_zero(value: Value) -> bool:
     return isinstance(value, Number) and value.is_zero
+
+
+def _are_apart(b: Sequence[Value], row: Sequence[Value], error: Sequence[Value]) -> bool:
+    """Whether two rows differ by an error, or by minus it."""
+    near = [[x.near for x in each if isinstance(x, Number)] for each in (b, row, error)]
+    return any(
+        all(abs(x - y + sign * z) < NEAR for x, y, z in zip(*near, strict=False))
+        for sign in (1, -1)
+    )
 
 
 def _is_whole(form: Form, below: Number) -> bool:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 
 from garkcli.bridges.audit import audit
@@ -207,6 +209,14 @@ def test_which_value_of_a_pair_is_the_step() -> None:
     for result in ("high, low", "error"):
         (table,) = python.find(f"{text}    return {result}\n", "x")
         assert table.trouble == "a step that is not followed"
+
+
+def test_a_value_that_is_a_stage_may_be_the_step() -> None:
+    """Bogacki and Shampine's pair, the embedded value computed last: nothing is returned."""
+    text = PAIR.replace("xerr = h*(", "low = x + h*(7.0_wp/24.0_wp*f1 + f2/4.0_wp + f3/3.0_wp")
+    text = re.sub(r"(f3/3.0_wp).*", r"\1 + 0.125_wp*f4)\n    xerr = xf - low", text)
+    (found,) = fortran.find(text, "x")
+    assert (found.trouble != "", found.b) == (True, ())
 
 
 def test_a_wrong_number_is_found() -> None:
