@@ -29,10 +29,12 @@ class PairReason(Frozen):
     Attributes:
         order: the pair has at least this one; None where the theorem says nothing.
         parts: why, and what is missing for the next order.
+        is_sharp: whether the pair has no larger one by this theorem.
     """
 
     order: int | None
     parts: tuple[str, ...]
+    is_sharp: bool = True
 
     @property
     def text(self) -> str:
@@ -63,7 +65,7 @@ def pair_reason(found: Analysis) -> PairReason | None:
     is_sharp, why = _is_sharp(found)
     if not is_sharp:
         parts.append(f"a larger order is not excluded: {why}")
-    return PairReason(criterion.order, tuple(parts))
+    return PairReason(criterion.order, tuple(parts), is_sharp)
 
 
 def _no_statement(found: Analysis, tableau: Tableau) -> str:

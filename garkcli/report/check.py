@@ -212,7 +212,9 @@ def bound(number: str, simple: str, formula: str) -> Callable[[Any], Any]:
 def pair_criterion(a: Any) -> Any:
     """Why the pair has its order, by B, C, D and the even condition."""
     found = pair_reason(a)
-    return None if found is None else Answer(found.order, reason=Reason(found.text))
+    if found is None:
+        return None
+    return Answer(found.order, Status(at_least=not found.is_sharp), Reason(found.text))
 
 
 def pair_criterion_why(a: Any) -> list[str]:

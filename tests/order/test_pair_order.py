@@ -4,6 +4,7 @@ nothing of B, C and D.
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from pathlib import Path
 from random import Random
@@ -23,6 +24,7 @@ from garkcli.properties.reduction import is_plainly_irreducible
 from garkcli.report.checked import REPORT
 from garkcli.tableau.forms import gark, pair
 from garkcli.tableau.tableau import Tableau
+from tests.cli.harness import gark as command
 from tests.oracles.brute import brute_order
 from tests.oracles.points import numbers
 from tests.order import random_pairs
@@ -122,6 +124,7 @@ def test_negative_weights(source: str | Path, orders: tuple[int, int]) -> None:
     assert why is not None
     assert (found.pair_order.order, why.order) == orders
     assert why.text.endswith("a larger order is not excluded: not all weights are positive")
+    assert not why.is_sharp
     assert is_plainly_irreducible(method.tableau)
 
 
@@ -165,12 +168,19 @@ def test_why_a_pair_has_its_order() -> None:
     assert reason(f"methods: [{two}]\ntransfer: legendre") == (
         "B(4), C(1), D(1) on every block and the even condition; order 5 needs B(5) on colour 1"
     )
-    assert (
-        reason("A: [[0, 0], [1, 0]]\nb: [1/2, 1/2]")
-        == ("B(2) and the even condition; order 3 needs B(3), C(1), D(1)")
-        or True
+    assert reason("A: [[0, 0], [1, 0]]\nb: [1/2, 1/2]") == (
+        "B(2) and the even condition; order 3 needs B(3)"
     )
     assert reason("A: [[1/3]]\nb: [1]\nc: [1/2]") == "the nodes of colour 1 are not row sums"
+
+
+def test_a_criterion_that_is_not_sharp_says_at_least(tmp_path: Path) -> None:
+    """B(4) fails, and the order for a linear vector field is 4 all the same."""
+    file = tmp_path / "lin.yaml"
+    file.write_text('A: [["1/8", "-1/8"], ["7/24", "3/8"]]\nb: [1/4, 3/4]\nlinear: [1]\n')
+    shown = command("check", "-v", str(file)).out
+    assert re.search(r"pair order +4, proved", shown)
+    assert re.search(r"why this pair order +at least 3: B\(3\)", shown)
 
 
 def test_which_hypothesis_does_not_hold() -> None:
