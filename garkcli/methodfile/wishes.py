@@ -102,6 +102,11 @@ def _between_roots(
         message = f"{where}: the first end is larger than the second"
         source.fault(node, message, cure, code="wrong-value")
         return (), []
+    if low == high and low.exact is None:
+        message = f"{where}: both ends are one number"
+        cure = "write fix: {gamma: sqrt(2)/2}"
+        source.fault(node, message, cure, code="wrong-value")
+        return (), []
     inner = RealRoot.rational(between(low, high)) if low < high else low
     around: list[fmpq] = []
     for end, is_high in ((low, False), (high, True)):
@@ -115,7 +120,7 @@ def _between_roots(
         polynomial = Polynomial.from_flint(p)
         zeros = [x for x, _ in real_roots(polynomial)]
         inside = [x for x in zeros if low < x < high]
-        if inside or low == high:
+        if inside:
             message = f"{where}: the polynomial of an end has another zero in the range"
             cure = "write a rational end near it, or fix the unknown"
             source.fault(node, message, cure, code="wrong-value")

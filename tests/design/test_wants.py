@@ -261,10 +261,18 @@ def test_ranges_with_algebraic_ends(ends: str, least: float, greatest: float) ->
     assert all(taken == (least <= g <= greatest) for g, taken in values.items())
 
 
-@pytest.mark.parametrize("ends", ["[sqrt(2), 1]", "[-1, sqrt(3)/6]", "[0, sqrt(-1)]"])
-def test_ranges_that_are_refused(ends: str) -> None:
+@pytest.mark.parametrize(
+    ("ends", "why"),
+    [
+        ("[sqrt(2), 1]", "the first end is larger than the second"),
+        ("[-1, sqrt(3)/6]", "the polynomial of an end has another zero in the range"),
+        ("[sqrt(2), sqrt(2)]", "both ends are one number"),
+        ("[0, sqrt(-1)]", "an even root of a negative number"),
+    ],
+)
+def test_ranges_that_are_refused(ends: str, why: str) -> None:
     """The ends are in order and real, and no other zero of their polynomials is between them."""
-    with pytest.raises(MethodFileError):
+    with pytest.raises(MethodFileError, match=why):
         loads_family(
             f"parameters: {{g: free}}\nA: [[g]]\nb: [1]\ndesign: {{range: {{g: {ends}}}}}\n"
         )
