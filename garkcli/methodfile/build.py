@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cached_property
-from itertools import permutations
+from itertools import chain, permutations
 from typing import TYPE_CHECKING, Generic, TypeAlias, TypeVar
 
 from flint import fmpq
@@ -13,6 +13,7 @@ from yaml.nodes import Node
 from garkcli.errors import GarkError, MethodError, MethodFileError, ShapeMismatch
 from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.matrix import Matrix, Vector
+from garkcli.exact.parametric import Parametric
 from garkcli.methodfile import description as d
 from garkcli.methodfile.numbers import Entry, Numbers, Row
 from garkcli.methodfile.source import Source
@@ -77,12 +78,16 @@ class BlockBuilder:
             MethodFileError: a block cannot be made.
         """
         blocks: Blocks = {}
+        said = set()  # one fault of a rule for several blocks is noted once
         for l, m in permutations(range(len(self.methods)), 2) if is_general else [(1, 0)]:
             text = self._text_of(l, m)
             try:
                 blocks[l, m] = self._block(text, l, m)
             except GarkError as error:
                 place = self.text.methods[0] if text is None else text
+                if (id(place), error.message) in said:
+                    continue
+                said.add((id(place), error.message))
                 message = f"{d.block_name(l, m)}: {error.message}"
                 self.source.fault(place.node, message, error.help, code=error.code)
         self.source.close()
@@ -147,7 +152,16 @@ class BlockBuilder:
 
     @cached_property
     def _orders(self) -> list[int]:
-        """Their orders."""
+        """Their orders.
+
+        Raises:
+            MethodError: they have unknowns, or radicals beside these, and no order yet.
+        """
+        numbers = chain.from_iterable((*chain(*x.A), *x.b) for x in self.methods)
+        if any(isinstance(x, Parametric) for x in numbers):
+            message = "a symplectic- rule compares orders of numbers, and the file has unknowns"
+            cure = "give values, or write the rule without symplectic- and ask for the pair"
+            raise MethodError(message, cure, code="free-parameters")
         return [find_order(self.values.alone(method)).order for method in self.methods]
 
 

@@ -341,3 +341,19 @@ def test_the_misspelt_key_is_read_on() -> None:
     assert [(fault.line, fault.column, fault.help) for fault in told.value.faults] == [
         (1, 1, "did you mean 'unknown'?")
     ]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "parameters: {t: free}\nmethods: [{A: [[t]], b: [1]}, {A: [[1/2]], b: [1]}]\n"
+        "transfer: symplectic-collocation",
+        "methods: [gauss-2, lobatto-iiia-4]\n"
+        'transfer: {default: symplectic-collocation, blocks: {"1,2": "?"}}',
+    ],
+)
+def test_symplectic_rules_compare_orders_of_numbers(text: str) -> None:
+    """Which block they start from depends on the orders: one fault, not one a block."""
+    with pytest.raises(MethodFileError) as found:
+        loads_family(text)
+    assert str(found.value).count("a symplectic- rule compares orders of numbers") == 1
