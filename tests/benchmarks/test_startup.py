@@ -12,7 +12,7 @@ SYMPY = process([*PYTHON, "-c", "import sympy"])
 @pytest.mark.parametrize(
     ("arguments", "target"),
     [
-        (["check", "-q", "rk4"], 0.35),
+        (["check", "-q", "rk4"], 0.4),
         (["check", "methods/collocation.gark.yaml"], 0.5),
         (["--help"], 0.3),
     ],
