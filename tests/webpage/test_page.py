@@ -631,3 +631,11 @@ def test_the_command_for_more_conditions_is_that_of_the_pair(
     said = text_of(by_id(read(report_page(arrays, pictures=False)), "m1-conditions"))
     assert "left out" in said
     assert "gark conditions" not in said
+
+
+def test_definitions_keep_their_role() -> None:
+    """Screen readers read ``dd`` and ``dt`` of a list as what they are: what scrolls is in them."""
+    for template in sorted(Path(garkcli.__file__).with_name("webpage").rglob("*.html")):
+        assert not re.search(r"<d[dt]\b[^>]*\brole=", template.read_text(encoding="utf-8")), (
+            template.name
+        )
