@@ -143,7 +143,7 @@ class GarkItem(pytest.Item):
         self.is_first = is_first
 
     def runtest(self) -> None:
-        """Hold the claim against the truth.
+        """Hold the claim against the truth; skip it if it is undecided.
 
         Raises:
             ClaimFails: it does not hold, or the file cannot be read.
@@ -155,10 +155,12 @@ class GarkItem(pytest.Item):
         if not outcome.is_read and not self.is_first:
             # told of the method file, not of this one
             raise pytest.skip.Exception("the file cannot be read", _use_item_location=True)
-        found = filter(self._is_about, findings(outcome))
-        parts = [self._text(finding, outcome) for finding in found]
-        if parts:
-            raise ClaimFails("\n".join(parts))
+        found = list(filter(self._is_about, findings(outcome)))
+        if any(finding.level == "error" for finding in found):
+            raise ClaimFails("\n".join(self._text(finding, outcome) for finding in found))
+        if found:
+            reason = "; ".join(finding.message for finding in found)
+            raise pytest.skip.Exception(f"undecided: {reason}", _use_item_location=True)
 
     def _is_about(self, finding: Finding) -> bool:
         """Whether a finding is not about another claim."""

@@ -23,6 +23,11 @@ BROKEN = "A: [[0, 0], [1/2, 0]]\nb: [0, 1, 2]\nexpect: {order: 2, fsal: true}\n"
 UNMADE = "A: [[0, 0], [1/2, 0]]\nb: [0, 1]\nconjugate: true\nexpect: {order: 2, fsal: true}\n"
 SILENT = "A: [[0]]\nb: [1]\n"
 FAMILY = "parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [0, 1]\nexpect: {order: 2}\n"
+OPEN = (
+    "A: [[0.167, 3.333], [-1.333, 0.333]]\nb: [0.333, 0.667]\ntolerance: 1e-3\n"
+    "expect: {algebraically-stable: true, order: 2}\n"
+)
+"""Rounding leaves one claim undecided."""
 FILES = {
     "good": GOOD,
     "bad": BAD,
@@ -41,7 +46,7 @@ def imported(tmp_path_factory: pytest.TempPathFactory) -> None:
     imported twice.
     """
     folder = tmp_path_factory.mktemp("imported")
-    for name, text in FILES.items():
+    for name, text in {**FILES, "open": OPEN}.items():
         path = folder / f"{name}.gark.yaml"
         path.write_text(text, encoding="utf-8")
         list(findings(check_file(str(path))))
@@ -94,6 +99,17 @@ def test_each_claim_is_a_test(project: pytest.Pytester) -> None:
     assert "order: expected 2, found 1; 2 where t = 1/2" in text
     assert "Traceback" not in text
     assert "pytest_plugin.py" not in text
+
+
+def test_an_undecided_claim_is_skipped_with_its_reason(project: pytest.Pytester) -> None:
+    """It neither passes nor fails; the claim beside it is judged."""
+    path = project.path / "open.gark.yaml"
+    path.write_text(OPEN, encoding="utf-8")
+    result = run(project, str(path), "-rs")
+    assert outcomes(result) == {"passed": 1, "skipped": 1}
+    result.stdout.fnmatch_lines(
+        ["SKIPPED*open.gark.yaml:4: undecided: algebraically-stable: *leaves the signs open"]
+    )
 
 
 def test_items_have_the_names_of_claims(project: pytest.Pytester) -> None:
