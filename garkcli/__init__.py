@@ -57,6 +57,7 @@ NAMES = {
         "methodfile.file_keys": "method_file_schema",
         "methodfile.problem_keys": "problem_file_schema",
         "sweep.plan": "sweep_schema",
+        "cli.project": "project_schema",
         "report.schemas": "report_schema",
         "check.meanings": "explain",
     },

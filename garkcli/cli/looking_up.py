@@ -288,11 +288,12 @@ def _meant(path: str, given: Given) -> str | GarkMethod:
 
 @declared("schema", ["json"])
 def schema(given: Given, output: Output) -> None:
-    """The JSON Schema (draft-07) of method files, for editors; or of problem files, or of reports.
+    """The JSON Schema (draft-07) of method files, for editors; of other files; of reports.
 
     With the YAML extension of an editor, name it in the first line of a method file:
     # yaml-language-server: $schema=gark.schema.json
     """
+    from garkcli.cli.project import project_schema
     from garkcli.methodfile.file_keys import method_file_schema
     from garkcli.methodfile.problem_keys import problem_file_schema
     from garkcli.report.schemas import report_schema
@@ -303,6 +304,8 @@ def schema(given: Given, output: Output) -> None:
         makers["--problem"] = problem_file_schema
     if given.sweep:
         makers["--sweep"] = sweep_schema
+    if given.project:
+        makers["--project"] = project_schema
     if given.report is not None:
         makers["--report"] = partial(report_schema, given.report)
     if len(makers) > 1:

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Mapping
+import re
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
-from garkcli.errors import UsageProblem, did_you_mean
-from garkcli.files import is_inside, read_bytes
-from garkcli.frozen import Frozen, field
+from garkcli.errors import UsageProblem
+from garkcli.files import is_elsewhere, is_inside, read_bytes
+from garkcli.frozen import Frozen, field, replace
 from garkcli.page.plain import printable
 
 if TYPE_CHECKING:
     from garkcli.glossary.key import Files, Key
+    from garkcli.methodfile.grammar import Kind
 
 OWN = ".gark.toml"
 SHARED = "pyproject.toml"
@@ -43,16 +45,17 @@ def find_project() -> Project:
     that of a repository are not looked at.
 
     Raises:
-        UsageProblem: the file cannot be read, or says what means nothing.
+        UsageProblem: the file cannot be read.
+        MethodFileError: it says what means nothing; every fault of it.
     """
     for folder in _folders():
         for name in (OWN, SHARED):
             path = os.path.join(folder, name)
-            if not os.path.isfile(path):
-                continue
-            table = _table(path, name)
-            if table is not None:
-                return _project(os.path.relpath(path), folder, table)
+            text = _text(path, name) if os.path.isfile(path) else None
+            if text is not None:
+                table = _table(path, name, text)
+                if table is not None:
+                    return _project(path, folder, text, table)
         if os.path.exists(os.path.join(folder, ".git")):
             break
     return Project()
@@ -72,23 +75,48 @@ def _folders() -> Iterator[str]:
         folder = above
 
 
-def _table(path: str, name: str) -> dict[str, Any] | None:
-    """What a file says of gark; None where it does not."""
+def _text(path: str, name: str) -> str | None:
+    """The text of a file; None where it cannot have a table for gark.
+
+    Raises:
+        UsageProblem: it cannot be read, or is too large.
+    """
+    try:
+        data = read_bytes(path, MOST_BYTES)
+        if name == SHARED and _TOOL.search(data) is None:
+            return None  # to parse TOML takes longer than all else that is done of it
+        if len(data) <= MOST_BYTES:
+            return data.decode("utf-8")
+    except (OSError, ValueError) as error:
+        raise _not_toml(path, error) from None
+    message = f"{printable(os.path.relpath(path))}: more than {MOST_BYTES} bytes"
+    raise UsageProblem(message, "split it", code="file-too-large")
+
+
+_TOOL = re.compile(
+    rb"tool[\"'\s]*\.[\"'\s]*gark|^\s*\[\s*[\"']?tool[\"']?\s*\]|^\s*[\"']?tool[\"']?\s*=",
+    re.MULTILINE,
+)
+"""What begins a table of gark, or one of tools that may have it."""
+
+
+def _not_toml(path: str, error: Exception) -> UsageProblem:
+    message = f"{printable(os.path.relpath(path))}: {error}"
+    return UsageProblem(message, "mend the file, TOML is expected", code="project-file")
+
+
+def _table(path: str, name: str, text: str) -> dict[str, Any] | None:
+    """What a file says of gark; None where it does not.
+
+    Raises:
+        UsageProblem: it is no TOML.
+    """
     import tomllib
 
     try:
-        data = read_bytes(path, MOST_BYTES)
-        if name == SHARED and b"gark" not in data:
-            return None
-        if len(data) > MOST_BYTES:
-            message = f"{printable(path)}: more than {MOST_BYTES} bytes"
-            raise UsageProblem(message, "split it", code="file-too-large")
-        whole = tomllib.loads(data.decode("utf-8"))
-    except (OSError, ValueError) as error:
-        message = f"{printable(os.path.relpath(path))}: {error}"
-        raise UsageProblem(
-            message, "mend the file, TOML is expected", code="project-file"
-        ) from None
+        whole = tomllib.loads(text)
+    except ValueError as error:
+        raise _not_toml(path, error) from None
     if name == OWN:
         return whole
     tools = whole.get("tool")
@@ -99,37 +127,37 @@ def _table(path: str, name: str) -> dict[str, Any] | None:
     raise UsageProblem(message, "write its keys below [tool.gark]", code="project-file")
 
 
-def _project(file: str, folder: str, table: dict[str, Any]) -> Project:
-    """The project that a table describes.
+def _project(path: str, folder: str, text: str, table: dict[str, Any]) -> Project:
+    """The project that a table of a file says.
 
     Raises:
-        UsageProblem: it has a key or a value that means nothing.
+        MethodFileError: every fault of it, with positions.
     """
-    shown = printable(file)
-    for key, value in table.items():
-        if key not in KEYS:
-            cure = did_you_mean(key, list(KEYS))
-            raise UsageProblem(f"{shown}: no key {key!r}", cure, code="unknown-key")
-        if not KEYS[key].is_right(value):
-            cure = f"write {key} = {KEYS[key].example}"
-            message = f"{shown}: {key} is not {KEYS[key].wanted}"
-            raise UsageProblem(message, cure, code="wrong-value")
     from garkcli.methodfile.finding import fixed_part
+    from garkcli.methodfile.grammar import FILE
+    from garkcli.methodfile.project_file import read_settings
+    from garkcli.methodfile.source import Source
 
-    required = table.get("require-claims", False)
-    paths = [os.path.join(folder, path) for path in table.get("paths", ())]
-    for path, given in zip(paths, table.get("paths", ()), strict=True):
-        if not is_inside(fixed_part(path), folder):
-            message = f"{shown}: paths: {printable(given)} leads out of the project"
-            raise UsageProblem(message, "name files and folders of the project", code="elsewhere")
+    file = os.path.relpath(path)
+    where = FILE if os.path.basename(path) == OWN else "[tool.gark]"
+    # no line of a file elsewhere is shown
+    source = Source(file, "" if is_elsewhere(path) else text)
+    found = read_settings(source, table, _kind(), where)
+    paths = [os.path.join(folder, given) for given in found.get("paths", ())]
+    for place, given in zip(paths, found.get("paths", ()), strict=True):
+        if not is_inside(fixed_part(place), folder):
+            message = f"paths: {printable(given)} leads out of the project"
+            cure = "name files and folders of the project"
+            source.fault(found.nodes["paths"], message, cure, code="elsewhere")
+    source.close()
+    required = found.get("require-claims", False)
     names = {"format": "format", "max-order": "max_order", "jobs": "jobs"}
-    defaults = {names[key]: table[key] for key in names if key in table}
     return Project(
         file,
         tuple(map(_from_here, paths)),
         required is True,
         tuple(required) if isinstance(required, list) else (),
-        defaults,
+        {names[key]: found[key] for key in names if key in found},
     )
 
 
@@ -141,91 +169,28 @@ def _from_here(path: str) -> str:
         return path
 
 
-def _is_texts(value: object) -> bool:
-    return isinstance(value, list) and all(isinstance(x, str) for x in value)
-
-
-def _is_claims(value: object) -> bool:
-    from garkcli.methodfile.expectations import CLAIMS
-
-    if isinstance(value, bool):
-        return True
-    return isinstance(value, list) and all(x in CLAIMS for x in value)
-
-
-def _is_format(value: object) -> bool:
+def _kind() -> Kind:
+    """What the file has."""
+    from garkcli.methodfile.project_file import file_of
     from garkcli.report.check_formats import FORMATS
 
-    return isinstance(value, str) and value in {"auto", *FORMATS}
+    return file_of(("auto", *FORMATS))
 
 
-def _count(least: int, most: int) -> Callable[[object], bool]:
-    def is_right(value: object) -> bool:
-        is_number = isinstance(value, int) and not isinstance(value, bool)
-        return is_number and value in range(least, most + 1)
+def project_schema() -> dict[str, Any]:
+    """The JSON Schema of ``.gark.toml``, as plain data.
 
-    return is_right
-
-
-class _Key(Frozen):
-    """A key of the file of a project.
-
-    Attributes:
-        example: of its value.
-        text: what it is, in whole sentences.
-        wanted: what its value is, as messages say it.
-        is_right: whether a value is one.
-        default: what holds where it is left out; None where nothing does.
+    >>> project_schema()["type"]
+    'object'
     """
+    from garkcli.methodfile.grammar import file_schema
 
-    example: str
-    text: str
-    wanted: str
-    is_right: Callable[[object], bool]
-    default: object = None
-
-
-KEYS = {
-    "paths": _Key(
-        '["methods"]',
-        "The files, folders or patterns that gark check reads where none are named.",
-        "a list of files, folders or patterns",
-        _is_texts,
-    ),
-    "require-claims": _Key(
-        '["order"]',
-        "Whether a file without a claim fails; or a list of claims that every file has to make.",
-        "true, false, or a list of claims",
-        _is_claims,
-        False,
-    ),
-    "format": _Key(
-        '"github"',
-        "The format of gark check without --format.",
-        "a format of gark check",
-        _is_format,
-    ),
-    "max-order": _Key(
-        "12",
-        "The order at which gark check stops looking where --max-order does not say.",
-        "a number from 1 to 400",
-        _count(1, 400),
-        60,
-    ),
-    "jobs": _Key(
-        "2",
-        "How many processes gark check takes where --jobs does not say; 0 for one a processor.",
-        "a number from 0 to 256",
-        _count(0, 256),
-        1,
-    ),
-}
-"""The keys of the file of a project by name."""
+    return file_schema("gark project file", "What gark check does in a project.", _kind())
 
 
 def told(files: Files) -> Iterator[Key]:
     """What the report says of the keys."""
-    from garkcli.glossary.key import Key  # only pages and explanations tell of keys
+    from garkcli.methodfile.grammar import told
 
-    for name, key in KEYS.items():
-        yield Key(name, key.text, f"{name} = {key.example}", key.default, files.page)
+    for key in told(_kind().inside(), files.page):
+        yield replace(key, example=key.example.replace(": ", " = ", 1))

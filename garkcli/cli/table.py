@@ -263,6 +263,7 @@ report --order -n n 1..100 = report_page.order
 --pictures/--no-pictures = report_page.pictures
 schema --problem | The schema of problem files.
 --sweep | The schema of spec files of gark sweep.
+--project | The schema of .gark.toml.
 --report [COMMAND] report alone=check = report_schema.command
     | The schema of the JSON report of COMMAND; by default gark check.
 """
@@ -357,8 +358,8 @@ looking_up: certificate FILE | a proof of the orders, which a separate short scr
     = certificate prove_method
     --set
 looking_up: schema | JSON Schemas of method files, problem files and reports
-    = method_file_schema problem_file_schema sweep_schema report_schema
-    --problem --sweep --report
+    = method_file_schema problem_file_schema sweep_schema project_schema report_schema
+    --problem --sweep --project --report
 [hidden]
 tableaux: reduce FILE | the smallest method that does the same: convert --to reduced
     = reduced

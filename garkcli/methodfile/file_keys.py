@@ -303,12 +303,11 @@ def method_file_schema() -> g.Schema:
         "description": "A single method of a family, or a name of the catalogue.",
     }
     rules: tuple[g.Rule, ...] = (FORM, *BESIDE_FORM)
-    return {
-        "$schema": "http://json-schema.org/draft-07/schema#",
-        "title": "gark method file",
-        "description": "One Runge-Kutta method: GARK, ARK, PRK, or built from diagonal methods.",
-        **g.mapping(*KEYS.values(), rules=rules).schema(),
-        "definitions": {
+    return g.file_schema(
+        "gark method file",
+        "One Runge-Kutta method: GARK, ARK, PRK, or built from diagonal methods.",
+        g.mapping(*KEYS.values(), rules=rules),
+        definitions={
             **DEFINITIONS,
             "dense": DENSE.schema(),
             "butcher": BUTCHER.schema(),
@@ -322,7 +321,7 @@ def method_file_schema() -> g.Schema:
             },
             "rule": g.later("transfers", "RULE").schema(),
         },
-    }
+    )
 
 
 def told(files: Files) -> Iterable[Entry]:

@@ -546,6 +546,19 @@ def later(room: str, name: str) -> Kind:
     )
 
 
+def file_schema(title: str, text: str, kind: Kind, **more: Any) -> Schema:
+    """The JSON Schema (draft-07) of files with some keys, as plain data.
+
+    Args:
+        title: of the schema.
+        text: what such a file is.
+        kind: the mapping that the file is.
+        more: beside it, such as definitions.
+    """
+    head = {"$schema": "http://json-schema.org/draft-07/schema#", "title": title}
+    return {**head, "description": text, **kind.schema(), **more}
+
+
 def told(keys: Iterable[Key], page: str) -> Iterator[Entry]:
     """What the report says of keys at the top of a file, and of those inside of them."""
     for key in keys:

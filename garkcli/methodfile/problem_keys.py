@@ -200,19 +200,18 @@ def problem_file_schema() -> g.Schema:
         }
     )
     number: g.Schema = {"type": ["number", "string"], "pattern": _SIGNS}
-    return {
-        "$schema": "http://json-schema.org/draft-07/schema#",
-        "title": "gark problem file",
-        "description": "A Hamiltonian, a Lagrangian or right-hand sides, with initial values.",
-        **g.mapping(*KEYS.values(), rules=[FORM, SOLUTION, START, of_names]).schema(),
-        "definitions": {
+    return g.file_schema(
+        "gark problem file",
+        "A Hamiltonian, a Lagrangian or right-hand sides, with initial values.",
+        g.mapping(*KEYS.values(), rules=[FORM, SOLUTION, START, of_names]),
+        definitions={
             "formula": {"description": "A formula such as px**2/2 - cos(x).", **number},
             "constant": {
                 "description": "A number: 2, 0.1, 2/5, sqrt(2), pi/3, with parameters.",
                 **number,
             },
         },
-    }
+    )
 
 
 def _told_anew(key: str, kind: g.Kind) -> g.Schema:

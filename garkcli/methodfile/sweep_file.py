@@ -272,16 +272,6 @@ def file_of(kinds: Mapping[str, str]) -> g.Kind:
     )
 
 
-def sweep_file_schema(kinds: Mapping[str, str]) -> g.Schema:
-    """The JSON Schema (draft-07) of spec files as plain data; see ``file_of``."""
-    return {
-        "$schema": "http://json-schema.org/draft-07/schema#",
-        "title": "gark sweep file",
-        "description": "The methods of a sweep and their columns.",
-        **file_of(kinds).schema(),
-    }
-
-
 class Sweep(Frozen):
     """What a spec file says.
 

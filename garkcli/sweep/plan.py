@@ -12,8 +12,9 @@ from typing import Any, Literal, TypeAlias, cast
 
 from garkcli.frozen import Frozen
 from garkcli.glossary.key import Files, Key
+from garkcli.methodfile.grammar import file_schema
 from garkcli.methodfile.grammar import told as entries_of
-from garkcli.methodfile.sweep_file import count_methods, file_of, read_sweep, sweep_file_schema
+from garkcli.methodfile.sweep_file import count_methods, file_of, read_sweep
 from garkcli.methodfile.sweep_methods import Template
 from garkcli.sweep.columns import INFINITY, Value, columns, property_kind
 
@@ -177,7 +178,9 @@ def sweep_schema() -> dict[str, Any]:
     >>> sweep_schema()["type"]
     'object'
     """
-    return sweep_file_schema(_kinds())
+    return file_schema(
+        "gark sweep file", "The methods of a sweep and their columns.", file_of(_kinds())
+    )
 
 
 def told(files: Files) -> Iterable[Key]:

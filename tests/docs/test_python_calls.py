@@ -131,6 +131,7 @@ def test_texts_are_those_of_the_commands() -> None:
         ((), garkcli.method_file_schema()),
         (("--problem",), garkcli.problem_file_schema()),
         (("--sweep",), garkcli.sweep_schema()),
+        (("--project",), garkcli.project_schema()),
         (("--report", "check"), garkcli.report_schema("check")),
     ):
         assert json.loads(shown("schema", *option)) == schema
