@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
+from functools import partial
 from itertools import chain
 from time import monotonic
 from typing import Literal, TypeAlias, get_args
@@ -405,14 +406,15 @@ class _Finding(Frozen):
         Raises:
             NotDecided: it is not known.
         """
-        stable = ideal.with_zeros(stable_zeros(criterion, ideal))
+        stable = without_complex(ideal.with_zeros(stable_zeros(criterion, ideal, step.order)))
         solved, is_real = criterion.solved(stable), None
         if solved is None:
             raise NotDecided
         if stable.is_everything:
             is_real = False
-        elif self._has_point(criterion, stable):
-            is_real = True
+        else:
+            free = replace(self.family, stable=())
+            is_real = has_methods(free, stable, stable, partial(is_admissible, free))
         new = tuple(p for p in solved if not ideal.contains(p))
         return replace(step, is_real=is_real, of_stable=stable, polynomials_of_stable=new)
 

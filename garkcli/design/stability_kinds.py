@@ -23,14 +23,8 @@ from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot
 from garkcli.frozen import Frozen
 from garkcli.problems.oscillator import Oscillator, check_structure, terms_of
-from garkcli.stability.linear import (
-    StepFunction,
-    imaginary_set,
-    is_a_stable,
-    reduced,
-    stability_function,
-)
-from garkcli.stability.oscillator import OscillatorStability, of_step, oscillator_stability
+from garkcli.stability.linear import imaginary_set, is_a_stable, stability_function
+from garkcli.stability.oscillator import OscillatorStability, oscillator_stability
 from garkcli.stability.two_frequencies import (
     eigenvalue_conditions,
     line_of_determinants,
@@ -152,12 +146,9 @@ class PStability:
     def __init__(self, members: Members, tableau: Tableau) -> None:
         self.members = members
         self.problem = Oscillator.default(terms_of(tableau), fmpq(1))
-        self._in(members.plane(tableau, driven(tableau, "p-stable")))
-
-    def _in(self, plane: StepPlane) -> None:
-        self.plane = plane
-        self.signs, others = oscillator_curves(plane)
-        poles = in_square(plane.denominator)
+        self.plane = members.plane(tableau, driven(tableau, "p-stable"))
+        self.signs, others = oscillator_curves(self.plane)
+        poles = in_square(self.plane.denominator)
         self.essential = projection.projected(factors([poles, *self.signs]), [ZERO])
         self.critical = projection.projected(factors([*self.signs, *others]), [ZERO])
 
@@ -175,18 +166,6 @@ class PStability:
 
     def conditions(self, x: fmpq) -> list[Polynomial]:
         return [projection.at_y(p, x) for p in self.signs]
-
-
-class StepStability(PStability):
-    """The same of a step that is known as a function of z and t."""
-
-    def __init__(self, plane: StepPlane) -> None:
-        self._in(plane)
-
-    def _at(self, value: Number) -> OscillatorStability:
-        D = projection.on_line(self.plane.denominator, value)
-        rows = (tuple(projection.on_line(p, value) for p in row) for row in self.plane.numerators)
-        return of_step(reduced(StepFunction(D, tuple(rows))))
 
 
 def oscillator_curves(plane: StepPlane) -> tuple[list[fmpq_mpoly], list[fmpq_mpoly]]:

@@ -1,67 +1,215 @@
 """Which transfers of a family have a P-stable pair, whatever roots are among its coefficients.
 
-The conditions for the order are linear in unknown transfers, so that those that are solved for are
-functions of the others over a number field. The step M = N/D may depend on all of them through one
-polynomial y: every coefficient of D and N in z is α + βy with rational α and β (Theorem E of
-docs/pair-order.md). Then the engine for one parameter finds the stable y, among those that real
-unknowns reach: from a least or up to a greatest one where y is a sum of squares or its negative.
+By Theorem F of docs/pair-order.md that depends on the operators S and R made of A^{2,1}: nonzero
+singular values are double, apart from what the step does not see. With a(λ) of half the power sums
+of S S* this says a(S S*) S = 0 where the step sees all of them: equations in the coefficients.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Sequence
+from itertools import chain, zip_longest
 from typing import Any
 
-from flint import fmpq, fmpq_mpoly
+from flint import Ordering, fmpq, fmpq_mpoly, fmpz_mpoly_ctx
 
-from garkcli.design.fewer import step_polynomials
-from garkcli.design.ideal import Ideal
+from garkcli.design.groebner import groebner_basis
+from garkcli.design.ideal import Ideal, integral_scale
 from garkcli.design.member import TABLEAUS, member
 from garkcli.design.pairs import PairConditions
-from garkcli.design.stability_kinds import StepStability, driven
-from garkcli.design.stable_values import decided
-from garkcli.design.step_plane import StepPlane
-from garkcli.errors import LimitExceeded, NotDecided
-from garkcli.exact.cells import Interval
-from garkcli.exact.domain import Domain
-from garkcli.exact.expression import parse
-from garkcli.exact.field import ZERO, Number
-from garkcli.exact.parametric import Parameters, Rule
-from garkcli.exact.projection import PLANE
-from garkcli.exact.roots import RealRoot, sign
+from garkcli.design.stability_kinds import driven
+from garkcli.errors import NotDecided
+from garkcli.exact.field import ONE, ZERO, Number
+from garkcli.exact.matrix import (
+    Matrix,
+    Vector,
+    add,
+    apply,
+    apply_left,
+    characteristic_coefficients,
+    multiply,
+    outer,
+    scale,
+    subtract,
+    transpose,
+)
+from garkcli.exact.parametric import Parameters, Rule, fraction
+from garkcli.frozen import Frozen
+from garkcli.problems.oscillator import Oscillator, terms_of
 from garkcli.tableau.family import Family
+from garkcli.tableau.tableau import Tableau
 
-Table = dict[tuple[int, ...], Number]
-"""A polynomial in the parameters over the field of the roots, by exponents; none of 0."""
+HALF = fmpq(1, 2)
 
 
-def stable_zeros(criterion: PairConditions, ideal: Ideal) -> list[fmpq_mpoly]:
+def stable_zeros(criterion: PairConditions, ideal: Ideal, order: int) -> list[fmpq_mpoly]:
     """Polynomials that are zero exactly at the real values whose pair is P-stable: none where all
     are, a constant where none is.
 
     Args:
-        criterion: of a family of which P-stability is wanted.
+        criterion: of a family of which P-stability is wanted; its weights are positive.
         ideal: of the values with an order of the pair.
+        order: this order.
 
     Raises:
-        NotDecided: the step depends on several numbers, or other stability is wanted, or the set is
-            no set of zeros, or the time is not enough.
+        NotDecided: other stability is wanted, or the step may not see some of four stages, or the
+            time is not enough.
         UsageProblem: P-stability has no meaning for the methods.
     """
     family = criterion.family
     solved = criterion.solved(ideal)
     if solved is None or {x.kind for x in family.stable} != {"p-stable"}:
         raise NotDecided
+    driven(TABLEAUS["pair"](family.tableau), "p-stable")
     ring, values = _solved(family, solved)
-    tableau = TABLEAUS["pair"](member(family.tableau, family.ring, values))
-    D, entries = step_polynomials(tableau, ring, driven(tableau, "p-stable"))
-    powers = [_by_power(p, family) for p in (D, *entries)]
-    y, plane = _plane(powers, _Numbers(family))
-    used = [k for k in range(len(family.parameters)) if y.degrees()[k]]
+    S = operator_of(member(family.tableau, family.ring, values))
+    size = min(len(S.left), len(S.right))
+    is_seen = size <= (order - 1) // 2 + 1  # powers of the nodes span one of the spaces
+    if is_seen:
+        conditions = (*S.doubled(size // 2), *S.across.doubled((size - 1) // 2))
+        zeros = [p for p in (fraction(x, ring)[0] for x in conditions) if p]
+    elif size <= 3:
+        zeros = _eliminated(_seen_doubled(S, size, ring), family)
+    else:
+        raise NotDecided
+    used = [k for k in range(len(family.parameters)) if any(p.degrees()[k] for p in zeros)]
     if not family.radicals and len(used) < 2:
         raise NotDecided  # the set of one coordinate says more
-    bound = _extreme(_Numbers(family).table(y), used)
-    return _zeros(y, used, plane, bound)
+    return zeros
+
+
+class Operator(Frozen):
+    """A linear map between two stage spaces.
+
+    Attributes:
+        matrix: T, shape (s_2, s_1).
+        left, right: the weights of the inner products, of the space it maps to and of its own.
+    """
+
+    matrix: Matrix
+    left: Vector
+    right: Vector
+
+    @property
+    def adjoint(self) -> Operator:
+        """B_1⁻¹ Tᵀ B_2."""
+        rows = tuple(
+            tuple(x * b / under for x, b in zip(column, self.left, strict=True))
+            for column, under in zip(transpose(self.matrix), self.right, strict=True)
+        )
+        return Operator(rows, self.right, self.left)
+
+    @property
+    def across(self) -> Operator:
+        """(I − 𝟙b_2ᵀ) T (I − 𝟙b_1ᵀ), what is across 𝟙 on both sides."""
+        ones = (ONE,) * len(self.left)
+        T = subtract(self.matrix, outer(ones, apply_left(self.left, self.matrix)))
+        T = subtract(T, outer(apply(T, (ONE,) * len(self.right)), self.right))
+        return Operator(T, self.left, self.right)
+
+    @property
+    def square(self) -> Matrix:
+        """T T*."""
+        return multiply(self.matrix, self.adjoint.matrix)
+
+    def doubled(self, degree: int) -> Iterable[Number]:
+        """What is zero exactly where so many numbers at most are nonzero singular values, each of
+        them double: a(T T*) T for the monic a of a degree with half the power sums of T T*.
+        """
+        T = self if len(self.left) < len(self.right) else self.adjoint
+        K, result = T.square, T.matrix
+        coefficients: list[Any] = [ONE]
+        sums: list[Any] = []
+        power = K
+        for k in range(1, degree + 1):
+            sums.append(sum((power[i][i] for i in range(len(K))), ZERO) * HALF)
+            power = multiply(power, K)
+            # Newton's identities
+            total = sum((a * s for a, s in zip(coefficients[::-1], sums, strict=True)), ZERO)
+            coefficients.append(-total / fmpq(k))
+            result = add(multiply(K, result), scale(coefficients[-1], T.matrix))
+        return chain.from_iterable(result)
+
+
+def operator_of(tableau: Tableau) -> Operator:
+    """S = A − ½𝟙bᵀ, from the stages that drive q to those that drive p on the oscillator."""
+    split = Oscillator.default(terms_of(tableau))
+    shares = [split.drives(colour) for colour in tableau.colours]
+    moving = [l for l, (k, _) in enumerate(shares) if k]
+    forcing = [m for m, (_, v) in enumerate(shares) if v]
+    right = tuple(shares[l][0] * x for l in moving for x in tableau.colours[l].b)
+    left = tuple(shares[m][1] * x for m in forcing for x in tableau.colours[m].b)
+    rows = []
+    for m in forcing:
+        blocks: list[Any] = [tableau.block(m, l) for l in moving]
+        for parts in zip(*blocks, strict=True):
+            entries = (shares[l][0] * x for l, row in zip(moving, parts, strict=True) for x in row)
+            rows.append(tuple(a - b * HALF for a, b in zip(entries, right, strict=True)))
+    return Operator(tuple(rows), left, right)
+
+
+def _seen_doubled(S: Operator, size: int, ring: Parameters) -> list[fmpq_mpoly]:
+    """The same of at most three singular values where the step may not see all of them: zero at
+    those parameters, α and β for which α is double of S, β of R, as far as the step sees them.
+    """
+    larger = Parameters(["_alpha", "_beta", *ring.names])
+    alpha, beta, *gens = larger.context.gens()
+    zero, one = alpha * 0, larger.constant(ONE)
+
+    def lifted(x: Number) -> fmpq_mpoly:
+        p, q = fraction(x, ring)
+        if not q.is_constant():
+            raise NotDecided
+        return p.compose(*gens, ctx=larger.context) / q.leading_coefficient()
+
+    R = S.across
+    ones = (ONE,) * len(S.right), (ONE,) * len(S.left)
+    next_to_them = apply(S.adjoint.matrix, ones[1]), apply(S.matrix, ones[0])
+    zeros: list[fmpq_mpoly] = []
+    polynomials = []
+    for T, seen, root in ((S, ones, alpha), (R, next_to_them, beta if size == 3 else zero)):
+        for map_, w in zip((T, T.adjoint), seen, strict=True):
+            image = apply(map_.matrix, w)
+            twice = apply(map_.square, image) if root else image
+            zeros += [lifted(x) - root * lifted(y) for x, y in zip(twice, image, strict=True)]
+        c = [lifted(x) for x in characteristic_coefficients(T.square)]
+        # root is one of them, or 0
+        zeros.append(sum((x * root ** (len(c) - k) for k, x in enumerate(c)), zero))
+        polynomials.append((c, [one, -root]))
+    (of_S, a), (of_R, b) = polynomials
+    sides = _product(of_S, _product(b, b)), _product(of_R, _product(a, a))
+    return zeros + [p - q for p, q in zip_longest(*sides, fillvalue=zero)]
+
+
+def _product(p: Sequence[fmpq_mpoly], q: Sequence[fmpq_mpoly]) -> list[fmpq_mpoly]:
+    """That of two polynomials, by their coefficients."""
+    found = [p[0] * 0] * (len(p) + len(q) - 1)
+    for i, a in enumerate(p):
+        for j, b in enumerate(q):
+            found[i + j] += a * b
+    return found
+
+
+def _eliminated(zeros: Sequence[fmpq_mpoly], family: Family) -> list[fmpq_mpoly]:
+    """Polynomials in the parameters that are zero where others are for some of two unknowns, the
+    first ones, which are bounded.
+    """
+    names = zeros[0].context().names()
+    context = fmpz_mpoly_ctx.get(names, Ordering.lex)
+    raised = (
+        x.relation.compose(*zeros[0].context().gens()[2:], ctx=zeros[0].context())
+        for x in family.radicals
+    )
+    given = []
+    for p in (*zeros, *raised):
+        unit = integral_scale(p)
+        given.append(context.from_dict({e: (a * unit).p for e, a in p.to_dict().items()}))
+    basis = groebner_basis([p for p in given if p], context)
+    return [
+        family.ring.context.from_dict({e[2:]: fmpq(a) for e, a in p.to_dict().items()})
+        for p in basis
+        if not any(p.degrees()[:2])
+    ]
 
 
 def _solved(family: Family, solved: Sequence[fmpq_mpoly]) -> tuple[Parameters, dict[str, Any]]:
@@ -89,138 +237,3 @@ def _solved(family: Family, solved: Sequence[fmpq_mpoly]) -> tuple[Parameters, d
         name: ring.quotient(leading.get(k, gens[k]), one) for k, name in enumerate(ring.names)
     }
     return ring, values
-
-
-def _by_power(polynomial: fmpq_mpoly, family: Family) -> dict[int, fmpq_mpoly]:
-    """The coefficients of a polynomial in z, which comes first, and the unknowns."""
-    found: dict[int, dict[tuple[int, ...], fmpq]] = {}
-    for exponents, a in polynomial.to_dict().items():
-        k, *others = map(int, exponents)
-        found.setdefault(k, {})[tuple(others)] = a
-    return {k: family.ring.context.from_dict(dict(x)) for k, x in found.items()}
-
-
-class _Numbers:
-    """The roots among the coefficients of a family as numbers of one field."""
-
-    def __init__(self, family: Family) -> None:
-        roots = [parse(x.text) for x in family.radicals]
-        try:
-            domain = Domain(roots)
-        except LimitExceeded:
-            raise NotDecided from None
-        self.count = len(family.parameters)
-        self.roots = [domain.evaluate(x) for x in roots]
-
-    def table(self, polynomial: fmpq_mpoly) -> Table:
-        """A polynomial in the parameters and these roots."""
-        found = Table()
-        for exponents, a in polynomial.to_dict().items():
-            key = tuple(map(int, exponents))
-            term: Number = fmpq(a)
-            for root, power in zip(self.roots, key[self.count :], strict=True):
-                term = term * root**power
-            found[key[: self.count]] = found.get(key[: self.count], ZERO) + term
-        return {key: a for key, a in found.items() if a}
-
-
-def _plane(
-    functions: Sequence[Mapping[int, fmpq_mpoly]], numbers: _Numbers
-) -> tuple[fmpq_mpoly, StepPlane]:
-    """The number y on which a step depends, and the step as a function of it.
-
-    Args:
-        functions: D and the entries of N, each by the powers of z.
-        numbers: the roots in them.
-
-    Raises:
-        NotDecided: there is no such number.
-    """
-    origin = (0,) * numbers.count
-    tables = [{k: numbers.table(p) for k, p in x.items()} for x in functions]
-    if any(map(any, tables[0][0])):
-        raise NotDecided  # D(0) = 1, times a denominator
-    y, unit, first = functions[0][0] * 0, Table(), origin
-    for x, of_x in zip(functions, tables, strict=True):
-        for k in sorted(of_x):
-            if not unit and any(map(any, of_x[k])):
-                y, unit = x[k], of_x[k]
-                first = max(unit)
-    planes = []
-    for one in tables:
-        terms: dict[tuple[int, ...], fmpq] = {}
-        for k, table in one.items():
-            slope = table.get(first, ZERO) / unit[first] if unit else ZERO
-            rest = {key: table.get(key, ZERO) - slope * unit.get(key, ZERO) for key in table | unit}
-            constant = rest.pop(origin, ZERO)
-            if any(rest.values()) or not isinstance(slope, fmpq) or not isinstance(constant, fmpq):
-                raise NotDecided
-            terms[k, 0], terms[k, 1] = constant, slope
-        planes.append(PLANE.from_dict(terms))
-    D, *entries = planes
-    common = D
-    for p in entries:
-        common = common.gcd(p)
-    a, b, c, d = (p // common for p in entries)
-    return y, StepPlane(D // common, ((a, b), (c, d)), ())
-
-
-def _extreme(table: Table, used: Sequence[int]) -> tuple[int, fmpq] | None:
-    """1 and the least value of a polynomial of degree 2, or −1 and the greatest one, by completing
-    squares; None where it reaches every number.
-
-    Raises:
-        NotDecided: the value is irrational, or the degree is larger.
-    """
-    if not table:
-        return None
-    if any(sum(key) > 2 for key in table):
-        raise NotDecided
-
-    def at(*places: int) -> Number:
-        return table.get(tuple(places.count(k) for k in range(len(next(iter(table))))), ZERO)
-
-    # half of the second derivatives, the first ones at 0, the value there
-    H = {(i, j): at(i, j) * fmpq(1, 1 if i == j else 2) for i in used for j in used}
-    g = {i: at(i) for i in used}
-    value, left, signs = at(), list(used), set[int]()
-    while any(H[i, j] for i in left for j in left):
-        i = next((i for i in left if H[i, i]), None)
-        if i is None:
-            return None
-        signs.add(sign(H[i, i]))
-        left.remove(i)
-        value = value - g[i] * g[i] / (H[i, i] * 4)
-        for j in left:
-            g[j] = g[j] - g[i] * H[i, j] / H[i, i]
-            for k in left:
-                H[j, k] = H[j, k] - H[i, j] * H[i, k] / H[i, i]
-    if len(signs) != 1 or any(g[i] for i in left):
-        return None
-    if not isinstance(value, fmpq):
-        raise NotDecided
-    return signs.pop(), value
-
-
-def _zeros(
-    y: fmpq_mpoly, used: Sequence[int], plane: StepPlane, bound: tuple[int, fmpq] | None
-) -> list[fmpq_mpoly]:
-    """Where y has a value for which a step is stable."""
-    ends: tuple[fmpq | None, fmpq | None] = (None, None)
-    if bound is not None:
-        ends = (bound[1], None) if bound[0] > 0 else (None, bound[1])
-    found, undecided = decided(StepStability(plane), ends)
-    start, end = (None if x is None else RealRoot.rational(x) for x in ends)
-    if undecided:
-        raise NotDecided
-    if found == (Interval(start, end, start is not None, end is not None),):
-        return []
-    points = [x.start.exact if x.is_point and x.start else None for x in found]
-    if bound is not None and points == [bound[1]]:
-        return [y.derivative(k) for k in used]
-    product = y * 0 + 1
-    for x in points:
-        if x is None:
-            raise NotDecided
-        product = product * (y - x)
-    return [product]

@@ -363,7 +363,7 @@ def stable_rows(x: DesignReport, d: Plain) -> Rows:
     if not family.parameters:
         return []
     if best is not None and best.of_stable is not None:
-        texts = [equation(family, p) for p in best.polynomials_of_stable]
+        texts = [equation(family, p) for p in sorted(best.polynomials_of_stable, key=len)]
         found = f"P-stable for exactly {_listed(texts, d, 'equation')}"
         return [("stable", found)] if texts else []
     if kinds and not x.sets and x.design.last.kind in {"every-value", "family"}:

@@ -140,11 +140,7 @@ def usual_oscillator(tableau: Tableau) -> OscillatorStability | None:
 
 def analysed(tableau: Tableau, fields: Sequence[Matrix]) -> OscillatorStability:
     """The same for given fields y ↦ L^m y with L^m = (0, k_m; −v_m, 0) in (ωq, p)."""
-    return of_step(step_function(stage_system(tableau, fields)))
-
-
-def of_step(step: StepFunction) -> OscillatorStability:
-    """The same of a step in lowest terms."""
+    step = step_function(stage_system(tableau, fields))
     (a, b), (c, d) = step.numerators
     poles = _even(step.denominator)
     trace = Ratio.of(_even(a + d), poles)

@@ -18,13 +18,18 @@ from garkcli.design.design import Step
 from garkcli.design.ideal import Ideal
 from garkcli.design.member import is_admissible, member, method_at
 from garkcli.design.minimise.squared_error import squared_error
+from garkcli.design.pairs import PairConditions
 from garkcli.design.solutions import Solution, solutions, value_at
+from garkcli.design.stable_transfers import operator_of, stable_zeros
+from garkcli.errors import NotDecided
 from garkcli.exact.field import Number
+from garkcli.exact.matrix import characteristic_coefficients
+from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot
 from garkcli.frozen import replace
 from garkcli.stability.oscillator import usual_oscillator
 from garkcli.tableau.family import Family, Stability
-from garkcli.tableau.forms import pair
+from garkcli.tableau.forms import pair, spelled_out
 from tests.cli.harness import gark
 
 ANY = '"?"'
@@ -52,7 +57,7 @@ def some(family: Family, ideal: Ideal, seed: int) -> tuple[Solution, RealRoot]:
 
 
 class Floats:
-    """A method of two colours in floats."""
+    """A method in floats: colour 1, and all others as one."""
 
     def __init__(self, family: Family, solution: Solution, root: RealRoot) -> None:
         tableau = member(family.tableau, family.ring, solution.values)
@@ -65,14 +70,17 @@ class Floats:
             assert rows is not None
             return np.array([floats(row) for row in rows])
 
-        self.b1, self.b2 = (floats(x.b) for x in tableau.colours)
-        self.c1, self.c2 = (floats(x.c) for x in tableau.colours)
-        self.A11, self.A21 = block(0, 0), block(1, 0)
+        first, *others = tableau.colours
+        self.b1, self.c1 = floats(first.b), floats(first.c)
+        self.b2 = np.concatenate([floats(x.b) for x in others]) / len(others)
+        self.c2 = np.concatenate([floats(x.c) for x in others])
+        self.A11 = block(0, 0)
+        self.A21 = np.concatenate([block(m, 0) for m in range(1, tableau.size)])
 
     @property
     def traces(self) -> Iterator[float]:
         """Traces of the pair on the oscillator: velocities at the stages of colour 1, forces at those
-        of colour 2.
+        of the others.
         """
         b1, b2, A21 = self.b1, self.b2, self.A21
         conjugate = (b2[:, None] - b2[:, None] * A21 / b1[None, :]).T
@@ -101,6 +109,8 @@ class Floats:
         ("gauss-2, lobatto-iiia-4", 4, 2),
         ("gauss-1, lobatto-iiia-3", 2, 2),
         ("gauss-3, lobatto-iiia-4", 6, 1),
+        ("gauss-2, lobatto-iiia-3", 3, 2),
+        ("gauss-2, lobatto-iiia-4", 3, 3),
     ],
 )
 def test_the_stable_transfers(methods: str, order: int, dimension: int) -> None:
@@ -184,16 +194,73 @@ def test_all_or_none_of_them() -> None:
     assert none.is_real is False
 
 
-def test_what_is_not_decided() -> None:
-    """Of order 3 the step depends on more than one number; a rational family of one coordinate has
-    a set of values.
+KUTTA = "{A: [[0, 0, 0, 0], [1/2, 0, 0, 0], [0, 1/2, 0, 0], [0, 0, 1, 0]], b: [1/6, 1/3, 1/3, 1/6]}"
+
+
+@pytest.mark.parametrize(
+    ("methods", "order", "dimension"),
+    [
+        # A^{2,1} on a cone of dimension 2 or on a plane, A^{1,2} free in 5 numbers
+        (f"{KUTTA}, gauss-3", 4, 7),
+        # on two lines or on a plane, the other blocks free in 6 numbers
+        ("gauss-2, gauss-1, lobatto-iiia-2", 2, 8),
+        ("radau-iia-2, gauss-2", 3, 1),
+        ("gauss-1, lobatto-iiia-2", 1, 2),
+    ],
+)
+def test_the_stable_transfers_that_depend_on_several_numbers(
+    methods: str, order: int, dimension: int
+) -> None:
+    """Random ones of them are stable, and random ones of the order are not, by traces in floats."""
+    family = p_stable(methods)
+    step = last(family, order)
+    assert step.is_real
+    assert step.ideal is not None
+    assert step.of_stable is not None
+    assert step.of_stable.dimension == dimension
+    for seed in range(3):
+        for ideal, is_stable in ((step.of_stable, True), (step.ideal, False)):
+            method = Floats(family, *some(family, ideal, seed))
+            assert (max(map(abs, method.traces)) <= 2 + 1e-5) == is_stable
+
+
+def test_the_singular_values_of_a_step() -> None:
+    """D(2 + tr M) = 4 det(I − xS*S) and D(2 − tr M) = x det(I − xR*R): (2 + tr M)/(2 − tr M) by the
+    step of the pair.
     """
-    step = last(p_stable("gauss-2, lobatto-iiia-3"), 3)
-    assert (step.of_stable, step.is_real) == (None, None)
+    dice = Random(7)
+    for _ in range(20):
+        s, t = dice.randint(1, 4), dice.randint(1, 4)
+        b1, b2 = ([fmpq(dice.randint(1, 9)) for _ in range(k)] for k in (s, t))
+        b1, b2 = ([x / sum(b) for x in b] for b in (b1, b2))
+        A = tuple(tuple(fmpq(dice.randint(-9, 9), 7) for _ in b1) for _ in b2)
+        other = tuple(tuple(fmpq(0) for _ in b2) for _ in b1)
+        tableau = spelled_out([[None, other], [A, None]], [tuple(b1), tuple(b2)], [None, None])
+        found = usual_oscillator(pair(tableau))
+        assert found is not None
+        S = operator_of(tableau)
+        left = Polynomial(characteristic_coefficients(S.square))
+        right = Polynomial(characteristic_coefficients(S.across.square))
+        N, D = found.trace.numerator, found.trace.denominator
+        x = Polynomial([0, 1])
+        assert (D * 2 + N) * x * right == (D * 2 - N) * left * 4
+
+
+def test_a_set_of_one_coordinate() -> None:
+    """A rational family of one coordinate has a set of values."""
     step = last(p_stable("gauss-1, lobatto-iiia-2"), 2)
     assert step.of_stable is None
     [values] = step.stable
     assert values.has_values
+
+
+def test_what_is_not_decided() -> None:
+    """Where the step may not see some of four stages."""
+    family = p_stable(f"{KUTTA}, {KUTTA}")
+    ideal = last(replace(family, stable=()), 4).ideal
+    assert ideal is not None
+    with pytest.raises(NotDecided):
+        stable_zeros(PairConditions(family), ideal, 4)
 
 
 def test_the_report(tmp_path: Path) -> None:
