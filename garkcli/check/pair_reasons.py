@@ -57,7 +57,7 @@ def pair_reason(found: Analysis) -> PairReason | None:
     if found.tableau.is_partitioned:
         method = derived(method, "pair")
     criterion = pair_criterion(method, found.limit)
-    parts = [_held(criterion.order)]
+    parts = [_held(criterion.order, tableau.size > 1)]
     if criterion.missing:
         names = [colour.name for colour in tableau.colours]
         missing = _missing(criterion.missing, names, sum(1 for _ in tableau.edges()))
@@ -94,13 +94,13 @@ def _is_sharp(found: Analysis) -> tuple[bool, str]:
     return True, ""
 
 
-def _held(order: int) -> str:
-    """The conditions of an order."""
+def _held(order: int, has_blocks: bool) -> str:
+    """The conditions of an order; of several colours on each block."""
     k = (order - 1) // 2
     parts = [f"B({order})"] if order else ["nothing"]
     if k > 0:
         parts += [f"C({k})", f"D({k})"]
-    said = ", ".join(parts) + (" on every block" if k > 0 else "")
+    said = ", ".join(parts) + (" on every block" if k > 0 and has_blocks else "")
     return said + (" and the even condition" if order and order % 2 == 0 else "")
 
 

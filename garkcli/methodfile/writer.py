@@ -214,7 +214,7 @@ def _block(tableau: Tableau, l: int, m: int, text: NumberText) -> Iterator[str]:
     """The lines of the block A^{l,m}, which is null where it does not exist."""
     block = tableau.block(l, m)
     dash = "    - -" if m == 0 else "      -"
-    comment = f"  # {block_name(l, m)}"
+    comment = f"  # {block_name(l, m)}" if tableau.size > 1 else ""
     if block is None:
         yield f"{dash} null{comment}"
         return

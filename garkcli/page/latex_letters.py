@@ -58,7 +58,7 @@ def _letter(sign: str) -> str:
     if accent is not None and base.isascii():
         above = accent not in {"c ", "k "}
         return rf"{{\{accent}{_DOTLESS.get(base, base) if above else base}}}"
-    return _greek(sign)
+    return greek(sign)
 
 
 def _name(sign: str) -> str:
@@ -66,7 +66,7 @@ def _name(sign: str) -> str:
     return unicodedata.name(sign, "") if len(sign) == 1 else ""
 
 
-def _greek(sign: str) -> str:
+def greek(sign: str) -> str:
     """A Greek letter as LaTeX names it; any other sign as it is."""
     words = _name(sign).split()
     if words[:1] != ["GREEK"] or "LETTER" not in words or len(words) != 4:

@@ -26,8 +26,8 @@ SIGNS = {
     # a letter that is no accented one
     "ø": "o", "æ": "ae", "ß": "ss",
     # punctuation
-    "–": "-", "\N{HYPHEN}": "-", "\N{HORIZONTAL BAR}": "--", "—": "--", "…": "...", "•": "*",
-    "“": '"', "”": '"', "‘": "'", "’": "'", "\N{NO-BREAK SPACE}": " ",
+    "–": "-", "\N{HYPHEN}": "-", "\N{HORIZONTAL BAR}": "--", "—": "--", "…": "...", "⋯": "...",
+    "•": "*", "“": '"', "”": '"', "‘": "'", "’": "'", "\N{NO-BREAK SPACE}": " ",
     "\N{REPLACEMENT CHARACTER}": "?",
     # trees and plots, one column each
     "●": "o", "○": "o", "─": "-", "│": "|", "█": "#", "└": "`", "┘": "'", "┌": ".", "┐": ".",

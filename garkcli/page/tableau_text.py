@@ -83,16 +83,20 @@ def _listing(tableau: Tableau, entries: Entries, width: int) -> list[str]:
         vectors.append(("embedded", entries.embedded))
     for l, name in enumerate(names):
         for letter, rows in vectors:
-            lines += _vector(f"{letter}{{{name}}}", _texts(rows[l], digits), width)
+            lines += _vector(_named(letter, tableau, name), _texts(rows[l], digits), width)
         lines.append("")
     for l in distinct_rows(tableau):
-        row_name = names[l]
         for name, block in zip(names, entries.A[l], strict=True):
             if block is None:
                 continue
             cells = [_texts(row, digits) for row in block]
-            lines += _block(f"A{{{row_name},{name}}}", cells, width)
+            lines += _block(_named("A", tableau, names[l], name), cells, width)
     return lines[:-1]
+
+
+def _named(letter: str, tableau: Tableau, *colours: str) -> str:
+    """What is called by its colours, where there are several."""
+    return f"{letter}{{{','.join(colours)}}}" if tableau.size > 1 else letter
 
 
 def _dense(tableau: Tableau, entries: Entries, width: int) -> list[str]:
@@ -102,7 +106,7 @@ def _dense(tableau: Tableau, entries: Entries, width: int) -> list[str]:
     lines = ["", "dense output, in each row the coefficients of θ, θ², …", ""]
     for colour, rows in zip(tableau.colours, entries.dense, strict=True):
         cells = [_texts(row, entries.digits) for row in rows]
-        lines += _block(f"b{{{colour.name}}}(θ)", cells, width)
+        lines += _block(f"{_named('b', tableau, colour.name)}(θ)", cells, width)
     return lines[:-1]
 
 

@@ -49,7 +49,9 @@ def describe(problem: Stepped) -> str:
 
 
 def _numbered(letter: str, texts: Sequence[str]) -> list[str]:
-    """Terms by the numbers of their colours."""
+    """Terms by the numbers of their colours; one alone has none."""
+    if len(texts) == 1:
+        return [f"{letter}: {texts[0]}"]
     return [f"{letter}{{{l}}}: {text}" for l, text in enumerate(texts, start=1)]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -9,6 +10,7 @@ from garkcli.exact.display import to_latex
 from garkcli.exact.polynomial_text import root_text
 from garkcli.ntrees.notation import format_latex, parse_tree
 from garkcli.page.exactly import multivariate_latex, polynomial_latex
+from garkcli.page.latex_letters import greek
 from garkcli.page.plain import printable
 from garkcli.tell.dialect import Plain
 
@@ -24,18 +26,30 @@ if TYPE_CHECKING:
 
 SIGNS = {
     **{sign: rf"${command}$" for sign, command in {
-        "≤": r"\le", "≥": r"\ge", "≠": r"\ne", "∞": r"\infty", "α": r"\alpha", "η": r"\eta",
-        "ζ": r"\zeta", "ξ": r"\xi", "χ": r"\chi", "θ": r"\theta", "γ": r"\gamma", "ω": r"\omega",
-        "λ": r"\lambda", "π": r"\pi", "ρ": r"\rho", "τ": r"\tau", "−": "-", "²": "^2", "³": "^3",
-        "σ": r"\sigma", "𝒜": r"\mathcal A",
-        "ᵀ": r"^{\mathsf T}", "𝟙": r"\mathbf 1", "→": r"\to", "↔": r"\leftrightarrow",
-        "Â": r"\hat A", "·": r"\cdot", "×": r"\times", "ẏ": r"\dot y", "…": r"\dots",
-        "β": r"\beta", "½": r"\frac12", "±": r"\pm", "‖": r"\|", "∂": r"\partial", "Σ": r"\sum",
-        "¨": r"\ddot q", "√": r"\surd", "<": "<", ">": ">",
+        "≤": r"\le", "≥": r"\ge", "≠": r"\ne", "≈": r"\approx", "∞": r"\infty", "−": "-",
+        "⁻": "^-", "²": "^2", "³": "^3", "ᵀ": r"^{\mathsf T}", "½": r"\frac12", "𝟙": r"\mathbf 1",
+        "→": r"\to", "↔": r"\leftrightarrow", "·": r"\cdot", "⊙": r"\odot", "×": r"\times",
+        "±": r"\pm", "‖": r"\|", "√": r"\surd", "∂": r"\partial", "∫": r"\int", "Σ": r"\sum",
+        "Π": r"\prod", "…": r"\dots", "⋯": r"\cdots", "𝒜": r"\mathcal A", "ℓ": r"\ell",
+        "Â": r"\hat A", "ẏ": r"\dot y", "<": "<", ">": ">",
     }.items()},
     "\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}",
     **{sign: f"\\{sign}" for sign in "&%#_{}$"},
 }  # fmt: skip
+_ABOVE = {
+    "\N{COMBINING CIRCUMFLEX ACCENT}": "hat",
+    "\N{COMBINING TILDE}": "tilde",
+    "\N{COMBINING DIAERESIS}": "ddot",
+}
+_SIGN = re.compile(f"[A-Za-z][{''.join(_ABOVE)}]|[^A-Za-z0-9 ]")
+
+
+def _sign(found: re.Match[str]) -> str:
+    """A sign, or a letter with what is above it."""
+    letter, *above = found[0]
+    if above:
+        return rf"$\{_ABOVE[above[0]]} {letter}$"
+    return SIGNS.get(letter) or greek(letter)
 
 
 def expression_latex(text: str) -> str | None:
@@ -67,7 +81,7 @@ class Latex(Plain):
     breadth = "page"
 
     def prose(self, text: str) -> str:
-        return "".join(SIGNS.get(sign, sign) for sign in printable(text).replace("q\u0308", "¨"))
+        return _SIGN.sub(_sign, printable(text))
 
     def good(self, text: str) -> str:
         return text

@@ -198,7 +198,8 @@ def test_tableaus_show_them_in_every_format() -> None:
     assert "embedded | 7/24  1/4  1/3  1/8" in text
     assert "    0  4/3   -8/9" in text
     narrow = TABLEAU.render([shown], width=20)
-    assert "embedded{1} = 7/24," in narrow
+    assert "embedded = 7/24," in narrow
+    assert "{1}" not in narrow
     data = json.loads(TABLEAU.json([shown]))
     jsonschema.validate(data, TABLEAU.schema)
     assert data["embedded"] == [["7/24", "1/4", "1/3", "1/8"]]

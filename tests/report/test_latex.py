@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 from hypothesis import given
@@ -10,6 +11,7 @@ from hypothesis import strategies as st
 from garkcli.exact.display import to_latex
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
+from garkcli.tell.latex import Latex
 from tests.cli.harness import gark
 
 RUNS = [
@@ -31,6 +33,18 @@ def latex(*arguments: str) -> str:
     run = gark(*arguments, "--format", "latex")
     assert run.code == 0, run.err
     return "\n".join(line for line in run.out.splitlines() if not line.startswith("%"))
+
+
+def test_each_sign_of_the_glossary_has_a_form_in_latex() -> None:
+    """LaTeX stops at any other sign than letters with accents and dashes."""
+    left = {
+        sign: path.name
+        for path in Path("garkcli/glossary/data").glob("*.toml")
+        for sign in Latex().prose(path.read_text("utf-8").replace("\n", " "))
+        if sign > "\u017f" and sign not in "–—"
+    }
+    assert not left
+    assert Latex().prose("b̂ μ ∫ Störmer") == r"$\hat b$ $\mu$ $\int$ Störmer"
 
 
 def unbalanced(text: str) -> Iterator[str]:
