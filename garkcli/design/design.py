@@ -7,7 +7,7 @@ from contextlib import suppress
 from functools import partial
 from itertools import chain
 from time import monotonic
-from typing import Literal, TypeAlias, get_args
+from typing import Literal, TypeAlias, cast, get_args
 
 from flint import fmpq_mpoly, fmpz_mpoly
 
@@ -22,6 +22,7 @@ from garkcli.design.parts import Part, diagonal_unknowns, nodes_as_coordinates, 
 from garkcli.design.real_points import has_methods, without_complex
 from garkcli.design.solutions import Solution, solutions
 from garkcli.design.stable_parts import has_stable_method, joined, stable_part
+from garkcli.design.stable_plane import form_values
 from garkcli.design.stable_transfers import stable_zeros
 from garkcli.design.stable_values import StableValues, Wanted, stable_values
 from garkcli.errors import NotDecided, ZeroWeight
@@ -376,6 +377,11 @@ class _Finding(Frozen):
             return replace(step, found=found, is_real=is_real)
         if self.family.stable and step.kind == "family":
             return self._with_stable(step)
+        if len(self.family.parameters) > 1:
+            step = replace(step, stable=_sets(self.family, self.whose))
+            have = [x.has_values for x in step.stable]
+            if False in have or have == [True]:
+                return replace(step, is_real=False not in have)
         return replace(step, is_real=has_methods(self.family, ideal, real, self._is_method))
 
     def _with_stable(self, step: Step) -> Step:
@@ -559,9 +565,18 @@ def stable_sets(design: Design) -> tuple[StableValues, ...]:
         return best.stable
     if design.last.kind != "every-value" or len(family.ring.names) > 1 or not family.parameters:
         return ()
-    return tuple(
-        stable_values(family, kind, design.whose, colour=x.colour)
-        for kind in get_args(Wanted)
-        for x in dict.fromkeys(family.stable)
-        if x.kind == kind
-    )
+    return _sets(family, design.whose)
+
+
+def _sets(family: Family, whose: Whose) -> tuple[StableValues, ...]:
+    """For each wanted kind of stability its set; nothing where it is none of one number."""
+    wanted = [
+        x for kind in get_args(Wanted) for x in dict.fromkeys(family.stable) if x.kind == kind
+    ]
+    sets: list[StableValues] = []
+    for kind, colour in ((cast("Wanted", x.kind), x.colour) for x in wanted):
+        if len(family.parameters) == 1:
+            sets.append(stable_values(family, kind, whose, colour=colour))
+        elif (found := form_values(family, kind, whose, colour)) is not None:
+            sets.append(found)
+    return tuple(sets) if len(sets) == len(wanted) else ()

@@ -43,6 +43,7 @@ from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.roots import RealRoot, real_roots, sign_at
 from garkcli.frozen import Frozen, replace
 from garkcli.tableau.family import Family
+from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
 
 BITS = 512
@@ -198,18 +199,39 @@ def stable_set(
     refuse_radicals(family)
     if len(family.parameters) == 1:
         return stable_values(family, wanted, whose, two_springs, colour)
-    tableau = TABLEAUS[whose](family.tableau)
-    entries = chain(*chain(*tableau.blocks.values()), *(x.b for x in tableau.colours))
-    is_plain = common_denominator(list(entries), family.ring).is_constant()
-    is_open = all(x == (None, None) for x in family.ranges.values())
-    if is_plain and is_open and two_springs is None and not has_wishes(family):
-        smaller, forms = fewest(family, tableau, driven(tableau, wanted, colour))
-        if len(forms) == 1:
-            found = stable_values(smaller, wanted, whose, colour=colour)
-            return replace(found, family=family, form=forms[0])
-        if len(family.parameters) == 2 and wanted == "a-stable" and whose == "method":
-            return stable_plane(family, colour)
+    found = None if two_springs else form_values(family, wanted, whose, colour)
+    if found is not None:
+        return found
+    is_plane = len(family.parameters) == 2 and wanted == "a-stable" and whose == "method"
+    if is_plane and _is_plain(family, family.tableau):
+        return stable_plane(family, colour)
     raise too_many(family)
+
+
+def form_values(
+    family: Family, wanted: Wanted, whose: Whose, colour: int | None
+) -> StableValues | None:
+    """The set of values of one linear form in several parameters; None where the step depends on
+    more, or there are other wishes, radicals, or denominators.
+    """
+    tableau = TABLEAUS[whose](family.tableau)
+    if family.radicals or not _is_plain(family, tableau):
+        return None
+    smaller, forms = fewest(family, tableau, driven(tableau, wanted, colour))
+    if len(forms) > 1:
+        return None
+    found = stable_values(smaller, wanted, whose, colour=colour)
+    return replace(found, family=family, form=forms[0])
+
+
+def _is_plain(family: Family, tableau: Tableau) -> bool:
+    """Whether parameters have no ranges and nothing else is wanted of them, and coefficients no
+    denominators.
+    """
+    entries = chain(*chain(*tableau.blocks.values()), *(x.b for x in tableau.colours))
+    is_open = all(x == (None, None) for x in family.ranges.values())
+    is_without = common_denominator(list(entries), family.ring).is_constant()
+    return is_open and is_without and not has_wishes(family)
 
 
 def stable_plane(family: Family, colour: int | None = None) -> StablePlane:

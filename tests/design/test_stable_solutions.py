@@ -12,9 +12,11 @@ from flint import fmpq, fmpq_poly, fmpz_poly
 from garkcli import minimise
 from garkcli.design.choices import accepted_methods
 from garkcli.design.design import Design, find_parameters, stable_sets
+from garkcli.design.member import Whose
 from garkcli.design.minimise.line import Within
 from garkcli.design.stable_parts import StablePart
-from garkcli.design.stable_values import stable_values
+from garkcli.design.stable_plane import stable_set
+from garkcli.design.stable_values import StableValues, stable_values
 from garkcli.errors import MethodFileError
 from garkcli.exact.cells import Interval, where
 from garkcli.exact.domain import square_free
@@ -308,3 +310,37 @@ design: {order: 2, a-stable: true}
     assert "exactly" not in run.out
     point = gark("design", "-", "--set", "d=0", stdin=text)
     assert "g = 2: order 2 of the method, proved, A-stable" in point.out
+
+
+@pytest.mark.parametrize(
+    ("text", "order", "whose", "form"),
+    [
+        (
+            "parameters: {g: free, w: free}\nA: [[g, 0], [1 - 2*g, g]]\nb: [1/2, 1/2]\n"
+            "embedded: [w, 1 - w]\ndesign: {a-stable: true}",
+            2,
+            "method",
+            "g",
+        ),
+        (
+            "parameters: {t1: free, t2: free}\nmethods: [gauss-2, gauss-3]\n"
+            "transfer: {interpolation: t1, conjugate-collocation: t2, legendre: 1 - t1 - t2}\n"
+            "design: {p-stable: true}",
+            4,
+            "pair",
+            "t1 - 2/3*t2",
+        ),
+    ],
+)
+def test_several_parameters_of_which_every_value_has_the_order(
+    text: str, order: int, whose: Whose, form: str
+) -> None:
+    """The set is that of the file without an order: in the one form on which the step depends."""
+    family = loads_family(text)
+    design = find_parameters(family, order, whose)
+    [values] = stable_sets(design)
+    assert design.last.is_real
+    alone = stable_set(family, values.wanted, whose)
+    assert isinstance(alone, StableValues)
+    assert alone.found == values.found
+    assert str(alone.form) == str(values.form) == form
