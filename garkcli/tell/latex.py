@@ -46,10 +46,10 @@ _SIGN = re.compile(f"[A-Za-z][{''.join(_ABOVE)}]|[^A-Za-z0-9 ]")
 
 def _sign(found: re.Match[str]) -> str:
     """A sign, or a letter with what is above it."""
-    letter, *above = found[0]
-    if above:
-        return rf"$\{_ABOVE[above[0]]} {letter}$"
-    return SIGNS.get(letter) or greek(letter)
+    sign = found[0]
+    if len(sign) > 1:
+        return rf"$\{_ABOVE[sign[1]]} {sign[0]}$"
+    return SIGNS.get(sign) or greek(sign)
 
 
 def expression_latex(text: str) -> str | None:
