@@ -8,13 +8,13 @@ own; where these are too many, what it assigns is unknown.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import Protocol, TypeAlias
+from typing import Any, Protocol, TypeAlias, TypeVar
 
 from garkcli.frozen import replace
 from garkcli.sources import ir
 from garkcli.sources.allowance import Allowance
 from garkcli.sources.found import MAX_STAGES
-from garkcli.sources.known import CALLS, CONSTANTS, CONVERSIONS, Call, conversion
+from garkcli.sources.known import CONSTANTS, CONVERSIONS, Call, conversion, result
 from garkcli.sources.signatures import SIGNATURES, other_kind
 from garkcli.sources.values import (
     FILL,
@@ -53,7 +53,6 @@ MAX_INLINED = 8
 """Deepest nesting of calls of functions of one expression."""
 MAX_OPEN = 2
 """The same where no argument is known: little comes of it, and the work may double each time."""
-_SELF = frozenset({"self", "this", "cls"})
 _GROWING = frozenset({"push_back", "append", "emplace_back", "push!"})
 _SAME = frozenset({"copy", "astype", "tolist", "to", "clone", "item", "double", "float", "numpy"})
 """Methods that give the array or the number itself."""
@@ -98,7 +97,9 @@ class Space(dict[str, Value]):
         return other
 
 
-Place: TypeAlias = tuple[Array, int]
+Place: TypeAlias = tuple[Any, Any]
+"""What holds a value, and under which name or at which place."""
+Made = TypeVar("Made", Array, Record)
 
 
 class Finder(Protocol):
@@ -263,28 +264,24 @@ class Evaluator:
                 space[loop.name] = item
                 self._run(loop.body, [space])
             return
-        for target, line in _targets([loop.body]):
+        for target, line in _targets(loop.body):
             self.spoil(target, space, "assigned in a loop", line)
 
     def spoil(self, target: ir.Expr, space: Space, reason: str, line: int) -> None:
         """All entries of an array, or a name, become unknown."""
-        while isinstance(target, ir.Index | ir.Field) and not _is_of_self(target):
+        while isinstance(target, ir.Index | ir.Field) and not _plain_name(target):
             target = target.of
         if isinstance(target, ir.Items):
             for item in target.items:
                 self.spoil(item, space, reason, line)
-        elif isinstance(target, ir.Name | ir.Field):
-            unknown = Unknown(reason, line)
-            old = space.get(target.name)
-            is_array = isinstance(old, Array) and bool(old.items)
-            if is_array:
-                assert isinstance(old, Array)
-                written = replace(unknown, was_written=True)
-                space[target.name] = old.map(
+        elif name := _plain_name(target):
+            unknown, old = Unknown(reason, line), space.get(name)
+            written = replace(unknown, was_written=True)
+            space[name] = unknown
+            if isinstance(old, Array) and old.items:
+                space[name] = old.map(
                     lambda x: written if isinstance(x, Number) and x.is_given else unknown
                 )
-            else:
-                space[target.name] = unknown
 
     def _assign(self, statement: ir.Assign, space: Space) -> None:
         target, line = statement.target, statement.line
@@ -364,119 +361,83 @@ class Evaluator:
         if isinstance(value, Array) or not isinstance(target, ir.Name):
             # no array is in two places, and no record in itself
             value = copied(value)
+        name = _plain_name(target)
+        if not name:
+            self._put(target, value, space, line)
+            return
+        old = space.get(name) if isinstance(target, ir.Name) else None
+        if isinstance(old, Array) and isinstance(value, Array) and _is_replaced(old, value):
+            self._finder.replaced(self._scopes[-1], space, name)
+        space[name] = value
+        space.lines[name] = line
+
+    def _places(self, target: ir.Expr, space: Space) -> list[Place]:
+        """The places that an expression names; none where they are not known."""
+        name = _plain_name(target)
+        if name:
+            outer = None if name in space else space.find(name)
+            if outer is not None:
+                space[name] = copied(outer)
+            return [(space, name)]
         match target:
-            case ir.Name(name=name):
-                old = space.get(name)
-                are_arrays = isinstance(old, Array) and isinstance(value, Array)
-                if old is not None and are_arrays and _is_replaced(old, value):
-                    self._finder.replaced(self._scopes[-1], space, name)
-                space[name] = value
-                space.lines[name] = line
-            case ir.Field(name=name) if _is_of_self(target):
-                space[name] = value
-                space.lines[name] = line
-            case ir.Field(of=of, name=name):
-                record = self._record(of, space)
-                if record is not None:
-                    record.fields[name] = value
+            case ir.Field(of=of, name=key) | ir.Index(of=of, at=(ir.Text(text=key),)):
+                record = self._changed(of, space, Record("", {}, (), self.line))
+                return [] if record is None else [(record.fields, key)]
             case ir.Index(of=of, at=at):
-                if not self._put(of, at, value, space):
-                    self.spoil(of, space, "an entry at an unknown place", line)
+                array = self._changed(of, space, Array([], self.base, is_growing=True))
+                return [] if array is None else self._entries(array, at, space)
+        return []
 
-    def _record(self, of: ir.Expr, space: Space) -> Record | None:
-        """The record whose field is assigned, made where there is none."""
-        found = self._held(of, space)
-        if isinstance(found, Record):
-            return found
-        if found is None or isinstance(found, Unknown):
-            made = Record("", {}, (), self.line)
-            if isinstance(of, ir.Name | ir.Field):
-                self._store(of, made, space, self.line)
-            return made
-        return None
+    def _changed(self, of: ir.Expr, space: Space, made: Made) -> Made | None:
+        """The array or the record that is changed, made where there is none."""
+        places = self._places(of, space)
+        if len(places) != 1:
+            return None
+        ((inside, key),) = places
+        old = inside.get(key) if isinstance(inside, dict) else inside[key]
+        if isinstance(old, type(made)):
+            return old
+        is_free = old is None or isinstance(old, Unknown)
+        if isinstance(made, Array):
+            is_free = old is None or isinstance(old, Null) or _is_unset(old)
+        if not is_free:
+            return None
+        inside[key] = made
+        if inside is space:
+            space.lines.setdefault(str(key), self.line)
+        return made
 
-    def _held(self, of: ir.Expr, space: Space) -> Value | None:
-        """The value of a name, a field or an entry, to be changed; None where there is none yet."""
-        match of:
-            case ir.Name(name=name):
-                if name not in space and space.find(name) is not None:
-                    found = space.find(name)
-                    assert found is not None
-                    space[name] = copied(found)
-                return space.get(name)
-            case ir.Field(name=name) if _is_of_self(of):
-                return space.get(name)
-            case ir.Field(of=inner, name=name):
-                record = self._held(inner, space)
-                if record is None or isinstance(record, Unknown):
-                    record = self._record(inner, space)
-                return record.fields.get(name) if isinstance(record, Record) else None
-            case ir.Index(of=inner, at=at):
-                places = self._places(self._box(inner, space), at, space)
-                if len(places) == 1:
-                    array, i = places[0]
-                    return array.items[i]
-        return None
-
-    def _box(self, of: ir.Expr, space: Space) -> Array | None:
-        """The array whose entry is assigned, made where there is none."""
-        found = self._held(of, space)
-        if found is None or isinstance(found, Null) or _is_unset(found):
-            made = Array([], self.base, is_growing=True)
-            match of:
-                case ir.Name(name=name):
-                    space[name] = made
-                    space.lines.setdefault(name, self.line)
-                case ir.Field(of=inner, name=name):
-                    record = self._record(inner, space)
-                    if record is not None:
-                        record.fields[name] = made
-                case ir.Index(of=inner, at=at):
-                    for array, i in self._places(self._box(inner, space), at, space):
-                        array.items[i] = made
-            return made
-        return found if isinstance(found, Array) else None
-
-    def _put(self, of: ir.Expr, at: Sequence[ir.Expr], value: Value, space: Space) -> bool:
-        """Whether the entries are known and were assigned."""
-        if isinstance(at[0], ir.Text):
-            record = self._record(of, space)
-            if record is not None:
-                record.fields[at[0].text] = value
-                space.lines[at[0].text] = self.line
-            return True
-        places = self._places(self._box(of, space), at, space)
-        if not places:
-            return False
+    def _put(self, target: ir.Expr, value: Value, space: Space, line: int) -> None:
+        """Assign to fields and entries; an entry that is not known spoils its array."""
+        places = self._places(target, space)
         items: Sequence[Value] = [value] * len(places)
-        if isinstance(value, Array) and any(isinstance(x, ir.Range) for x in at):
-            items = value.items if len(value.items) == len(places) else list(value.flat())
-            if len(items) != len(places):
-                return False
-        for (array, i), item in zip(places, items, strict=True):
-            array.items[i] = item
-        return True
+        match target:
+            case ir.Index(at=(ir.Text(text=key),)):
+                space.lines[key] = line
+            case ir.Index(at=at) if isinstance(value, Array) and _is_slice(at):
+                items = value.items if len(value.items) == len(places) else list(value.flat())
+        if len(items) == len(places) > 0:
+            for (inside, key), item in zip(places, items, strict=True):
+                inside[key] = item
+        elif isinstance(target, ir.Index):
+            self.spoil(target.of, space, "an entry at an unknown place", line)
 
-    def _places(self, box: Array | None, at: Sequence[ir.Expr], space: Space) -> list[Place]:
-        """The entries that indices name, none where one of them is not known."""
-        if box is None:
-            return []
+    def _entries(self, array: Array, at: Sequence[ir.Expr], space: Space) -> list[Place]:
+        """The entries that indices name."""
         places: list[Place] = []
-        for i in self._numbers(at[0], box, space):
-            if box.is_growing and len(box.items) <= i < MAX_STAGES:
+        for i in self._numbers(at[0], array, space):
+            if array.is_growing and len(array.items) <= i < MAX_STAGES:
                 self.allowance.spend(i)
-                box.items += [FILL] * (i + 1 - len(box.items))
-            if not 0 <= i < len(box.items):
+                array.items += [FILL] * (i + 1 - len(array.items))
+            if not 0 <= i < len(array.items):
                 return []
             if len(at) == 1:
-                places.append((box, i))
+                places.append((array.items, i))
                 continue
-            row = box.items[i]
-            if box.is_growing and _is_unset(row):
-                row = box.items[i] = Array([], self.base, is_growing=True)
-            if not isinstance(row, Array):
-                return []
-            inner = self._places(row, at[1:], space)
+            row = array.items[i]
+            if array.is_growing and _is_unset(row):
+                row = array.items[i] = Array([], self.base, is_growing=True)
+            inner = self._entries(row, at[1:], space) if isinstance(row, Array) else []
             if not inner:
                 return []
             places += inner
@@ -631,8 +592,8 @@ class Evaluator:
         return self.array(integer(i) for i in range(ends[0], ends[1] + 1))
 
     def _field(self, expr: ir.Field, space: Space) -> Value:
-        if _is_of_self(expr):
-            return self._named(expr.name, space)
+        if name := _plain_name(expr):
+            return self._named(name, space)
         of = self.value(expr.of, space)
         if isinstance(of, Record) and expr.name in of.fields:
             return of.fields[expr.name]
@@ -724,8 +685,8 @@ class Evaluator:
             plain, target = target.name, None
         if isinstance(target, Type) or (_is_an_argument(target, name) and len(args) == 1):
             return conversion(args, self.line) if args else self.unknown(f"the call {name}")
-        if plain in CALLS and not isinstance(target, Array):
-            made = CALLS[plain](Call(plain, call, args, named, self))
+        if not isinstance(target, Array):
+            made = result(Call(plain, call, named, self), args)
             if made is not None:
                 return made
         if isinstance(target, Array) and args:
@@ -768,7 +729,7 @@ class Evaluator:
 
     def _method(self, of: ir.Expr, name: str, args: Sequence[ir.Expr], space: Space) -> Value:
         """What changes an array in place."""
-        box = self._box(of, space)
+        box = self._changed(of, space, Array([], self.base, is_growing=True))
         values = [self.value(x, space) for x in args]
         if box is None:
             return NULL
@@ -794,12 +755,16 @@ def _is_unset(value: Value) -> bool:
     return value is FILL or (isinstance(value, Unknown) and value.reason == "never assigned")
 
 
-def _is_of_self(expr: ir.Expr) -> bool:
-    """Whether it is ``self.name``."""
+def _plain_name(expr: ir.Expr) -> str:
+    """The name that an expression is, also as ``self.name``; empty for others."""
     match expr:
-        case ir.Field(of=ir.Name(name=name)):
-            return name in _SELF
-    return False
+        case ir.Name(name=name) | ir.Field(of=ir.Name(name="self" | "this" | "cls"), name=name):
+            return name
+    return ""
+
+
+def _is_slice(at: Sequence[ir.Expr]) -> bool:
+    return any(isinstance(x, ir.Range) for x in at)
 
 
 def _may_make_a_table(name: str, args: Sequence[Value], named: Mapping[str, Value]) -> bool:
@@ -828,37 +793,22 @@ def _has_effect(arm: ir.Body) -> bool:
     return any(_matters(x) for x in arm)
 
 
-def _has_numbers(body: ir.Body) -> bool:
+def _has_numbers(body: object) -> bool:
     """Whether fractions, decimals, lists or entries are assigned or given to calls."""
-    for statement in body:
-        match statement:
-            case ir.Assign(value=value) | ir.Do(value=value) | ir.Return(value=value):
-                if value is not None and _is_numeric(value):
-                    return True
-            case ir.Branch(arms=arms):
-                if any(map(_has_numbers, arms)):
-                    return True
-            case ir.Loop(body=inner) | ir.Scope(body=inner):
-                if _has_numbers(inner):
-                    return True
-    return False
+    return any(map(_is_numeric, ir.inside(body, _UNSEEN)))
 
 
-def _is_numeric(expr: ir.Expr) -> bool:
+_UNSEEN = frozenset({"conditions", "over", "target", "at", "extents", "parameters"})
+
+
+def _is_numeric(expr: object) -> bool:
     match expr:
         case ir.Literal(text=text):
             return "." in text
         case ir.Items(items=items):
             return bool(items)
-        case ir.Rows():
+        case ir.Rows() | ir.Binary(sign="/", left=ir.Literal()):
             return True
-        case ir.Binary(sign=sign, left=left, right=right):
-            is_quotient = sign == "/" and isinstance(left, ir.Literal)
-            return is_quotient or _is_numeric(left) or _is_numeric(right)
-        case ir.Unary(of=of) | ir.Transposed(of=of):
-            return _is_numeric(of)
-        case ir.Call(args=args, named=named):
-            return any(map(_is_numeric, args)) or any(_is_numeric(x) for _, x in named)
     return False
 
 
@@ -881,20 +831,15 @@ def _is_plain(body: ir.Body) -> bool:
     return not any(isinstance(x, ir.Branch | ir.Scope | ir.Return) for x in body)
 
 
-def _targets(bodies: Iterable[ir.Body]) -> Iterator[tuple[ir.Expr, int]]:
-    """What is assigned in some bodies, and where."""
-    for body in bodies:
-        for statement in body:
-            match statement:
-                case ir.Assign(target=target, line=line):
-                    yield target, line
-                case ir.Branch(arms=arms):
-                    yield from _targets(arms)
-                case ir.Loop(body=inner):
-                    yield from _targets([inner])
-                case ir.Do(value=ir.Call(callee=ir.Field(of=of, name=name)), line=line):
-                    if name in _METHODS:
-                        yield of, line
+def _targets(body: object) -> Iterator[tuple[ir.Expr, int]]:
+    """What is assigned in some statements, and where."""
+    for statement in ir.inside(body):
+        match statement:
+            case ir.Assign(target=target, line=line):
+                yield target, line
+            case ir.Do(value=ir.Call(callee=ir.Field(of=of, name=name)), line=line):
+                if name in _METHODS:
+                    yield of, line
 
 
 def _is_replaced(old: Value, value: Value) -> bool:

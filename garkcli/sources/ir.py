@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Iterator
 from typing import Literal as Choice
 from typing import TypeAlias
 
-from garkcli.frozen import Frozen
+from garkcli.frozen import Frozen, fields
 
 
 class Name(Frozen):
@@ -228,3 +229,20 @@ class Loop(Frozen):
 
 Statement: TypeAlias = Assign | Do | Return | Scope | Branch | Loop
 Body: TypeAlias = tuple[Statement, ...]
+
+
+def inside(node: object, unseen: Collection[str] = ()) -> Iterator[object]:
+    """What is in an expression or a statement, itself first, in order.
+
+    Args:
+        node: it, or several.
+        unseen: the attributes that are passed over.
+    """
+    if isinstance(node, tuple | list):
+        for x in node:
+            yield from inside(x, unseen)
+    elif isinstance(node, Frozen):
+        yield node
+        for name in fields(node):
+            if name not in unseen:
+                yield from inside(getattr(node, name), unseen)

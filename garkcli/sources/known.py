@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, TypeAlias
 
 from garkcli.frozen import Frozen
@@ -43,7 +43,6 @@ class Call(Frozen):
 
     name: str
     expr: ir.Call
-    args: Sequence[Value]
     named: Mapping[str, Value]
     evaluator: Evaluator
 
@@ -52,30 +51,61 @@ class Call(Frozen):
         """Where it is."""
         return self.evaluator.line
 
-    def unknown(self) -> Unknown:
+    def unknown(self, reason: str = "") -> Unknown:
         """What this call gives is not known."""
-        return self.evaluator.unknown(f"the call {self.name}")
+        return self.evaluator.unknown(reason or f"the call {self.name}")
+
+    def array(self, items: Iterable[Value]) -> Array:
+        """An array of its language."""
+        return self.evaluator.array(items)
+
+    def filled(self, fill: Value, *sizes: int) -> Array:
+        """An array with the same value everywhere."""
+        self.evaluator.allowance.spend(2 * math.prod(max(n, 1) for n in sizes))
+        row = [fill] * sizes[-1]
+        return self.array(row if len(sizes) == 1 else (self.array(row) for _ in range(sizes[0])))
 
 
-Known: TypeAlias = Callable[[Call], Value | None]
-"""The value of a call; None where the function is another one of that name."""
+Known: TypeAlias = Callable[..., Value | None]
+"""The value of a call with these arguments; None where the function is another one of that name."""
 
 CONSTANTS: Mapping[str, Value] = {
     **dict.fromkeys(("NULL", "nullptr", "nothing", "None", "missing", "PETSC_NULLPTR"), NULL),
     **{name: Word("true") for name in ("true", "True", "SUNTRUE", "PETSC_TRUE")},
     **{name: Word("false") for name in ("false", "False", "SUNFALSE", "PETSC_FALSE")},
-    **dict.fromkeys(("ZERO",), ZERO),
+    "ZERO": ZERO,
     "ONE": real(ONE),
     "TWO": real(integer(2)),
     "#": Number(None, math.nan, written=Scalar("x")),
 }
 """Names that mean the same everywhere; ``#`` is the variable of a polynomial."""
+CALLS: dict[str, Known] = {}
+"""What is known of each function."""
 
 
-def conversion(args: Sequence[Value], line: int) -> Value:
+def _known(names: str) -> Callable[[Known], Known]:
+    def declared(function: Known) -> Known:
+        CALLS.update(dict.fromkeys(names.split(), function))
+        return function
+
+    return declared
+
+
+def result(call: Call, args: list[Value]) -> Value | None:
+    """The value of a call; None where nothing is known of it with so many arguments."""
+    function = CALLS.get(call.name)
+    if function is None:
+        return None
+    code, defaults = function.__code__, function.__defaults__ or ()
+    most = code.co_argcount - 1
+    takes_more = bool(code.co_flags & 4)
+    is_fitting = most - len(defaults) <= len(args) and (takes_more or len(args) <= most)
+    return function(call, *args) if is_fitting else None
+
+
+def conversion(args: Iterable[Value], line: int) -> Value:
     """The value that a type is called with; texts with a number in them are numbers."""
-    values = [x for x in args if not isinstance(x, Type)] or [NULL]
-    value = values[0]
+    value = next((x for x in args if not isinstance(x, Type)), NULL)
     if isinstance(value, Word):
         return _of_text(value.text, line)
     if isinstance(value, Array):
@@ -92,314 +122,262 @@ def _of_text(text: str, line: int) -> Value:
     return computed("/", numbers[0], numbers[1], line) if bar else numbers[0]
 
 
-def _converted(call: Call) -> Value | None:
-    values = [x for x in call.args if not isinstance(x, Type)]
+_TYPES = """
+    convert big BigFloat BigInt Rational float Float64 Float32 Float16 Double64 Int Int128
+    Int64 collect SVector SMatrix SArray MVector MMatrix Vector Matrix Array Tuple
+    tuple list array asarray ImmutableMatrix float64 float32 longdouble double single
+    tensor as_tensor Fraction mpf mpq mpfr fmpq fmpz QQ Decimal Float S sympify str
+    int Integer SUN_RCONST RCONST PetscRealConstant sunrealtype realtype real_t
+    PetscReal PetscScalar real Real dble identity parse vec fraction static_cast
+    Number vector make_array sym vpa mp str2sym full num2cell cell2mat as_double
+    deepcopy copy freeze array_from rational float128 cpp_bin_float String
+    LinearAlgebra string value_type RC REAL N SetPrecision SetAccuracy Rationalize
+"""
+CONVERSIONS = frozenset(_TYPES.split())
+"""Types, and functions that give back the number, the list or the matrix that they get."""
+
+
+@_known(_TYPES)
+def _converted(call: Call, *args: Value) -> Value | None:
+    values = [x for x in args if not isinstance(x, Type)]
     if any(x == ir.Name("undef") for x in call.expr.args):
-        return _filled(call, Unknown("never assigned", call.line))
+        return _empty(call, *args)
     if not values:
         return None
-    if call.name in {"Rational", "Fraction", "mpq", "fmpq", "QQ"} and len(values) == 2:
-        numbers = [conversion([x], call.line) for x in values]
-        return call.evaluator.combined("/", numbers[0], numbers[1])
-    if call.name in {"SVector", "SMatrix", "MVector", "Tuple", "Integer"} and len(values) > 1:
-        return call.evaluator.array(values)
-    if call.name == "convert" and len(values) == 2:
-        return conversion(values[1:], call.line)
-    return conversion(values, call.line)
+    if len(values) == 2 and call.name in {"Rational", "Fraction", "mpq", "fmpq", "QQ"}:
+        above, below = (conversion([x], call.line) for x in values)
+        return call.evaluator.combined("/", above, below)
+    if len(values) > 1 and call.name in {"SVector", "SMatrix", "MVector", "Tuple", "Integer"}:
+        return call.array(values)
+    is_second = len(values) == 2 and call.name == "convert"
+    return conversion(values[1:] if is_second else values, call.line)
 
 
-def _root(call: Call) -> Value | None:
-    if not call.args:
-        return None
-    index = 3 if call.name in {"cbrt", "CubeRoot"} else 2
-    if call.name in {"nthroot", "real_nthroot", "root", "Surd"}:
-        given = whole(call.args[1]) if len(call.args) == 2 else None
-        if given is None:
-            return call.unknown()
-        index = given
-    value = call.args[0]
-    if isinstance(value, Array):
-        return value.map(lambda x: root(x, index, call.line))
-    return root(value, index, call.line)
+@_known("sqrt Sqrt PetscSqrtReal SUNRsqrt √ dsqrt std_sqrt")
+def _square_root(call: Call, value: Value, *_: Value) -> Value | None:
+    return _root(call, value, integer(2))
 
 
-def _root_of(call: Call) -> Value | None:
-    """A root of a polynomial: by its number in Mathematica, and else by a decimal near it."""
-    if len(call.args) != 2 or not all(isinstance(x, Number) for x in call.args):
+@_known("cbrt CubeRoot")
+def _cube_root(call: Call, value: Value, *_: Value) -> Value | None:
+    return _root(call, value, integer(3))
+
+
+@_known("nthroot real_nthroot root Surd")
+def _root(call: Call, value: Value, index: Value) -> Value | None:
+    n = whole(index)
+    if n is None:
         return call.unknown()
-    polynomial, which = call.args
-    assert isinstance(polynomial, Number)
-    assert isinstance(which, Number)
+    if isinstance(value, Array):
+        return value.map(lambda x: root(x, n, call.line))
+    return root(value, n, call.line)
+
+
+@_known("Root root_of")
+def _root_of(call: Call, polynomial: Value, which: Value) -> Value | None:
+    """A root of a polynomial: by its number in Mathematica, and else by a decimal near it."""
+    if not isinstance(polynomial, Number) or not isinstance(which, Number):
+        return call.unknown()
     try:
         if call.name == "Root":
             text = real_root(polynomial.scalar, whole(which) or 0)
             return Number(None, float(text.text.rpartition(",")[2].strip(" )")), written=text)
     except Unreadable as error:
-        return call.evaluator.unknown(error.message)
+        return call.unknown(error.message)
     text = Scalar(f"root_of({polynomial.scalar.text}, {which.scalar.text})")
     return Number(None, which.near, written=text)
 
 
-def _sizes(values: Sequence[Value]) -> list[int] | None:
-    """The numbers of a shape, whether they are arguments or a list."""
-    flat: list[Value] = []
-    for x in values:
-        flat += x.items if isinstance(x, Array) else [x]
-    counts = [whole(x) for x in flat if isinstance(x, Number)]
-    if not counts or len(counts) < len(flat):
-        return None
-    found = [x for x in counts if x is not None and x >= 0]
-    return found if len(found) == len(counts) else None
+def _sizes(values: Iterable[Value]) -> list[int]:
+    """The numbers of a shape, whether they are arguments or a list; none where one is unknown."""
+    flat = list(Array([x for x in values if not isinstance(x, Type | Word)]).flat())
+    counts = [whole(x) for x in flat]
+    found = [x for x in counts if x is not None and 0 <= x <= MAX_STAGES**2]
+    return found if len(found) == len(counts) <= 2 else []
 
 
-def _filled(call: Call, fill: Value) -> Value:
-    sizes = _sizes([x for x in call.args if not isinstance(x, (Type, Word))][:3])
-    known = [x for x in call.args if not isinstance(x, (Type, Word))]
-    if known and isinstance(known[0], Unknown) and len(known) > 1:
+def _filled(call: Call, fill: Value, args: Iterable[Value]) -> Value:
+    known = [x for x in args if not isinstance(x, Type | Word)]
+    if len(known) > 1 and isinstance(known[0], Unknown):
         # zeros(T, 2, 2), where T is not known
-        sizes = _sizes(known[1:])
-    if sizes is None or len(sizes) > 2 or max(sizes) > MAX_STAGES:
-        return call.evaluator.unknown("an array of unknown size")
-    rows, columns = sizes[0], sizes[1] if len(sizes) > 1 else 0
-    array, allowance = call.evaluator.array, call.evaluator.allowance
-    allowance.spend(2 * rows * max(columns, 1))
-    if len(sizes) == 1:
-        return array([fill] * rows)
-    return array(array([fill] * columns) for _ in range(rows))
+        known = known[1:]
+    sizes = _sizes(known[:3])
+    if not sizes or max(sizes) > MAX_STAGES:
+        return call.unknown("an array of unknown size")
+    return call.filled(fill, *sizes)
 
 
-def _zeros(call: Call) -> Value | None:
-    return _filled(call, FILL)
+@_known("zeros zeros_like Zero")
+def _zeros(call: Call, *args: Value) -> Value | None:
+    return _filled(call, FILL, args)
 
 
-def _ones(call: Call) -> Value | None:
-    return _filled(call, real(ONE))
+@_known("ones Ones")
+def _ones(call: Call, *args: Value) -> Value | None:
+    return _filled(call, real(ONE), args)
 
 
-def _fill(call: Call) -> Value | None:
-    if len(call.args) < 2:
-        return None
-    counted = call.args[1:] if call.name == "fill" else call.args[:1]
-    value = call.args[0] if call.name == "fill" else call.args[1]
-    return _filled(Call(call.name, call.expr, counted, {}, call.evaluator), value)
+@_known("empty similar")
+def _empty(call: Call, *args: Value) -> Value | None:
+    return _filled(call, call.unknown("never assigned"), args)
 
 
-def _empty(call: Call) -> Value | None:
-    return _filled(call, call.evaluator.unknown("never assigned"))
+@_known("fill")
+def _fill(call: Call, value: Value, *sizes: Value) -> Value | None:
+    return _filled(call, value, sizes) if sizes else None
 
 
-def _zero(call: Call) -> Value | None:
-    del call
+@_known("zero")
+def _zero(_call: Call, *_: Value) -> Value | None:
     return ZERO
 
 
-def _one(call: Call) -> Value | None:
-    del call
+@_known("one")
+def _one(_call: Call, *_: Value) -> Value | None:
     return real(ONE)
 
 
-def _sum(call: Call) -> Value | None:
-    values = call.args[0] if call.args else NULL
+@_known("sum")
+def _sum(call: Call, values: Value, axis: Value = NULL, *_: Value) -> Value | None:
+    """The sum of a list; of a matrix those of its rows."""
     if not isinstance(values, Array):
         return values if isinstance(values, Unknown) else None
-    axis = whole(call.named.get("axis", call.named.get("dims", NULL)))
-    if axis is None and len(call.args) > 1:
-        axis = whole(call.args[1])
-    combined = call.evaluator.combined
-
-    def total(items: Sequence[Value]) -> Value:
-        found: Value = ZERO
-        for x in items:
-            found = combined("+", found, x)
-        return found
-
+    rows = [x for x in values.items if isinstance(x, Array)] if values.is_matrix else [values]
+    totals: list[Value] = []
+    for row in rows:
+        total: Value = ZERO
+        for x in row.items:
+            total = call.evaluator.combined("+", total, x)
+        totals.append(total)
     if not values.is_matrix:
-        return total(values.items)
-    if axis == 1 + call.evaluator.base:
-        return call.evaluator.array([total(x.items) for x in values.items if isinstance(x, Array)])
-    return call.unknown()
+        return totals[0]
+    along = whole(call.named.get("axis", call.named.get("dims", axis)))
+    return call.array(totals) if along == 1 + call.evaluator.base else call.unknown()
 
 
-def _transposed(call: Call) -> Value | None:
-    return transposed(call.args[0], call.line) if call.args else None
+@_known("transpose permutedims adjoint")
+def _transposed(call: Call, value: Value, *_: Value) -> Value | None:
+    return transposed(value, call.line)
 
 
-def _reshaped(call: Call) -> Value | None:
+@_known("reshape")
+def _reshaped(call: Call, value: Value, *shape: Value) -> Value | None:
     """The entries in another shape: by columns in Julia, MATLAB and Fortran, by rows in Python."""
-    args = call.args
-    if not args or not isinstance(args[0], Array):
-        return args[0] if args else None
-    sizes = _sizes([x for x in args[1:3] if not isinstance(x, Word)])
-    flat = list(args[0].flat())
-    if args[0].is_matrix and call.evaluator.base == 1:
-        turned = transposed(args[0], call.line)
-        flat = list(turned.flat()) if isinstance(turned, Array) else flat
-    array = call.evaluator.array
-    if sizes is None or len(sizes) > 2:
-        return call.unknown()
-    rows, columns = sizes[0], sizes[1] if len(sizes) > 1 else 1
-    if rows * columns != len(flat):
+    if not isinstance(value, Array):
+        return value
+    is_by_rows = call.evaluator.base == 0
+    turned = value if is_by_rows or not value.is_matrix else transposed(value, call.line)
+    flat = list((turned if isinstance(turned, Array) else value).flat())
+    sizes = _sizes(shape[:2])
+    if not sizes or math.prod(sizes) != len(flat):
         return call.unknown()
     if len(sizes) == 1:
-        return array(flat)
+        return call.array(flat)
     order = call.named.get("order")
-    is_by_rows = call.evaluator.base == 0
     if isinstance(order, Array):
         is_by_rows = [whole(x) for x in order.items] == [2, 1]
-    if is_by_rows:
-        return array(array(flat[i * columns : (i + 1) * columns]) for i in range(rows))
-    return array(array(flat[i::rows]) for i in range(rows))
+    rows, columns = sizes
+    starts = [slice(i * columns, (i + 1) * columns) for i in range(rows)]
+    return call.array(
+        call.array(flat[at if is_by_rows else slice(i, None, rows)]) for i, at in enumerate(starts)
+    )
 
 
-def _stacked(call: Call) -> Value | None:
+@_known("vcat concatenate hstack vstack")
+def _stacked(call: Call, *given: Value) -> Value | None:
     """Lists behind one another, matrices below one another."""
-    items: list[Value] = []
-    given = call.args
     if len(given) == 1 and isinstance(given[0], Array) and call.evaluator.base == 0:
-        given = given[0].items
-    for x in given:
-        if isinstance(x, Unknown):
-            return x
-        items += x.items if isinstance(x, Array) else [x]
-    return call.evaluator.array(items)
+        given = tuple(given[0].items)
+    unknown = next((x for x in given if isinstance(x, Unknown)), None)
+    if unknown is not None:
+        return unknown
+    return call.array(y for x in given for y in (x.items if isinstance(x, Array) else [x]))
 
 
-def _repeated(call: Call) -> Value | None:
+CALLS["list +"] = _stacked
+
+
+def _repeated(call: Call, values: Value, times: Value) -> Value | None:
     """A list so many times, one behind the other."""
-    values, count = call.args[0], whole(call.args[1])
+    count = whole(times)
     if not isinstance(values, Array) or count is None or count > MAX_STAGES:
         return call.unknown()
     call.evaluator.allowance.spend(size(values) * max(count, 0))
-    return call.evaluator.array(copied(x) for _ in range(count) for x in values.items)
+    return call.array(copied(x) for _ in range(count) for x in values.items)
 
 
-def _mapped(call: Call) -> Value | None:
-    if len(call.args) != 2:
-        return None
-    function, values = call.args
-    is_type = isinstance(function, Type)
+CALLS["list *"] = _repeated
+
+
+@_known("map")
+def _mapped(call: Call, function: Value, values: Value) -> Value | None:
     is_argument = isinstance(function, Unknown) and function.reason.startswith("the argument")
-    if not is_type and not is_argument:
+    if not isinstance(function, Type) and not is_argument:
         return call.unknown()
     return conversion([values], call.line)
 
 
-def _each(call: Call) -> Value | None:
+def _each(call: Call, function: Value, values: Value) -> Value | None:
     """``[f(x) for x in …]``."""
-    function, values = call.args
     if not isinstance(function, Function) or not isinstance(values, Array):
         return call.unknown()
     call.evaluator.allowance.spend(size(values))
-    return call.evaluator.array(call.evaluator.applied(function, [x]) for x in values.items)
+    return call.array(call.evaluator.applied(function, [x]) for x in values.items)
 
 
-def _power(call: Call) -> Value | None:
-    if len(call.args) != 2:
-        return None
-    return call.evaluator.combined("^", call.args[0], call.args[1])
+CALLS["list of each"] = _each
 
 
-def _quotient(call: Call) -> Value | None:
-    if len(call.args) != 2:
-        return None
-    return call.evaluator.combined("/", real(call.args[0]), real(call.args[1]))
+@_known("power pow Power SUNRpowerR")
+def _power(call: Call, base: Value, exponent: Value) -> Value | None:
+    return call.evaluator.combined("^", base, exponent)
 
 
-def _square(call: Call) -> Value | None:
-    if len(call.args) != 1:
-        return None
-    return call.evaluator.combined("*", call.args[0], call.args[0])
+@_known("rdivide")
+def _quotient(call: Call, above: Value, below: Value) -> Value | None:
+    return call.evaluator.combined("/", real(above), real(below))
 
 
-def _length(call: Call) -> Value | None:
-    value = call.args[0] if call.args else NULL
+@_known("PetscSqr SUNSQR")
+def _square(call: Call, value: Value) -> Value | None:
+    return call.evaluator.combined("*", value, value)
+
+
+@_known("length len size")
+def _length(call: Call, value: Value = NULL, *_: Value) -> Value | None:
     return integer(len(value.items)) if isinstance(value, Array) else call.unknown()
 
 
-def _diagonal(call: Call) -> Value | None:
+@_known("diag")
+def _diagonal(call: Call, value: Value, above: Value = ZERO) -> Value | None:
     """A matrix with the entries of a list on its diagonal, or on one so far above it."""
-    value, above = (*call.args, ZERO)[:2] if len(call.args) in (1, 2) else (NULL, NULL)
     off = whole(above)
     if not isinstance(value, Array) or value.is_matrix or off is None or abs(off) > MAX_STAGES:
         return call.unknown()
     count = len(value.items) + abs(off)
-    array = call.evaluator.array
-    call.evaluator.allowance.spend(count * count)
-    rows: list[list[Value]] = [[ZERO] * count for _ in range(count)]
+    found = call.filled(ZERO, count, count)
     for i, x in enumerate(value.items):
-        rows[i + max(-off, 0)][i + max(off, 0)] = x
-    return array(array(row) for row in rows)
+        row = found.items[i + max(-off, 0)]
+        assert isinstance(row, Array)
+        row.items[i + max(off, 0)] = x
+    return found
 
 
-def _record(call: Call) -> Value | None:
+@_known("struct")
+def _record(call: Call, *args: Value) -> Value | None:
     """``struct('A', …)``."""
-    pairs = zip(call.args[::2], call.args[1::2], strict=False)
+    pairs = zip(args[::2], args[1::2], strict=False)
     return Record("", {key.text: x for key, x in pairs if isinstance(key, Word)}, (), call.line)
 
 
-def _butcher_table(call: Call) -> Value | None:
-    """``ARKodeButcherTable_Alloc(stages, embedded)``: arrays of zeros."""
-    stages = whole(call.args[0]) if call.args else None
-    if stages is None or not 0 < stages <= MAX_STAGES:
-        return call.evaluator.unknown("the number of stages is not written out")
-    array = call.evaluator.array
-    call.evaluator.allowance.spend(stages * stages)
-    fields: dict[str, Value] = {"A": array(array([FILL] * stages) for _ in range(stages))}
-    fields |= {name: array([FILL] * stages) for name in ("b", "c", "d")}
-    return Record(call.name, {**fields, "q": FILL, "p": FILL}, (), call.line)
-
-
-def _symplectic_table(call: Call) -> Value | None:
-    """``ARKodeSPRKTable_Alloc(stages)``: arrays of zeros."""
-    stages = whole(call.args[0]) if call.args else None
-    if stages is None or not 0 < stages <= MAX_STAGES:
-        return call.evaluator.unknown("the number of stages is not written out")
-    array = call.evaluator.array
-    call.evaluator.allowance.spend(2 * stages)
-    fields: dict[str, Value] = {x: array([FILL] * stages) for x in ("a", "ahat")}
-    return Record(call.name, {**fields, "q": FILL, "stages": integer(stages)}, (), call.line)
-
-
-_BY_FUNCTION: Mapping[Known, str] = {
-    _converted: """
-        convert big BigFloat BigInt Rational float Float64 Float32 Float16 Double64 Int Int128
-        Int64 collect SVector SMatrix SArray MVector MMatrix Vector Matrix Array Tuple
-        tuple list array asarray ImmutableMatrix float64 float32 longdouble double single
-        tensor as_tensor Fraction mpf mpq mpfr fmpq fmpz QQ Decimal Float S sympify str
-        int Integer SUN_RCONST RCONST PetscRealConstant sunrealtype realtype real_t
-        PetscReal PetscScalar real Real dble identity parse vec fraction static_cast
-        Number vector make_array sym vpa mp str2sym full num2cell cell2mat as_double
-        deepcopy copy freeze array_from rational float128 cpp_bin_float String
-        LinearAlgebra string value_type RC REAL N SetPrecision SetAccuracy Rationalize
-    """,
-    _root: "sqrt Sqrt PetscSqrtReal SUNRsqrt cbrt CubeRoot nthroot root Surd √ dsqrt std_sqrt",
-    _root_of: "Root root_of",
-    _zeros: "zeros zeros_like Zero",
-    _ones: "ones Ones",
-    _fill: "fill",
-    _empty: "empty similar",
-    _zero: "zero",
-    _one: "one",
-    _sum: "sum",
-    _transposed: "transpose permutedims adjoint",
-    _reshaped: "reshape",
-    _stacked: "vcat concatenate hstack vstack",
-    _mapped: "map",
-    _power: "power pow Power SUNRpowerR",
-    _quotient: "rdivide Rational",
-    _square: "PetscSqr SUNSQR",
-    _length: "length len size",
-    _diagonal: "diag",
-    _record: "struct",
-    _butcher_table: "ARKodeButcherTable_Alloc",
-    _symplectic_table: "ARKodeSPRKTable_Alloc",
-}
-CONVERSIONS = frozenset(_BY_FUNCTION[_converted].split())
-"""Types, and functions that give back the number, the list or the matrix that they get."""
-CALLS: Mapping[str, Known] = {
-    "list *": _repeated,
-    "list +": _stacked,
-    "list of each": _each,
-    **{name: known for known, names in _BY_FUNCTION.items() for name in names.split()},
-}
-"""What is known of each function."""
+@_known("ARKodeButcherTable_Alloc ARKodeSPRKTable_Alloc")
+def _allocated(call: Call, count: Value = NULL, *_: Value) -> Value | None:
+    """Arrays of zeros of SUNDIALS, ``ARKodeButcherTable_Alloc(stages, embedded)``."""
+    n = whole(count)
+    if n is None or not 0 < n <= MAX_STAGES:
+        return call.unknown("the number of stages is not written out")
+    if call.name == "ARKodeSPRKTable_Alloc":
+        rows = {x: call.filled(FILL, n) for x in ("a", "ahat")}
+        return Record(call.name, {**rows, "q": FILL, "stages": integer(n)}, (), call.line)
+    rows = {"A": call.filled(FILL, n, n)} | {x: call.filled(FILL, n) for x in "bcd"}
+    return Record(call.name, {**rows, "q": FILL, "p": FILL}, (), call.line)

@@ -140,6 +140,7 @@ class Follower:
         self._returned: list[str] = []
         self._is_lost = False
         self._components: list[str] = []
+        self._spans: dict[int, ir.Expr] = {}
 
     def follow(self, body: Iterable[ir.Statement]) -> None:
         """Some statements, one after the other."""
@@ -157,8 +158,10 @@ class Follower:
                     self._assign(self._whole(target), value, sign)
                 case ir.Branch(arms=arms):
                     self._lose(_targets(arms))
-                case ir.Loop(name=name, body=inner):
+                case ir.Loop(name=name, over=over, body=inner):
                     if name and _is_over_components(name, inner):
+                        span = self._spans.setdefault(len(self._components), over)
+                        self._is_lost |= span != over
                         self._components.append(name)
                         self.follow(inner)
                         self._components.pop()

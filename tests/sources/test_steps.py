@@ -162,12 +162,13 @@ def test_the_order_of_a_step(name: str) -> None:
         (LOOPS, "yt[i] = y[i]+hh*dyt[i]", "yt[i] = y[i]+hh*dyt[i-1]"),
         (LOOPS, "(*derivs)(x+h, yt, dyt)", "if (x > 0) (*derivs)(x+h, yt, dyt)"),
         (LOOPS, "{ yt[i] = ", "{ s += y[i]; yt[i] = "),
+        (LOOPS, "<= n; i++) yt[i] = y[i]+hh*dyt", "<= n/2; i++) yt[i] = y[i]+hh*dyt"),
         (STATUS, "memcpy(k1, dydt_in", "memcpy(k1, y"),
         (STATUS, "k1[i] + 4.0", "g(k1[i]) + 4.0"),
     ],
 )
 def test_a_step_that_is_not_followed_is_told(text: str, old: str, new: str) -> None:
-    """Other entries, another way that is another step, sums over entries, calls in loops."""
+    """Other entries, half of the entries, another way that is another step, sums, calls in loops."""
     assert old in text
     (found,) = c.find(text.replace(old, new), "x")
     assert (found.name, found.trouble) == (found.name, "a step that is not followed")
