@@ -79,8 +79,8 @@ def layout(tree: Tree) -> list[Vertex]:
 
 
 def draw_text(tree: Tree, colours: bool = True, width: int = 80) -> list[str]:
-    r"""Lines of text, from top to bottom: upright where it fits into ``width``, else lying on its
-    side.
+    r"""Lines of text, from top to bottom: a chain on one line, from its root on,
+    another tree upright, where that fits into ``width``; else lying on its side.
 
     A vertex is a dot followed by its colour, from 1; ``colours=False`` leaves the number out.
 
@@ -91,10 +91,12 @@ def draw_text(tree: Tree, colours: bool = True, width: int = 80) -> list[str]:
     ●1 ●2
     ╰┬─╯
      ●1
+    >>> draw_text(Tree(0, [Tree(0, [Tree(0)])]), colours=False)
+    ['●─●─●']
     """
-    lines, _ = _upright(tree, colours)
-    if text_width(lines) <= width:
-        return lines
+    for lines in (_chain(tree, colours), _upright(tree, colours)[0]):
+        if lines and text_width(lines) <= width:
+            return lines
     return _lying(tree, colours)
 
 
@@ -108,6 +110,17 @@ def _label(tree: Tree, colours: bool) -> str:
         return DOT
     number = tree.root + 1
     return f"{DOT}{number}"
+
+
+def _chain(tree: Tree, colours: bool) -> list[str]:
+    """A tree without forks; nothing of others."""
+    labels = [_label(tree, colours)]
+    while tree.branches:
+        if len(tree.branches) > 1:
+            return []
+        (tree,) = tree.branches
+        labels.append(_label(tree, colours))
+    return ["─".join(labels)]
 
 
 def _upright(tree: Tree, colours: bool) -> tuple[list[str], int]:

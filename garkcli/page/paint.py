@@ -52,17 +52,6 @@ def _in_code(code: str, text: str) -> str:
     return f"\x1b[{code}m{text}\x1b[0m"
 
 
-def counted(count: int, noun: str) -> str:
-    """A number of things.
-
-    >>> counted(1, "file"), counted(2, "file")
-    ('1 file', '2 files')
-    """
-    if count != 1:
-        noun += "s"
-    return f"{count} {noun}"
-
-
 def numbered(names: Sequence[str]) -> str:
     """Names behind their numbers; empty where they are these numbers.
 

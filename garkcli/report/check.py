@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from garkcli.check.findings import BOUND, SHARP_BOUND, bound_numbers, dense_witness_text, order_of
 from garkcli.check.findings import CLAIM as CLAIM_CURE
 from garkcli.check.pair_reasons import pair_reason, rule_reasons
+from garkcli.errors import counted
 from garkcli.exact.display import decimal
 from garkcli.frozen import replace
-from garkcli.ntrees.drawing import draw_text, text_width
+from garkcli.ntrees.drawing import draw_text
 from garkcli.ntrees.notation import format_tree
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ROOT_OF, root_data
-from garkcli.page.paint import counted, folded
+from garkcli.page.paint import folded
 from garkcli.properties.property import Size
 from garkcli.properties.registry import KEYS, find
 from garkcli.reason import NO_REASON, Reason
@@ -141,23 +142,6 @@ def witnesses(a: Any) -> list[tuple[Any, Any]]:
     return found
 
 
-def in_a_line(tree: Any) -> list[str]:
-    """A tree without forks, from its root on; empty for others.
-
-    >>> from garkcli.ntrees.tree import Tree
-    >>> in_a_line(Tree(0, [Tree(0, [Tree(0)])]))
-    ['●─●─●']
-    """
-    colours = [tree.root]
-    while tree.branches:
-        if len(tree.branches) > 1:
-            return []
-        (tree,) = tree.branches
-        colours.append(tree.root)
-    numbers = [str(l + 1) if any(colours) else "" for l in colours]
-    return ["─".join(f"●{number}" for number in numbers)]
-
-
 def drawn(found: Any, d: Plain) -> list[str]:
     """Trees with the values of their conditions."""
     lines = []
@@ -170,9 +154,7 @@ def drawn(found: Any, d: Plain) -> list[str]:
         if names != [str(l + 1) for l in range(len(names))]:
             used = sorted(witness.tree.colours)
             lines.append(f"colour {', '.join(f'{l + 1} is {d.prose(names[l])}' for l in used)}")
-        line = in_a_line(witness.tree)
-        fits = line and text_width(line) <= room
-        lines += d.drawing(line if fits else draw_text(witness.tree, len(names) > 1, room))
+        lines += d.drawing(draw_text(witness.tree, len(names) > 1, room))
     return lines
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from garkcli.check.outcome import Outcome
-from garkcli.errors import excerpt
-from garkcli.page.paint import Paint, counted
+from garkcli.errors import counted, excerpt
+from garkcli.page.paint import Paint
 from garkcli.page.plain import inert, printable
 from garkcli.report.check import CLAIMS, HINTS
 from garkcli.report.checked import REPORT

@@ -6,9 +6,9 @@ import re
 from collections.abc import Iterator, Sequence
 from string import ascii_lowercase
 
+from garkcli.errors import counted
 from garkcli.frozen import Frozen, fields
 from garkcli.page.latex_letters import ascii_letters, letters
-from garkcli.page.paint import counted
 from garkcli.page.plain import printable
 from garkcli.reference import ARXIV, Reference
 from garkcli.tell.facts import Level, Row, Section, maybe, optional

@@ -11,11 +11,10 @@ from flint import fmpq
 
 from garkcli.convergence.result import Convergence
 from garkcli.convergence.result import Row as Step
-from garkcli.errors import Fault
+from garkcli.errors import Fault, counted
 from garkcli.frozen import Frozen
 from garkcli.page.asciiplot import SEVERAL, terminal_curves
 from garkcli.page.figures import scientific
-from garkcli.page.paint import counted
 from garkcli.page.schema import Schema, one_of, published
 from garkcli.problems.oscillator import Oscillator
 from garkcli.problems.righthandside import RightHandSide

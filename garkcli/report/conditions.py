@@ -7,6 +7,7 @@ from functools import cache
 
 from flint import fmpq
 
+from garkcli.errors import counted
 from garkcli.exact.display import decimal, to_decimal, to_latex, to_text
 from garkcli.exact.parametric import Parametric
 from garkcli.frozen import Frozen, Mutable, replace
@@ -15,7 +16,7 @@ from garkcli.ntrees.tree import Tree
 from garkcli.order.conditions import Condition
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.latex import number
-from garkcli.page.paint import counted, numbered
+from garkcli.page.paint import numbered
 from garkcli.report.symplectic_subject import SUBJECT, Subject
 from garkcli.report.trees import DATA, DETAIL, SIZES, TREES, pictures
 from garkcli.tableau.meant import AnyTableau, printed, tolerance_of
@@ -219,13 +220,14 @@ def _formula(row: ConditionRow, d: Plain) -> str:
 
 
 def _in_words(row: ConditionRow, d: Plain) -> str:
-    """The condition, how many it stands for, and by how much it is missed."""
+    """The condition, how many it stands for, its value and by how much that is missed."""
     lines = [f"{row.text(len(d.colours) > 1)}   {_multiplicity(row)}".rstrip()]
     condition = row.condition
-    if condition is not None and not condition.is_exact:
+    if condition is not None and not (condition.is_exact and d.is_brief):
         kind = "coupling" if condition.is_coupling else "diagonal"
-        value, residual = _number(condition, "value", d), _number(condition, "residual", d)
-        lines.append(f"is {value}, off by {residual}  ({kind} condition)")
+        kind = f"  ({kind} condition)" if len(d.colours) > 1 else ""
+        off = "" if condition.is_exact else f", off by {_number(condition, 'residual', d)}"
+        lines.append(f"is {_number(condition, 'value', d)}{off}{kind}")
     if row.members:
         lines.append("  ".join(map(d.tree, row.members)))
     return "\n".join(lines)

@@ -10,9 +10,9 @@ from flint import arb
 from garkcli.check.findings import value_text
 from garkcli.comparison.comparison import WITH_TIME, Comparison
 from garkcli.comparison.differences import BlockGap, EntryGap
+from garkcli.errors import counted
 from garkcli.exact.display import decimal, to_text
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
-from garkcli.page.paint import counted
 from garkcli.properties.property import Size
 from garkcli.properties.registry import KEYS
 from garkcli.reason import Reason

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from math import isfinite, isnan
 from typing import Any, NamedTuple, get_args
 
+from garkcli.errors import counted
 from garkcli.exact.display import to_decimal, to_float
 from garkcli.frozen import Frozen
 from garkcli.longtime.history import Doubt, InvariantHistory, LongRun, Stability, Verdict
@@ -15,7 +16,6 @@ from garkcli.longtime.trend import LEAST, Shape
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.asciiplot import terminal_band
 from garkcli.page.figures import measured
-from garkcli.page.paint import counted
 from garkcli.problems.hamiltonian import FLOAT_DIGITS
 from garkcli.report.failure import FAILURE, Failure
 from garkcli.report.problem import STEPPED

@@ -7,9 +7,9 @@ from typing import Any, TypeAlias
 
 from flint import fmpq
 
+from garkcli.errors import counted
 from garkcli.exact.expression import read_decimal
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
-from garkcli.page.paint import counted
 from garkcli.properties.registry import every_property
 from garkcli.report.citation import short_name
 from garkcli.tell.dialect import Plain

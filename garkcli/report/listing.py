@@ -8,10 +8,10 @@ from typing import NamedTuple
 from garkcli.bridges.registry import Bridge
 from garkcli.catalogue.mapping import method_names
 from garkcli.constructions.schemes import SCHEMES, SPLITTINGS, Scheme, Splitting
+from garkcli.errors import counted
 from garkcli.families.family import Family, Option
 from garkcli.families.registry import FAMILIES
 from garkcli.frozen import replace
-from garkcli.page.paint import counted
 from garkcli.problems.builtin import PROBLEMS
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Level, Row, Section
@@ -114,7 +114,10 @@ REPORT: Report[Lists] = Report.only(
 
 def only(what: str) -> Report[Lists]:
     """The report of one of the lists."""
-    return Report.only("gark/list/1", f"report of gark list {what}", Section(ROWS[what]))
+    row = ROWS[what]
+    name = "transfer rules" if what == "transfer" else what
+    section = Section(row, title=lambda x, _: f"{len(row.value(x))} {name}")
+    return Report.only("gark/list/1", f"report of gark list {what}", section)
 
 
 TARGET = Section(

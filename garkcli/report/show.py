@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from garkcli.errors import counted
 from garkcli.frozen import Frozen
-from garkcli.page.paint import counted
 from garkcli.page.plain import printable
 from garkcli.reference import Reference
 from garkcli.report.citation import REFERENCE

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import cached_property
 
-from garkcli.errors import UsageProblem
+from garkcli.errors import UsageProblem, counted
 from garkcli.frozen import Frozen
 from garkcli.ntrees.count import Admissible, counts_upto
 from garkcli.ntrees.free import Structure
@@ -18,7 +18,6 @@ from garkcli.ntrees.symplectic import (
     independent_classes,
     structure_of,
 )
-from garkcli.page.paint import counted
 from garkcli.tableau.meant import AnyTableau, printed
 from garkcli.tableau.tableau import Tableau
 from garkcli.tell.facts import Level, Row, Section

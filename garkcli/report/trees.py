@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any, NamedTuple, TypeAlias
 
+from garkcli.errors import counted
 from garkcli.frozen import Frozen, Mutable
 from garkcli.ntrees.drawing import draw_text
 from garkcli.ntrees.notation import parse_tree
 from garkcli.ntrees.tree import Tree
-from garkcli.page.paint import counted
 from garkcli.page.schema import TEXT, array, counts_of
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Kind, Level, Row, Section, optional
@@ -20,7 +20,7 @@ from garkcli.tell.report import Report
 Counts: TypeAlias = Sequence[tuple[int, tuple[int, ...]]]
 """For each order, the numbers of trees by root colour."""
 DRAWN_ORDER = 4
-"""Up to this order a terminal shows the drawn trees too."""
+"""Up to this order a terminal shows the drawn trees too, with -v all."""
 DETAIL, DATA = Level.DETAIL, Level.DATA
 
 
@@ -106,17 +106,13 @@ def pictures(tree: Callable[[Any], Tree]) -> tuple[Row, Row]:
 
     def small(x: Any, d: Plain) -> str:
         found = tree(x)
-        return "\n".join(d.drawing(draw_text(found, d.has_colours(found))))
+        if x.order > DRAWN_ORDER and d.is_brief:
+            return ""
+        return "\n".join(d.drawing(draw_text(found, d.has_colours(found), d.width // 2)))
 
     return (
         Row("picture", told(lambda x, d: d.sketch(tree(x))), ".", DETAIL, label=""),
-        Row(
-            "drawn",
-            told(small),
-            lambda x: x if x.order <= DRAWN_ORDER else None,
-            label="",
-            is_short=True,
-        ),
+        Row("drawn", told(small), ".", label="", is_short=True),
     )
 
 

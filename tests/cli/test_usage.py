@@ -11,6 +11,7 @@ import pytest
 from garkcli.cli.main import COMMANDS
 from garkcli.cli.table import options_of, rules_of
 from garkcli.cli.usage import MEANT
+from garkcli.families.registry import FAMILIES
 from garkcli.glossary.faults import code_of
 from tests.cli.harness import ROOT, gark
 
@@ -110,3 +111,25 @@ def test_options_that_do_not_go_together(line: str, said: str) -> None:
     run = gark(*line.split())
     assert (run.code, run.out) == (2, "")
     assert said in run.err
+
+
+@pytest.mark.parametrize(
+    ("line", "more"),
+    [
+        ("trees 5", "╰─┴┬┴─╯"),
+        ("conditions rk4 -n 2", "is 1/2"),
+        ("check rk4", "positive weights      yes"),
+        ("stability rk4", "trace"),
+    ],
+)
+def test_more_is_shown_where_more_is_wanted(line: str, more: str) -> None:
+    """What -v adds is not in the usual report."""
+    usual, full = gark(*line.split()), gark(*line.split(), "-v")
+    assert usual.code == full.code
+    assert more not in usual.out
+    assert more in full.out
+
+
+def test_less_of_a_list_is_its_size() -> None:
+    """-q leaves the heading."""
+    assert gark("list", "families", "-q").out == f"{len(FAMILIES)} families\n"

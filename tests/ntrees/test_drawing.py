@@ -20,7 +20,9 @@ trees = st.recursive(
 
 PICTURES = [
     ("[]_3", ["●3"]),
-    ("[[]_2]_1", ["●2", "│", "●1"]),
+    ("[[]_2]_1", ["●1─●2"]),
+    ("[[[]_3]_2]_1", ["●1─●2─●3"]),
+    ("[[[]_3]_2,[]_2]_1", ["●3", "│", "●2 ●2", "╰┬─╯", " ●1"]),
     ("[[]_2,[]_2]_1", ["●2 ●2", "╰┬─╯", " ●1"]),
     ("[[]_1,[]_2,[]_3]_1", ["●1 ●2 ●3", "╰──┼──╯", "   ●1"]),
     ("[[[]_3,[]_4]_5,[]_8]_12", ["●3 ●4", "╰┬─╯", " ●5   ●8", " ╰─┬──╯", "   ●12"]),
@@ -28,8 +30,10 @@ PICTURES = [
 
 
 @pytest.mark.parametrize(("text", "picture"), PICTURES)
-def test_upright(text: str, picture: list[str]) -> None:
-    """The root is at the bottom, larger branches on the left, lines lead from dot to dot."""
+def test_where_there_is_room(text: str, picture: list[str]) -> None:
+    """The root is at the bottom, larger branches on the left, lines lead from dot to dot; a chain
+    has one line, its root first.
+    """
     assert draw_text(parse_tree(text)) == picture
 
 
