@@ -25,6 +25,7 @@ from garkcli.exact.roots import sign, sign_at
 from garkcli.frozen import replace
 from garkcli.order.pair_order import added
 from garkcli.order.simplifying import Defects
+from garkcli.problems.draw import Draw
 from garkcli.tableau.family import Family
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Edge, Method
@@ -72,14 +73,17 @@ class PairConditions:
         """What radicals satisfy."""
         return Ideal(self.family.ring).with_zeros(x.relation for x in self.family.radicals)
 
-    def point(self, ideal: Ideal) -> Ideal | None:
-        """The zeros of an ideal at which the unknowns that are functions of no others are 0."""
+    def point(self, ideal: Ideal, draw: Draw | None = None) -> Ideal | None:
+        """The zeros of an ideal at which the unknowns that are functions of no others are 0, or
+        drawn from the multiples of 1/8 up to 1.
+        """
         solved = self.solved(ideal)
         if solved is None:
             return None
         leading = {next(i for i, k in enumerate(p.monoms()[0]) if k) for p in solved}
         free = [i for i in range(len(self.family.parameters)) if i not in leading]
-        found = ideal.with_values(dict.fromkeys(free, fmpq(0)))
+        values = {i: fmpq(0 if draw is None else draw.between(-8, 8), 8) for i in free}
+        found = ideal.with_values(values)
         return found if found.dimension == 0 else None
 
     def solved(self, ideal: Ideal) -> list[fmpq_mpoly] | None:

@@ -213,7 +213,8 @@ def file_of(kinds: Mapping[str, str]) -> g.Kind:
             "transfer: [collocation, {interpolation: tau, collocation: 1 - tau}]",
             g.Kind(lambda: TRANSFER.schema()),
             "Rules for the blocks between the methods, one or a list, each tried. Weights of a "
-            "combination may use the parameters.",
+            "combination may use the parameters. With search, ? is any transfer whose pair has the "
+            "order, drawn by each seed.",
         ),
         g.Key(
             "files: [sdirk.gark.yaml]",

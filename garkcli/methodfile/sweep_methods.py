@@ -25,6 +25,7 @@ from garkcli.methodfile.family import loads_family
 from garkcli.methodfile.load import NO_SETTINGS, described
 from garkcli.methodfile.naming import read_argument
 from garkcli.methodfile.nodes import keys_of, shortened
+from garkcli.methodfile.numbers import UNKNOWN
 from garkcli.methodfile.parameters import SIGNS
 from garkcli.methodfile.source import Source
 from garkcli.methodfile.transfers import ALL_RULES, OF_DEGREE
@@ -44,6 +45,7 @@ class Template(Frozen):
         order: that its other unknowns are searched for; 0 where it has none.
         seeds: of the searches, a method each.
         starts: of each search.
+        is_drawn: whether it has any transfer, drawn from those whose pair has the order.
     """
 
     name: str
@@ -52,6 +54,7 @@ class Template(Frozen):
     order: int = 0
     seeds: range = range(0)
     starts: int = 0
+    is_drawn: bool = False
 
     @property
     def is_searched(self) -> bool:
@@ -134,8 +137,8 @@ def _weights(at: MethodsReader, node: Node, where: str) -> dict[str, str] | g.Fo
 
 _RULES = g.by_name(rational(_weight), minProperties=1, propertyNames={"enum": list(RULES)})
 _SCHEMAS = g.Kind(lambda: {"anyOf": [_RULES.schema(), OF_DEGREE.schema()]}, _weights)
-TRANSFER = g.one_or_more(g.either(g.word(lambda: ALL_RULES), at_mapping=_SCHEMAS))
-"""Rules between methods, each tried."""
+TRANSFER = g.one_or_more(g.either(g.word(lambda: [*ALL_RULES, UNKNOWN]), at_mapping=_SCHEMAS))
+"""Rules between methods, each tried; or any transfer."""
 
 
 class MethodsReader:
@@ -188,6 +191,8 @@ class MethodsReader:
 
     def _rule(self, given: str | dict[str, str] | g.Found) -> tuple[str, str, set[str]]:
         """A rule as method files have it, as people read it, and the parameters in it."""
+        if given == UNKNOWN:
+            return f'"{UNKNOWN}"', "any transfer", set()
         if isinstance(given, str):
             return given, given, set()
         if isinstance(given, g.Found):
@@ -212,16 +217,20 @@ class MethodsReader:
         lines += [f"transfer: {rule}"] if rule else []
         title = " + ".join(f"{family} {s}" for family, s in methods)
         name = f"{title}; {shown}" if shown else title
+        is_drawn = UNKNOWN in rule
+        free += ["the transfer"] if is_drawn else []
         order = self._order(self._at, name, free) if free else 0
-        template = self._template(name, "\n".join(lines) + "\n", used, order)
+        template = self._template(name, "\n".join(lines) + "\n", used, order, is_drawn)
         if template not in self.templates:
             self.templates.append(template)
 
-    def _template(self, name: str, text: str, used: tuple[str, ...], order: int) -> Template:
+    def _template(
+        self, name: str, text: str, used: tuple[str, ...], order: int, is_drawn: bool = False
+    ) -> Template:
         if not order or self.search is None:
             return Template(name, text, used)
         starts = self.search.get("starts", STARTS)
-        return Template(name, text, used, order, self.search["seeds"], starts)
+        return Template(name, text, used, order, self.search["seeds"], starts, is_drawn)
 
     def _choices(self, entry: g.Found) -> list[tuple[str, int]]:
         """The members of one entry of ``methods``: those there are of families × stages."""

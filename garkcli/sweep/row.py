@@ -8,13 +8,17 @@ from typing import Any, TypeAlias, TypeGuard
 
 from flint import fmpq
 
-from garkcli.design.member import member
+from garkcli.design.choices import values_text
+from garkcli.design.design import find_parameters
+from garkcli.design.member import is_admissible, member
 from garkcli.design.search.run import Method, results
+from garkcli.design.solutions import solutions
 from garkcli.errors import GarkError, MethodError, MethodFileError, counted
 from garkcli.exact.field import Number
 from garkcli.methodfile.family import FamilyFile, loads_family, with_values
 from garkcli.methodfile.load import loads
 from garkcli.methodfile.search_file import FileSearch
+from garkcli.problems.draw import Draw
 from garkcli.sweep.columns import Judged, Value, columns, is_value
 from garkcli.sweep.plan import Criteria, Point
 from garkcli.tableau.tableau import Tableau
@@ -26,15 +30,39 @@ def first_find(point: Point) -> Method | None:
     """
     template = point.template
     assert point.seed is not None
+    if template.is_drawn:
+        return _drawn(point, Draw(point.seed))
     for result in results(_asked(point).search, template.starts, point.seed, most=1):
         if result.methods:
             return result.methods[0]
     return None
 
 
+def _drawn(point: Point, draw: Draw) -> Method:
+    """Two methods with a transfer whose pair has an order, its free numbers drawn.
+
+    Raises:
+        MethodError: the order is none of theirs, or not all weights are positive.
+    """
+    family = _asked(point).family
+    order = point.template.order
+    step = find_parameters(family, order, "pair").last
+    drawn = None
+    if step.criterion is not None and step.ideal is not None and not step.ideal.is_everything:
+        drawn = step.criterion.point(step.ideal, draw)
+    for solution in () if drawn is None else solutions(drawn):
+        for root in solution.real:
+            if is_admissible(family, solution, root):
+                values = {name: solution.values[name] for name in family.parameters}
+                return Method(1, "exact", order, values_text(values, root), "0")
+    message = f"no transfer is known whose pair has order {order}"
+    cure = "take methods with positive weights that have this pair order"
+    raise MethodError(message, cure, code="not-found")
+
+
 def method_found(point: Point, found: Method) -> Tableau:
     """The method of an exact find, read again from the text of its file."""
-    claim = f"order: {found.order}"
+    claim = f"{'pair-' * point.template.is_drawn}order: {found.order}"
     return loads(with_values(_asked(point).family, found.values, "", claim), point.key).tableau
 
 

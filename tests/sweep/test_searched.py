@@ -12,9 +12,11 @@ import yaml
 
 from garkcli import analyse, loads
 from garkcli.errors import MethodFileError
+from garkcli.order.certificate import find_order
 from garkcli.report.schemas import report_schema
 from garkcli.sweep.plan import load_plan
 from garkcli.sweep.row import row_of
+from garkcli.tableau.forms import pair
 from tests.cli.harness import gark
 
 EXPLICIT = """unknown: {stages: 3, shape: explicit}
@@ -145,3 +147,47 @@ def test_faults(old: str, tmp_path: Path) -> None:
     faults = caught.value.faults
     assert any(message in fault.message for fault in faults), faults
     assert all(fault.line for fault in faults)
+
+
+TRANSFERS = """methods:
+  - {family: gauss, stages: 2}
+  - {family: lobatto-iiia, stages: 3}
+transfer: [legendre, "?"]
+columns: [pair-order]
+search: {seeds: 1..2, order: 4}
+"""
+
+
+def test_any_transfer(tmp_path: Path) -> None:
+    """Each seed draws one whose pair has the order, not more, by the certificate; refused without a
+    search, and told where no transfer has it.
+    """
+    spec = tmp_path / "spec.yaml"
+    spec.write_text(TRANSFERS, "utf-8")
+    plan = load_plan(str(spec))
+    legendre, *rows = (row_of(plan.criteria, point) for point in plan.points())
+    assert legendre["pair-order"] == 4
+    assert [row["pair-order"] for row in rows] == [4, 4]
+    values = [row["values"] for row in rows]
+    assert values[0] != values[1]
+    for settings in values:
+        text = "methods: [gauss-2, lobatto-iiia-3]\ntransfer: {default: legendre, blocks: {%s}}"
+        block = ", ".join(
+            f'"{l + 1},{m + 1}": [{", ".join(rows_of_block(settings, l, m, *size))}]'
+            for l, m, size in ((0, 1, (2, 3)), (1, 0, (3, 2)))
+        )
+        assert find_order(pair(loads(text % block).tableau)).order == 4
+    spec.write_text(TRANSFERS.replace("order: 4", "order: 5"), "utf-8")
+    plan = load_plan(str(spec))
+    *_, row = (row_of(plan.criteria, point) for point in plan.points())
+    assert row["failure"] == "no transfer is known whose pair has order 5"
+    spec.write_text(TRANSFERS.partition("search")[0], "utf-8")
+    with pytest.raises(MethodFileError, match="leaves the transfer to a search"):
+        load_plan(str(spec))
+
+
+def rows_of_block(settings: Any, l: int, m: int, height: int, width: int) -> list[str]:
+    """The rows of a block as method files write them."""
+    name = f"a{l + 1}{m + 1}_"
+    rows = ([settings[f"{name}{i}{j}"] for j in range(1, width + 1)] for i in range(1, height + 1))
+    return [f"[{', '.join(row)}]" for row in rows]
