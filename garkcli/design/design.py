@@ -83,6 +83,8 @@ class Step(Frozen):
         is_real: of a family and of every value, whether a real value is a method of the file; None
             where that is not decided.
         criterion: by which the real values were found; None where all conditions were examined.
+        is_of_real_values: whether complex values may have the order and not be among these: up to
+            order 2 the criterion asks for the same.
         stable: where stability is wanted of a family and of every value, and depends on one
             unknown: the values of that, for each kind.
         of_stable: where P-stability is wanted of all transfers of a pair and decided, the ideal
@@ -101,6 +103,7 @@ class Step(Frozen):
     found: tuple[Found, ...] = ()
     is_real: bool | None = None
     criterion: PairConditions | None = None
+    is_of_real_values: bool = False
     stable: tuple[StableValues, ...] = ()
     of_stable: Ideal | None = None
     polynomials_of_stable: tuple[fmpq_mpoly, ...] = ()
@@ -116,13 +119,6 @@ class Step(Frozen):
             return True
         is_open = any(x.open for x in self.found) or (self.kind == "solutions" and not self.is_all)
         return None if is_open else False
-
-    @property
-    def is_of_real_values(self) -> bool:
-        """Whether complex values with the order may be others; up to order 2 conditions are the
-        same.
-        """
-        return self.criterion is not None and self.order > 2
 
     @property
     def may_have_methods(self) -> bool:
@@ -290,11 +286,11 @@ class _Finding(Frozen):
         start = self._start()
         if lower is None:
             lower = start.with_zeros(self.family.relations)
-        if self.criterion is not None:
-            ideal = lower.with_zeros(self.criterion.of_order(order))
-            if ideal.is_everything:
-                return Step(order, "none", ideal, criterion=self.criterion)
-            return Step(order, _kind(ideal, start), ideal, criterion=self.criterion)
+        criterion = self.criterion
+        if criterion is not None:
+            ideal = lower.with_zeros(criterion.of_order(order))
+            kind: Kind = "none" if ideal.is_everything else _kind(ideal, start)
+            return Step(order, kind, ideal, criterion=criterion, is_of_real_values=order > 2)
         coming = (x for x in self.conditions.of_order(order) if x.polynomial)
         ideal, done, large = _as_long_as_small(lower, coming)
         if large is not None:
@@ -306,9 +302,11 @@ class _Finding(Frozen):
             new = [large, *coming]
             ideal, taken = ideal.with_zeros_in_turn([x.polynomial for x in new], known)
             done += new[:taken]
+        is_of_real = bool(self.family.real)
         if ideal.is_everything:
-            return Step(order, "none", ideal, done[-1].tree if done else None)
-        return Step(order, _kind(ideal, start), ideal)
+            witness = done[-1].tree if done else None
+            return Step(order, "none", ideal, witness, is_of_real_values=is_of_real)
+        return Step(order, _kind(ideal, start), ideal, is_of_real_values=is_of_real)
 
     @property
     def _relations(self) -> list[fmpq_mpoly]:

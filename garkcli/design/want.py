@@ -12,7 +12,7 @@ from garkcli.exact.matrix import Matrix, Vector
 from garkcli.exact.parametric import Parameters, fraction
 from garkcli.frozen import Frozen
 from garkcli.tableau.embedded import NOTHING, Further
-from garkcli.tableau.family import Stability
+from garkcli.tableau.family import Radical, Stability
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
@@ -29,6 +29,7 @@ class Asked(Frozen):
         value: a count, or a number, which may have parameters; True for a flag.
         colours: of which colours it is wanted, counted from 0.
         further: its embedded weights and its dense output.
+        radicals: the roots among the coefficients, the last unknowns of ``ring``.
     """
 
     tableau: Tableau
@@ -36,6 +37,7 @@ class Asked(Frozen):
     value: object
     colours: tuple[int, ...]
     further: Further = NOTHING
+    radicals: tuple[Radical, ...] = ()
 
     def block(self, l: int, m: int, key: str) -> Matrix:
         """A^{l,m}.
@@ -76,6 +78,7 @@ class Meaning(Frozen):
         not_negative: those that are at least 0.
         stable: the kinds of stability of the accepted solutions.
         unsettled: keys of wishes whose meaning was not worked out in time.
+        real: keys of wishes of which ``zeros`` have what real values satisfy, not complex ones.
     """
 
     zeros: tuple[object, ...] = ()
@@ -84,6 +87,7 @@ class Meaning(Frozen):
     not_negative: tuple[object, ...] = ()
     stable: tuple[Stability, ...] = ()
     unsettled: tuple[str, ...] = ()
+    real: tuple[str, ...] = ()
 
 
 class Want(Frozen):

@@ -9,6 +9,7 @@ from typing import Any, cast
 from flint import fmpq
 
 from garkcli.design.conditions import FamilyConditions
+from garkcli.design.pairs import pair_conditions
 from garkcli.design.want import Asked, Meaning, Want, stability
 from garkcli.errors import MethodError
 from garkcli.exact.matrix import characteristic_coefficients, dot
@@ -16,7 +17,7 @@ from garkcli.exact.parametric import fraction
 from garkcli.order.simplifying import Defects
 from garkcli.tableau.conjugate import symplectic_defect
 from garkcli.tableau.embedded import with_weights
-from garkcli.tableau.family import Stability
+from garkcli.tableau.family import Family, Stability
 from garkcli.tableau.forms import pair
 from garkcli.tableau.tableau import Tableau
 
@@ -33,6 +34,30 @@ def _order(tableau: Tableau, asked: Asked) -> Meaning:
         polynomials = [condition.polynomial for condition in conditions.of_order(k)]
         zeros += [asked.ring.quotient(p, one) for p in polynomials]
     return Meaning(tuple(zeros), conditions.denominators)
+
+
+def _pair_order(asked: Asked) -> Meaning:
+    """The conditions of the pair, by the criterion of docs/pair-order.md where it holds."""
+    parameters = asked.ring.names[: len(asked.ring.names) - len(asked.radicals)]
+    criterion = pair_conditions(
+        Family(
+            name="",
+            tableau=asked.tableau,
+            ring=asked.ring,
+            parameters=parameters,
+            ranges={},
+            radicals=asked.radicals,
+        )
+    )
+    order = cast("int", asked.value)
+    if criterion is None:
+        return _order(pair(asked.tableau), asked)
+    one = asked.ring.constant(fmpq(1))
+    zeros = chain.from_iterable(criterion.of_order(k) for k in range(1, order + 1))
+    is_of_real = order > 2
+    return Meaning(
+        tuple(asked.ring.quotient(p, one) for p in zeros), real=("pair-order",) * is_of_real
+    )
 
 
 def _embedded_order(asked: Asked) -> Meaning:
@@ -194,12 +219,7 @@ def _p_stable(asked: Asked) -> Meaning:
 WANTS = {
     want.key: want
     for want in (
-        Want(
-            "pair-order",
-            "count",
-            "the symplectic pair has that order",
-            lambda asked: _order(pair(asked.tableau), asked),
-        ),
+        Want("pair-order", "count", "the symplectic pair has that order", _pair_order),
         Want(
             "embedded-order",
             "count",

@@ -179,6 +179,7 @@ def _family(
         order=wishes.order,
         stable=meaning.stable,
         unsettled=meaning.unsettled,
+        real=meaning.real,
         wanted_at=reader.place_of("design"),
         parameters_at=reader.place_of("parameters"),
         settings=settings,

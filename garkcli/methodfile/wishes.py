@@ -271,9 +271,9 @@ def meaning_of(
         number = values.number(value) if isinstance(value, Entry) else value
         try:
             with until(deadline):
-                meanings.append(
-                    wish.want.meaning(Asked(tableau, ring, number, colours, made.further))
-                )
+                radicals = tuple(values.domain.radicals)
+                asked = Asked(tableau, ring, number, colours, made.further, radicals)
+                meanings.append(wish.want.meaning(asked))
         except NotDecided:
             meanings.append(Meaning(unsettled=(wish.want.key,)))
         except GarkError as error:

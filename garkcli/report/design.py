@@ -201,8 +201,10 @@ def _values(found: Order, d: Plain, is_whole: bool) -> Iterator[str]:
             wish = "what is wanted besides"
             if step.witness is not None:
                 wish = f"with the conditions before it, that of {d.tree(step.witness)}"
-            if step.is_of_real_values:
+            if step.witness is None and step.is_of_real_values:
                 yield f"no real value, by {CRITERION}"
+            elif step.is_of_real_values:
+                yield f"no real value: {wish} cannot be met"
             else:
                 yield f"no value: {wish} cannot be met, not even by complex values"
         case "undecided":

@@ -82,6 +82,7 @@ class Family(Frozen, kw_only=True):
         order: which is wanted of them, where the file says so.
         stable: the kinds of stability of the accepted solutions.
         unsettled: what is wanted of them and was not worked out in time, by its keys.
+        real: the keys of which ``relations`` have what real values satisfy, not complex ones.
         further: its embedded weights and its dense output.
     """
 
@@ -98,6 +99,7 @@ class Family(Frozen, kw_only=True):
     order: int | None = None
     stable: tuple[Stability, ...] = ()
     unsettled: tuple[str, ...] = ()
+    real: tuple[str, ...] = ()
     further: Further = NOTHING
 
     def __repr__(self) -> str:

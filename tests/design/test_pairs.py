@@ -10,7 +10,7 @@ from random import Random
 import pytest
 from flint import fmpq
 
-from garkcli import find_parameters, loads, loads_family, minimise
+from garkcli import find_parameters, loads, loads_family, minimise, render
 from garkcli.design import design as engine
 from garkcli.design.ideal import Ideal
 from garkcli.design.member import is_admissible, member
@@ -105,6 +105,29 @@ def test_the_dimension_of_all_transfers(methods: tuple[tuple[str, int], ...], or
     assert ideal is not None
     tableau = drawn(family, ideal, Random(1))
     assert find_order(pair(tableau)).order == order
+
+
+def test_a_pair_order_that_is_wanted() -> None:
+    """It goes by the criterion too: the dimension of the theorem, a random method whose pair has
+    the order by the certificate, and words for real values. Up to order 2 and for unknown weights
+    it is all conditions.
+    """
+    wanted = 'methods: [gauss-2, lobatto-iiia-4]\ntransfer: "?"\ndesign: {pair-order: 4}'
+    family = loads_family(wanted)
+    found = find_parameters(family)
+    *_, last, none = found.steps
+    assert (last.order, last.kind, none.kind) == (4, "family", "none")
+    assert last.ideal is not None
+    assert last.ideal.dimension == dimension([2, 4], 4)
+    assert last.is_of_real_values
+    tableau = drawn(family, last.ideal, Random(2))
+    assert find_order(tableau).order == find_order(pair(tableau)).order == 4
+    text = " ".join(render(found).split())
+    assert "the zeros, real ones by B, C, D and the even condition, of" in text
+    assert "no real value: with the conditions before it, that of [[[[[]_1]_1]_1]_1]_1" in text
+    unknown_weight = "A: [[1/2]]\nb: ['?']\ndesign: {pair-order: 3}"
+    for text in (wanted.replace("4}", "2}"), unknown_weight):
+        assert not loads_family(text).real
 
 
 def drawn(family: Family, ideal: Ideal, dice: Random) -> Tableau:
