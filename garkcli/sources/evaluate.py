@@ -8,7 +8,7 @@ own; where these are too many, what it assigns is unknown.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import Any, Protocol, TypeAlias, TypeVar
+from typing import Any, TypeAlias, TypeVar
 
 from garkcli.frozen import replace
 from garkcli.sources import ir
@@ -102,23 +102,12 @@ Place: TypeAlias = tuple[Any, Any]
 Made = TypeVar("Made", Array, Record)
 
 
-class Finder(Protocol):
-    """Who looks for tables among the names of a scope."""
-
-    def ended(self, scope: ir.Scope, space: Space) -> None:
-        """A scope ends; this is called once for each way through it."""
-
-    def replaced(self, scope: ir.Scope, space: Space, name: str) -> None:
-        """An array is about to be assigned anew."""
-
-
 class Evaluator:
     """Walks over the statements of one source.
 
     Args:
         base: the index of the first entry of an array.
         allowance: of the source.
-        finder: who hears of scopes.
         is_growing: whether all arrays grow.
         has_whole_quotients: whether ``1/2`` is 0.
 
@@ -126,11 +115,16 @@ class Evaluator:
         given_up: the scopes that take too many steps.
     """
 
+    def ended(self, scope: ir.Scope, space: Space) -> None:
+        """A scope ends; this is called once for each way through it."""
+
+    def replaced(self, scope: ir.Scope, space: Space, name: str) -> None:
+        """An array is about to be assigned anew."""
+
     def __init__(
         self,
         base: int,
         allowance: Allowance,
-        finder: Finder,
         is_growing: bool = False,
         has_whole_quotients: bool = False,
     ) -> None:
@@ -138,10 +132,9 @@ class Evaluator:
         self.allowance = allowance
         self.line = 1
         self.given_up: list[ir.Scope] = []
-        self._finder = finder
-        self._scopes: list[ir.Scope] = []
+        self._scopes: list[ir.Scope] = [ir.Scope("module", "", (), 1)]
         self._is_growing = is_growing
-        self._has_whole_quotients = has_whole_quotients
+        self.has_whole_quotients = has_whole_quotients
         self._steps = 0
         self._worlds = 1
         self._depth = 0
@@ -172,7 +165,7 @@ class Evaluator:
         finally:
             self._scopes.pop()
         for each in spaces:
-            self._finder.ended(scope, each)
+            self.ended(scope, each)
         return spaces
 
     def _run(self, body: ir.Body, spaces: list[Space]) -> list[Space]:
@@ -240,7 +233,7 @@ class Evaluator:
         if not branch.is_total or len(arms) < len(branch.arms):
             ways.append(())
         if not any(map(_has_numbers, arms)):
-            for target, line in _targets(arms):
+            for target, line in _targets(x for arm in arms for x in arm):
                 self.spoil(target, space, "assigned in one of several branches", line)
             return [space]
         if self._worlds * len(ways) > MAX_WORLDS:
@@ -248,8 +241,8 @@ class Evaluator:
             for arm in arms:
                 inside = ir.Scope("entry", self._scopes[-1].name, arm, branch.line)
                 for each in self._run(arm, [space.fork()]):
-                    self._finder.ended(inside, each)
-            for target, line in _targets(arms):
+                    self.ended(inside, each)
+            for target, line in _targets(x for arm in arms for x in arm):
                 self.spoil(target, space, "assigned in one of several branches", line)
             return [space]
         self._worlds *= len(ways)
@@ -269,14 +262,10 @@ class Evaluator:
 
     def spoil(self, target: ir.Expr, space: Space, reason: str, line: int) -> None:
         """All entries of an array, or a name, become unknown."""
-        while isinstance(target, ir.Index | ir.Field) and not _plain_name(target):
-            target = target.of
-        if isinstance(target, ir.Items):
-            for item in target.items:
-                self.spoil(item, space, reason, line)
-        elif name := _plain_name(target):
-            unknown, old = Unknown(reason, line), space.get(name)
-            written = replace(unknown, was_written=True)
+        unknown = Unknown(reason, line)
+        written = replace(unknown, was_written=True)
+        for name in names_of(target):
+            old = space.get(name)
             space[name] = unknown
             if isinstance(old, Array) and old.items:
                 space[name] = old.map(
@@ -367,7 +356,7 @@ class Evaluator:
             return
         old = space.get(name) if isinstance(target, ir.Name) else None
         if isinstance(old, Array) and isinstance(value, Array) and _is_replaced(old, value):
-            self._finder.replaced(self._scopes[-1], space, name)
+            self.replaced(self._scopes[-1], space, name)
         space[name] = value
         space.lines[name] = line
 
@@ -655,7 +644,7 @@ class Evaluator:
             return self._counted(self.combined(sign, a, y) for a in x.items)
         if isinstance(y, Array):
             return self._counted(self.combined(sign, x, b) for b in y.items)
-        if sign == "/" and self._has_whole_quotients and _are_whole(x, y):
+        if sign == "/" and self.has_whole_quotients and _are_whole(x, y):
             return truncated(x, y, self.line)
         return computed(sign, x, y, self.line)
 
@@ -763,6 +752,16 @@ def _plain_name(expr: ir.Expr) -> str:
     return ""
 
 
+def names_of(target: ir.Expr) -> Iterator[str]:
+    """The names whose values change where something is assigned."""
+    while isinstance(target, ir.Index | ir.Field) and not _plain_name(target):
+        target = target.of
+    for x in target.items if isinstance(target, ir.Items) else ():
+        yield from names_of(x)
+    if name := _plain_name(target):
+        yield name
+
+
 def _is_slice(at: Sequence[ir.Expr]) -> bool:
     return any(isinstance(x, ir.Range) for x in at)
 
@@ -793,12 +792,14 @@ def _has_effect(arm: ir.Body) -> bool:
     return any(_matters(x) for x in arm)
 
 
-def _has_numbers(body: object) -> bool:
+def _has_numbers(body: ir.Body) -> bool:
     """Whether fractions, decimals, lists or entries are assigned or given to calls."""
-    return any(map(_is_numeric, ir.inside(body, _UNSEEN)))
-
-
-_UNSEEN = frozenset({"conditions", "over", "target", "at", "extents", "parameters"})
+    return any(
+        _is_numeric(x)
+        for statement in ir.statements(body)
+        if isinstance(statement, ir.Assign | ir.Do | ir.Return)
+        for x in ir.inside(statement.value)
+    )
 
 
 def _is_numeric(expr: object) -> bool:
@@ -831,9 +832,9 @@ def _is_plain(body: ir.Body) -> bool:
     return not any(isinstance(x, ir.Branch | ir.Scope | ir.Return) for x in body)
 
 
-def _targets(body: object) -> Iterator[tuple[ir.Expr, int]]:
+def _targets(body: Iterable[ir.Statement]) -> Iterator[tuple[ir.Expr, int]]:
     """What is assigned in some statements, and where."""
-    for statement in ir.inside(body):
+    for statement in ir.statements(body):
         match statement:
             case ir.Assign(target=target, line=line):
                 yield target, line

@@ -9,7 +9,7 @@ from garkcli.frozen import replace
 from garkcli.sources import ir
 from garkcli.sources.allowance import Allowance
 from garkcli.sources.assembling import Meant, NoTable, Roles, is_complete, table_of
-from garkcli.sources.evaluate import Space
+from garkcli.sources.evaluate import Evaluator, Space
 from garkcli.sources.found import FoundTable, troubled
 from garkcli.sources.naming import ROLES, role_of
 from garkcli.sources.parts import PLAIN, role_of_part, roles_of_parts, with_hats
@@ -40,25 +40,26 @@ _WHOLE = re.compile(
 _TABLE = "ARKodeButcherTable_Alloc"
 _MADE = frozenset({"", _TABLE, "ARKodeSPRKTable_Alloc"})
 """Records that are filled after they are made."""
-_WHOLE_QUOTIENTS = frozenset({"c", "fortran"})
 
 
 UNRECOGNISED = "numbers with the names of coefficients whose roles are not recognised"
 
 
-class TableFinder:
-    """Collects the tables of one source.
+class TableFinder(Evaluator):
+    """Evaluates one source, and collects its tables.
 
     Args:
         source: what it is called.
         format: of its language.
-        allowance: of it.
+        base, allowance, is_growing, has_whole_quotients: as those of an evaluator.
     """
 
-    def __init__(self, source: str, format: str, allowance: Allowance) -> None:
+    def __init__(
+        self, source: str, format: str, base: int, allowance: Allowance, *is_so: bool
+    ) -> None:
+        super().__init__(base, allowance, *is_so)
         self._source = source
         self._format = format
-        self._allowance = allowance
         self._meant: list[Meant] = []
         self._other: dict[tuple[str, int], FoundTable] = {}
         self._orders: dict[tuple[str, int], Number] = {}
@@ -80,7 +81,7 @@ class TableFinder:
             except NoTable:
                 continue
             key = (table.A, table.b, table.c, table.line, table.name)
-            self._allowance.table(table, is_kept=key not in found)
+            self.allowance.table(table, is_kept=key not in found)
             found.setdefault(key, table)
         tables = [*found.values(), *self._other.values()]
         sure = {(x.A, x.b) for x in tables if x.is_sure and x.b}
@@ -108,16 +109,16 @@ class TableFinder:
             self._declared_by_class(scope, space)
         count = self._count()
         for record in made:
-            self._record(record, scope)
+            self._of_record(record, scope)
         values, lines = dict(space), space.lines
         if self._count() == count:
-            self._named(values, lines, scope)
-        looks_like_a_step = self._count() == count and self._step(scope, space)
+            self._of_names(values, lines, scope)
+        looks_like_a_step = self._count() == count and self._of_step(scope, space)
         if self._count() > count:
             return
         for owner, own in _by_owner(values).items():
             line = scope.line if not owner else min(lines.get(f"{owner}::{x}", 1) for x in own)
-            self._scalars(owner or scope.title, own, line)
+            self._of_scalars(owner or scope.title, own, line)
         if self._count() > count:
             return
         if looks_like_a_step:
@@ -143,7 +144,7 @@ class TableFinder:
         roles = {told[1] for told in map(role_of, names) if told}
         if not {"A", "b"} <= roles:
             return
-        self._named({x: space[x] for x in names}, space.lines, scope)
+        self._of_names({x: space[x] for x in names}, space.lines, scope)
 
     def _of_classes(self) -> Iterator[Meant]:
         """Tables whose arrays are classes: a1, a2, …, b, db, c."""
@@ -176,7 +177,7 @@ class TableFinder:
 
     # records and calls
 
-    def _record(self, record: Record, scope: ir.Scope) -> None:
+    def _of_record(self, record: Record, scope: ir.Scope) -> None:
         kind = other_kind(record.kind)
         if kind and record.kind not in SIGNATURES:
             values = [*record.args, *record.fields.values()]
@@ -218,7 +219,7 @@ class TableFinder:
         if signature and signature.is_guess and not are_arrays:
             return
         if signature is None and not is_complete(roles):
-            self._scalars(self._name(record, scope), fields, record.line)
+            self._of_scalars(self._name(record, scope), fields, record.line)
             return
         if not is_complete(roles) and not (signature and signature.has_default_weights):
             return
@@ -253,7 +254,7 @@ class TableFinder:
 
     # arrays by their names
 
-    def _named(
+    def _of_names(
         self, values: Mapping[str, Value], lines: Mapping[str, int], scope: ir.Scope
     ) -> None:
         if _is_general_linear(values):
@@ -326,12 +327,12 @@ class TableFinder:
                 meant = replace(meant, is_sure=True, line=scope.line)
             self._meant.append(meant)
 
-    def _step(self, scope: ir.Scope, space: Space) -> bool:
+    def _of_step(self, scope: ir.Scope, space: Space) -> bool:
         """The method of a function that is a step; whether another one looks like a step."""
         if scope.kind != "function":
             return False
         try:
-            roles = step_of(scope.body, space.find, self._format in _WHOLE_QUOTIENTS)
+            roles = step_of(scope.body, space, self)
         except NoStep as error:
             return error.looks_like
         note = "the coefficients are those of a step that is written out"
@@ -344,7 +345,7 @@ class TableFinder:
         found = FoundTable(self._source, line, self._format, name, (), (), (), kind=kind)
         self._other[name, line] = found if kind else troubled(found, trouble)
 
-    def _scalars(self, name: str, values: Mapping[str, Value], line: int) -> None:
+    def _of_scalars(self, name: str, values: Mapping[str, Value], line: int) -> None:
         """Coefficients with names of their own: a21, b1."""
         found = scalar_roles(values)
         if found is None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Iterable, Iterator
 from typing import Literal as Choice
 from typing import TypeAlias
 
@@ -231,18 +231,24 @@ Statement: TypeAlias = Assign | Do | Return | Scope | Branch | Loop
 Body: TypeAlias = tuple[Statement, ...]
 
 
-def inside(node: object, unseen: Collection[str] = ()) -> Iterator[object]:
-    """What is in an expression or a statement, itself first, in order.
+def statements(body: Iterable[Statement]) -> Iterator[Statement]:
+    """Some statements with those that are in them."""
+    for statement in body:
+        yield statement
+        match statement:
+            case Branch(arms=arms):
+                for arm in arms:
+                    yield from statements(arm)
+            case Loop(body=inner) | Scope(body=inner):
+                yield from statements(inner)
 
-    Args:
-        node: it, or several.
-        unseen: the attributes that are passed over.
-    """
-    if isinstance(node, tuple | list):
+
+def inside(node: object) -> Iterator[object]:
+    """What is in an expression, itself first."""
+    if isinstance(node, tuple):
         for x in node:
-            yield from inside(x, unseen)
+            yield from inside(x)
     elif isinstance(node, Frozen):
         yield node
         for name in fields(node):
-            if name not in unseen:
-                yield from inside(getattr(node, name), unseen)
+            yield from inside(getattr(node, name))

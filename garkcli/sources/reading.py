@@ -7,7 +7,6 @@ from collections.abc import Callable
 
 from garkcli.sources import ir
 from garkcli.sources.allowance import Allowance
-from garkcli.sources.evaluate import Evaluator
 from garkcli.sources.finder import TableFinder
 from garkcli.sources.found import FoundTable, troubled
 
@@ -47,11 +46,10 @@ def tables_in(
     if len(text) > SHORT and not HINTS.search(text):
         return []
     allowance = Allowance(len(text))
-    finder = TableFinder(source, format, allowance)
-    evaluator = Evaluator(base, allowance, finder, is_growing, has_whole_quotients)
-    evaluator.module(lowered(text))
+    finder = TableFinder(source, format, base, allowance, is_growing, has_whole_quotients)
+    finder.module(lowered(text))
     found = finder.tables()
-    for scope in evaluator.given_up:
+    for scope in finder.given_up:
         place = FoundTable(source, scope.line, format, scope.name, (), ())
         found.append(troubled(place, "it takes too much work to read"))
     return found

@@ -1,34 +1,29 @@
 """Steps that are written out as they are computed: the tableau that they have.
 
 A function evaluates f several times, ``call f(t + h/2, x + h/2*k1, k2)`` or ``k2 = f(…)``, and adds
-multiples of the slopes to what it began with, at once or in loops over components. All values are
-followed as polynomials in the names that nothing is known of: the time, the value, the step and the
+multiples of the slopes to what it began with, at once or in loops over components. It is evaluated
+again, with polynomials in the names that nothing is known of: the time, the value, the step and the
 slopes; where the way parts, every way must be the same step. Nothing is guessed from names, and
 whatever does not fit makes no table.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from typing import TypeAlias
+from collections.abc import Iterable, Iterator, Sequence
 
 from garkcli.frozen import Frozen
 from garkcli.sources import ir
+from garkcli.sources.evaluate import Evaluator, OutOfSteps, Space, names_of
 from garkcli.sources.found import MAX_STAGES
 from garkcli.sources.known import CONVERSIONS
-from garkcli.sources.values import ONE, ZERO, Array, Number, Value, computed, literal, negative
+from garkcli.sources.values import ONE, ZERO, Array, Form, Number, Terms, Unknown, Value, computed
 
-Form: TypeAlias = Mapping[tuple[str, ...], Value]
-"""A polynomial: what is before each product of names, these in order."""
-Known: TypeAlias = Callable[[str], Value | None]
-"""The number or the array of a name."""
-Columns: TypeAlias = Sequence[str]
-"""The names of slopes, in order."""
 MAX_TERMS = 4 * MAX_STAGES
 MAX_WAYS = 8
 """Most ways through a function."""
 NEAR = 1e-3
 """Sums that differ by less are meant to be the same."""
+Roles = dict[str, Value]
 
 
 class NoStep(Exception):
@@ -49,34 +44,38 @@ class _Slope(Frozen):
 
     name: str
     callee: ir.Expr
-    args: tuple[Form | None, ...]
+    args: tuple[Terms | None, ...]
 
 
-def step_of(body: ir.Body, known: Known, has_whole_quotients: bool) -> dict[str, Value]:
+def step_of(body: ir.Body, space: Space, like: Evaluator) -> Roles:
     """A, b, c and the error of the step that a function is: the same by every way through it.
+
+    Args:
+        body: of the function.
+        space: the names around it.
+        like: what evaluates its language.
 
     Raises:
         NoStep: it is none.
     """
-    found: dict[str, dict[str, Value]] = {}
+    found: dict[str, Roles] = {}
     for way in _ways(body):
-        roles = _step_by(way, known, has_whole_quotients)
+        roles = _step_by(way, space, like)
         found[" ".join(f"{name} {_shown(x)}" for name, x in roles.items())] = roles
     if len(found) != 1:
         raise NoStep(looks_like=bool(found))
     return found.popitem()[1]
 
 
-def _step_by(
-    way: Sequence[ir.Statement], known: Known, has_whole_quotients: bool
-) -> dict[str, Value]:
+def _step_by(way: Sequence[ir.Statement], space: Space, like: Evaluator) -> Roles:
     """The step of one way, where calls give slopes, or else change their last argument."""
     looks_like = False
-    for is_last_changed in (False, True):
-        follower = Follower(known, has_whole_quotients, is_last_changed)
-        follower.follow(way)
+    calls = [x.value for x in way if isinstance(x, ir.Assign) and isinstance(x.value, ir.Call)]
+    has_status = any(len(x.args) > 1 and isinstance(x.args[-1], ir.Name) for x in calls)
+    for is_last_changed in (False, True)[: 1 + has_status]:
+        follower = Follower(like, is_last_changed)
         try:
-            return follower.roles()
+            return follower.roles(way, Space(space))
         except NoStep:
             looks_like |= follower.looks_like
     raise NoStep(looks_like)
@@ -94,141 +93,128 @@ def _ways(body: ir.Body) -> list[list[ir.Statement]]:
     for statement in body:
         arms: list[list[ir.Statement]] = [[statement]]
         if isinstance(statement, ir.Branch):
-            staying = [x for x in statement.arms if not _leaves(x)]
+            staying = [x for x in statement.arms if not (x and isinstance(x[-1], ir.Return))]
             arms = [way for arm in staying for way in _ways(arm)]
             if not statement.is_total:
                 arms.append([])
         if len(found) * len(arms) > MAX_WAYS:
             arms = [[statement]]
-        if len(arms) == 1:
-            for way in found:
-                way += arms[0]
-        else:
-            found = [[*way, *arm] for way in found for arm in arms]
+        found = [[*way, *arm] for way in found for arm in arms]
     return found
 
 
-def _leaves(body: ir.Body) -> bool:
-    return bool(body) and isinstance(body[-1], ir.Return)
-
-
-class Follower:
-    """Follows statements without branches.
+class Follower(Evaluator):
+    """Evaluates statements without branches, unknown names as polynomials.
 
     Args:
-        known: the numbers and arrays that names stand for.
-        has_whole_quotients: whether ``1/2`` is 0.
+        like: what evaluates the language.
         is_last_changed: whether ``status = f(t, x, k)`` gives k the slope.
         counters: names that count steps: ``x[n]`` is a value, as x is.
     """
 
     def __init__(
-        self,
-        known: Known,
-        has_whole_quotients: bool = False,
-        is_last_changed: bool = False,
-        counters: Sequence[str] = (),
+        self, like: Evaluator, is_last_changed: bool, counters: Sequence[str] = ()
     ) -> None:
-        self._known = known
-        self._has_whole_quotients = has_whole_quotients
+        super().__init__(like.base, like.allowance, has_whole_quotients=like.has_whole_quotients)
         self._is_last_changed = is_last_changed
         self._counters = counters
         self._has_step_inside = False
-        self._forms: dict[str, Form | None] = {}
         self._slopes: list[_Slope] = []
         self._assigned: list[str] = []
         self._returned: list[str] = []
         self._is_lost = False
         self._components: list[str] = []
         self._spans: dict[int, ir.Expr] = {}
+        self._space = Space()
 
-    def follow(self, body: Iterable[ir.Statement]) -> None:
-        """Some statements, one after the other."""
-        for statement in body:
-            match statement:
-                case ir.Do(value=ir.Call() as call):
-                    self._called(call)
-                case ir.Assign(value=ir.Call(args=(_, _, *_)) as call) if self._is_last_changed:
-                    self._called(call)
-                case ir.Do(value=ir.Text()):
-                    continue
-                case ir.Do(value=ir.Opaque()) | ir.Scope(kind="entry" | "module" | "record"):
-                    self._is_lost = True
-                case ir.Assign(target=target, value=value, sign=sign) if value is not None:
-                    self._assign(self._whole(target), value, sign)
-                case ir.Branch(arms=arms):
-                    self._lose(_targets(arms))
-                case ir.Loop(name=name, over=over, body=inner):
-                    if name and _is_over_components(name, inner):
-                        span = self._spans.setdefault(len(self._components), over)
-                        self._is_lost |= span != over
-                        self._components.append(name)
-                        self.follow(inner)
-                        self._components.pop()
-                    else:
-                        self._lose(_targets([inner]))
-                        self._look_inside(name, inner)
-                case ir.Return(value=value):
-                    for i, x in enumerate(value.items if isinstance(value, ir.Items) else [value]):
-                        name = x.name if isinstance(x, ir.Name) else f"value {i} of the function"
-                        if not isinstance(x, ir.Name):
-                            self._set(name, self._form(x))
-                        self._returned.append(name)
+    def _step(self, statement: ir.Statement, space: Space) -> list[Space]:
+        match statement:
+            case ir.Do(value=ir.Call() as call):
+                self._changing(call, space)
+            case ir.Assign(value=ir.Call(args=(_, _, *_)) as call) if self._is_last_changed:
+                self._changing(call, space)
+            case ir.Do(value=ir.Opaque()) | ir.Scope(kind="entry" | "module" | "record"):
+                self._is_lost = True
+            case ir.Assign(value=None) | ir.Do() | ir.Scope():
+                pass
+            case ir.Branch():
+                self._lose([statement], space)
+            case ir.Return(value=value):
+                for i, x in enumerate(value.items if isinstance(value, ir.Items) else [value]):
+                    name = x.name if isinstance(x, ir.Name) else f"value {i} of the function"
+                    if not isinstance(x, ir.Name):
+                        self._store(ir.Name(name), self.value(x, space), space, self.line)
+                    self._returned.append(name)
+            case _:
+                return super()._step(statement, space)
+        return [space]
 
-    def _look_inside(self, name: str, body: ir.Body) -> None:
-        """Note whether a loop has what looks like a step in it: one step after the other."""
-        follower = Follower(
-            self._known, self._has_whole_quotients, self._is_last_changed, (*self._counters, name)
-        )
-        follower.follow(body)
-        self._has_step_inside |= follower.looks_like
+    def _loop(self, loop: ir.Loop, space: Space) -> None:
+        if loop.name and _is_over_components(loop.name, loop.body):
+            self._is_lost |= self._spans.setdefault(len(self._components), loop.over) != loop.over
+            self._components.append(loop.name)
+            self._run(loop.body, [space])
+            self._components.pop()
+            return
+        self._lose(loop.body, space)
+        # one step after the other
+        inside = Follower(self, self._is_last_changed, (*self._counters, loop.name))
+        inside.follow(loop.body, Space(space.up))
+        self._has_step_inside |= inside.looks_like
 
-    def _called(self, call: ir.Call) -> None:
+    def _changing(self, call: ir.Call, space: Space) -> None:
         """A call for its effect: a copy, an evaluation of f, or a change of what it is given."""
         match call:
-            case ir.Call(callee, (ir.Name(name=name), source, *_), ()) if _is_copy(callee):
-                self._set(name, self._form(source))
-            case ir.Call(callee, (_, *_, ir.Name(name=name)) as args, ()):
-                slope = self._slope(callee, args[:-1])
-                if slope is None:
-                    self._lose(_given(call))
-                self._set(name, slope)
+            case ir.Call(callee, (target, source, *_), ()) if _name(callee) in _COPIES:
+                self._store(target, self.value(source, space), space, self.line)
+            case ir.Call(callee, (*args, ir.Name() as target), ()) if args:
+                slope = self._slope(callee, [self.value(x, space) for x in args])
+                if not isinstance(slope, Form):
+                    self._lose([ir.Do(call, self.line)], space)
+                self._store(target, slope, space, self.line)
             case _:
-                self._lose(_given(call))
+                self._lose([ir.Do(call, self.line)], space)
 
-    def _assign(self, target: ir.Expr, value: ir.Expr, sign: str) -> None:
-        form = self._form(value)
-        if not isinstance(target, ir.Name):
-            self._lose([target])
-            return
-        if sign in {"+", "-"}:
-            form = self._sum(self._form(target), form, sign)
-        elif sign not in {"", "."}:
-            form = None
-        self._set(target.name, form)
+    def _lose(self, body: Iterable[ir.Statement], space: Space) -> None:
+        """What statements assign, and what calls are given, is not known any more."""
+        for x in ir.statements(body):
+            targets: Iterable[ir.Expr] = ()
+            match x:
+                case ir.Assign(target=target):
+                    targets = [target]
+                case ir.Do(value=ir.Call(args=args, named=named)):
+                    targets = [*args, *(given for _, given in named)]
+            for target in targets:
+                self.spoil(target, space, "changed elsewhere", self.line)
 
-    def _set(self, name: str, form: Form | None) -> None:
-        value = self._known(name)
-        if form is None and isinstance(value, Number):
-            form = {(): value}
-        self._forms[name] = form
-        self._assigned.append(name)
+    def spoil(self, target: ir.Expr, space: Space, reason: str, line: int) -> None:
+        """What a name stands for is no longer known."""
+        space.update(dict.fromkeys(names_of(target), Unknown(reason, line)))
 
-    def _lose(self, targets: Iterable[ir.Expr]) -> None:
-        for target in targets:
-            while isinstance(target, ir.Index | ir.Field):
-                target = target.of
-            if isinstance(target, ir.Name):
-                self._forms[target.name] = None
+    def _store(self, target: ir.Expr, value: Value, space: Space, line: int) -> None:
+        target = self._whole(target)
+        super()._store(target, value, space, line)
+        if isinstance(target, ir.Name):
+            self._assigned.append(target.name)
 
-    def _slope(self, callee: ir.Expr, args: Sequence[ir.Expr]) -> Form | None:
-        """An evaluation of f; None where a call is none."""
-        forms = tuple(map(self._form, args))
-        if self._components or not any(form and any(form) for form in forms):
-            return None
-        slope = f"slope {len(self._slopes)}"
-        self._slopes.append(_Slope(slope, callee, forms))
-        return {(slope,): ONE}
+    def _taken_apart(self, target: ir.Items, value: Value, space: Space, line: int) -> None:
+        if isinstance(value, Array) or any(name in space for name in names_of(target)):
+            super()._taken_apart(target, value, space, line)
+
+    # values
+
+    def _named(self, name: str, space: Space) -> Value:
+        if name in space:
+            return space[name]
+        found = super()._named(name, space)
+        return found if isinstance(found, Number | Array) else Form({(name,): ONE})
+
+    def _entry(self, expr: ir.Index, space: Space) -> Value:
+        whole = self._whole(expr)
+        if whole is expr:
+            return super()._entry(expr, space)
+        found = self.value(whole, space)
+        return self.unknown("an entry") if isinstance(found, Array) else found
 
     def _whole(self, expr: ir.Expr) -> ir.Expr:
         """The array of which a loop takes one entry after the other."""
@@ -239,86 +225,74 @@ class Follower:
             expr = expr.of
         return expr
 
-    def _entry(self, expr: ir.Expr) -> Value | None:
-        """The entry of an array that is known, at a place that is written out."""
-        match expr:
-            case ir.Name(name=name) if name not in self._forms:
-                return self._known(name)
-            case ir.Index(of=of, at=at):
-                found = self._entry(of)
-                for place in at:
-                    i = int(place.text) if isinstance(place, ir.Literal) and place.is_whole else -1
-                    if not isinstance(found, Array):
-                        return None
-                    i -= found.base
-                    found = found.items[i] if 0 <= i < len(found.items) else None
-                return found
-        return None
+    def _called(self, call: ir.Call, space: Space) -> Value:
+        if call.named:
+            return self.unknown("a call with names")
+        args = [self.value(x, space) for x in call.args]
+        match call:
+            case ir.Call(ir.Name(name=name), (_,)) if name in CONVERSIONS:
+                return args[0]
+        if not any(isinstance(x, Form) for x in args):
+            return super()._called(call, space)
+        return self._slope(call.callee, args)
 
-    def _form(self, expr: ir.Expr) -> Form | None:
-        match self._whole(expr):
-            case ir.Literal(text=text, is_whole=is_whole):
-                return {(): literal(text, 0, is_whole)}
-            case ir.Name(name=name):
-                if name in self._forms:
-                    return self._forms[name]
-                known = self._known(name)
-                if isinstance(known, Array):
-                    return None
-                return {(): known} if isinstance(known, Number) else {(name,): ONE}
-            case ir.Index() as entry:
-                known = self._entry(entry)
-                return {(): known} if isinstance(known, Number) else None
-            case ir.Call(ir.Name(name=name), (value,), ()) if name in CONVERSIONS:
-                return self._form(value)
-            case ir.Call(callee, args, ()):
-                return self._slope(callee, args)
-            case ir.Unary(sign=sign, of=of):
-                form = self._form(of)
-                if form is None or sign != "-":
-                    return form
-                return {at: negative(x, 0) for at, x in form.items()}
-            case ir.Binary(sign=sign, left=left, right=right):
-                x, y = self._form(left), self._form(right)
-                if sign.lstrip(".") in {"+", "-"}:
-                    return self._sum(x, y, sign.lstrip("."))
-                return self._product(x, y, sign.lstrip("."))
-        return None
+    def _slope(self, callee: ir.Expr, args: Sequence[Value]) -> Value:
+        """An evaluation of f; unknown where a call is none."""
+        forms = tuple(map(_terms, args))
+        if self._components or not any(form and any(form) for form in forms):
+            return self.unknown("a call")
+        slope = f"slope {len(self._slopes)}"
+        self._slopes.append(_Slope(slope, callee, forms))
+        return Form({(slope,): ONE})
 
-    def _sum(self, x: Form | None, y: Form | None, sign: str) -> Form | None:
-        if x is None or y is None or len(x) + len(y) > MAX_TERMS:
-            return None
-        found = dict(x)
-        for at, value in y.items():
-            found[at] = computed(sign, found.get(at, ZERO), value, 0)
-        return {at: z for at, z in found.items() if not (isinstance(z, Number) and z.is_zero)}
+    def negated(self, value: Value) -> Value:
+        """The value with the other sign."""
+        minus = computed("-", ZERO, ONE, 0)
+        return (
+            self.combined("*", minus, value) if isinstance(value, Form) else super().negated(value)
+        )
 
-    def _product(self, x: Form | None, y: Form | None, sign: str) -> Form | None:
-        if x is None or y is None or sign not in {"*", "/"}:
-            return None
-        if sign == "/":
-            below = y.get(()) if len(y) == 1 else None
-            if not isinstance(below, Number) or (self._has_whole_quotients and _is_whole(x, below)):
-                return None
-            return {at: computed("/", value, below, 0) for at, value in x.items()}
+    def combined(self, sign: str, x: Value, y: Value) -> Value:
+        """An operation, on polynomials term by term."""
+        sign = sign.removeprefix(".")
+        left, right = _terms(x), _terms(y)
+        if not isinstance(x, Form) and not isinstance(y, Form):
+            return super().combined(sign, x, y)
+        if left is None or right is None or len(left) * len(right) > MAX_TERMS:
+            return self.unknown("an operation")
         found: dict[tuple[str, ...], Value] = {}
-        if len(x) * len(y) > MAX_TERMS:
-            return None
-        for left, a in x.items():
-            for right, b in y.items():
-                at = tuple(sorted((*left, *right)))
-                found[at] = computed("+", found.get(at, ZERO), computed("*", a, b, 0), 0)
-        return found
+        if sign in {"+", "-"}:
+            found.update(left)
+            for at, value in right.items():
+                found[at] = computed(sign, found.get(at, ZERO), value, 0)
+        elif sign == "*" or (sign == "/" and not any(right)):
+            for at, value in left.items():
+                for other, factor in right.items():
+                    both = tuple(sorted((*at, *other)))
+                    product = computed(sign, value, factor, 0)
+                    found[both] = computed("+", found.get(both, ZERO), product, 0)
+        else:
+            return self.unknown("an operation")
+        return Form({at: z for at, z in found.items() if not _is_zero(z)})
 
     # what it makes
 
-    def roles(self) -> dict[str, Value]:
-        """A, b, c and the error of the step.
+    def follow(self, way: Iterable[ir.Statement], space: Space) -> None:
+        """Evaluate some statements."""
+        self._space = space
+        try:
+            self._run(tuple(way), [space])
+        except OutOfSteps:
+            self._is_lost = True
+
+    def roles(self, way: Iterable[ir.Statement], space: Space) -> Roles:
+        """A, b, c and the error of the step that some statements are.
 
         Raises:
-            NoStep: it is none.
+            NoStep: they are none.
         """
-        callees = [x.callee for x in self._slopes if not _is_mathematics(x.callee)]
+        self.follow(way, space)
+        callees = [x.callee for x in self._slopes if _name(x.callee) not in _MATHEMATICS]
         if self._is_lost or len(self._slopes) > MAX_STAGES:
             raise NoStep
         for i, callee in enumerate(callees):
@@ -334,7 +308,7 @@ class Follower:
         """Whether f is evaluated at ``x + h*k``, where k is another value of f, in a loop too."""
         if self._has_step_inside:
             return True
-        called = {x.name: x.callee for x in self._slopes if not _is_mathematics(x.callee)}
+        called = {x.name: x.callee for x in self._slopes if _name(x.callee) not in _MATHEMATICS}
         return any(
             called.get(name) == called.get(x.name, "") and any(len(each) == 1 for each in form)
             for x in self._slopes
@@ -346,7 +320,7 @@ class Follower:
             if len(at) == 2
         )
 
-    def _of(self, slopes: Sequence[_Slope]) -> dict[str, Value]:
+    def _of(self, slopes: Sequence[_Slope]) -> Roles:
         """The same where these are the evaluations of f."""
         names = [x.name for x in slopes]
         width = len(slopes[0].args)
@@ -363,7 +337,13 @@ class Follower:
         result, form = self._result(start, values)
         step = _step(form, set(names))
         others = {x.name for x in self._slopes} - set(names)
-        used = {x for each in self._forms.values() for at in each or () if step in at for x in at}
+        used = {
+            x
+            for each in map(_terms, self._space.values())
+            for at in each or ()
+            if step in at
+            for x in at
+        }
         if used & others or (others and len(names) == 1):
             # values of another function take part in the step
             raise NoStep
@@ -384,7 +364,7 @@ class Follower:
             raise NoStep
         error: list[Value] = []
         for name in reversed(self._assigned):
-            of_error = self._forms.get(name)
+            of_error = _terms(self._space.get(name))
             if of_error and name != result and _is_error(of_error, step, set(names)):
                 error = _row({**of_error, (start,): ONE}, start, step, names)
                 if result not in self._returned and _are_apart(b, A[-1], error):
@@ -394,11 +374,11 @@ class Follower:
         while len(b) > 1 and all(_is_zero(row[-1]) for row in (*A, b, error) if row):
             # what is evaluated for the next step
             A, b, nodes, error = [x[:-1] for x in A[:-1]], b[:-1], nodes[:-1], error[:-1]
-        roles: dict[str, Value] = {"A": Array([Array(row) for row in A]), "b": Array(b)}
+        roles: Roles = {"A": Array([Array(row) for row in A]), "b": Array(b)}
         rows = {"c": nodes, "error": error}
         return roles | {role: Array(row) for role, row in rows.items() if row}
 
-    def _result(self, start: str, values: Sequence[Form]) -> tuple[str, Form]:
+    def _result(self, start: str, values: Sequence[Terms]) -> tuple[str, Terms]:
         """What the step comes to, with its name: what is returned, or else what is computed last.
 
         Raises:
@@ -406,7 +386,7 @@ class Follower:
         """
         names = [x for x in self._returned if self._ends(x, start)]
         names = names or [x for x in reversed(self._assigned) if self._ends(x, start)]
-        found = {x: form for x in names if (form := self._forms[x]) is not None}
+        found = {x: form for x in names if (form := _terms(self._space[x])) is not None}
         others = {
             str(sorted((at, _shown(x)) for at, x in form.items()))
             for form in found.values()
@@ -417,21 +397,28 @@ class Follower:
         return next(iter(found.items()))
 
     def _ends(self, name: str, start: str) -> bool:
-        form = self._forms.get(name)
+        form = _terms(self._space.get(name))
         return form is not None and (start,) in form and len(form) > 1
 
 
-def _known_forms(forms: Iterator[Form | None]) -> list[Form]:
+def _terms(value: Value | None) -> Terms | None:
+    """A value as a polynomial; None for one that is none."""
+    if isinstance(value, Number):
+        return {(): value}
+    return value.terms if isinstance(value, Form) else None
+
+
+def _known_forms(forms: Iterator[Terms | None]) -> list[Terms]:
     """The forms of an argument of f; none where one of them is not known."""
     found = list(forms)
     return [] if None in found else [x for x in found if x is not None]
 
 
-def _symbols(forms: Iterable[Form]) -> set[str]:
+def _symbols(forms: Iterable[Terms]) -> set[str]:
     return {name for form in forms for at in form for name in at}
 
 
-def _step(form: Form, names: set[str]) -> str:
+def _step(form: Terms, names: set[str]) -> str:
     """The name of the step."""
     others = {x for at in form if names & set(at) for x in at if x not in names}
     if len(others) != 1:
@@ -439,7 +426,7 @@ def _step(form: Form, names: set[str]) -> str:
     return others.pop()
 
 
-def _nodes(columns: Sequence[Sequence[Form]], step: str) -> list[Value]:
+def _nodes(columns: Sequence[Sequence[Terms]], step: str) -> list[Value]:
     """The nodes by the argument that is a time; none where there is no such argument.
 
     Raises:
@@ -474,18 +461,14 @@ def _are_apart(b: Sequence[Value], row: Sequence[Value], error: Sequence[Value])
     )
 
 
-def _is_whole(form: Form, below: Number) -> bool:
-    return below.is_whole and all(isinstance(x, Number) and x.is_whole for x in form.values())
-
-
-def _is_error(form: Form, step: str, names: set[str]) -> bool:
+def _is_error(form: Terms, step: str, names: set[str]) -> bool:
     """Whether it is a sum of slopes times the step whose coefficients cancel."""
     total = sum(x.near for x in form.values() if isinstance(x, Number))
     is_sum = all(len(at) == 2 and step in at and names & set(at) for at in form)
     return len(form) > 1 and is_sum and abs(total) < NEAR
 
 
-def _row(form: Form, start: str, step: str, names: Columns) -> list[Value]:
+def _row(form: Terms, start: str, step: str, names: Sequence[str]) -> list[Value]:
     """What is before the slopes.
 
     Raises:
@@ -500,7 +483,7 @@ def _row(form: Form, start: str, step: str, names: Columns) -> list[Value]:
     return row
 
 
-def _node(form: Form, time: tuple[str, ...], step: str) -> Value:
+def _node(form: Terms, time: tuple[str, ...], step: str) -> Value:
     rest = dict(form)
     one, node = rest.pop(time, None), rest.pop((step,), ZERO)
     if rest or not isinstance(one, Number) or one.value != 1:
@@ -521,20 +504,6 @@ def _is_over_components(name: str, body: ir.Body) -> bool:
     return are_plain and are_own and bool(entries)
 
 
-def _given(call: ir.Call) -> list[ir.Expr]:
-    """What a call may change."""
-    return [*call.args, *(x for _, x in call.named)]
-
-
-def _is_mathematics(callee: ir.Expr) -> bool:
-    """Whether a call is of a function that everybody knows, and not of a right-hand side."""
-    return _name(callee) in _MATHEMATICS
-
-
-def _is_copy(callee: ir.Expr) -> bool:
-    return _name(callee).removeprefix("std::") in _COPIES
-
-
 def _name(callee: ir.Expr) -> str:
     return callee.name.lower() if isinstance(callee, ir.Name | ir.Field) else ""
 
@@ -547,21 +516,3 @@ _MATHEMATICS = {
     *("dot", "cross", "kron", "norm", "axpy", "isclose", "allclose", "merge", "ifelse", "where"),
 }
 """Functions of two numbers, by the names that languages have for them."""
-
-
-def _targets(arms: Iterable[ir.Body]) -> list[ir.Expr]:
-    found: list[ir.Expr] = []
-    for body in arms:
-        for statement in body:
-            match statement:
-                case ir.Assign(target=target):
-                    found.append(target)
-                case ir.Do(value=ir.Call() as call):
-                    found += _given(call)
-                case ir.Scope(body=inside):
-                    found += _targets([inside])
-                case ir.Branch(arms=inner):
-                    found += _targets(inner)
-                case ir.Loop(body=inside):
-                    found += _targets([inside])
-    return found

@@ -5,7 +5,7 @@ records, and what is unknown with the reason.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -148,7 +148,16 @@ class Function(Frozen, eq=False):
     space: Space
 
 
-Value: TypeAlias = Number | Unknown | Array | Record | Word | Null | Type | Function
+class Form(Frozen, eq=False):
+    """A polynomial in unknown values, by their names: what is before each product of names, these
+    in order.
+    """
+
+    terms: Terms
+
+
+Value: TypeAlias = Number | Unknown | Array | Record | Word | Null | Type | Function | Form
+Terms: TypeAlias = Mapping[tuple[str, ...], Value]
 NULL = Null()
 
 

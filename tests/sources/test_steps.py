@@ -131,7 +131,18 @@ def step(system, state, dt):
     k3 = system.slope(state + dt * (2 * k2 - k1))
     return state + dt / 6 * (k1 + 4 * k2 + k3)
 """
+FIELDS = """
+function perform_step!(integrator, cache::SSPRK22ConstantCache)
+    (; t, dt, uprev, u, f, p) = integrator
+    integrator.fsalfirst = f(uprev, p, t)
+    u = uprev + dt * integrator.fsalfirst
+    k = f(u, p, t + dt)
+    u = (uprev + u + dt * k) / 2
+    integrator.u = u
+end
+"""
 STEPS = {
+    "slopes in fields": (julia.find, FIELDS, 2, None),
     "loops over components, the first slope is given": (c.find, LOOPS, 4, None),
     "what is evaluated before and after, errors": (c.find, STATUS, 3, 2),
     "no time": (python.find, AUTONOMOUS, 3, None),
