@@ -33,7 +33,8 @@ def reader_named(name: str) -> Reader:
     """
     known = all_readers()
     if name not in known:
-        raise UsageProblem(f"no format {name!r}", did_you_mean(name, list(known)))
+        cure = did_you_mean(name, list(known))
+        raise UsageProblem(f"no format {name!r}", cure, code="unknown-word")
     return known[name]
 
 
