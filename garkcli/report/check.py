@@ -167,7 +167,9 @@ def tables(letter: str) -> Row:
     return Row(
         letter,
         kind,
-        lambda a: kinds.Table(getattr(a.simplifying, letter), a.simplifying.limit),
+        lambda a: Answer(
+            kinds.Table(getattr(a.simplifying, letter), a.simplifying.limit), Status(a.tolerance)
+        ),
         DETAIL,
     )
 
@@ -184,7 +186,7 @@ def bound(number: str, simple: str, formula: str) -> Callable[[Any], Any]:
         doubt = f"; {computed} is not decided within the tolerance" if computed != value else ""
         return Answer(
             value,
-            Status(at_least=whose.is_open(computed)),
+            Status(a.tolerance, whose.is_open(computed)),
             Reason(f"{formula} with {bound_numbers(whose)}{doubt}"),
         )
 
@@ -196,7 +198,7 @@ def pair_criterion(a: Any) -> Any:
     found = pair_reason(a)
     if found is None:
         return None
-    return Answer(found.order, Status(at_least=not found.is_sharp), Reason(found.text))
+    return Answer(found.order, Status(a.tolerance, not found.is_sharp), Reason(found.text))
 
 
 def pair_criterion_why(a: Any) -> list[str]:
@@ -210,7 +212,7 @@ def _simplifying_phrase(_: str, answer: Answer, d: Plain) -> str:
     a, found = answer.value, answer.value.simplifying
     numbers = (("B", found.r), ("C", found.eta), ("D", found.zeta))
     said = ", ".join(f"{letter}({d.capped(x, found.limit)})" for letter, x in numbers)
-    return f"{said} give at least order {a.bound}"
+    return d.known(f"{said} give at least order {a.bound}", Status(a.tolerance))
 
 
 SIMPLIFYING = Section(
@@ -260,9 +262,20 @@ def conjugate_consistent(a: Any) -> Any:
     return replace(found, level=USUAL if is_told else DETAIL)
 
 
-def verdict_answer(v: Any) -> Answer:
+OF_EQUATIONS = {
+    *("sdirk", "esdirk", "stiffly-accurate", "fsal", "symmetric"),
+    *("stage-order", "weak-stage-order"),
+}
+"""Properties that rounded coefficients have within their tolerance; others hold for all methods
+there, or are undecided.
+"""
+
+
+def verdict_answer(a: Any, key: str) -> Answer:
     """What is decided of a property."""
-    status = Status(at_least=v.is_at_least, open=v.reason if v.is_undecided else NO_REASON)
+    v = a.subject.verdict(key)
+    within = a.tolerance if key in OF_EQUATIONS and v.value else None
+    status = Status(within, v.is_at_least, v.reason if v.is_undecided else NO_REASON)
     is_told = v.value is not True and not v.is_undecided
     return Answer(v.value, status, v.reason if is_told else NO_REASON)
 
@@ -284,10 +297,10 @@ def truth(key: str) -> Row:
     worthy, words = WORTH_A_WORD.get(key, (None, ""))
 
     def phrase(label: str, answer: Answer, d: Plain) -> str:
-        return d.prose(words or label)
+        return d.known(d.prose(words or label), answer.status)
 
     def get(a: Any) -> Answer:
-        answer = verdict_answer(a.subject.verdict(key))
+        answer = verdict_answer(a, key)
         is_told = worthy is not None and (answer.value is worthy or bool(answer.status.open))
         if key == "reducible" and (a.embedded is not None or a.dense is not None):
             answer = replace(
@@ -358,6 +371,7 @@ class OfColour(NamedTuple):
     shape: Shape | None
     stage_order: int
     limit: int
+    within: Any
 
     @property
     def is_open(self) -> bool:
@@ -369,7 +383,7 @@ def by_colour(a: Any) -> list[OfColour]:
     """All colours."""
     names = [colour.name for colour in a.tableau.colours]
     found = zip(names, a.subject.shapes, a.subject.simplifying.stage_orders, strict=True)
-    return [OfColour(*x, a.subject.limit) for x in found]
+    return [OfColour(*x, a.subject.limit, a.tolerance) for x in found]
 
 
 COLOUR = Section(
@@ -380,7 +394,7 @@ COLOUR = Section(
         "shape.kind",
     ),
     maybe("gamma", kinds.EXACT, "shape.gamma"),
-    Row("stage_order", kinds.COUNT, lambda x: kinds.at_least(x.stage_order, x.is_open)),
+    Row("stage_order", kinds.COUNT, lambda x: Answer(x.stage_order, Status(x.within, x.is_open))),
     optional("stage_order_is_lower_bound", kinds.TRUE, lambda x: x.is_open or None, DATA),
     title=lambda x, d: f"colour {d.prose(x.name)}",
 )
@@ -388,9 +402,7 @@ COLOUR = Section(
 
 def whole_number(key: str) -> Callable[[Any], Answer]:
     """A property that is a whole number, and may be a lower bound."""
-    return lambda a: kinds.at_least(
-        a.subject.verdict(key).value, a.subject.verdict(key).is_at_least
-    )
+    return lambda a: replace(verdict_answer(a, key), reason=NO_REASON)
 
 
 def count_rows(key: str) -> tuple[Row, ...]:
@@ -415,7 +427,8 @@ def _colours_words(found: Sequence[OfColour], d: Plain) -> str:
         said = [] if x.shape is None else [x.shape.name]
         if x.shape is not None and x.shape.gamma is not None:
             said.append(f"γ = {d.number(x.shape.gamma)}")
-        said.append(f"stage order {d.capped(x.stage_order, x.limit)}")
+        stage_order = d.known(d.capped(x.stage_order, x.limit), Status(x.within))
+        said.append(f"stage order {stage_order}")
         texts.append(f"{d.prose(x.name)} {', '.join(said)}")
     return "; ".join(texts)
 

@@ -170,6 +170,6 @@ def test_bounds_that_residuals_do_not_bear_out_say_so() -> None:
     assert (found.pair_bound, found.pair_sharp_bound) == (5, 5)
     text = words([Outcome("m", "m", analysis=found)])
     for label in ("bound", "sharp bound", "pair bound", "pair sharp bound"):
-        _, told, rest = text.partition(f" {label} 5: ")
+        _, told, rest = text.partition(f" {label} 5 within 7e-4: ")
         assert told
         assert "; 7 is not decided within the tolerance" in rest.partition(" bound ")[0]
