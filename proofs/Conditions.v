@@ -3,7 +3,7 @@
     For a method with nodes c, with b_l(v) written out in the coefficients of 1, θ, θ², …. *)
 
 From Coq Require Import QArith List Arith Lia.
-From Gark Require Import Stages Trees Methods Check Pairs Products.
+From Gark Require Import Stages Trees Methods Sums Check Pairs Products.
 Import ListNotations.
 Open Scope Q_scope.
 
@@ -109,6 +109,18 @@ Lemma b_scale l e q v : b M l e (scale q v) == q * b M l e v.
 Proof. apply (l_scale _ (b_linear M l e)). Qed.
 Lemma mu_scale l q v w : veq (v ⊙_l scale q w) (scale q (v ⊙_l w)).
 Proof. intros i. apply (l_scale _ (mu_right M l v i)). Qed.
+
+(** Stage values are equal if b_l does not tell their products apart. *)
+Lemma equal_by_products l v w : nondegenerate -> (l < N M)%nat ->
+  (forall g e, (e < degree M)%nat -> b M l e (g ⊙_l v) == b M l e (g ⊙_l w)) -> same l v w.
+Proof.
+  intros Non Hl H i Hi. assert (Z : same l (add v (scale (-(1)) w)) (fun _ => 0)).
+  { apply (Non l Hl). intros g e He.
+    rewrite (l_add _ (mul_right _ (Pof M l) g (b_linear M l e))).
+    rewrite (l_scale _ (mul_right _ (Pof M l) g (b_linear M l e))), (H g e He).
+    unfold rational. destruct (Nat.eqb e 0); ring. }
+  specialize (Z i Hi). unfold add, scale in Z. rewrite <- (Qplus_0_l (w i)), <- Z. ring.
+Qed.
 
 Lemma number_of_inverse n : (1 <= n)%nat -> inverse n == / number_of n.
 Proof.

@@ -3,7 +3,7 @@
     C(k) of one is D(k) of the other, and the even condition is kept. *)
 
 From Coq Require Import QArith List Arith Lia.
-From Gark Require Import Stages Trees Methods Tables Check Pairs Products Conditions.
+From Gark Require Import Stages Trees Methods Sums Check Pairs Products Conditions.
 Import ListNotations.
 Open Scope Q_scope.
 
@@ -21,9 +21,7 @@ Variable c : nat -> V.
 Lemma both_rational l m e x y q : quadrature M l x q -> (e < degree M)%nat ->
   both M l m e x y == q * b M m e y.
 Proof.
-  intros H He. unfold both. fold (sum (list_prod (seq 0 (degree M)) (seq 0 (degree M)))
-    (fun p => in_field M e (fst p) (snd p) * (b M l (fst p) x * b M m (snd p) y))).
-  rewrite sum_pairs. cbn [fst snd].
+  intros H He. unfold both. rewrite times_is.
   rewrite (sum_ext _ _ (fun u => (if Nat.eqb u 0 then 1 else 0) *
     sum (seq 0 (degree M)) (fun v => in_field M e u v * (q * b M m v y)))).
   - rewrite sum_at by lia.
@@ -35,11 +33,7 @@ Proof.
 Qed.
 Lemma both_swap l m e x y : both M l m e x y == both M m l e y x.
 Proof.
-  unfold both. fold (sum (list_prod (seq 0 (degree M)) (seq 0 (degree M)))
-    (fun p => in_field M e (fst p) (snd p) * (b M l (fst p) x * b M m (snd p) y))).
-  fold (sum (list_prod (seq 0 (degree M)) (seq 0 (degree M)))
-    (fun p => in_field M e (fst p) (snd p) * (b M m (fst p) y * b M l (snd p) x))).
-  rewrite !sum_pairs, sum_swap. apply sum_ext. intros u _. apply sum_ext. intros v _. cbn [fst snd].
+  unfold both. rewrite !times_is, sum_swap. apply sum_ext. intros u _. apply sum_ext. intros v _.
   rewrite (commutes _ _ _ (field_algebra M) e). ring.
 Qed.
 
@@ -79,20 +73,11 @@ Qed.
 
 Theorem lemma_0_C_of_conjugate : nondegenerate M -> B M c m k -> D M c m l k -> C hat c l m k.
 Proof.
-  intros Non Bm Dm j Hj. rewrite !same_powers.
-  set (v := app (Aof hat l m) (power_of M c m (j - 1))).
-  set (w := scale (inverse j) (power_of M c l j)).
-  assert (Zero : same M l (add v (scale (-(1)) w)) (fun _ => 0)).
-  { apply (Non l Hl). intros g e He.
-    rewrite (l_add _ (mul_right (b M l e) (Pof M l) g (b_linear M l e))).
-    rewrite (l_scale _ (mul_right (b M l e) (Pof M l) g (b_linear M l e))).
-    unfold v. rewrite conjugation, both_swap by assumption.
-    rewrite (both_rational m l e _ g _ (Bm j Hj) He).
-    rewrite (b_ext M m e _ _ (mu_comm M m _ _)), (Dm j g e Hj He).
-    unfold w. rewrite (b_ext M l e _ _ (mu_scale M l _ _ _)), b_scale.
-    rewrite (b_ext M l e _ _ (mu_comm M l g _)). unfold rational. destruct (Nat.eqb e 0); ring. }
-  intros i Hi. specialize (Zero i Hi). unfold add, scale in Zero.
-  change (v i == w i). rewrite <- (Qplus_0_l (w i)), <- Zero. unfold w, scale. ring.
+  intros Non Bm Dm j Hj. rewrite !same_powers. apply (equal_by_products M l _ _ Non Hl).
+  intros g e He. rewrite conjugation, both_swap by assumption.
+  rewrite (both_rational m l e _ g _ (Bm j Hj) He).
+  rewrite (b_ext M m e _ _ (mu_comm M m _ _)), (Dm j g e Hj He).
+  rewrite (b_ext M l e _ _ (mu_scale M l _ _ _)), b_scale, (b_ext M l e _ _ (mu_comm M l g _)). ring.
 Qed.
 
 Theorem lemma_0_even : B M c l (S k) -> B M c m (S k) -> (even hat c l m k <-> even M c m l k).
@@ -114,50 +99,31 @@ Proof.
   - exact (other_half _ _ _ Sum H).
   - rewrite Qplus_comm in Sum. exact (other_half _ _ _ Sum H).
 Qed.
-
-(** The converse statements, for Theorem B: "only if". *)
-Theorem lemma_0_D_of_method : B M c m k -> C hat c l m k -> D M c m l k.
-Proof.
-  intros Bm Cl j g e Hj He. specialize (Cl j Hj). rewrite !same_powers in Cl.
-  rewrite (b_ext M m e _ _ (mu_comm M m _ _)).
-  pose proof (conjugation e g (power_of M c m (j - 1)) He) as K.
-  rewrite both_swap, (both_rational m l e _ g _ (Bm j Hj) He) in K.
-  assert (L : b M l e (mul (Pof M l) g (app (Aof hat l m) (power_of M c m (j - 1)))) ==
-    inverse j * b M l e (mul (Pof M l) (power_of M c l j) g)).
-  { rewrite <- b_scale. apply b_ext.
-    eapply veq_trans; [apply mu_below; [intros; reflexivity|exact Cl]|].
-    eapply veq_trans; [apply mu_scale|]. intros i. unfold scale. rewrite (mu_comm M l g _ i).
-    reflexivity. }
-  rewrite L in K.
-  setoid_replace (inverse j * (b M l e g - b M l e (mul (Pof M l) (power_of M c l j) g)))
-    with (inverse j * b M l e g - inverse j * b M l e (mul (Pof M l) (power_of M c l j) g)) by ring.
-  rewrite K. ring.
-Qed.
-Theorem lemma_0_C_of_method : nondegenerate M -> B M c l k -> D hat c l m k -> C M c m l k.
-Proof.
-  intros Non Bl Dl j Hj.
-  set (v := app (Aof M m l) (power_of M c l (j - 1))).
-  set (w := scale (inverse j) (power_of M c m j)).
-  assert (Zero : same M m (add v (scale (-(1)) w)) (fun _ => 0)).
-  { apply (Non m Hm). intros g e He.
-    rewrite (l_add _ (mul_right (b M m e) (Pof M m) g (b_linear M m e))).
-    rewrite (l_scale _ (mul_right (b M m e) (Pof M m) g (b_linear M m e))).
-    unfold w. rewrite (b_ext M m e _ _ (mu_scale M m _ _ _)), b_scale.
-    rewrite (b_ext M m e _ _ (mu_comm M m g (power_of M c m j))).
-    rewrite (b_ext M m e _ _ (mu_comm M m g v)).
-    pose proof (conjugation e (power_of M c l (j - 1)) g He) as K.
-    specialize (Dl j g e Hj He). rewrite !same_powers in Dl.
-    rewrite (both_rational l m e _ g _ (Bl j Hj) He) in K.
-    change (b M l e (mul (Pof M l) (power_of M c l (j - 1)) (app (Aof hat l m) g)) ==
-      inverse j * (b M m e g - b M m e (mul (Pof M m) (power_of M c m j) g))) in Dl.
-    rewrite Dl in K. fold v in K.
-    assert (L : b M m e (mul (Pof M m) v g) == inverse j * b M m e g
-      - inverse j * (b M m e g - b M m e (mul (Pof M m) (power_of M c m j) g))).
-    { rewrite K. ring. }
-    rewrite L. unfold rational. destruct (Nat.eqb e 0); ring. }
-  intros i Hi. specialize (Zero i Hi). unfold add, scale in Zero.
-  change (v i == w i). rewrite <- (Qplus_0_l (w i)), <- Zero. unfold w, scale. ring.
-Qed.
 End Block.
 
+(** The method is the conjugate of its conjugate. *)
+Lemma conjugate_back : is_conjugate hat M.
+Proof.
+  destruct conjugate as [_ [_ [_ H]]]. repeat (split; [reflexivity|]). intros l m Hl Hm.
+  split; [symmetry; apply (H m l Hm Hl)|]. intros S e x y He.
+  destruct (H m l Hm Hl) as [S' K]. specialize (K (proj1 S' S) e y x He).
+  rewrite <- K. unfold defect.
+  change (both hat l m e x y) with (both M l m e x y). rewrite both_swap.
+  change (b hat) with (b M). change (Pof hat) with (Pof M).
+  rewrite (b_ext M l e _ _ (mu_comm M l x _)), (b_ext M m e _ _ (mu_comm M m _ y)). ring.
+Qed.
 End Lemma0.
+
+(** The converse statements, which are those for the conjugate of the conjugate. *)
+Theorem lemma_0_of_method M others c l m k :
+  let hat := {| field := field M; spaces := spaces M; colours := colours M; blocks := others |} in
+  is_conjugate M hat -> (l < N M)%nat -> (m < N M)%nat -> sees M m l ->
+  (B M c m k -> C hat c l m k -> D M c m l k) /\
+  (nondegenerate M -> B M c l k -> D hat c l m k -> C M c m l k).
+Proof.
+  intros hat Con Hl Hm Seen. pose proof (conjugate_back M others Con) as Back.
+  assert (S : sees hat l m) by (apply Con; assumption).
+  destruct M as [f s cs bs]. split.
+  - exact (lemma_0_D_of_conjugate hat bs Back c m l Hm Hl S k).
+  - exact (lemma_0_C_of_conjugate hat bs Back c m l Hm Hl S k).
+Qed.

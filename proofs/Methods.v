@@ -49,6 +49,10 @@ Definition in_space (s : space) (i a c : nat) : Q :=
   | Modulo m => nth i (power m (a + c)) 0
   end.
 Definition in_field (e u v : nat) : Q := nth e (power (field M) (u + v)) 0.
+(** The coefficient of θ^e in the product of two numbers. *)
+Definition times (x y : nat -> Q) (e : nat) : Q :=
+  let sum f := fold_right Qplus 0 (map f (seq 0 degree)) in
+  sum (fun u => sum (fun v => in_field e u v * x u * y v)).
 
 Definition nonzero {X} (ts : list (X * Q)) := filter (fun t => negb (Qeq_bool (snd t) 0)) ts.
 Definition every s := list_prod (seq 0 (size_of s)) (seq 0 degree).

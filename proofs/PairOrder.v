@@ -5,8 +5,8 @@
     of the method, and for n = 2k + 2 the even condition. *)
 
 From Coq Require Import QArith List Arith Lia Bool.
-From Gark Require Import Stages Trees Methods Tables Check Pairs.
-From Gark Require Import Products Conditions Sufficient Weights Positive Lemma0.
+From Gark Require Import Stages Trees Methods Sums Check Pairs.
+From Gark Require Import Products Conditions Sufficient Weights Definite Positive Lemma0.
 Import ListNotations.
 Open Scope Q_scope.
 
@@ -54,7 +54,7 @@ Proof. intros H. unfold Pof. rewrite space_of_pair by exact H. reflexivity. Qed.
 Lemma one_of_pair L : (L < N pair)%nat -> oneof pair L = oneof M (colour L).
 Proof. intros H. unfold oneof. rewrite space_of_pair by exact H. reflexivity. Qed.
 Lemma dim_of_pair L : (L < N pair)%nat -> dim pair L = dim M (colour L).
-Proof. intros H. unfold dim. rewrite space_of_pair by exact H. reflexivity. Qed.
+Proof. intros H. unfold dim, space_at. rewrite space_of_pair by exact H. reflexivity. Qed.
 
 Lemma block_of_pair s L : (L < N pair)%nat ->
   block pair s L = if Nat.ltb L n then block M s L else block hat s (colour L).
@@ -242,7 +242,7 @@ Proof.
     + pose proof (HC l m HL HM (of_M l m Hl Hm Hs)) as K. apply C_of_pair in K; try assumption.
       rewrite !colour_below_n in K by assumption. unfold side in K. apply Nat.ltb_lt in Hm.
       rewrite Hm in K. exact K.
-    + apply (lemma_0_D_of_method M others conjugate c m l Hm Hl Hs k).
+    + apply (proj1 (lemma_0_of_method M others c m l k conjugate Hm Hl Hs)).
       * intros j Hj. apply (HB' l Hl). lia.
       * pose proof (HC m (n + l)%nat HM HL' (of_hat m l Hm Hl (proj2 (sees_hat m l Hm Hl) Hs)))
         as K.
@@ -309,39 +309,25 @@ End Readers.
 (** c = A^{l,l} 𝟙. *)
 Definition row_sums M l := app (Aof M l l) (oneof M l).
 
-Definition theorem_B_applies M hat : bool :=
+Definition theorem_B_applies M hat lambda : bool :=
   forallb (fun T => Nat.eqb (length (blocks T)) (length (spaces T)) &&
     forallb (fun r => Nat.eqb (length r) (N T)) (blocks T)) [M; hat] &&
-  Nat.eqb (degree M) 1 &&
-  all (N M) (fun l => is_seen M l l &&
-    match the_space M (space_of M l) with
-    | Points s => all s (fun i => negb (Qle_bool (weight M l i) 0))
-    | Modulo _ => false
-    end).
+  all (N M) (fun l => is_seen M l l) && definite_by_elimination M lambda.
 
-Theorem theorem_B_for M hat k n : theorem_B_applies M hat = true -> is_conjugate M hat ->
-  (n = 2 * k + 1 \/ n = 2 * k + 2)%nat ->
+Theorem theorem_B_for M hat lambda k n : theorem_B_applies M hat lambda = true ->
+  is_conjugate M hat -> (n = 2 * k + 1 \/ n = 2 * k + 2)%nat ->
   (has_order (pair_of M hat) n <-> criterion M (row_sums M) k n).
 Proof.
   intros H Con Hn. unfold theorem_B_applies in H. rewrite !andb_true_iff in H.
-  destruct H as [[T D] W]. rewrite forallb_forall in T.
+  destruct H as [[T Seen] Def]. rewrite forallb_forall in T.
   assert (Tables : forall X, In X [M; hat] -> is_table X).
   { intros X I. specialize (T X I). rewrite andb_true_iff, Nat.eqb_eq, forallb_forall in T.
     split; [apply T|]. intros r Hr. apply Nat.eqb_eq, T, Hr. }
-  assert (K : forall l, (l < N M)%nat -> sees M l l /\ exists s,
-    the_space M (space_of M l) = Points s /\ forall i, (i < s)%nat -> 0 < weight M l i).
-  { intros l Hl. pose proof (all_at _ _ W l Hl) as K. cbv beta in K. apply andb_prop in K.
-    destruct K as [Hs K]. split; [apply seen_iff, Hs|].
-    destruct (the_space M (space_of M l)) as [s|]; [|discriminate]. exists s. split; [reflexivity|].
-    intros i Hi. apply Qnot_le_lt. intros L. apply Qle_bool_iff in L.
-    pose proof (all_at _ _ K i Hi) as Z. cbv beta in Z. rewrite L in Z. discriminate. }
-  apply theorem_B_with_positive_weights; try assumption.
+  apply theorem_B; try assumption.
   - split; apply Tables; simpl; auto.
-  - split; [apply Nat.eqb_eq, D|]. intros l Hl. destruct (K l Hl) as [_ [s [E _]]]. exists s.
-  exact E.
-  - intros l Hl i Hi. destruct (K l Hl) as [_ [s [E P]]]. apply P. unfold stages in Hi.
-  rewrite E in Hi. exact Hi.
-  - intros l Hl. exists l. split; [exact Hl|]. left. split; [apply K, Hl|]. intros i _. reflexivity.
+  - apply definite_by with (1 := Def).
+  - intros l Hl. exists l. split; [exact Hl|]. left. split; [|intros i _; reflexivity].
+    apply seen_iff, (all_at _ _ Seen l Hl).
 Qed.
 
 Print Assumptions theorem_B_if.

@@ -5,7 +5,7 @@
     this is b_i b_j = b_i â_ij + b_j a_ji. *)
 
 From Coq Require Import QArith ZArith List Arith Lia Bool.
-From Gark Require Import Stages Trees Methods Tables Check.
+From Gark Require Import Stages Trees Methods Sums Check.
 Import ListNotations.
 Open Scope Q_scope.
 
@@ -13,10 +13,7 @@ Section Conjugate.
 Variable M C : method.
 
 (** The coefficient of θ^e in b_l(x) b_m(y). *)
-Definition both l m e (x y : V) : Q :=
-  fold_right Qplus 0 (map (fun p => in_field M e (fst p) (snd p) * (b M l (fst p) x * b M m (snd
-    p) y))
-    (list_prod (seq 0 (degree M)) (seq 0 (degree M)))).
+Definition both l m e (x y : V) : Q := times M (fun u => b M l u x) (fun v => b M m v y) e.
 
 Definition defect l m e (x y : V) : Q :=
   b M l e (mul (Pof M l) x (app (Aof C l m) y)) + b M m e (mul (Pof M m) (app (Aof M m l) x) y)
@@ -62,8 +59,6 @@ Proof.
     apply eq_true_iff_eq. rewrite !Nat.ltb_lt. lia.
 Qed.
 
-Definition local n (f : V -> Q) := forall x y, (forall j, (j < n)%nat -> x j == y j) -> f x == f y.
-
 Lemma zero_on_units n f : linear f -> local n f -> (forall i, (i < n)%nat -> f (unit i) == 0) ->
   forall x, f x == 0.
 Proof.
@@ -106,17 +101,15 @@ Proof. apply lin_linear. Qed.
 
 Lemma both_left l m e y : linear (fun x => both l m e x y).
 Proof.
-  apply (linear_sum _ (fun p x => in_field M e (fst p) (snd p) * (b M l (fst p) x * b M m (snd p)
-    y))).
-  intros p. apply linear_times.
-  apply linear_ext with (f := fun x => b M m (snd p) y * b M l (fst p) x); [intros; ring|].
+  unfold both, times. cbv zeta. apply (linear_sum (seq 0 (degree M))). intros u.
+  apply (linear_sum (seq 0 (degree M))). intros v.
+  apply linear_ext with (f := fun x => in_field M e u v * b M m v y * b M l u x); [intros; ring|].
   apply linear_times, b_linear.
 Qed.
 Lemma both_right l m e x : linear (both l m e x).
 Proof.
-  apply (linear_sum _ (fun p y => in_field M e (fst p) (snd p) * (b M l (fst p) x * b M m (snd p)
-    y))).
-  intros p. apply linear_times, linear_times, b_linear.
+  unfold both, times. cbv zeta. apply (linear_sum (seq 0 (degree M))). intros u.
+  apply (linear_sum (seq 0 (degree M))). intros v. apply linear_times, b_linear.
 Qed.
 
 Lemma defect_left l m e y : linear (fun x => defect l m e x y).
@@ -136,71 +129,30 @@ Proof.
     apply linear_times, both_right.
 Qed.
 
-(** All entries that these maps look at are below a bound. *)
-Definition lin_below n (ts : list (nat * Q)) := forallb (fun t => Nat.ltb (fst t) n) ts.
-Definition bil_below n n' (ts : list (nat * nat * Q)) :=
-  forallb (fun t => Nat.ltb (fst (fst t)) n && Nat.ltb (snd (fst t)) n') ts.
-
-Lemma lin_local n ts : lin_below n ts = true -> local n (lin ts).
-Proof.
-  intros H x y E. induction ts as [|[j q] r IH]; simpl in *; [reflexivity|].
-  apply andb_prop in H. destruct H as [H K]. apply Nat.ltb_lt in H.
-  rewrite (E j H), (IH K). reflexivity.
-Qed.
-Lemma bil_local n n' ts x y x' y' : bil_below n n' ts = true ->
-  (forall j, (j < n)%nat -> x j == x' j) -> (forall j, (j < n')%nat -> y j == y' j) ->
-  bil ts x y == bil ts x' y'.
-Proof.
-  intros H E E'. induction ts as [|[[a c] q] r IH]; simpl in *; [reflexivity|].
-  apply andb_prop in H. destruct H as [H K]. apply andb_prop in H. destruct H as [H H'].
-  apply Nat.ltb_lt in H. apply Nat.ltb_lt in H'. rewrite (E a H), (E' c H'), (IH K). reflexivity.
-Qed.
-
-Definition dim l := (size_of (the_space M (space_of M l)) * degree M)%nat.
-Definition is_local l :=
-  forallb (bil_below (dim l) (dim l)) (P_rows M l)
-  && forallb (lin_below (dim l)) (W_rows M l)
-  && all (N M) (fun m => forallb (lin_below (dim m)) (A_rows M l m)
-                         && forallb (lin_below (dim m)) (A_rows C l m)).
+(** Rows are no longer than there are stages. *)
+Definition row_fits (l : nat) (row : list number) := Nat.leb (length row) (size_of (space_at M l)).
+Definition fits : bool :=
+  all (N M) (fun l => row_fits l (snd (nth l (colours M) (O, [])))
+    && all (N M) (fun m => forallb (row_fits m) (the_block M l m)
+                           && forallb (row_fits m) (the_block C l m))).
 
 (** ** The checker *)
-
-(** A product with a unit, as a matrix. *)
-Definition with_left (P : ztable (nat * nat)) i : ztable nat :=
-  (fst P, map (flat_map (fun '(a, c, q) => if Nat.eqb a i then [(c, q)] else [])) (snd P)).
-Definition with_right (P : ztable (nat * nat)) j : ztable nat :=
-  (fst P, map (flat_map (fun '(a, c, q) => if Nat.eqb c j then [(a, q)] else [])) (snd P)).
-
-Lemma with_left_is P i y : zapp (with_left P i) y = zmul P (zunit i) y.
-Proof.
-  unfold zapp, zmul, with_left. cbn [fst snd]. rewrite map_map. f_equal; [|simpl; lia].
-  apply map_ext. intros ts. induction ts as [|[[a c] q] ts IH]; [reflexivity|].
-  cbn [flat_map zbil]. rewrite zunit_at. destruct (Nat.eqb a i); cbn [List.app zlin]; rewrite IH;
-    ring.
-Qed.
-Lemma with_right_is P j x : zapp (with_right P j) x = zmul P x (zunit j).
-Proof.
-  unfold zapp, zmul, with_right. cbn [fst snd]. rewrite map_map. f_equal; [|simpl; lia].
-  apply map_ext. intros ts. induction ts as [|[[a c] q] ts IH]; [reflexivity|].
-  cbn [flat_map zbil]. rewrite zunit_at. destruct (Nat.eqb c j); cbn [List.app zlin]; rewrite IH;
-    ring.
-Qed.
 
 Definition vanishes (u v w : zvec) : bool :=
   all (degree M) (fun e => Qeq_bool (val u e + val v e - val w e) 0).
 
 (** The defect of a block at all units; F multiplies numbers. *)
-Definition block_is_conjugate (T T' : ztables) (F : ztable (nat * nat)) l m : bool :=
-  let xs := table (dim l) (fun i =>
-    (with_left (Pz T l) i, zapp (Az T m l) (zunit i), zapp (Wz T l) (zunit i))) in
-  let ys := table (dim m) (fun j =>
-    (with_right (Pz T m) j, zapp (Az T' l m) (zunit j), zapp (Wz T m) (zunit j))) in
-  forallb (fun '(Px, Ax, bx) => forallb (fun '(Py, Ay, by_) =>
-    vanishes (zapp (Wz T l) (zapp Px Ay)) (zapp (Wz T m) (zapp Py Ax)) (zmul F bx by_)) ys) xs.
+Definition block_is_conjugate (T T' : zmaps) (F : zvec -> zvec -> zvec) l m : bool :=
+  let xs := table (dim M l) (fun i =>
+    (zunit i, Az T m l (zunit i), Wz T l (zunit i))) in
+  let ys := table (dim M m) (fun j =>
+    (zunit j, Az T' l m (zunit j), Wz T m (zunit j))) in
+  forallb (fun '(x, Ax, bx) => forallb (fun '(y, Ay, by_) =>
+    vanishes (Wz T l (Pz T l x Ay)) (Wz T m (Pz T m Ax y)) (F bx by_)) ys) xs.
 
 Definition conjugate_is_proved : bool :=
-  let T := the_tables M in let T' := the_tables C in let F := zt (product_table M (Points 1)) in
-  all (N M) is_local &&
+  let T := the_maps M in let T' := the_maps C in let F := ztimes_of M in
+  fits &&
   all (N M) (fun l => all (N M) (fun m =>
     eqb (is_seen C l m) (is_seen M m l) &&
     (negb (is_seen M m l) || block_is_conjugate T T' F l m))).
@@ -211,30 +163,24 @@ Hypothesis same_colours : colours C = colours M.
 Hypothesis proved : conjugate_is_proved = true.
 
 Lemma both_val l m e i j : (l < N M)%nat -> (m < N M)%nat -> (e < degree M)%nat ->
-  both l m e (unit i) (unit j) == val (zmul (zt (product_table M (Points 1)))
-    (zapp (Wz (the_tables M) l) (zunit i)) (zapp (Wz (the_tables M) m) (zunit j))) e.
+  both l m e (unit i) (unit j) ==
+  val (ztimes_of M (Wz (the_maps M) l (zunit i)) (Wz (the_maps M) m (zunit j))) e.
 Proof.
-  intros Hl Hm He. rewrite (zmul_val _ _ _ e), product_table_is. unfold mul.
-  rewrite field_product by exact He. unfold both.
-  fold (sum (list_prod (seq 0 (degree M)) (seq 0 (degree M)))
-    (fun p => in_field M e (fst p) (snd p) * (b M l (fst p) (unit i) * b M m (snd p) (unit j)))).
-  rewrite sum_pairs. apply sum_ext. intros u Hu. apply sum_ext. intros v Hv. cbn [fst snd].
-  apply in_seq in Hu. apply in_seq in Hv. unfold unit.
-  rewrite !(b_val M _ eq_refl) by lia. ring.
+  intros Hl Hm He. rewrite ztimes_of_val by exact He. apply times_ext; intros u Hu;
+    apply (b_val M _ eq_refl); assumption.
 Qed.
 
 Lemma unit_defect_is_0 l m e i j : (l < N M)%nat -> (m < N M)%nat -> (e < degree M)%nat ->
-  (i < dim l)%nat -> (j < dim m)%nat ->
-  block_is_conjugate (the_tables M) (the_tables C) (zt (product_table M (Points 1))) l m = true ->
+  (i < dim M l)%nat -> (j < dim M m)%nat ->
+  block_is_conjugate (the_maps M) (the_maps C) (ztimes_of M) l m = true ->
   defect l m e (unit i) (unit j) == 0.
 Proof.
   intros Hl Hm He Hi Hj K. unfold block_is_conjugate in K. cbv zeta in K.
-  rewrite forallb_forall in K. specialize (K _ (in_map _ _ i (proj2 (in_seq (dim l) 0 i)
+  rewrite forallb_forall in K. specialize (K _ (in_map _ _ i (proj2 (in_seq (dim M l) 0 i)
     ltac:(lia)))).
   cbv beta iota in K. rewrite forallb_forall in K.
-  specialize (K _ (in_map _ _ j (proj2 (in_seq (dim m) 0 j) ltac:(lia)))). cbv beta iota in K.
+  specialize (K _ (in_map _ _ j (proj2 (in_seq (dim M m) 0 j) ltac:(lia)))). cbv beta iota in K.
   pose proof (all_at _ _ K e He) as E. apply Qeq_bool_iff in E.
-  rewrite with_left_is, with_right_is in E.
   assert (Hl' : (l < N C)%nat) by (unfold N; rewrite same_colours; exact Hl).
   assert (Hm' : (m < N C)%nat) by (unfold N; rewrite same_colours; exact Hm).
   rewrite <- E. unfold defect. rewrite both_val by assumption.
@@ -249,64 +195,49 @@ Proof.
     apply (A_val M _ eq_refl); assumption.
 Qed.
 
-Lemma nth_forallb {X} (c : list X -> bool) rs i : c [] = true -> forallb c rs = true ->
-  c (nth i rs []) = true.
+Lemma fits_is : fits = true -> forall l m, (l < N M)%nat -> (m < N M)%nat ->
+  (forall e, local (dim M l) (b M l e)) /\
+  (forall i, local (dim M m) (fun x => app (Aof M l m) x i)) /\
+  (forall i, local (dim M m) (fun x => app (Aof C l m) x i)).
 Proof.
-  intros Z H. rewrite forallb_forall in H.
-  destruct (nth_in_or_default i rs []) as [K|K]; [apply H, K|rewrite K; exact Z].
+  intros H l m Hl Hm. pose proof (all_at _ _ H l Hl) as K. cbv beta in K.
+  apply andb_prop in K. destruct K as [W K]. pose proof (all_at _ _ K m Hm) as A. cbv beta in A.
+  apply andb_prop in A. destruct A as [A A']. rewrite forallb_forall in A, A'.
+  assert (E : dim M m = dim C m /\ space_at C m = space_at M m).
+  { unfold dim, space_at, the_space, space_of, degree. rewrite same_field, same_spaces, same_colours.
+    split; reflexivity. }
+  split; [|split].
+  - intros e. apply row_local. unfold dim. apply Nat.mul_le_mono_r, Nat.leb_le, W.
+  - intros i. apply A_local. intros B EB row R. apply Nat.leb_le, A. unfold the_block.
+    rewrite EB. exact R.
+  - intros i. destruct E as [-> E]. apply A_local. intros B EB row R. rewrite E.
+    apply Nat.leb_le, A'. unfold the_block. rewrite EB. exact R.
 Qed.
 
 Theorem proved_conjugate : is_conjugate.
 Proof.
   split; [exact same_field|]. split; [exact same_spaces|]. split; [exact same_colours|].
-  pose proof proved as H. unfold conjugate_is_proved in H.
-  cbv zeta in H. apply andb_prop in H. destruct H as [Lo D].
+  pose proof proved as H. unfold conjugate_is_proved in H. cbv zeta in H.
+  apply andb_prop in H. destruct H as [Fit D].
   intros l m Hl Hm. pose proof (all_at _ _ (all_at _ _ D l Hl) m Hm) as K. cbv beta in K.
   apply andb_prop in K. destruct K as [Se K]. apply eqb_prop in Se.
   split; [rewrite !seen_iff, Se; reflexivity|].
   intros Hs e x y He. rewrite seen_iff in Hs. rewrite Hs in K. cbn [negb orb] in K.
-  pose proof (all_at _ _ Lo l Hl) as Ll. pose proof (all_at _ _ Lo m Hm) as Lm.
-  unfold is_local, P_rows in Ll, Lm. rewrite product_table_is in Ll, Lm.
-  apply andb_prop in Ll. destruct Ll as [Ll LA]. apply andb_prop in Ll. destruct Ll as [LP LW].
-  apply andb_prop in Lm. destruct Lm as [Lm MA]. apply andb_prop in Lm. destruct Lm as [MP MW].
-  pose proof (all_at _ _ LA m Hm) as LAm. apply andb_prop in LAm. destruct LAm as [_ LC].
-  rewrite A_rows_are in LC.
-  pose proof (all_at _ _ MA l Hl) as MAl. apply andb_prop in MAl. destruct MAl as [ML _].
-  rewrite A_rows_are in ML.
-  assert (Bl : forall u z w, (u < degree M)%nat -> (forall k, (k < dim l)%nat -> z k == w k) ->
-    b M l u z == b M l u w) by (intros u z w Hu; apply lin_local; rewrite <- W_at by exact Hu;
-    apply nth_forallb; [reflexivity|exact LW]).
-  assert (Bm : forall u z w, (u < degree M)%nat -> (forall k, (k < dim m)%nat -> z k == w k) ->
-    b M m u z == b M m u w) by (intros u z w Hu; apply lin_local; rewrite <- W_at by exact Hu;
-    apply nth_forallb; [reflexivity|exact MW]).
-  assert (U : forall u v, In (u, v) (list_prod (seq 0 (degree M)) (seq 0 (degree M))) ->
-      (u < degree M)%nat /\ (v < degree M)%nat).
-  { intros u v I. apply in_prod_iff in I. rewrite !in_seq in I. lia. }
-  apply (zero_on_units (dim l) (fun x => defect l m e x y)).
+  destruct (fits_is Fit l m Hl Hm) as [Bl [_ Al]]. destruct (fits_is Fit m l Hm Hl) as [Bm [Am _]].
+  apply (zero_on_units (dim M l) (fun x => defect l m e x y)).
   - apply defect_left.
-  - intros z w E. unfold defect. apply Qplus_comp; [apply Qplus_comp|apply Qopp_comp].
-    + apply (l_ext _ (b_linear l e)). intros k.
-      apply (bil_local (dim l) (dim l)); [apply nth_forallb; [reflexivity|exact LP]|exact
-        E|reflexivity].
-    + apply (l_ext _ (b_linear m e)). intros k. apply (l_ext _ (bil_left (Pof M m k) y)). intros n.
-      apply (lin_local (dim l)); [|exact E]. apply (nth_forallb (lin_below (dim l)));
-        [reflexivity|exact ML].
-    + unfold both. induction (list_prod _ _) as [|[u v] r IH]; simpl; [reflexivity|].
-      destruct (U u v (or_introl eq_refl)) as [Hu Hv].
-      rewrite IH by (intros; apply U; right; assumption). rewrite (Bl u z w Hu E). reflexivity.
-  - intros i Hi. apply (zero_on_units (dim m) (defect l m e (unit i))).
+  - intros z w E. unfold defect, both.
+    rewrite (l_ext _ (b_linear l e) _ _ (mu_below M l z w _ _ E (fun _ _ => Qeq_refl _))).
+    rewrite (l_ext _ (b_linear m e) _ _ (mul_ext (Pof M m) _ _ y y
+      (fun i => Am i z w E) (veq_refl y))).
+    rewrite (times_ext M _ _ _ _ e (fun u _ => Bl u z w E) (fun _ _ => Qeq_refl _)). reflexivity.
+  - intros i Hi. apply (zero_on_units (dim M m) (defect l m e (unit i))).
     + apply defect_right.
-    + intros z w E. unfold defect. apply Qplus_comp; [apply Qplus_comp|apply Qopp_comp].
-      * apply (l_ext _ (b_linear l e)). intros k.
-      apply (l_ext _ (bil_right (Pof M l k) (unit i))). intros n.
-        apply (lin_local (dim m)); [|exact E]. apply (nth_forallb (lin_below (dim m)));
-          [reflexivity|exact LC].
-      * apply (l_ext _ (b_linear m e)). intros k.
-        apply (bil_local (dim m) (dim m)); [apply nth_forallb; [reflexivity|exact
-          MP]|reflexivity|exact E].
-      * unfold both. induction (list_prod _ _) as [|[u v] r IH]; simpl; [reflexivity|].
-        destruct (U u v (or_introl eq_refl)) as [Hu Hv].
-        rewrite IH by (intros; apply U; right; assumption). rewrite (Bm v z w Hv E). reflexivity.
+    + intros z w E. unfold defect, both.
+      rewrite (l_ext _ (b_linear l e) _ _ (mul_ext (Pof M l) _ _ _ _ (veq_refl _)
+        (fun i => Al i z w E))).
+      rewrite (l_ext _ (b_linear m e) _ _ (mu_below M m _ _ z w (fun _ _ => Qeq_refl _) E)).
+      rewrite (times_ext M _ _ _ _ e (fun _ _ => Qeq_refl _) (fun v _ => Bm v z w E)). reflexivity.
     + intros j Hj. apply unit_defect_is_0; assumption.
 Qed.
 End Conjugate.

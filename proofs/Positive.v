@@ -1,7 +1,7 @@
 (** * Theorem A: definite weights and the order 2k + 1 force C(k) on every block *)
 
 From Coq Require Import QArith List Arith Lia.
-From Gark Require Import Stages Trees Methods Check Pairs Products Conditions Weights.
+From Gark Require Import Stages Trees Methods Sums Check Pairs Products Conditions Weights.
 Import ListNotations.
 Open Scope Q_scope.
 

@@ -4,7 +4,7 @@
     polynomial, over ℚ and over ℚ(θ). *)
 
 From Coq Require Import QArith List Arith Lia.
-From Gark Require Import Stages Methods Tables Pairs.
+From Gark Require Import Stages Methods Sums Pairs.
 Import ListNotations.
 Open Scope Q_scope.
 
@@ -93,44 +93,12 @@ Section Products.
 Variable M : method.
 
 Notation mu l := (mul (Pof M l)).
-Definition space_at l := the_space M (space_of M l).
 Definition field_algebra : algebra (degree M) (in_field M) (fun e => if Nat.eqb e 0 then 1 else 0)
   := modulo_algebra (field M).
 
-Lemma mu_at l x y i e : (i < size_of (space_at l))%nat -> (e < degree M)%nat ->
-  mu l x y (entry M (i, e)) ==
-  sum (list_prod (every M (space_at l)) (every M (space_at l))) (fun p =>
-    in_space (space_at l) i (fst (fst p)) (fst (snd p)) * in_field M e (snd (fst p)) (snd (snd p))
-    * x (entry M (fst p)) * y (entry M (snd p))).
-Proof.
-  intros Hi He. unfold mul, Pof, product_of, every, entry. cbn [fst snd].
-  rewrite nth_entry by assumption. unfold product_row. cbn [fst snd].
-  rewrite (map_ext _ (fun p => (entry M (fst p), entry M (snd p),
-    Qred (in_space (space_at l) i (fst (fst p)) (fst (snd p)) * in_field M e (snd (fst p))
-      (snd (snd p)))))).
-  - rewrite bil_sum. reflexivity.
-  - intros [[a u] [c v]]. reflexivity.
-Qed.
-
-Lemma mu_beyond l x y n : (dim M l <= n)%nat -> mu l x y n == 0.
-Proof.
-  intros H. unfold mul, Pof. rewrite nth_overflow; [reflexivity|].
-  unfold product_of, every. rewrite map_length, prod_length, !seq_length. exact H.
-Qed.
-
-Lemma entry_below l n : (n < dim M l)%nat ->
-  exists i e, (i < size_of (space_at l))%nat /\ (e < degree M)%nat /\ n = entry M (i, e).
-Proof.
-  unfold dim, entry. fold (space_at l). intros H.
-  assert (degree M <> 0)%nat by (intros E; rewrite E in H; lia).
-  exists (n / degree M)%nat, (n mod degree M)%nat. cbn [fst snd]. split; [|split].
-  - apply Nat.div_lt_upper_bound; lia.
-  - apply Nat.mod_upper_bound. assumption.
-  - rewrite Nat.mul_comm. apply Nat.div_mod. assumption.
-Qed.
-Lemma entry_is_below l i e : (i < size_of (space_at l))%nat -> (e < degree M)%nat ->
+Lemma entry_is_below l i e : (i < size_of (space_at M l))%nat -> (e < degree M)%nat ->
   (entry M (i, e) < dim M l)%nat.
-Proof. unfold dim, entry. fold (space_at l). cbn [fst snd]. intros. nia. Qed.
+Proof. unfold dim, entry. fold (space_at M l). cbn [fst snd]. intros. nia. Qed.
 Lemma entry_eq i e j v : (e < degree M)%nat -> (v < degree M)%nat ->
   Nat.eqb (entry M (i, e)) (entry M (j, v)) = andb (Nat.eqb i j) (Nat.eqb e v).
 Proof.
@@ -139,27 +107,16 @@ Proof.
   intros E. assert (i = j) by nia. subst. lia.
 Qed.
 
-Lemma mu_below l x x' y y' :
-  (forall n, (n < dim M l)%nat -> x n == x' n) -> (forall n, (n < dim M l)%nat -> y n == y' n) ->
-  veq (mu l x y) (mu l x' y').
-Proof.
-  intros Hx Hy n. destruct (lt_dec n (dim M l)) as [L|L].
-  - destruct (entry_below l n L) as [i [e [Hi [He ->]]]]. rewrite !mu_at by assumption.
-    apply sum_ext. intros [[a u] [c v]] I. unfold every in I. rewrite !in_prod_iff, !in_seq in I.
-    cbn [fst snd] in *. rewrite Hx, Hy by (apply entry_is_below; lia). reflexivity.
-  - rewrite !mu_beyond by lia. reflexivity.
-Qed.
-
 Lemma mu_ext l x x' y y' : veq x x' -> veq y y' -> veq (mu l x y) (mu l x' y').
-Proof. intros Hx Hy. apply mu_below; intros; [apply Hx|apply Hy]. Qed.
+Proof. intros Hx Hy. apply (mu_below M); intros; [apply Hx|apply Hy]. Qed.
 
 Lemma mu_comm l x y : veq (mu l x y) (mu l y x).
 Proof.
   intros n. destruct (lt_dec n (dim M l)) as [L|L].
-  - destruct (entry_below l n L) as [i [e [Hi [He ->]]]]. rewrite !mu_at by assumption.
+  - destruct (entry_of M n _ L) as [i [e [Hi [He ->]]]]. rewrite !mu_at by assumption.
     rewrite (sum_pairs _ _ _), (sum_pairs _ _ _).
     rewrite sum_swap. apply sum_ext. intros a _. apply sum_ext. intros c _. cbn [fst snd].
-    rewrite (commutes _ _ _ (space_algebra (space_at l)) i), (commutes _ _ _ field_algebra e). ring.
+    rewrite (commutes _ _ _ (space_algebra (space_at M l)) i), (commutes _ _ _ field_algebra e). ring.
   - rewrite !mu_beyond by lia. reflexivity.
 Qed.
 
@@ -169,46 +126,46 @@ Lemma mu_right l x : forall n, linear (fun y => mu l x y n).
 Proof. intros n. apply bil_right. Qed.
 
 (** A product with a basis element. *)
-Lemma mu_unit l x c v i e : (c < size_of (space_at l))%nat -> (v < degree M)%nat ->
-  (i < size_of (space_at l))%nat -> (e < degree M)%nat ->
+Lemma mu_unit l x c v i e : (c < size_of (space_at M l))%nat -> (v < degree M)%nat ->
+  (i < size_of (space_at M l))%nat -> (e < degree M)%nat ->
   mu l x (unit (entry M (c, v))) (entry M (i, e)) ==
-  sum (every M (space_at l)) (fun p =>
-    in_space (space_at l) i (fst p) c * in_field M e (snd p) v * x (entry M p)).
+  sum (every M (space_at M l)) (fun p =>
+    in_space (space_at M l) i (fst p) c * in_field M e (snd p) v * x (entry M p)).
 Proof.
   intros Hc Hv Hi He. rewrite mu_at by assumption. rewrite sum_pairs. apply sum_ext. intros [a u] _.
   unfold every. rewrite sum_pairs. cbn [fst snd].
   rewrite (sum_ext _ _ (fun c' => (if Nat.eqb c' c then 1 else 0) *
-    (in_space (space_at l) i a c' * in_field M e u v * x (entry M (a, u))))).
+    (in_space (space_at M l) i a c' * in_field M e u v * x (entry M (a, u))))).
   - rewrite sum_at by assumption. reflexivity.
   - intros c' _. rewrite (sum_ext _ _ (fun v' => (if Nat.eqb v' v then 1 else 0) *
-      ((if Nat.eqb c' c then 1 else 0) * (in_space (space_at l)
+      ((if Nat.eqb c' c then 1 else 0) * (in_space (space_at M l)
         i a c' * in_field M e u v' * x (entry M (a, u)))))).
     + rewrite sum_at by assumption. reflexivity.
     + intros v' Iv. apply in_seq in Iv. rewrite unit_at, entry_eq by lia.
       destruct (Nat.eqb c' c), (Nat.eqb v' v); simpl; ring.
 Qed.
-Lemma mu_units l a u c v i e : (a < size_of (space_at l))%nat -> (u < degree M)%nat ->
-  (c < size_of (space_at l))%nat -> (v < degree M)%nat ->
-  (i < size_of (space_at l))%nat -> (e < degree M)%nat ->
+Lemma mu_units l a u c v i e : (a < size_of (space_at M l))%nat -> (u < degree M)%nat ->
+  (c < size_of (space_at M l))%nat -> (v < degree M)%nat ->
+  (i < size_of (space_at M l))%nat -> (e < degree M)%nat ->
   mu l (unit (entry M (a, u))) (unit (entry M (c, v))) (entry M (i, e)) ==
-  in_space (space_at l) i a c * in_field M e u v.
+  in_space (space_at M l) i a c * in_field M e u v.
 Proof.
   intros Ha Hu Hc Hv Hi He. rewrite mu_unit by assumption. unfold every. rewrite sum_pairs.
   cbn [fst snd].
-  rewrite (sum_ext _ _ (fun a' => (if Nat.eqb a' a then 1 else 0) * (in_space (space_at l)
+  rewrite (sum_ext _ _ (fun a' => (if Nat.eqb a' a then 1 else 0) * (in_space (space_at M l)
     i a' c * in_field M e u v))).
   - rewrite sum_at by assumption. reflexivity.
   - intros a' _. rewrite (sum_ext _ _ (fun u' => (if Nat.eqb u' u then 1 else 0) *
-      ((if Nat.eqb a' a then 1 else 0) * (in_space (space_at l) i a' c * in_field M e u' v)))).
+      ((if Nat.eqb a' a then 1 else 0) * (in_space (space_at M l) i a' c * in_field M e u' v)))).
     + rewrite sum_at by assumption. reflexivity.
     + intros u' Iu. apply in_seq in Iu. rewrite unit_at, entry_eq by lia.
       destruct (Nat.eqb a' a), (Nat.eqb u' u); simpl; ring.
 Qed.
 
 Lemma local_left l y n : local (dim M l) (fun x => mu l x y n).
-Proof. intros x x' H. apply mu_below; [exact H|reflexivity]. Qed.
+Proof. intros x x' H. apply (mu_below M); [exact H|reflexivity]. Qed.
 Lemma local_right l x n : local (dim M l) (fun y => mu l x y n).
-Proof. intros y y' H. apply mu_below; [reflexivity|exact H]. Qed.
+Proof. intros y y' H. apply (mu_below M); [reflexivity|exact H]. Qed.
 
 Lemma equal_on_units n f g : linear f -> linear g -> local n f -> local n g ->
   (forall i, (i < n)%nat -> f (unit i) == g (unit i)) -> forall x, f x == g x.
@@ -225,7 +182,7 @@ Qed.
 Theorem mu_assoc l x y z : veq (mu l (mu l x y) z) (mu l x (mu l y z)).
 Proof.
   intros n. destruct (lt_dec n (dim M l)) as [L|L]; [|rewrite !mu_beyond by lia; reflexivity].
-  destruct (entry_below l n L) as [i [e [Hi [He ->]]]].
+  destruct (entry_of M n _ L) as [i [e [Hi [He ->]]]].
   set (n := entry M (i, e)).
   assert (Ext : forall f, linear f -> forall g, (forall m, linear (fun x => g x m)) ->
     linear (fun x => f (g x))).
@@ -238,14 +195,14 @@ Proof.
   { apply mu_left. }
   { intros w w' E. apply mu_ext; [|apply veq_refl]. intros m. apply local_left, E. }
   { apply local_left. }
-  clear x. intros x Hx. destruct (entry_below l x Hx) as [a [u [Ha [Hu ->]]]]. clear Hx.
+  clear x. intros x Hx. destruct (entry_of M x _ Hx) as [a [u [Ha [Hu ->]]]]. clear Hx.
   apply (equal_on_units (dim M l) (fun y => mu l (mu l (unit (entry M (a, u))) y) z n)
     (fun y => mu l (unit (entry M (a, u))) (mu l y z) n)).
   { apply (Ext (fun w => mu l w z n)); [apply mu_left|intros; apply mu_right]. }
   { apply (Ext (fun w => mu l _ w n)); [apply mu_right|intros; apply mu_left]. }
   { intros w w' E. apply mu_ext; [|apply veq_refl]. intros m. apply local_right, E. }
   { intros w w' E. apply mu_ext; [apply veq_refl|]. intros m. apply local_left, E. }
-  clear y. intros y Hy. destruct (entry_below l y Hy) as [c [v [Hc [Hv ->]]]]. clear Hy.
+  clear y. intros y Hy. destruct (entry_of M y _ Hy) as [c [v [Hc [Hv ->]]]]. clear Hy.
   apply (equal_on_units (dim M l)
     (fun z => mu l (mu l (unit (entry M (a, u))) (unit (entry M (c, v)))) z n)
     (fun z => mu l (unit (entry M (a, u))) (mu l (unit (entry M (c, v))) z) n)).
@@ -253,56 +210,56 @@ Proof.
   { apply (Ext (fun w => mu l _ w n)); [apply mu_right|intros; apply mu_right]. }
   { apply local_right. }
   { intros w w' E. apply mu_ext; [apply veq_refl|]. intros m. apply local_right, E. }
-  clear z. intros z Hz. destruct (entry_below l z Hz) as [d [w [Hd [Hw ->]]]]. clear Hz.
+  clear z. intros z Hz. destruct (entry_of M z _ Hz) as [d [w [Hd [Hw ->]]]]. clear Hz.
   unfold n. rewrite (mu_unit l _ d w) by assumption.
   rewrite (mu_comm l (unit (entry M (a, u))) _ _), (mu_unit l _ a u) by assumption.
-  rewrite (sum_ext _ _ (fun p => (in_space (space_at l) i (fst p) d * in_space (space_at l) (fst p)
+  rewrite (sum_ext _ _ (fun p => (in_space (space_at M l) i (fst p) d * in_space (space_at M l) (fst p)
     a c)
     * (in_field M e (snd p) w * in_field M (snd p) u v))).
   2:{ intros [g h] I. unfold every in I. rewrite in_prod_iff, !in_seq in I.
   rewrite mu_units by lia. cbn [fst snd]. ring. }
-  symmetry. rewrite (sum_ext _ _ (fun p => (in_space (space_at l) i a (fst p)
-    * in_space (space_at l) (fst p) c d)
+  symmetry. rewrite (sum_ext _ _ (fun p => (in_space (space_at M l) i a (fst p)
+    * in_space (space_at M l) (fst p) c d)
     * (in_field M e u (snd p) * in_field M (snd p) v w))).
   2:{ intros [g h] I. unfold every in I. rewrite in_prod_iff, !in_seq in I.
   rewrite mu_units by lia. cbn [fst snd].
-      rewrite (commutes _ _ _ (space_algebra (space_at l)) i), (commutes _ _ _ field_algebra e).
+      rewrite (commutes _ _ _ (space_algebra (space_at M l)) i), (commutes _ _ _ field_algebra e).
       ring. }
   unfold every.
-  rewrite (sum_of_products _ _ (fun g => in_space (space_at l) i a g * in_space (space_at l) g c d)
+  rewrite (sum_of_products _ _ (fun g => in_space (space_at M l) i a g * in_space (space_at M l) g c d)
     (fun h => in_field M e u h * in_field M h v w)).
-  rewrite (sum_of_products _ _ (fun g => in_space (space_at l) i g d * in_space (space_at l) g a c)
+  rewrite (sum_of_products _ _ (fun g => in_space (space_at M l) i g d * in_space (space_at M l) g a c)
     (fun h => in_field M e h w * in_field M h u v)).
-  rewrite (associates _ _ _ (space_algebra (space_at l)) i a c d) by assumption.
+  rewrite (associates _ _ _ (space_algebra (space_at M l)) i a c d) by assumption.
   rewrite (associates _ _ _ field_algebra e u v w) by assumption. reflexivity.
 Qed.
 
 Theorem mu_one l x n : (n < dim M l)%nat -> mu l x (oneof M l) n == x n.
 Proof.
-  intros L. revert n L x. intros n L. destruct (entry_below l n L) as [i [e [Hi [He ->]]]].
+  intros L. revert n L x. intros n L. destruct (entry_of M n _ L) as [i [e [Hi [He ->]]]].
   apply (equal_on_units (dim M l) (fun x => mu l x (oneof M l) (entry M (i,
     e))) (fun x => x (entry M (i, e)))).
   { apply mu_left. }
   { split; intros; try reflexivity. apply H. }
   { apply local_left. }
   { intros x x' E. apply E, L. }
-  intros x Hx. destruct (entry_below l x Hx) as [a [u [Ha [Hu ->]]]].
+  intros x Hx. destruct (entry_of M x _ Hx) as [a [u [Ha [Hu ->]]]].
   rewrite (mu_comm l _ _ _), (mu_unit l _ a u) by assumption.
-  rewrite (sum_ext _ _ (fun p => (in_space (space_at l) i a (fst p) * in_one (space_at l) (fst p))
+  rewrite (sum_ext _ _ (fun p => (in_space (space_at M l) i a (fst p) * in_one (space_at M l) (fst p))
     * (in_field M e u (snd p) * (if Nat.eqb (snd p) 0 then 1 else 0)))).
-  - unfold every. rewrite (sum_of_products _ _ (fun g => in_space (space_at l)
-    i a g * in_one (space_at l) g)
+  - unfold every. rewrite (sum_of_products _ _ (fun g => in_space (space_at M l)
+    i a g * in_one (space_at M l) g)
       (fun h => in_field M e u h * (if Nat.eqb h 0 then 1 else 0))).
-    rewrite (is_neutral _ _ _ (space_algebra (space_at l)) i a) by assumption.
+    rewrite (is_neutral _ _ _ (space_algebra (space_at M l)) i a) by assumption.
     rewrite (is_neutral _ _ _ field_algebra e u) by assumption.
     rewrite unit_at, entry_eq by assumption. destruct (Nat.eqb i a), (Nat.eqb e u); reflexivity.
   - intros [g h] I. unfold every in I. rewrite in_prod_iff, !in_seq in I. cbn [fst snd].
-    rewrite (commutes _ _ _ (space_algebra (space_at l)) i), (commutes _ _ _ field_algebra e).
+    rewrite (commutes _ _ _ (space_algebra (space_at M l)) i), (commutes _ _ _ field_algebra e).
     assert (E : oneof M l (entry M (g, h)) ==
-      in_one (space_at l) g * (if Nat.eqb h 0 then 1 else 0)).
-    { unfold oneof, one_of, every, entry. cbn [fst snd]. fold (space_at l).
+      in_one (space_at M l) g * (if Nat.eqb h 0 then 1 else 0)).
+    { unfold oneof, one_of, every, entry. cbn [fst snd]. fold (space_at M l).
     rewrite nth_entry by lia.
-      unfold in_one. destruct (space_at l); [destruct (Nat.eqb h 0); reflexivity|].
+      unfold in_one. destruct (space_at M l); [destruct (Nat.eqb h 0); reflexivity|].
       destruct g, h; reflexivity. }
     rewrite E. ring.
 Qed.

@@ -91,28 +91,27 @@ Qed.
 
 (** ** Affine hulls
 
-    v is in the affine hull of S when every affine equation that holds on S holds for v. *)
+    S lists points, with the weight 1, and directions, with the weight 0. v is in the hull of S, with
+    the weight t, when f(v) = t c follows from f(s) = (weight of s) c on S, for all linear f. *)
 
-Definition hull (S : list V) (v : V) :=
-  forall f c, linear f -> (forall s, In s S -> f s == c) -> f v == c.
+Definition hull (S : list (V * Q)) (t : Q) (v : V) :=
+  forall f c, linear f -> (forall s, In s S -> f (fst s) == snd s * c) -> f v == t * c.
 
-Lemma in_hull S v : In v S -> hull S v.
-Proof. intros H f c _ G. apply G, H. Qed.
-
-Lemma hull_map S T A x :
-  (forall s, In s S -> hull T (app A s)) -> hull S x -> hull T (app A x).
+Lemma hull_map S T A t x :
+  (forall s, In s S -> hull T (snd s) (app A (fst s))) -> hull S t x -> hull T t (app A x).
 Proof.
   intros G H f c L K. apply (H (fun x => f (app A x))).
   - apply app_linear, L.
   - intros s Hs. apply (G s Hs f c L K).
 Qed.
 
-Lemma hull_mul S1 S2 T P x y :
-  (forall a w, In a S1 -> In w S2 -> hull T (mul P a w)) ->
-  hull S1 x -> hull S2 y -> hull T (mul P x y).
+Lemma hull_mul S1 S2 T P t t' x y :
+  (forall a w, In a S1 -> In w S2 -> hull T (snd a * snd w) (mul P (fst a) (fst w))) ->
+  hull S1 t x -> hull S2 t' y -> hull T (t * t') (mul P x y).
 Proof.
-  intros G Hx Hy f c L K.
+  intros G Hx Hy f c L K. rewrite <- Qmult_assoc.
   apply (Hx (fun x => f (mul P x y))); [apply mul_left, L|]. intros a Ha.
-  apply (Hy (fun y => f (mul P a y))); [apply mul_right, L|]. intros w Hw.
-  apply (G a w Ha Hw f c L K).
+  transitivity (t' * (snd a * c)); [|ring].
+  apply (Hy (fun y => f (mul P (fst a) y))); [apply mul_right, L|]. intros w Hw.
+  rewrite (G a w Ha Hw f c L K). ring.
 Qed.

@@ -3,7 +3,7 @@
     n = 2k + 1 or 2k + 2, or less; any method, so any pair. *)
 
 From Coq Require Import QArith List Arith Lia.
-From Gark Require Import Stages Trees Methods Check Pairs Products Conditions.
+From Gark Require Import Stages Trees Methods Sums Check Pairs Products Conditions.
 Import ListNotations.
 Open Scope Q_scope.
 

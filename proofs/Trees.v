@@ -63,31 +63,33 @@ Proof. destruct t; simpl; lia. Qed.
 
 (** ** Soundness of the certificate
 
-    Points F k l stand for the trees with k branches' vertices and a root of colour l, points G j l
-    for what branches of order j contribute at a vertex of colour l. If the hulls of these points
-    are closed under the recursion for ψ, ψ of every tree up to order p is in one of them. *)
+    F k l stands for the trees with a root of colour l and k more vertices, G j l for what branches
+    of order j contribute at a vertex of colour l. If the hulls of these points and directions are
+    closed under the recursion for ψ, ψ of every tree up to order p is in one of them. *)
 
 Variable p : nat.
-Variable F G : nat -> nat -> list V.
+Variable F G : nat -> nat -> list (V * Q).
 
-Hypothesis starts : forall l, (l < N)%nat -> hull (F 0 l) (one l).
+Hypothesis starts : forall l, (l < N)%nat -> hull (F 0 l) 1 (one l).
 Hypothesis branches : forall j l m, (S j < p)%nat -> (l < N)%nat -> (m < N)%nat -> sees l m ->
-  forall a, In a (F j m) -> hull (G (S j) l) (app (A l m) (scale (inject_Z (Z.of_nat (S j))) a)).
+  forall a, In a (F j m) ->
+    hull (G (S j) l) (snd a) (app (A l m) (scale (inject_Z (Z.of_nat (S j))) (fst a))).
 Hypothesis products : forall k l j, (k < p)%nat -> (l < N)%nat -> (1 <= j <= k)%nat ->
-  forall u w, In u (G j l) -> In w (F (k - j) l) -> hull (F k l) (mul (mulof l) u w).
+  forall u w, In u (G j l) -> In w (F (k - j) l) ->
+    hull (F k l) (snd u * snd w) (mul (mulof l) (fst u) (fst w)).
 
 Lemma spanned n : forall l us, (size us < n)%nat -> (size us < p)%nat -> (l < N)%nat ->
-  branches_admissible l us -> hull (F (size us) l) (forest l us).
+  branches_admissible l us -> hull (F (size us) l) 1 (forest l us).
 Proof.
   induction n; [lia|]. intros l us Hn Hp Hl Hok. destruct us as [|u r]; [apply starts, Hl|].
   destruct Hok as [Hs [Hu Hr]]. destruct u as [m vs]. simpl in Hs. destruct Hu as [Hm Hvs].
   set (k := size (Node m vs :: r)) in *.
   assert (Ek : k = (S (size vs) + size r)%nat) by reflexivity.
-  change (hull (F k l) (mul (mulof l)
+  change (hull (F k l) (1 * 1) (mul (mulof l)
     (app (A l m) (scale (inject_Z (Z.of_nat (S (size vs)))) (forest m vs))) (forest l r))).
   apply hull_mul with (S1 := G (S (size vs)) l) (S2 := F (k - S (size vs)) l).
   - intros a w Ha Hw. apply products with (j := S (size vs)); try assumption; lia.
-  - assert (Hd : hull (F (size vs) m) (forest m vs)) by (apply IHn; try assumption; lia).
+  - assert (Hd : hull (F (size vs) m) 1 (forest m vs)) by (apply IHn; try assumption; lia).
     intros f c L K.
     apply (Hd (fun x => f (app (A l m) (scale (inject_Z (Z.of_nat (S (size vs)))) x)))).
     + destruct L as [E Ad Sc]. split; intros.
@@ -101,7 +103,7 @@ Proof.
 Qed.
 
 Theorem trees_are_spanned t : (order t <= p)%nat -> admissible t ->
-  hull (F (order t - 1) (root t)) (psi t).
+  hull (F (order t - 1) (root t)) 1 (psi t).
 Proof.
   destruct t as [l us]. intros Ho [Hl Hus]. change (order (Node l us)) with (S (size us)) in *.
   replace (S (size us) - 1)%nat with (size us) by lia.

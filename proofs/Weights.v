@@ -3,7 +3,7 @@
     Rational methods with stages at points. *)
 
 From Coq Require Import QArith List Arith Lia.
-From Gark Require Import Stages Methods Tables Check Pairs Products Conditions.
+From Gark Require Import Stages Methods Sums Check Pairs Products Conditions Definite.
 Import ListNotations.
 Open Scope Q_scope.
 
@@ -53,40 +53,13 @@ Proof.
       rewrite Nat.mul_1_r, Nat.add_0_r. ring.
 Qed.
 
-Lemma lin_nonzero ts v : lin (nonzero ts) v == lin ts v.
-Proof.
-  unfold nonzero. induction ts as [|[j q] ts IH]; [reflexivity|]. cbn [filter snd].
-  destruct (Qeq_bool q 0) eqn:E; cbn [negb lin]; rewrite IH; [|reflexivity].
-  apply Qeq_bool_iff in E. rewrite E. ring.
-Qed.
-
 (** b_l(v) is the sum of b_{l,i} v_i. *)
 Lemma b_at l v : b M l 0 v ==
   sum (seq 0 (length (snd (nth l (colours M) (O, []))))) (fun i => weight M l i * v i).
 Proof.
-  unfold b, weights, weight. set (bs := snd (nth l (colours M) (O, []))).
-  unfold block_row. rewrite degree_is_1, lin_nonzero.
-  assert (G : forall bs k, lin (flat_map (fun '(j, x) =>
-      map (fun u => (entry M (j, u), coefficient M x 0 u)) (seq 0 1))
-      (combine (seq k (length bs)) bs)) v ==
-    sum (seq 0 (length bs)) (fun i => nth 0 (nth i bs []) 0 * v (k + i)%nat)).
-  { clear bs. induction bs as [|x bs IH]; intros k; [reflexivity|].
-    transitivity (nth 0 x 0 * v k + lin (flat_map (fun '(j, x) =>
-      map (fun u => (entry M (j, u), coefficient M x 0 u)) (seq 0 1)) (combine (seq (S k)
-        (length bs)) bs)) v).
-    - assert (Eq : coefficient M x 0 0 == nth 0 x 0).
-      { unfold coefficient. rewrite degree_is_1, Qred_correct. simpl. rewrite in_field_is_1. ring. }
-      assert (En : entry M (k, 0%nat) = k) by (unfold entry; rewrite degree_is_1; simpl; lia).
-      rewrite <- Eq. rewrite <- En at 2. reflexivity.
-    - rewrite IH. cbn [length seq]. rewrite <- seq_shift.
-      change (sum (0%nat :: map S (seq 0 (length bs))) (fun i => nth 0 (nth i (x :: bs) [])
-        0 * v (k + i)%nat))
-        with (nth 0 x 0 * v (k + 0)%nat
-          + sum (map S (seq 0 (length bs))) (fun i => nth 0 (nth i (x :: bs) [])
-            0 * v (k + i)%nat)).
-      rewrite Nat.add_0_r, sum_map. apply Qplus_comp; [reflexivity|]. apply sum_ext.
-      intros i _. rewrite Nat.add_succ_r. reflexivity. }
-  apply G.
+  unfold b, weights, weight. rewrite row_is. apply sum_ext. intros i _.
+  rewrite times_is, degree_is_1. unfold sum, number_at, entry. rewrite degree_is_1. simpl.
+  rewrite in_field_is_1, Nat.mul_1_r, Nat.add_0_r. ring.
 Qed.
 
 Lemma quadrature_at l v : quadrature M l v 0 <-> b M l 0 v == 0.
@@ -106,19 +79,11 @@ Lemma sum_of_nonnegative n f : (forall i, (i < n)%nat -> 0 <= f i) ->
   0 <= sum (seq 0 n) f /\ (sum (seq 0 n) f == 0 -> forall i, (i < n)%nat -> f i == 0).
 Proof.
   intros H. induction n; [split; [apply Qle_refl|intros _ i Hi; lia]|].
-  destruct IHn as [Pos Zero]; [intros; apply H; lia|].
-  rewrite seq_S, sum_app. unfold sum at 2 4. simpl. pose proof (H n ltac:(lia)) as Hn.
-  rewrite Qplus_0_r. split; [apply (Qplus_le_compat 0 _ 0 _); assumption|].
-  intros E.
-  assert (L : sum (seq 0 n) f <= 0) by (rewrite <- E; rewrite <- (Qplus_0_r (sum _ _)) at 1;
-    apply Qplus_le_compat; [apply Qle_refl|exact Hn]).
-  assert (Z : sum (seq 0 n) f == 0) by (apply Qle_antisym; assumption).
-  intros i Hi. destruct (Nat.eq_dec i n) as [->|]; [|apply Zero; [exact Z|lia]].
-  rewrite Z, Qplus_0_l in E. exact E.
+  destruct IHn as [Pos Zero]; [intros; apply H; lia|]. pose proof (H n ltac:(lia)) as Hn.
+  rewrite seq_S, sum_app, sum_one. split; [apply (Qplus_le_compat 0 _ 0 _); assumption|].
+  intros E. destruct (sum_is_0 _ _ Pos Hn E) as [Z Last]. intros i Hi.
+  destruct (Nat.eq_dec i n) as [->|]; [exact Last|apply Zero; [exact Z|lia]].
 Qed.
-
-Lemma square_nonnegative q : 0 <= q * q.
-Proof. unfold Qle. simpl. nia. Qed.
 
 Theorem positive_is_definite : positive_weights M -> definite M.
 Proof.

@@ -7,10 +7,10 @@ elements are plain ``fmpq``, so a number here is ``fmpq | Algebraic`` and zero i
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cached_property
 from math import prod
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, cast
 
 from flint import fmpq, fmpq_mat, fmpq_poly, fmpz
 
@@ -279,6 +279,13 @@ def coordinates(number: Number, degree: int) -> list[fmpq]:
     if isinstance(number, Algebraic):
         return [number.poly[k] for k in range(degree)]
     return [number] + [ZERO] * (degree - 1)
+
+
+def flat(numbers: Iterable[Number], degree: int) -> list[fmpq]:
+    """The coordinates of all, one number after the other."""
+    if degree == 1:
+        return cast("list[fmpq]", list(numbers))
+    return [x for number in numbers for x in coordinates(number, degree)]
 
 
 def sum_of_products(pairs: Sequence[tuple[Number, Number]]) -> Number:

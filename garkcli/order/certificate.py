@@ -12,14 +12,13 @@ for a set of trees whose ψ span, and there are at most s + 1 of those a colour.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from typing import cast
+from collections.abc import Iterable, Iterator
 
 from flint import fmpq
 
 from garkcli.doing import doing
 from garkcli.exact.display import to_decimal, to_text
-from garkcli.exact.field import Number, coordinates
+from garkcli.exact.field import Number, flat
 from garkcli.exact.matrix import LinearMap, dot
 from garkcli.exact.span import AffineSpan
 from garkcli.frozen import Frozen
@@ -121,16 +120,10 @@ class StageSpans(Spans):
         span = AffineSpan(self.tableau.spaces[k].stages * self.degree)
         members: list[Forest] = []
         for part in parts:
-            members += [part[i] for i in span.insert([self._flat(x.vector) for x in part])]
+            members += [part[i] for i in span.insert([flat(x.vector, self.degree) for x in part])]
             if span.is_full:
                 break
         return members
-
-    def _flat(self, vector: Sequence[Number]) -> list[fmpq]:
-        """Coordinates over ℚ: each number by its coordinates in 1, θ, …"""
-        if self.degree == 1:
-            return cast("list[fmpq]", list(vector))
-        return [x for number in vector for x in coordinates(number, self.degree)]
 
 
 def all_spanning_trees(

@@ -9,12 +9,12 @@ list of trees and no theory of number fields.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from itertools import chain, product
+from itertools import product
 
 from flint import fmpq, fmpq_mat
 
 from garkcli.deadline import check_time
-from garkcli.exact.field import Number, coordinates
+from garkcli.exact.field import flat
 from garkcli.exact.matrix import Vector, apply
 from garkcli.exact.span import leading_columns
 from garkcli.frozen import Frozen
@@ -75,9 +75,6 @@ def hulls(tableau: Tableau, order: int) -> Hulls:
     colours = range(tableau.size)
     degree = tableau.degree
 
-    def flat(vector: Iterable[Number]) -> list[fmpq]:
-        return list(chain.from_iterable(coordinates(x, degree) for x in vector))
-
     def whole(point: Sequence[fmpq]) -> Vector:
         if tableau.field is None:
             return tuple(point)
@@ -88,7 +85,7 @@ def hulls(tableau: Tableau, order: int) -> Hulls:
         return [] if hull is None else [whole(point) for point in hull.points]
 
     def hull_of(vectors: Iterable[Vector]) -> Hull | None:
-        found = [flat(vector) for vector in vectors]
+        found = [flat(vector, degree) for vector in vectors]
         return Hull.of(found) if found else None
 
     trees: list[tuple[Hull | None, ...]] = [tuple(hull_of([tableau.space(l).one]) for l in colours)]

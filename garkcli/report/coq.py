@@ -7,14 +7,15 @@ colour has a stage space of its own here, also where colours share stages.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from math import lcm
 
-from flint import fmpq, fmpq_poly
+from flint import fmpq, fmpq_poly, fmpz
 
 from garkcli.check.analysis import MethodProof
 from garkcli.errors import MethodError
-from garkcli.exact.field import Number, coordinates
+from garkcli.exact.field import Number, coordinates, flat
+from garkcli.exact.matrix import Vector, apply
 from garkcli.ntrees.tree import Tree
 from garkcli.order.certificate import Order, Proof
 from garkcli.order.hulls import Hull, hulls
@@ -48,6 +49,8 @@ def coq_proof(proof: MethodProof) -> str:
         if proof.pair is not None:
             parts.append("Definition the_pair := pair_of the_method the_conjugate.\n")
             parts.append(_order_of("pair", "the_pair", proof.pair))
+    theorems = re.findall(r"^Theorem (\w+)", "\n".join(parts), re.MULTILINE)
+    parts.append(_ASSUMPTIONS.format(theorems=", ".join(theorems)))
     return "\n".join(parts)
 
 
@@ -63,7 +66,6 @@ Open Scope Q_scope.
 _CONJUGATE = """\
 Theorem it_is_the_conjugate : is_conjugate the_method the_conjugate.
 Proof. apply proved_conjugate; [reflexivity..|vm_cast_no_check (eq_refl true)]. Qed.
-Print Assumptions it_is_the_conjugate.
 """
 _ORDER = """\
 Theorem order_of_{label} : has_order {name} {order}.
@@ -71,12 +73,14 @@ Proof.
   apply has_order_by with (F := {label}_trees) (G := {label}_branches).
   vm_cast_no_check (eq_refl true).
 Qed.
-Print Assumptions order_of_{label}.
 """
 _NO_HIGHER = """\
 Theorem {label}_has_no_higher_order : ~ has_order {name} {next}.
 Proof. apply not_higher_by with (t := {tree}). vm_cast_no_check (eq_refl true). Qed.
-Print Assumptions {label}_has_no_higher_order.
+"""
+_ASSUMPTIONS = """\
+Definition all_theorems := ({theorems}).
+Print Assumptions all_theorems.
 """
 
 
@@ -89,9 +93,14 @@ def _list(items: Iterable[str], separator: str = "; ") -> str:
     return f"[{separator.join(items)}]"
 
 
+def _integer(x: int) -> str:
+    """Long ones in hexadecimal digits, which Coq reads in a time proportional to their number."""
+    return str(x) if abs(x) < 10**40 else hex(x)
+
+
 def _rational(x: fmpq) -> str:
-    number = f"({x.p})" if x.p < 0 else str(x.p)
-    return number if x.q == 1 else f"({number}#{x.q})"
+    number = f"({_integer(int(x.p))})" if x.p < 0 else _integer(int(x.p))
+    return number if x.q == 1 else f"({number}#{_integer(int(x.q))})"
 
 
 def _polynomial(p: fmpq_poly) -> str:
@@ -99,13 +108,34 @@ def _polynomial(p: fmpq_poly) -> str:
     return _list(map(_rational, p.coeffs()[:-1]))
 
 
+class _Basis:
+    """1, cθ, (cθ)², … with the least c > 0 that makes the polynomial of cθ one of integers."""
+
+    def __init__(self, tableau: Tableau) -> None:
+        modulus = fmpq_poly([0, 1]) if tableau.field is None else tableau.field.modulus
+        unit = 1
+        for j, x in enumerate(reversed(modulus.coeffs())):
+            for prime, _ in fmpz(x.q).factor():
+                while (unit**j * x).q % prime == 0:
+                    unit *= int(prime)
+        self.degree = tableau.degree
+        self.scale = [fmpq(1, unit**e) for e in range(self.degree)]
+        self.field = fmpq_poly([x * unit ** (self.degree - e) for e, x in enumerate(modulus)])
+
+    def number(self, x: Number) -> str:
+        coefficients = zip(coordinates(x, self.degree), self.scale, strict=True)
+        return _list(_rational(y * scale) for y, scale in coefficients)
+
+    def whole(self, vector: Sequence[fmpq]) -> tuple[list[int], int]:
+        """Coordinates of stage values as integers, and their denominator."""
+        scaled = [x * self.scale[i % self.degree] for i, x in enumerate(vector)]
+        common = lcm(*(int(x.q) for x in scaled))
+        return [int((x * common).p) for x in scaled], common
+
+
 def _data(name: str, tableau: Tableau) -> str:
     """The tableau as a ``method``."""
-    degree = tableau.degree
-    field = fmpq_poly([0, 1]) if tableau.field is None else tableau.field.modulus
-
-    def number(x: Number) -> str:
-        return _list(map(_rational, coordinates(x, degree)))
+    basis = _Basis(tableau)
 
     def space(l: int) -> str:
         of = tableau.space(l)
@@ -117,14 +147,15 @@ def _data(name: str, tableau: Tableau) -> str:
         rows = tableau.block(l, m)
         if rows is None:
             return "None"
-        return f"Some {_list((_list(map(number, row)) for row in rows), ';' + chr(10) + '    ')}"
+        lines = (_list(map(basis.number, row)) for row in rows)
+        return f"Some {_list(lines, ';' + chr(10) + '    ')}"
 
     colours = range(tableau.size)
-    weights = (f"({l}%nat, {_list(map(number, tableau.colours[l].b))})" for l in colours)
+    weights = (f"({l}%nat, {_list(map(basis.number, tableau.colours[l].b))})" for l in colours)
     blocks = (_list((block(l, m) for m in colours), ";\n   ") for l in colours)
     return (
         f"Definition {name} : method := {{|\n"
-        f"  field := {_polynomial(field)};\n"
+        f"  field := {_polynomial(basis.field)};\n"
         f"  spaces := {_list(map(space, colours))};\n"
         f"  colours := {_list(weights)};\n"
         f"  blocks := {_list(blocks, ';' + chr(10) + '  ')} |}}.\n"
@@ -134,37 +165,60 @@ def _data(name: str, tableau: Tableau) -> str:
 def _order_of(label: str, name: str, proof: Proof) -> str:
     """That a method has its order, and no higher one."""
     order: Order = proof.order
+    basis = _Basis(proof.tableau)
     found = hulls(proof.tableau, order.order)
     parts = [
-        _hulls(f"{label}_trees", found.trees),
-        _hulls(f"{label}_branches", found.branches),
+        _hulls(f"{label}_trees", found.trees, basis),
+        _hulls(f"{label}_branches", found.branches, basis),
         _ORDER.format(label=label, name=name, order=order.order),
     ]
     if order.witness is not None:
-        tree = _tree(order.witness.tree)
+        tree = _tree(order.witness.tree, proof.tableau, basis)
         parts.append(_NO_HIGHER.format(label=label, name=name, next=order.order + 1, tree=tree))
     return "\n".join(parts)
 
 
-def _hulls(name: str, table: Iterable[Iterable[Hull | None]]) -> str:
-    rows = (_list(map(_hull, row), ";\n    ") for row in table)
+def _hulls(name: str, table: Iterable[Iterable[Hull | None]], basis: _Basis) -> str:
+    rows = (_list((_hull(hull, basis) for hull in row), ";\n    ") for row in table)
     kind = "list (list (option zhull))"
     return f"Definition {name} : {kind} := {_list(rows, ';' + chr(10) + '  ')}%Z.\n"
 
 
-def _hull(hull: Hull | None) -> str:
-    """The points over one denominator."""
+def _hull(hull: Hull | None, basis: _Basis) -> str:
+    """The point and the directions, each in integers of its own."""
     if hull is None:
         return "None"
-    vectors = [hull.base, *(row for _, row in hull.directions)]
-    common = lcm(*(int(x.q) for vector in vectors for x in vector))
+    base, den = basis.whole(hull.base)
+    rows = [(pivot, basis.whole(row)[0]) for pivot, row in hull.directions]
+    common = lcm(den, *(row[pivot] for pivot, row in rows))
+    base = [x * (common // den) for x in base]
+    dirs = (f"({p}%nat, {_integer(common // row[p])}, {_integers(row)})" for p, row in rows)
+    return (
+        f"Some {{| den := {_integer(common)}; base := {_integers(base)}; dirs := {_list(dirs)} |}}"
+    )
 
-    def whole(vector: Iterable[fmpq]) -> str:
-        return _list(str((x * common).p) for x in vector)
 
-    rows = _list(f"({pivot}%nat, {whole(row)})" for pivot, row in hull.directions)
-    return f"Some {{| den := {common}; base := {whole(hull.base)}; dirs := {rows} |}}"
+def _integers(vector: Iterable[int]) -> str:
+    return _list(map(_integer, vector))
 
 
-def _tree(tree: Tree) -> str:
-    return f"(Node {tree.root} {_list(map(_tree, tree.branches))})"
+def _tree(tree: Tree, tableau: Tableau, basis: _Basis) -> str:
+    """The tree with ψ at each vertex, and ρ A^{l,m} ψ where the vertex is a branch."""
+
+    def text(vector: Vector) -> str:
+        numbers, common = basis.whole(flat(vector, basis.degree))
+        return f"({_integers(numbers)}%Z, {_integer(common)}%positive)"
+
+    def vertex(u: Tree, below: int | None) -> tuple[str, Vector]:
+        """The text of a branch, and what it contributes to the vertex below."""
+        psi, branches = tableau.space(u.root).one, []
+        for branch in u.branches:
+            its_text, worth = vertex(branch, u.root)
+            branches.append(its_text)
+            psi = tableau.space(u.root).product(worth, psi)
+        block = None if below is None else tableau.block(below, u.root)
+        worth = psi if block is None else apply(block, [u.order * x for x in psi])
+        beside = "([], 1%positive)" if block is None else text(worth)
+        return f"(ZNode {u.root} {text(psi)} {beside}\n  {_list(branches)})", worth
+
+    return vertex(tree, None)[0]
