@@ -105,7 +105,7 @@ REPORT: Report[Lists] = Report.only(
     "report of gark list",
     Section(
         Row("topics", shown(TOPIC, 0), _topics, label="", is_short=True),
-        *(replace(row, level=DETAIL) for row in ROWS.values()),
+        *(replace(row, level=DETAIL, is_optional=True) for row in ROWS.values()),
         sentence(lambda _: "your own problem: --problem FILE.yaml (docs/problem-file.md)"),
         title=lambda *_: "what files and commands can name",
     ),

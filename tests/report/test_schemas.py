@@ -98,7 +98,7 @@ RUNS: dict[str, list[tuple[str, ...]]] = {
     "audit": [("tests/bridges/sources",), ("tests/bridges/texts",)],
     "sweep": [("tests/examples/sweeps/small.yaml", "--rows", os.devnull)],
     "certificate": [(file,) for file in FILES],
-    "list": [()],
+    "list": [(), ("families",), ("transfer",)],
     "list-methods": [
         ("list", "methods"),
         ("list", "methods", "--catalogue", "tests/examples/valid"),
