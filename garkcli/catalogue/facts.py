@@ -203,10 +203,7 @@ def _is_small(tableau: Tableau) -> bool:
     points = in_points(tableau)
     if max(stages) > MOST_STAGES or points is None:
         return max(stages) <= MOST_STAGES
-    rows = [colour.b for colour in points.colours]
-    for block in points.blocks.values():
-        rows += block
-    return all(len(to_text(x)) <= LONGEST for row in rows for x in row)
+    return all(len(to_text(x)) <= LONGEST for x in points.entries)
 
 
 Tell = Callable[[str], None]

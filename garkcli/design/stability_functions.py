@@ -14,7 +14,9 @@ from flint import fmpq, fmpq_mpoly
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import characteristic_coefficients
 from garkcli.exact.parametric import Parameters, common_denominator, fraction
+from garkcli.exact.polynomial import squared_on_axis
 from garkcli.frozen import Frozen
+from garkcli.stability.summary import directions
 from garkcli.stepping.linear import stage_system
 from garkcli.tableau.tableau import Tableau
 
@@ -48,8 +50,8 @@ class FamilyFunction(Frozen):
     @property
     def e_polynomial(self) -> Coefficients:
         """|Q(iy)|² − |P(iy)|² as a polynomial in x = y²."""
-        P = _squared(self.numerator)
-        Q = _squared(self.denominator)
+        P = squared_on_axis(self.numerator)
+        Q = squared_on_axis(self.denominator)
         return _trimmed([q - p for q, p in zip_longest(Q, P, fillvalue=ZERO)])
 
 
@@ -58,17 +60,7 @@ def family_functions(tableau: Tableau, ring: Parameters) -> tuple[FamilyFunction
 
     Empty where colours drive positions or momenta only, or do not see one another.
     """
-    size = tableau.size
-    is_complete = len(list(tableau.edges())) == size**2
-    if tableau.is_partitioned or not is_complete:
-        return ()
-    found = [function_of(tableau, ring, "all", [ONE] * size)]
-    if size > 1:
-        for l, colour in enumerate(tableau.colours):
-            shares = [ZERO] * size
-            shares[l] = ONE
-            found.append(function_of(tableau, ring, colour.name, shares))
-    return tuple(found)
+    return tuple(function_of(tableau, ring, *direction) for direction in directions(tableau))
 
 
 def function_of(
@@ -129,16 +121,3 @@ def _trimmed(coefficients: Sequence[Any]) -> Coefficients:
     while kept and not kept[-1]:
         kept.pop()
     return tuple(kept)
-
-
-def _squared(p: Coefficients) -> Coefficients:
-    """|p(iy)|² in x = y²: Σ (−1)^((j − k)/2) p_j p_k x^((j + k)/2) over even j + k."""
-    squared: list[Any] = [ZERO] * len(p)
-    for j, a in enumerate(p):
-        for k, b in enumerate(p):
-            power, is_odd = divmod(j + k, 2)
-            if is_odd:
-                continue
-            is_negative = (j - k) // 2 % 2
-            squared[power] = squared[power] + (-a * b if is_negative else a * b)
-    return tuple(squared)

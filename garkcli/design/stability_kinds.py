@@ -12,10 +12,10 @@ from typing import Protocol
 from flint import fmpq, fmpq_mpoly
 
 from garkcli.design.member import TABLEAUS, Whose, member, shares_of
-from garkcli.design.step_plane import Step, StepPlane, step_plane, through_members
+from garkcli.design.step_plane import StepPlane, step_plane
 from garkcli.errors import UsageProblem, ZeroWeight
 from garkcli.exact import projection
-from garkcli.exact.cells import Interval, Point, between, sign_of
+from garkcli.exact.cells import Interval, Point, between, contains, first_end, sign_of
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Matrix
 from garkcli.exact.parametric import factors
@@ -113,7 +113,7 @@ class AStability:
         self.Q = self.plane.denominator
         self.P = self.plane.numerators[0][0]
         self.E = squared_modulus(self.Q) - squared_modulus(self.P)
-        u, v = _real_and_imaginary(self.Q)
+        u, v = real_and_imaginary(self.Q)
         self.essential: list[Polynomial] = []
         self.critical = projection.projected(factors([self.E]), [ZERO])
         # a pole at infinity or on the axis, another degree of R, other lowest terms
@@ -205,20 +205,19 @@ def _degree_at(p: fmpq_mpoly, t: Point) -> int:
     return -1
 
 
-def _real_and_imaginary(p: fmpq_mpoly) -> tuple[fmpq_mpoly, fmpq_mpoly]:
-    """The polynomials u and v in x = y² with p(iy) = u(y²) + i y v(y²)."""
-    real: dict[tuple[int, ...], fmpq] = {}
-    imaginary: dict[tuple[int, ...], fmpq] = {}
-    for (j, k), a in p.to_dict().items():
-        part = imaginary if j % 2 else real
+def real_and_imaginary(p: fmpq_mpoly) -> tuple[fmpq_mpoly, fmpq_mpoly]:
+    """The polynomials u and v in x = y² with p(iy) = u(y²) + i y v(y²); y is the first unknown."""
+    parts: tuple[dict[tuple[int, ...], fmpq], ...] = {}, {}
+    for (j, *others), a in p.to_dict().items():
         # i⁰, i¹, i², i³ = 1, i, −1, −i
-        part[j // 2, k] = -a if j % 4 in {2, 3} else a
-    return projection.PLANE.from_dict(real), projection.PLANE.from_dict(imaginary)
+        parts[j % 2][int(j) // 2, *map(int, others)] = -a if j % 4 in {2, 3} else a
+    u, v = map(p.context().from_dict, parts)
+    return u, v
 
 
 def squared_modulus(p: fmpq_mpoly) -> fmpq_mpoly:
     """|p(iy)|² in x = y²."""
-    u, v = _real_and_imaginary(p)
+    u, v = real_and_imaginary(p)
     x, _ = projection.PLANE.gens()
     return u * u + x * v * v
 
@@ -255,13 +254,12 @@ class SpringStability:
         self.members = members
         self.wanted = wanted
         split = self.split = springs(tableau, wanted.fast)
-        unknowns = unknowns_of(tableau, split)
-
-        def step(method: Tableau) -> Step:
-            denominator, *entries = line_of_determinants(method, split, wanted.slow)
-            return denominator, tuple(entries)
-
-        self.plane = through_members(tableau, members.family.ring, unknowns, step)
+        self.plane = StepPlane.of(
+            tableau,
+            members.family.ring,
+            unknowns_of(tableau, split),
+            lambda method: line_of_determinants(method, split, wanted.slow),
+        )
         D = self.plane.denominator
         (a, b), (c, d) = self.plane.numerators
         self.signs = eigenvalue_conditions(D, a, b, c, d)
@@ -273,7 +271,12 @@ class SpringStability:
         self.critical = projection.projected(factors(deciding), ends)
 
     def decide(self, value: Number) -> bool:
-        return any(self._is_enough(x) for x in self._stable(value))
+        found = self._stable(value)
+        greatest = self.wanted.greatest
+        if greatest is None:
+            return first_end(found) is None and found[0].has_start
+        ends = RealRoot.rational(ZERO), RealRoot.rational(greatest)
+        return any(contains(x, *ends) for x in found)
 
     def witness(self, value: fmpq) -> fmpq | None:
         x = first_gap(self._stable(value))
@@ -290,15 +293,3 @@ class SpringStability:
         if tableau is None:
             return ()
         return two_frequencies(tableau, self.split, self.wanted.slow).stable
-
-    def _is_enough(self, interval: Interval) -> bool:
-        """Whether all fast frequencies in question are in it."""
-        if interval.start != RealRoot.rational(ZERO) or not interval.has_start:
-            return False
-        if interval.end is None:
-            return True
-        if self.wanted.greatest is None:
-            return False
-        greatest = RealRoot.rational(self.wanted.greatest)
-        is_end = interval.has_end and greatest == interval.end
-        return is_end or greatest < interval.end

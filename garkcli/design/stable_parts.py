@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from functools import partial
-from itertools import chain, islice, product
+from itertools import islice, product
 from typing import Any
 
 from flint import fmpq, fmpq_mpoly
@@ -283,10 +283,7 @@ class PartMembers(Members):
     @property
     def poles(self) -> tuple[Polynomial, ...]:
         """A polynomial in the coordinate that is zero where no line has a method."""
-        numbers = [x for colour in self.tableau.colours for x in colour.b]
-        for block in self.tableau.blocks.values():
-            numbers += chain.from_iterable(block)
-        common = common_denominator(numbers, self.part.ring)
+        common = common_denominator(self.tableau.entries, self.part.ring)
         place = self.part.ring.names.index(self.name)
         alone = Parameters([self.name])
         slices: dict[tuple[int, ...], dict[tuple[int, ...], Any]] = {}

@@ -16,7 +16,7 @@ does.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import chain, combinations, pairwise
+from itertools import combinations, pairwise
 from typing import Any, TypeAlias
 
 from flint import acb, acb_poly, arb, ctx, fmpq, fmpq_mpoly
@@ -25,7 +25,7 @@ from garkcli.deadline import check_time
 from garkcli.design.fewer import fewest
 from garkcli.design.member import TABLEAUS, Whose, member, shares_of
 from garkcli.design.stability_functions import FamilyFunction, function_of, joined
-from garkcli.design.stability_kinds import TwoSprings, driven
+from garkcli.design.stability_kinds import TwoSprings, driven, real_and_imaginary
 from garkcli.design.stable_values import (
     StableValues,
     Wanted,
@@ -228,9 +228,8 @@ def _is_plain(family: Family, tableau: Tableau) -> bool:
     """Whether parameters have no ranges and nothing else is wanted of them, and coefficients no
     denominators.
     """
-    entries = chain(*chain(*tableau.blocks.values()), *(x.b for x in tableau.colours))
     is_open = all(x == (None, None) for x in family.ranges.values())
-    is_without = common_denominator(list(entries), family.ring).is_constant()
+    is_without = common_denominator(tableau.entries, family.ring).is_constant()
     return is_open and is_without and not has_wishes(family)
 
 
@@ -364,12 +363,8 @@ def _deciding(R: FamilyFunction, ring: Parameters) -> list[fmpq_mpoly]:
         if degree > 1:
             found.append(factor.discriminant("_z"))
     found += [p.resultant(q, "_z") for p, q in combinations(crossing, 2)]
-    u, v = P.context().from_dict({}), P.context().from_dict({})
-    for (k, *rest), a in Q.to_dict().items():
-        term = P.context().from_dict({(int(k) // 2, *map(int, rest)): -a if int(k) % 4 > 1 else a})
-        u, v = (u, v + term) if int(k) % 2 else (u + term, v)
     found += [projection.leading(P), projection.leading(Q)]
-    for p, q in ((P, Q), (u, v)):
+    for p, q in ((P, Q), real_and_imaginary(Q)):
         if p and q and (p.degrees()[0] or q.degrees()[0]):
             found.append(p.resultant(q, "_z"))
     return factors(projection.in_plane(p, y=2, t=1) for p in found)

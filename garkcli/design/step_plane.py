@@ -1,17 +1,16 @@
-"""The step of a family of one parameter on a linear problem, as polynomials in z and t.
+"""Polynomials in y of each method of a family of one parameter t, as polynomials in y and t: its
+step M(z) = D(z)⁻¹ N(z) on a linear problem, D = det(I − zW) (``garkcli.stability.linear``).
 
-For each value of the parameter t the step is M(z) = D(z)⁻¹ N(z) with D = det(I − zW)
-(``garkcli.stability.linear``). Times common denominators of the coefficients both are
-polynomials in t, of a degree that the size of W bounds: values at so many rational t determine
-them.
+Times common denominators of the coefficients they are polynomials in the parameter t, of a degree
+that the number of equations bounds: values at so many rational t determine them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from itertools import chain, count, islice
 from math import isqrt
-from typing import TypeAlias, cast
+from typing import cast
 
 from flint import fmpq, fmpq_mpoly
 
@@ -27,26 +26,36 @@ from garkcli.stepping.linear import stage_system
 from garkcli.tableau.tableau import Tableau
 
 
-def largest_degree(numbers: Iterable[object], denominator: fmpq_mpoly, ring: Parameters) -> int:
-    """The largest degree in t of numbers times a common denominator, and of that itself."""
-    degrees = [int(denominator.total_degree())]
-    for x in numbers:
-        numerator, own = fraction(x, ring)
-        if numerator:
-            cleared = numerator * (denominator // own)
-            degrees.append(int(cleared.total_degree()))
-    return max(degrees)
+def over_line(
+    tableau: Tableau,
+    ring: Parameters,
+    size: int,
+    decided: Callable[[Tableau], Sequence[Polynomial]],
+) -> list[fmpq_mpoly]:
+    """Polynomials in y for each value of a parameter t as polynomials in y and t, times a power of
+    the common denominator of the coefficients.
+
+    Args:
+        tableau: entries are rational numbers and rational functions of the parameter.
+        ring: the parameter.
+        size: the degree in the entries that the polynomials have at most.
+        decided: the polynomials in y of one method.
+    """
+    [name] = ring.names
+    denominator = common_denominator(tableau.entries, ring)
+    numerators = (fraction(x, ring) for x in tableau.entries)
+    degrees = [int((p * (denominator // q)).total_degree()) for p, q in numerators if p]
+    degree = size * max([int(denominator.total_degree()), *degrees])
+    points = list(islice((t for t in map(fmpq, count()) if denominator(t)), degree + 1))
+    rows: list[Sequence[Polynomial]] = []
+    for t in points:
+        check_time()
+        scale = fmpq(denominator(t)) ** size
+        rows.append([p * scale for p in decided(member(tableau, ring, {name: t}))])
+    return [_through(points, values) for values in zip(*rows, strict=True)]
 
 
-def values_without(poles: fmpq_mpoly) -> Iterator[fmpq]:
-    """0, 1, 2, … without the roots of a polynomial."""
-    for k in count():
-        t = fmpq(k)
-        if poles(t):
-            yield t
-
-
-def through(points: Sequence[fmpq], values: Sequence[Polynomial]) -> fmpq_mpoly:
+def _through(points: Sequence[fmpq], values: Sequence[Polynomial]) -> fmpq_mpoly:
     """The polynomial in y and t with given polynomials in y at given t."""
     terms: dict[tuple[int, ...], fmpq] = {}
     for j in range(max(p.degree for p in values) + 1):
@@ -55,10 +64,6 @@ def through(points: Sequence[fmpq], values: Sequence[Polynomial]) -> fmpq_mpoly:
             if a:
                 terms[j, k] = cast("fmpq", a)
     return PLANE.from_dict(terms)
-
-
-Step: TypeAlias = "tuple[Polynomial, tuple[Polynomial, ...]]"
-"""D and the entries of N, row by row."""
 
 
 class StepPlane(Frozen):
@@ -74,6 +79,32 @@ class StepPlane(Frozen):
     numerators: tuple[tuple[fmpq_mpoly, ...], ...]
     poles: tuple[Polynomial, ...]
 
+    @classmethod
+    def of(
+        cls,
+        tableau: Tableau,
+        ring: Parameters,
+        unknowns: int,
+        step: Callable[[Tableau], Sequence[Polynomial]],
+    ) -> StepPlane:
+        """A step whose denominator is the determinant of as many equations as there are unknowns.
+
+        Args:
+            tableau: entries are rational numbers and rational functions of the parameter.
+            ring: the parameter.
+            unknowns: the number of equations of the stages.
+            step: D and the entries of N, row by row, of a member; polynomials in y.
+        """
+        D, *N = over_line(tableau, ring, unknowns + 1, step)
+        d = isqrt(len(N))
+        common = D
+        for p in N:
+            common = common.gcd(p)
+        reduced = [p // common for p in N]
+        square = tuple(tuple(reduced[start : start + d]) for start in range(0, d * d, d))
+        poles = in_one(common_denominator(tableau.entries, ring))
+        return cls(D // common, square, (poles,))
+
 
 def step_plane(tableau: Tableau, ring: Parameters, fields: Sequence[Matrix]) -> StepPlane:
     """The step for every value of the one parameter.
@@ -83,49 +114,9 @@ def step_plane(tableau: Tableau, ring: Parameters, fields: Sequence[Matrix]) -> 
         ring: the parameter.
         fields: y ↦ L^m y for each colour, rational.
     """
-    unknowns = len(stage_system(tableau, fields).W)
 
-    def step(method: Tableau) -> Step:
+    def step(method: Tableau) -> list[Polynomial]:
         whole = unreduced(stage_system(method, fields))
-        return whole.denominator, tuple(chain.from_iterable(whole.numerators))
+        return [whole.denominator, *chain.from_iterable(whole.numerators)]
 
-    return through_members(tableau, ring, unknowns, step)
-
-
-def through_members(
-    tableau: Tableau, ring: Parameters, unknowns: int, step: Callable[[Tableau], Step]
-) -> StepPlane:
-    """A step whose denominator is the determinant of as many equations as there are unknowns.
-
-    Args:
-        tableau: entries are rational numbers and rational functions of the parameter.
-        ring: the parameter.
-        unknowns: the number of equations of the stages.
-        step: of a member, before common factors are divided out; polynomials in y.
-    """
-    entries = list(chain.from_iterable(chain.from_iterable(tableau.blocks.values())))
-    weights = list(chain.from_iterable(colour.b for colour in tableau.colours))
-    of_blocks = common_denominator(entries, ring)
-    of_weights = common_denominator(weights, ring)
-    # each row of the equations times the one denominator, each entry of N times the other
-    degree = unknowns * largest_degree(entries, of_blocks, ring)
-    degree += largest_degree(weights, of_weights, ring)
-    allowed = values_without(of_blocks * of_weights)
-    points = list(islice(allowed, degree + 1))
-    [name] = ring.names
-    denominators, numerators = [], []
-    for t in points:
-        check_time()
-        denominator, entries_of_step = step(member(tableau, ring, {name: t}))
-        scale = fmpq(of_blocks(t)) ** unknowns * fmpq(of_weights(t))
-        denominators.append(denominator * scale)
-        numerators.append([p * scale for p in entries_of_step])
-    D = through(points, denominators)
-    N = [through(points, values) for values in zip(*numerators, strict=True)]
-    d = isqrt(len(N))
-    common = D
-    for p in N:
-        common = common.gcd(p)
-    reduced = [p // common for p in N]
-    square = tuple(tuple(reduced[start : start + d]) for start in range(0, d * d, d))
-    return StepPlane(D // common, square, tuple(in_one(p) for p in (of_blocks, of_weights)))
+    return StepPlane.of(tableau, ring, len(stage_system(tableau, fields).W), step)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import Self
+from typing import Any, Self
 
 from flint import arb, ctx, fmpq, fmpq_mpoly, fmpq_poly, fmpz_poly
 
@@ -209,6 +209,23 @@ def _as_polynomial(value: Polynomial | Number | int) -> Polynomial:
     if isinstance(value, Polynomial):
         return value
     return Polynomial([value])
+
+
+def squared_on_axis(p: Sequence[Any]) -> list[Any]:
+    """The coefficients of |p(iy)|² as a polynomial in x = y², for any numbers:
+    Σ (−1)^((j − k)/2) p_j p_k x^((j + k)/2) over even j + k.
+
+    >>> squared_on_axis([1, 2, 3])  # (1 − 3x)² + 4x
+    [1, -2, 9]
+    """
+    total = [a * 0 for a in p]
+    for j, a in enumerate(p):
+        for k in range(j, len(p), 2):
+            term = a * p[k]
+            sign = -1 if (k - j) % 4 else 1
+            power = (j + k) // 2
+            total[power] = total[power] + term * (sign if k == j else 2 * sign)
+    return total
 
 
 def in_one(p: fmpq_mpoly, variable: int = 0) -> Polynomial:

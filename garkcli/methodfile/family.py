@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import chain
 
 from flint import fmpq_mpoly
 from yaml.nodes import ScalarNode
@@ -198,10 +197,7 @@ def _cancelled(
     """What the file divides by and no denominator shows, as in t/t: there is no method with a zero
     of it. Irreducible polynomials.
     """
-    numbers = [x for colour in tableau.colours for x in colour.b]
-    for block in tableau.blocks.values():
-        numbers += chain.from_iterable(block)
-    shown = common_denominator(numbers, ring)
+    shown = common_denominator(tableau.entries, ring)
     known = {str(factor) for factor, _ in shown.factor()[1]}
     indices = [ring.names.index(name) for name in free]
     for divisor in divisors:

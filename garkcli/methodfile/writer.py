@@ -123,9 +123,7 @@ def _decimal_text(number: Number) -> str:
 
 def _rationals(tableau: Tableau) -> Iterator[fmpq]:
     """Every coefficient of a tableau whose coefficients are rational."""
-    rows = [row for colour in tableau.colours for row in (colour.b, colour.c)]
-    rows += chain.from_iterable(tableau.blocks.values())
-    yield from (x for x in chain.from_iterable(rows) if isinstance(x, fmpq))
+    yield from (x for x in chain.from_iterable(tableau.rows) if isinstance(x, fmpq))
 
 
 def can_spell_out(tableau: Tableau) -> bool:

@@ -38,14 +38,6 @@ def mirrored(coefficients: Iterable[arb]) -> list[arb]:
     return [-a if k % 2 else a for k, a in enumerate(coefficients)]
 
 
-def squared_on_axis(p: Sequence[arb]) -> list[arb]:
-    """|p(iy)|² as a polynomial in x = y²: the squares of the real part and of the imaginary one."""
-    real = arb_poly(mirrored(p[0::2]))
-    imaginary = arb_poly(mirrored(p[1::2]))
-    total = real * real + arb_poly([0, 1]) * imaginary * imaginary
-    return [total[k] for k in range(len(total))]
-
-
 def difference(a: Sequence[arb], b: Sequence[arb]) -> list[arb]:
     """The coefficients of a − b, as many as the longer one has."""
     return [x - y for x, y in zip_longest(a, b, fillvalue=arb(0))]

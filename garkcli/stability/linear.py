@@ -17,7 +17,7 @@ from itertools import pairwise
 from garkcli.exact.cells import Interval, Point, is_half_line, sign_of, where
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Vector, apply, reciprocal_characteristic, transpose
-from garkcli.exact.polynomial import Polynomial, gcd
+from garkcli.exact.polynomial import Polynomial, gcd, squared_on_axis
 from garkcli.exact.polynomial_text import polynomial_text
 from garkcli.exact.roots import sign
 from garkcli.frozen import Frozen
@@ -148,9 +148,7 @@ def real_and_imaginary(p: Polynomial) -> tuple[Polynomial, Polynomial]:
 
 def squared_modulus(p: Polynomial) -> Polynomial:
     """|p(iy)|² as a polynomial in x = y²."""
-    u, v = real_and_imaginary(p)
-    in_y = u * u + v * v
-    return Polynomial(in_y.coefficients[::2])
+    return Polynomial(squared_on_axis(p.coefficients))
 
 
 def e_polynomial(R: StabilityFunction) -> Polynomial:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import partial
-from itertools import product, starmap
+from itertools import starmap
 
 from flint import fmpq
 
@@ -131,11 +131,14 @@ class LinearStability(Frozen):
     ssp: SspCoefficient | None
     within: StabilityWithin | None = None
 
-    def __repr__(self) -> str:
+    @property
+    def words(self) -> str:
+        """What it is, in short."""
         words = _word("A-stable", self.a_stable)
-        if self.a_stable:
-            words += f", {_word('L-stable', self.l_stable)}"
-        return f"<LinearStability {self.name}: {words}>"
+        return f"{words}, {_word('L-stable', self.l_stable)}" if self.a_stable else words
+
+    def __repr__(self) -> str:
+        return f"<LinearStability {self.name}: {self.words}>"
 
 
 class Stability(Shown, Frozen):
@@ -169,11 +172,7 @@ class Stability(Shown, Frozen):
     def __repr__(self) -> str:
         if not self.linear:
             return f"<Stability of {self.tableau!r} on the oscillator>"
-        together, *_ = self.linear
-        words = _word("A-stable", together.a_stable)
-        if together.a_stable:
-            words += f", {_word('L-stable', together.l_stable)}"
-        return f"<Stability {words}>"
+        return f"<Stability {self.linear[0].words}>"
 
 
 @doing("stability")
@@ -239,16 +238,11 @@ def stability_of_rounded(tableau: Tableau, tolerance: fmpq) -> Stability:
 
 def directions(tableau: Tableau) -> list[tuple[str, list[Number]]]:
     """The directions of (λ_1, …, λ_N) that are examined, with their names."""
-    blocks = starmap(tableau.block, product(range(tableau.size), repeat=2))
-    is_complete = all(block is not None for block in blocks)
-    if tableau.is_partitioned or not is_complete:
+    size = tableau.size
+    if tableau.is_partitioned or len(list(tableau.edges())) < size**2:
         return []
-    alike: list[Number] = [ONE] * tableau.size
-    every = [("all", alike)]
-    if tableau.size > 1:
-        for l, colour in enumerate(tableau.colours):
-            every.append((colour.name, _unit(tableau.size, l)))
-    return every
+    alone = [(x.name, _unit(size, l)) for l, x in enumerate(tableau.colours)]
+    return [("all", [ONE] * size), *(alone if size > 1 else [])]
 
 
 def linear_stability(tableau: Tableau, name: str, shares: Sequence[Number]) -> LinearStability:

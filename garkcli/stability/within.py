@@ -15,10 +15,11 @@ from flint import arb, arb_mat, arb_poly, ctx, fmpq
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector
+from garkcli.exact.polynomial import squared_on_axis
 from garkcli.exact.roots import sign
 from garkcli.frozen import Frozen, replace
 from garkcli.graph import components
-from garkcli.stability.algebraic import rounded_balls
+from garkcli.stability.algebraic import BITS, DIGITS, rounded_balls
 from garkcli.stability.ball_polynomials import (
     OPEN,
     UNLIMITED,
@@ -31,16 +32,10 @@ from garkcli.stability.ball_polynomials import (
     least,
     mirrored,
     poles_are_right,
-    squared_on_axis,
 )
 from garkcli.stability.ssp import driven_part, stacked
 from garkcli.stepping.linear import stage_system
 from garkcli.tableau.tableau import Tableau
-
-BITS = 256
-"""Precision of the balls; far below any tolerance that files have."""
-DIGITS = BITS // 4
-"""Digits of exact numbers that become balls."""
 
 
 class BallFraction(Frozen):

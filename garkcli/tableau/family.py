@@ -11,7 +11,6 @@ from flint import fmpq, fmpq_mpoly
 from garkcli.errors import LimitExceeded
 from garkcli.exact.domain import Domain
 from garkcli.exact.field import Number, with_radicals
-from garkcli.exact.matrix import Vector
 from garkcli.exact.nodes import Root
 from garkcli.exact.parametric import Parameters, Parametric, Rule
 from garkcli.exact.rewriting import format_expression
@@ -116,10 +115,7 @@ def ring_of(tableau: Tableau) -> Parameters:
     Raises:
         TypeError: all of them are numbers.
     """
-    rows: list[Vector] = [*chain.from_iterable(tableau.blocks.values())]
-    for colour in tableau.colours:
-        rows += [colour.b, colour.c]
-    numbers: Iterable[object] = chain.from_iterable(rows)
+    numbers: Iterable[object] = chain.from_iterable(tableau.rows)
     for x in numbers:
         if isinstance(x, Parametric):
             return x.ring

@@ -8,7 +8,7 @@ from itertools import chain
 from typing import Literal, TypeAlias
 
 from garkcli.errors import ShapeMismatch, counted
-from garkcli.exact.field import Algebraic, NumberField
+from garkcli.exact.field import Algebraic, Number, NumberField
 from garkcli.exact.matrix import Matrix, Vector, apply
 from garkcli.exact.parametric import Parametric
 from garkcli.frozen import Frozen
@@ -141,7 +141,7 @@ class Tableau(Frozen):
     @cached_property
     def field(self) -> NumberField | None:
         """The number field of the coefficients; None when all are rational."""
-        for row in self._rows():
+        for row in self.rows:
             for x in row:
                 if isinstance(x, Algebraic):
                     return x.field
@@ -150,15 +150,22 @@ class Tableau(Frozen):
     @cached_property
     def has_parameters(self) -> bool:
         """Whether a coefficient is a rational function of free parameters."""
-        return any(isinstance(x, Parametric) for x in chain.from_iterable(self._rows()))
+        return any(isinstance(x, Parametric) for x in chain.from_iterable(self.rows))
 
-    def _rows(self) -> Iterator[Vector]:
-        """All coefficients."""
+    @property
+    def rows(self) -> Iterator[Vector]:
+        """All coefficients: weights, nodes, and the rows of blocks."""
         for colour in self.colours:
             yield colour.b
             yield colour.c
         for block in self.blocks.values():
             yield from block
+
+    @property
+    def entries(self) -> list[Number]:
+        """The coefficients of weights and blocks."""
+        rows = [colour.b for colour in self.colours]
+        return list(chain(*rows, *chain.from_iterable(self.blocks.values())))
 
     @property
     def degree(self) -> int:

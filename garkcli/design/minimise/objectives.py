@@ -2,24 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from itertools import chain, islice
+from collections.abc import Sequence
+from itertools import chain
 from typing import Any
 
 from flint import fmpq, fmpq_mat, fmpq_mpoly
 
-from garkcli.deadline import check_time
-from garkcli.design.member import member
 from garkcli.design.minimise.objective import Either, Level, Objective, Signs, Size
 from garkcli.design.minimise.squared_error import Quotient, squared_coupling_error, squared_error
 from garkcli.design.stability_kinds import oscillator_curves, squared_modulus
-from garkcli.design.step_plane import largest_degree, step_plane, through, values_without
+from garkcli.design.step_plane import over_line, step_plane
 from garkcli.errors import UsageProblem
 from garkcli.exact.cells import first_end
 from garkcli.exact.field import ONE
 from garkcli.exact.matrix import Matrix, identity
-from garkcli.exact.parametric import Parameters, common_denominator, fraction
-from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.parametric import Parameters, fraction
 from garkcli.exact.projection import PLANE
 from garkcli.problems.oscillator import Oscillator, check_structure, terms_of
 from garkcli.stability.linear import imaginary_set, real_set, stability_function
@@ -65,34 +62,6 @@ def refuse_partitioned(tableau: Tableau) -> None:
             "minimise -oscillator-interval",
             code="wanted-without-meaning",
         )
-
-
-def in_plane(
-    tableau: Tableau,
-    ring: Parameters,
-    entries: Sequence[object],
-    size: int,
-    decided: Callable[[Tableau], Sequence[Polynomial]],
-) -> list[fmpq_mpoly]:
-    """Polynomials in y for each value of a parameter t as polynomials in y and t.
-
-    Args:
-        tableau: of one parameter.
-        ring: that.
-        entries: of the tableau.
-        size: the degree in the entries that the polynomials have at most.
-        decided: the polynomials in y of one method.
-    """
-    [name] = ring.names
-    denominator = common_denominator(entries, ring)
-    degree = size * largest_degree(entries, denominator, ring)
-    points = list(islice(values_without(denominator), degree + 1))
-    rows: list[Sequence[Polynomial]] = []
-    for t in points:
-        check_time()
-        scale = fmpq(denominator(t)) ** size
-        rows.append([p * scale for p in decided(member(tableau, ring, {name: t}))])
-    return [through(points, values) for values in zip(*rows, strict=True)]
 
 
 def _coupling_error(tableau: Tableau, order: int, ring: Parameters | None) -> Quotient:
@@ -164,11 +133,8 @@ def _ssp_signs(tableau: Tableau, ring: Parameters) -> Signs:
     if not all(isinstance(x, PointSpace) for x in tableau.spaces):
         message = "-ssp: families by name have no rational entries"
         raise UsageProblem(message, "spell the tableau out, stage by stage", code="no-radicals")
-    entries = list(chain.from_iterable(chain.from_iterable(tableau.blocks.values())))
-    for colour in tableau.colours:
-        entries += colour.b
     size = 2 + sum(space.stages for space in tableau.spaces)
-    return Signs([p for p in in_plane(tableau, ring, entries, size, conditions_at) if p])
+    return Signs([p for p in over_line(tableau, ring, size, conditions_at) if p])
 
 
 def _real(tableau: Tableau) -> Size:
