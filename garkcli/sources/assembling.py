@@ -39,6 +39,9 @@ from garkcli.sources.values import (
     Word,
     described,
     first_unknown,
+    is_written,
+    items_of,
+    near,
     whole,
 )
 
@@ -150,23 +153,17 @@ def _refuse_uses(roles: Roles) -> None:
     """Refuse arrays that other code has made: nothing of them is written here."""
     matrix = roles.get("A", roles.get("A_q"))
     others = [x for x in _COEFFICIENTS if isinstance(roles.get(x), Array)]
-    if not isinstance(matrix, Array) or not others:
-        raise NoTable
-    numbers = sum(_is_number(x) for x in matrix.flat())
-    unknown = sum(isinstance(x, Unknown) for x in matrix.flat())
-    if unknown and not numbers:
+    entries = list(matrix.flat()) if isinstance(matrix, Array) else []
+    unknown = [x for x in entries if isinstance(x, Unknown)]
+    is_written = any(x.was_written for x in unknown) or any(
+        isinstance(x, Number) and x.is_given for x in entries
+    )
+    if not isinstance(matrix, Array) or not others or (unknown and not is_written):
         raise NoTable
 
 
 _COEFFICIENTS = ("b", "c", "delta")
 """Arrays that a matrix, or what stands for it, has beside it."""
-
-
-def _is_number(value: Value) -> bool:
-    """Whether a number is written there, or was before it was changed."""
-    if isinstance(value, Unknown):
-        return value.was_written
-    return isinstance(value, Number) and value.is_given
 
 
 def _is_unread(roles: Roles) -> bool:
@@ -177,8 +174,7 @@ def _is_unread(roles: Roles) -> bool:
 def _has_weights(roles: Roles) -> bool:
     """Whether b has the sum 1, which is that of weights."""
     b = roles.get("b")
-    is_list = isinstance(b, Array) and len(b.items) > 1
-    return is_list and abs(_near(roles["b"]) - 1) < _SAME
+    return len(items_of(b)) > 1 and abs(near(b) - 1) < _SAME
 
 
 def _flags(roles: Roles) -> dict[str, bool]:
@@ -207,10 +203,9 @@ _WORDS = ("tolerance", "parts", "structure")
 
 def is_complete(roles: Roles) -> bool:
     """Whether these values may be all of a table."""
-    given = set(roles)
-    if any(x <= given for x in _WHOLE):
+    if any(x <= set(roles) for x in _WHOLE):
         return True
-    return "b" not in given and all(_is_matrix(roles.get(x)) for x in ("A", "c"))
+    return "b" not in roles and all(_is_matrix(roles.get(x)) for x in ("A", "c"))
 
 
 _WHOLE = (
@@ -232,11 +227,9 @@ def _built(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
     if {"A_q", "b_q"} <= set(roles):
         return _nystrom(roles, empty)
     if form.endswith("-first"):
-        stages = _stages(roles)
-        drifts = weights(plain(roles.get("drifts")), stages)
-        kicks = weights(plain(roles.get("kicks")), stages)
+        drifts, kicks = (_row(roles, role, _stages(roles)) for role in ("drifts", "kicks"))
         return symplectic(empty, drifts, kicks, is_force_first=form == "force-first")
-    if _is_grid(roles.get("A")):
+    if any(isinstance(x, Array) for row in items_of(roles.get("A")) for x in items_of(row)):
         return _of_blocks(roles, empty)
     return _single(meant, roles, empty)
 
@@ -247,11 +240,10 @@ MAX_COLOURS = 60
 
 def _of_blocks(roles: Roles, empty: FoundTable) -> FoundTable:
     """The method whose blocks are ``A[l][m]``, weights ``b[l]`` and nodes ``c[l]``."""
-    blocks = plain(_block_rows(roles.get("A")))
-    rows = [x for x in blocks if isinstance(x, list)] if isinstance(blocks, list) else []
+    rows = [items_of(row) or [row] for row in items_of(roles.get("A"))]
     if max(len(rows), *map(len, rows)) > MAX_COLOURS:
         raise Unreadable(f"more than {MAX_COLOURS} vector fields")
-    grid = tuple(tuple(None if x is None else rows_of(x) for x in row) for row in rows)
+    blocks = [[plain(_block(x)) for x in row] for row in rows]
     b, c, embedded = (_row_each(plain(roles.get(x))) for x in ("b", "c", "embedded"))
     if b is None:
         raise Unreadable("weights are expected")
@@ -260,13 +252,24 @@ def _of_blocks(roles: Roles, empty: FoundTable) -> FoundTable:
         replace(
             empty,
             is_sure=True,
-            A=grid,
+            A=tuple(tuple(None if x is None else rows_of(x) for x in row) for row in blocks),
             b=b,
-            c=(None,) * len(grid) if c is None else c,
+            c=(None,) * len(rows) if c is None else c,
             embedded=embedded,
             dense=tuple(map(rows_of, dense)) if isinstance(dense, list) and dense else None,
         )
     )
+
+
+def _block(value: Value) -> Value:
+    """A block of one row or one entry, which MATLAB has as a list or a number, as a matrix; one
+    without entries is none.
+    """
+    if isinstance(value, Number):
+        return Array([Array([value])]) if value.is_given else Null()
+    if not isinstance(value, Array) or value.is_matrix:
+        return value
+    return Array([value]) if value.items else Null()
 
 
 def _row_each(value: Texts) -> Rows | None:
@@ -291,47 +294,11 @@ def assembled(table: FoundTable) -> FoundTable:
     )
 
 
-def _is_grid(value: Value | None) -> bool:
-    """Whether it is a list of lists of blocks."""
-    if not isinstance(value, Array) or not value.is_matrix:
-        return False
-    items = [x for row in value.items if isinstance(row, Array) for x in row.items]
-    return any(isinstance(x, Array) for x in items)
-
-
-def _block_rows(value: Value | None) -> Value | None:
-    """Blocks of one row or one entry, which MATLAB has as lists and numbers, as matrices; one
-    without entries is none.
-    """
-    if not isinstance(value, Array):
-        return value
-
-    def block(x: Value) -> Value:
-        if isinstance(x, Number):
-            return x if x.is_given else Null()
-        if isinstance(x, Array):
-            if not x.items:
-                return Null()
-            return x if x.is_matrix else Array([x])
-        return x
-
-    def entry(x: Value) -> Value:
-        if isinstance(x, Number) and x.is_given:
-            return Array([Array([x])])
-        return block(x)
-
-    rows = [x.items if isinstance(x, Array) else [x] for x in value.items]
-    return Array([Array([entry(x) for x in row]) for row in rows])
-
-
 def _stages(roles: Roles) -> int:
+    # sizeof(c) / sizeof(c[0])
     stages = whole(roles.get("stages"))
-    if stages is None:
-        drifts = roles.get("drifts")
-        if isinstance(drifts, Array):
-            # sizeof(c) / sizeof(c[0])
-            stages = len(drifts.items)
-    if stages is None or not 0 < stages <= MAX_STAGES:
+    stages = len(items_of(roles.get("drifts"))) if stages is None else stages
+    if not 0 < stages <= MAX_STAGES:
         raise Unreadable("the number of stages is not written out")
     return stages
 
@@ -349,7 +316,7 @@ def _single(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
         b = _weights_of(roles, meant, stages)
         if stages and len(b) != stages:
             raise Misshapen(f"n_stages is {stages}, B has {len(b)}")
-        A = square(plain(_with_rows(roles.get("A"))), len(b))
+        A = _square(roles, "A", len(b))
     else:
         form, made = found
         A, b = made.A, made.b
@@ -379,32 +346,33 @@ def _single(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
 
 def _with_both_rows(roles: Roles) -> Roles:
     """Weights and embedded weights apart, where they are the rows of one matrix."""
-    rows = roles.get("b")
-    if not isinstance(rows, Array) or not rows.is_matrix or len(rows.items) != 2:
+    rows = items_of(roles.get("b"))
+    if len(rows) != 2 or any(len(items_of(x)) < 2 for x in rows):
         return roles
-    if any(isinstance(x, Array) and len(x.items) < 2 for x in rows.items):
-        return roles
-    return {**roles, "b": rows.items[0], "embedded": rows.items[1]}
+    return {**roles, "b": rows[0], "embedded": rows[1]}
 
 
 def _without_further_stages(roles: Roles) -> Roles:
     """The stages that have weights, where A is a triangle in one row and has further stages: those
     of dense output. The nodes are the row sums.
     """
-    given = [roles.get(x) for x in ("A", "b", "c")]
-    A, b, c = (x.items if isinstance(x, Array) and not x.is_matrix else [] for x in given)
+    A, b, c = (items_of(roles.get(x)) for x in ("A", "b", "c"))
     stages = (1 + isqrt(1 + 8 * len(A))) // 2
     nodes = c[1 - stages :]
     if 2 * len(A) != stages * (stages - 1) or len(nodes) != stages - 1 or not 1 < len(b) < stages:
         return roles
-    if len(b) == len(c) and abs(_near(Array(c[:1]))) < _SAME:
-        # A has its diagonal
+    has_diagonal = len(b) == len(c) and abs(near(*c[:1])) < _SAME
+    if has_diagonal or any(isinstance(x, Array) for x in (*A, *b, *c)):
         return roles
-    rows = [Array(A[i * (i - 1) // 2 : i * (i + 1) // 2]) for i in range(stages)]
+    rows = [A[i * (i - 1) // 2 : i * (i + 1) // 2] for i in range(stages)]
     pairs = zip(rows[1:], nodes, strict=True)
-    if sum(abs(_near(row) - _near(Array([node]))) > _SAME for row, node in pairs) > 1:
+    if sum(abs(near(*row) - near(node)) > _SAME for row, node in pairs) > 1:
         return roles
-    return {**roles, "A": Array([*rows[: len(b)]]), "c": Array(nodes[: len(b) - 1])}
+    return {
+        **roles,
+        "A": Array([Array(x) for x in rows[: len(b)]]),
+        "c": Array(nodes[: len(b) - 1]),
+    }
 
 
 def _orders(roles: Roles) -> tuple[int | None, int | None]:
@@ -435,27 +403,27 @@ def _of_registers(meant: Meant, roles: Roles) -> tuple[str, Converted] | None:
     """The form of low-storage and Shu–Osher coefficients, and what they are; None of others."""
     form = meant.signature.form if meant.signature else "rk"
     A = roles.get("A")
-    if isinstance(A, Array) and A.is_matrix and len(A.items) == 1 and "c" not in roles:
+    if _is_matrix(A) and len(items_of(A)) == 1 and "c" not in roles:
         # {{a2, a3, …}}
-        A = A.items[0]
+        A = items_of(A)[0]
     if "gamma1" in roles:
         names = ("gamma1", "gamma2", "gamma3", "delta", "A")
-        rows = [weights(plain(roles[x])) if x in roles else () for x in names]
+        rows = [_given(roles, x) or () for x in names]
         rows[2] = rows[2] or (ZERO,) * len(rows[-1])
         return "3S*", of_three_registers(*rows)
     if "b" not in roles and _is_matrix(roles.get("c")) and _is_matrix(A):
         alpha, beta = (rows_of(plain(roles[x])) for x in ("c", "A"))
         return "Shu–Osher", of_shu_osher(alpha, beta)
     if form not in {"rk", "lists"}:
-        rows = [weights(plain(x)) for role, x in roles.items() if role in _DIAGONALS]
-        return form, low_storage(form, rows, weights(plain(roles.get("b"))))
+        return form, low_storage(
+            form, [_row(roles, x) for x in roles if x in _DIAGONALS], _row(roles, "b")
+        )
     if not isinstance(A, Array) or _is_matrix(A) or not isinstance(roles.get("b"), Array):
         return None
-    row, b = plain(A), weights(plain(roles["b"]))
+    row, b = plain(A), _row(roles, "b")
     if not is_row(row) or not _is_pair_of_rows(row_of(row), len(b)):
         return None
-    c = roles.get("c")
-    return recognised(row_of(row), b, weights(plain(c)) if c is not None else None)
+    return recognised(row_of(row), b, _row(roles, "c") if "c" in roles else None)
 
 
 _DIAGONALS = ("A", "A_2", "A_3", "A_4")
@@ -470,20 +438,18 @@ def _is_pair_of_rows(row: Row, stages: int) -> bool:
 
 def _nystrom(roles: Roles, empty: FoundTable) -> FoundTable:
     """Ā, b̄, b and c as the pair (q, p) with linear velocities."""
-    b_q, b = (weights(plain(roles[x])) for x in ("b_q", "b"))
+    b_q, b = _row(roles, "b_q"), _row(roles, "b")
     stages = len(b)
-    c = _nodes(roles, square(plain(_with_rows(roles["A_q"])), stages))
+    A = _square(roles, "A_q", stages)
+    c = _nodes(roles, A)
     if c is None:
         raise Unreadable("the nodes of a Nyström method are not written out")
-    A = square(plain(_with_rows(roles["A_q"])), stages)
     made = of_nystrom(A, b_q, c)
     units = [tuple("1" if i == j else ZERO for j in range(stages)) for i in range(stages)]
     embedded = None
-    errors = [roles.get(x) for x in ("error_q", "error")]
-    if all(isinstance(x, Array) and len(x.items) == stages for x in errors):
-        of_error = [weights(plain(x)) for x in errors]
-        low = of_nystrom(A, changed("-", b_q, of_error[0]), c).b
-        embedded = (low, changed("-", b, of_error[1]))
+    if all(len(items_of(roles.get(x))) == stages for x in ("error_q", "error")):
+        low = of_nystrom(A, changed("-", b_q, _row(roles, "error_q")), c).b
+        embedded = (low, changed("-", b, _row(roles, "error")))
     return replace(
         empty,
         A=((None, ((ZERO,) * stages, *units)), (made.A, None)),
@@ -496,24 +462,30 @@ def _nystrom(roles: Roles, empty: FoundTable) -> FoundTable:
     )
 
 
-def _with_rows(value: Value | None) -> Value | None:
-    """A matrix whose rows are assigned one by one: those that nobody wrote are empty."""
-    if not isinstance(value, Array) or not any(isinstance(x, Array) for x in value.items):
-        return value
-    rows = [x if isinstance(x, Array) or _is_written(x) else Array([]) for x in value.items]
-    return Array(rows, value.base)
+def _square(roles: Roles, role: str, stages: int) -> Rows:
+    """A matrix; of one whose rows are assigned one by one, those that nobody wrote are empty."""
+    value = roles.get(role)
+    rows = items_of(value)
+    if any(isinstance(x, Array) for x in rows):
+        value = Array([x if isinstance(x, Array) or is_written(x) else Array([]) for x in rows])
+    return square(plain(value), stages)
 
 
-def _is_written(value: Value) -> bool:
-    return not isinstance(value, Number) or value.is_given
+def _row(roles: Roles, role: str, stages: int = 0) -> Row:
+    return weights(plain(roles.get(role)), stages)
+
+
+def _given(roles: Roles, role: str, stages: int = 0) -> Row | None:
+    value = roles.get(role)
+    return None if value is None or isinstance(value, Null) else _row(roles, role, stages)
 
 
 def _weights_of(roles: Roles, meant: Meant, stages: int) -> Row:
-    given = roles.get("b")
     has_default = meant.signature is not None and meant.signature.has_default_weights
-    if has_default and (given is None or isinstance(given, Null)):
-        return square(plain(roles.get("A")), stages)[-1]
-    return weights(plain(given), stages if has_default or meant.maker else 0)
+    row = _given(roles, "b", stages if has_default or meant.maker else 0)
+    if row is None and has_default:
+        return _square(roles, "A", stages)[-1]
+    return _row(roles, "b") if row is None else row
 
 
 def _nodes(roles: Roles, A: Rows) -> Row | None:
@@ -534,14 +506,6 @@ def _nodes(roles: Roles, A: Rows) -> Row | None:
     return row
 
 
-def _near(value: Value) -> float:
-    return (
-        sum(x.near for x in value.flat() if isinstance(x, Number))
-        if isinstance(value, Array)
-        else 0
-    )
-
-
 def _embedded(
     roles: Roles, A: Rows, b: Row, c: Row | None, meant: Meant
 ) -> tuple[Rows, Row, Row | None, Row | None, Row | None]:
@@ -556,9 +520,9 @@ def _embedded(
     row = weights(plain(given))
     if len(row) < len(b) and meant.maker:
         row = weights(plain(given), len(b))
-    near = _near(given)
-    is_error = abs(near) < 0.05 or (role == "error" and meant.is_assembled)
-    off = near if role == "error" else near - 1
+    total = near(given)
+    is_error = abs(total) < 0.05 or (role == "error" and meant.is_assembled)
+    off = total if role == "error" else total - 1
     if not (meant.is_sure or is_error) and abs(off) > FAR:
         # an array of that name which is something else
         return none
@@ -599,33 +563,30 @@ def _two_parts(roles: Roles, empty: FoundTable) -> FoundTable:
 
     The implicit table is first; no bt is the last row of At, no b is bt.
     """
-    given = roles.get("b2")
-    of_weights = isinstance(given, Array) and "stages" not in roles
-    stages = len(given.items) if of_weights and isinstance(given, Array) else _stages(roles)
-    implicit = square(plain(roles.get("A2")), stages)
+    stages = 0 if "stages" in roles else len(items_of(roles.get("b2")))
+    stages = stages or _stages(roles)
+    implicit, explicit = (square(plain(roles.get(x)), stages) for x in ("A2", "A"))
     b_implicit = _given(roles, "b2", stages) or implicit[-1]
-    explicit = square(plain(roles.get("A")), stages)
     b_explicit = _given(roles, "b", stages) or b_implicit
     c_implicit, c_explicit = _given(roles, "c2", stages), _given(roles, "c", stages)
     of_implicit = _given_low(roles, "2", b_implicit)
     of_explicit = _given_low(roles, "", b_explicit)
-    embedded = None if of_implicit is None else (of_explicit or of_implicit, of_implicit)
     if all(is_zero(x) for row in (*explicit, b_explicit) for x in row):
         # nothing is explicit: the way to register an implicit method
         own = None if of_implicit is None else (of_implicit,)
         return replace(empty, A=((implicit,),), b=(b_implicit,), c=(c_implicit,), embedded=own)
-    row = (explicit, implicit)
-    shared = replace(
-        empty, A=(row,), b=(b_explicit, b_implicit), c=(c_explicit,), embedded=embedded
-    )
-    if c_explicit is None and c_implicit is None and _have_other_sums(roles["A"], roles["A2"]):
-        return replace(shared, A=(row, row), c=(None, None))
-    if c_explicit is None:
-        return replace(shared, c=(c_implicit,))
-    if c_implicit is not None and c_implicit != c_explicit:
-        # each part is evaluated at its own times
-        return replace(shared, A=(row, row), c=(c_explicit, c_implicit))
-    return shared
+    embedded = None if of_implicit is None else (of_explicit or of_implicit, of_implicit)
+    found = replace(empty, b=(b_explicit, b_implicit), embedded=embedded)
+    row, c = (explicit, implicit), (c_explicit, c_implicit)
+    if c == (None, None):
+        sums = [[near(*items_of(x)) for x in items_of(roles[role])] for role in ("A", "A2")]
+        is_shared = all(abs(x - y) <= _SAME for x, y in zip(*sums, strict=False))
+    else:
+        # or each part is evaluated at its own times
+        is_shared = None in c or c_implicit == c_explicit
+    if is_shared:
+        return replace(found, A=(row,), c=(c_explicit or c_implicit,))
+    return replace(found, A=(row, row), c=c)
 
 
 def _given_low(roles: Roles, part: str, b: Row) -> Row | None:
@@ -636,21 +597,8 @@ def _given_low(roles: Roles, part: str, b: Row) -> Row | None:
     return _given(roles, f"embedded{part}", len(b))
 
 
-def _have_other_sums(first: Value, second: Value) -> bool:
-    """Whether the rows of two matrices have different sums, which are their nodes."""
-    if not isinstance(first, Array) or not isinstance(second, Array):
-        return False
-    pairs = zip(map(_near, first.items), map(_near, second.items), strict=False)
-    return any(abs(x - y) > _SAME for x, y in pairs)
-
-
 _SAME = 1e-9
 """Sums that differ by less are the same."""
-
-
-def _given(roles: Roles, role: str, stages: int) -> Row | None:
-    value = roles.get(role)
-    return None if value is None or isinstance(value, Null) else weights(plain(value), stages)
 
 
 def _listed(roles: Roles, empty: FoundTable) -> FoundTable:
@@ -659,11 +607,7 @@ def _listed(roles: Roles, empty: FoundTable) -> FoundTable:
     if not isinstance(matrices, list) or not isinstance(rows, list):
         raise Unreadable("lists of matrices and of weights are expected")
     blocks = tuple(rows_of(x) for x in matrices)
-    b = tuple(weights(x) for x in rows)
-    c = None
-    if isinstance(nodes, list) and nodes:
-        each = tuple(weights(x) for x in nodes)
-        if len(set(each)) > 1:
-            return replace(empty, A=(blocks,) * len(blocks), b=b, c=each)
-        c = each[0]
-    return assembled(replace(empty, A=(blocks,), b=b, c=(c,)))
+    c = tuple(weights(x) for x in nodes) if isinstance(nodes, list) and nodes else (None,)
+    are_shared = len(set(c)) == 1
+    A, b = (blocks,) * (1 if are_shared else len(blocks)), tuple(weights(x) for x in rows)
+    return assembled(replace(empty, A=A, b=b, c=c[:1] if are_shared else c))

@@ -24,7 +24,19 @@ from garkcli.sources.signatures import (
     other_kind,
 )
 from garkcli.sources.steps import NoStep, step_of
-from garkcli.sources.values import Array, Null, Number, Record, Type, Unknown, Value, Word, whole
+from garkcli.sources.values import (
+    Array,
+    Null,
+    Number,
+    Record,
+    Type,
+    Unknown,
+    Value,
+    Word,
+    is_written,
+    items_of,
+    whole,
+)
 
 _NUMBERED = re.compile(
     r"(?:(?P<stem>\w{1,200}?)_)?(?P<word>A|b|c|embedded|bhat|dense)"
@@ -123,7 +135,11 @@ class TableFinder(Evaluator):
             return
         if looks_like_a_step:
             self._unread(scope.title, scope.line, "a step that is not followed")
-        elif CONSTRUCTOR.fullmatch(scope.name) and _fractions(values) >= FEWEST_COEFFICIENTS:
+        elif CONSTRUCTOR.fullmatch(scope.name):
+            numbers = Array(list(values.values())).flat()
+            fractions = sum(isinstance(x, Number) and not x.is_whole for x in numbers)
+            if fractions < FEWEST_COEFFICIENTS:
+                return
             self._unread(scope.title, scope.line, UNRECOGNISED, other_kind(scope.name))
 
     def _count(self) -> int:
@@ -211,7 +227,7 @@ class TableFinder(Evaluator):
         if signature is PARTS and any(map(_is_given, roles.values())):
             return
         _with_diagonal(roles, fields)
-        if record.kind == _TABLE and not _is_written(fields.get("d")):
+        if record.kind == _TABLE and not is_written(fields.get("d")):
             roles.pop("embedded", None)
         if "title" not in roles or not isinstance(roles["title"], Word):
             roles.pop("title", None)
@@ -404,13 +420,6 @@ def _is_given(value: Value) -> bool:
     return isinstance(value, Unknown) and "the argument" in value.reason
 
 
-def _is_written(value: Value | None) -> bool:
-    """Whether somebody wrote an entry of an array that was made with zeros."""
-    if not isinstance(value, Array):
-        return False
-    return any(not isinstance(x, Number) or x.is_given for x in value.flat())
-
-
 def _fits(role: str, value: Value) -> bool:
     """Whether a value may be what its name says."""
     if role in {"order", "embedded_order", "stages"}:
@@ -433,29 +442,17 @@ def _grid(of_role: Mapping[str, Mapping[tuple[int, ...], Value]]) -> Roles:
     return found
 
 
-def _fractions(values: Mapping[str, Value]) -> int:
-    """How many numbers there are that are not whole."""
-    flat = Array(list(values.values())).flat()
-    return sum(isinstance(x, Number) and not x.is_whole for x in flat)
-
-
 def _is_triangle(entries: Value, row: Value) -> bool:
     """Whether there is an entry for each pair of what is in a row."""
-    counts = [len(x.items) for x in (entries, row) if isinstance(x, Array) and not x.is_matrix]
-    return len(counts) == 2 and 2 * counts[0] == counts[1] * (counts[1] - 1)
+    m, n = (len(items_of(x)) for x in (entries, row))
+    return n > 0 and 2 * m == n * (n - 1) and not any(isinstance(x, Array) for x in items_of(row))
 
 
 def _with_diagonal(roles: Roles, fields: Mapping[str, Value]) -> None:
     """A diagonal that is apart is put into the matrix."""
-    diagonal, A = fields.get("a_diagonal"), roles.get("A")
-    if not isinstance(diagonal, Array) or not isinstance(A, Array):
-        return
-    count = len(diagonal.items)
-    rows = [x.items if isinstance(x, Array) else [x] for x in A.items]
-    if len(rows) == count - 1:
-        rows.insert(0, [])
-    if len(rows) == count:
-        joined = [
-            [*row[:i], x] for i, (row, x) in enumerate(zip(rows, diagonal.items, strict=True))
-        ]
-        roles["A"] = Array([Array(row) for row in joined])
+    diagonal = items_of(fields.get("a_diagonal"))
+    rows = [items_of(x) or [x] for x in items_of(roles.get("A"))]
+    rows = [[]] * (len(rows) == len(diagonal) - 1) + rows
+    if rows and len(rows) == len(diagonal):
+        pairs = enumerate(zip(rows, diagonal, strict=True))
+        roles["A"] = Array([Array([*row[:i], x]) for i, (row, x) in pairs])

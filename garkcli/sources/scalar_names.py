@@ -3,11 +3,22 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from garkcli.frozen import Mutable, field
 from garkcli.sources.found import MAX_STAGES
-from garkcli.sources.values import ONE, ZERO, Array, Number, Unknown, Value, computed, exact
+from garkcli.sources.values import (
+    ONE,
+    ZERO,
+    Array,
+    Number,
+    Unknown,
+    Value,
+    computed,
+    exact,
+    is_zero,
+    near,
+)
 
 _NAME = re.compile(r"(?P<stem>[^\W\d_]+[̂̃]?)_?(?P<i>\d{1,4})(?:_(?P<j>\d{1,2}))?")
 _MATRICES = ("a", "A", "aa", "b", "α")
@@ -92,12 +103,12 @@ def scalar_roles(values: Mapping[str, Value]) -> Scalars | None:
     found.roles["A"] = Array([Array(list(row)) for row in A])
     if c is not None:
         found.roles["c"] = Array(list(c))
-    if given and _is_near(_total(list(given.values())), ONE):
+    if given and _is_about(given.values(), 1):
         found.roles["b"] = Array([given.get(i + first, ZERO) for i in range(stages)])
-    elif not given and nodes and _is_near(_total(A[-1]), ONE):
+    elif not given and nodes and _is_about(A[-1], 1):
         found.roles["b"] = Array(list(A[-1]))
         found.notes.append("no weights are written out: they are the last row of A")
-    elif not given and nodes and _is_near(_total(A[-1][:-1]), ONE) and not _is_zero(A[-1][-1]):
+    elif not given and nodes and _is_about(A[-1][:-1], 1) and not is_zero(A[-1][-1]):
         found.roles["b"] = Array(list(A[-1][:-1]))
         found.roles["A"] = Array([Array(row[:-1]) for row in A[:-1]])
         found.roles["c"] = Array(list(c[:-1] if c else ()))
@@ -136,7 +147,7 @@ def _of_shu_osher(alpha: _Entries, beta: _Entries, nodes: _Row) -> Scalars | Non
         for of in (alpha, beta)
     ]
     rows = [x.items for x in matrices[0].items if isinstance(x, Array)]
-    if not all(_is_near(_total(row), ONE) for row in rows):
+    if not all(_is_about(row, 1) for row in rows):
         return None
     roles: dict[str, Value] = dict(zip("cA", matrices, strict=True))
     given = [x for i in range(1, count) if (x := nodes.get(i)) is not None]
@@ -208,51 +219,46 @@ def _fitted(
 ) -> _Fitted | None:
     """The matrix whose row sums are the nodes, as it is or with a diagonal, and the nodes."""
     stages = len(A)
-    gamma = next((values[x] for x in _DIAGONALS if isinstance(values.get(x), Number)), None)
+    gamma = next((x for name in _DIAGONALS if isinstance(x := values.get(name), Number)), None)
     ways: list[tuple[str, list[list[Value]]]] = [("", A)]
-    has_diagonal = any(not _is_zero(A[i][i]) for i in range(stages))
-    if gamma is not None and has_diagonal and _is_zero(A[-1][-1]):
+    has_diagonal = any(not is_zero(A[i][i]) for i in range(stages))
+    if gamma is not None and has_diagonal and is_zero(A[-1][-1]):
         whole = [*A[:-1], [*A[-1][:-1], gamma]]
-        if _is_near(_total(whole[-1]), ONE):
+        if _is_about(whole[-1], 1):
             ways.insert(0, ("the last entry of the diagonal is a number of its own", whole))
     if gamma is not None and not has_diagonal:
         told = "the diagonal is a number of its own"
-        if not (_is_zero(A[1][0]) or _is_near(A[1][0], gamma)):
-            # the second row of a method with an explicit first stage begins with γ
-            ways.append((told, _with(A, lambda i, j: i == j, gamma)))
-        if stages > 1 and _is_zero(A[1][0]):
-            ways.append(
-                (told, _with(A, lambda i, j: (i == j and i > 0) or (i, j) == (1, 0), gamma))
-            )
-        ways.append((told, _with(A, lambda i, j: i == j and i > 0, gamma)))
-        ways.append((told, _with(A, lambda i, j: i == j, gamma)))
+        full, lower = A, A
+        for i in range(stages):
+            full = _with(full, i, i, gamma)
+            lower = _with(lower, i, i, gamma) if i else lower
+        is_free = is_zero(A[1][0])
+        # the second row of a method with an explicit first stage begins with γ
+        ways += [(told, full)] * (not is_free and not _is_about([A[1][0]], gamma.near))
+        ways += [(told, _with(lower, 1, 0, gamma))] * is_free
+        ways += [(told, lower), (told, full)]
     fitting: list[tuple[int, str, list[list[Value]], list[Value]]] = []
     for note, matrix in ways:
-        sums = [_total(row) for row in matrix]
         for shift in (1, 0, 2):
             given = [nodes.get(i + shift) for i in range(stages)]
-            second = given[1] if stages > 1 else None
-            if second is not None and not note and all(map(_is_zero, matrix[1])):
-                told = "the only entry of the second row is its node"
-                given_row = [second, *matrix[1][1:]]
-                ways.append((told, [matrix[0], given_row, *matrix[2:]]))
+            if given[1] is not None and not note and all(map(is_zero, matrix[1])):
+                ways.append(
+                    ("the only entry of the second row is its node", _with(A, 1, 0, given[1]))
+                )
             count = sum(x is not None for x in given)
             if not count or count < min(len(nodes), 2):
                 continue
-            off = [
-                i
-                for i, (x, y) in enumerate(zip(given, sums, strict=True))
-                if not (x is None or _is_near(x, y))
-            ]
+            pairs = list(zip(given, matrix, strict=True))
+            off = [i for i, (x, row) in enumerate(pairs) if x and not _is_about(row, near(x))]
             if not off or (count > FEWEST_NODES and _may_be_wrong(matrix, off)):
-                full = [_sum(y) if x is None else x for x, y in zip(given, sums, strict=True)]
-                fitting.append((len(off), note, matrix, full))
+                nodes_ = [_sum(row) if x is None else x for x, row in pairs]
+                fitting.append((len(off), note, matrix, nodes_))
     if not fitting:
         return None
-    _, note, matrix, full = min(fitting, key=lambda x: x[0])
+    _, note, matrix, nodes_ = min(fitting, key=lambda x: x[0])
     if note:
         found.notes.append(note)
-    return matrix, full
+    return matrix, nodes_
 
 
 FEWEST_NODES = 4
@@ -261,15 +267,12 @@ FEWEST_NODES = 4
 
 def _may_be_wrong(A: Sequence[Sequence[Value]], off: Sequence[int]) -> bool:
     """Whether one node alone is no row sum, and no entry of its row is left out."""
-    return len(off) == 1 and not any(map(_is_zero, A[off[0]][: off[0]]))
+    return len(off) == 1 and not any(map(is_zero, A[off[0]][: off[0]]))
 
 
-def _with(
-    A: list[list[Value]], is_changed: Callable[[int, int], bool], value: Value
-) -> list[list[Value]]:
-    return [
-        [value if is_changed(i, j) else x for j, x in enumerate(row)] for i, row in enumerate(A)
-    ]
+def _with(A: list[list[Value]], i: int, j: int, value: Value) -> list[list[Value]]:
+    """The matrix with another entry."""
+    return [*A[:i], [*A[i][:j], value, *A[i][j + 1 :]], *A[i + 1 :]]
 
 
 def _with_embedded(found: Scalars, rows: Mapping[str, _Row], stages: int, low: int) -> None:
@@ -279,8 +282,7 @@ def _with_embedded(found: Scalars, rows: Mapping[str, _Row], stages: int, low: i
             continue
         first = 0 if min(row) == 0 and low == 0 else 1
         count = max(stages, max(row) - first + 1)
-        total = _total(list(row.values()))
-        is_error, is_weights = _is_near(total, ZERO), _is_near(total, ONE)
+        is_error, is_weights = (_is_about(row.values(), total) for total in (0, 1))
         if stem in _SURELY and not (is_error or is_weights) and len(row) + 1 >= stages:
             # the sum is wrong, which is for an audit to say
             is_error = stem in _DIFFERENCES
@@ -291,23 +293,15 @@ def _with_embedded(found: Scalars, rows: Mapping[str, _Row], stages: int, low: i
             return
 
 
-def _total(row: Sequence[Value]) -> Value:
+def _is_about(row: Iterable[Value], total: float) -> bool:
+    """Whether numbers have about this sum."""
+    found = list(row)
+    return all(isinstance(x, Number) for x in found) and abs(near(*found) - total) < NEAR
+
+
+def _sum(row: Sequence[Value]) -> Value:
+    """A sum that stands for a node, with all its digits."""
     found: Value = ZERO
     for x in row:
         found = computed("+", found, x, 0)
-    return found
-
-
-def _sum(value: Value) -> Value:
-    """A sum that stands for a node, with all its digits."""
-    is_rational = isinstance(value, Number) and value.value is not None
-    return exact(value.value) if is_rational else value  # type: ignore[union-attr, arg-type]
-
-
-def _is_zero(value: Value) -> bool:
-    return isinstance(value, Number) and value.is_zero
-
-
-def _is_near(x: Value, y: Value) -> bool:
-    is_number = isinstance(x, Number) and isinstance(y, Number)
-    return is_number and abs(x.near - y.near) < NEAR  # type: ignore[union-attr]
+    return exact(found.value) if isinstance(found, Number) and found.value is not None else found

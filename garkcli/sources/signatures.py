@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 from garkcli.frozen import Frozen, field
 
@@ -31,22 +32,11 @@ class Signature(Frozen):
     named: Mapping[str, str] = field(default_factory=dict)
 
 
-def _rk(roles: str, *counts: int) -> Signature:
-    return Signature(roles.split(), counts=counts)
+def _all(names: str, roles: str, form: str = "rk", **besides: Any) -> dict[str, Signature]:
+    return dict.fromkeys(names.split(), Signature(roles.split(), form, **besides))
 
 
-_PETSC_RK = Signature(
-    ["title", "order", "stages", "A", "b", "c", "embedded"],
-    counts=(9,),
-    format="petsc",
-    has_default_weights=True,
-)
-
-
-def _of_registers(form: str, roles: str) -> Signature:
-    return Signature(roles.split(), form)
-
-
+_PETSC: Mapping[str, Any] = {"format": "petsc", "has_default_weights": True}
 _THREE = "gamma1 gamma2 gamma3 delta A_first A c"
 _LAST = "b_last embedded_last b embedded c"
 PRINTED = "a printed tableau"
@@ -60,61 +50,51 @@ DRIFT_FIRST = Signature(["drifts", "kicks"], "drift-first")
 SIGNATURES: Mapping[str, Signature] = {
     PRINTED: Signature([], is_guess=True),
     NDSOLVE: Signature(["A", "b", "c", "error"], is_guess=True),
-    "ARKodeButcherTable_Create": _rk("stages order embedded_order c A b embedded", 7),
-    "ARKodeSPRKTable_Alloc": Signature(
-        [], "force-first", named={"a": "drifts", "ahat": "kicks", "q": "order", "stages": "stages"}
+    **_all("ARKodeButcherTable_Create", "stages order embedded_order c A b embedded", counts=(7,)),
+    **_all(
+        *("ARKodeSPRKTable_Alloc", "", "force-first"),
+        named={"a": "drifts", "ahat": "kicks", "q": "order", "stages": "stages"},
     ),
-    "ARKodeSPRKTable_Create": Signature(
-        ["stages", "order", "drifts", "kicks"], "force-first", counts=(4,)
+    **_all("ARKodeSPRKTable_Create", "stages order drifts kicks", "force-first", counts=(4,)),
+    **_all(
+        *("TSRKRegister TSDIRKRegister", "title order stages A b c embedded"), counts=(9,), **_PETSC
     ),
-    "TSRKRegister": _PETSC_RK,
-    "TSDIRKRegister": _PETSC_RK,
-    "TSARKIMEXRegister": Signature(
-        ["title", "order", "stages", "A2", "b2", "c2", "A", "b", "c", "embedded2", "embedded"],
-        "ark",
+    **_all(
+        *("TSARKIMEXRegister", "title order stages A2 b2 c2 A b c embedded2 embedded", "ark"),
         counts=(14,),
+        **_PETSC,
+    ),
+    **_all(
+        *("ESDIRKIMEXTableau", "A2 b2 A b c2 error2 error - order stages", "ark"), named={"ce": "c"}
+    ),
+    **dict.fromkeys(("IMEXButcher", "IMEXTableau"), PARTS),
+    **_all(
+        *("TSBasicSymplecticRegister", "title order stages drifts kicks", "drift-first"),
+        counts=(5,),
         format="petsc",
-        has_default_weights=True,
     ),
-    "ESDIRKIMEXTableau": Signature(
-        ["A2", "b2", "A", "b", "c2", "error2", "error", "-", "order", "stages"],
-        "ark",
-        named={"ce": "c"},
+    **_all("SymplecticTableau", "kicks drifts", "drift-first", counts=(2,)),
+    **_all("ExplicitRKTableau ImplicitRKTableau", "A c b order"),
+    **_all("RungeKuttaMethod ExplicitRungeKuttaMethod DiagonallyImplicitRKMethod", "A b c"),
+    **_all("ExplicitRungeKuttaPair", "A b embedded"),
+    **_all("AdditiveRungeKuttaMethod", "A b c", "lists"),
+    **_all("Tableau TableauRK TableauERK TableauIRK TableauDIRK", "title order A b c"),
+    **_all("TableauRKExplicit", "title order A b c", counts=(5, 6)),
+    **_all("_ButcherTableau", "c A b error"),
+    **_all("ExplicitRKSolver", "stages A b c", counts=(4,)),
+    **_all("LowStorageRungeKutta2NTableau", "A b c", "2N"),
+    **_all("LowStorageRK2NConstantCache", "A b_first b c", "2N"),
+    **_all("LowStorageRK2CConstantCache", "A b_first b c", "2C"),
+    **_all("LowStorageRK3SConstantCache", _THREE, "3S*"),
+    **_all("LowStorageRK3SpConstantCache", f"{_THREE} embedded_first embedded", "3S*"),
+    **_all(
+        "LowStorageRK3SpFSALConstantCache", f"{_THREE} embedded_first embedded embedded_last", "3S*"
     ),
-    "IMEXButcher": PARTS,
-    "IMEXTableau": PARTS,
-    "TSBasicSymplecticRegister": Signature(
-        ["title", "order", "stages", "drifts", "kicks"], "drift-first", counts=(5,), format="petsc"
-    ),
-    "SymplecticTableau": Signature(["kicks", "drifts"], "drift-first", counts=(2,)),
-    "ExplicitRKTableau": _rk("A c b order"),
-    "ImplicitRKTableau": _rk("A c b order"),
-    "RungeKuttaMethod": _rk("A b c"),
-    "ExplicitRungeKuttaMethod": _rk("A b c"),
-    "ExplicitRungeKuttaPair": _rk("A b embedded"),
-    "DiagonallyImplicitRKMethod": _rk("A b c"),
-    "AdditiveRungeKuttaMethod": Signature(["A", "b", "c"], "lists"),
-    "Tableau": _rk("title order A b c"),
-    "TableauRK": _rk("title order A b c"),
-    "TableauERK": _rk("title order A b c"),
-    "TableauIRK": _rk("title order A b c"),
-    "TableauDIRK": _rk("title order A b c"),
-    "TableauRKExplicit": _rk("title order A b c", 5, 6),
-    "_ButcherTableau": _rk("c A b error"),
-    "ExplicitRKSolver": _rk("stages A b c", 4),
-    "LowStorageRungeKutta2NTableau": _of_registers("2N", "A b c"),
-    "LowStorageRK2NConstantCache": _of_registers("2N", "A b_first b c"),
-    "LowStorageRK2CConstantCache": _of_registers("2C", "A b_first b c"),
-    "LowStorageRK3SConstantCache": _of_registers("3S*", _THREE),
-    "LowStorageRK3SpConstantCache": _of_registers("3S*", f"{_THREE} embedded_first embedded"),
-    "LowStorageRK3SpFSALConstantCache": _of_registers(
-        "3S*", f"{_THREE} embedded_first embedded embedded_last"
-    ),
-    "LowStorageRK2RPConstantCache": _of_registers("2R", f"A {_LAST}"),
-    "LowStorageRK3RPConstantCache": _of_registers("3R", f"A A_2 {_LAST}"),
-    "LowStorageRK4RPConstantCache": _of_registers("4R", f"A A_2 A_3 {_LAST}"),
-    "LowStorageRK5RPConstantCache": _of_registers("5R", f"A A_2 A_3 A_4 {_LAST}"),
-    "NystromVITableau": _of_registers("nystrom", "A_q b_q b error_q error c"),
+    **_all("LowStorageRK2RPConstantCache", f"A {_LAST}", "2R"),
+    **_all("LowStorageRK3RPConstantCache", f"A A_2 {_LAST}", "3R"),
+    **_all("LowStorageRK4RPConstantCache", f"A A_2 A_3 {_LAST}", "4R"),
+    **_all("LowStorageRK5RPConstantCache", f"A A_2 A_3 A_4 {_LAST}", "5R"),
+    **_all("NystromVITableau", "A_q b_q b error_q error c", "nystrom"),
 }
 """What is known of the calls that make tables, by name."""
 OTHER_KINDS = (

@@ -16,7 +16,19 @@ from garkcli.sources import ir
 from garkcli.sources.evaluate import Evaluator, OutOfSteps, Space, names_of
 from garkcli.sources.found import MAX_STAGES
 from garkcli.sources.known import CONVERSIONS
-from garkcli.sources.values import ONE, ZERO, Array, Form, Number, Terms, Unknown, Value, computed
+from garkcli.sources.values import (
+    ONE,
+    ZERO,
+    Array,
+    Form,
+    Number,
+    Terms,
+    Unknown,
+    Value,
+    computed,
+    is_zero,
+    near,
+)
 
 MAX_TERMS = 4 * MAX_STAGES
 MAX_WAYS = 8
@@ -273,7 +285,7 @@ class Follower(Evaluator):
                     found[both] = computed("+", found.get(both, ZERO), product, 0)
         else:
             return self.unknown("an operation")
-        return Form({at: z for at, z in found.items() if not _is_zero(z)})
+        return Form({at: z for at, z in found.items() if not is_zero(z)})
 
     # what it makes
 
@@ -359,8 +371,7 @@ class Follower(Evaluator):
             raise NoStep
         A = [_row(x, start, step, names) for x in values]
         b = _row(form, start, step, names)
-        total = sum(x.near for x in b if isinstance(x, Number))
-        if abs(total - 1) > NEAR or not all(isinstance(x, Number) for x in (*b, *nodes)):
+        if abs(near(*b) - 1) > NEAR or not all(isinstance(x, Number) for x in (*b, *nodes)):
             raise NoStep
         error: list[Value] = []
         for name in reversed(self._assigned):
@@ -371,7 +382,7 @@ class Follower(Evaluator):
                     # either may be the step
                     raise NoStep
                 break
-        while len(b) > 1 and all(_is_zero(row[-1]) for row in (*A, b, error) if row):
+        while len(b) > 1 and all(is_zero(row[-1]) for row in (*A, b, error) if row):
             # what is evaluated for the next step
             A, b, nodes, error = [x[:-1] for x in A[:-1]], b[:-1], nodes[:-1], error[:-1]
         roles: Roles = {"A": Array([Array(row) for row in A]), "b": Array(b)}
@@ -448,24 +459,21 @@ def _is_one(value: Value) -> bool:
     return isinstance(value, Number) and abs(value.near - 1) < NEAR
 
 
-def _is_zero(value: Value) -> bool:
-    return isinstance(value, Number) and value.is_zero
-
-
 def _are_apart(b: Sequence[Value], row: Sequence[Value], error: Sequence[Value]) -> bool:
     """Whether two rows differ by an error, or by minus it."""
-    near = [[x.near for x in each if isinstance(x, Number)] for each in (b, row, error)]
     return any(
-        all(abs(x - y + sign * z) < NEAR for x, y, z in zip(*near, strict=False))
+        all(
+            abs(near(x) - near(y) + sign * near(z)) < NEAR
+            for x, y, z in zip(b, row, error, strict=False)
+        )
         for sign in (1, -1)
     )
 
 
 def _is_error(form: Terms, step: str, names: set[str]) -> bool:
     """Whether it is a sum of slopes times the step whose coefficients cancel."""
-    total = sum(x.near for x in form.values() if isinstance(x, Number))
     is_sum = all(len(at) == 2 and step in at and names & set(at) for at in form)
-    return len(form) > 1 and is_sum and abs(total) < NEAR
+    return len(form) > 1 and is_sum and abs(near(*form.values())) < NEAR
 
 
 def _row(form: Terms, start: str, step: str, names: Sequence[str]) -> list[Value]:
@@ -474,7 +482,7 @@ def _row(form: Terms, start: str, step: str, names: Sequence[str]) -> list[Value
     Raises:
         NoStep: something else is there, too.
     """
-    rest = {at: x for at, x in form.items() if not _is_zero(x)}
+    rest = {at: x for at, x in form.items() if not is_zero(x)}
     if not _is_one(rest.pop((start,), ZERO)):
         raise NoStep
     row = [rest.pop((min(step, x), max(step, x)), ZERO) for x in names]

@@ -403,6 +403,28 @@ def transposed(value: Value, line: int) -> Value:
     return Array([Array(list(x), value.base) for x in zip(*rows, strict=True)], value.base)
 
 
+def items_of(value: Value | None) -> list[Value]:
+    """What is in an array; nothing in other values."""
+    return value.items if isinstance(value, Array) else []
+
+
+def near(*values: Value | None) -> float:
+    """About the sum of all numbers in some values."""
+    return sum(x.near for x in Array([x for x in values if x]).flat() if isinstance(x, Number))
+
+
+def is_zero(value: Value | None) -> bool:
+    """Whether it is the number 0."""
+    return isinstance(value, Number) and value.is_zero
+
+
+def is_written(value: Value | None) -> bool:
+    """Whether somebody wrote it, or a part of it: it is more than the zeros of an array."""
+    if isinstance(value, Array):
+        return any(map(is_written, value.flat()))
+    return value is not None and not (isinstance(value, Number) and not value.is_given)
+
+
 def first_unknown(value: Value) -> Unknown | None:
     """The first unknown part of a value."""
     if isinstance(value, Unknown):
