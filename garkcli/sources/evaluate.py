@@ -8,7 +8,8 @@ own; where these are too many, what it assigns is unknown.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import Any, TypeAlias, TypeVar
+from itertools import chain, repeat
+from typing import Any, TypeAlias, TypeGuard, TypeVar
 
 from garkcli.frozen import replace
 from garkcli.sources import ir
@@ -32,6 +33,7 @@ from garkcli.sources.values import (
     copied,
     described,
     integer,
+    items_of,
     literal,
     negative,
     real,
@@ -229,26 +231,22 @@ class Evaluator:
         arms = [arm for arm in branch.arms if _has_effect(arm)]
         if not arms:
             return [space]
-        ways: list[ir.Body] = list(arms)
-        if not branch.is_total or len(arms) < len(branch.arms):
-            ways.append(())
-        if not any(map(_has_numbers, arms)):
-            for target, line in _targets(x for arm in arms for x in arm):
-                self.spoil(target, space, "assigned in one of several branches", line)
-            return [space]
-        if self._worlds * len(ways) > MAX_WORLDS:
-            # each arm on its own, and nothing is known behind them
-            for arm in arms:
-                inside = ir.Scope("entry", self._scopes[-1].name, arm, branch.line)
-                for each in self._run(arm, [space.fork()]):
-                    self.ended(inside, each)
-            for target, line in _targets(x for arm in arms for x in arm):
-                self.spoil(target, space, "assigned in one of several branches", line)
-            return [space]
-        self._worlds *= len(ways)
-        spaces = [each for way in ways for each in self._run(way, [space.fork()])]
-        self._worlds //= len(ways)
-        return _distinct(spaces)
+        may_pass = not branch.is_total or len(arms) < len(branch.arms)
+        ways: list[ir.Body] = [*arms, ()] if may_pass else arms
+        has_numbers = any(map(_has_numbers, arms))
+        if has_numbers and self._worlds * len(ways) <= MAX_WORLDS:
+            self._worlds *= len(ways)
+            spaces = [each for way in ways for each in self._run(way, [space.fork()])]
+            self._worlds //= len(ways)
+            return _distinct(spaces)
+        for arm in arms if has_numbers else ():
+            # each on its own
+            inside = ir.Scope("entry", self._scopes[-1].name, arm, branch.line)
+            for each in self._run(arm, [space.fork()]):
+                self.ended(inside, each)
+        for target, line in _targets(x for arm in arms for x in arm):
+            self.spoil(target, space, "assigned in one of several branches", line)
+        return [space]
 
     def _loop(self, loop: ir.Loop, space: Space) -> None:
         over = self.value(loop.over, space) if loop.name else self.unknown("a loop")
@@ -307,11 +305,10 @@ class Evaluator:
         return ""
 
     def _taken_apart(self, target: ir.Items, value: Value, space: Space, line: int) -> None:
-        items: Sequence[Value] = ()
-        if isinstance(value, Array) and len(value.items) == len(target.items):
-            items = value.items
-        for i, each in enumerate(target.items):
-            item = items[i] if items else self.unknown(f"a part of {described(value)}")
+        items = items_of(value)
+        if len(items) != len(target.items):
+            items = [self.unknown(f"a part of {described(value)}")] * len(target.items)
+        for each, item in zip(target.items, items, strict=True):
             self._store(each, item, space, line)
 
     def _extended(self, value: Value, sizes: Sequence[Value | None], is_filled: bool) -> Value:
@@ -555,24 +552,15 @@ class Evaluator:
         if len(values) == 1 and len(values[0]) == 1:
             return values[0][0]
         if all(len(row) == 1 for row in values):
-            items: list[Value] = []
-            for row in values:
-                items += row[0].items if isinstance(row[0], Array) else [row[0]]
-            return self.array(items)
+            return self.array(y for (x,) in values for y in items_of(x) or [x])
         joined: list[Value] = []
         for row in values:
-            height = max(_height(x) for x in row)
-            lines: list[list[Value]] = [[] for _ in range(height)]
-            for x in row:
-                parts = _lines(x, height)
-                if parts is None:
-                    return self.unknown("blocks that do not fit together")
-                for line, part in zip(lines, parts, strict=True):
-                    line += part
-            joined += [self.array(line) for line in lines]
-        if len(values) == 1 and len(joined) == 1:
-            return joined[0]
-        return self.array(joined)
+            height = max(len(x.items) if _is_matrix(x) else 1 for x in row)
+            blocks = [_lines(x, height) for x in row]
+            if any(len(x) != height for x in blocks):
+                return self.unknown("blocks that do not fit together")
+            joined += [self.array(chain(*parts)) for parts in zip(*blocks, strict=True)]
+        return joined[0] if len(values) == len(joined) == 1 else self.array(joined)
 
     def _ranged(self, first: ir.Expr | None, last: ir.Expr | None, space: Space) -> Value:
         ends = [None if x is None else whole(self.value(x, space)) for x in (first, last)]
@@ -633,28 +621,25 @@ class Evaluator:
 
     def combined(self, sign: str, x: Value, y: Value) -> Value:
         """An operation, entry by entry on arrays."""
+        if isinstance(x, Array) or isinstance(y, Array):
+            return self._each(sign, x, y)
+        if sign == "/" and self.has_whole_quotients and _are_whole(x, y):
+            return truncated(x, y, self.line)
+        return computed(sign, x, y, self.line)
+
+    def _each(self, sign: str, x: Value, y: Value) -> Value:
         if isinstance(x, Array) and isinstance(y, Array):
             if sign == "*" and (x.is_matrix or y.is_matrix):
                 return self.unknown("a product of matrices")
             if len(x.items) != len(y.items):
                 return self.unknown("arrays of different lengths")
-            pairs = zip(x.items, y.items, strict=True)
-            return self._counted(self.combined(sign, a, b) for a, b in pairs)
-        if isinstance(x, Array):
-            return self._counted(self.combined(sign, a, y) for a in x.items)
-        if isinstance(y, Array):
-            return self._counted(self.combined(sign, x, b) for b in y.items)
-        if sign == "/" and self.has_whole_quotients and _are_whole(x, y):
-            return truncated(x, y, self.line)
-        return computed(sign, x, y, self.line)
-
-    def _counted(self, items: Iterator[Value]) -> Array:
-        found: list[Value] = []
-        for x in items:
-            if not isinstance(x, Array):
-                self.allowance.spend(size(x))
-            found.append(x)
-        return self.array(found)
+        found = self.array(())
+        left, right = (z.items if isinstance(z, Array) else repeat(z) for z in (x, y))
+        for a, b in zip(left, right, strict=False):
+            item = self.combined(sign, a, b)
+            self.allowance.spend(0 if isinstance(item, Array) else size(item))
+            found.items.append(item)
+        return found
 
     # calls
 
@@ -674,34 +659,34 @@ class Evaluator:
             plain, target = target.name, None
         if isinstance(target, Type) or (_is_an_argument(target, name) and len(args) == 1):
             return conversion(args, self.line) if args else self.unknown(f"the call {name}")
-        if not isinstance(target, Array):
-            made = result(Call(plain, call, named, self), args)
-            if made is not None:
-                return made
         if isinstance(target, Array) and args:
             return self._sliced(target, call.args, space)
+        made = result(Call(plain, call, named, self), args)
+        if made is not None:
+            return made
         if isinstance(callee, ir.Field) and isinstance(target := self.value(callee, space), Array):
             return self._sliced(target, call.args, space)
         if isinstance(callee, ir.Field) and plain in _SAME:
             return self.value(callee.of, space)
         if isinstance(callee, ir.Field) and plain == "back" and not args:
-            array = self.value(callee.of, space)
-            if isinstance(array, Array) and array.items:
-                return copied(array.items[-1])
+            items = items_of(self.value(callee.of, space))
+            if items:
+                return copied(items[-1])
         if plain.endswith("!"):
             for arg in call.args:
                 if isinstance(arg, ir.Name) and isinstance(space.find(arg.name), Array):
                     self.spoil(arg, space, f"changed by {plain}", self.line)
         if not _may_make_a_table(plain, args, named):
             return self.unknown(f"the call {plain}")
-        inner = [self._alone(x) for x in args]
-        record = Record(plain, {key: self._alone(x) for key, x in named.items()}, inner, line)
+        # a record in it is one of its own
+        alone: list[Value] = [
+            self.unknown(described(x)) if isinstance(x, Record) else x
+            for x in (*args, *named.values())
+        ]
+        fields = dict(zip(named, alone[len(args) :], strict=True))
+        record = Record(plain, fields, alone[: len(args)], line)
         space.calls.append(record)
         return record
-
-    def _alone(self, value: Value) -> Value:
-        """What a call is given; a record in it is one of its own."""
-        return self.unknown(described(value)) if isinstance(value, Record) else value
 
     def applied(self, function: Function, args: Sequence[Value]) -> Value:
         """The value of a function of one expression."""
@@ -771,11 +756,9 @@ def _may_make_a_table(name: str, args: Sequence[Value], named: Mapping[str, Valu
     values = [*args, *named.values()]
     if name in SIGNATURES or any(isinstance(x, Array) for x in values):
         return True
-    return len(values) > 2 and (bool(other_kind(name)) or sum(map(_is_number, values)) > 2)
-
-
-def _is_number(value: Value) -> bool:
-    return isinstance(value, Number)
+    return len(values) > 2 and (
+        bool(other_kind(name)) or sum(isinstance(x, Number) for x in values) > 2
+    )
 
 
 def _is_an_argument(value: Value | None, name: str) -> bool:
@@ -872,18 +855,14 @@ def _shown(value: Value) -> object:
     return type(value).__name__
 
 
-def _height(value: Value) -> int:
-    is_matrix = isinstance(value, Array) and value.is_matrix
-    return len(value.items) if isinstance(value, Array) and is_matrix else 1
+def _is_matrix(value: Value) -> TypeGuard[Array]:
+    return isinstance(value, Array) and value.is_matrix
 
 
-def _lines(value: Value, height: int) -> list[list[Value]] | None:
+def _lines(value: Value, height: int) -> list[list[Value]]:
     """A block as rows: a list is a row where one is wanted, and else a column."""
     if not isinstance(value, Array):
-        return [[value]] if height == 1 else None
+        return [[value]]
     if value.is_matrix:
-        rows = [x.items for x in value.items if isinstance(x, Array)]
-        return [list(x) for x in rows] if len(rows) == height else None
-    if height == 1:
-        return [list(value.items)]
-    return [[x] for x in value.items] if len(value.items) == height else None
+        return list(map(items_of, value.items))
+    return [value.items] if height == 1 else [[x] for x in value.items]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
-from garkcli.sources.values import ONE, ZERO, Array, Value
+from garkcli.sources.values import ZERO, Array, Value, items_of, near
 
 _NAME = re.compile(
     r"(?P<word>butcher|matrix|weights|nodes|[abc]|b_?hat|b_?embed)_?(?P<part>exp?|explicit|imp?|implicit)(?:_tableau)?",
@@ -42,7 +42,7 @@ def roles_of_parts(values: Mapping[str, Value]) -> dict[str, Value] | None:
     if not {"A", "A2"} <= set(found) and "b" not in values and "c" in values:
         found = {role: values[name] for name, role in _PAIR.items() if name in values}
         found["c"] = values["c"]
-        if not _ends_at_one(found["c"]):
+        if near(*items_of(found["c"])[-1:]) != 1:
             return None
     if "matrix" in values:
         given = {role: values[name] for name, role in PLAIN.items() if name in values}
@@ -66,29 +66,16 @@ def with_hats(roles: Mapping[str, Value]) -> dict[str, Value]:
     """An implicit part and an explicit one with a hat as the roles of two parts; without the first
     stage, which only the explicit part has.
     """
-    found = {"A2": roles["A"], "b2": roles["b"], "A": roles["A_hat"], "b": roles["embedded"]}
-    found |= {
-        f"c{part}": roles[name] for part, name in (("2", "c"), ("", "c_hat")) if name in roles
-    }
-    found |= {x: roles[x] for x in ("order",) if x in roles}
-    A_hat = found["A"]
-    if isinstance(A_hat, Array) and _count(A_hat) + 1 == _count(found["b"]):
-        found["A"] = Array([Array([]), *A_hat.items])
-    if _count(found["b"]) == _count(found["b2"]) + 1:
-        A = found["A2"]
-        rows = [Array([ZERO, *x.items]) for x in getattr(A, "items", ()) if isinstance(x, Array)]
+    names = {"A2": "A", "b2": "b", "A": "A_hat", "b": "embedded", "c2": "c", "c": "c_hat"}
+    names["order"] = "order"
+    found = {role: roles[name] for role, name in names.items() if name in roles}
+    stages = len(items_of(found["b"]))
+    if len(items_of(found["A"])) + 1 == stages:
+        found["A"] = Array([Array([]), *items_of(found["A"])])
+    if stages == len(items_of(found["b2"])) + 1:
+        rows = [Array([ZERO, *x.items]) for x in items_of(found["A2"]) if isinstance(x, Array)]
         found["A2"] = Array([Array([]), *rows])
         for role in ("b2", "c2"):
-            row = found.get(role)
-            if isinstance(row, Array):
-                found[role] = Array([ZERO, *row.items])
+            if items_of(found.get(role)):
+                found[role] = Array([ZERO, *items_of(found[role])])
     return found
-
-
-def _count(value: Value) -> int:
-    return len(value.items) if isinstance(value, Array) else 0
-
-
-def _ends_at_one(nodes: Value) -> bool:
-    last = nodes.items[-1] if isinstance(nodes, Array) and nodes.items else None
-    return getattr(last, "value", None) == ONE.value
