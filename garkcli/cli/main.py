@@ -16,7 +16,6 @@ from click.shell_completion import CompletionItem
 from garkcli.cli import streams
 from garkcli.cli.options import command_of, help_option
 from garkcli.cli.table import COMMANDS, SHOWN
-from garkcli.cli.usage import no_such_command, usage_text
 from garkcli.errors import GarkError, UsageProblem, counted
 from garkcli.files import noting_inputs
 from garkcli.page.progress import watching
@@ -44,6 +43,8 @@ class _LazyGroup(click.Group):
         # a shell that asks what may follow hears of no mistakes
         is_run = not ctx.resilient_parsing
         if is_run and args[0] not in COMMANDS and not args[0].startswith("-"):
+            from garkcli.cli.usage import no_such_command  # paid for by mistakes alone
+
             ctx.fail(no_such_command(args[0], SHOWN))
         return super().resolve_command(ctx, args)
 
@@ -149,6 +150,8 @@ def _exit_code(arguments: list[str]) -> int:
         streams.say("gark: standard output is closed\nhelp: -o FILE writes the report into a file")
         return 2
     except click.ClickException as error:
+        from garkcli.cli.usage import usage_text
+
         streams.say(usage_text(error))
         return 2
     except GarkError as error:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from typing import NamedTuple
+
+from garkcli.frozen import Frozen
 
 
-class Option(NamedTuple):
+class Option(Frozen):
     """An option.
 
     Attributes:
@@ -46,7 +47,7 @@ class Option(NamedTuple):
         return all(word.startswith(("name=", "default=")) for word in self.kind)
 
 
-class Command(NamedTuple):
+class Command(Frozen):
     """A command.
 
     Attributes:
@@ -69,7 +70,7 @@ class Command(NamedTuple):
     common: str
 
 
-class Rule(NamedTuple):
+class Rule(Frozen):
     """Options that need others, or exclude them. An option with ``=`` is that value of it; of the
     form of a report the one that is meant, of its place a file.
 

@@ -10,7 +10,7 @@ import json
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
@@ -138,7 +138,7 @@ def _any_given(keys: Sequence[str]) -> Schema:
     return each[0] if len(each) == 1 else {"anyOf": each}
 
 
-class Together(NamedTuple):
+class Together(Frozen):
     """Keys that are one way to say something: all of the first are needed, the others may be
     given.
     """
@@ -212,7 +212,7 @@ class Ways(Frozen):
                 way.refuse(source, where, entries)
 
 
-class Values(NamedTuple):
+class Values(Frozen):
     """Some of the values that a key may have.
 
     Attributes:

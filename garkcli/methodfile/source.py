@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import NamedTuple, TypeAlias
+from typing import TypeAlias
 
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
@@ -126,7 +126,7 @@ Entries: TypeAlias = dict[str, Node]
 """The values of a mapping by their keys."""
 
 
-class Home(NamedTuple):
+class Home(Frozen):
     """Where a key belongs.
 
     Attributes:
