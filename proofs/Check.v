@@ -243,17 +243,9 @@ Proof.
   unfold zmul. cbv zeta. fold F. destruct (space_at M l) as [n|m] eqn:Sp;
     apply spread_val; [|intros i e Hi He|intros i Hi|intros i e Hi He].
   - intros i Hi. apply mu_beyond. unfold dim. rewrite Sp. exact Hi.
-  - rewrite mu_is by (rewrite ?Sp; assumption). rewrite Sp. cbn [size_of].
-    rewrite (sum_ext _ _ (fun a => (if Nat.eqb a i then 1 else 0) *
-      times M (number_at M (val x) i) (number_at M (val y) i) e)).
-    + rewrite sum_at by exact Hi. rewrite ztimes_is by (try apply table_length; exact He).
-      apply (times_ext M); intros u Hu; rewrite part_is by exact Hu; reflexivity.
-    + intros a _. rewrite (sum_ext _ _ (fun c => (if Nat.eqb c i then 1 else 0) *
-        ((if Nat.eqb a i then 1 else 0) *
-          times M (number_at M (val x) a) (number_at M (val y) i) e))).
-      * rewrite sum_at by exact Hi. destruct (Nat.eqb_spec a i) as [->|]; [reflexivity|ring].
-      * intros c _. cbn [in_space]. rewrite (Nat.eqb_sym i a), (Nat.eqb_sym i c).
-        destruct (Nat.eqb a i), (Nat.eqb_spec c i) as [->|]; simpl; ring.
+  - rewrite (mu_at_points M l n) by assumption.
+    rewrite ztimes_is by (try apply table_length; exact He).
+    apply (times_ext M); intros u Hu; rewrite part_is by exact Hu; reflexivity.
   - apply mu_beyond. unfold dim. rewrite Sp. exact Hi.
   - rewrite mu_is by (rewrite ?Sp; assumption). rewrite Sp. cbn [size_of].
     set (n := length m) in *.

@@ -295,13 +295,14 @@ Proof.
   apply shared_row_sums; assumption.
 Qed.
 
-(** Rational methods with stages at points. *)
-Corollary theorem_B_if_with_nonzero_weights : rational_at_points M -> nonzero_weights M ->
-  criterion M c k n -> has_order (pair_of M hat) n.
-Proof. intros R W. apply theorem_B_if, nonzero_is_nondegenerate; assumption. Qed.
-Corollary theorem_B_with_positive_weights : rational_at_points M -> positive_weights M ->
-  nodes_of_pair M hat c -> (has_order (pair_of M hat) n <-> criterion M c k n).
-Proof. intros R W. apply theorem_B, positive_is_definite; assumption. Qed.
+(** Stages at points. *)
+Corollary theorem_B_if_with_nonzero_weights : at_points M -> degree M = 1%nat ->
+  nonzero_weights M -> criterion M c k n -> has_order (pair_of M hat) n.
+Proof. intros P R W. apply theorem_B_if, nonzero_is_nondegenerate; assumption. Qed.
+Corollary theorem_B_with_positive_weights positive : at_points M -> ordering M positive ->
+  positive_weights M positive -> nodes_of_pair M hat c ->
+  (has_order (pair_of M hat) n <-> criterion M c k n).
+Proof. intros P O W. apply theorem_B, positive_is_definite with positive; assumption. Qed.
 End Readers.
 
 (** ** For a method as data: the hypotheses by computation *)

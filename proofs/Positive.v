@@ -142,8 +142,9 @@ Proof.
   rewrite <- (Qplus_0_l (x i)), <- Zero. ring.
 Qed.
 
-(** In a rational method with stages at points. *)
-Corollary theorem_A_with_positive_weights M c k : rational_at_points M -> positive_weights M ->
-  nodes_are_row_sums M c -> has_order M (2 * k + 1) -> every_block M (fun l m => C M c l m k).
-Proof. intros R W. apply theorem_A, positive_is_definite; assumption. Qed.
+(** In a method with stages at points. *)
+Corollary theorem_A_with_positive_weights M c k positive : at_points M -> ordering M positive ->
+  positive_weights M positive -> nodes_are_row_sums M c -> has_order M (2 * k + 1) ->
+  every_block M (fun l m => C M c l m k).
+Proof. intros P O W. apply theorem_A, positive_is_definite with positive; assumption. Qed.
 Print Assumptions theorem_A_with_positive_weights.

@@ -224,6 +224,21 @@ Proof.
     apply sum_ext. intros u _. rewrite <- sum_times. reflexivity.
 Qed.
 
+(** At points products are those of numbers. *)
+Lemma mu_at_points l s x y i e : space_at l = Points s -> (i < s)%nat -> (e < degree M)%nat ->
+  mul (Pof M l) x y (entry M (i, e)) == times M (number_at x i) (number_at y i) e.
+Proof.
+  intros Sp Hi He. rewrite mu_is by (rewrite ?Sp; assumption). rewrite Sp. cbn [size_of].
+  rewrite (sum_ext _ _ (fun a => (if Nat.eqb a i then 1 else 0) *
+    times M (number_at x i) (number_at y i) e)).
+  - rewrite sum_at by exact Hi. reflexivity.
+  - intros a _. rewrite (sum_ext _ _ (fun c => (if Nat.eqb c i then 1 else 0) *
+      ((if Nat.eqb a i then 1 else 0) * times M (number_at x a) (number_at y i) e))).
+    + rewrite sum_at by exact Hi. destruct (Nat.eqb_spec a i) as [->|]; [reflexivity|ring].
+    + intros c _. cbn [in_space]. rewrite (Nat.eqb_sym i a), (Nat.eqb_sym i c).
+      destruct (Nat.eqb a i), (Nat.eqb_spec c i) as [->|]; simpl; ring.
+Qed.
+
 Lemma mu_beyond l x y n : (dim l <= n)%nat -> mul (Pof M l) x y n == 0.
 Proof.
   intros H. unfold mul, Pof. rewrite nth_overflow; [reflexivity|].
