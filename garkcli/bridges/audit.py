@@ -16,7 +16,7 @@ from garkcli.bridges.plausible import is_plausible
 from garkcli.bridges.readers.registry import find_tables, readers_for
 from garkcli.bridges.said import order_said_of
 from garkcli.bridges.sources import source_text
-from garkcli.bridges.subject import Subject, short
+from garkcli.bridges.subject import Subject, sum_text
 from garkcli.check.findings import repair_text, witness_text
 from garkcli.crew.hiring import hired
 from garkcli.crew.work import WorkerLost, in_order
@@ -371,7 +371,7 @@ def _explains(subject: Subject, found: Judged) -> bool:
 
 
 def _sums(weights: Iterable[Iterable[Number]]) -> str:
-    return " and ".join(short(sum(row, ZERO)) for row in weights)
+    return " and ".join(map(sum_text, weights))
 
 
 def _weights(subject: Subject) -> Iterator[AuditFinding]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import cached_property
 
 from garkcli.bridges.importing import digits_of
@@ -119,8 +119,20 @@ class Subject(Frozen):
 
 
 def _row_text(i: int, total: Number, node: Number) -> str:
-    sums = f"row {i} has the sum {short(total)}"
-    return f"{sums}, its node is {short(node)}"
+    sums, given, off = short(total), short(node), total - node
+    if sums == given:
+        return f"row {i} has the sum {sums}, off its node by {to_decimal(off, 2)}"
+    text = f"row {i} has the sum {sums}, its node is {given}"
+    return f"{text}, off by {to_decimal(off, 2)}" if abs(to_ball(off)) < NEAR else text
+
+
+def sum_text(weights: Iterable[Number]) -> str:
+    """The sum of weights as people read it: its distance from 1 where it is next to it."""
+    total = sum(weights, ZERO)
+    off = to_decimal(total - 1, 2)
+    if total == 1 or abs(to_ball(total - 1)) >= NEAR:
+        return short(total)
+    return f"1 - {off[1:]}" if off.startswith("-") else f"1 + {off}"
 
 
 def short(number: Number) -> str:

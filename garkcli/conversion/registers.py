@@ -12,7 +12,9 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeAlias
 
 from garkcli.conversion.sheet import CannotConvert
+from garkcli.exact.display import to_ball
 from garkcli.frozen import Frozen
+from garkcli.order.tolerance import within
 
 Numbers: TypeAlias = Sequence[Any]
 """Exact numbers or balls; whole numbers among them."""
@@ -91,13 +93,16 @@ def two_registers(A: Numbers, B: Numbers) -> Steps:
     return made.steps(y)
 
 
-def in_two_registers(A: Sequence[Numbers], b: Numbers) -> tuple[list[Any], list[Any]] | int:
-    """A and B of Williamson's 2N for an explicit method of exact numbers; the first stage, from 1,
-    whose slope and the next one have no ratio where the method has no such form.
+def in_two_registers(
+    A: Sequence[Numbers], b: Numbers, tolerance: Any = 0
+) -> tuple[list[Any], list[Any]] | int:
+    """A and B of Williamson's 2N for an explicit method of exact numbers; a stage, from 1, whose
+    slope and the next one have no ratio where the method has no such form.
 
     The differences of one row of A and the next, the last of them b, have the form
     d_mj = B_m A_{j+1} ⋯ A_m. So B is their diagonal, and a method has the form if and only if each
-    column is A_i times the next one, from the diagonal of that on.
+    column is A_i times the next one, from the diagonal of that on. Of rounded coefficients the
+    ratios are those of the largest entries, and what the form gives is within ``tolerance``.
 
     >>> from flint import fmpq
     >>> in_two_registers([[0, 0], [fmpq(2, 3), 0]], [fmpq(1, 4), fmpq(3, 4)])
@@ -108,12 +113,19 @@ def in_two_registers(A: Sequence[Numbers], b: Numbers) -> tuple[list[Any], list[
     differences = [[y - x for x, y in zip(*rows[m : m + 2], strict=True)] for m in range(stages)]
     factors: list[Any] = [0]
     for i in range(1, stages):
-        pairs = [(row[i - 1], row[i]) for row in differences[i:]]
-        factor = next((x / y for x, y in pairs if y), 0)
-        if any(x - factor * y for x, y in pairs):
-            return i
-        factors.append(factor)
-    return factors, [row[i] for i, row in enumerate(differences)]
+        pairs = [(row[i - 1], row[i]) for row in differences[i:] if row[i]]
+        if tolerance:
+            pairs.sort(key=lambda pair: -abs(float(to_ball(pair[1]))))
+        factors.append(pairs[0][0] / pairs[0][1] if pairs else 0)
+    weights = [row[i] for i, row in enumerate(differences)]
+    made = two_registers(factors, weights)
+    # a column that is right makes the one before it
+    for i in reversed(range(1, stages)):
+        for row, again in zip(rows, [*made.A, made.b], strict=True):
+            off = row[i - 1] - again[i - 1]
+            if off and not (tolerance and within(off, tolerance)):
+                return i
+    return factors, weights
 
 
 def minus_two_registers(A: Numbers, B: Numbers) -> Steps:

@@ -208,11 +208,9 @@ class Branch(Frozen):
     """One of several ways; without ``is_total`` none may be taken.
 
     Attributes:
-        conditions: one a way, as far as there is one.
         arms: the ways.
     """
 
-    conditions: tuple[Expr, ...]
     arms: tuple[tuple[Statement, ...], ...]
     line: int
     is_total: bool = False

@@ -1,14 +1,18 @@
-"""What the languages share in lowering their syntax trees."""
+"""What the languages share in lowering their syntax trees: each declares kinds of its nodes."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from itertools import islice
+from typing import ClassVar
 
 from tree_sitter import Language, Node, Parser
 
 from garkcli.sources import ir
+from garkcli.sources.found import FoundTable, Reader
+from garkcli.sources.naming import ROLES
+from garkcli.sources.reading import tables_in
 
 _NUMBER = re.compile(r"(?<![\w.])[0-9]+(?:\.[0-9]*)?")
 FEWEST_NUMBERS = 5
@@ -21,8 +25,7 @@ _WORDS = re.compile(
 )
 MAX_NESTING = 60
 """Deepest nesting of what is lowered."""
-
-
+_SIGNS = {"**": "^", "//": "÷"}
 TOO_DEEP = ir.Opaque("an expression that is nested too deep")
 
 
@@ -31,15 +34,30 @@ class Lowering:
 
     Args:
         text: the source.
-        language: its grammar.
+        language: its grammar, if it is not that of the class.
+
+    Attributes:
+        grammar: of the language.
+        comments: nodes without a meaning.
+        blocks: statements that are what is in them.
+        unfollowed: loops that have no names and ranges.
+        passed: statements that may change values in ways that are not followed.
+        statements: the methods that lower other statements.
+        expressions: what the nodes are that are lowered alike in several languages, see ``kinds``.
     """
 
-    comments = frozenset({"comment", "line_comment", "block_comment"})
+    grammar: ClassVar[Language]
+    comments: ClassVar[frozenset[str]] = frozenset({"comment"})
+    blocks: ClassVar[frozenset[str]]
+    unfollowed: ClassVar[frozenset[str]] = frozenset({"while_statement"})
+    passed: ClassVar[frozenset[str]] = frozenset()
+    expressions: ClassVar[Mapping[str, str]]
 
-    def __init__(self, text: str, language: Language) -> None:
+    def __init__(self, text: str, language: Language | None = None) -> None:
         self._data = text.encode(errors="replace")
-        self._language = language
+        self._language = language or self.grammar
         self._depth = 0
+        self._fields: dict[str, tuple[str, ...]] = {}
 
     def module(self) -> ir.Body:
         """The statements of the whole source."""
@@ -55,6 +73,16 @@ class Lowering:
             return ""
         return self._data[node.start_byte : node.end_byte].decode(errors="replace")
 
+    def name(self, node: Node | None) -> str:
+        """What a name is called."""
+        return self.text(node)
+
+    def first_name(self, node: Node | None) -> str:
+        """The name that is first in a node, at whatever depth; empty for none."""
+        while node is not None and node.type != "identifier":
+            node = next(iter(self.children(node)), None)
+        return self.text(node)
+
     def children(self, node: Node | None) -> list[Node]:
         """What is in a node, without comments."""
         if node is None:
@@ -65,26 +93,63 @@ class Lowering:
         """Statements one after the other."""
         found: list[ir.Statement] = []
         for node in nodes:
-            if node is not None and node.type not in self.comments:
-                found += self._nested(node)
+            if node is None or node.type in self.comments or self._depth >= MAX_NESTING:
+                continue
+            self._depth += 1
+            try:
+                found += self.statement(node)
+            finally:
+                self._depth -= 1
         return tuple(found)
-
-    def _nested(self, node: Node) -> list[ir.Statement]:
-        if self._depth >= MAX_NESTING:
-            return []
-        self._depth += 1
-        try:
-            return list(self.statement(node))
-        finally:
-            self._depth -= 1
 
     def statement(self, node: Node) -> Iterator[ir.Statement]:
         """What a statement is lowered to."""
+        kind = node.type
+        if kind in self.passed:
+            yield ir.Do(unmeant(node), line_of(node))
+        if kind in self.blocks:
+            yield from self.block(node.named_children)
+        elif kind in self.unfollowed:
+            yield self.loop(node, "", ir.Nothing())
+        elif kind == "return_statement":
+            given = self.children(node)
+            yield ir.Return(self.expr(given[0] if given else None), line_of(node))
+        elif kind == "if_statement":
+            yield self.branch(node)
+        elif kind not in self.passed:
+            yield from self.own(node, self.children(node), line_of(node))
+
+    def own(self, node: Node, inside: list[Node], line: int) -> Iterator[ir.Statement]:
+        """What a statement of the language is lowered to."""
         raise NotImplementedError
 
-    def passed_over(self, node: Node) -> ir.Statement:
-        """What stands for a statement that may change values in ways that are not followed."""
-        return ir.Do(ir.Opaque(f"a {node.type.replace('_', ' ')}"), line_of(node))
+    def loop(self, node: Node, name: str, over: ir.Expr) -> ir.Loop:
+        """A loop: its body is what is behind its head."""
+        body = node.child_by_field_name("body")
+        inside = self.children(node)[1:] if body is None else [body]
+        return ir.Loop(name, over, self.block(inside), line_of(node))
+
+    def branch(self, node: Node) -> ir.Branch:
+        """The ways of an ``if``; the first child of each is its condition, but for the last way."""
+        ways: list[list[Node]] = [[]]
+        is_total = False
+        for part in self.children(node):
+            if part.type in {"elseif_clause", "elif_clause", "else_clause"}:
+                ways.append(self.children(part))
+                is_total = part.type == "else_clause"
+            else:
+                ways[-1].append(part)
+        last = len(ways) - 1
+        arms = (
+            self.way(way[:1], way[1:]) if i < last or not is_total else self.way([], way)
+            for i, way in enumerate(ways)
+        )
+        return ir.Branch(tuple(arms), line_of(node), is_total)
+
+    def way(self, condition: list[Node], inside: list[Node]) -> ir.Body:
+        """One of several ways."""
+        del condition
+        return self.block(inside)
 
     def may_hold_a_table(self, node: Node) -> bool:
         """Whether the text of a function has numbers and names like those of a table."""
@@ -102,12 +167,60 @@ class Lowering:
             return TOO_DEEP
         self._depth += 1
         try:
-            return self.expression(node)
+            return self.expression(node, self.children(node))
         finally:
             self._depth -= 1
 
-    def expression(self, node: Node) -> ir.Expr:
+    def expression(self, node: Node, inside: list[Node]) -> ir.Expr:
         """The same, one level deeper."""
+        match self.expressions.get(node.type):
+            case "name":
+                return ir.Name(self.name(node))
+            case "number":
+                return self.number(self.text(node))
+            case "nothing":
+                return ir.Nothing()
+            case "text":
+                return ir.Text(self.text(node).strip("'\""))
+            case "inside" if inside:
+                return self.expr(inside[0])
+            case "list":
+                return ir.Items(self.exprs(inside))
+            case "unary" if inside:
+                return ir.Unary(self.text(node.children[0]), self.expr(inside[-1]))
+            case "binary":
+                operator = node.child_by_field_name("operator")
+                sign = self.text(operator or next(x for x in node.children if not x.is_named))
+                return ir.Binary(sign_of(sign), self.expr(inside[0]), self.expr(inside[-1]))
+        return self.other(node, inside)
+
+    def declares(self, record: str, names: Iterable[str]) -> None:
+        """A record has fields of these names, in order; those of a method are remembered."""
+        fields = tuple(names)
+        if {"A", "b"} <= {ROLES.get(x) for x in fields}:
+            self._fields[record] = fields
+
+    def made(self, record: str, args: tuple[ir.Expr, ...]) -> tuple[tuple[str, ir.Expr], ...]:
+        """What a record of this source is made of, by its fields; nothing for another call."""
+        fields = self._fields.get(record, ())
+        return tuple(zip(fields, args, strict=True)) if len(fields) == len(args) else ()
+
+    def call(
+        self,
+        callee: ir.Expr,
+        args: tuple[ir.Expr, ...],
+        named: tuple[tuple[str, ir.Expr], ...] = (),
+    ) -> ir.Call:
+        """A call, or a record that is made by its fields in order."""
+        fields = self.made(callee.name, args) if isinstance(callee, ir.Name) else ()
+        return ir.Call(callee, () if fields else args, named or fields)
+
+    def number(self, text: str) -> ir.Expr:
+        """A number; one of digits alone is whole."""
+        return ir.Literal(text, is_whole=text.replace("_", "").isdigit())
+
+    def other(self, node: Node, inside: list[Node]) -> ir.Expr:
+        """What an expression of the language is lowered to."""
         raise NotImplementedError
 
     def ends(self, node: Node) -> list[ir.Expr | None]:
@@ -124,6 +237,32 @@ class Lowering:
         """Several expressions, without comments."""
         return tuple(self.expr(x) for x in nodes if x.type not in self.comments)
 
+    def arguments(
+        self, nodes: Iterable[Node]
+    ) -> tuple[tuple[ir.Expr, ...], tuple[tuple[str, ir.Expr], ...]]:
+        """The arguments of a call, those with a name apart."""
+        args, named = [], []
+        for part in nodes:
+            if part.type in {"keyword_argument", "named_argument"}:
+                key, *_, value = self.children(part)
+                named.append((self.name(key), self.expr(value)))
+            else:
+                args.append(self.expr(part))
+        return tuple(args), tuple(named)
+
+
+def kinds(**nodes: str) -> Mapping[str, str]:
+    """What nodes are: ``name``, ``number``, ``nothing``, ``text``, ``inside`` (of brackets),
+    ``list``, ``unary``, ``binary``, each with the nodes of a grammar that are it.
+    """
+    return {node: kind for kind, text in nodes.items() for node in text.split()}
+
+
+def sign_of(sign: str) -> str:
+    """An operator as all languages have it here."""
+    plain = sign.lstrip(".")
+    return _SIGNS.get(plain, plain)
+
 
 def line_of(node: Node) -> int:
     """The line of a node, from 1."""
@@ -138,3 +277,23 @@ def less_one(expr: ir.Expr) -> ir.Expr:
 def unmeant(node: Node) -> ir.Opaque:
     """What has no meaning for constants."""
     return ir.Opaque(node.type.replace("_", " "))
+
+
+def reader(
+    lowering: type[Lowering],
+    name: str,
+    summary: str,
+    suffixes: tuple[str, ...],
+    base: int,
+    is_growing: bool = False,
+    has_whole_quotients: bool = False,
+) -> Reader:
+    """The reader of a language; see ``tables_in``."""
+
+    def find(text: str, source: str) -> list[FoundTable]:
+        def lowered(text: str) -> ir.Body:
+            return lowering(text).module()
+
+        return tables_in(text, source, name, lowered, base, is_growing, has_whole_quotients)
+
+    return Reader(name, summary, suffixes, find)

@@ -219,6 +219,27 @@ def test_a_method_of_two_registers_has_that_form(numbers: list[tuple[F, F]]) -> 
     assert (again.A, again.b) == (made.A, made.b)
 
 
+@given(st.lists(st.tuples(FRACTIONS, FRACTIONS), min_size=2, max_size=4))
+def test_a_rounded_method_has_that_form_within_its_rounding(numbers: list[tuple[F, F]]) -> None:
+    """Its coefficients cut after 20 digits: exactly there is none but by chance, and that which is
+    found makes the coefficients again, to 12 digits.
+    """
+    made = two_registers([F(0), *(a for a, _ in numbers[1:])], [b for _, b in numbers])
+    A, b = (
+        [[fmpq(int(x * 10**20), 10**20) for x in row] for row in rows]
+        for rows in (made.A, [made.b])
+    )
+    form = in_two_registers(A, b[0], fmpq(1, 10**12))
+    assert not isinstance(form, int)
+    again = two_registers(*form)
+    pairs = zip([*A, *b], [*again.A, again.b], strict=True)
+    assert all(
+        abs(x - y) <= fmpq(1, 10**12)
+        for row, other in pairs
+        for x, y in zip(row, other, strict=True)
+    )
+
+
 @given(st.lists(FRACTIONS, min_size=6, max_size=6))
 def test_a_form_is_that_of_the_method_or_there_is_none(entries: list[F]) -> None:
     """Of three stages: what is found makes the method; where nothing is found Williamson's equation

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from types import ModuleType
+
 import pytest
 
 from garkcli.bridges.audit import Audited, audit
 from garkcli.sources.found import Find
-from garkcli.sources.languages import c, fortran, julia, python
+from garkcli.sources.languages import c, fortran, julia, matlab, python
 
 SHU_OSHER = """
 function SSPRK33ConstantCache(::Type{T}, ::Type{T2}) where {T, T2}
@@ -209,6 +211,79 @@ def test_blocks_without_names(find: Find, text: str, wanted: list[object]) -> No
     ]
     assert found == wanted
     assert not any(x and x.findings for x in judged)
+
+
+RECORD = "[0 0 0; 1 0 0; 1//4 1//4 0], [1//6, 1//6, 2//3], [0, 1, 1//2], 3"
+SSP_3 = (
+    (julia, f"struct Tableau\n  A\n  b\n  c\n  order\nend\nssp() = Tableau({RECORD})"),
+    (
+        julia,
+        "T3(T) = (A = SMatrix{3, 3, T}(0, 1, 1//4, 0, 0, 1//4, 0, 0, 0), b = [1//6, 1//6, 2//3])",
+    ),
+    (
+        julia,
+        "@kwdef struct T3\n  A = [0 0 0; 1 0 0; 1//4 1//4 0]\n  b = [1//6, 1//6, 2//3]\n  c = [0, 1, 1//2]\nend",
+    ),
+    (
+        python,
+        "class T(NamedTuple):\n    order: int\n    A: list\n    b: list\n"
+        "x = T(3, [[], [1], [1/4, 1/4]], [1/6, 1/6, 2/3])",
+    ),
+    (
+        python,
+        "class T:\n    @property\n    def A(self):\n        return [[], [1], [1/4, 1/4]]\n"
+        "    b = [1/6, 1/6, 2/3]\n    c = [0, 1, 1/2]\n",
+    ),
+    (
+        python,
+        "class T:\n    def __init__(self):\n        self.b = [1/6, 1/6, 2/3]\n        self.c = [0, 1, 1/2]\n"
+        '        self.register_buffer("A", torch.tensor([[0, 0, 0], [1, 0, 0], [1/4, 1/4, 0]]))',
+    ),
+    (
+        c,
+        "typedef struct { int order; double A[3][3]; double b[3], c[3]; } table;\n"
+        "table t = {3, {{0}, {1}, {.25, .25}}, {1./6, 1./6, 2./3}, {0, 1, .5}};",
+    ),
+    (
+        c,
+        "struct T { T() { A << 0, 0, 0, 1, 0, 0, .25, .25, 0; b << 1./6, 1./6, 2./3; c << 0, 1, .5; } };",
+    ),
+    (
+        c,
+        "__constant__ double A[3][3] = {{0}, {1}, {.25, .25}};\n__device__ double b[3] = {1./6, 1./6,"
+        " 2./3};\n__constant__ double c[3] = {0, 1, .5};",
+    ),
+    (
+        fortran,
+        "real(8) :: a(3,3), b(3), c(3)\ndata a /0d0, 1d0, 0.25d0, 2*0d0, 0.25d0, 3*0d0/\n"
+        "b = [1d0/6, 1d0/6, 2d0/3]\nc = [0d0, 1d0, 0.5d0]\n",
+    ),
+    (
+        fortran,
+        "allocate(t%A(3,3), t%b(3))\nt%A = 0d0\nt%A(2,1) = 1d0\nt%A(3,1) = 0.25d0\nt%A(3,2) = 0.25d0\n"
+        "t%b = [1d0/6, 1d0/6, 2d0/3]\nt%c = [0d0, 1d0, 0.5d0]\n",
+    ),
+    (
+        fortran,
+        "type :: rk\n  real(8) :: a(3,3), b(3), c(3)\nend type\ntype(rk) :: t = rk(reshape([0d0, 0d0, 0d0, 1d0,"
+        " 0d0, 0d0, 0.25d0, 0.25d0, 0d0], [3,3], order=[2,1]), [1d0/6, 1d0/6, 2d0/3], [0d0, 1d0, 0.5d0])\n",
+    ),
+    (matlab, "A = zeros(3); A(2,1) = 1; A(3,1:2) = [1 1]/4; b = [1 1 4]/6; c = [0 1 1/2];"),
+)
+
+
+@pytest.mark.parametrize(("language", "text"), SSP_3)
+def test_the_same_method_however_it_is_stored(language: ModuleType, text: str) -> None:
+    """SSP 3, in records by position, with fields that have values, by columns, as properties, with
+    the comma of Eigen, in data statements: one table each, of order 3.
+    """
+    if language is fortran:
+        text = f"program p\n{text}end program\n"
+    (table,) = language.find(text, "x.h")
+    judged = audit(table)
+    assert judged is not None
+    assert judged.order is not None
+    assert (judged.order.order, judged.findings) == (3, ())
 
 
 @pytest.mark.parametrize("name", ["butcher_tableau", "rk_table", "a_stable", "p_stable_by_c"])

@@ -90,7 +90,7 @@ def low_storage(payload: Payload) -> Values:
             " exactly or not at all; its numbers are of several fields",
             "julia and ordinarydiffeq have all explicit methods",
         )
-    form = in_two_registers(found.A, found.b)
+    form = in_two_registers(found.A, found.b, payload.tolerance or 0)
     if isinstance(form, int):
         raise CannotExport(
             f"climatimesteppers has methods in Williamson's 2N form; {payload.name} has none: from"

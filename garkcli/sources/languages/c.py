@@ -12,7 +12,7 @@ from tree_sitter import Language, Node
 
 from garkcli.sources import ir
 from garkcli.sources.found import FoundTable, Reader
-from garkcli.sources.lowering import Lowering, less_one, line_of, unmeant
+from garkcli.sources.lowering import Lowering, kinds, less_one, line_of, unmeant
 from garkcli.sources.reading import tables_in
 
 NAME = "c"
@@ -21,173 +21,157 @@ SUFFIXES = (".c", ".h", ".def", ".cc", ".cpp", ".cxx", ".hpp", ".hh", ".cu")
 C = Language(tree_sitter_c.language())
 CPP = Language(tree_sitter_cpp.language())
 _NAMES = frozenset(
-    [
-        "identifier",
-        "field_identifier",
-        "qualified_identifier",
-        "destructor_name",
-        "operator_name",
-        "type_identifier",
-        "template_function",
-    ]
-)
-_BLOCKS = frozenset(
-    [
-        "translation_unit",
-        "compound_statement",
-        "declaration_list",
-        "linkage_specification",
-        "namespace_definition",
-        "template_declaration",
-        "labeled_statement",
-        "attributed_statement",
-        "else_clause",
-        "field_declaration_list",
-        "ERROR",
-        "preproc_else",
-        "enumerator_list",
-    ]
+    {
+        *("identifier", "field_identifier", "qualified_identifier", "destructor_name"),
+        *("operator_name", "type_identifier", "template_function"),
+    }
 )
 _SKIPPED = frozenset({"preproc_include", "using_declaration", "break_statement", "preproc_call"})
 _WHOLE_TYPES = re.compile(r"\b(?:int|long|short|unsigned|size_t|auto|bool|PetscInt|u?int\d+_t)\b")
 _NUMBER = re.compile(r"(?P<digits>[0-9']*\.?[0-9']*(?:[eE][-+]?[0-9]+)?)(?P<suffix>[a-zA-Z_]\w*)?")
 _DECLARED = frozenset({"array_declarator", "identifier", "field_identifier"})
-_CASTS = frozenset({"static_cast", "reinterpret_cast", "const_cast"})
+_CASTS = frozenset({"static_cast", "reinterpret_cast", "const_cast", "as"})
+_DEVICE = re.compile(rb"__(?:constant|device|shared|host|global)__")
+"""Where CUDA keeps what is declared: no part of the grammar."""
 
 
 class CLowering(Lowering):
     """Declarations, assignments, calls, branches and loops of C and C++."""
 
+    grammar = CPP
+    blocks = frozenset(
+        {
+            *("translation_unit", "compound_statement", "declaration_list", "labeled_statement"),
+            *("linkage_specification", "namespace_definition", "template_declaration", "ERROR"),
+            *("attributed_statement", "else_clause", "field_declaration_list", "preproc_else"),
+            "enumerator_list",
+        }
+    )
+    unfollowed = frozenset({"while_statement", "do_statement", "for_range_loop"})
+    expressions = kinds(
+        name="identifier field_identifier type_identifier this true false",
+        number="number_literal",
+        nothing="null nullptr",
+        text="string_literal",
+        inside="parenthesized_expression template_function dependent_name",
+        unary="unary_expression",
+        binary="binary_expression",
+    )
+
     def __init__(self, text: str, language: Language) -> None:
         super().__init__(text, language)
-        self._statements = {
-            "preproc_ifdef": self._conditional,
-            "preproc_if": self._conditional,
-            "preproc_elif": self._conditional,
-            "preproc_def": self._definition,
-            "preproc_function_def": self._definition,
-            "function_definition": self._function,
-            "class_specifier": self._class,
-            "struct_specifier": self._class,
-            "enum_specifier": self._enumeration,
-            "declaration": self._declaration,
-            "field_declaration": self._declaration,
-            "assignment_expression": self._assignment,
-            "if_statement": self._if,
-            "switch_statement": self._switch,
-            "for_statement": self._for,
-            "call_expression": self._call,
-        }
+        self._data = _DEVICE.sub(lambda x: b" " * len(x[0]), self._data)
 
-    def statement(self, node: Node) -> Iterator[ir.Statement]:
-        kind = node.type
-        if kind in self._statements:
-            yield from self._statements[kind](node)
-        elif kind in _BLOCKS:
-            yield from self.block(node.named_children)
-        elif kind == "expression_statement":
-            yield from self.block(node.named_children[:1])
-        elif kind == "return_statement":
-            inside = self.children(node)
-            yield ir.Return(self.expr(inside[0] if inside else None), line_of(node))
-        elif kind in {"while_statement", "do_statement", "for_range_loop"}:
-            body = self.block([node.child_by_field_name("body")])
-            yield ir.Loop("", ir.Nothing(), body, line_of(node))
-        elif kind not in _SKIPPED and kind.endswith("expression"):
-            yield ir.Do(self.expr(node), line_of(node))
+    def own(self, node: Node, inside: list[Node], line: int) -> Iterator[ir.Statement]:
+        field = node.child_by_field_name
+        match node.type:
+            case "preproc_ifdef" | "preproc_if" | "preproc_elif":
+                yield from self._conditional(node)
+            case "preproc_def" | "preproc_function_def":
+                yield from self._definition(node)
+            case "function_definition":
+                yield self._function(node)
+            case "class_specifier" | "struct_specifier" if (body := field("body")) is not None:
+                given = [
+                    y for x in inside if x.type == "base_class_clause" for y in self.children(x)
+                ]
+                bases = tuple(self.text(x) for x in given)
+                self._declares(self.text(field("name")), body)
+                made = self.block(body.named_children)
+                yield ir.Scope("class", self.text(field("name")), made, line, bases=bases)
+            case "type_definition" if (body := _body_of(field("type"))) is not None:
+                self._declares(self.text(field("declarator")), body)
+            case "enum_specifier":
+                for each in self.children(field("body")):
+                    value = each.child_by_field_name("value")
+                    if value is not None:
+                        name = ir.Name(self.text(each.child_by_field_name("name")))
+                        yield ir.Assign(name, self.expr(value), line_of(each))
+            case "declaration" | "field_declaration":
+                yield from self._declaration(node)
+            case "assignment_expression":
+                yield from self._assignment(node)
+            case "switch_statement":
+                cases = [x for x in self.children(field("body")) if x.type == "case_statement"]
+                arms = tuple(arm for arm in map(self._case, cases) if arm[0].body)
+                yield ir.Branch(arms, line)
+            case "for_statement":
+                yield self.loop(node, *self._counted(node))
+            case "call_expression":
+                yield from self._call(node)
+            case "expression_statement":
+                yield from self.block(inside[:1])
+            case "comma_expression":
+                yield from self._listed(self._parts(node), line)
+            case kind if kind not in _SKIPPED and kind.endswith("expression"):
+                yield ir.Do(self.expr(node), line)
+
+    def _declares(self, record: str, body: Node) -> None:
+        """The fields of a structure that no function makes."""
+        if all(x.type != "function_definition" for x in body.named_children):
+            inside = [x for part in self.children(body) for x, _ in _declarators(part)]
+            self.declares(record, (self._declared(x)[0] for x in inside))
+
+    def _case(self, node: Node) -> tuple[ir.Scope]:
+        value = node.child_by_field_name("value")
+        inside = self.block(x for x in node.named_children if x != value)
+        return (ir.Scope("entry", self.text(value), inside, line_of(node)),)
 
     def _conditional(self, node: Node) -> Iterator[ir.Statement]:
         """``#if``: both ways; a part that has no other way is taken."""
         other = node.child_by_field_name("alternative")
         condition = node.child_by_field_name("condition") or node.child_by_field_name("name")
-        inside = [x for x in node.named_children if x not in (other, condition)]
-        if other is None:
-            yield from self.block(inside)
-            return
-        arms = (self.block(inside), self.block([other]))
-        if all(_defines(arm) for arm in arms):
+        first = self.block(x for x in node.named_children if x not in (other, condition))
+        second = self.block([other])
+        if other is None or (_defines(first) and _defines(second)):
             # a macro in several ways: the last one is the plain one
-            yield from arms[1]
-            return
-        yield ir.Branch((ir.Opaque("the preprocessor"),), arms, line_of(node), is_total=True)
+            yield from first if other is None else second
+        else:
+            yield ir.Branch((first, second), line_of(node), is_total=True)
 
     def _definition(self, node: Node) -> Iterator[ir.Statement]:
         value = self._fragment(self.text(node.child_by_field_name("value")))
         if value is None:
             return
-        name = ir.Name(self.text(node.child_by_field_name("name")))
         if node.type == "preproc_function_def":
             given = self.children(node.child_by_field_name("parameters"))
-            value = ir.Lambda(tuple(self.text(x) for x in given), value)
-        yield ir.Assign(name, value, line_of(node))
+            value = ir.Lambda(tuple(map(self.text, given)), value)
+        yield ir.Assign(ir.Name(self.text(node.child_by_field_name("name"))), value, line_of(node))
 
     def _fragment(self, text: str) -> ir.Expr | None:
         """The expression that a macro stands for; None where it is none."""
         plain = text.split("//")[0].split("/*")[0].replace("\\\n", " ").strip()
         # in GARK_REAL_C(x) x##L the suffix of a number is made
         plain = re.sub(r"\s*##\s*\w+", "", plain)
-        if not plain:
-            return None
-        data = f"double x = {plain};".encode()
-        tree = self.parse(data)
-        if tree.has_error:
-            return None
-        inner = CLowering("", self._language)
-        inner._data = data
-        statements = inner.block(tree.named_children)
-        match statements:
-            case (ir.Assign(value=value),):
-                return value
+        inner = CLowering(f"double x = {plain};", self._language)
+        tree = inner.parse(inner._data)
+        if plain and not tree.has_error:
+            match inner.block(tree.named_children):
+                case (ir.Assign(value=value),):
+                    return value
         return None
 
-    def _function(self, node: Node) -> Iterator[ir.Statement]:
+    def _function(self, node: Node) -> ir.Scope:
         declarator = node.child_by_field_name("declarator")
         name, _ = self._declared(declarator)
         while declarator is not None and declarator.type != "function_declarator":
             declarator = declarator.child_by_field_name("declarator")
-        parameters = []
-        if declarator is not None:
-            for given in self.children(declarator.child_by_field_name("parameters")):
-                inside = given.child_by_field_name("declarator")
-                if inside is not None:
-                    parameters.append((self._declared(inside)[0], None))
-        made = [x for part in self.children(node) for x in self._initialisers(part)]
+        given = () if declarator is None else declarator.child_by_field_name("parameters")
+        inside = [x.child_by_field_name("declarator") for x in self.children(given or None)]
+        parameters = tuple((self._declared(x)[0], None) for x in inside if x is not None)
         body = node.child_by_field_name("body")
-        statements = tuple(made)
+        statements = tuple(y for x in self.children(node) for y in self._initialisers(x))
         if body is not None and self.may_hold_a_table(body):
             statements += self.block(body.named_children)
-        yield ir.Scope("function", name, statements, line_of(node), tuple(parameters))
+        return ir.Scope("function", name, statements, line_of(node), parameters)
 
     def _initialisers(self, node: Node) -> Iterator[ir.Statement]:
         """The bases and members that a constructor makes: ``Base(s, a, b, c)``."""
-        if node.type != "field_initializer_list":
-            return
-        for given in self.children(node):
+        for given in self.children(node) if node.type == "field_initializer_list" else ():
             inside = self.children(given)
             if len(inside) > 1:
                 name = ir.Name(self.text(inside[0]).partition("<")[0])
                 yield ir.Do(ir.Call(name, self.exprs(inside[1].named_children)), line_of(given))
-
-    def _class(self, node: Node) -> Iterator[ir.Statement]:
-        body = node.child_by_field_name("body")
-        if body is None:
-            return
-        name = self.text(node.child_by_field_name("name"))
-        bases = [
-            self.text(x)
-            for part in node.children
-            if part.type == "base_class_clause"
-            for x in self.children(part)
-        ]
-        inside = self.block(body.named_children)
-        yield ir.Scope("class", name, inside, line_of(node), bases=tuple(bases))
-
-    def _enumeration(self, node: Node) -> Iterator[ir.Statement]:
-        for each in self.children(node.child_by_field_name("body")):
-            value = each.child_by_field_name("value")
-            if value is not None:
-                name = ir.Name(self.text(each.child_by_field_name("name")))
-                yield ir.Assign(name, self.expr(value), line_of(each))
 
     def _declaration(self, node: Node) -> Iterator[ir.Statement]:
         kind = node.child_by_field_name("type")
@@ -196,11 +180,15 @@ class CLowering(Lowering):
             yield from self.block([kind])
         sizes = self._array_sizes(kind)
         for each, default in _declarators(node):
-            value: ir.Expr | None = None if default is None else self.expr(default)
+            value = None if default is None else self.expr(default)
             inner: Node | None = each
             if each.type == "init_declarator":
-                inner = each.child_by_field_name("declarator")
-                value = self._initial(each.child_by_field_name("value"))
+                inner, given = map(each.child_by_field_name, ("declarator", "value"))
+                value = self.expr(given)
+                if given is not None and given.type == "argument_list":
+                    # T x(args)
+                    value = ir.Call(ir.Name("constructor"), self.exprs(given.named_children))
+                value = self._with_fields(value, kind, line_of(each))
             elif each.type not in _DECLARED and default is None:
                 continue
             name, extents = self._declared(inner)
@@ -210,6 +198,12 @@ class CLowering(Lowering):
             if sizes and value is not None:
                 value = _without_braces(value, len(extents))
             yield ir.Assign(ir.Name(name), value, line_of(each), extents=extents, is_real=is_real)
+
+    def _with_fields(self, value: ir.Expr, kind: Node | None, line: int) -> ir.Expr:
+        """A list of what is in a structure, by its fields."""
+        name = self.text(kind).rpartition(" ")[2].partition("<")[0]
+        fields = self.made(name, value.items) if isinstance(value, ir.Items) else ()
+        return ir.Fields(fields, line) if fields else value
 
     def _array_sizes(self, kind: Node | None) -> tuple[ir.Expr, ...]:
         """The extents of ``std::array<double, 3>``, and of arrays in it."""
@@ -222,12 +216,6 @@ class CLowering(Lowering):
             return ()
         return (self.expr(args[1]), *self._array_sizes(args[0]))
 
-    def _initial(self, node: Node | None) -> ir.Expr:
-        """``T x(args)`` and ``T x{args}``: a call of the type, or a list."""
-        if node is not None and node.type == "argument_list":
-            return ir.Call(ir.Name("constructor"), self.exprs(node.named_children))
-        return self.expr(node)
-
     def _declared(self, node: Node | None) -> tuple[str, tuple[ir.Expr | None, ...]]:
         """The name and the extents that a declarator declares."""
         extents: list[ir.Expr | None] = []
@@ -235,8 +223,11 @@ class CLowering(Lowering):
             if node.type == "array_declarator":
                 size = node.child_by_field_name("size")
                 extents.insert(0, None if size is None else self.expr(size))
-            inside = node.named_children
-            node = node.child_by_field_name("declarator") or (inside[0] if inside else None)
+            node = (
+                next(iter(node.named_children), None)
+                if (inside := node.child_by_field_name("declarator")) is None
+                else inside
+            )
         return self.text(node), tuple(extents)
 
     def _assignment(self, node: Node) -> Iterator[ir.Statement]:
@@ -252,50 +243,37 @@ class CLowering(Lowering):
             target = ir.Index(target.callee, target.args)
         yield ir.Assign(target, self.expr(right), line_of(node), sign)
 
-    def _if(self, node: Node) -> Iterator[ir.Statement]:
-        then = self.block([node.child_by_field_name("consequence")])
-        other = node.child_by_field_name("alternative")
-        condition = self.expr(node.child_by_field_name("condition"))
-        arms = (then,) if other is None else (then, self.block([other]))
-        yield ir.Branch((condition,), arms, line_of(node), is_total=other is not None)
+    def _parts(self, node: Node) -> list[Node]:
+        """What is between the commas."""
+        if node.type != "comma_expression":
+            return [node]
+        return [y for x in self.children(node) for y in self._parts(x)]
 
-    def _switch(self, node: Node) -> Iterator[ir.Statement]:
-        arms = []
-        for case in self.children(node.child_by_field_name("body")):
-            if case.type != "case_statement":
-                continue
-            value = case.child_by_field_name("value")
-            inside = self.block(x for x in case.named_children if x != value)
-            if inside:
-                arms.append((ir.Scope("entry", self.text(value), inside, line_of(case)),))
-        yield ir.Branch((), tuple(arms), line_of(node))
-
-    def _for(self, node: Node) -> Iterator[ir.Statement]:
-        body = self.block([node.child_by_field_name("body")])
-        name, over = self._counted(node)
-        yield ir.Loop(name, over, body, line_of(node))
+    def _listed(self, parts: list[Node], line: int) -> Iterator[ir.Statement]:
+        """Statements with commas between, and ``A << 0, 1;`` of Eigen."""
+        first = self.expr(parts[0])
+        match first:
+            case ir.Binary("<<", target, value):
+                yield ir.Assign(target, ir.Items((value, *self.exprs(parts[1:]))), line)
+            case _:
+                yield from self.block(parts)
 
     def _counted(self, node: Node) -> tuple[str, ir.Expr]:
         """What ``for (i = a; i < b; i++)`` counts; an empty name for other loops."""
-        none = "", ir.Opaque("a loop")
-        start = node.child_by_field_name("initializer")
-        condition = node.child_by_field_name("condition")
-        if start is None or condition is None:
-            return none
-        if start.type == "declaration":
+        start, condition, update = map(
+            node.child_by_field_name, ("initializer", "condition", "update")
+        )
+        if start is not None and start.type == "declaration":
             start = start.child_by_field_name("declarator")
-        if start is None:
-            return none
-        named = start.child_by_field_name("declarator") or start.child_by_field_name("left")
-        first = start.child_by_field_name("value") or start.child_by_field_name("right")
-        sign = self.text(condition.child_by_field_name("operator"))
-        update = self.text(node.child_by_field_name("update"))
-        if named is None or first is None or sign not in {"<", "<="} or "++" not in update:
-            return none
-        last = self.expr(condition.child_by_field_name("right"))
-        if sign == "<":
-            last = less_one(last)
-        return self._declared(named)[0], ir.Range(self.expr(first), last)
+        if start is not None and condition is not None:
+            named = start.child_by_field_name("declarator") or start.child_by_field_name("left")
+            first = start.child_by_field_name("value") or start.child_by_field_name("right")
+            sign = self.text(condition.child_by_field_name("operator"))
+            if named and first and sign in {"<", "<="} and "++" in self.text(update):
+                last = self.expr(condition.child_by_field_name("right"))
+                last = less_one(last) if sign == "<" else last
+                return self._declared(named)[0], ir.Range(self.expr(first), last)
+        return "", ir.Opaque("a loop")
 
     def _call(self, node: Node) -> Iterator[ir.Statement]:
         args = self.children(node.child_by_field_name("arguments"))
@@ -305,47 +283,41 @@ class CLowering(Lowering):
             # ARK_BUTCHER_TABLE(NAME, {…}): an entry of a list of macros
             inside = self.block(x for body in bodies for x in body.named_children)
             yield ir.Scope("entry", self.text(args[0]), inside, line_of(node))
-            return
-        if called in {"PetscCall", "CHKERRQ", "PetscCallVoid"} and len(args) == 1:
+        elif called in {"PetscCall", "CHKERRQ", "PetscCallVoid"} and len(args) == 1:
             yield from self.block(args)
-            return
-        yield ir.Do(self.expr(node), line_of(node))
+        else:
+            yield ir.Do(self.expr(node), line_of(node))
 
-    def expression(self, node: Node) -> ir.Expr:
-        kind = node.type
+    def other(self, node: Node, inside: list[Node]) -> ir.Expr:
         field = node.child_by_field_name
-        inside = self.children(node)
-        match kind:
-            case "number_literal":
-                return self._number(node)
-            case "identifier" | "field_identifier" | "type_identifier" | "this" | "true" | "false":
-                return ir.Name(self.text(node))
+        match node.type:
             case "qualified_identifier" | "primitive_type":
                 return ir.Name(self.text(node).partition("<")[0])
             case "new_expression":
                 return ir.Opaque("never assigned")
-            case "null" | "nullptr":
-                return ir.Nothing()
-            case "parenthesized_expression" if inside:
-                return self.expr(inside[0])
-            case "binary_expression":
-                sign = self.text(field("operator"))
-                return ir.Binary(sign, self.expr(field("left")), self.expr(field("right")))
-            case "unary_expression":
-                return ir.Unary(self.text(field("operator")), self.expr(field("argument")))
             case "pointer_expression":
-                return self._address(field("argument"))
+                # &A[0][0] is the array
+                of = field("argument")
+                while of is not None and of.type == "subscript_expression":
+                    of = of.child_by_field_name("argument")
+                return self.expr(of)
             case "cast_expression":
-                cast = ir.Name(self.text(field("type")).partition(" ")[0])
-                value = self.expr(field("value"))
-                is_whole = bool(_WHOLE_TYPES.search(cast.name))
-                return value if is_whole else ir.Call(ir.Name("double"), (value,))
+                name, value = self.text(field("type")).partition(" ")[0], self.expr(field("value"))
+                return value if _WHOLE_TYPES.search(name) else ir.Call(ir.Name("double"), (value,))
             case "compound_literal_expression" if inside:
-                return self.expr(inside[-1])
+                return self._with_fields(self.expr(inside[-1]), field("type"), line_of(node))
             case "initializer_list":
-                return self._initialiser(inside)
+                pairs = tuple(
+                    (self.text(x.named_children[0]).lstrip("."), self.expr(x.named_children[-1]))
+                    for x in inside
+                    if x.named_children
+                )
+                is_named = any(x.type == "initializer_pair" for x in inside)
+                return ir.Fields(pairs) if is_named else ir.Items(self.exprs(inside))
             case "call_expression":
-                return self._called(node)
+                return self._called(
+                    field("function"), self.exprs(self.children(field("arguments")))
+                )
             case "field_expression":
                 name = self.text(field("field")).partition("<")[0]
                 return ir.Field(self.expr(field("argument")), name)
@@ -354,52 +326,30 @@ class CLowering(Lowering):
                 if index is not None and index.type == "subscript_argument_list":
                     index = next(iter(self.children(index)), None)
                 return ir.Index(self.expr(field("argument")), (self.expr(index),))
-            case "string_literal":
-                return ir.Text(self.text(node).strip('"'))
-            case "template_function" | "dependent_name" if inside:
-                return self.expr(inside[0])
             case "template_method" | "template_type" if inside:
                 return ir.Name(self.text(inside[0]))
         return unmeant(node)
 
-    def _number(self, node: Node) -> ir.Expr:
-        if self.text(node).startswith("-"):
-            return ir.Unary("-", self._plain_number(self.text(node)[1:]))
-        return self._plain_number(self.text(node))
-
-    def _plain_number(self, printed: str) -> ir.Expr:
-        found = _NUMBER.fullmatch(printed)
+    def number(self, text: str) -> ir.Expr:
+        if text.startswith("-"):
+            return ir.Unary("-", self.number(text[1:]))
+        found = _NUMBER.fullmatch(text)
         if not found or not found["digits"]:
-            return ir.Opaque(f"the number {printed[:20]}")
-        text = found["digits"].replace("'", "")
-        is_whole = text.isdigit() and (found["suffix"] or "").lower() not in {"f", "q"}
-        return ir.Literal(text, is_whole)
+            return ir.Opaque(f"the number {text[:20]}")
+        digits = found["digits"].replace("'", "")
+        is_whole = digits.isdigit() and (found["suffix"] or "").lower() not in {"f", "q"}
+        return ir.Literal(digits, is_whole)
 
-    def _address(self, node: Node | None) -> ir.Expr:
-        """``&A[0][0]`` is the array."""
-        while node is not None and node.type == "subscript_expression":
-            node = node.child_by_field_name("argument")
-        return self.expr(node)
-
-    def _initialiser(self, inside: list[Node]) -> ir.Expr:
-        if any(x.type == "initializer_pair" for x in inside):
-            pairs = [
-                (x.named_children[0], x.named_children[-1]) for x in inside if x.named_children
-            ]
-            return ir.Fields(
-                tuple((self.text(name).lstrip("."), self.expr(value)) for name, value in pairs)
-            )
-        return ir.Items(self.exprs(inside))
-
-    def _called(self, node: Node) -> ir.Expr:
-        callee = node.child_by_field_name("function")
-        args = self.exprs(self.children(node.child_by_field_name("arguments")))
+    def _called(self, callee: Node | None, args: tuple[ir.Expr, ...]) -> ir.Expr:
         if callee is not None and callee.type == "template_function":
             name = self.text(callee.child_by_field_name("name"))
-            if name in _CASTS and len(args) == 1:
-                return ir.Call(ir.Name("double"), args)
-            return ir.Call(ir.Name(name), args)
+            is_cast = name in _CASTS and len(args) == 1
+            return ir.Call(ir.Name("double" if is_cast else name), args)
         return ir.Call(self.expr(callee), args)
+
+
+def _body_of(node: Node | None) -> Node | None:
+    return None if node is None else node.child_by_field_name("body")
 
 
 def _declarators(node: Node) -> list[tuple[Node, Node | None]]:

@@ -9,127 +9,137 @@ import tree_sitter_fortran
 from tree_sitter import Language, Node
 
 from garkcli.sources import ir
-from garkcli.sources.found import FoundTable, Reader
-from garkcli.sources.lowering import Lowering, line_of, unmeant
-from garkcli.sources.reading import tables_in
+from garkcli.sources.found import MAX_STAGES
+from garkcli.sources.lowering import Lowering, kinds, line_of, reader, unmeant
 
 NAME = "fortran"
-FORTRAN = Language(tree_sitter_fortran.language())
 _PROCEDURES = frozenset({"subroutine", "function", "module_procedure", "program"})
-_BLOCKS = frozenset({"translation_unit", "module", "submodule", "internal_procedures", "ERROR"})
 _WHOLE = re.compile(r"\s*(?:integer|logical)", re.IGNORECASE)
+_FUNCTIONS = frozenset({"real", "dble", "sqrt", "reshape", "transpose", "sum", "size", "spread"})
+_SELECTED = ("select_case_statement", "select_type_statement", "select_rank_statement")
 
 
 class FortranLowering(Lowering):
     """Declarations and assignments of Fortran; names have no case."""
 
-    def __init__(self, text: str) -> None:
-        super().__init__(text, FORTRAN)
+    grammar = Language(tree_sitter_fortran.language())
+    blocks = frozenset({"translation_unit", "module", "submodule", "internal_procedures", "ERROR"})
+    passed = frozenset({*_SELECTED, "where_statement", "forall_statement"})
+    expressions = kinds(
+        name="identifier",
+        number="number_literal",
+        text="string_literal",
+        inside="parenthesized_expression",
+        unary="unary_expression",
+        binary="math_expression",
+    )
 
-    def statement(self, node: Node) -> Iterator[ir.Statement]:
-        inside = self.children(node)
-        line = line_of(node)
+    def __init__(self, text: str) -> None:
+        super().__init__(text)
+        self._extents: dict[str, tuple[ir.Expr, ...]] = {}
+
+    def own(self, node: Node, inside: list[Node], line: int) -> Iterator[ir.Statement]:
         match node.type:
             case kind if kind in _PROCEDURES and inside:
-                yield self._procedure(inside, line)
+                head = inside[0].child_by_field_name
+                given = self.children(head("parameters"))
+                parameters = tuple((self.name(x), None) for x in given)
+                body = self.block(inside[1:])
+                yield ir.Scope("function", self.name(head("name")), body, line, parameters)
             case "variable_declaration":
                 yield from self._declaration(node)
+            case "derived_type_definition":
+                parts = [y for x in inside for y in x.children_by_field_name("declarator")]
+                name = self.children(inside[0])[-1]
+                self.declares(self.name(name), (self.name(self._named(x)) for x in parts))
             case "assignment_statement" if len(inside) == 2:
                 # a number that is assigned to an array fills it
-                is_whole = inside[0].type == "identifier"
-                sign = "." if is_whole else ""
+                sign = "" if inside[0].type == "call_expression" else "."
                 yield ir.Assign(self.expr(inside[0]), self.expr(inside[1]), line, sign)
-            case "if_statement":
-                yield self._if(inside, line)
             case "do_loop" | "do_loop_statement":
-                yield self._loop(inside, line)
+                yield self._loop(node, inside)
             case "associate_statement" if inside:
                 for each in self.children(inside[0]):
                     parts = self.children(each)
                     if len(parts) == 2:
                         yield ir.Assign(self.expr(parts[0]), self.expr(parts[1]), line)
                 yield from self.block(inside[1:])
-            case "subroutine_call" if len(inside) == 2:
-                given = self.exprs(inside[1].named_children)
-                yield ir.Do(ir.Call(self.expr(inside[0]), given), line)
-            case kind if kind in _BLOCKS:
+            case "allocate_statement":
+                for each in inside:
+                    if each.type == "sized_allocation":
+                        of, sizes = self.children(each)[:2]
+                        extents = self.exprs(self.children(sizes))
+                        yield ir.Assign(self.expr(of), None, line, extents=extents, is_real=True)
+            case "data_set" if len(inside) == 2:
+                yield self._data_set(*inside)
+            case "data_statement":
                 yield from self.block(inside)
-            case kind if kind.startswith(("select_", "where_", "forall_")):
-                yield self.passed_over(node)
-
-    def _procedure(self, inside: list[Node], line: int) -> ir.Scope:
-        head = inside[0]
-        name = self._name(head.child_by_field_name("name"))
-        given = self.children(head.child_by_field_name("parameters"))
-        parameters = tuple((self._name(x), None) for x in given)
-        return ir.Scope("function", name, self.block(inside[1:]), line, parameters)
+            case "subroutine_call" if len(inside) == 2:
+                args = self.exprs(inside[1].named_children)
+                yield ir.Do(ir.Call(self.expr(inside[0]), args), line)
 
     def _declaration(self, node: Node) -> Iterator[ir.Statement]:
         is_real = not _WHOLE.match(self.text(node.child_by_field_name("type")))
         for each in node.children_by_field_name("declarator"):
-            value: Node | None = None
-            named: Node | None = each
-            if each.type == "init_declarator":
-                named, value = each.child_by_field_name("left"), each.child_by_field_name("right")
-            extents: tuple[ir.Expr | None, ...] = ()
+            field = each.child_by_field_name
+            value = field("right") if each.type == "init_declarator" else None
+            named = field("left") if each.type == "init_declarator" else each
+            extents: tuple[ir.Expr, ...] = ()
             if named is not None and named.type == "sized_declarator":
-                parts = self.children(named)
-                extents = self.exprs(parts[1].named_children)
-                named = parts[0]
-            if value is None and not extents:
+                named, sizes = self.children(named)[:2]
+                extents = self._extents[self.name(named)] = self.exprs(sizes.named_children)
+            if value is not None:
+                filled, extents = self.expr(value), ()
+            elif not extents:
                 continue
-            is_filled = value is not None
             yield ir.Assign(
-                ir.Name(self._name(named)),
-                self.expr(value) if is_filled else None,
+                ir.Name(self.name(named)),
+                None if value is None else filled,
                 line_of(each),
-                extents=() if is_filled else extents,
+                extents=extents,
                 is_real=is_real,
             )
 
-    def _if(self, inside: list[Node], line: int) -> ir.Statement:
-        arms: list[ir.Body] = [()]
-        is_total = False
-        for part in inside[1:]:
-            if part.type in {"else_clause", "elseif_clause"}:
-                arms.append(self.block(part.named_children))
-                is_total = is_total or part.type == "else_clause"
-            else:
-                arms[0] += self.block([part])
-        return ir.Branch((), tuple(arms), line, is_total)
+    def _named(self, node: Node) -> Node:
+        """What a declarator names."""
+        while node.type in {"init_declarator", "sized_declarator"}:
+            node = node.named_children[0]
+        return node
 
-    def _loop(self, inside: list[Node], line: int) -> ir.Statement:
-        control = [x for x in inside[0].named_children if x.type == "loop_control_expression"]
-        name, over = "", ir.Range()
-        if control:
-            parts = self.children(control[0])
-            if len(parts) == 3:
-                name = self._name(parts[0])
-                over = ir.Range(self.expr(parts[1]), self.expr(parts[2]))
-        return ir.Loop(name, over, self.block(inside[1:]), line)
+    def _data_set(self, named: Node, values: Node) -> ir.Statement:
+        """``data a / 1.0, 3*0.0 /``: the entries by columns."""
+        items: list[ir.Expr] = []
+        count = 1
+        for i, part in enumerate(values.children):
+            if values.field_name_for_child(i) == "repeat" and self.text(part).isdigit():
+                count = min(int(self.text(part)), MAX_STAGES**2)
+            elif part.is_named:
+                items += [self.expr(part)] * count
+                count = 1
+        extents = self._extents.get(self.name(named), ())
+        value: ir.Expr = ir.Items(tuple(items)) if extents else items[0]
+        if len(extents) > 1:
+            value = ir.Call(ir.Name("reshape"), (value, ir.Items(extents)))
+        return ir.Assign(self.expr(named), value, line_of(named), is_real=True)
 
-    def _name(self, node: Node | None) -> str:
+    def _loop(self, node: Node, inside: list[Node]) -> ir.Loop:
+        for control in inside[0].named_children:
+            parts = self.children(control)
+            if control.type == "loop_control_expression" and len(parts) == 3:
+                name, *ends = parts
+                return self.loop(node, self.name(name), ir.Range(*map(self.expr, ends)))
+        return self.loop(node, "", ir.Range())
+
+    def name(self, node: Node | None) -> str:
         """A name in the case that its first letter has for a matrix, and else in small letters."""
         text = self.text(node)
         return text if text[:2] in {"A", "A_"} else text.lower()
 
-    def expression(self, node: Node) -> ir.Expr:
-        inside = self.children(node)
+    def number(self, text: str) -> ir.Expr:
+        return super().number(text.partition("_")[0].lower().replace("d", "e"))
+
+    def other(self, node: Node, inside: list[Node]) -> ir.Expr:
         match node.type:
-            case "number_literal":
-                text = self.text(node).partition("_")[0].lower().replace("d", "e")
-                return ir.Literal(text, is_whole=text.isdigit())
-            case "identifier":
-                return ir.Name(self._name(node))
-            case "parenthesized_expression" if inside:
-                return self.expr(inside[0])
-            case "math_expression" if len(inside) == 2:
-                sign = self.text(node.child_by_field_name("operator"))
-                sign = "^" if sign == "**" else sign
-                return ir.Binary(sign, self.expr(inside[0]), self.expr(inside[1]))
-            case "unary_expression" if inside:
-                sign = self.text(node.child_by_field_name("operator"))
-                return ir.Unary(sign, self.expr(inside[-1]))
             case "array_literal":
                 return ir.Rows(tuple((self.expr(x),) for x in inside))
             case "call_expression" if len(inside) > 1:
@@ -137,38 +147,31 @@ class FortranLowering(Lowering):
             case "extent_specifier":
                 ends = self.ends(node)
                 return ir.Range(ends[0], ends[-1])
-            case "string_literal":
-                return ir.Text(self.text(node).strip("'\""))
             case "derived_type_member_expression" if len(inside) == 2:
-                return ir.Field(self.expr(inside[0]), self._name(inside[1]))
+                return ir.Field(self.expr(inside[0]), self.name(inside[1]))
         return unmeant(node)
 
     def _called(self, callee: Node, given: Node) -> ir.Expr:
         """A call, or an entry of an array: both are written with round brackets."""
-        args: list[ir.Expr] = []
-        named: list[tuple[str, ir.Expr]] = []
-        for part in self.children(given):
-            if part.type == "keyword_argument":
-                name = self.text(part.child_by_field_name("name")).lower()
-                named.append((name, self.expr(part.child_by_field_name("value"))))
-            else:
-                args.append(self.expr(part))
-        name_ = self._name(callee)
-        if name_ in _FUNCTIONS:
-            wanted = args[:1] if name_ in {"real", "dble"} else args
-            return ir.Call(ir.Name(name_), tuple(wanted), tuple(named))
-        return ir.Index(self.expr(callee), tuple(args))
+        args, named = self.arguments(self.children(given))
+        name = self.name(callee)
+        if name in _FUNCTIONS:
+            wanted = args[:1] if name in {"real", "dble"} else args
+            return ir.Call(ir.Name(name), wanted, named)
+        if self.made(name, args):
+            return self.call(ir.Name(name), args)
+        match args:
+            case (ir.Name(of),) if name == "shape" and of in self._extents:
+                return ir.Items(self._extents[of])
+        return ir.Index(self.expr(callee), args)
 
 
-_FUNCTIONS = frozenset({"real", "dble", "sqrt", "reshape", "transpose", "sum", "size", "spread"})
-
-
-def find(text: str, source: str) -> list[FoundTable]:
-    """The tables of a Fortran source."""
-    return tables_in(
-        text, source, NAME, lambda x: FortranLowering(x).module(), base=1, has_whole_quotients=True
-    )
-
-
-SUFFIXES = (".f90", ".f95", ".f03", ".f08")
-READER = Reader(NAME, "Fortran: parameters, arrays, coefficients by name", SUFFIXES, find)
+READER = reader(
+    FortranLowering,
+    NAME,
+    "Fortran: parameters, arrays, coefficients by name",
+    (".f90", ".f95", ".f03", ".f08"),
+    base=1,
+    has_whole_quotients=True,
+)
+find = READER.find

@@ -16,12 +16,9 @@ from tree_sitter import Language, Node
 
 from garkcli.frozen import Frozen, replace
 from garkcli.sources import ir
-from garkcli.sources.found import FoundTable, Reader
-from garkcli.sources.lowering import MAX_NESTING, TOO_DEEP, Lowering, line_of, unmeant
-from garkcli.sources.reading import tables_in
+from garkcli.sources.lowering import MAX_NESTING, TOO_DEEP, Lowering, kinds, reader, unmeant
 
 NAME = "julia"
-JULIA = Language(tree_sitter_julia.language())
 TIMES = "juxtaposed"
 _LEVELS = {
     **dict.fromkeys(("=>", "?"), 0),
@@ -53,9 +50,15 @@ _DEFINITIONS = frozenset(
     {"function_definition", "struct_definition", "assignment", "if_statement", *_BLOCKS}
 )
 _SKIPPED = frozenset({"using_statement", "import_statement", "export_statement"})
-
+_TYPED = frozenset({"where_expression", "typed_expression"})
 _GENERAL = frozenset({"Type", "Val", "Number", "Real", "Integer", "Int", "Bool", "Union", "Any"})
 """Types that say nothing of what a function belongs to."""
+_BY_COLUMNS = frozenset({"SMatrix", "MMatrix"})
+"""Types with their numbers of rows and columns, which take entries by columns."""
+_TYPE = re.compile(r"T[0-9]?")
+"""Arguments that are types, by their names."""
+_FIELDS = frozenset({"identifier", "typed_expression"})
+_ARGUMENT = ir.Name("the argument")
 
 
 class Token(Frozen):
@@ -75,82 +78,65 @@ class Token(Frozen):
     is_prefix: bool = False
 
 
-_TYPE = re.compile(r"T[0-9]?")
-"""Arguments that are types, by their names."""
-
-
 class JuliaLowering(Lowering):
     """Functions, assignments, matrices and records of Julia."""
 
-    def __init__(self, text: str) -> None:
-        super().__init__(text, JULIA)
+    grammar = Language(tree_sitter_julia.language())
+    comments = frozenset({"comment", "line_comment", "block_comment"})
+    blocks = _BLOCKS
+    passed = frozenset({"try_statement"})
+    expressions = kinds(
+        name="boolean_literal identifier",
+        number="integer_literal",
+        text="string_literal",
+        inside="parametrized_type_expression where_expression typed_expression",
+    )
 
-    def statement(self, node: Node) -> Iterator[ir.Statement]:
-        line = line_of(node)
-        inside = self.children(node)
+    def own(self, node: Node, inside: list[Node], line: int) -> Iterator[ir.Statement]:
         match node.type:
             case "function_definition" if inside:
                 yield self._function(inside[0], inside[1:], line)
             case "macrocall_expression":
-                yield from self._macro(node)
+                yield from self._macro(node, inside, line)
             case "struct_definition":
-                yield self._record(inside, line)
+                made = [y for x in inside for y in (self.children(x) if x.type == "block" else [x])]
+                makers = [x for x in made if x.type == "function_definition"]
+                values = [x for x in made if x.type == "assignment"]
+                name = self.first_name(inside[0])
+                if not makers:
+                    fields = [x for x in made if x.type in _FIELDS or x in values]
+                    self.declares(name, map(self.first_name, fields))
+                yield from self.block(makers)
+                values = [x for x in values if self.children(x)[0].type in _FIELDS]
+                if values:
+                    yield ir.Scope("class", name, self.block(values), line)
             case "assignment" if len(inside) > 2:
                 yield from self._assignment(inside[0], inside[-1], line)
             case "compound_assignment_expression":
                 sign = self.text(inside[1]).rstrip("=")
                 yield ir.Assign(self.expr(inside[0]), self.expr(inside[-1]), line, sign)
-            case "return_statement":
-                yield ir.Return(self.expr(inside[0] if inside else None), line)
-            case "if_statement":
-                yield self._if(node)
             case "for_statement" if inside:
                 bound = self.children(inside[0])
                 name = self.text(bound[0]) if bound and bound[0].type == "identifier" else ""
-                yield ir.Loop(name, self.expr(bound[-1]), self.block(inside[1:]), line)
-            case "while_statement":
-                yield ir.Loop("", ir.Nothing(), self.block(inside[1:]), line)
-            case kind if kind in _BLOCKS:
-                if kind == "try_statement":
-                    yield self.passed_over(node)
-                yield from self.block(inside)
+                yield self.loop(node, name, self.expr(bound[-1]))
             case kind if kind not in _SKIPPED:
                 yield ir.Do(self.expr(node), line)
 
-    def _macro(self, node: Node) -> Iterator[ir.Statement]:
+    def _macro(self, node: Node, inside: list[Node], line: int) -> Iterator[ir.Statement]:
         """A macro before a definition is passed over."""
-        inside = self.children(node)
         args = self.children(inside[1]) if len(inside) > 1 else []
-        is_taken_apart = self.text(inside[0]) == "@unpack"
-        if args and args[-1].type in _DEFINITIONS and not is_taken_apart:
+        if args and self.text(inside[0]) == "@unpack":
+            first = self.children(args[0])
+            for part in (self.children(first[0]) if first else []) or first[:1]:
+                yield ir.Assign(ir.Name(self.text(part)), _ARGUMENT, line)
+        elif args and args[-1].type in _DEFINITIONS:
             yield from self.block(args[-1:])
-            return
-        if is_taken_apart and args:
-            parts = self.children(self.children(args[0])[0]) if self.children(args[0]) else []
-            for part in parts or self.children(args[0])[:1]:
-                yield ir.Assign(ir.Name(self.text(part)), ir.Name(_ARGUMENT), line_of(node))
-            return
-        yield ir.Do(self.expr(node), line_of(node))
-
-    def _record(self, inside: list[Node], line: int) -> ir.Scope:
-        fields = []
-        for part in inside[1:]:
-            for each in [part] if part.type != "block" else self.children(part):
-                name: Node | None = each
-                while name is not None and name.type != "identifier":
-                    name = next(iter(self.children(name)), None)
-                if name is not None:
-                    fields.append((self.text(name), None))
-        head: Node | None = inside[0]
-        while head is not None and head.type != "identifier":
-            head = next(iter(self.children(head)), None)
-        parts = [y for x in inside for y in (self.children(x) if x.type == "block" else [x])]
-        made = self.block(x for x in parts if x.type == "function_definition")
-        return ir.Scope("record", self.text(head), made, line, tuple(fields))
+        else:
+            yield ir.Do(self.expr(node), line)
 
     def _assignment(self, left: Node, right: Node, line: int) -> Iterator[ir.Statement]:
         head = left
-        while head.type in {"where_expression", "typed_expression"} and head.named_children:
+        while head.type in _TYPED and head.named_children:
             head = head.named_children[0]
         if head.type == "call_expression":
             yield self._function(left, [right], line)
@@ -168,32 +154,24 @@ class JuliaLowering(Lowering):
         types: set[str] = set()
         if head.type == "signature" and head.named_children:
             head = head.named_children[0]
-        while head.type in {"where_expression", "typed_expression"}:
+        while head.type in _TYPED:
             parts = self.children(head)
             if head.type == "where_expression":
                 types |= {x for part in parts[1:] for x in self._type_names(part)}
             head = parts[0]
-        parameters = []
-        name = of = ""
         inside = self.children(head)
+        name, of, given = self.text(head) if head.type == "identifier" else "", "", inside[:0]
         if head.type == "call_expression" and inside:
             name = self.text(inside[0]).partition("{")[0].rpartition(".")[2]
-            given_all = self.children(inside[1]) if len(inside) > 1 else []
-            of = self._owner(given_all[0], types) if given_all else ""
-            for given in given_all:
-                known = self._parameter(given, types)
-                if known:
-                    parameters.append((known, None))
-        elif head.type == "identifier":
-            name = self.text(head)
+            given = self.children(inside[1]) if len(inside) > 1 else []
+            of = self._owner(given[0], types) if given else ""
+        parameters = tuple((x, None) for x in [self._parameter(x, types) for x in given] if x)
         statements = self.block(body)
         match statements[-1:]:
-            case (ir.Do(value=value, line=last),):
+            case (ir.Do(value, last),):
                 # the last value is what the function gives
                 statements = (*statements[:-1], ir.Return(value, last))
-        return ir.Scope(
-            "function", name, statements, line, tuple(parameters), frozenset(types), of=of
-        )
+        return ir.Scope("function", name, statements, line, parameters, frozenset(types), of=of)
 
     def _owner(self, given: Node, types: set[str]) -> str:
         """The type of an argument: ``::RK4{T}``, ``alg::RK4``."""
@@ -210,11 +188,7 @@ class JuliaLowering(Lowering):
         """The name of a parameter; one that is a type is put among these."""
         if given.type == "named_argument":
             given = given.named_children[0]
-        text = self.text(given)
-        name = given
-        while name.type != "identifier" and name.named_children:
-            name = name.named_children[0]
-        known = self.text(name)
+        text, known = self.text(given), self.first_name(given)
         if given.type == "unary_typed_expression":
             return ""
         if "Type" in text or _TYPE.fullmatch(text):
@@ -225,36 +199,15 @@ class JuliaLowering(Lowering):
     def _type_names(self, node: Node) -> list[str]:
         if node.type == "identifier":
             return [self.text(node)]
-        inside = self.children(node)
-        if node.type == "binary_expression":
-            inside = inside[:1]
+        inside = self.children(node)[: 1 if node.type == "binary_expression" else None]
         return [x for part in inside for x in self._type_names(part)]
-
-    def _if(self, node: Node) -> ir.Statement:
-        conditions: list[ir.Expr] = []
-        arms: list[ir.Body] = []
-        is_total = False
-        parts: list[Node] = []
-        for part in self.children(node):
-            if part.type == "elseif_clause":
-                inside = self.children(part)
-                conditions.append(self.expr(inside[0]))
-                arms.append(self.block(inside[1:]))
-            elif part.type == "else_clause":
-                arms.append(self.block(part.named_children))
-                is_total = True
-            else:
-                parts.append(part)
-        first = self.block(parts[1:])
-        test = self.expr(parts[0]) if parts else ir.Nothing()
-        return ir.Branch((test, *conditions), (first, *arms), line_of(node), is_total)
 
     # arithmetic
 
-    def expression(self, node: Node) -> ir.Expr:
+    def expression(self, node: Node, inside: list[Node]) -> ir.Expr:
         if node.type in {"binary_expression", "juxtaposition_expression"} or self._is_signed(node):
             return _ordered(deque(self._tokens(node)))
-        return self._operand(node)
+        return super().expression(node, inside)
 
     def _is_signed(self, node: Node) -> bool:
         inside = node.named_children
@@ -295,7 +248,7 @@ class JuliaLowering(Lowering):
                 # a (b)
                 times = Token(TIMES, args.start_byte, args.start_byte)
                 return [*self._tokens(inside[0]), times, self._bracket(args)]
-        return [Token("", node.start_byte, node.end_byte, self._operand(node))]
+        return [Token("", node.start_byte, node.end_byte, super().expression(node, inside))]
 
     def _sign(self, node: Node) -> Token:
         text = self.text(node)
@@ -332,15 +285,10 @@ class JuliaLowering(Lowering):
 
     # operands
 
-    def _operand(self, node: Node) -> ir.Expr:
-        inside = self.children(node)
+    def other(self, node: Node, inside: list[Node]) -> ir.Expr:
         match node.type:
-            case "integer_literal":
-                return ir.Literal(self.text(node), is_whole=True)
             case "float_literal":
                 return ir.Literal(self.text(node).lower().replace("f0", "").replace("f", "e"))
-            case "boolean_literal" | "identifier":
-                return ir.Name(self.text(node))
             case "parenthesized_expression" if len(inside) == 1:
                 return self.expr(inside[0])
             case "vector_expression" if len(inside) == 1 and self.text(node)[-2:] != ",]":
@@ -364,13 +312,9 @@ class JuliaLowering(Lowering):
                 return ir.Range(self.expr(inside[0]), self.expr(inside[1]))
             case "adjoint_expression" if inside:
                 return ir.Transposed(self.expr(inside[0]))
-            case "parametrized_type_expression" | "where_expression" | "typed_expression" if inside:
-                return self.expr(inside[0])
             case "prefixed_string_literal" if len(inside) == 2:
                 if self.text(inside[0]) in {"big", "df64", "BigFloat"}:
                     return ir.Literal(self.text(inside[1]).strip('"'))
-            case "string_literal":
-                return ir.Text(self.text(node).strip('"'))
             case "quote_expression":
                 return ir.Text(self.text(node).lstrip(":"))
             case "macrocall_expression" if inside:
@@ -381,16 +325,11 @@ class JuliaLowering(Lowering):
         return unmeant(node)
 
     def _tuple(self, node: Node, inside: list[Node]) -> ir.Expr:
-        named = [x for x in inside if x.type in {"named_field", "named_argument", "assignment"}]
-        has_semicolon = any(x.type == ";" for x in node.children)
-        if named or has_semicolon:
-            pairs = []
-            for part in inside:
-                parts = self.children(part)
-                name, value = (parts[0], parts[-1]) if parts else (part, part)
-                pairs.append((self.text(name), self.expr(value)))
-            return ir.Fields(tuple(pairs))
-        return ir.Items(self.exprs(inside))
+        named = {"named_field", "named_argument", "assignment"} & {x.type for x in inside}
+        if not named and not any(x.type == ";" for x in node.children):
+            return ir.Items(self.exprs(inside))
+        parts = [self.children(x) or [x] for x in inside]
+        return ir.Fields(tuple((self.text(x[0]), self.expr(x[-1])) for x in parts))
 
     def _matrix(self, inside: list[Node]) -> ir.Expr:
         rows: list[list[ir.Expr]] = []
@@ -408,39 +347,29 @@ class JuliaLowering(Lowering):
         if at.type == "matrix_expression":
             # T[1 2; 3 4]
             return self.expr(at)
-        places: list[ir.Expr] = []
-        for part in self.children(at):
-            is_all = self.text(part) == ":"
-            places.append(ir.Range() if is_all else self.expr(part))
-        if not places:
-            return ir.Items(())
-        return ir.Index(self.expr(of), tuple(places))
+        places = tuple(
+            ir.Range() if self.text(part) == ":" else self.expr(part) for part in self.children(at)
+        )
+        return ir.Index(self.expr(of), places) if places else ir.Items(())
 
     def _call(self, inside: list[Node]) -> ir.Expr:
-        args: list[ir.Expr] = []
-        named: list[tuple[str, ir.Expr]] = []
         given = inside[1] if len(inside) > 1 else None
-        semicolon = 0
-        for part in given.children if given is not None else []:
-            if part.type == ";":
-                semicolon = part.start_byte
-        for part in self.children(given):
-            parts = self.children(part)
-            if part.type == "named_argument":
-                named.append((self.text(parts[0]), self.expr(parts[-1])))
-            elif part.type in {"keyword_parameters", "keyword_arguments"}:
-                for each in parts:
-                    pair = self.children(each) or [each]
-                    named.append((self.text(pair[0]), self.expr(pair[-1])))
-            elif semicolon and part.start_byte > semicolon and part.type == "identifier":
-                # ; name: the value of that name
-                named.append((self.text(part), ir.Name(self.text(part))))
-            else:
-                args.append(self.expr(part))
-        return ir.Call(self.expr(inside[0]), tuple(args), tuple(named))
-
-
-_ARGUMENT = "the argument"
+        parts = self.children(given)
+        semicolon = next(
+            (x.start_byte for x in reversed(given.children if given else []) if x.type == ";"), 0
+        )
+        # ; name: the value of that name
+        short = {x for x in parts if 0 < semicolon < x.start_byte and x.type == "identifier"}
+        args, named = self.arguments(x for x in parts if x not in short)
+        named += tuple((self.text(x), self.expr(x)) for x in parts if x in short)
+        callee = inside[0]
+        has_entries = any(isinstance(x, ir.Index) for x in args)
+        if callee.type == "parametrized_type_expression" and len(args) > 1 and not has_entries:
+            name, sizes = self.children(callee)[:2]
+            if self.text(name) in _BY_COLUMNS:
+                shape = ir.Items(self.exprs(self.children(sizes)[:2]))
+                return ir.Call(ir.Name("reshape"), (ir.Items(args), shape))
+        return self.call(self.expr(callee), args, named)
 
 
 def _ordered(tokens: deque[Token]) -> ir.Expr:
@@ -472,9 +401,7 @@ def _climbed(tokens: deque[Token], least: int = 0) -> ir.Expr:
     return value
 
 
-def find(text: str, source: str) -> list[FoundTable]:
-    """The tables of a Julia source."""
-    return tables_in(text, source, NAME, lambda x: JuliaLowering(x).module(), base=1)
-
-
-READER = Reader(NAME, "Julia: matrices with //, tableaus, caches of solvers", (".jl",), find)
+READER = reader(
+    JuliaLowering, NAME, "Julia: matrices with //, tableaus, caches of solvers", (".jl",), base=1
+)
+find = READER.find

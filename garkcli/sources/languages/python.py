@@ -8,73 +8,70 @@ import tree_sitter_python
 from tree_sitter import Language, Node
 
 from garkcli.sources import ir
-from garkcli.sources.found import FoundTable, Reader
-from garkcli.sources.lowering import Lowering, less_one, line_of, unmeant
-from garkcli.sources.reading import tables_in
+from garkcli.sources.lowering import Lowering, kinds, less_one, line_of, reader, sign_of, unmeant
 
 NAME = "python"
-PYTHON = Language(tree_sitter_python.language())
-_BLOCKS = frozenset(
-    {"module", "block", "with_statement", "try_statement", "else_clause", "decorated_definition"}
-)
 _OF_LISTS = {"*": "list *", "+": "list +"}
 """What signs behind a list do."""
-_SIGNS = {"**": "^", "//": "÷"}
+_TARGETS = frozenset({"pattern_list", "tuple_pattern", "list_pattern"})
+_PROPERTIES = frozenset({"property", "cached_property", "functools.cached_property"})
 
 
 class PythonLowering(Lowering):
     """Assignments, classes, functions, lists and dictionaries of Python."""
 
+    grammar = Language(tree_sitter_python.language())
     comments = frozenset({"comment", "line_continuation"})
+    blocks = frozenset({"module", "block", "with_statement", "try_statement", "else_clause"})
+    passed = frozenset({"try_statement", "match_statement"})
+    expressions = kinds(
+        name="identifier true false",
+        number="integer float",
+        list="list tuple expression_list",
+        nothing="none",
+        inside="parenthesized_expression",
+        unary="unary_operator",
+        binary="binary_operator",
+    )
 
-    def __init__(self, text: str) -> None:
-        super().__init__(text, PYTHON)
-
-    def statement(self, node: Node) -> Iterator[ir.Statement]:
-        line = line_of(node)
+    def own(self, node: Node, inside: list[Node], line: int) -> Iterator[ir.Statement]:
         field = node.child_by_field_name
         match node.type:
             case "expression_statement":
-                for part in self.children(node):
+                for part in inside:
                     if part.type in {"assignment", "augmented_assignment"}:
                         yield from self._assignment(part)
                     else:
-                        yield ir.Do(self.expr(part), line)
+                        yield self._done(self.expr(part), line)
             case "function_definition":
                 yield self._function(node)
+            case "decorated_definition":
+                yield from self._decorated(inside)
             case "class_definition":
-                bases = self.children(field("superclasses"))
-                inside = self.block([field("body")])
-                names = tuple(self.text(x) for x in bases)
-                yield ir.Scope("class", self.text(field("name")), inside, line, bases=names)
-            case "return_statement":
-                given = self.children(node)
-                yield ir.Return(self.expr(given[0] if given else None), line)
-            case "if_statement":
-                yield self._if(node)
+                bases = tuple(self.text(x) for x in self.children(field("superclasses")))
+                parts = [y for x in self.children(field("body")) for y in self.children(x)]
+                typed = [x for x in parts if x.child_by_field_name("type") is not None]
+                self.declares(self.text(field("name")), map(self.first_name, typed))
+                made = self.block([field("body")])
+                yield ir.Scope("class", self.text(field("name")), made, line, bases=bases)
             case "for_statement":
                 target = field("left")
                 is_name = target is not None and target.type == "identifier"
                 name = self.text(target) if is_name else ""
-                yield ir.Loop(name, self.expr(field("right")), self.block([field("body")]), line)
-            case "while_statement":
-                yield ir.Loop("", ir.Nothing(), self.block([field("body")]), line)
+                yield self.loop(node, name, self.expr(field("right")))
             case "import_statement" | "import_from_statement":
-                yield from self._imported(node)
-            case "match_statement":
-                yield self.passed_over(node)
-            case kind if kind in _BLOCKS:
-                if kind == "try_statement":
-                    yield self.passed_over(node)
-                yield from self.block(self.children(node))
+                for part in inside:
+                    # from fractions import Fraction as F
+                    alias = part.child_by_field_name("alias")
+                    if alias is not None:
+                        name = self.text(part.child_by_field_name("name")).rpartition(".")[2]
+                        yield ir.Assign(ir.Name(self.text(alias)), ir.Name(name), line)
 
-    def _imported(self, node: Node) -> Iterator[ir.Statement]:
-        """``from fractions import Fraction as F``."""
-        for part in self.children(node):
-            alias = part.child_by_field_name("alias")
-            if alias is not None:
-                name = self.text(part.child_by_field_name("name")).rpartition(".")[2]
-                yield ir.Assign(ir.Name(self.text(alias)), ir.Name(name), line_of(node))
+    def _done(self, value: ir.Expr, line: int) -> ir.Statement:
+        match value:
+            case ir.Call(ir.Field(of, "register_buffer"), (ir.Text(name), given, *_)):
+                return ir.Assign(ir.Field(of, name), given, line)
+        return ir.Do(value, line)
 
     def _assignment(self, node: Node) -> Iterator[ir.Statement]:
         left, right = node.child_by_field_name("left"), node.child_by_field_name("right")
@@ -85,112 +82,70 @@ class PythonLowering(Lowering):
             yield from self._assignment(right)
             right = right.child_by_field_name("left")
         sign = self.text(node.child_by_field_name("operator")).rstrip("=")
-        yield ir.Assign(self._target(left), self.expr(right), line_of(node), _SIGNS.get(sign, sign))
+        is_taken_apart = left.type in _TARGETS
+        target = ir.Items(self.exprs(left.named_children)) if is_taken_apart else self.expr(left)
+        yield ir.Assign(target, self.expr(right), line_of(node), sign_of(sign))
 
-    def _target(self, node: Node) -> ir.Expr:
-        if node.type in {"pattern_list", "tuple_pattern", "list_pattern"}:
-            return ir.Items(self.exprs(node.named_children))
-        return self.expr(node)
+    def _decorated(self, inside: list[Node]) -> Iterator[ir.Statement]:
+        """A property is the value that it returns."""
+        made = self.block(inside[-1:])
+        is_property = any(self.text(x)[1:] in _PROPERTIES for x in inside[:-1])
+        match made:
+            case (ir.Scope("function", name, (*before, ir.Return(value, line))),) if is_property:
+                if all(isinstance(x, ir.Do) for x in before):
+                    made = (ir.Assign(ir.Name(name), value, line),)
+        yield from made
 
     def _function(self, node: Node) -> ir.Scope:
-        parameters = []
-        for given in self.children(node.child_by_field_name("parameters")):
-            name: Node | None = given
-            while name is not None and name.type != "identifier":
-                name = next(iter(self.children(name)), None)
-            if name is not None:
-                parameters.append((self.text(name), None))
-        body = node.child_by_field_name("body")
-        inside: ir.Body = ()
-        if body is not None and self.may_hold_a_table(body):
-            inside = self.block([body])
-        name_ = self.text(node.child_by_field_name("name"))
-        types = frozenset({"dtype"})
-        return ir.Scope("function", name_, inside, line_of(node), tuple(parameters), types)
-
-    def _if(self, node: Node) -> ir.Statement:
-        conditions = [self.expr(node.child_by_field_name("condition"))]
-        arms = [self.block([node.child_by_field_name("consequence")])]
-        is_total = False
-        for part in node.children_by_field_name("alternative"):
-            if part.type == "elif_clause":
-                conditions.append(self.expr(part.child_by_field_name("condition")))
-                arms.append(self.block([part.child_by_field_name("consequence")]))
-            else:
-                arms.append(self.block([part.child_by_field_name("body")]))
-                is_total = True
-        return ir.Branch(tuple(conditions), tuple(arms), line_of(node), is_total)
-
-    def expression(self, node: Node) -> ir.Expr:
         field = node.child_by_field_name
-        inside = self.children(node)
+        given = map(self.first_name, self.children(field("parameters")))
+        body = field("body")
+        made = self.block([body]) if body is not None and self.may_hold_a_table(body) else ()
+        parameters = tuple((name, None) for name in given if name)
+        types = frozenset({"dtype"})
+        return ir.Scope(
+            "function", self.text(field("name")), made, line_of(node), parameters, types
+        )
+
+    def other(self, node: Node, inside: list[Node]) -> ir.Expr:
+        field = node.child_by_field_name
         match node.type:
-            case "integer":
-                return ir.Literal(self.text(node), is_whole=True)
-            case "float":
-                return ir.Literal(self.text(node))
-            case "identifier" | "true" | "false":
-                return ir.Name(self.text(node))
-            case "none":
-                return ir.Nothing()
             case "attribute":
-                name = self.text(field("attribute"))
-                of = self.expr(field("object"))
+                name, of = self.text(field("attribute")), self.expr(field("object"))
                 return ir.Transposed(of) if name == "T" else ir.Field(of, name)
-            case "binary_operator":
-                sign = self.text(field("operator"))
-                left, right = self.expr(field("left")), self.expr(field("right"))
-                if isinstance(left, ir.Items) and sign in _OF_LISTS:
-                    return ir.Call(ir.Name(_OF_LISTS[sign]), (left, right))
-                return ir.Binary(_SIGNS.get(sign, sign), left, right)
-            case "unary_operator":
-                return ir.Unary(self.text(field("operator")), self.expr(field("argument")))
-            case "parenthesized_expression" if inside:
-                return self.expr(inside[0])
             case "list_comprehension" if len(inside) == 2 and inside[1].type == "for_in_clause":
                 each_one = inside[1].child_by_field_name("left")
                 if each_one is not None and each_one.type == "identifier":
                     each = ir.Lambda((self.text(each_one),), self.expr(inside[0]))
                     over = self.expr(inside[1].child_by_field_name("right"))
                     return ir.Call(ir.Name("list of each"), (each, over))
-            case "list" | "tuple" | "expression_list":
-                return ir.Items(self.exprs(inside))
             case "dictionary":
-                return self._dictionary(inside)
+                return ir.Fields(tuple(self._pairs(inside)))
             case "call":
-                return self._call(node)
+                callee, given = self.expr(field("function")), self.children(field("arguments"))
+                args, named = self.arguments(given)
+                is_dict = callee == ir.Name("dict") and not args
+                return ir.Fields(named) if is_dict else self.call(callee, args, named)
             case "subscript":
-                at = [self._place(x) for x in node.children_by_field_name("subscript")]
-                return ir.Index(self.expr(field("value")), tuple(at))
+                at = tuple(self._place(x) for x in node.children_by_field_name("subscript"))
+                return ir.Index(self.expr(field("value")), at)
             case "string":
                 return ir.Text("".join(self.text(x) for x in inside if x.type == "string_content"))
-            case "conditional_expression":
-                return ir.Opaque("a conditional expression")
         return unmeant(node)
 
-    def _dictionary(self, inside: list[Node]) -> ir.Expr:
-        pairs = []
+    def expression(self, node: Node, inside: list[Node]) -> ir.Expr:
+        match found := super().expression(node, inside):
+            case ir.Binary(sign, ir.Items() as left, right) if sign in _OF_LISTS:
+                return ir.Call(ir.Name(_OF_LISTS[sign]), (left, right))
+        return found
+
+    def _pairs(self, inside: list[Node]) -> Iterator[tuple[str, ir.Expr]]:
         for part in inside:
             key = part.child_by_field_name("key")
             if part.type == "pair" and key is not None and key.type in {"string", "integer"}:
                 name = self.expr(key)
-                text = name.text if isinstance(name, ir.Text) else self.text(key)
-                pairs.append((text, self.expr(part.child_by_field_name("value"))))
-        return ir.Fields(tuple(pairs))
-
-    def _call(self, node: Node) -> ir.Expr:
-        args: list[ir.Expr] = []
-        named: list[tuple[str, ir.Expr]] = []
-        for part in self.children(node.child_by_field_name("arguments")):
-            if part.type == "keyword_argument":
-                name = self.text(part.child_by_field_name("name"))
-                named.append((name, self.expr(part.child_by_field_name("value"))))
-            else:
-                args.append(self.expr(part))
-        callee = self.expr(node.child_by_field_name("function"))
-        if callee == ir.Name("dict") and not args:
-            return ir.Fields(tuple(named))
-        return ir.Call(callee, tuple(args), tuple(named))
+                text = name.text if isinstance(name, ir.Text | ir.Literal) else ""
+                yield text, self.expr(part.child_by_field_name("value"))
 
     def _place(self, node: Node) -> ir.Expr:
         """An index, or a slice: its end is not in it."""
@@ -203,11 +158,11 @@ class PythonLowering(Lowering):
         return ir.Range(ends[0], last)
 
 
-def find(text: str, source: str) -> list[FoundTable]:
-    """The tables of a Python source."""
-    return tables_in(text, source, NAME, lambda x: PythonLowering(x).module(), base=0)
-
-
-READER = Reader(
-    NAME, "Python: NumPy arrays, lists, Fractions, scipy's RungeKutta", (".py", ".pyi"), find
+READER = reader(
+    PythonLowering,
+    NAME,
+    "Python: NumPy arrays, lists, Fractions, scipy's RungeKutta",
+    (".py", ".pyi"),
+    base=0,
 )
+find = READER.find
