@@ -249,27 +249,34 @@ def _of_trouble(table: FoundTable) -> AuditFinding:
 
 def _order(subject: Subject) -> Iterator[AuditFinding]:
     """The declared order against the true one."""
-    declared, found = subject.table.order, subject.order
-    if declared is None or found.is_limited:
+    declared = subject.table.order
+    finding = _held(subject.order, declared, "order", subject.tableau)
+    if finding is None or declared is None or finding.level != "error":
+        yield from [] if finding is None else [finding]
         return
-    if subject.misses_order:
-        if _is_transposed(subject):
-            message = f"with the matrix transposed the order is {declared}"
-            message = f"order {found.order}, declared {declared}: {message}"
-            yield AuditFinding("transposed", message)
-            return
-        if _is_of_nystrom(subject, declared):
-            message = f"order {declared} where q' = p, and else {found.order}"
-            yield AuditFinding("order", message, level="warning")
-            return
-        message = f"order {found.order}, declared {declared}"
-        message += _witness(found, subject.tableau)
-        yield AuditFinding("order", message, _culprit(subject, declared))
-    elif found.order < declared:
-        yield _open(found, declared, "order")
-    elif found.order > declared:
-        message = f"order {found.order}, declared {declared}"
-        yield AuditFinding("order-higher", message, level="warning")
+    found = subject.order.order
+    if _is_transposed(subject):
+        message = f"with the matrix transposed the order is {declared}"
+        yield AuditFinding("transposed", f"order {found}, declared {declared}: {message}")
+    elif _is_of_nystrom(subject, declared):
+        message = f"order {declared} where q' = p, and else {found}"
+        yield replace(finding, message=message, level="warning")
+    else:
+        yield replace(finding, help=_culprit(subject, declared))
+
+
+def _held(found: Judged, declared: int | None, what: str, tableau: Tableau) -> AuditFinding | None:
+    """What is wrong with a declared order; None where it holds or is not decided."""
+    if declared is None or found.is_limited or found.order == declared:
+        return None
+    code, message = what.replace(" ", "-"), f"{what} {found.order}, declared {declared}"
+    if found.order > declared:
+        return AuditFinding(f"{code}-higher", message, level="warning")
+    if not found.is_open:
+        return AuditFinding(code, message + _witness(found, tableau))
+    known = f"{what} {declared} is declared, {found.order} is proved"
+    why = f"rounding may be why the conditions of {found.order + 1} fail"
+    return AuditFinding("open", f"{known}: {why}", level="note")
 
 
 def _said(subject: Subject) -> Iterator[AuditFinding]:
@@ -280,12 +287,6 @@ def _said(subject: Subject) -> Iterator[AuditFinding]:
     if found.order < said <= HIGH and not _is_explained("said", subject):
         message = f"order {found.order}, a comment or docstring says {said}"
         yield AuditFinding("order", message + _witness(found, subject.tableau), level="warning")
-
-
-def _open(found: Judged, declared: int, what: str) -> AuditFinding:
-    known = f"{what} {declared} is declared, {found.order} is proved"
-    message = f"{known}: rounding may be why the conditions of {found.order + 1} fail"
-    return AuditFinding("open", message, level="note")
 
 
 def _witness(found: Judged, tableau: Tableau) -> str:
@@ -320,23 +321,19 @@ def _culprit(subject: Subject, declared: int) -> str:
     rows = subject.wrong_rows
     if len(rows) == 1:
         return rows[0]
-    repair = _repair(subject, subject.tableau, subject.order, declared)
-    return f"order {declared} would hold with {repair}" if repair else ""
-
-
-def _repair(subject: Subject, tableau: Tableau, found: Judged, declared: int) -> str:
-    """The one entry whose change restores an order, in words; empty where it is not known."""
-    stages = sum(space.stages for space in tableau.spaces)
-    if stages > MAX_BLAMED or found.witness is None:
+    stages = sum(space.stages for space in subject.tableau.spaces)
+    witness = subject.order.witness
+    if stages > MAX_BLAMED or witness is None:
         return ""
     from garkcli.order.blame import Missed, blame_of
 
     near = 100 * subject.rounded.tolerance
-    missed = Missed(found.witness.tree.order, declared, tolerance=near, near=near)
-    blame = blame_of(tableau, missed)
+    missed = Missed(witness.tree.order, declared, tolerance=near, near=near)
+    blame = blame_of(subject.tableau, missed)
     if blame is None or len(blame.repairs) != 1:
         return ""
-    return str(repair_text(blame.repairs[0], [colour.name for colour in tableau.colours]))
+    repair = repair_text(blame.repairs[0], [colour.name for colour in subject.tableau.colours])
+    return f"order {declared} would hold with {repair}"
 
 
 def _embedded(subject: Subject) -> Iterator[AuditFinding]:
@@ -344,24 +341,14 @@ def _embedded(subject: Subject) -> Iterator[AuditFinding]:
     found = subject.embedded_order
     if found is None or subject.method.embedded is None:
         return
-    declared = subject.table.embedded_order
     if not found.order and not found.is_open:
         total = _sums(subject.method.embedded)
-        message = f"the embedded weights have the sum {total}"
-        yield AuditFinding("embedded-weights", message)
-        return
-    if declared is None or found.is_limited or _explains(subject, found):
-        return
-    if found.order < declared and found.is_open:
-        yield _open(found, declared, "embedded order")
-    elif found.order < declared:
+        yield AuditFinding("embedded-weights", f"the embedded weights have the sum {total}")
+    elif not _explains(subject, found):
         tableau = with_weights(subject.tableau, subject.method.embedded)
-        message = f"embedded order {found.order}, declared {declared}"
-        message += _witness(found, tableau)
-        yield AuditFinding("embedded-order", message)
-    elif found.order > declared:
-        message = f"embedded order {found.order}, declared {declared}"
-        yield AuditFinding("embedded-order-higher", message, level="warning")
+        declared = subject.table.embedded_order
+        finding = _held(found, declared, "embedded order", tableau)
+        yield from [] if finding is None else [finding]
 
 
 def _explains(subject: Subject, found: Judged) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
+from typing import TypeAlias
 
 from flint import fmpq
 
@@ -25,6 +26,8 @@ from garkcli.page.plaintext import plain_line
 from garkcli.sources.found import FoundTable, Row, Rows
 from garkcli.tableau.embedded import with_weights
 
+Tree: TypeAlias = "str | Sequence[Tree] | Mapping[str, Tree] | None"
+"""What is in a method file: words, rows of numbers, lists and mappings of these."""
 SHORT = 8
 """A decimal with fewer digits is written as a fraction."""
 _LONG = re.compile(rf"[0-9]{{{SHORT},}}|[0-9]\.[0-9]{{{SHORT - 1},}}")
@@ -132,12 +135,18 @@ def digits_of(method: MethodFile, table: FoundTable) -> Digits:
     """How exactly the coefficients of a table are written: also those that its method file has as
     fractions.
     """
-    rows = [row for blocks in table.A for block in blocks for row in block or ()]
-    rows += [*table.b, *(row for row in table.c if row), *(table.embedded or ())]
-    texts = {x for row in rows for x in row if len(x) > FEWEST_DIGITS and "." in x}
+    texts = {x for x in numbers_of(table) if len(x) > FEWEST_DIGITS and "." in x}
     short = [(parse(x), fmpq_of(x)) for x in sorted(texts) if _fraction(x)]
     units: dict[Number, fmpq] = {fmpq_of(text): unit for text, unit in table.units}
     return Digits((*method.printed, *short), units)
+
+
+def numbers_of(table: FoundTable) -> Iterator[str]:
+    """The coefficients of a table, but for its dense output."""
+    blocks = [block or () for blocks in table.A for block in blocks]
+    for rows in (*blocks, table.b, [row or () for row in table.c], table.embedded or ()):
+        for row in rows:
+            yield from row
 
 
 def place_of(table: FoundTable) -> str:
@@ -185,7 +194,7 @@ def written(table: FoundTable, name: str, tolerance: fmpq | None, claims: Mappin
     lines = [f"# from {whence}, read as {table.format}", "gark: 1"]
     if name:
         lines.append(f"name: {quoted(name)}")
-    lines += _coefficients(table)
+    lines += _lines(_coefficients(table), "")
     if tolerance:
         lines.append(f"tolerance: {decimal(tolerance)}")
     if claims:
@@ -194,88 +203,53 @@ def written(table: FoundTable, name: str, tolerance: fmpq | None, claims: Mappin
     return "\n".join(lines) + "\n"
 
 
-def _coefficients(table: FoundTable) -> Iterator[str]:
-    if table.parts:
-        yield from _prk(table)
-    elif table.colours == 1 and table.A[0][0] is not None:
-        block = table.A[0][0]
-        yield "A:"
-        yield from _rows(block, 2)
-        yield f"b: {row_text(table.b[0])}"
-        yield from _single(table.c[0], "c")
-        if table.embedded is not None:
-            yield f"embedded: {row_text(table.embedded[0])}"
-        if table.dense is not None:
-            yield from _polynomials(table.dense[:1], "")
-    elif len(table.A) == 1:
-        yield from _ark(table)
-    else:
-        yield from _blocks(table)
-
-
-def _single(row: Row | None, key: str, indent: str = "") -> Iterator[str]:
-    if row is not None:
-        yield f"{indent}{key}: {row_text(row)}"
-
-
-def _rows(rows: Sequence[Row], indent: int) -> Iterator[str]:
-    for row in rows:
-        yield " " * indent + f"- {row_text(row)}"
-
-
-def _ark(table: FoundTable) -> Iterator[str]:
-    yield "ark:"
-    yield from _single(table.c[0], "c", "  ")
-    yield "  A:"
-    for block in table.A[0]:
-        yield "    -"
-        yield from _rows(block or (), 6)
-    yield from _weights(table)
-
-
-def _blocks(table: FoundTable) -> Iterator[str]:
-    yield "tableau:"
-    if any(row is not None for row in table.c):
-        yield "  c:"
-        for l, row in enumerate(table.c):
-            yield f"    - {row_text(row or _sums(table, l))}"
-    yield "  A:"
-    for blocks in table.A:
-        dash = "    - -"
-        for block in blocks:
-            yield f"{dash} null" if block is None else dash
-            yield from _rows(block or (), 8)
-            dash = "      -"
-    yield from _weights(table)
-    if table.linear:
-        numbers = ", ".join(str(l + 1) for l in table.linear)
-        yield f"linear: [{numbers}]"
-
-
-def _weights(table: FoundTable) -> Iterator[str]:
-    """The weights of several colours, a row each, and those beside them."""
-    yield "  b:"
-    yield from _rows(table.b, 4)
-    if table.embedded is not None:
-        yield "  embedded:"
-        yield from _rows(table.embedded, 4)
-    if table.dense is not None:
-        yield from _polynomials(table.dense, "  ")
-
-
-def _polynomials(dense: Sequence[Rows], indent: str) -> Iterator[str]:
-    """Dense output, a block for each of several colours."""
-    degree = max(len(row) for rows in dense for row in rows)
-    yield f"{indent}dense:"
-    yield f"{indent}  degree: {degree}"
-    yield f"{indent}  weights:"
-    depth = len(indent) + 4
-    for rows in dense:
-        if len(dense) > 1:
-            yield f"{indent}    -"
-            yield from _rows(rows, depth + 2)
+def _lines(value: Mapping[str, Tree] | Sequence[Tree], indent: str) -> Iterator[str]:
+    """YAML: what is known under its keys, or items behind dashes; rows in brackets."""
+    is_keyed = isinstance(value, Mapping)
+    pairs = value.items() if isinstance(value, Mapping) else (("-", x) for x in value)
+    for key, x in pairs:
+        head = f"{indent}{key}:" if is_keyed else f"{indent}-"
+        if x is None:
+            yield from () if is_keyed else (f"{head} null",)
+        elif isinstance(x, str):
+            yield f"{head} {x}"
+        elif isinstance(x, Mapping) or not all(isinstance(number, str) for number in x):
+            yield head
+            yield from _lines(x, f"{indent}  ")
         else:
-            yield from _rows(rows, depth)
+            yield f"{head} {row_text([str(number) for number in x])}"
+
+
+def _coefficients(table: FoundTable) -> Mapping[str, Tree]:
+    """What a method file has of the coefficients."""
+    if table.parts:
+        return _prk(table)
+    if table.colours == 1 and table.A[0][0] is not None:
+        return _colour(table, 0, table.A[0][0], table.c[0])
+    weights = {"b": table.b, "embedded": table.embedded, "dense": _polynomials(table.dense)}
+    if len(table.A) == 1:
+        return {"ark": {"c": table.c[0], "A": table.A[0], **weights}}
+    nodes = [row or _sums(table, l) for l, row in enumerate(table.c)]
+    linear = ", ".join(str(l + 1) for l in table.linear)
+    return {
+        "tableau": {"c": nodes if any(table.c) else None, "A": table.A, **weights},
+        "linear": f"[{linear}]" if linear else None,
+    }
+
+
+def _colour(table: FoundTable, l: int, A: Rows | None, c: Row | None) -> Mapping[str, Tree]:
+    """One vector field: its matrix, its nodes, its weights and those beside them."""
+    embedded = None if table.embedded is None else table.embedded[l]
+    dense = None if table.dense is None else table.dense[l : l + 1]
+    return {"A": A, "b": table.b[l], "c": c, "embedded": embedded, "dense": _polynomials(dense)}
+
+
+def _polynomials(dense: Sequence[Rows] | None) -> Mapping[str, Tree] | None:
+    """Dense output, a block for each of several colours."""
+    if dense is None:
+        return None
+    degree = max(len(row) for rows in dense for row in rows)
+    return {"degree": str(degree), "weights": dense if len(dense) > 1 else dense[0]}
 
 
 def _sums(table: FoundTable, l: int) -> Row:
@@ -286,31 +260,17 @@ def _sums(table: FoundTable, l: int) -> Row:
     return tuple(" + ".join(f"({x})" for x in row) for row in block)
 
 
-def _prk(table: FoundTable) -> Iterator[str]:
+def _prk(table: FoundTable) -> Mapping[str, Tree]:
     """The form ``prk``: the rows of q.A are the positions at which forces are evaluated."""
     is_shared = len(table.A) == 1
-    grid = table.A
-    A_p = grid[0][1]
-    A_q = grid[0][0] if is_shared else grid[1][0]
-    c_p = table.c[0]
-    c_q = table.c[0] if is_shared else table.c[1]
-    yield "prk:"
-    parts = (("q", A_q, c_q), ("p", A_p, c_p))
-    for number, (name, block, nodes) in enumerate(parts):
-        yield f"  {name}:"
-        yield "    A:"
-        yield from _rows(block or (), 6)
-        yield f"    b: {row_text(table.b[number])}"
-        yield from _single(nodes, "c", "    ")
-        if table.embedded is not None:
-            yield f"    embedded: {row_text(table.embedded[number])}"
-        if table.dense is not None:
-            yield from _polynomials([table.dense[number]], "    ")
+    of_q = 0 if is_shared else 1
+    q = _colour(table, 0, table.A[of_q][0], table.c[of_q])
+    p = _colour(table, 1, table.A[0][1], table.c[0])
     structure = "general" if is_shared else table.structure or "separable"
-    yield f"structure: {structure}"
+    return {"prk": {"q": q, "p": p}, "structure": structure}
 
 
-def row_text(row: Row) -> str:
+def row_text(row: Sequence[str]) -> str:
     """A row of a method file."""
     return f"[{', '.join(map(entry_text, row))}]"
 

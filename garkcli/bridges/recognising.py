@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
 
 from flint import arb, ctx, fmpq, fmpq_poly, fmpz_poly
 
-from garkcli.bridges.importing import Imported, imported
+from garkcli.bridges.importing import Imported, imported, numbers_of
 from garkcli.design.search.recognise import minimal_polynomial, rational
 from garkcli.errors import MethodFileError
 from garkcli.exact.display import decimal
@@ -17,7 +18,7 @@ from garkcli.exact.polynomial_text import polynomial_text, root_text
 from garkcli.exact.roots import RealRoot, real_roots
 from garkcli.frozen import Frozen, replace
 from garkcli.order.tolerance import rounded_up
-from garkcli.sources.found import FoundTable, Row, Rows
+from garkcli.sources.found import FoundTable
 
 FEWEST_DIGITS = 6
 """Decimals with fewer digits are exact already."""
@@ -116,43 +117,18 @@ def _with(table: FoundTable, proposals: Sequence[Proposal], name: str) -> Import
 def _changed(table: FoundTable, exact: Mapping[str, str]) -> FoundTable:
     """The table with other texts; what the source says of its rounding goes."""
 
-    def row(numbers: Row) -> Row:
-        return tuple(exact.get(x, x) for x in numbers)
+    def changed(value: Any) -> Any:
+        if isinstance(value, tuple):
+            return tuple(map(changed, value))
+        return exact.get(value, value)
 
-    def rows(numbers: Rows) -> Rows:
-        return tuple(map(row, numbers))
-
-    blocks = [tuple(None if x is None else rows(x) for x in of_colour) for of_colour in table.A]
-    embedded = None if table.embedded is None else rows(table.embedded)
-    nodes = tuple(None if c is None else row(c) for c in table.c)
-    return replace(
-        table, A=tuple(blocks), b=rows(table.b), c=nodes, embedded=embedded, tolerance=""
-    )
+    numbers = {key: changed(getattr(table, key)) for key in ("A", "b", "c", "embedded")}
+    return replace(table, **numbers, tolerance="")
 
 
 def _decimals(table: FoundTable) -> Iterator[str]:
     """The different decimals of a table that may be rounded, in order."""
-    seen: dict[str, None] = {}
-
-    def look(text: str) -> str:
-        if _digits(text) >= FEWEST_DIGITS:
-            seen.setdefault(text)
-        return text
-
-    _changed(table, _Looking(look))
-    yield from seen
-
-
-class _Looking(dict[str, str]):
-    """A mapping that hears what is looked up, and changes nothing."""
-
-    def __init__(self, look: Callable[[str], str]) -> None:
-        super().__init__()
-        self._look = look
-
-    def get(self, key: str, default: str = "") -> str:  # type: ignore[override]
-        del default
-        return self._look(key)
+    yield from dict.fromkeys(x for x in numbers_of(table) if _digits(x) >= FEWEST_DIGITS)
 
 
 def _digits(text: str) -> int:

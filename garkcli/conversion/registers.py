@@ -113,18 +113,22 @@ def in_two_registers(
     differences = [[y - x for x, y in zip(*rows[m : m + 2], strict=True)] for m in range(stages)]
     factors: list[Any] = [0]
     for i in range(1, stages):
-        pairs = [(row[i - 1], row[i]) for row in differences[i:] if row[i]]
+        pairs = [(row[i - 1], row[i]) for row in differences[i:]]
+        ratios = [pair for pair in pairs if pair[1]]
         if tolerance:
-            pairs.sort(key=lambda pair: -abs(float(to_ball(pair[1]))))
-        factors.append(pairs[0][0] / pairs[0][1] if pairs else 0)
+            ratios.sort(key=lambda pair: -abs(float(to_ball(pair[1]))))
+        factor = ratios[0][0] / ratios[0][1] if ratios else 0
+        if not tolerance and any(x - factor * y for x, y in pairs):
+            return i
+        factors.append(factor)
     weights = [row[i] for i, row in enumerate(differences)]
-    made = two_registers(factors, weights)
-    # a column that is right makes the one before it
-    for i in reversed(range(1, stages)):
-        for row, again in zip(rows, [*made.A, made.b], strict=True):
-            off = row[i - 1] - again[i - 1]
-            if off and not (tolerance and within(off, tolerance)):
-                return i
+    if tolerance:
+        made = two_registers(factors, weights)
+        # a column that is right makes the one before it
+        for i in reversed(range(stages)):
+            columns = [(x[i], y[i]) for x, y in zip(rows, [*made.A, made.b], strict=True)]
+            if not all(within(x - y, tolerance) for x, y in columns):
+                return i + 1
     return factors, weights
 
 

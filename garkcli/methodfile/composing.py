@@ -186,6 +186,21 @@ MOST_LOOKED_AT = 20_000
 """Characters of a file that are examined."""
 _READS = "gark import {file} reads it"
 _PASTED = "gark new FILE --tableau - < {file} makes a method file of it"
+_PROGRAMS = (
+    ".c",
+    ".h",
+    ".cc",
+    ".cpp",
+    ".cxx",
+    ".hpp",
+    ".hh",
+    ".cu",
+    ".jl",
+    ".py",
+    ".f90",
+    ".m",
+    ".wl",
+)
 _LOOKS: tuple[tuple[str, str], ...] = (
     (
         r"\\(begin|frac|dfrac|hline|sqrt)\b|\\\\\s*$",
@@ -219,11 +234,15 @@ def cure_of_foreign(text: str, name: str, is_yaml: bool) -> str:
         name: what it is called.
         is_yaml: whether it is YAML all the same, a text or a list.
 
-    >>> cure_of_foreign("A = [0 0; 1/2 0];", "m.m", True)
-    'this looks like a program: gark import m.m reads it; a method file has A: in place of A ='
+    >>> cure_of_foreign("A = [0 0; 1/2 0];", "m.txt", True)
+    'this looks like a program: gark import m.txt reads it; a method file has A: in place of A ='
+    >>> cure_of_foreign("// rk4", "rk4.cpp", True)
+    'this is a program: gark import rk4.cpp reads it'
     >>> cure_of_foreign("hello", "m.yaml", True)
     ''
     """
+    if name.lower().endswith(_PROGRAMS):
+        return f"this is a program: {_READS}".replace("{file}", printable(name))
     looked_at = text[:MOST_LOOKED_AT]
     looks = (*_LOOKS, *_WITHOUT_KEYS) if is_yaml else _LOOKS
     for pattern, cure in looks:

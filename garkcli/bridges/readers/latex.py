@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections import deque
 from collections.abc import Iterator, Mapping
+from itertools import pairwise
 
 from garkcli.bridges.readers.latex_numbers import number_of
 from garkcli.bridges.readers.printed import Nested, found_in, printed
@@ -57,23 +58,13 @@ _Array = tuple[int, str, str, str]
 
 def _arrays(text: str) -> Iterator[_Array]:
     """The line of each array, what is before it, its columns and its rows."""
-    place = 0
     line = 1
-    counted = 0
-    while True:
-        begin = _BEGIN.search(text, place)
-        if begin is None:
-            return
-        end = _END.search(text, begin.end())
-        if end is None:
-            return
-        line += text.count("\n", counted, begin.start())
-        counted = begin.start()
-        columns, body = _columns(text[begin.end() : end.start()])
-        if len(body) <= MAX_ARRAY:
-            before = text[max(0, begin.start() - 60) : begin.start()]
-            yield line, before, columns, body
-        place = end.end()
+    for before, inside in pairwise(_BEGIN.split(text)):
+        line += before.count("\n")
+        end = _END.search(inside)
+        columns, body = _columns(inside[: end.start()]) if end else ("", "")
+        if end and len(body) <= MAX_ARRAY:
+            yield line, before[-60:], columns, body
 
 
 def _columns(inside: str) -> tuple[str, str]:
