@@ -43,7 +43,7 @@ class Lowering:
         unfollowed: loops that have no names and ranges.
         passed: statements that may change values in ways that are not followed.
         statements: the methods that lower other statements.
-        expressions: what the nodes are that are lowered alike in several languages, see ``kinds``.
+        expressions: nodes that several languages have, see ``kinds``.
     """
 
     grammar: ClassVar[Language]

@@ -307,13 +307,12 @@ class CLowering(Lowering):
             case "compound_literal_expression" if inside:
                 return self._with_fields(self.expr(inside[-1]), field("type"), line_of(node))
             case "initializer_list":
-                pairs = tuple(
-                    (self.text(x.named_children[0]).lstrip("."), self.expr(x.named_children[-1]))
-                    for x in inside
-                    if x.named_children
+                if all(x.type != "initializer_pair" for x in inside):
+                    return ir.Items(self.exprs(inside))
+                pairs = [x.named_children for x in inside if x.named_children]
+                return ir.Fields(
+                    tuple((self.text(x[0]).lstrip("."), self.expr(x[-1])) for x in pairs)
                 )
-                is_named = any(x.type == "initializer_pair" for x in inside)
-                return ir.Fields(pairs) if is_named else ir.Items(self.exprs(inside))
             case "call_expression":
                 return self._called(
                     field("function"), self.exprs(self.children(field("arguments")))
