@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import islice, zip_longest
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, TypeAlias
 
 from flint import arb, fmpq
 
@@ -57,7 +57,21 @@ FEW = 4
 """So many of a list are named; the others are counted."""
 
 
+Cells: TypeAlias = Sequence[str]
 _NUMBER = re.compile(r"[-−±<>≥≤~ ]*[0-9].{,20}$|$|unknown$")
+
+
+class Layout(NamedTuple):
+    """How a table stands on a page: how far in, whether last words may be cut, whether its rows
+    come one by one.
+    """
+
+    depth: int = 0
+    is_cut: bool = False
+    is_stream: bool = False
+
+
+WHOLE = Layout()
 
 
 def _broken(text: str, width: int) -> list[str]:
@@ -354,31 +368,20 @@ class Plain(Mutable):
             lines += [margin + " " * room + line for line in rest]
         return lines
 
-    def grid(
-        self,
-        head: Sequence[str],
-        rows: Iterable[Sequence[str]],
-        depth: int = 0,
-        is_cut: bool = False,
-        is_stream: bool = False,
-    ) -> Iterator[str]:
+    def grid(self, head: Cells, rows: Iterable[Cells], how: Layout = WHOLE) -> Iterator[str]:
         """A table. A last column of words is folded where it does not fit, or cut where that may
         be; other columns that do not fit continue below, each time beside the first one. Of a
         stream columns are as wide as its rows so far ask for.
         """
-        found = self._stream(head, rows, depth)
-        if not is_stream:
-            found = self._whole(head, rows, depth, is_cut)
-        for line in found:
-            yield "  " * depth + line
+        find = self._stream if how.is_stream else self._whole
+        for line in find(head, rows, how):
+            yield "  " * how.depth + line
 
-    def _whole(
-        self, head: Sequence[str], rows: Iterable[Sequence[str]], depth: int, is_cut: bool
-    ) -> Iterator[str]:
+    def _whole(self, head: Cells, rows: Iterable[Cells], how: Layout) -> Iterator[str]:
         columns = self._columns([head, *rows])
         widths = [max(map(_cell_width, column)) for column in columns]
-        room = self.width - 2 * depth
-        is_cut = is_cut and self.is_brief
+        room = self.width - 2 * how.depth
+        is_cut = how.is_cut and self.is_brief
         if is_cut:
             widths[0] = min(widths[0], NAME)
         last = room - sum(widths[:-1]) - 2 * (len(columns) - 1)
@@ -402,13 +405,11 @@ class Plain(Mutable):
             start = end
             is_begun = True
 
-    def _stream(
-        self, head: Sequence[str], rows: Iterable[Sequence[str]], depth: int
-    ) -> Iterator[str]:
+    def _stream(self, head: Cells, rows: Iterable[Cells], how: Layout) -> Iterator[str]:
         """Where a table is too wide, long names have lines of their own, and the last column is as
         wide as words need.
         """
-        room = self.width - 2 * depth - 2 * (len(head) - 1)
+        room = self.width - 2 * how.depth - 2 * (len(head) - 1)
         heads = [head]
         widest = [0] * len(head)
         left = iter(rows)
@@ -423,10 +424,10 @@ class Plain(Mutable):
                 widths[-1] = min(widest[-1], max(room - sum(widths[:-1]), WORDS))
                 if sum(widths) <= room:
                     break
-            yield from _beside(columns, widths, self.width - 2 * depth, len(heads))
+            yield from _beside(columns, widths, self.width - 2 * how.depth, len(heads))
             heads = []
 
-    def _columns(self, rows: Iterable[Sequence[str]]) -> list[tuple[str, ...]]:
+    def _columns(self, rows: Iterable[Cells]) -> list[tuple[str, ...]]:
         """The columns of a table in the signs of the output."""
         return [*zip(*([self.spelt(x) for x in row] for row in rows), strict=True)]
 

@@ -10,7 +10,7 @@ from garkcli.exact.display import to_latex, to_text
 from garkcli.exact.polynomial_text import polynomial_text
 from garkcli.page.exactly import polynomial_latex, quotient_latex
 from garkcli.page.plain import printable
-from garkcli.tell.dialect import LONG, LONG_POLYNOMIAL, Plain
+from garkcli.tell.dialect import LONG, LONG_POLYNOMIAL, WHOLE, Cells, Layout, Plain
 from garkcli.tell.latex import expression_latex
 
 if TYPE_CHECKING:
@@ -79,14 +79,7 @@ class Html(Plain):
         body = [f"<tr><th>{label}</th><td>{text}</td></tr>" for label, text in rows]
         return ["<table>", *body, "</table>"]
 
-    def grid(
-        self,
-        head: Sequence[str],
-        rows: Iterable[Sequence[str]],
-        depth: int = 0,
-        is_cut: bool = False,
-        is_stream: bool = False,
-    ) -> Iterator[str]:
+    def grid(self, head: Cells, rows: Iterable[Cells], how: Layout = WHOLE) -> Iterator[str]:
         def row(cells: Sequence[str], tag: str) -> str:
             return f"<tr>{''.join(f'<{tag}>{x}</{tag}>' for x in cells)}</tr>"
 

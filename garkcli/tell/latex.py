@@ -12,7 +12,7 @@ from garkcli.ntrees.notation import format_latex, parse_tree
 from garkcli.page.exactly import multivariate_latex, polynomial_latex
 from garkcli.page.latex_letters import greek
 from garkcli.page.plain import printable
-from garkcli.tell.dialect import Plain
+from garkcli.tell.dialect import WHOLE, Cells, Layout, Plain
 
 if TYPE_CHECKING:
     from garkcli.exact.cells import Interval
@@ -159,15 +159,8 @@ class Latex(Plain):
             r"\begin{tabular}{lp{.7\linewidth}}", r"\hline", *body, r"\hline", r"\end{tabular}", "",
         ]  # fmt: skip
 
-    def grid(
-        self,
-        head: Sequence[str],
-        rows: Iterable[Sequence[str]],
-        depth: int = 0,
-        is_cut: bool = False,
-        is_stream: bool = False,
-    ) -> Iterator[str]:
-        kind = "longtable" if is_stream else "tabular"
+    def grid(self, head: Cells, rows: Iterable[Cells], how: Layout = WHOLE) -> Iterator[str]:
+        kind = "longtable" if how.is_stream else "tabular"
         yield rf"\begin{{{kind}}}{{{'l' * len(head)}}}"
         yield r"\hline"
         yield rf"{' & '.join(head)} \\"

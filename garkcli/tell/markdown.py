@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from garkcli.page.plain import printable
-from garkcli.tell.dialect import Plain
+from garkcli.tell.dialect import WHOLE, Cells, Layout, Plain
 
 if TYPE_CHECKING:
     from garkcli.tableau.pointwise import Entries
@@ -49,14 +49,7 @@ class Markdown(Plain):
     def rows(self, rows: Sequence[tuple[str, str]], depth: int = 1) -> list[str]:
         return ["| | |", "|---|---|", *(f"| {label} | {text} |" for label, text in rows), ""]
 
-    def grid(
-        self,
-        head: Sequence[str],
-        rows: Iterable[Sequence[str]],
-        depth: int = 0,
-        is_cut: bool = False,
-        is_stream: bool = False,
-    ) -> Iterator[str]:
+    def grid(self, head: Cells, rows: Iterable[Cells], how: Layout = WHOLE) -> Iterator[str]:
         yield f"| {' | '.join(head)} |"
         yield "|---" * len(head) + "|"
         for row in rows:

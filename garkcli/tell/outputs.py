@@ -10,7 +10,7 @@ from itertools import groupby
 from typing import Any, TypeAlias
 
 from garkcli.glossary.labels import label_of
-from garkcli.tell.dialect import Plain
+from garkcli.tell.dialect import Layout, Plain
 from garkcli.tell.facts import Fact, Level, Row, Section
 
 Form: TypeAlias = Callable[[Any], Section]
@@ -190,7 +190,7 @@ def stream(fact: Fact, d: Plain, depth: int) -> Iterator[str]:
         if heading:
             yield from d.title(heading, depth - 1)
         lines = ([cell(row.fact(part), d) for row in rows] for part in parts)
-        yield from d.grid(heads, lines, depth, is_stream=True)
+        yield from d.grid(heads, lines, Layout(depth, is_stream=True))
 
 
 def table(fact: Fact, d: Plain, level: Level, depth: int) -> Iterator[str]:
@@ -205,7 +205,7 @@ def table(fact: Fact, d: Plain, level: Level, depth: int) -> Iterator[str]:
         yield from d.title(label(fact, d), depth)
         depth += 1
     heads[0] = heads[0] or label(fact, d)
-    yield from d.grid(*filled(heads, rows), depth, section.is_cut)
+    yield from d.grid(*filled(heads, rows), Layout(depth, section.is_cut))
     if more := len(fact.value) - len(values):
         yield from d.more(more, depth + 1)
 
