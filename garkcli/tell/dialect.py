@@ -62,9 +62,7 @@ _NUMBER = re.compile(r"[-−±<>≥≤~ ]*[0-9].{,20}$|$|unknown$")
 
 
 class Layout(NamedTuple):
-    """How a table stands on a page: how far in, whether last words may be cut, whether its rows
-    come one by one.
-    """
+    """The margin of a table, whether its last words may be cut, whether it is a stream."""
 
     depth: int = 0
     is_cut: bool = False

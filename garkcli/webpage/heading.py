@@ -12,7 +12,6 @@ from garkcli.tell.dialect import Plain
 from garkcli.tell.outputs import cell, phrase, words
 from garkcli.webpage.mathml import Typeset
 from garkcli.webpage.reported import Content, Reported
-from garkcli.webpage.sections.orders import how
 
 MARKS = {0: "holds", 1: "fails", 2: "fault", 3: "fault"}
 """The class of a verdict, by the exit code of ``gark check``; with a claim undecided, open."""
@@ -69,7 +68,6 @@ def claims_text(outcome: Outcome) -> str:
 COLUMNS = {
     "claims": "claims_in_brief",
     "order": "order",
-    "how": "",
     "embedded": "embedded_order",
     "conjugate": "conjugate_order",
     "pair": "pair_order",
@@ -91,7 +89,6 @@ def comparison_row(method: Reported) -> Content:
         if key in facts and facts[key].value is not None:
             cells[column] = cell(facts[key], d)
     if tableau is not None:
-        cells["how"] = how(facts["order"])
         cells["stages"] = ", ".join([str(tableau.space(l).stages) for l in range(tableau.size)])
     if outcome.analysis is not None:
         cells["symmetric"] = str(verdict_words(outcome.analysis.subject.verdict("symmetric")))

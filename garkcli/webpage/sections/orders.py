@@ -7,12 +7,11 @@ from collections.abc import Iterator
 from markupsafe import Markup
 
 from garkcli.check.outcome import Outcome
-from garkcli.exact.display import decimal
 from garkcli.ntrees.notation import format_tree
 from garkcli.order.certificate import Witness
 from garkcli.report.check import hints
 from garkcli.report.checked import REPORT
-from garkcli.tell.facts import Fact, Level
+from garkcli.tell.facts import Level
 from garkcli.tell.outputs import cell, label, words
 from garkcli.webpage.mathml import Typeset, typeset, typeset_condition, typeset_number
 from garkcli.webpage.reported import Content, Reported
@@ -42,7 +41,7 @@ def content(method: Reported) -> Content | None:
 
 def _orders(outcome: Outcome) -> Iterator[Content]:
     """Every order that there is, in the order of ``gark check``, with the condition at which it
-    ends, and whether another one above ends there too.
+    ends, unless another one above ends there too.
     """
     d = Typeset(**REPORT.signs(outcome))
     facts = REPORT.form(outcome).named(outcome, {*ORDERS, *NOTES.values()})
@@ -61,27 +60,17 @@ def _orders(outcome: Outcome) -> Iterator[Content]:
             notes.append(text.format(problem))
         witness = fact.answer.more or getattr(fact.value, "witness", None)
         has_colours = len(d.colours) > 1 or key == "pair_order" or is_with_time
-        shown = None if witness is None else _witness(witness, has_colours)
-        where = ("", "") if witness is None else (str(witness.tree), str(witness.residual))
+        shown = None
+        if witness is not None and (where := (str(witness.tree), str(witness.residual))) not in met:
+            met.add(where)
+            shown = _witness(witness, has_colours)
         yield {
             "label": Markup(label(fact, d)),
             "number": Markup("none" if fact.value is None else cell(fact, d)),
-            "how": how(fact),
             "text": Markup(words(fact, d)),
             "witness": shown,
             "notes": notes,
-            "is_again": where in met,
         }
-        met |= {where} - {("", "")}
-
-
-def how(fact: Fact) -> str:
-    """How an order is known."""
-    status = fact.answer.status
-    text = "exact" if status.within is None else f"within {decimal(status.within)}"
-    if status.open:
-        return f"{text}, next not decided"
-    return f"{text}, at least" if status.at_least else text
 
 
 def _witness(witness: Witness, has_colours: bool) -> Content:
