@@ -214,7 +214,10 @@ def refuse_radicals(family: Family) -> None:
     if family.radicals:
         name = family.parameters[0]
         message = f"there are roots among the coefficients, beside {name}"
-        cure = "write the method as a family by name, whose nodes are not needed"
+        cure = (
+            "write the method as a family by name, whose nodes are not needed; --pair --p-stable"
+            " takes roots with --order"
+        )
         raise UsageProblem(message, cure, code="no-radicals")
 
 
