@@ -55,6 +55,7 @@ from garkcli.bridges.calls import export as export
 from garkcli.bridges.calls import import_methods as import_methods
 from garkcli.catalogue.mapping import Catalogue as Catalogue
 from garkcli.check.meanings import explain as explain
+from garkcli.cli.project import project_schema as project_schema
 from garkcli.errors import ExpressionError as ExpressionError
 from garkcli.errors import GarkError as GarkError
 from garkcli.errors import HasFreeParameters as HasFreeParameters

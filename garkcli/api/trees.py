@@ -69,16 +69,16 @@ def trees(order: Whole, colours: Whole = 1) -> Iterator[Tree]:
 
 
 def count_trees(
-    colours: Whole,
     order: Whole,
+    colours: Whole = 1,
     edges: Sequence[Sequence[bool]] | None = None,
     linear: Collection[int] = (),
 ) -> int:
     """The number of trees of an order, without making one.
 
     Args:
-        colours: how many a vertex may have, N.
         order: how many vertices, at least 1.
+        colours: how many a vertex may have, N.
         edges: shape (N, N), whether a vertex of the colour of the row may carry a branch whose root
             has the colour of the column; by default all may.
         linear: colours, counted from 1, whose vertices carry one branch at most.
@@ -86,9 +86,9 @@ def count_trees(
     Raises:
         TreeError: ``edges`` is no such matrix.
 
-    >>> [count_trees(1, n) for n in range(1, 9)]
+    >>> [count_trees(n) for n in range(1, 9)]
     [1, 1, 2, 4, 9, 20, 48, 115]
-    >>> count_trees(2, 5), count_trees(2, 5, edges=[[False, True], [True, False]])
+    >>> count_trees(5, 2), count_trees(5, 2, edges=[[False, True], [True, False]])
     (214, 18)
     """
     colours = whole(colours, "colours", 1)

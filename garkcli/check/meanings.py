@@ -254,7 +254,7 @@ def _of_message(text: str) -> Meaning:
     Raises:
         UsageProblem: it is none.
     """
-    code = code_of(text, _SURELY)
+    code = code_of(text.removeprefix("gark: "), _SURELY)
     if code == UNKNOWN:
         raise UsageProblem(f"no word {text!r}", _near(text), code="unknown-word")
     return fault_meaning(code)

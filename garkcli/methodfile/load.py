@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping
-from contextlib import suppress
 
 from garkcli.doing import doing
 from garkcli.errors import Fault, HasFreeParameters, MethodFileError
@@ -114,17 +113,14 @@ def works_in(text: str, source: str) -> tuple[Work, ...]:
     r"""Where the method of a file was published; without a reference where its parts were.
 
     Raises:
-        MethodFileError: the text is no YAML, or its reference has a fault.
+        MethodFileError: the text is no YAML, or its reference has a fault; or it has none, and it
+            is no method file.
 
     >>> [x[0][:8] for x in works_in("methods: [gauss-2, gauss-3]\ntransfer: collocation", "")]
     ['E. Haire', 'A. Zanna']
     """
     own = reference_of(text, source)
-    if own[0]:
-        return (own,)
-    with suppress(MethodFileError):  # of which the works say nothing
-        return works_of(described(text, source, NO_SETTINGS)[1])
-    return ()
+    return (own,) if own[0] else works_of(described(text, source, NO_SETTINGS)[1])
 
 
 def _free(reader: Reader, description: Description) -> MethodFileError:

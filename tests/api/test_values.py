@@ -122,7 +122,7 @@ def test_colours_count_from_one() -> None:
         garkcli.from_arrays({0: [[1]]}, {1: [1]})
     with pytest.raises(MethodError, match="b: 'x' is no colour"):
         garkcli.from_arrays({(1, 1): [[1]]}, {"x": [1]})
-    assert garkcli.count_trees(2, 3, linear=[1, 2]) == 8
+    assert garkcli.count_trees(3, 2, linear=[1, 2]) == 8
 
 
 def test_trees_that_there_are_none_of() -> None:
@@ -130,11 +130,11 @@ def test_trees_that_there_are_none_of() -> None:
     with pytest.raises(TreeError, match="at character 3; "):
         garkcli.elementary_weight("rk4", "[[")
     with pytest.raises(ValueError, match="edges must be"):
-        garkcli.count_trees(2, 3, edges=[[True]])
+        garkcli.count_trees(3, 2, edges=[[True]])
     for call in (
         lambda: garkcli.trees(0),
         lambda: garkcli.trees(2.5),
-        lambda: garkcli.count_trees(0, 3),
+        lambda: garkcli.count_trees(3, 0),
         lambda: garkcli.find_order("rk4", limit=0),
         lambda: garkcli.diagonal_method("gauss", "two"),
     ):

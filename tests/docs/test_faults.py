@@ -144,6 +144,8 @@ def test_the_example_has_the_fault(kind: FaultKind, monkeypatch: pytest.MonkeyPa
 def test_messages_are_words_of_explain() -> None:
     """A message that is pasted leads to its kind; nonsense does not."""
     (meaning,) = explain("the file: unknown key 'nam'; did you mean 'name'?")
+    (alone,) = explain("gark: --slow and --fast belong together")
+    assert alone.name == "option-alone"
     assert (meaning.kind, meaning.name) == ("error", "unknown-key")
     assert code_of("nonsense") == UNKNOWN
     run = gark("explain", "zzzq")

@@ -158,7 +158,7 @@ def test_trees_are_those_that_are_listed() -> None:
     """In the same order, and as many as are counted."""
     listed = shown("trees", "-n", "4", "--colours", "2", "--format", "csv")
     trees = list(garkcli.trees(4, colours=2))
-    assert len(trees) == garkcli.count_trees(2, 4) == 52
+    assert len(trees) == garkcli.count_trees(4, 2) == 52
     lines = listed.splitlines()[1:]
     assert len(lines) == len(trees)
     for tree, line in zip(trees, lines, strict=True):

@@ -69,6 +69,13 @@ def test_an_article_is_an_entry(tmp_path: Path) -> None:
     )
 
 
+def test_a_file_that_is_no_method_is_no_reference(tmp_path: Path) -> None:
+    """A misspelt family is a fault, not a method without a reference."""
+    (tmp_path / "a.yaml").write_text("methods: [gaus-2]\n", encoding="utf-8")
+    run = gark("cite", str(tmp_path / "a.yaml"))
+    assert (run.code, "did you mean 'gauss'?" in run.err) == (2, True)
+
+
 @pytest.mark.parametrize(
     ("fields", "kind"),
     [
@@ -137,7 +144,6 @@ def test_a_coupled_file_cites_its_families_and_the_paper(tmp_path: Path) -> None
         "own": "reference: Nobody 1999\nparameters: {t: 1}\n" + coupled,
         "legendre": "methods: [gauss-2, gauss-3]\ntransfer: legendre\n",
         "made": "compose: {of: {family: gauss, stages: 1}, steps: [1/2, 1/2]}\n",
-        "broken": "methods: [gaus-2]\n",
     }
     for name, text in texts.items():
         (tmp_path / name).write_text(text)
@@ -146,7 +152,6 @@ def test_a_coupled_file_cites_its_families_and_the_paper(tmp_path: Path) -> None
     assert works["free"] == [gauss, str(ZANNA)]
     assert works["own"] == ["Nobody 1999"]
     assert works["legendre"] == works["made"] == [gauss]
-    assert works["broken"] == [""]
 
 
 def test_a_reference_of_plain_text_is_a_note(tmp_path: Path) -> None:
