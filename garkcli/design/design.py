@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from functools import partial
-from itertools import chain
 from time import monotonic
 from typing import Literal, TypeAlias, cast, get_args
 
@@ -18,8 +18,8 @@ from garkcli.design.member import TABLEAUS, Whose, is_admissible, is_as_stable, 
 from garkcli.design.minimise.squared_error import squared_error
 from garkcli.design.msolve import find_msolve
 from garkcli.design.pairs import PairConditions, pair_conditions
-from garkcli.design.parts import Part, diagonal_unknowns, nodes_as_coordinates, parts_of
-from garkcli.design.real_points import has_methods, without_complex
+from garkcli.design.parts import Part, Pieces, diagonal_unknowns, nodes_as_coordinates, parts_of
+from garkcli.design.real_points import has_methods, has_point, without_complex
 from garkcli.design.solutions import Solution, solutions
 from garkcli.design.stable_parts import has_stable_method, joined, stable_part
 from garkcli.design.stable_plane import form_values
@@ -69,9 +69,9 @@ class Step(Frozen):
     Attributes:
         order: the order.
         kind: for which values it is reached.
-        ideal: the ideal of its conditions and of all lower ones; None where it was not found. Where
-            it is not proved it is msolve's: each zero has the order, that there are no others is
-            not proved.
+        ideal: the ideal of its conditions and of all lower ones, or its zeros in parts where its
+            basis is large; None where neither was found. Where it is not proved it is msolve's:
+            each zero has the order, that there are no others is not proved.
         witness: the first tree whose condition no value meets together with those before it; None
             where what is wanted besides the order cannot be met.
         polynomials: that are zero at these values and, but for zeros of ``nonzero``, nowhere else.
@@ -94,7 +94,7 @@ class Step(Frozen):
 
     order: int
     kind: Kind
-    ideal: Ideal | None
+    ideal: Ideal | Pieces | None
     witness: Tree | None = None
     polynomials: tuple[fmpq_mpoly | fmpz_mpoly, ...] = ()
     nonzero: tuple[fmpq_mpoly, ...] = ()
@@ -165,6 +165,8 @@ class Design(Shown, Frozen):
         """
         ideal, family = step.ideal, self.family
         assert ideal is not None
+        if isinstance(ideal, Pieces):
+            return list(ideal.parts)
         kept = diagonal_unknowns(self.tableau, ideal.ring) if family.stable else ()
 
         def generators() -> Iterator[fmpq_mpoly]:
@@ -273,7 +275,7 @@ class _Finding(Frozen):
         ]
         return Ideal(ring, nonzero).with_zeros(x.relation for x in self.family.radicals)
 
-    def _step(self, order: int, lower: Ideal | None) -> Step:
+    def _step(self, order: int, lower: Ideal | Pieces | None) -> Step:
         """What one order more asks of the parameters, and whatever else is wanted.
 
         Args:
@@ -284,13 +286,24 @@ class _Finding(Frozen):
             NotDecided: the time is not enough.
         """
         start = self._start()
-        if lower is None:
-            lower = start.with_zeros(self.family.relations)
         criterion = self.criterion
+        if lower is None:
+            relations = self.family.relations
+            if self.wanted is not None and criterion is None and not self.family.real:
+                with suppress(NotDecided), only_small():
+                    lower = start.with_zeros(relations)
+                if lower is None:
+                    check_time()
+                    with suppress(NotDecided):
+                        return self._in_pieces(self.wanted, self._conditions(self.wanted), start)
+            lower = lower or start.with_zeros(relations)
         if criterion is not None:
+            assert isinstance(lower, Ideal)
             ideal = lower.with_zeros(criterion.of_order(order))
             kind: Kind = "none" if ideal.is_everything else _kind(ideal, start)
             return Step(order, kind, ideal, criterion=criterion, is_of_real_values=order > 2)
+        if isinstance(lower, Pieces):
+            return self._in_pieces(order, self._conditions(order), start)
         coming = (x for x in self.conditions.of_order(order) if x.polynomial)
         ideal, done, large = _as_long_as_small(lower, coming)
         if large is not None:
@@ -300,6 +313,10 @@ class _Finding(Frozen):
                 *(x.polynomial for x in done),
             )
             new = [large, *coming]
+            with suppress(NotDecided):
+                if not self.family.real:  # solved by the criterion already
+                    return self._in_pieces(order, [*done, *new], start)
+            check_time()
             ideal, taken = ideal.with_zeros_in_turn([x.polynomial for x in new], known)
             done += new[:taken]
         is_of_real = bool(self.family.real)
@@ -308,15 +325,48 @@ class _Finding(Frozen):
             return Step(order, "none", ideal, witness, is_of_real_values=is_of_real)
         return Step(order, _kind(ideal, start), ideal, is_of_real_values=is_of_real)
 
+    def _in_pieces(self, order: int, new: Sequence[Condition], start: Ideal) -> Step:
+        """The zeros of the conditions of an order in parts, all that is linear solved first.
+
+        Args:
+            order: that is examined.
+            new: its conditions.
+            start: the ideal of the equations that all parameters satisfy.
+
+        Raises:
+            NotDecided: it is not done in a number of steps.
+        """
+        known = [*self._relations, *self._conditions_below(order)]
+        tableau, ring = self.conditions.tableau, self.family.ring
+        kept = diagonal_unknowns(tableau, ring) if self.family.stable else ()
+        changes = nodes_as_coordinates(tableau, ring)
+
+        def pieces(count: int) -> Pieces:
+            """Those of the first conditions."""
+            zeros = [*known, *(x.polynomial for x in new[:count])]
+            return Pieces.of(zeros, start.nonzero, changes, kept)
+
+        found, is_of_real = pieces(len(new)), bool(self.family.real)
+        if not found.is_everything:
+            if found.dimension > 0:
+                return Step(order, "family", found, is_of_real_values=is_of_real)
+            return Step(order, "solutions", found.ideal(start), is_of_real_values=is_of_real)
+        few = bisect_left(range(len(new)), x=True, key=lambda k: pieces(k).is_everything)
+        witness = new[few - 1].tree if few else None
+        return Step(order, "none", found, witness, is_of_real_values=is_of_real)
+
     @property
     def _relations(self) -> list[fmpq_mpoly]:
         """What parameters satisfy besides the order: roots, and what the file wants."""
         return [*(x.relation for x in self.family.radicals), *self.family.relations]
 
+    def _conditions(self, order: int) -> list[Condition]:
+        """The conditions of an order that are not met by every value."""
+        return [x for x in self.conditions.of_order(order) if x.polynomial]
+
     def _conditions_below(self, order: int) -> list[fmpq_mpoly]:
         """The conditions of all orders below one."""
-        lower = (self.conditions.of_order(k) for k in range(1, order))
-        return [x.polynomial for x in chain.from_iterable(lower) if x.polynomial]
+        return [x.polynomial for k in range(1, order) for x in self._conditions(k)]
 
     def _at_once(self, order: int) -> Step:
         """All conditions up to an order in one system, by msolve.
@@ -338,16 +388,22 @@ class _Finding(Frozen):
         if ideal is None:
             return step
         try:
-            solved = None if self.criterion is None else self.criterion.solved(ideal)
+            solved = None
+            if self.criterion is not None and isinstance(ideal, Ideal):
+                solved = self.criterion.solved(ideal)
             polynomials, nonzero = _described(ideal) if solved is None else (solved, [])
             step = replace(step, polynomials=tuple(polynomials), nonzero=tuple(nonzero))
-            if step.kind == "solutions":
+            if step.kind == "solutions" and isinstance(ideal, Ideal):
                 step = replace(step, found=self._found(ideal))
         except NotDecided:
             return replace(step, kind="undecided")
         if not is_last or step.kind not in {"every-value", "family"}:
             return step
         left = seconds_left()
+        if isinstance(ideal, Pieces):
+            with suppress(NotDecided), within(None if left is None else PART * left):
+                return self._with_real_pieces(step, ideal)
+            return step
         if self.criterion is not None and self.family.stable:
             with suppress(NotDecided), within(None if left is None else STABLE * left):
                 return self._with_stable_transfers(step, ideal, self.criterion)
@@ -381,6 +437,17 @@ class _Finding(Frozen):
             if False in have or have == [True]:
                 return replace(step, is_real=False not in have)
         return replace(step, is_real=has_methods(self.family, ideal, real, self._is_method))
+
+    def _with_real_pieces(self, step: Step, pieces: Pieces) -> Step:
+        """A family in parts with what is known of its real values.
+
+        Raises:
+            NotDecided: the time is not enough.
+        """
+        if self.family.stable:
+            return self._with_stable(step)
+        found = (has_point(self.family, part, self._is_method) for part in pieces.parts)
+        return replace(step, is_real=any(found) or None)
 
     def _with_stable(self, step: Step) -> Step:
         """A family of which stable methods are wanted with what is known of them.
@@ -498,13 +565,15 @@ def _as_long_as_small(
     return ideal, done, None
 
 
-def _described(ideal: Ideal) -> tuple[Sequence[fmpq_mpoly | fmpz_mpoly], list[fmpq_mpoly]]:
+def _described(ideal: Ideal | Pieces) -> tuple[Sequence[fmpq_mpoly | fmpz_mpoly], list[fmpq_mpoly]]:
     """Polynomials and others such that the zeros of the first at which none of the others is zero
     are those of an ideal.
 
     Raises:
         NotDecided: the time is not enough.
     """
+    if isinstance(ideal, Pieces):
+        return [without_multiples(p) for p in ideal.equations], list(ideal.nonzero)
     if ideal.dimension <= 0:
         return ideal.polynomials, []
     with suppress(NotDecided), only_small():

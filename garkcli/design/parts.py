@@ -16,8 +16,8 @@ from flint import fmpq, fmpq_mpoly, fmpq_poly
 from garkcli.deadline import check_time, only_small
 from garkcli.design.ideal import Ideal, rational
 from garkcli.design.member import value_of
-from garkcli.design.solutions import Solution
-from garkcli.errors import NotDecided
+from garkcli.design.solutions import Solution, solutions
+from garkcli.errors import NotDecided, TooManyTerms
 from garkcli.exact.cells import Interval, ends_of, has, sign_of, where
 from garkcli.exact.field import Number, NumberField
 from garkcli.exact.parametric import Mixed, Parameters, Parametric, factors, fraction
@@ -301,6 +301,126 @@ def parts_within(part: Part, zeros: Iterable[fmpq_mpoly]) -> Iterator[Part]:
         yield replace(smaller, values=values, sets=part.sets)
 
 
+MOST_STEPS = 400
+"""Of taking a set apart that is known by no Gröbner basis."""
+
+
+class Pieces(Frozen):
+    """The zeros of polynomials, taken apart before there is an ideal: all that is linear is solved
+    first, and where a divisor may vanish is a part of its own.
+
+    Attributes:
+        equations: the polynomials.
+        nonzero: polynomials whose zeros do not count.
+        changes: unknowns that are replaced by others.
+        kept: unknowns that are coordinates rather than others.
+        parts: of the zeros.
+    """
+
+    equations: tuple[fmpq_mpoly, ...]
+    nonzero: tuple[fmpq_mpoly, ...]
+    changes: Changes
+    kept: tuple[str, ...]
+    parts: tuple[Part, ...]
+
+    @classmethod
+    def of(
+        cls,
+        equations: Iterable[fmpq_mpoly],
+        nonzero: Iterable[fmpq_mpoly],
+        changes: Changes,
+        kept: Sequence[str] = (),
+    ) -> Pieces:
+        """The zeros of some polynomials at which others are not zero.
+
+        Raises:
+            NotDecided: it takes too many steps, or a Gröbner basis that is not small.
+        """
+        monic = (p / p.leading_coefficient() for p in equations if p)
+        equations, nonzero = tuple({str(p): p for p in monic}.values()), tuple(nonzero)
+        kept = (*(kept or changes.nodes),)
+        splitting = _Splitting(changes.ring, kept, is_large=True, steps=iter(range(MOST_STEPS)))
+        given = [changes.polynomial(p) for p in equations]
+        allowed = factors(map(changes.polynomial, nonzero))
+        with only_small():
+            found = splitting.parts(given, allowed, changes.values(), changes.ring.names)
+            try:
+                return cls(equations, nonzero, changes, kept, tuple(found))
+            except TooManyTerms as error:
+                raise NotDecided from error
+
+    def with_zeros(self, polynomials: Iterable[fmpq_mpoly]) -> Pieces:
+        """Those at which further polynomials are zero."""
+        return Pieces.of([*self.equations, *polynomials], self.nonzero, self.changes, self.kept)
+
+    def ideal(self, start: Ideal) -> Ideal:
+        """The ideal of finitely many zeros: that of the equations, where each is a simple one.
+
+        Args:
+            start: the ideal of ``nonzero``, in the unknowns of the equations.
+
+        Raises:
+            NotDecided: there are several parts, or a zero that is not simple.
+        """
+        ring = start.ring
+        if self.changes.instead:
+            return Pieces.of(
+                self.equations, self.nonzero, Changes(ring, ring, {}), self.kept
+            ).ideal(start)
+        if len(self.parts) != 1:
+            raise NotDecided
+        [part] = self.parts
+        zeros = [p.project_to_context(ring.context) for p in part.equations]
+        for name, x in part.values.items():
+            over, under = (p.project_to_context(ring.context) for p in fraction(x, part.ring))
+            zeros.append(ring.context.gen(ring.names.index(name)) * under - over)
+        with only_small():
+            found = start.with_zeros(zeros)
+            size = range(len(ring.names))
+            slopes = [[p.derivative(i) for i in size] for p in self.equations]
+            for solution in solutions(found):
+                rows = [[value_of(p, ring, solution.values) for p in row] for row in slopes]
+                if rank(rows) < len(size):
+                    raise NotDecided
+        return found.square_free
+
+    @property
+    def dimension(self) -> int:
+        """Of the complex zeros; −1 where there are none."""
+        return max((part.dimension for part in self.parts), default=-1)
+
+    @property
+    def is_everything(self) -> bool:
+        """Whether there are no zeros."""
+        return not self.parts
+
+    @property
+    def is_proved(self) -> bool:
+        """Whether these are all: no part is lost."""
+        return True
+
+
+def rank(matrix: Iterable[Sequence[Number]]) -> int:
+    """Of a matrix of numbers of one field.
+
+    >>> rank([[fmpq(1), fmpq(2)], [fmpq(2), fmpq(4)]])
+    1
+    """
+    echelon: list[tuple[int, list[Number]]] = []
+    for row in matrix:
+        check_time()
+        rest = list(row)
+        for place, known in echelon:
+            factor = rest[place]
+            if factor:
+                rest = [x - factor * y for x, y in zip(rest, known, strict=True)]
+        place = next((k for k, x in enumerate(rest) if x), -1)
+        if place >= 0:
+            leading = rest[place]
+            echelon.append((place, [x / leading for x in rest]))
+    return len(echelon)
+
+
 class _Linear(Frozen):
     """A v + B, a polynomial in which v has degree one."""
 
@@ -319,11 +439,14 @@ class _Splitting(Frozen):
         kept: unknowns that are coordinates rather than others.
         is_large: whether Gröbner bases are made only where they are small, while unknowns are
             linear in what there is.
+        steps: how many there may be yet; None for any number. Ideals of parts are then without the
+            zeros of ``nonzero``.
     """
 
     ring: Parameters
     kept: tuple[str, ...] = ()
     is_large: bool = False
+    steps: Iterator[int] | None = None
 
     def all_parts(
         self, polynomials: Sequence[fmpq_mpoly], nonzero: Sequence[fmpq_mpoly]
@@ -351,7 +474,17 @@ class _Splitting(Frozen):
             left: the names of these.
         """
         check_time()
-        basis = self._basis([self._without(p, nonzero) for p in polynomials])
+        if self.steps is not None and next(self.steps, None) is None:
+            raise NotDecided
+        polynomials = [self._without(p, nonzero) for p in polynomials]
+        if self.is_large:
+            if any(p.is_constant() for p in polynomials):
+                return
+            linear = self._linear(polynomials, nonzero, left)
+            if linear is not None and not linear.cost[1] and len(linear.A) == 1:
+                yield from self._substituted(linear, polynomials, nonzero, values, left)
+                return
+        basis = self._basis(polynomials)
         if any(p.is_constant() for p in basis):
             return
         zeros = []
@@ -370,12 +503,16 @@ class _Splitting(Frozen):
             yield from replace(self, is_large=False).parts(zeros, nonzero, values, left)
             return
         if linear is None:
-            yield self._part(zeros, nonzero, values, left)
+            part = self._part(zeros, nonzero, values, left)
+            if self.steps is not None and not part.is_free:
+                saturated = Ideal(part.ring, part.nonzero).with_zeros(part.equations).closure
+                part = replace(part, ideal=saturated)
+            if not part.ideal.is_everything:
+                yield part
             return
         if linear.cost[1]:
             others = [x for x in zeros if x is not linear.whole]
-            smaller = replace(self, is_large=False)  # it may be empty, as a basis shows
-            yield from smaller.parts([*others, linear.A, linear.B], nonzero, values, left)
+            yield from self.parts([*others, linear.A, linear.B], nonzero, values, left)
             nonzero = [*nonzero, *factors([linear.A])]
         yield from self._substituted(linear, zeros, nonzero, values, left)
 
@@ -426,7 +563,11 @@ class _Splitting(Frozen):
                 degree = int(p.total_degree())
                 name = self.ring.names[index]
                 is_kept = name in self.kept and len(_places(p)) > 1
-                cost = (is_kept, is_new, len(A.to_dict()), degree, -index)
+                ease = (len(A), degree, -index)
+                if self.is_large:
+                    # branches with few unknowns first: each of them is a system of its own
+                    ease = (len(_places(A)), len(_places(p)), len(A)) if is_new else (0, 0, len(A))
+                cost = (is_kept, is_new, *ease)
                 found.append(_Linear(p, name, A, p - A * v, cost))
         return min([x for x in found if x.name in left], key=lambda x: x.cost, default=None)
 

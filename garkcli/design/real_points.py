@@ -23,6 +23,7 @@ from garkcli.design.groebner import leading
 from garkcli.design.ideal import Ideal, rational
 from garkcli.design.member import not_negative, value_of
 from garkcli.design.minimise.line import Conditions
+from garkcli.design.parts import Part
 from garkcli.design.solutions import Solution, solutions
 from garkcli.errors import NotDecided
 from garkcli.exact.cells import between_roots
@@ -30,6 +31,7 @@ from garkcli.exact.parametric import Parameters, factors
 from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.projection import MOST_DEGREE, in_plane, kept_sign, projected
 from garkcli.exact.roots import RealRoot
+from garkcli.frozen import replace
 from garkcli.problems.draw import Draw
 from garkcli.tableau.family import Family
 
@@ -105,6 +107,13 @@ def has_methods(family: Family, ideal: Ideal, real: Ideal, is_method: IsMethod) 
     return False if is_none or real.is_everything else None
 
 
+def has_point(family: Family, part: Part, is_method: IsMethod) -> bool:
+    """Whether a method is found on a part, some of its coordinates short rational numbers."""
+    there = replace(family, ring=part.ring)
+    search = _Search(there, part, part.ideal, lambda x, root: is_method(part.whole(x), root))
+    return search.has_method(part.ideal) if part.dimension <= 0 else search.has_sample()
+
+
 class _Search:
     """Looks at real zeros of an ideal.
 
@@ -112,7 +121,9 @@ class _Search:
         is_complete: whether there are none besides those that were examined.
     """
 
-    def __init__(self, family: Family, ideal: Ideal, real: Ideal, is_method: IsMethod) -> None:
+    def __init__(
+        self, family: Family, ideal: Ideal | Part, real: Ideal, is_method: IsMethod
+    ) -> None:
         self.family = family
         self.ring = family.ring
         self.nonzero = ideal.nonzero
@@ -123,8 +134,8 @@ class _Search:
     def finds_one(self) -> bool:
         """Whether one of them is a method."""
         if self.real.dimension <= 0:
-            return self._has_method(self.real)
-        if any(map(self._has_method, self._slices())):
+            return self.has_method(self.real)
+        if self.has_sample():
             return True
         self.is_complete = True
         if len(self.ring.names) == 1:
@@ -134,9 +145,13 @@ class _Search:
                 [in_one(p) for p in not_negative(self.family)],
             )
             return bool(allowed.intervals)
-        return any(map(self._has_method, self._in_plane()))
+        return any(map(self.has_method, self._in_plane()))
 
-    def _has_method(self, ideal: Ideal) -> bool:
+    def has_sample(self) -> bool:
+        """Whether one with short rational numbers is."""
+        return any(map(self.has_method, self._slices()))
+
+    def has_method(self, ideal: Ideal) -> bool:
         """Whether one of finitely many zeros is a method."""
         check_time()
         if ideal.is_everything:

@@ -10,6 +10,7 @@ from flint import fmpq
 
 from garkcli.design.choices import values_text
 from garkcli.design.design import find_parameters
+from garkcli.design.ideal import Ideal
 from garkcli.design.member import is_admissible, member
 from garkcli.design.search.run import Method, results
 from garkcli.design.solutions import solutions
@@ -48,7 +49,7 @@ def _drawn(point: Point, draw: Draw) -> Method:
     order = point.template.order
     step = find_parameters(family, order, "pair").last
     drawn = None
-    if step.criterion is not None and step.ideal is not None and not step.ideal.is_everything:
+    if step.criterion is not None and isinstance(step.ideal, Ideal) and step.kind != "none":
         drawn = step.criterion.point(step.ideal, draw)
     for solution in () if drawn is None else solutions(drawn):
         for root in solution.real:

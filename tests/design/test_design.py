@@ -5,9 +5,10 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from fractions import Fraction
-from itertools import count, product
+from itertools import combinations, count, product
 from math import prod
 from pathlib import Path
+from random import Random
 from typing import Any
 
 import pytest
@@ -15,13 +16,15 @@ from flint import Ordering, fmpq, fmpz_mpoly_ctx, fmpz_mpoly_vec
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from garkcli import deadline, find_order, loads, pair
+from garkcli import deadline, find_order, load, loads, pair
 from garkcli.deadline import until
 from garkcli.design.choices import first_method
 from garkcli.design.conditions import FamilyConditions
 from garkcli.design.design import Design, find_parameters
 from garkcli.design.groebner import reduced_basis
-from garkcli.design.solutions import value_at
+from garkcli.design.ideal import Ideal
+from garkcli.design.parts import Changes, Pieces
+from garkcli.design.solutions import solutions, value_at
 from garkcli.errors import NotDecided
 from garkcli.methodfile.family import loads_family, with_values
 from garkcli.report.design import REPORT, DesignReport
@@ -360,11 +363,80 @@ def test_explicit_methods_of_four_stages() -> None:
     assert four.ideal.dimension == 2
     for values in CLASSICAL:
         known = [Fraction(x) for x in values.split()]
-        for p in four.ideal.polynomials:
+        for p in four.polynomials:
             terms = [(int(a), e) for e, a in p.to_dict().items()]
             assert not sum(
                 a * prod(x ** int(k) for x, k in zip(known, e, strict=True)) for a, e in terms
             )
+
+
+@pytest.mark.parametrize(
+    ("text", "order"),
+    [
+        ("unknown: {stages: 2, shape: full}", 3),
+        ("unknown: {stages: 3, shape: explicit}", 3),
+        ("unknown: {stages: 3, shape: esdirk}\ndesign: {R-infinity: 0}", 2),
+    ],
+)
+def test_parts_are_all_of_a_set(text: str, order: int) -> None:
+    """Solved by what is linear, divisors that may vanish apart: dimension and, where some unknowns
+    have values, the number of points are those of the Gröbner basis.
+    """
+    family = loads_family(text)
+    ideal = find_parameters(family, order).last.ideal
+    assert isinstance(ideal, Ideal)
+    ring = family.ring
+    conditions = FamilyConditions(family.tableau, ring)
+    asked = [x.polynomial for k in range(1, order + 1) for x in conditions.of_order(k)]
+    pieces = Pieces.of([*family.relations, *asked], ideal.nonzero, Changes(ring, ring, {}))
+    assert pieces.dimension == ideal.dimension > 0
+    dice = Random(3)
+    compared = 0
+    for chosen in combinations(ring.context.gens(), ideal.dimension):
+        cuts = [x - fmpq(dice.randint(1, 9), 7) for x in chosen]
+        cut = ideal.with_zeros(cuts)
+        if cut.dimension == 0:
+            try:
+                parts = pieces.with_zeros(cuts).parts
+            except NotDecided:
+                continue
+            compared += 1
+            assert {part.dimension for part in parts} == {0}
+            points = [x for part in parts for x in solutions(part.ideal)]
+            assert sum(x.degree for x in points) == sum(x.degree for x in solutions(cut))
+        if compared == 5:
+            break
+    assert compared
+
+
+def test_given_nodes_of_order_five() -> None:
+    """Six stages with the nodes of Fehlberg: his method alone, whose coefficients are known. With
+    those of Cash and Karp, and embedded weights: a family with theirs in it.
+    """
+    shape = "{stages: 6, shape: explicit, embedded: %s}"
+    nodes = "{c2: 1/4, c3: 3/8, c4: 12/13, c5: 1, c6: 1/2}"
+    fehlberg = f"unknown: {shape % 'false'}\ndesign: {{order: 5, fix: {nodes}}}"
+    found = find_parameters(loads_family(fehlberg)).last
+    [one] = found.found
+    assert one.order is not None
+    assert (one.order.order, one.solution.degree) == (5, 1)
+    assert one.solution.values["b4"] == fmpq(28561, 56430)
+    assert one.solution.values["a65"] == fmpq(-11, 40)
+    nodes = "{c2: 1/5, c3: 3/10, c4: 3/5, c5: 1, c6: 7/8}"
+    wanted = f"{{order: 5, embedded-order: 4, fix: {nodes}}}"
+    family = loads_family(f"unknown: {shape % 'true'}\ndesign: {wanted}")
+    found = find_parameters(family).last
+    assert (found.kind, found.is_real) == ("family", True)
+    known = load("cash-karp-5")
+    values = {name: fmpq(0) for name in family.ring.names}
+    for k, name in enumerate(f"b{i}" for i in range(1, 7)):
+        values[name] = known.tableau.colours[0].b[k]
+        values[f"bh{k + 1}"] = known.further.embedded[0][k]
+        values[f"c{k + 1}"] = known.tableau.colours[0].c[k]
+        for j, a in enumerate(known.tableau.block(0, 0)[k][:k], start=1):
+            values[f"a{k + 1}{j}"] = a
+    at = [values[name] for name in family.ring.names]
+    assert not any(p(*at) for p in found.polynomials)
 
 
 def test_reduced_bases() -> None:

@@ -11,6 +11,7 @@ from flint import fmpq, fmpq_mpoly, fmpq_poly
 
 from garkcli.deadline import check_time
 from garkcli.design.design import Design, Found, Step, embedded_of, order_of
+from garkcli.design.ideal import Ideal
 from garkcli.design.member import is_admissible, is_as_stable, member, not_negative, value_of
 from garkcli.design.minimise.climbing import GRID, Point, climbed
 from garkcli.design.minimise.line import Conditions, Within
@@ -136,7 +137,7 @@ class Comparison(Mutable):
         it does.
         """
         criterion, ideal = self.step.criterion, self.step.ideal
-        if criterion is None or ideal is None:
+        if criterion is None or not isinstance(ideal, Ideal):
             return False
         best = least_error(criterion, self.step.order, ideal, self.step.of_stable is not None)
         for solution in () if best is None else solutions(best):
