@@ -271,11 +271,15 @@ there, or are undecided.
 """
 
 
+def within(a: Any, key: str) -> Any:
+    """The rounding within which a method has a property; None for exactly, or for none."""
+    return a.tolerance if key in OF_EQUATIONS and a.subject.verdict(key).value else None
+
+
 def verdict_answer(a: Any, key: str) -> Answer:
     """What is decided of a property."""
     v = a.subject.verdict(key)
-    within = a.tolerance if key in OF_EQUATIONS and v.value else None
-    status = Status(within, v.is_at_least, v.reason if v.is_undecided else NO_REASON)
+    status = Status(within(a, key), v.is_at_least, v.reason if v.is_undecided else NO_REASON)
     is_told = v.value is not True and not v.is_undecided
     return Answer(v.value, status, v.reason if is_told else NO_REASON)
 
@@ -681,7 +685,13 @@ ANALYSIS = [
     ),
     Row("consistent", kinds.TRUTH, consistent),
     Row("inconsistent_blocks", kinds.BLOCKS, "inconsistent", DATA),
-    Row("bound_in_brief", told(lambda x, d: str(x)), "bound", DATA, label="bound"),
+    Row(
+        "bound_in_brief",
+        told(lambda x, d: str(x)),
+        lambda a: Answer(a.bound, Status(a.tolerance)),
+        DATA,
+        label="bound",
+    ),
     maybe("conjugate_consistent", kinds.TRUTH, conjugate_consistent),
     Row(
         "symplectic",
@@ -789,14 +799,15 @@ def every_property(o: Any) -> Any:
     """All properties with what decides them, where they were requested."""
     if not o.wants_properties:
         return None
-    return [(key, o.analysis.subject.verdict(key)) for key in KEYS]
+    a = o.analysis
+    return [(key, a.subject.verdict(key), within(a, key)) for key in KEYS]
 
 
 def _property_rows(found: Any, d: Plain) -> list[tuple[str, str]]:
     rows = []
-    for key, v in found:
+    for key, v, tolerance in found:
         why = f": {d.reason(v.reason)}" if v.reason and v.value is not True else ""
-        rows.append((key, d.reason(verdict_words(v)) + why))
+        rows.append((key, d.known(d.reason(verdict_words(v)), Status(tolerance)) + why))
     return rows
 
 

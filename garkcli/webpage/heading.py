@@ -6,7 +6,7 @@ from markupsafe import Markup
 
 from garkcli.check.outcome import Outcome
 from garkcli.errors import counted
-from garkcli.report.check import METHOD, verdict_words
+from garkcli.report.check import METHOD, truth
 from garkcli.report.checked import REPORT
 from garkcli.tell.dialect import Plain
 from garkcli.tell.outputs import cell, phrase, words
@@ -91,6 +91,6 @@ def comparison_row(method: Reported) -> Content:
     if tableau is not None:
         cells["stages"] = ", ".join([str(tableau.space(l).stages) for l in range(tableau.size)])
     if outcome.analysis is not None:
-        cells["symmetric"] = str(verdict_words(outcome.analysis.subject.verdict("symmetric")))
+        cells["symmetric"] = cell(truth("symmetric").fact(outcome.analysis), d)
     mark = "none" if outcome.makes_no_claim else _mark(outcome)
     return {"title": outcome.name, "mark": mark, "cells": cells}

@@ -8,8 +8,9 @@ from garkcli.check.every_facts import fact_reason
 from garkcli.check.outcome import Outcome
 from garkcli.properties.property import Verdict
 from garkcli.properties.registry import KEYS, every_property
-from garkcli.report.check import CHECKED, verdict_words
+from garkcli.report.check import CHECKED, verdict_words, within
 from garkcli.report.checked import REPORT
+from garkcli.tell.facts import Status
 from garkcli.tell.outputs import label, words
 from garkcli.webpage.mathml import Typeset
 from garkcli.webpage.reported import Content, Reported
@@ -47,7 +48,7 @@ def _verdict(outcome: Outcome, key: str) -> Content:
         fact = fact_reason(outcome.every.verdict(key), outcome.every.parameters[0])
         return {"key": key, "text": Markup(fact.words(d)), "why": "", "mark": "value"}
     verdict = outcome.analysis.subject.verdict(key)
-    text = Markup(verdict_words(verdict).words(d))
+    text = Markup(d.known(verdict_words(verdict).words(d), Status(within(outcome.analysis, key))))
     why = Markup("" if verdict.value is True else d.reason(verdict.reason))
     return {"key": key, "text": text, "why": why, "mark": _mark(verdict)}
 
