@@ -202,19 +202,14 @@ class Evaluator:
         if scope.name.startswith("_") and self._scopes[-1].kind == "class":
             # __init__, _step: the class is what people call
             scope = replace(scope, name=self._scopes[-1].name)
-        if scope.kind == "record":
-            # functions that make it
-            self._run(scope.body, [space])
-            return
         inner = Space(space)
-        for name, _ in scope.parameters:
+        for name in scope.parameters:
             inner[name] = Unknown(f"the argument {name}", scope.line)
         inner.update({name: Type() for name in scope.types})
         match scope.body:
             case (ir.Return(value=value),) if not isinstance(value, (ir.Call, ir.Fields)):
-                names = tuple(name for name, _ in scope.parameters)
                 if scope.kind == "function" and scope.name not in space:
-                    space[scope.name] = Function(names, value, inner)
+                    space[scope.name] = Function(scope.parameters, value, inner)
         before, self._steps = self._steps, 0
         worlds, self._worlds = self._worlds, 1
         ended = self._walked(scope, inner)

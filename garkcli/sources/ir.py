@@ -171,18 +171,18 @@ class Return(Frozen):
     line: int
 
 
-Kind: TypeAlias = Choice["module", "function", "class", "record", "entry"]
+Kind: TypeAlias = Choice["module", "function", "class", "entry"]
 
 
 class Scope(Frozen):
-    """A function, a class, the fields of a record, an entry of a list of macros.
+    """A function, a class, an entry of a list of macros.
 
     Attributes:
         kind: which of them.
         name: of it.
         body: what is in it.
         line: where it begins, from 1.
-        parameters: of a function, or the fields of a record, with their values where they have one.
+        parameters: of a function.
         types: the parameters that are types: calling one converts.
         bases: of a class.
         of: the type of the first argument of a function, where it is written: what it belongs to in
@@ -193,7 +193,7 @@ class Scope(Frozen):
     name: str
     body: tuple[Statement, ...]
     line: int
-    parameters: tuple[tuple[str, Expr | None], ...] = ()
+    parameters: tuple[str, ...] = ()
     types: frozenset[str] = frozenset()
     bases: tuple[str, ...] = ()
     of: str = ""

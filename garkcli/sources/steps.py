@@ -145,7 +145,7 @@ class Follower(Evaluator):
                 self._changing(call, space)
             case ir.Assign(value=ir.Call(args=(_, _, *_)) as call) if self._is_last_changed:
                 self._changing(call, space)
-            case ir.Do(value=ir.Opaque()) | ir.Scope(kind="entry" | "module" | "record"):
+            case ir.Do(value=ir.Opaque()) | ir.Scope(kind="entry" | "module"):
                 self._is_lost = True
             case ir.Assign(value=None) | ir.Do() | ir.Scope():
                 pass

@@ -158,7 +158,7 @@ class CLowering(Lowering):
             declarator = declarator.child_by_field_name("declarator")
         given = () if declarator is None else declarator.child_by_field_name("parameters")
         inside = [x.child_by_field_name("declarator") for x in self.children(given or None)]
-        parameters = tuple((self._declared(x)[0], None) for x in inside if x is not None)
+        parameters = tuple(self._declared(x)[0] for x in inside if x is not None)
         body = node.child_by_field_name("body")
         statements = tuple(y for x in self.children(node) for y in self._initialisers(x))
         if body is not None and self.may_hold_a_table(body):

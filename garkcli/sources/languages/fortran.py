@@ -43,7 +43,7 @@ class FortranLowering(Lowering):
             case kind if kind in _PROCEDURES and inside:
                 head = inside[0].child_by_field_name
                 given = self.children(head("parameters"))
-                parameters = tuple((self.name(x), None) for x in given)
+                parameters = tuple(map(self.name, given))
                 body = self.block(inside[1:])
                 yield ir.Scope("function", self.name(head("name")), body, line, parameters)
             case "variable_declaration":

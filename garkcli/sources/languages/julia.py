@@ -165,7 +165,7 @@ class JuliaLowering(Lowering):
             name = self.text(inside[0]).partition("{")[0].rpartition(".")[2]
             given = self.children(inside[1]) if len(inside) > 1 else []
             of = self._owner(given[0], types) if given else ""
-        parameters = tuple((x, None) for x in [self._parameter(x, types) for x in given] if x)
+        parameters = tuple(filter(None, [self._parameter(x, types) for x in given]))
         statements = self.block(body)
         match statements[-1:]:
             case (ir.Do(value, last),):

@@ -38,7 +38,7 @@ class MatlabLowering(Lowering):
                 given = [
                     y for x in inside if x.type == "function_arguments" for y in self.children(x)
                 ]
-                parameters = tuple((self.text(x), None) for x in given)
+                parameters = tuple(map(self.text, given))
                 body = self.block(x for x in inside if x.type == "block")
                 yield ir.Scope("function", self.text(field("name")), body, line, parameters)
             case "assignment":

@@ -101,7 +101,7 @@ class PythonLowering(Lowering):
         given = map(self.first_name, self.children(field("parameters")))
         body = field("body")
         made = self.block([body]) if body is not None and self.may_hold_a_table(body) else ()
-        parameters = tuple((name, None) for name in given if name)
+        parameters = tuple(filter(None, given))
         types = frozenset({"dtype"})
         return ir.Scope(
             "function", self.text(field("name")), made, line_of(node), parameters, types
