@@ -57,7 +57,7 @@ class Lowering:
         self._data = text.encode(errors="replace")
         self._language = language or self.grammar
         self._depth = 0
-        self._fields: dict[str, tuple[str, ...]] = {}
+        self._fields: dict[str, tuple[tuple[str, ...], int]] = {}
 
     def module(self) -> ir.Body:
         """The statements of the whole source."""
@@ -194,16 +194,18 @@ class Lowering:
                 return ir.Binary(sign_of(sign), self.expr(inside[0]), self.expr(inside[-1]))
         return self.other(node, inside)
 
-    def declares(self, record: str, names: Iterable[str]) -> None:
-        """A record has fields of these names, in order; those of a method are remembered."""
+    def declares(self, record: str, names: Iterable[str], least: int | None = None) -> None:
+        """A record has fields of these names, in order, so many of them at least, else all; those
+        of a method are remembered.
+        """
         fields = tuple(names)
         if {"A", "b"} <= {ROLES.get(x) for x in fields}:
-            self._fields[record] = fields
+            self._fields[record] = fields, len(fields) if least is None else least
 
     def made(self, record: str, args: tuple[ir.Expr, ...]) -> tuple[tuple[str, ir.Expr], ...]:
         """What a record of this source is made of, by its fields; nothing for another call."""
-        fields = self._fields.get(record, ())
-        return tuple(zip(fields, args, strict=True)) if len(fields) == len(args) else ()
+        fields, least = self._fields.get(record, ((), 0))
+        return tuple(zip(fields, args, strict=False)) if least <= len(args) <= len(fields) else ()
 
     def call(
         self,

@@ -226,7 +226,7 @@ SSP_3 = (
     ),
     (
         python,
-        "class T(NamedTuple):\n    order: int\n    A: list\n    b: list\n"
+        "class T(NamedTuple):\n    order: int\n    A: list\n    b: list\n    name: str = ''\n"
         "x = T(3, [[], [1], [1/4, 1/4]], [1/6, 1/6, 2/3])",
     ),
     (
@@ -247,6 +247,11 @@ SSP_3 = (
     (
         c,
         "struct T { T() { A << 0, 0, 0, 1, 0, 0, .25, .25, 0; b << 1./6, 1./6, 2./3; c << 0, 1, .5; } };",
+    ),
+    (
+        c,
+        "struct T { double b[3]; std::vector<double> A[3]; int order; };\n"
+        "T all[] = {{{1./6, 1./6, 2./3}, {{0}, {1}, {.25, .25}}, 3}};",
     ),
     (
         c,

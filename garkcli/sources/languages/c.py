@@ -188,21 +188,28 @@ class CLowering(Lowering):
                 if given is not None and given.type == "argument_list":
                     # T x(args)
                     value = ir.Call(ir.Name("constructor"), self.exprs(given.named_children))
-                value = self._with_fields(value, kind, line_of(each))
             elif each.type not in _DECLARED and default is None:
                 continue
             name, extents = self._declared(inner)
             extents = (*extents, *sizes)
             if value is None and not extents:
                 continue
+            if value is not None:
+                value = self._with_fields(value, kind, line_of(each), bool(extents))
             if sizes and value is not None:
                 value = _without_braces(value, len(extents))
             yield ir.Assign(ir.Name(name), value, line_of(each), extents=extents, is_real=is_real)
 
-    def _with_fields(self, value: ir.Expr, kind: Node | None, line: int) -> ir.Expr:
-        """A list of what is in a structure, by its fields."""
+    def _with_fields(
+        self, value: ir.Expr, kind: Node | None, line: int, is_array: bool = False
+    ) -> ir.Expr:
+        """A list of what is in a structure, by its fields, or an array of such lists."""
         name = self.text(kind).rpartition(" ")[2].partition("<")[0]
-        fields = self.made(name, value.items) if isinstance(value, ir.Items) else ()
+        if not isinstance(value, ir.Items) or name not in self._fields:
+            return value
+        if is_array:
+            return ir.Items(tuple(self._with_fields(x, kind, line) for x in value.items))
+        fields = self.made(name, value.items)
         return ir.Fields(fields, line) if fields else value
 
     def _array_sizes(self, kind: Node | None) -> tuple[ir.Expr, ...]:

@@ -49,9 +49,13 @@ class PythonLowering(Lowering):
                 yield from self._decorated(inside)
             case "class_definition":
                 bases = tuple(self.text(x) for x in self.children(field("superclasses")))
-                parts = [y for x in self.children(field("body")) for y in self.children(x)]
+                inner = self.children(field("body"))
+                methods = {self.text(x.child_by_field_name("name")) for x in inner}
+                parts = [y for x in inner for y in self.children(x)]
                 typed = [x for x in parts if x.child_by_field_name("type") is not None]
-                self.declares(self.text(field("name")), map(self.first_name, typed))
+                least = sum(x.child_by_field_name("right") is None for x in typed)
+                if "__init__" not in methods:
+                    self.declares(self.text(field("name")), map(self.first_name, typed), least)
                 made = self.block([field("body")])
                 yield ir.Scope("class", self.text(field("name")), made, line, bases=bases)
             case "for_statement":
