@@ -110,23 +110,10 @@ Proof.
       { destruct (Nat.eqb i 0); [reflexivity|]. symmetry. apply IH. lia. }
       rewrite S. unfold Qeq, Qplus, Qmult, Qopp, inject_Z; cbn [Qnum Qden].
       rewrite !Pos2Z.inj_mul. ring.
-    + apply Qplus_comp; [reflexivity|]. unfold W. symmetry.
-      rewrite (sum_ext _ _ (fun a => (if Nat.eqb i 0 then 0 else sum (seq 0 (length q)) (fun c =>
-          nth (i - 1) (power q (a + c)) 0 * inject_Z (nth c (nth a gs []) 0%Z)))
-        + - nth i q 0 * sum (seq 0 (length q)) (fun c =>
-          nth (length q - 1) (power q (a + c)) 0 * inject_Z (nth c (nth a gs []) 0%Z)))).
-      * rewrite sum_plus, sum_times. apply Qplus_comp; [|reflexivity].
-        destruct (Nat.eqb i 0); [|reflexivity].
-        rewrite (sum_ext _ _ (fun _ => 0 * 0)) by reflexivity. rewrite sum_times. ring.
-      * intros a _. rewrite <- sum_times.
-        rewrite (sum_ext _ _ (fun c => (if Nat.eqb i 0 then 0 else
-            nth (i - 1) (power q (a + c)) 0 * inject_Z (nth c (nth a gs []) 0%Z))
-          + - nth i q 0 * (nth (length q - 1) (power q (a + c)) 0
-            * inject_Z (nth c (nth a gs []) 0%Z)))).
-        -- rewrite sum_plus. apply Qplus_comp; [|reflexivity].
-           destruct (Nat.eqb i 0); [|reflexivity].
-           rewrite (sum_ext _ _ (fun _ => 0 * 0)) by reflexivity. rewrite sum_times. ring.
-        -- intros c _. cbn [Nat.add]. rewrite power_S by exact Hi. destruct (Nat.eqb i 0); ring.
+    + apply Qplus_comp; [reflexivity|]. unfold W.
+      rewrite <- (sum_shifted (seq 0 (length gs)) i). apply sum_ext. intros a _.
+      rewrite <- (sum_shifted (seq 0 (length q)) i). apply sum_ext. intros c _. cbn [Nat.add].
+      rewrite power_S by exact Hi. destruct (Nat.eqb i 0); ring.
 Qed.
 
 (** ** The products and the blocks of a method *)
@@ -152,13 +139,9 @@ Lemma ztimes_is x y D E e : length x = d -> (e < d)%nat ->
   times M (val (x, D)) (val (y, E)) e.
 Proof.
   intros L He. unfold ztimes. destruct (zeros x || zeros y) eqn:Z.
-  - transitivity (sum (seq 0 d) (fun _ => 0 * 0)).
-    + rewrite sum_times. destruct e; reflexivity.
-    + symmetry. rewrite times_is. apply sum_ext. intros u _.
-      rewrite (sum_ext _ _ (fun _ => 0 * 0)); [rewrite sum_times; ring|]. intros v _.
-      unfold val. cbn [fst snd]. apply orb_prop in Z. destruct Z as [Z|Z].
-      * rewrite (zeros_are x u Z). unfold Qeq. simpl. ring.
-      * rewrite (zeros_are y v Z). unfold Qeq. simpl. ring.
+  - transitivity 0; [destruct e; reflexivity|symmetry]. apply times_zero. apply orb_prop in Z.
+    destruct Z as [Z|Z]; [left|right]; intros u _; unfold val; cbn [fst snd];
+      rewrite zeros_are by exact Z; reflexivity.
   - set (gs := map _ x).
     pose proof (horner_is F d (field M) gs e (over_is (field M)) eq_refl He) as H.
     replace (length gs) with d in H by (unfold gs; rewrite map_length; symmetry; exact L).

@@ -90,9 +90,8 @@ Proof.
   apply Qmult_integral in Es. destruct Es as [Es|Es].
   2:{ exfalso. apply Nz. rewrite <- (Qinv_involutive (at_ G 0 0)), Es. reflexivity. }
   assert (Z : s == 0) by (apply Qmult_integral in Es; destruct Es; assumption).
-  unfold s in Z. rewrite (sum_ext _ _ (fun _ => 0 * 0)) in Z.
-  - rewrite sum_times in Z. rewrite Qmult_0_l, Qplus_0_r in Z. apply Qmult_integral in Z.
-    destruct Z; [contradiction|assumption].
+  unfold s in Z. rewrite sum_zero in Z.
+  - rewrite Qplus_0_r in Z. apply Qmult_integral in Z. destruct Z; [contradiction|assumption].
   - intros j Hj. apply in_seq in Hj. rewrite (Zero j) by lia. ring.
 Qed.
 
@@ -149,9 +148,7 @@ Proof.
     { apply sum_ext. intros e He. apply in_seq in He. apply Qmult_comp; [reflexivity|].
       rewrite <- (b_val M _ eq_refl l e) by lia. apply b_ext, (P_val M _ eq_refl l), Hl. }
     rewrite U. ring.
-  - unfold g, image. rewrite (sum_ext _ _ (fun e => nth e lambda 0 * rational 0 e)).
-    + rewrite (sum_ext _ _ (fun _ => 0 * 0)); [rewrite sum_times; apply Qmult_0_l|].
-      intros e _. unfold rational. destruct (Nat.eqb e 0); ring.
-    + intros e He. apply in_seq in He. rewrite (E e) by lia. reflexivity.
+  - apply sum_zero. intros e He. apply in_seq in He. rewrite (E e) by lia. unfold rational.
+    destruct (Nat.eqb e 0); ring.
 Qed.
 End Weights.

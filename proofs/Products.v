@@ -31,12 +31,10 @@ Proof.
       rewrite Nat.eqb_sym. reflexivity.
   - rewrite Nat.add_succ_r, power_S by exact H.
     rewrite <- (IHn (length m - 1)%nat) by lia.
-    rewrite (sum_ext _ _ (fun w => (if Nat.eqb i 0 then 0 else nth (i -
-      1) (power m (w + n)) 0 * nth w (power m k) 0)
+    rewrite (sum_ext _ _ (fun w => (if Nat.eqb i 0 then 0 else
+        nth (i - 1) (power m (w + n)) 0 * nth w (power m k) 0)
       + (- nth i m 0) * (nth (length m - 1) (power m (w + n)) 0 * nth w (power m k) 0))).
-    + rewrite sum_plus, sum_times. destruct (Nat.eqb_spec i 0) as [->|D].
-      * rewrite (sum_ext _ _ (fun _ => 0 * 0)) by (intros; ring). rewrite sum_times. ring.
-      * rewrite IHn by lia. ring.
+    + rewrite sum_shifted. destruct (Nat.eqb_spec i 0); [ring|]. rewrite IHn by lia. ring.
     + intros w _. rewrite Nat.add_succ_r, power_S by exact H. destruct (Nat.eqb i 0); ring.
 Qed.
 
@@ -96,9 +94,6 @@ Notation mu l := (mul (Pof M l)).
 Definition field_algebra : algebra (degree M) (in_field M) (fun e => if Nat.eqb e 0 then 1 else 0)
   := modulo_algebra (field M).
 
-Lemma entry_is_below l i e : (i < size_of (space_at M l))%nat -> (e < degree M)%nat ->
-  (entry M (i, e) < dim M l)%nat.
-Proof. unfold dim, entry. fold (space_at M l). cbn [fst snd]. intros. nia. Qed.
 Lemma entry_eq i e j v : (e < degree M)%nat -> (v < degree M)%nat ->
   Nat.eqb (entry M (i, e)) (entry M (j, v)) = andb (Nat.eqb i j) (Nat.eqb e v).
 Proof.

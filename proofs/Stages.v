@@ -89,6 +89,14 @@ Proof.
   - rewrite <- Sc. apply E, app_scale.
 Qed.
 
+Lemma scale_linear f n : linear f -> linear (fun x => f (scale n x)).
+Proof.
+  intros [E Ad Sc]; split; intros.
+  - apply E. intros i. unfold scale. rewrite (H i). reflexivity.
+  - rewrite <- Ad. apply E. intros i. unfold scale, add. ring.
+  - rewrite <- Sc. apply E. intros i. unfold scale. ring.
+Qed.
+
 (** ** Affine hulls
 
     S lists points, with the weight 1, and directions, with the weight 0. v is in the hull of S, with
@@ -97,11 +105,11 @@ Qed.
 Definition hull (S : list (V * Q)) (t : Q) (v : V) :=
   forall f c, linear f -> (forall s, In s S -> f (fst s) == snd s * c) -> f v == t * c.
 
-Lemma hull_map S T A t x :
-  (forall s, In s S -> hull T (snd s) (app A (fst s))) -> hull S t x -> hull T t (app A x).
+Lemma hull_map S T A n t x : (forall s, In s S -> hull T (snd s) (app A (scale n (fst s)))) ->
+  hull S t x -> hull T t (app A (scale n x)).
 Proof.
-  intros G H f c L K. apply (H (fun x => f (app A x))).
-  - apply app_linear, L.
+  intros G H f c L K. apply (H (fun x => f (app A (scale n x)))).
+  - apply (scale_linear (fun x => f (app A x))), app_linear, L.
   - intros s Hs. apply (G s Hs f c L K).
 Qed.
 

@@ -20,6 +20,19 @@ Lemma sum_one {X} (a : X) f : sum [a] f == f a.
 Proof. unfold sum. simpl. ring. Qed.
 Lemma sum_app {X} (xs ys : list X) f : sum (xs ++ ys) f == sum xs f + sum ys f.
 Proof. unfold sum. induction xs; simpl; [ring|]. rewrite IHxs. ring. Qed.
+Lemma sum_zero {X} (xs : list X) f : (forall a, In a xs -> f a == 0) -> sum xs f == 0.
+Proof.
+  intros H. rewrite (sum_ext _ _ (fun _ => 0 * 0)) by (intros; rewrite H by assumption; ring).
+  rewrite sum_times. apply Qmult_0_l.
+Qed.
+(** Entry i of a sum of multiples of x: what moves up, and what the polynomial takes away. *)
+Lemma sum_shifted {X} (xs : list X) i f c g :
+  sum xs (fun a => (if Nat.eqb i 0 then 0 else f a) + c * g a)
+  == (if Nat.eqb i 0 then 0 else sum xs f) + c * sum xs g.
+Proof.
+  rewrite sum_plus, sum_times. apply Qplus_comp; [|reflexivity].
+  destruct (Nat.eqb i 0); [|reflexivity]. apply sum_zero. reflexivity.
+Qed.
 Lemma sum_map {X Y} (g : X -> Y) xs f : sum (map g xs) f == sum xs (fun a => f (g a)).
 Proof. unfold sum. rewrite map_map. reflexivity. Qed.
 
@@ -33,8 +46,7 @@ Lemma sum_swap {X Y} (xs : list X) (ys : list Y) f :
   sum xs (fun a => sum ys (fun c => f a c)) == sum ys (fun c => sum xs (fun a => f a c)).
 Proof.
   induction xs as [|a xs IH].
-  - rewrite (sum_ext ys _ (fun _ => 0 * 0)) by reflexivity. rewrite sum_times. unfold sum. simpl.
-  ring.
+  - symmetry. apply sum_zero. reflexivity.
   - change (sum ys (fun c => f a c) + sum xs (fun a => sum ys (fun c => f a c))
       == sum ys (fun c => f a c + sum xs (fun a => f a c))).
     rewrite sum_plus, IH. reflexivity.
@@ -51,9 +63,7 @@ Lemma sum_at n i f : (i < n)%nat ->
 Proof.
   intros H. induction n; [lia|]. rewrite seq_S, sum_app. unfold sum at 2. simpl.
   destruct (Nat.eqb_spec n i) as [->|D].
-  - rewrite (sum_ext _ _ (fun _ => 0 * 0)).
-    + rewrite sum_times. ring.
-    + intros a I. apply in_seq in I. destruct (Nat.eqb_spec a i); [lia|ring].
+  - rewrite sum_zero; [ring|]. intros a I. apply in_seq in I. destruct (Nat.eqb_spec a i); [lia|ring].
   - rewrite IHn by lia. ring.
 Qed.
 
@@ -203,6 +213,13 @@ Lemma times_ext x x' y y' e : (forall u, (u < degree M)%nat -> x u == x' u) ->
 Proof.
   intros Hx Hy. rewrite !times_is. apply sum_ext. intros u Hu. apply sum_ext. intros v Hv.
   apply in_seq in Hu, Hv. rewrite (Hx u), (Hy v) by lia. reflexivity.
+Qed.
+
+Lemma times_zero x y e : (forall u, (u < degree M)%nat -> x u == 0) \/
+  (forall v, (v < degree M)%nat -> y v == 0) -> times M x y e == 0.
+Proof.
+  intros Z. rewrite times_is. apply sum_zero. intros u Hu. apply sum_zero. intros v Hv.
+  apply in_seq in Hu, Hv. destruct Z as [Z|Z]; [rewrite (Z u) by lia|rewrite (Z v) by lia]; ring.
 Qed.
 
 (** Entry i of a stage value, a number. *)

@@ -89,16 +89,9 @@ Proof.
     (app (A l m) (scale (inject_Z (Z.of_nat (S (size vs)))) (forest m vs))) (forest l r))).
   apply hull_mul with (S1 := G (S (size vs)) l) (S2 := F (k - S (size vs)) l).
   - intros a w Ha Hw. apply products with (j := S (size vs)); try assumption; lia.
-  - assert (Hd : hull (F (size vs) m) 1 (forest m vs)) by (apply IHn; try assumption; lia).
-    intros f c L K.
-    apply (Hd (fun x => f (app (A l m) (scale (inject_Z (Z.of_nat (S (size vs)))) x)))).
-    + destruct L as [E Ad Sc]. split; intros.
-      * apply E, app_ext. intros i. unfold scale. rewrite (H i). reflexivity.
-      * rewrite <- Ad. apply E. intros i. rewrite <- (app_add _ _ _ i). revert i. apply app_ext.
-        intros i. unfold scale, add. ring.
-      * rewrite <- Sc. apply E. intros i. rewrite <- (app_scale _ t _ i). revert i. apply app_ext.
-        intros i. unfold scale. ring.
+  - apply hull_map with (S := F (size vs) m).
     + intros a Ha. apply (branches (size vs) l m); try assumption; lia.
+    + apply IHn; try assumption; lia.
   - replace (k - S (size vs))%nat with (size r) by lia. apply IHn; try assumption; lia.
 Qed.
 

@@ -52,15 +52,6 @@ Proof.
   intros Hl Hi e He. destruct (points l Hl) as [s Hs]. unfold stages in Hi. rewrite Hs in Hi.
   exact (mu_at_points M l s x y i e Hs Hi He).
 Qed.
-Lemma times_zero x y e : equal M x (fun _ => 0) \/ equal M y (fun _ => 0) -> times M x y e == 0.
-Proof.
-  intros Z. rewrite times_is. rewrite (sum_ext _ _ (fun _ => 0 * 0)).
-  - rewrite sum_times. apply Qmult_0_l.
-  - intros u Hu. rewrite (sum_ext _ _ (fun _ => 0 * 0)); [rewrite sum_times; apply Qmult_0_l|].
-    intros v Hv. apply in_seq in Hu, Hv. destruct Z as [Z|Z].
-    + rewrite (Z u) by lia. ring.
-    + rewrite (Z v) by lia. ring.
-Qed.
 Lemma weight_beyond l i : (length (snd (nth l (colours M) (O, []))) <= i)%nat ->
   equal M (weight M l i) (fun _ => 0).
 Proof. intros H e _. unfold weight. rewrite (nth_overflow _ _ H). destruct e; reflexivity. Qed.
@@ -74,9 +65,8 @@ Proof.
   destruct (H j (or_introl eq_refl)) as [P|Z];
     destruct IH as [Zs|Ps]; try (intros; apply H; right; assumption).
   - right. apply (o_ext _ _ Ord (t j)); [|exact P]. intros e He.
-    change (t j e == t j e + sum js (fun j => t j e)). rewrite (sum_ext _ _ (fun _ => 0 * 0)).
-    + rewrite sum_times. ring.
-    + intros i Hi. rewrite (Zs i Hi e He). reflexivity.
+    change (t j e == t j e + sum js (fun j => t j e)).
+    rewrite sum_zero; [ring|]. intros i Hi. exact (Zs i Hi e He).
   - right. exact (o_add _ _ Ord _ _ P Ps).
   - left. intros i [<-|Hi]; [exact Z|apply Zs, Hi].
   - right. apply (o_ext _ _ Ord _ _ (fun e He => Qeq_sym _ _ (Qeq_trans _ _ _
@@ -99,10 +89,10 @@ Proof.
     - apply (o_times _ _ Ord); [apply P; assumption|apply (o_square _ _ Ord), Nz]. }
   destruct (sum_of_positive positive t js Ord) as [Zs|Ps].
   - intros j _. destruct (le_lt_dec (stages M l) j) as [L|L].
-    + right. intros f Hf. apply times_zero. right. intros u _. apply number_beyond; assumption.
+    + right. intros f Hf. apply (times_zero M). right. intros u _. apply number_beyond; assumption.
     + destruct (zero_or_not M (number_at M v j)) as [Zj|Zj]; [right|left; apply Pos; assumption].
-      intros f Hf. apply times_zero. right. intros u Hu. rewrite (product_at l v v j Hl L u Hu).
-      apply times_zero. left. exact Zj.
+      intros f Hf. apply (times_zero M). right. intros u Hu. rewrite (product_at l v v j Hl L u Hu).
+      apply (times_zero M). left. exact Zj.
   - apply (o_zero _ _ Ord), (o_ext _ _ Ord (t i)); [|apply Pos; assumption]. apply Zs, in_seq.
     destruct (le_lt_dec (length (snd (nth l (colours M) (O, [])))) i) as [L|L]; [exfalso|lia].
     apply (o_zero _ _ Ord), (o_ext _ _ Ord (weight M l i)); [apply weight_beyond, L|].
