@@ -179,13 +179,40 @@ class Follower(Evaluator):
         match call:
             case ir.Call(callee, (target, source, *_), ()) if _name(callee) in _COPIES:
                 self._store(target, self.value(source, space), space, self.line)
-            case ir.Call(callee, (*args, ir.Name() as target), ()) if args:
-                slope = self._slope(callee, [self.value(x, space) for x in args])
-                if not isinstance(slope, Form):
-                    self._lose([ir.Do(call, self.line)], space)
-                self._store(target, slope, space, self.line)
+            case ir.Call(callee, (_, _, *_) as given, ()) if _name(callee) in _SUMS:
+                self._added(_SUMS[_name(callee)], given, space)
+            case ir.Call(ir.Field(of=ir.Name() as of, name="Add"), (factor, term), ()):
+                self._added("+ * x", (of, factor, term), space)
+            case ir.Call(callee, (ir.Name() as target, *args), ()) if _name(callee).endswith("!"):
+                self._evaluated(call, target, args, space)
+            case ir.Call(_, (_, *_, ir.Name() as target), ()):
+                self._evaluated(call, target, call.args[:-1], space)
             case _:
                 self._lose([ir.Do(call, self.line)], space)
+
+    def _evaluated(
+        self, call: ir.Call, target: ir.Expr, args: Sequence[ir.Expr], space: Space
+    ) -> None:
+        slope = self._slope(call.callee, [self.value(x, space) for x in args])
+        if not isinstance(slope, Form):
+            self._lose([ir.Do(call, self.line)], space)
+        self._store(target, slope, space, self.line)
+
+    def _added(self, roles: str, args: Sequence[ir.Expr], space: Space) -> None:
+        """A sum of vectors: ``*`` is a factor of the next, ``=`` and ``+`` what becomes the sum."""
+        total: Value = ZERO
+        factor: Value = ONE
+        target: ir.Expr | None = None
+        for role, arg in zip(roles.split(), args, strict=False):
+            if role in "=+":
+                target = arg
+            if role in "+x":
+                term = self.combined("*", factor, self.value(arg, space))
+                total, factor = self.combined("+", total, term), ONE
+            if role == "*":
+                factor = self.value(arg, space)
+        if target is not None:
+            self._store(target, total, space, self.line)
 
     def _lose(self, body: Iterable[ir.Statement], space: Space) -> None:
         """What statements assign, and what calls are given, is not known any more."""
@@ -219,7 +246,8 @@ class Follower(Evaluator):
         if name in space:
             return space[name]
         found = super()._named(name, space)
-        return found if isinstance(found, Number | Array) else Form({(name,): ONE})
+        has_numbers = any(isinstance(x, Number) for x in Array([found]).flat())
+        return found if has_numbers else Form({(name,): ONE})
 
     def _entry(self, expr: ir.Index, space: Space) -> Value:
         whole = self._whole(expr)
@@ -518,6 +546,8 @@ def _name(callee: ir.Expr) -> str:
 
 _COPIES = {"memcpy", "dbl_memcpy", "copyto!"}
 """Functions that give their first argument the value of their second one."""
+_SUMS = {"add": "x * x =", "vecwaxpy": "= * x x", "vecaxpy": "+ * x", "n_vlinearsum": "* x * x ="}
+"""Functions that add vectors, by what they are given: those of MFEM, PETSc and SUNDIALS."""
 _MATHEMATICS = {
     *("min", "max", "minimum", "maximum", "fmin", "fmax", "amin", "amax", "clamp", "clip"),
     *("hypot", "atan2", "arctan2", "pow", "power", "mod", "rem", "div", "fmod", "copysign"),
