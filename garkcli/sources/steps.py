@@ -179,10 +179,10 @@ class Follower(Evaluator):
         match call:
             case ir.Call(callee, (target, source, *_), ()) if _name(callee) in _COPIES:
                 self._store(target, self.value(source, space), space, self.line)
-            case ir.Call(callee, (_, _, *_) as given, ()) if _name(callee) in _SUMS:
-                self._added(_SUMS[_name(callee)], given, space)
             case ir.Call(ir.Field(of=ir.Name() as of, name="Add"), (factor, term), ()):
                 self._added("+ * x", (of, factor, term), space)
+            case ir.Call(callee, (_, _, *_) as given, ()) if _name(callee) in _SUMS:
+                self._added(_SUMS[_name(callee)], given, space)
             case ir.Call(callee, (ir.Name() as target, *args), ()) if _name(callee).endswith("!"):
                 self._evaluated(call, target, args, space)
             case ir.Call(_, (_, *_, ir.Name() as target), ()):
@@ -251,6 +251,11 @@ class Follower(Evaluator):
 
     def _entry(self, expr: ir.Index, space: Space) -> Value:
         whole = self._whole(expr)
+        if whole is expr and len(expr.at) > 1 and self.base == 1 and self.has_whole_quotients:
+            # Fortran's f(t, y)
+            of = self.value(expr.of, space)
+            if isinstance(of, Form) and of.terms.keys() == {(getattr(expr.of, "name", ""),)}:
+                return self._slope(expr.of, [self.value(x, space) for x in expr.at])
         if whole is expr:
             return super()._entry(expr, space)
         found = self.value(whole, space)
@@ -429,7 +434,7 @@ class Follower(Evaluator):
         others = {
             str(sorted((at, _shown(x)) for at, x in form.items()))
             for form in found.values()
-            if form not in values
+            if form not in values and _is_one_in_all(form)
         }
         if not found or len(others) > 1:
             raise NoStep
@@ -481,6 +486,11 @@ def _nodes(columns: Sequence[Sequence[Terms]], step: str) -> list[Value]:
             found = [_node(form, time, step) for form in forms]
     is_single = any(len(forms) == 1 for forms in columns)
     return found or [ZERO] * is_single
+
+
+def _is_one_in_all(form: Terms) -> bool:
+    """Whether the slopes times the step have the sum 1, as no partial sum of them has."""
+    return abs(near(*(x for at, x in form.items() if len(at) == 2)) - 1) < NEAR
 
 
 def _is_one(value: Value) -> bool:

@@ -141,7 +141,46 @@ function perform_step!(integrator, cache::SSPRK22ConstantCache)
     integrator.u = u
 end
 """
+VECTORS = """
+void Step(Vector &x, double &t, double &dt)
+{
+   f->SetTime(t);
+   f->Mult(x, k);
+   add(x, dt/2, k, y);
+   add(x, dt/6, k, z);
+   f->SetTime(t + dt/2);
+   f->Mult(y, k);
+   add(x, dt/2, k, y);
+   z.Add(dt/3, k);
+   f->Mult(y, k);
+   add(x, dt, k, y);
+   z.Add(dt/3, k);
+   f->SetTime(t + dt);
+   f->Mult(y, k);
+   add(z, dt/6, k, x);
+   t += dt;
+}
+"""
+FUNCTION = """
+subroutine rk2(t, y, h, yn)
+    real :: t, y(3), h, yn(3), k1(3), k2(3)
+    k1 = f(t, y)
+    k2 = f(t + h/2, y + h/2*k1)
+    yn = y + h*k2
+end subroutine
+"""
+IN_PLACE = """
+function step!(f!, u, k1, k2, tmp, p, t, dt)
+    f!(k1, u, p, t)
+    @. tmp = u + dt/2*k1
+    f!(k2, tmp, p, t + dt/2)
+    @. u = u + dt*k2
+end
+"""
 STEPS = {
+    "sums of vectors": (c.find, VECTORS, 4, None),
+    "a function of Fortran": (fortran.find, FUNCTION, 2, None),
+    "slopes in place": (julia.find, IN_PLACE, 2, None),
     "slopes in fields": (julia.find, FIELDS, 2, None),
     "loops over components, the first slope is given": (c.find, LOOPS, 4, None),
     "what is evaluated before and after, errors": (c.find, STATUS, 3, 2),
