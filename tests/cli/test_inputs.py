@@ -247,7 +247,7 @@ def test_paths_of_a_project_stay_in_it(path: str, format: str, checkout: Path) -
     """Whoever writes .gark.toml reads no file of the machine that checks it."""
     (checkout / ".gark.toml").write_text(f'paths = ["{path}"]\n')
     run = gark("check", "--format", format, cwd=checkout)
-    refused(run, f".gark.toml: paths: {path} leads out of the project")
+    refused(run, f".gark.toml:1:1: error[elsewhere]: paths: {path} leads out of the project")
     assert SECRET not in run.out + run.err
 
 
