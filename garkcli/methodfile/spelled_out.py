@@ -7,14 +7,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence, Sized
 from typing import TypeAlias
 
-from yaml.nodes import MappingNode, Node, SequenceNode
+from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
 from garkcli.errors import counted
 from garkcli.frozen import replace
 from garkcli.methodfile import description as d
 from garkcli.methodfile import grammar as g
 from garkcli.methodfile.nodes import is_null
-from garkcli.methodfile.numbers import Reading, Row, Rows
+from garkcli.methodfile.numbers import UNKNOWN, Reading, Row, Rows
 from garkcli.methodfile.parameters import MATRIX, ROW
 from garkcli.methodfile.source import Entries, Home
 
@@ -180,6 +180,8 @@ def one_each(
     """
     found = len(items)
     if found != wanted:
+        if isinstance(node, ScalarNode) and node.value == UNKNOWN:
+            cure = f"write [{', '.join([repr(UNKNOWN)] * wanted)}], one per {each}"
         has = entries_of(found) if noun == "entry" else counted(found, noun)
         message = f"{name} has {has} for {counted(wanted, each)}"
         at.source.fault(node, message, cure, code="wrong-size")

@@ -167,6 +167,11 @@ def _block(at: Reading, node: Node, where: str) -> d.BlockText | None:
 
 
 def _rule(at: Reading, node: Node, where: str) -> d.RuleText | None:
+    if _is_unknown(node):
+        message = f'{where}: "?" is no rule, it stands for all blocks or for one'
+        cure = 'write transfer: "?", or blocks: {"1,2": "?"}'
+        at.source.fault(node, message, cure, code="unknown-word")
+        return None
     if isinstance(node, ScalarNode):
         rule = at.source.choice(node, where, ALL_RULES)
         return d.RuleText(node, ((rule, None),)) if rule else None

@@ -17,7 +17,7 @@ from garkcli.exact.cells import between
 from garkcli.exact.domain import Domain
 from garkcli.exact.nodes import Literal, Name
 from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.rewriting import roots_in
+from garkcli.exact.rewriting import format_expression, roots_in
 from garkcli.exact.roots import RealRoot, real_roots, sign_at
 from garkcli.frozen import Frozen, fields
 from garkcli.methodfile.build import Builder
@@ -104,7 +104,8 @@ def _between_roots(
         return (), []
     if low == high and low.exact is None:
         message = f"{where}: both ends are one number"
-        cure = "write fix: {gamma: sqrt(2)/2}"
+        name = where.rpartition(": ")[2]
+        cure = f"write fix: {{{name}: {format_expression(ends[0].expression)}}}"
         source.fault(node, message, cure, code="wrong-value")
         return (), []
     inner = RealRoot.rational(between(low, high)) if low < high else low

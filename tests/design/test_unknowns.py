@@ -357,3 +357,35 @@ def test_symplectic_rules_compare_orders_of_numbers(text: str) -> None:
     with pytest.raises(MethodFileError) as found:
         loads_family(text)
     assert str(found.value).count("a symplectic- rule compares orders of numbers") == 1
+
+
+@pytest.mark.parametrize(
+    ("text", "cure"),
+    [
+        ("unknown: {stages: 2, shape: sdirk}\nparameters: {gama: free}\n", "did you mean 'gamma'?"),
+        (
+            'methods: [gauss-1, gauss-2]\ntransfer: {default: "?"}\n',
+            'write transfer: "?", or blocks: {"1,2": "?"}',
+        ),
+        (
+            'A: [[0, 0], ["?", 0]]\nb: ["?", "?"]\nembedded: "?"\n',
+            "write ['?', '?'], one per stage",
+        ),
+        (
+            "parameters: {g: free}\nA: [[g]]\nb: [1]\ndesign: {range: {g: [sqrt(2), sqrt(2)]}}\n",
+            "write fix: {g: sqrt(2)}",
+        ),
+    ],
+)
+def test_cures_name_what_works(text: str, cure: str) -> None:
+    """A parameter that nothing uses, ? where it has no place, a range of one number."""
+    with pytest.raises(MethodFileError) as told:
+        loads_family(text)
+    assert [fault.help for fault in told.value.faults] == [cure]
+
+
+def test_a_parameter_that_only_values_use() -> None:
+    """Beside a shape it is no fault, as unknowns may be functions of it."""
+    text = "unknown: {stages: 3, shape: explicit}\nparameters: {t: free}\n"
+    family = loads_family(f"{text}design: {{fix: {{c2: t, c3: 2*t}}}}\n")
+    assert "t" in family.parameters
