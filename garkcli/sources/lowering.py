@@ -13,6 +13,7 @@ from garkcli.sources import ir
 from garkcli.sources.found import FoundTable, Reader
 from garkcli.sources.naming import ROLES
 from garkcli.sources.reading import tables_in
+from garkcli.sources.signatures import SIGNATURES, other_kind
 
 _NUMBER = re.compile(r"(?<![\w.])[0-9]+(?:\.[0-9]*)?")
 FEWEST_NUMBERS = 5
@@ -196,10 +197,12 @@ class Lowering:
 
     def declares(self, record: str, names: Iterable[str], least: int | None = None) -> None:
         """A record has fields of these names, in order, so many of them at least, else all; those
-        of a method are remembered.
+        of a method are remembered, unless calls of that name are known. ``Tableau`` is a name that
+        many have.
         """
         fields = tuple(names)
-        if {"A", "b"} <= {ROLES.get(x) for x in fields}:
+        is_known = (record in SIGNATURES and record != "Tableau") or bool(other_kind(record))
+        if {"A", "b"} <= {ROLES.get(x) for x in fields if x.isascii()} and not is_known:
             self._fields[record] = fields, len(fields) if least is None else least
 
     def made(self, record: str, args: tuple[ir.Expr, ...]) -> tuple[tuple[str, ir.Expr], ...]:

@@ -291,6 +291,17 @@ def test_the_same_method_however_it_is_stored(language: ModuleType, text: str) -
     assert (judged.order.order, judged.findings) == (3, ())
 
 
+def test_calls_that_are_known_keep_their_meaning() -> None:
+    """A record of kicks and drifts, whatever its fields are called, is no A and b."""
+    made = "SymplecticTableau([1, 0], [1//2, 1//2])"
+    text = f"struct SymplecticTableau\n  a\n  b\nend\nleapfrog(T) = {made}\n"
+    (table,) = julia.find(text, "x.jl")
+    judged = audit(table)
+    assert judged is not None
+    assert judged.order is not None
+    assert (table.colours, judged.order.order, judged.findings) == (2, 2, ())
+
+
 @pytest.mark.parametrize("name", ["butcher_tableau", "rk_table", "a_stable", "p_stable_by_c"])
 def test_a_matrix_with_a_name_is_no_block(name: str) -> None:
     """Lobatto IIIA 3: its last row has the sum 1, and more rows have nearly their first entry for
