@@ -66,13 +66,17 @@ def test_a_page_is_quiet_and_whole(
 def test_only_boxes_that_scroll_stop_the_keyboard(
     reports: dict[str, Path], opened: Open, size: str
 ) -> None:
-    """A stop for each box that is wider or higher than what is seen of it, and for no other."""
+    """A stop for each box that is wider or higher than what is seen of it, and for no other; only a
+    box that is meant to be high scrolls up and down.
+    """
+    fits = "x => x.classList.contains('tall') || x.scrollHeight <= x.clientHeight"
     scrolls = "x => x.scrollWidth > x.clientWidth || x.scrollHeight > x.clientHeight"
     with opened(reports["rk4"], SIZES[size]) as found:
         kinds = set()
         for box in found.page.locator(".box").all():
             is_scrolled = box.evaluate(scrolls)
             assert (box.get_attribute("tabindex") == "0") == is_scrolled
+            assert box.evaluate(fits)
             kinds.add(is_scrolled)
         assert kinds == {True, False}
 
