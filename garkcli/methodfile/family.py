@@ -11,7 +11,6 @@ from yaml.nodes import ScalarNode
 from garkcli.design.want import numerators, sign_polynomial
 from garkcli.errors import HasFreeParameters, MethodError, did_you_mean
 from garkcli.exact.parametric import Parameters, common_denominator
-from garkcli.exact.rewriting import names_in
 from garkcli.methodfile.description import (
     ClaimText,
     Description,
@@ -135,13 +134,12 @@ def _refuse_unused(reader: Reader) -> None:
     """Note parameters beside a shape that are none of its unknowns, and that nothing uses."""
     if reader.shaped is None:
         return
-    unknowns = reader.shaped.layout.unknowns
-    used = {x.name for entry in reader.numbers.entries for x in names_in(entry.expression)}
-    for name, free in reader.numbers.free.items():
-        if name not in used:
+    numbers, unknowns = reader.numbers, reader.shaped.layout.unknowns
+    for name, node in numbers.places.items():
+        if name not in numbers.used:
             message = f"parameters: {name} is no unknown of the shape, and nothing uses it"
             cure = did_you_mean(name, unknowns)
-            reader.source.fault(free.node, message, cure, code="unknown-word")
+            reader.source.fault(node, message, cure, code="unknown-word")
 
 
 def family_of(error: HasFreeParameters, settings: Mapping[str, str] = NO_SETTINGS) -> FamilyFile:

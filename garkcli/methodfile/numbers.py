@@ -12,7 +12,7 @@ from garkcli.errors import ExpressionError, LimitExceeded, counted
 from garkcli.exact.expression import parse
 from garkcli.exact.field import ZERO
 from garkcli.exact.nodes import Expression, Literal, Name
-from garkcli.exact.rewriting import depth_of, size_of, substitute
+from garkcli.exact.rewriting import depth_of, names_in, size_of, substitute
 from garkcli.frozen import Frozen, Mutable, field
 from garkcli.methodfile import spellings
 from garkcli.methodfile.nodes import shortened
@@ -98,6 +98,7 @@ class Numbers(Mutable):
         settings: values of parameters that are given from outside of the file, as text.
         free: the parameters that have none.
         places: where the value of each parameter is.
+        used: the names in all coefficients, as they are written.
     """
 
     source: Source
@@ -107,6 +108,7 @@ class Numbers(Mutable):
     settings: Mapping[str, str] = field(default_factory=dict)
     free: dict[str, Free] = field(default_factory=dict)
     places: Entries = field(default_factory=dict)
+    used: set[str] = field(default_factory=set)
     _sizes: dict[str, int] = field(default_factory=dict)
     _depths: dict[str, int] = field(default_factory=dict)
     _read: dict[str, Expression] = field(default_factory=dict)
@@ -202,6 +204,7 @@ class Numbers(Mutable):
         if text in self._read:
             return self._read[text]
         parsed = parse(text)
+        self.used.update(x.name for x in names_in(parsed))
         if size_of(parsed, self._sizes) > MAX_SIZE:
             message = f"more than {MAX_SIZE} operations, with the parameters written out"
             raise LimitExceeded(message, "write it shorter", 0, len(text))

@@ -101,16 +101,23 @@ def _read(at: Any, node: Node, _: str) -> None:
         elif not name.isidentifier() or not name.isascii():
             message = f"{where} cannot be the name of a parameter"
             source.fault(key, message, "use letters, digits and _", code="name-taken")
-        elif name in numbers.settings:
-            value = numbers.given(name, value_node, where)
-        elif isinstance(value_node, MappingNode) or value_node.value == "free":
-            value = Name(name)
-            numbers.free[name] = _free(at, value_node, where)
         else:
-            value = numbers.entry(value_node, where).expression
-            numbers.of_parameters.append(numbers.entries.pop())
+            value = _value(at, name, value_node, where)
+            numbers.places[name] = value_node
         numbers.define(name, value)
-        numbers.places[name] = value_node
+
+
+def _value(at: Any, name: str, node: Node, where: str) -> Expression:
+    """What a parameter stands for: a value, or itself where it is free."""
+    numbers: Numbers = at.numbers
+    if name in numbers.settings:
+        return numbers.given(name, node, where)
+    if isinstance(node, MappingNode) or node.value == "free":
+        numbers.free[name] = _free(at, node, where)
+        return Name(name)
+    value = numbers.entry(node, where).expression
+    numbers.of_parameters.append(numbers.entries.pop())
+    return value
 
 
 def _free(at: Any, node: Node, where: str) -> Free:

@@ -363,6 +363,7 @@ def test_symplectic_rules_compare_orders_of_numbers(text: str) -> None:
     ("text", "cure"),
     [
         ("unknown: {stages: 2, shape: sdirk}\nparameters: {gama: free}\n", "did you mean 'gamma'?"),
+        ("unknown: {stages: 2, shape: sdirk}\nparameters: {gama: 1/4}\n", "did you mean 'gamma'?"),
         (
             'methods: [gauss-1, gauss-2]\ntransfer: {default: "?"}\n',
             'write transfer: "?", or blocks: {"1,2": "?"}',
@@ -384,8 +385,17 @@ def test_cures_name_what_works(text: str, cure: str) -> None:
     assert [fault.help for fault in told.value.faults] == [cure]
 
 
-def test_a_parameter_that_only_values_use() -> None:
-    """Beside a shape it is no fault, as unknowns may be functions of it."""
-    text = "unknown: {stages: 3, shape: explicit}\nparameters: {t: free}\n"
-    family = loads_family(f"{text}design: {{fix: {{c2: t, c3: 2*t}}}}\n")
-    assert "t" in family.parameters
+@pytest.mark.parametrize(
+    ("parameters", "design"),
+    [
+        ("{t: free}", "fix: {c2: t, c3: 2*t}"),
+        ("{t: 1/3}", "fix: {c2: t, c3: 2*t}"),
+        ("{t: 1/3, c3: 2*t}", "fix: {c2: 1/3}"),
+        ("{t: 1/3, c3: {free: true, range: [t, 1]}}", "fix: {c2: 1/3}"),
+        ("{t: 1/3}", "range: {c2: [t, 1]}"),
+    ],
+)
+def test_a_parameter_that_only_values_use(parameters: str, design: str) -> None:
+    """Beside a shape it is no fault, as unknowns, their ranges and wishes may depend on it."""
+    text = f"unknown: {{stages: 3, shape: explicit}}\nparameters: {parameters}\n"
+    assert "c2" in loads_family(f"{text}design: {{{design}}}\n").parameters
