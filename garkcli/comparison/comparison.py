@@ -55,11 +55,12 @@ class OrderPair(Frozen):
 
 
 class PropertyPair(Frozen):
-    """A property that is not the same of both methods."""
+    """A property that is not the same of both methods, with the rounding of each."""
 
     key: str
     one: Verdict
     other: Verdict
+    tolerances: tuple[fmpq | None, fmpq | None]
 
     @property
     def is_known(self) -> bool:
@@ -168,13 +169,16 @@ def compare(one: GarkMethod, other: GarkMethod, limit: int = DEFAULT_LIMIT) -> C
         known_as = [meant(x.tableau, x.tolerance) for x in (first, second)]
         met = conditions_met(known_as[0], known_as[1], (first.order.order, second.order.order))
     different = []
+    tolerances = first.tolerance, second.tolerance
     for key in KEYS:
-        pair = PropertyPair(key, first.subject.verdict(key), second.subject.verdict(key))
+        pair = PropertyPair(
+            key, first.subject.verdict(key), second.subject.verdict(key), tolerances
+        )
         if _text(pair.one) != _text(pair.other):
             different.append(pair)
     if first.symplectic != second.symplectic:
         verdicts = Verdict(first.symplectic), Verdict(second.symplectic)
-        different.append(PropertyPair("symplectic", *verdicts))
+        different.append(PropertyPair("symplectic", *verdicts, tolerances))
     return Comparison(
         one=one,
         other=other,

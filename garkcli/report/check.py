@@ -263,7 +263,7 @@ def conjugate_consistent(a: Any) -> Any:
 
 
 OF_EQUATIONS = {
-    *("sdirk", "esdirk", "stiffly-accurate", "fsal", "symmetric"),
+    *("sdirk", "esdirk", "stiffly-accurate", "fsal", "symmetric", "symplectic"),
     *("stage-order", "weak-stage-order"),
 }
 """Properties that rounded coefficients have within their tolerance; others hold for all methods
@@ -273,7 +273,12 @@ there, or are undecided.
 
 def within(a: Any, key: str) -> Any:
     """The rounding within which a method has a property; None for exactly, or for none."""
-    return a.tolerance if key in OF_EQUATIONS and a.subject.verdict(key).value else None
+    return rounding(key, a.subject.verdict(key).value, a.tolerance)
+
+
+def rounding(key: str, value: object, tolerance: Any) -> Any:
+    """The same of the value of a property."""
+    return tolerance if value and key in OF_EQUATIONS else None
 
 
 def verdict_answer(a: Any, key: str) -> Answer:

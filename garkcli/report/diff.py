@@ -16,7 +16,7 @@ from garkcli.page import schema as S  # noqa: N812 -- its names are those of kin
 from garkcli.properties.property import Size
 from garkcli.properties.registry import KEYS
 from garkcli.reason import Reason
-from garkcli.report.check import verdict_words
+from garkcli.report.check import rounding, verdict_words
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tell import kinds
 from garkcli.tell.dialect import Plain
@@ -84,6 +84,10 @@ def _entry_words(x: Any, d: Plain) -> str:
         return d.prose(str(x.str(12, radius=False)))
     found = value_text(x, 12)
     return d.prose(found) if isinstance(found, str) else d.number(x)
+
+
+def _known(key: str, verdict: Any, tolerance: Any) -> Answer:
+    return Answer(verdict, Status(rounding(key, verdict.value, tolerance)))
 
 
 def _verdict_cell(verdict: Any, d: Plain) -> str:
@@ -278,8 +282,8 @@ MET = Section(
 )
 PROPERTY = Section(
     Row("property", kinds.choice(*KEYS, "symplectic"), "key", label=""),
-    Row("first", VERDICT, "one"),
-    Row("second", VERDICT, "other"),
+    Row("first", VERDICT, lambda x: _known(x.key, x.one, x.tolerances[0])),
+    Row("second", VERDICT, lambda x: _known(x.key, x.other, x.tolerances[1])),
 )
 METHOD = Section(
     Row("file", kinds.TEXT),

@@ -445,3 +445,12 @@ def test_a_stage_without_influence_is_no_difference() -> None:
     assert smaller is not None
     assert smaller.blocks[1, 0] == smaller.blocks[1, 1] == ((0,),)
     assert reduced(smaller) is smaller
+
+
+def test_properties_of_rounded_coefficients_say_so() -> None:
+    """What is an equation holds within the tolerance; what rounding does not change holds as it is."""
+    run = gark("diff", "tests/examples/valid/rounded.gark.yaml", "rk4", "-v")
+    rows = {x.split()[0]: x.split()[1:] for x in run.out.splitlines() if x.startswith("  ")}
+    assert rows["symmetric"] == rows["symplectic"] == ["yes", "within", "1e-14", "no"]
+    assert rows["stage-order"] == ["2", "within", "1e-14", "1"]
+    assert rows["fully-implicit"] == ["yes", "no"]
