@@ -15,6 +15,26 @@ from garkcli.methodfile.expectations import CLAIMS
 from garkcli.methodfile.source import Source
 
 HEAD = re.compile(r"^\s*\[\s*tool\s*\.\s*gark\s*\]", re.MULTILINE)
+TAG = "tag:yaml.org,2002:"
+QUOTED = f"{TAG}str"
+
+
+def _written(kind: g.Kind, is_quoted: bool) -> g.Kind:
+    """A kind whose values have quotes in TOML, or have none."""
+
+    def read(at: Any, node: Node, where: str) -> Any:
+        value = kind.read(at, node, where)
+        if value is None or (node.tag == QUOTED) == is_quoted:
+            return value
+        given, meant = f'"{node.value}"', str(value).lower()
+        if is_quoted:
+            given, meant = node.value, given
+        at.source.fault(
+            node, f"{where}: {given} is not {meant}", f"write {meant}", code="wrong-value"
+        )
+        return None
+
+    return g.Kind(kind.schema, read)
 
 
 def file_of(formats: Iterable[str]) -> g.Kind:
@@ -26,12 +46,22 @@ def file_of(formats: Iterable[str]) -> g.Kind:
     return g.mapping(
         g.Key(
             'paths: ["methods"]',
-            g.list_of(g.Kind(lambda: {"type": "string"}, g.TEXT.read), "paths", each="paths"),
+            g.list_of(
+                _written(g.Kind(lambda: {"type": "string"}, g.TEXT.read), is_quoted=True),
+                "paths",
+                each="paths",
+                form='write ["methods"]',
+            ),
             "The files, folders or patterns that gark check reads where none are named.",
         ),
         g.Key(
             'require-claims: ["order"]',
-            g.either(g.FLAG, g.list_of(g.word(lambda: CLAIMS), "claims", each="require-claims")),
+            g.either(
+                _written(g.FLAG, is_quoted=False),
+                g.list_of(
+                    g.word(lambda: CLAIMS), "claims", each="require-claims", form='write ["order"]'
+                ),
+            ),
             "Whether a file without a claim fails; or a list of claims that every file has to "
             "make.",
             False,
@@ -43,13 +73,13 @@ def file_of(formats: Iterable[str]) -> g.Kind:
         ),
         g.Key(
             "max-order: 12",
-            g.count(1, 400),
+            _written(g.count(1, 400), is_quoted=False),
             "The order at which gark check stops looking where --max-order does not say.",
             60,
         ),
         g.Key(
             "jobs: 2",
-            g.count(0, 256),
+            _written(g.count(0, 256), is_quoted=False),
             "How many processes gark check takes where --jobs does not say; 0 for one a processor.",
             1,
         ),
@@ -72,7 +102,7 @@ def read_settings(source: Source, table: dict[str, Any], kind: g.Kind, where: st
         if isinstance(value, list):
             return SequenceNode("", [node(x, mark) for x in value], mark, mark)
         shown = str(value).lower() if isinstance(value, bool) else str(value)
-        return ScalarNode("tag:yaml.org,2002:str", shown, mark, mark)
+        return ScalarNode(f"{TAG}{type(value).__name__}", shown, mark, mark)
 
     root = node(table, yaml.Mark("", 0, 0, 0, None, 0))
     found: g.Found = kind.read(SimpleNamespace(source=source), root, where)

@@ -92,7 +92,13 @@ def test_claims_that_are_required(project: Path) -> None:
     [
         ("path = []\n", "did you mean 'paths'?"),
         ("paths = 'x'\n", "paths: a list is expected here"),
-        ("paths = []\n", "paths is empty"),
+        (
+            "paths = []\n",
+            'paths is empty\n    1 | paths = []\n      | ^\n      help: write ["methods"]',
+        ),
+        ("paths = [3]\n", 'paths: 3 is not "3"'),
+        ("require-claims = 'yes'\n", 'require-claims: "yes" is not true'),
+        ('max-order = "12"\n', 'max-order: "12" is not 12'),
         ('require-claims = ["ordr"]\n', "did you mean 'order'?"),
         ("format = 'yaml'\n", "format: 'yaml' is not known"),
         ("max-order = true\n", "max-order: a whole number of at least 1 is expected"),
