@@ -196,7 +196,7 @@ def stable_set(
         ZeroWeight: a weight is zero for every value, and there is no conjugate.
         NotDecided: the time is not enough.
     """
-    refuse_radicals(family)
+    refuse_radicals(family, wanted, whose)
     if len(family.parameters) == 1:
         return stable_values(family, wanted, whose, two_springs, colour)
     found = None if two_springs else form_values(family, wanted, whose, colour)

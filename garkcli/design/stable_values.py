@@ -132,7 +132,7 @@ def stable_values(
         ZeroWeight: a weight is zero for every value, and there is no conjugate.
         NotDecided: the time is not enough.
     """
-    refuse_radicals(family)
+    refuse_radicals(family, wanted, whose)
     if len(family.parameters) > 1:
         raise too_many(family)
     tableau = TABLEAUS[whose](family.tableau)
@@ -209,15 +209,14 @@ def too_many(family: Family) -> UsageProblem:
     )
 
 
-def refuse_radicals(family: Family) -> None:
+def refuse_radicals(family: Family, wanted: Wanted, whose: Whose) -> None:
     """Refuse a family with roots among its coefficients."""
     if family.radicals:
         name = family.parameters[0]
         message = f"there are roots among the coefficients, beside {name}"
-        cure = (
-            "write the method as a family by name, whose nodes are not needed; --pair --p-stable"
-            " takes roots with --order"
-        )
+        cure = "write the method as a family by name, whose nodes are not needed"
+        if (wanted, whose) == ("p-stable", "pair"):
+            cure = "add --order P, which takes roots"
         raise UsageProblem(message, cure, code="no-radicals")
 
 

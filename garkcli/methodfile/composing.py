@@ -71,6 +71,7 @@ _TOO_MANY = f"more than {MAX_NODES} values in one file"
 _YAML_CURES = (
     ("'\\t'", "indent with spaces, not with tabs"),
     ("mapping values are not allowed", "quote a text that holds a colon, and align the keys"),
+    ("mapping keys are not allowed", "quote a text that begins with ?"),
     ("block end", "align the keys and the dashes of one list"),
     ("undefined alias", "define it first as &name, or quote the text"),
     ("cannot start any token", "quote a text that begins with this sign"),

@@ -281,12 +281,13 @@ class MethodsReader:
         """The order that is searched for: that of ``search``, or the file's own."""
         if self.search is None:
             message = f"{shortened(name)} leaves {unknowns[0]} to a search"
-            cure = "write search: {seeds: 1..100}"
+            order = "" if own else "order: 4, "
+            cure = f"write search: {{{order}seeds: 1..100}}"
             self.source.fault(node, message, cure, code="free-parameters")
             return 0
-        order: int = self.search.get("order", own)
-        if not order:
+        found: int = self.search.get("order", own)
+        if not found:
             message = f"{shortened(name)}: a search is for an order"
-            cure = "write search: {order: 4}, or in a file design: {order: 4}"
+            cure = "write search: {order: 4, seeds: 1..100}, or in a file design: {order: 4}"
             self.source.fault(node, message, cure, code="option-alone")
-        return order
+        return found

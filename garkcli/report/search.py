@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple, get_args
 
 from garkcli.design.member import Whose
@@ -71,19 +71,28 @@ def _verdict(method: Method) -> str:
             return f"numerical: residuals below {method.residual} up to order {method.order}"
 
 
+def with_root(values: Mapping[str, str]) -> Mapping[str, str]:
+    """Values in which the one long root among them has a name of its own.
+
+    >>> with_root({"a": "root_of(x**3 - 2, 1.25)", "b": "1 - root_of(x**3 - 2, 1.25)"})
+    {'r': 'root_of(x**3 - 2, 1.25)', 'a': 'r', 'b': '1 - r'}
+    """
+    roots = {root for x in values.values() for root in ROOT.findall(x)}
+    if len(roots) != 1 or "r" in values:
+        return values
+    (root,) = roots
+    return {"r": root, **{name: x.replace(root, "r") for name, x in values.items()}}
+
+
 def _values(method: Method, d: Plain) -> Iterator[str]:
     """The parameters; a long root that is in them has a name of its own."""
-    values = dict(method.values)
     if not method.is_exact:
-        for name, value in values.items():
+        for name, value in method.values.items():
             whole, _, decimals = value.partition(".")
             yield f"{d.expression(name)} = {d.prose(f'{whole}.{decimals[:SHOWN]}…')}"
         return
-    roots = {root for x in values.values() for root in ROOT.findall(x)}
-    if len(roots) == 1 and "r" not in values:
-        (root,) = roots
-        values = {"r": root, **{name: x.replace(root, "r") for name, x in values.items()}}
-    yield from (f"{d.expression(name)} = {d.expression(x)}" for name, x in values.items())
+    for name, value in with_root(method.values).items():
+        yield f"{d.expression(name)} = {d.expression(value)}"
 
 
 def method_rows(methods: Sequence[tuple[Method, str | None]], d: Plain) -> list[tuple[str, str]]:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import io
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property
 from typing import Any
 
 from garkcli.errors import UsageProblem, counted
 from garkcli.frozen import Frozen
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
+from garkcli.report.search import with_root
 from garkcli.sweep.columns import Value, columns
 from garkcli.sweep.plan import Plan
 from garkcli.sweep.ranking import best_first, distinct, kept, pareto_front
@@ -97,17 +98,17 @@ def _value_words(value: Value, d: Plain) -> str:
     return f"{value:.6g}" if isinstance(value, float) else d.prose(str(value))
 
 
-def _values(row: Judged) -> str | None:
-    """The values of the unknowns that were found."""
+def _values(row: Judged, form: Callable[[Any], Any] = dict) -> str | None:
+    """The values of the unknowns that were found, in a form."""
     values = row.get("values")
     if not isinstance(values, dict):
         return None
-    return ", ".join(f"{name} = {value}" for name, value in values.items())
+    return ", ".join(f"{name} = {value}" for name, value in form(values).items())
 
 
 def _method(row: Judged) -> str:
     """Which method it is, and what is known of a find."""
-    proof = f"; {WORDS[str(row['proof'])]}: {_values(row)}" if "proof" in row else ""
+    proof = f"; {WORDS[str(row['proof'])]}: {_values(row, with_root)}" if "proof" in row else ""
     return f"{row['key']}{proof}"
 
 

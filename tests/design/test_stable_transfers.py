@@ -275,6 +275,7 @@ def test_the_report(tmp_path: Path) -> None:
     data = json.loads(gark(*wanted, "--format", "json").out)
     assert data["reached"] is True
     assert data["stable_ideal"][0] == "12*a21_11 - sqrt(3)"
+    assert "add --order P, which takes roots" in gark(*wanted[:3], "--p-stable").err
     none = 'transfer: {default: collocation, blocks: {"1,2": "?"}}\n'
     path.write_text(f"methods: [gauss-2, lobatto-iiia-3]\n{none}", encoding="utf-8")
     run = gark(*wanted)

@@ -376,10 +376,11 @@ def test_symplectic_rules_compare_orders_of_numbers(text: str) -> None:
             "parameters: {g: free}\nA: [[g]]\nb: [1]\ndesign: {range: {g: [sqrt(2), sqrt(2)]}}\n",
             "write fix: {g: sqrt(2)}",
         ),
+        ("A: ?\nb: [1]\n", "quote a text that begins with ?"),
     ],
 )
 def test_cures_name_what_works(text: str, cure: str) -> None:
-    """A parameter that nothing uses, ? where it has no place, a range of one number."""
+    """A parameter that nothing uses, ? where it has no place or no quotes, a range of one number."""
     with pytest.raises(MethodFileError) as told:
         loads_family(text)
     assert [fault.help for fault in told.value.faults] == [cure]

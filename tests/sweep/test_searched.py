@@ -181,9 +181,13 @@ def test_any_transfer(tmp_path: Path) -> None:
     plan = load_plan(str(spec))
     *_, row = (row_of(plan.criteria, point) for point in plan.points())
     assert row["failure"] == "no transfer is known whose pair has order 5"
+    fourth = TRANSFERS.replace("stages: 3", "stages: 4").replace("1..2", "1")
+    spec.write_text(fourth.replace('[legendre, "?"]', '"?"'), "utf-8")
+    assert gark("sweep", str(spec)).out.count("root_of") == 1  # which has a name
     spec.write_text(TRANSFERS.partition("search")[0], "utf-8")
-    with pytest.raises(MethodFileError, match="leaves the transfer to a search"):
+    with pytest.raises(MethodFileError, match="leaves the transfer to a search") as told:
         load_plan(str(spec))
+    assert told.value.faults[0].help == "write search: {order: 4, seeds: 1..100}"
 
 
 def rows_of_block(settings: Any, l: int, m: int, height: int, width: int) -> list[str]:
