@@ -323,7 +323,8 @@ def _answer(x: DesignReport, d: Plain) -> str:
     if best is not None:
         texts.append(f"order {best.order}{whose} for {_briefly(best)}")
     if best is not last:
-        no = {"undecided": "is not decided", "none": "for no value"}
+        none = "for no real value" if last.is_of_real_values else "for no value"
+        no = {"undecided": "is not decided", "none": none}
         text = f"order {last.order}{'' if best else whose}"
         texts.append(f"{text} {no.get(last.kind, 'for no method of the file')}")
     texts += [f"{'' if best else whose}{stability(values, d)}" for values in x.sets]

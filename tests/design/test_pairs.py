@@ -124,6 +124,7 @@ def test_a_pair_order_that_is_wanted() -> None:
     assert find_order(tableau).order == find_order(pair(tableau)).order == 4
     text = " ".join(render(found).split())
     assert "the zeros, real ones by B, C, D and the even condition, of" in text
+    assert "order 5 for no real value" in text
     assert "no real value: with the conditions before it, that of [[[[[]_1]_1]_1]_1]_1" in text
     unknown_weight = "A: [[1/2]]\nb: ['?']\ndesign: {pair-order: 3}"
     for text in (wanted.replace("4}", "2}"), unknown_weight):
