@@ -424,6 +424,8 @@ class _Finding(Frozen):
         if real.basis != ideal.basis:
             polynomials, _ = _described(real)
             step = replace(step, real=real, polynomials_of_real=tuple(polynomials))
+        if real.is_everything and ideal.is_proved:
+            return replace(step, is_real=False)
         if real.dimension == 0:
             found = self._found(real)
             is_open = any(x.open for x in found)

@@ -369,8 +369,13 @@ def stable_rows(x: DesignReport, d: Plain) -> Rows:
         texts = [equation(family, p) for p in sorted(best.polynomials_of_stable, key=len)]
         found = f"P-stable for exactly {_listed(texts, d, 'equation')}"
         return [("stable", found)] if texts else []
-    if kinds and not x.sets and x.design.last.kind in {"every-value", "family"}:
+    last = x.design.last
+    if kinds and not x.sets and last.kind in {"every-value", "family"}:
+        if last.found:  # all real ones, each with its verdict
+            return []
         text = f"{kinds}: not decided for all methods of the family: fix unknowns by --set"
+        if last.has_methods is False:
+            text = f"{kinds}: no real value of order {last.order} that the file admits"
         return [("stable", d.prose(text))]
     return [row for values in x.sets for row in ends(values, d)]
 

@@ -283,6 +283,30 @@ def test_stable_values_are_within_the_range(
     assert told in " ".join(run.out.split())
 
 
+@pytest.mark.parametrize(
+    ("diagonal", "b", "code", "told"),
+    [
+        ("s - 1", "1/2 + s**2 + t**2", 1, "order 1 of the method; not A-stable, which is wanted"),
+        ("s + 1", "1/2 + s**2 + t**2", 0, "order 1 of the method, proved, A-stable"),
+        ("s + 1", "3/2 + s**2 + t**2", 1, "A-stable: no real value of order 1 that the file"),
+    ],
+)
+def test_what_is_known_of_real_points(diagonal: str, b: str, code: int, told: str) -> None:
+    """Of s² + t² = 0 the one real point is known, and whether it is stable, with the poles ±1; of
+    s² + t² = −1 there is none: neither is called not decided.
+    """
+    run = gark(
+        *("design", "-"),
+        stdin=(
+            f"parameters: {{s: free, t: free}}\nA: [[{diagonal}, 0], [t, {diagonal}]]\n"
+            f"b: [{b}, 1/2]\ndesign: {{order: 1, a-stable: true}}\n"
+        ),
+    )
+    assert run.code == code
+    text = " ".join(run.out.split())
+    assert (told in text, "not decided" in text) == (True, False)
+
+
 def test_the_set_with_other_wishes() -> None:
     """Which of the stable methods have positive weights is not looked at: the set is told apart
     from that, and is the one without it.
