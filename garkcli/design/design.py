@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from functools import partial
 from time import monotonic
-from typing import Literal, TypeAlias, cast, get_args
+from typing import Any, Literal, TypeAlias, cast, get_args
 
 from flint import fmpq_mpoly, fmpz_mpoly
 
@@ -25,8 +25,10 @@ from garkcli.design.stable_parts import has_stable_method, joined, stable_part
 from garkcli.design.stable_plane import form_values
 from garkcli.design.stable_transfers import stable_zeros
 from garkcli.design.stable_values import StableValues, Wanted, stable_values
+from garkcli.design.want import numerators
 from garkcli.errors import NotDecided, ZeroWeight
 from garkcli.exact.field import Number
+from garkcli.exact.parametric import fraction
 from garkcli.exact.roots import RealRoot
 from garkcli.frozen import Frozen, replace
 from garkcli.ntrees.tree import Tree
@@ -622,6 +624,23 @@ def embedded_of(family: Family, whose: Whose, solution: Solution) -> tuple[Order
     order = find_order(tableau)
     error = squared_error(tableau, order.order + 1, None)
     return order, error.numerator / error.denominator
+
+
+def estimates_nothing(design: Design, step: Step) -> bool:
+    """Whether the embedded weights are b at all values of a step, by polynomials of its ideal."""
+    rows, ring, ideal = design.family.further.embedded, design.family.ring, step.ideal
+    if rows is None or ideal is None or not step.is_all:
+        return False
+    pairs = zip(rows, (colour.b for colour in design.family.tableau.colours), strict=True)
+    differences: list[Any] = [x - y for row, b in pairs for x, y in zip(row, b, strict=True)]
+    zeros = numerators(differences, ring)
+    if isinstance(ideal, Ideal):
+        return all(map(ideal.contains, zeros))
+    return all(
+        part.ideal.contains(fraction(part.expressed(p, ring), part.ring)[0])
+        for p in zeros
+        for part in ideal.parts
+    )
 
 
 def stable_sets(design: Design) -> tuple[StableValues, ...]:

@@ -8,7 +8,7 @@ from itertools import groupby
 from typing import Any, NamedTuple, get_args
 
 from garkcli.design.choices import Choice
-from garkcli.design.design import Design, Found, Step
+from garkcli.design.design import Design, Found, Step, estimates_nothing
 from garkcli.design.design import Kind as Verdict
 from garkcli.design.member import Whose
 from garkcli.design.minimise.objective import Level as LevelObjective
@@ -359,6 +359,18 @@ def _briefly(step: Step) -> str:
     return counted(count, "solution") if real == count else f"{real} of {count} solutions"
 
 
+def embedded_rows(x: DesignReport, d: Plain) -> Rows:
+    """That there is nothing to estimate errors with, and what helps."""
+    best = _best(x.design)
+    if best is None or not estimates_nothing(x.design, best):
+        return []
+    text = (
+        "the embedded weights are b at every value, and estimate no error: a lower embedded-order"
+        " under design, or more stages, may leave others"
+    )
+    return [("embedded", d.prose(text))]
+
+
 def stable_rows(x: DesignReport, d: Plain) -> Rows:
     """What the ends of the stable values are; how stability is decided where it is not."""
     family, best = x.design.family, _best(x.design)
@@ -626,6 +638,7 @@ WHOLE = Section(
         DATA,
     ),
     Row("orders_in_words", rows_of(order_rows), "."),
+    Row("embedded_in_words", rows_of(embedded_rows), "."),
     optional("objective", part(OBJECTIVE), "minimum", DATA),
     Row("best_in_words", rows_of(best_rows), "minimum"),
     optional("stable", parts(VALUES), lambda x: x.sets or None, DATA),

@@ -400,3 +400,30 @@ def test_a_parameter_that_only_values_use(parameters: str, design: str) -> None:
     """Beside a shape it is no fault, as unknowns, their ranges and wishes may depend on it."""
     text = f"unknown: {{stages: 3, shape: explicit}}\nparameters: {parameters}\n"
     assert "c2" in loads_family(f"{text}design: {{{design}}}\n").parameters
+
+
+RK3 = 'A: [[0, 0, 0], [1/2, 0, 0], [-1, 2, 0]]\nb: [1/6, 2/3, 1/6]\nembedded: ["?", "?", "?"]\n'
+
+
+@pytest.mark.parametrize(
+    ("text", "order", "embedded", "is_b"),
+    [
+        ("unknown: {stages: 2, shape: explicit, embedded: true}\n", 2, 2, True),
+        ("unknown: {stages: 2, shape: explicit, embedded: true}\n", 2, 1, False),
+        ("unknown: {stages: 4, shape: explicit, embedded: true}\n", 4, 4, True),
+        ("unknown: {stages: 4, shape: explicit, embedded: true}\n", 2, 2, False),
+        (RK3, 3, 3, True),
+        (RK3, 3, 2, False),
+    ],
+)
+def test_embedded_weights_that_are_b(text: str, order: int, embedded: int, is_b: bool) -> None:
+    """The report says where b alone has the embedded order: known by an ideal, in parts, or as a
+    solution, whose values are compared too.
+    """
+    text += f"design: {{order: {order}, embedded-order: {embedded}}}\n"
+    run = gark("design", "-", stdin=text)
+    assert ("the embedded weights are b at every value" in " ".join(run.out.split())) is is_b
+    found = find_parameters(loads_family(text))
+    for one in found.last.found:
+        values = [one.solution.values[f"bh{k}"] for k in (1, 2, 3)]
+        assert (values == [fmpq(1, 6), fmpq(2, 3), fmpq(1, 6)]) is is_b
