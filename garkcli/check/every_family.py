@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from itertools import product
 from math import prod
-from typing import TypeAlias
+from typing import TypeAlias, cast
 
 from flint import fmpq, fmpq_mpoly, fmpz_mpoly
 
@@ -24,7 +24,7 @@ from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.parametric import Parameters, Parametric, Rule, evaluated, factors, unknowns_of
-from garkcli.exact.polynomial import in_one
+from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.projection import coefficient_of
 from garkcli.exact.roots import RealRoot, number_of, real_roots, sign_at
 from garkcli.frozen import Frozen, replace
@@ -380,13 +380,33 @@ class EveryFamily(Frozen):
 
     def is_inside(self, value: RealRoot) -> bool:
         """Whether there is a method for a value of the one parameter, and the file admits it."""
-        if any(not sign_at(in_one(p), value) for p in self.poles):
-            return False
+        return self._admits(value) and all(sign_at(in_one(p), value) for p in self.poles)
+
+    def _admits(self, value: RealRoot) -> bool:
+        """Whether a value of the one parameter is in its range."""
         [ends] = self.family.ranges.values()
-        return is_within(value, ends)
+        return is_within(value, ends) and all(sign_at(p, value) >= 0 for p in self.bounds)
+
+    @cached_property
+    def bounds(self) -> list[Polynomial]:
+        """Of one parameter: polynomials that are at least 0, where ends are algebraic."""
+        return [in_one(p, 0) for p in self.family.not_negative]
+
+    @cached_property
+    def ends(self) -> tuple[RealRoot | None, RealRoot | None]:
+        """The least and the greatest value of the one parameter; None where there is none."""
+        [ends] = self.family.ranges.values()
+        rational = [Polynomial([-x, 1]) for x in ends if x is not None]
+        if not self.bounds:
+            least, greatest = (None if x is None else RealRoot.rational(x) for x in ends)
+            return least, greatest
+        inside = [x for x in roots_of([*self.bounds, *rational]) if self._admits(x)]
+        return inside[0], inside[-1]
 
     def can_vanish(self, p: fmpq_mpoly) -> bool:
         """Whether a polynomial may be zero for values that the file admits."""
+        if self.bounds and unknowns_of(p) == [0]:
+            return any(self._admits(root) for root in roots_of([in_one(p, 0)]))
         return can_vanish(p, self.ring, self.family.ranges)
 
     def is_number(self, p: fmpq_mpoly) -> bool:
@@ -468,6 +488,8 @@ class EveryFamily(Frozen):
                     return
                 if any(not p(*values) for p in (*apart, *self.poles)):
                     continue
+                if any(p(*values) < 0 for p in self.family.not_negative):
+                    continue
                 named = dict(zip(self.ring.names, values, strict=True))
                 yield named, member(self.tableau, self.ring, named)
 
@@ -534,6 +556,31 @@ def every_family(family: Family) -> EveryFamily:
         radicals=(),
         nonzero=moved_nonzero(family, values),
         positive=(),
-        not_negative=(),
+        not_negative=_moved_bounds(family, values, left),
     )
     return EveryFamily(made)
+
+
+def _moved_bounds(
+    family: Family, values: dict[str, object], left: Sequence[str]
+) -> tuple[fmpq_mpoly, ...]:
+    """The polynomials of algebraic ends of ranges, at values of the unknowns.
+
+    Raises:
+        MethodError: several parameters are left, or a value is outside of its range.
+    """
+    found = []
+    for p in family.not_negative:
+        name = family.ring.names[unknowns_of(p)[0]]
+        value = value_of(p, family.ring, values)
+        if isinstance(value, Parametric):
+            found.append(value.numerator)
+        elif cast("fmpq", value) < 0:
+            message = f"{name} = {values[name]} follows, which is outside of its range"
+            raise MethodError(message, "change the range", code="no-value-left")
+    if found and len(left) > 1:
+        name = left[unknowns_of(found[0])[0]]
+        message = f"the range of {name} has an algebraic end, and {len(left)} parameters are free"
+        cure = "write rational ends, or give values to the others with --set"
+        raise MethodError(message, cure, code="no-value-left")
+    return tuple(found)

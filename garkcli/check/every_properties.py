@@ -11,8 +11,6 @@ from collections.abc import Callable
 from itertools import pairwise
 from typing import Any
 
-from flint import fmpq
-
 from garkcli.check.every_facts import Fact, Question, answer, by_samples, find
 from garkcli.check.every_family import EveryFamily, exact_value
 from garkcli.design.stable_values import Wanted, stable_values
@@ -98,23 +96,17 @@ def _of_set(
 
 def _is_all(family: EveryFamily, found: tuple[Interval, ...]) -> bool:
     """Whether a set, without gaps within its intervals, is every value with a method."""
-    [(least, greatest)] = family.family.ranges.values()
+    least, greatest = family.ends
     poles = roots_of(map(in_one, family.poles))
     first, last = found[0], found[-1]
     has_start = first.has_start or first.start in (None, *poles)
     has_end = last.has_end or last.end in (None, *poles)
-    is_whole = _same(first.start, least) and _same(last.end, greatest)
+    is_whole = first.start == least and last.end == greatest
     # between two intervals there is nothing but a pole
     are_joined = all(
         left.end == right.start and left.end in poles for left, right in pairwise(found)
     )
     return has_start and has_end and is_whole and are_joined
-
-
-def _same(end: RealRoot | None, bound: fmpq | None) -> bool:
-    if end is None or bound is None:
-        return end is None and bound is None
-    return end == RealRoot.rational(bound)
 
 
 def _by_signs(family: EveryFamily, ask: Question, numbers: list[object]) -> Fact:
@@ -123,9 +115,7 @@ def _by_signs(family: EveryFamily, ask: Question, numbers: list[object]) -> Fact
     critical += [in_one(p) for p in family.poles]
     for x in numbers:
         critical += [in_one(p) for p in fraction(x, family.ring) if p]
-    for end in next(iter(family.family.ranges.values())):
-        if end is not None:
-            critical.append(Polynomial([-end, 1]))
+    critical += [Polynomial.from_flint(x.polynomial) for x in family.ends if x is not None]
     unknown: list[RealRoot] = []
 
     def holds(t: Point) -> bool:

@@ -4,7 +4,7 @@ method files, also those with free parameters.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from garkcli.cli.options import REDUCED, Given, Output, declared
@@ -13,6 +13,7 @@ from garkcli.tell.report import FORMATS
 
 if TYPE_CHECKING:
     from garkcli.check.every_family import EveryFamily
+    from garkcli.exact.roots import RealRoot
     from garkcli.methodfile.build import MethodFile
     from garkcli.methodfile.family import FamilyFile
     from garkcli.tableau.garkmethod import GarkMethod
@@ -206,13 +207,31 @@ def _family_text(tableau: Tableau, name: str, family: EveryFamily) -> str:
 
     free = []
     for parameter in family.family.parameters:
-        ends = family.family.ranges[parameter]
+        ends: Sequence[object] = family.family.ranges[parameter]
+        if family.bounds:
+            ends = [_end_text(parameter, x) for x in family.ends]
         if None in ends:
             free.append(f"{parameter}: free")
         else:
             low, high = ends
             free.append(f"{parameter}: {{free: true, range: [{low}, {high}]}}")
     return write_tableau_file(tableau, name, text=text, parameters=free)
+
+
+def _end_text(parameter: str, end: RealRoot | None) -> str:
+    """An end of a range as a file has it.
+
+    Raises:
+        UsageProblem: it has no simple radicals.
+    """
+    from garkcli.exact.polynomial_text import root_text
+
+    text = None if end is None else root_text(end)
+    if text is None:
+        message = f"an end of the range of {parameter} has no simple radicals"
+        cure = f"choose a value: --set {parameter}=1/2"
+        raise UsageProblem(message, cure, code="no-radicals")
+    return f'"{text}"'
 
 
 @declared("reduce", ("yaml", *FORMATS))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
@@ -13,10 +13,13 @@ from garkcli.exact.expression import parse
 from garkcli.exact.field import ZERO
 from garkcli.exact.nodes import Expression, Literal, Name
 from garkcli.exact.rewriting import depth_of, names_in, size_of, substitute
-from garkcli.frozen import Frozen, Mutable, field
+from garkcli.frozen import Frozen, Mutable, field, replace
 from garkcli.methodfile import spellings
 from garkcli.methodfile.nodes import shortened
 from garkcli.methodfile.source import Entries, Source
+
+if TYPE_CHECKING:
+    from garkcli.exact.polynomial import Polynomial
 
 UNKNOWN = "?"
 """What is in a file for a coefficient that is not known."""
@@ -80,15 +83,31 @@ Row: TypeAlias = tuple[Entry, ...]
 Rows: TypeAlias = tuple[Row, ...]
 
 
-class Free(Frozen):
-    """A parameter without a value, and the ranges that it lies in, each with two ends.
+class Between(Frozen):
+    """Where a parameter lies.
+
+    Attributes:
+        ranges: with two rational ends each.
+        bounds: polynomials in it that are at least 0, for ends that are algebraic.
+    """
+
+    ranges: tuple[tuple[Entry, Entry], ...] = ()
+    bounds: tuple[Polynomial, ...] = ()
+
+
+class Free(Between, kw_only=True):
+    """A parameter without a value.
 
     ``where`` is the entry of a tableau that it stands for, empty for a parameter with a name.
     """
 
     node: Node
-    ranges: tuple[tuple[Entry, Entry], ...] = ()
     where: str = ""
+
+    def within(self, found: Between) -> Free:
+        """The same parameter, in a range besides those that it has."""
+        ranges, bounds = (*self.ranges, *found.ranges), (*self.bounds, *found.bounds)
+        return replace(self, ranges=ranges, bounds=bounds)
 
 
 class Numbers(Mutable):
@@ -171,7 +190,7 @@ class Numbers(Mutable):
         if name in self.settings:
             value = self.given(name, node, where)
         else:
-            self.free[name] = Free(node, where=where)
+            self.free[name] = Free(node=node, where=where)
         self.define(name, value)
         return value
 

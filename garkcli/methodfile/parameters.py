@@ -10,9 +10,10 @@ from garkcli.errors import did_you_mean
 from garkcli.exact.expression import FUNCTIONS
 from garkcli.exact.field import ZERO
 from garkcli.exact.nodes import Expression, Literal, Name
+from garkcli.exact.rewriting import roots_in
 from garkcli.methodfile.grammar import Found, Key, Kind, Schema, defined, mapping
 from garkcli.methodfile.nodes import key_nodes, shortened, unquoted
-from garkcli.methodfile.numbers import UNKNOWN, Entry, Free, Numbers
+from garkcli.methodfile.numbers import UNKNOWN, Between, Free, Numbers
 
 NUMBER = defined("number", lambda at, node, where: at.numbers.entry(node, where))
 """One coefficient."""
@@ -44,17 +45,21 @@ DEFINITIONS: Schema = {
 """What they are in a schema."""
 
 
-def _range(at: Any, node: Node, where: str) -> tuple[tuple[Entry, Entry], ...]:
-    """The two ends of a range, as the only one; none where it is faulty."""
+def _range(at: Any, node: Node, where: str) -> Between:
+    """A range with two ends; none where it is faulty."""
     numbers: Numbers = at.numbers
     ends = numbers.source.items(node, where)
     if len(ends) != 2:
         message = f"{where}: a range has two ends"
         numbers.source.fault(node, message, "write [1/4, 1]", code="list-expected")
-        return ()
+        return Between()
     smallest, largest = (numbers.entry(end, where) for end in ends)
     del numbers.entries[-2:]  # they are no coefficients
-    return ((smallest, largest),)
+    if any(any(roots_in(x.expression)) for x in (smallest, largest)):
+        from garkcli.methodfile.ranges import between_roots  # few files have such ends
+
+        return between_roots(numbers.source, (smallest, largest), node, where)
+    return Between(((smallest, largest),))
 
 
 RANGE = Kind(
@@ -77,7 +82,11 @@ _FREE = mapping(
         "That the parameter has no value of its own.",
         is_needed=True,
     ),
-    Key("range: [1/4, 1]", RANGE, "Between which numbers a free parameter is."),
+    Key(
+        "range: [1/4, 1]",
+        RANGE,
+        "Between which numbers a free parameter is, such as 0 and sqrt(2)/2.",
+    ),
     form=_FREE_FORM,
 )
 
@@ -123,12 +132,12 @@ def _value(at: Any, name: str, node: Node, where: str) -> Expression:
 def _free(at: Any, node: Node, where: str) -> Free:
     """A free parameter: ``free``, or ``{free: true, range: [1/4, 1]}``."""
     if isinstance(node, ScalarNode):
-        return Free(node)
+        return Free(node=node)
     found: Found = _FREE.read(at, node, where)
     if "free" in found.nodes and "free" not in found:
         message = f"{where} is a mapping that does not say free: true"
         at.source.fault(node, message, _FREE_FORM, code="mapping-expected")
-    return Free(node, found.get("range", ()))
+    return Free(node=node).within(found.get("range", Between()))
 
 
 PARAMETERS = Kind(

@@ -5,25 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import partial
 from itertools import chain
-from typing import Any, TypeAlias
+from typing import Any
 
-from flint import fmpq
 from yaml.nodes import MappingNode, Node
 
 from garkcli.deadline import until
 from garkcli.design.want import Asked, Meaning, Want
-from garkcli.errors import ExpressionError, GarkError, NotDecided, counted, did_you_mean
-from garkcli.exact.cells import between
-from garkcli.exact.domain import Domain
-from garkcli.exact.nodes import Literal, Name
-from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.rewriting import format_expression, roots_in
-from garkcli.exact.roots import RealRoot, real_roots, sign_at
+from garkcli.errors import GarkError, NotDecided, counted, did_you_mean
+from garkcli.exact.nodes import Name
 from garkcli.frozen import Frozen, fields
 from garkcli.methodfile.build import Builder
 from garkcli.methodfile.family_values import FamilyValues
 from garkcli.methodfile.grammar import FLAG, Found, Key, Kind, by_name, count, either, mapping
-from garkcli.methodfile.numbers import Entry, Free, Numbers
+from garkcli.methodfile.numbers import Entry, Numbers
 from garkcli.methodfile.parameters import NUMBER, RANGE
 from garkcli.methodfile.source import Source
 
@@ -64,71 +58,12 @@ def _fixed(at: Any, node: Node, where: str) -> list[tuple[Entry, Entry]]:
     return fixed
 
 
-Bound: TypeAlias = "tuple[str, Polynomial]"
-"""An unknown and a polynomial in it that is at least 0."""
-
-
-def _ranges(at: Any, node: Node, where: str) -> list[Bound]:
-    """``range: {gamma: [1/4, 1]}``: where unknowns lie, besides the ranges that they have; for
-    algebraic ends also polynomials that are at least 0 between them.
-    """
+def _ranges(at: Any, node: Node, where: str) -> bool:
+    """``range: {gamma: [1/4, 1]}``: where unknowns lie, besides the ranges that they have."""
     free = at.numbers.free
-    bounds: list[Bound] = []
     for name, value, place in _unknowns(at, node, where):
-        known = free[name]
-        ranges = RANGE.read(at, value, place)
-        if ranges and any(any(roots_in(x.expression)) for x in ranges[0]):
-            ranges, found = _between_roots(at, ranges[0], value, place)
-            bounds += ((name, p) for p in found)
-        free[name] = Free(known.node, (*known.ranges, *ranges), known.where)
-    return bounds
-
-
-def _between_roots(
-    at: Any, ends: tuple[Entry, Entry], node: Node, where: str
-) -> tuple[tuple[tuple[Entry, Entry], ...], list[Polynomial]]:
-    """Rational numbers around two algebraic ones, and polynomials that between those are not
-    negative just between these: the minimal ones, which may have no other zero there.
-    """
-    source: Source = at.numbers.source
-    cure = "write [1/4, 1] or [0, sqrt(2)/2], the smaller end first"
-    try:
-        numbers = [Domain([x.expression]).evaluate(x.expression) for x in ends]
-    except ExpressionError as error:
-        source.fault(node, f"{where}: {error.message}", cure, code=error.code)
-        return (), []
-    low, high = ends_ = [real_roots(Polynomial([-x, 1]))[0][0] for x in numbers]
-    if low > high:
-        message = f"{where}: the first end is larger than the second"
-        source.fault(node, message, cure, code="wrong-value")
-        return (), []
-    if low == high and low.exact is None:
-        message = f"{where}: both ends are one number"
-        name = where.rpartition(": ")[2]
-        cure = f"write fix: {{{name}: {format_expression(ends[0].expression)}}}"
-        source.fault(node, message, cure, code="wrong-value")
-        return (), []
-    inner = RealRoot.rational(between(low, high)) if low < high else low
-    around: list[fmpq] = []
-    for end, is_high in ((low, False), (high, True)):
-        others = [x for x, _ in real_roots(Polynomial.from_flint(end.polynomial))]
-        beyond = [x for x in others if (x > end if is_high else x < end)]
-        next_one = None if not beyond else beyond[0] if is_high else beyond[-1]
-        outer = (end, next_one) if is_high else (next_one, end)
-        around.append(between(*outer) if end.exact is None else end.exact)
-    polynomials = []
-    for p in {str(x.polynomial): x.polynomial for x in ends_ if x.exact is None}.values():
-        polynomial = Polynomial.from_flint(p)
-        zeros = [x for x, _ in real_roots(polynomial)]
-        inside = [x for x in zeros if low < x < high]
-        if inside:
-            message = f"{where}: the polynomial of an end has another zero in the range"
-            cure = "write a rational end near it, or fix the unknown"
-            source.fault(node, message, cure, code="wrong-value")
-            return (), []
-        polynomials.append(polynomial * fmpq(sign_at(polynomial, inner)))
-    entries = [Entry(Literal(x), node, where) for x in around]
-    return ((entries[0], entries[1]),), polynomials
+        free[name] = free[name].within(RANGE.read(at, value, place))
+    return True
 
 
 def _unknowns(at: Any, node: Node, where: str) -> Iterator[tuple[str, Node, str]]:
@@ -189,13 +124,11 @@ class Wishes(Frozen):
     Attributes:
         order: that is wanted; None where the command says it.
         fixed: pairs of entries that are equal.
-        bounds: unknowns and polynomials in them that are not negative.
         wishes: everything else.
     """
 
     order: int | None = None
     fixed: tuple[tuple[Entry, Entry], ...] = ()
-    bounds: tuple[Bound, ...] = ()
     wishes: tuple[Wish, ...] = ()
 
 
@@ -210,8 +143,8 @@ def read_wishes(at: Any, node: Node | None) -> Wishes:
     if found is None:
         return Wishes()
     order, fixed = found.pop("order", None), found.pop("fix", ())
-    bounds = found.pop("range", ())
-    return Wishes(order, tuple(fixed), tuple(bounds), tuple(chain.from_iterable(found.values())))
+    found.pop("range", None)
+    return Wishes(order, tuple(fixed), tuple(chain.from_iterable(found.values())))
 
 
 def _wishes(want: Want, at: Any, node: Node, where: str) -> list[Wish]:
@@ -260,10 +193,10 @@ def meaning_of(
     tableau, ring = made.tableau, values.domain.ring
     pairs = [(values.number(unknown), values.number(given)) for unknown, given in wishes.fixed]
     meanings = [Meaning(zeros=(unknown - given,)) for unknown, given in pairs]
-    for name, p in wishes.bounds:
+    for name, free in values.numbers.free.items():
         x: Any = ring.parameter(name)
-        terms: Any = p.coefficients
-        meanings.append(Meaning(not_negative=(sum(a * x**k for k, a in enumerate(terms)),)))
+        bounds = (enumerate(p.coefficients) for p in free.bounds)
+        meanings.append(Meaning(not_negative=tuple(sum(a * x**k for k, a in p) for p in bounds)))
     for wish in wishes.wishes:
         colours = _colours_of(wish, tableau.size, source)
         if not colours:

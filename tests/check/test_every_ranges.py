@@ -16,6 +16,7 @@ from garkcli.exact.parametric import Parameters
 from garkcli.methodfile.family import loads_family
 from garkcli.methodfile.load import loads
 from tests.check.test_every_value import LIMIT, checked
+from tests.cli.harness import gark
 
 BOX = """parameters:
   s: {free: true, range: [1/4, 1/2]}
@@ -259,3 +260,37 @@ b: [1 - sqrt(2)*t, sqrt(2)*t]
         assert order.fact.zeros
         assert not any("sqrt(2)^" in p for p in order.fact.zeros)
     assert ordinary(text, {"t": "0"}).conjugate_order is None
+
+
+SDIRK = "A: [[g, 0], [1 - 2*g, g]]\nb: [1/2, 1/2]\n"
+
+
+@pytest.mark.parametrize(
+    ("ends", "is_third", "is_stable"),
+    [
+        ("[0, 1/2 - sqrt(3)/6]", True, False),
+        ("[0, sqrt(3)/9]", False, False),  # 0.192 < 0.211, and a rational end around it is 1
+        ("[1/4, 1/sqrt(3)]", False, True),
+        ("[sqrt(2)/6, 1/sqrt(3)]", False, False),  # 0.236 < 1/4
+        ("[sqrt(3)/6, 'root(2, 3)']", True, True),
+    ],
+)
+def test_algebraic_ends(tmp_path: object, ends: str, is_third: bool, is_stable: bool) -> None:
+    """Order 3 is at g = (3 ± √3)/6 = 0.211, 0.789, ends included, and A-stability at g ≥ 1/4."""
+    text = f"parameters: {{g: {{free: true, range: {ends}}}}}\n{SDIRK}"
+    claims = "expect: {order: 2, a-stable: true}\n"
+    outcome = checked(tmp_path, text + claims)
+    assert [x.holds for x in outcome.claims] == [not is_third, is_stable]
+    written = gark("tableau", "-", "--format", "yaml", stdin=text)
+    if "root" in ends:
+        assert (written.code, "has no simple radicals" in written.err) == (2, True)
+    else:
+        again = checked(tmp_path, written.out + claims)
+        assert [x.holds for x in again.claims] == [not is_third, is_stable]
+
+
+def test_algebraic_ends_beside_other_parameters() -> None:
+    """Rational ends around them would let in other values: refused."""
+    text = "parameters: {g: {free: true, range: [0, sqrt(3)/6]}, b: free}\n"
+    with pytest.raises(MethodError, match="has an algebraic end, and 2 parameters are free"):
+        made(f"{text}A: [[g, 0], [1 - 2*g, g]]\nb: [1 - b, b]\n")

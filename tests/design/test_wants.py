@@ -246,12 +246,17 @@ def test_nothing_goes_by_what_is_not_worked_out(options: list[str], tmp_path: Pa
         ("[sqrt(2) - 1, 'root(2, 3)']", 2**0.5 - 1, 2 ** (1 / 3)),
     ],
 )
-def test_ranges_with_algebraic_ends(ends: str, least: float, greatest: float) -> None:
-    """Solutions g = k/16 are taken just where they are between the ends, compared in floats."""
+@pytest.mark.parametrize("is_own", [True, False])
+def test_ranges_with_algebraic_ends(ends: str, least: float, greatest: float, is_own: bool) -> None:
+    """Solutions g = k/16 are taken just where they are between the ends, compared in floats; the
+    range is that of the parameter, or under ``design``.
+    """
     wanted = (-23, -22, 0, 6, 7, 11, 12, 20, 21, 22, 23)
     zeros = "*".join(f"(g - {k}/16)" for k in wanted)
-    head = f"parameters: {{g: free}}\nA: [['1/2']]\nb: ['1 + {zeros}']\n"
-    found = find_parameters(loads_family(f"{head}design: {{range: {{g: {ends}}}}}\n"), 1).last.found
+    own = f"{{free: true, range: {ends}}}" if is_own else "free"
+    wish = "" if is_own else f"design: {{range: {{g: {ends}}}}}\n"
+    text = f"parameters: {{g: {own}}}\nA: [['1/2']]\nb: ['1 + {zeros}']\n{wish}"
+    found = find_parameters(loads_family(text), 1).last.found
     values = {
         float(at["g"].ball(80)): index in x.accepted
         for x in found
@@ -276,3 +281,5 @@ def test_ranges_that_are_refused(ends: str, why: str) -> None:
         loads_family(
             f"parameters: {{g: free}}\nA: [[g]]\nb: [1]\ndesign: {{range: {{g: {ends}}}}}\n"
         )
+    with pytest.raises(MethodFileError, match=why):
+        loads_family(f"parameters: {{g: {{free: true, range: {ends}}}}}\nA: [[g]]\nb: [1]\n")
