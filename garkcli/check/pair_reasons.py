@@ -89,7 +89,10 @@ def _is_sharp(found: Analysis) -> tuple[bool, str]:
     for colour in found.tableau.colours:
         if colour.is_linear:
             return False, f"colour {colour.name} is linear"
-    if found.subject.verdict("positive-weights").value is not True:
+    positive = found.subject.verdict("positive-weights")
+    if positive.is_undecided:
+        return False, "rounding leaves the signs of weights open"
+    if not positive.value:
         return False, "not all weights are positive"
     return True, ""
 

@@ -264,7 +264,7 @@ def conjugate_consistent(a: Any) -> Any:
 
 OF_EQUATIONS = {
     *("sdirk", "esdirk", "stiffly-accurate", "fsal", "symmetric", "symplectic"),
-    *("stage-order", "weak-stage-order"),
+    *("gamma", "stage-order", "weak-stage-order"),
 }
 """Properties that rounded coefficients have within their tolerance; others hold for all methods
 there, or are undecided.
@@ -402,7 +402,11 @@ COLOUR = Section(
         kinds.choice("explicit", "diagonally implicit", "fully implicit", None),
         "shape.kind",
     ),
-    maybe("gamma", kinds.EXACT, "shape.gamma"),
+    maybe(
+        "gamma",
+        kinds.EXACT,
+        lambda x: None if x.shape is None else Answer(x.shape.gamma, Status(x.within)),
+    ),
     Row("stage_order", kinds.COUNT, lambda x: Answer(x.stage_order, Status(x.within, x.is_open))),
     optional("stage_order_is_lower_bound", kinds.TRUE, lambda x: x.is_open or None, DATA),
     title=lambda x, d: f"colour {d.prose(x.name)}",
@@ -435,7 +439,7 @@ def _colours_words(found: Sequence[OfColour], d: Plain) -> str:
     for x in found:
         said = [] if x.shape is None else [x.shape.name]
         if x.shape is not None and x.shape.gamma is not None:
-            said.append(f"γ = {d.number(x.shape.gamma)}")
+            said.append(f"γ = {d.known(d.number(x.shape.gamma), Status(x.within))}")
         stage_order = d.known(d.capped(x.stage_order, x.limit), Status(x.within))
         said.append(f"stage order {stage_order}")
         texts.append(f"{d.prose(x.name)} {', '.join(said)}")
@@ -444,7 +448,13 @@ def _colours_words(found: Sequence[OfColour], d: Plain) -> str:
 
 SYSTEMS = Kind(S.array(S.array(STAGES)), words=_systems_words)
 OWN_ROWS = {
-    "gamma": (maybe("gamma", kinds.EXACT, "subject.shape.gamma"),),
+    "gamma": (
+        maybe(
+            "gamma",
+            kinds.EXACT,
+            lambda a: Answer(a.subject.shape.gamma, Status(within(a, "gamma"))),
+        ),
+    ),
     "implicit-stages": (
         maybe("implicit_stages", kinds.COUNT, "subject.shape.implicit_stages", DETAIL),
         Row("solved_together", SYSTEMS, together, DETAIL),

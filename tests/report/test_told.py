@@ -100,7 +100,7 @@ def test_details_hold_every_number_of_the_json_report(path: Path) -> None:
             known = within if "stage_order" in key else ""
             assert text.removeprefix("at least ") == f"{value}{known}"
         elif isinstance(value, str):
-            assert text == value, key
+            assert text == (f"{value}{within}" if key == "gamma" else value), key
     parts = data["properties"]["by_colour"]
     if len(parts) > 1:
         told = [text for margin, label, text in rows if (margin, label) == (6, "stage order")]
@@ -478,3 +478,15 @@ def test_what_counts_from_0_is_told_from_1() -> None:
     whole = SimpleNamespace(entry=0, row=None)
     assert section.data(whole, Plain()) == {"entry": 1, "row": None}
     assert INDEX(0).words(Plain()) == "1"
+
+
+def test_what_rounding_leaves_open_has_the_true_reason(tmp_path: Path) -> None:
+    """γ of entries that are one within the tolerance; signs of weights in a stage algebra."""
+    file = tmp_path / "rounded.yaml"
+    sdirk = "{A: [[0.2928932188134, 0], [0.7, 0.2928932188135]], b: [0.7, 0.3]}"
+    file.write_text(f"methods: [{sdirk}, gauss-2]\ntransfer: interpolation\ntolerance: 1e-10\n")
+    text = " ".join(gark("check", str(file), "-v").out.split())
+    assert "γ 1464466094067/5000000000000 within 1e-10" in text
+    assert "positive weights not decided: rounding leaves the signs open" in text
+    assert "not excluded: rounding leaves the signs of weights open" in text
+    assert "larger than the tolerance" not in text

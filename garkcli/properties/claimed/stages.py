@@ -273,7 +273,7 @@ def positive_weights(subject: Subject) -> Verdict:
     form f ↦ b^{l}(f²) is positive definite.
     """
     tableau, tolerance = subject.tableau, subject.tolerance
-    is_open = False
+    why_open = ""
     for m, colour in enumerate(tableau.colours):
         space = tableau.space(m)
         if not isinstance(space, PointSpace):
@@ -281,14 +281,16 @@ def positive_weights(subject: Subject) -> Verdict:
                 return Verdict(
                     False, Reason("{} has an entry that is not positive", place("b", tableau, [m]))
                 )
-            is_open = is_open or bool(tolerance)
+            if tolerance:
+                why_open = why_open or "rounding leaves the signs open"
             continue
         for j, b in enumerate(colour.b):
             if not b or sign(b + tolerance) < 0:
                 return Verdict(False, entry_is(place("b", tableau, [m], j), b))
-            is_open = is_open or sign(b - tolerance) <= 0
-    if is_open:
-        return Verdict.undecided("a weight is not larger than the tolerance")
+            if sign(b - tolerance) <= 0:
+                why_open = "a weight is not larger than the tolerance"
+    if why_open:
+        return Verdict.undecided(why_open)
     return Verdict(True)
 
 
