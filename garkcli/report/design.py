@@ -424,11 +424,13 @@ def _number(value: RealRoot, d: Plain) -> str:
 def _among(minimum: Minimum) -> str:
     """What was compared."""
     order = minimum.step.order
+    stable = " and ".join(dict.fromkeys(map(str, minimum.design.family.stable)))
     match minimum.extent:
         case "all":
-            return f"of all methods of order {order}"
+            return f"of all methods of order {order}{f' that are {stable}' if stable else ''}"
         case "nearly":
-            return f"no method of order {order} has less, up to a relative 1e-9"
+            which = f"method of order {order}{f' that is {stable}' if stable else ''}"
+            return f"no {which} has less, up to a relative 1e-9"
         case "critical-points":
             points = counted(minimum.candidates, "critical point")
             return (

@@ -9,7 +9,7 @@ import jsonschema
 import pytest
 from flint import fmpq, fmpq_poly, fmpz_poly
 
-from garkcli import minimise
+from garkcli import minimise, render
 from garkcli.design.choices import accepted_methods
 from garkcli.design.design import Design, find_parameters, stable_sets
 from garkcli.design.member import Whose
@@ -123,6 +123,7 @@ def test_the_best_of_the_stable_methods() -> None:
     theta = "parameters: {t: free}\nA: [[t]]\nb: [1]\ndesign: {order: 1%s}\n"
     least = minimise(loads_family(theta % ", a-stable: true"), "coefficients")
     assert (least.value, least.extent) == (RealRoot.rational(fmpq(5, 4)), "all")
+    assert "of all methods of order 1 that are A-stable" in " ".join(render(least).split())
     assert minimise(loads_family(theta % ""), "coefficients").value == RealRoot.rational(fmpq(1))
 
 
