@@ -15,6 +15,8 @@ from garkcli.methodfile.expectations import CLAIMS
 from garkcli.methodfile.source import Source
 
 HEAD = re.compile(r"^\s*\[\s*tool\s*\.\s*gark\s*\]", re.MULTILINE)
+BEFORE = r"(?:tool\s*\.\s*)?gark\s*\.\s*"
+"""Before a key where no line begins its table."""
 TAG = "tag:yaml.org,2002:"
 QUOTED = f"{TAG}str"
 
@@ -91,12 +93,14 @@ def read_settings(source: Source, table: dict[str, Any], kind: g.Kind, where: st
 
     TOML tells no places: a value has that of the first line with its key.
     """
-    head = HEAD.search(source.text) if where != g.FILE else None
+    is_whole = where == g.FILE
+    head = None if is_whole else HEAD.search(source.text)
     start = head.end() if head else 0
+    before = "" if head or is_whole else BEFORE
 
     def node(value: Any, mark: yaml.Mark) -> Node:
         if isinstance(value, dict):
-            marks = {key: _mark(source.text, key, start) for key in value}
+            marks = {key: _mark(source.text, before + re.escape(key), start) for key in value}
             pairs = [(node(key, marks[key]), node(x, marks[key])) for key, x in value.items()]
             return MappingNode("", pairs, mark, mark)
         if isinstance(value, list):
@@ -110,9 +114,9 @@ def read_settings(source: Source, table: dict[str, Any], kind: g.Kind, where: st
 
 
 def _mark(text: str, key: str, start: int) -> yaml.Mark:
-    """The place of a key in a file, after what begins its table; the start where it is not seen."""
-    found = re.compile(rf"^[ \t]*[\"']?{re.escape(key)}[\"']?[ \t]*=", re.MULTILINE).search(
-        text, start
-    )
+    """The place of the pattern of a key in a file, after what begins its table; the start where it
+    is not seen.
+    """
+    found = re.compile(rf"^[ \t]*[\"']?{key}[\"']?[ \t]*=", re.MULTILINE).search(text, start)
     index = 0 if found is None else found.start()
     return yaml.Mark("", index, text.count("\n", 0, index), 0, None, 0)

@@ -54,11 +54,13 @@ def test_paths_and_format(project: Path, name: str, head: str) -> None:
         (".gark.toml", "require-claims = [['a']]", "a single value is expected here"),
         ("pyproject.toml", "tool = {gark = 1}", "tool.gark is no table"),
         ("pyproject.toml", "[tool]\ngark.jobs = 'x'", "[tool.gark], jobs: a whole number"),
+        ("pyproject.toml", "[a]\njobs = 1\n[tool]\ngark.jobs = -1", "pyproject.toml:4:1"),
+        ("pyproject.toml", "[a]\njobs = 1\n[tool]\ngark = {jobs = -1}", "pyproject.toml:1:1"),
         ("pyproject.toml", "['tool']\ngark = {jobs = -1}", "[tool.gark], jobs: a whole number"),
     ],
 )
 def test_values_of_another_kind(project: Path, name: str, text: str, message: str) -> None:
-    """A list where a word belongs, a number where a table does: said, with what to write."""
+    """A list where a word belongs, a number where a table does: said, with place and cure."""
     put(project, name, text)
     run = gark("check", "tables", cwd=project)
     assert (run.code, message in run.err) == (2, True)
