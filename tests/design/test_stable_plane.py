@@ -101,6 +101,14 @@ def test_the_report() -> None:
     assert "g ≤ 0          d = root 2 in d of -2*g*d + 2*g + 2*d^2 - d" in text
 
 
+def test_the_plane_is_named_where_order_leaves_it_open() -> None:
+    """With an order that every value has, the cure is to ask without it."""
+    text = f"{FREE}A: [[g, 0], [1 - d, d]]\nb: [1/2, 1/2]\n"
+    run = gark("design", "-", "--order", "1", "--a-stable", stdin=text)
+    assert "by --a-stable without --order" in " ".join(run.out.split())
+    assert gark("design", "-", "--a-stable", stdin=text).code == 0
+
+
 def test_no_values_and_explicit_methods() -> None:
     """Explicit methods have no values, and the exit code says so."""
     text = f"{FREE}A: [[0, 0], [g, 0]]\nb: [1 - d, d]\n"
