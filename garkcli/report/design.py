@@ -198,15 +198,16 @@ def _values(found: Order, d: Plain, is_whole: bool) -> Iterator[str]:
     step = found.step
     match step.kind:
         case "none":
-            wish = "what is wanted besides"
+            which = "no real value" if step.is_of_real_values else "no value"
+            if step.criterion is not None:
+                yield f"{which}, by {CRITERION}"
+                return
+            wish, how = "what is wanted besides", f", by {CRITERION}"
             if step.witness is not None:
-                wish = f"with the conditions before it, that of {d.tree(step.witness)}"
-            if step.witness is None and step.is_of_real_values:
-                yield f"no real value, by {CRITERION}"
-            elif step.is_of_real_values:
-                yield f"no real value: {wish} cannot be met"
-            else:
-                yield f"no value: {wish} cannot be met, not even by complex values"
+                wish, how = f"with the conditions before it, that of {d.tree(step.witness)}", ""
+            if not step.is_of_real_values:
+                how = ", not even by complex values"
+            yield f"{which}: {wish} cannot be met{how}"
         case "undecided":
             yield from map(d.prose, _undecided(found))
         case "every-value":
@@ -435,9 +436,11 @@ def _among(minimum: Minimum) -> str:
             return f"no {which} has less, up to a relative 1e-9"
         case "critical-points":
             points = counted(minimum.candidates, "critical point")
+            least = "the only critical point"
+            if minimum.candidates != 1:
+                least = f"the least of {points}, which are all there are"
             return (
-                f"the least of {points}, which are all there are; whether it is less towards"
-                " infinity or where denominators vanish is open"
+                f"{least}; whether it is less towards infinity or where denominators vanish is open"
             )
         case "found":
             return "the best of what was found"
