@@ -17,7 +17,7 @@ from typing import TypeAlias, cast
 from flint import fmpq, fmpq_mpoly, fmpz_mpoly
 
 from garkcli.design.conditions import FamilyConditions
-from garkcli.design.member import member
+from garkcli.design.member import admitted, member
 from garkcli.errors import MethodError
 from garkcli.exact.cells import roots_of
 from garkcli.exact.domain import Domain
@@ -395,13 +395,9 @@ class EveryFamily(Frozen):
     @cached_property
     def ends(self) -> tuple[RealRoot | None, RealRoot | None]:
         """The least and the greatest value of the one parameter; None where there is none."""
-        [ends] = self.family.ranges.values()
-        rational = [Polynomial([-x, 1]) for x in ends if x is not None]
-        if not self.bounds:
-            least, greatest = (None if x is None else RealRoot.rational(x) for x in ends)
-            return least, greatest
-        inside = [x for x in roots_of([*self.bounds, *rational]) if self._admits(x)]
-        return inside[0], inside[-1]
+        [name] = self.family.parameters
+        [inside] = admitted(self.family, name)
+        return inside.start, inside.end
 
     def can_vanish(self, p: fmpq_mpoly) -> bool:
         """Whether a polynomial may be zero for values that the file admits."""

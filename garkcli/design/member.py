@@ -13,11 +13,11 @@ from flint import fmpq, fmpq_mpoly
 from garkcli.deadline import check_time
 from garkcli.design.solutions import Solution, value_at
 from garkcli.errors import NotDecided, VanishingDenominator
-from garkcli.exact.cells import Interval, has
+from garkcli.exact.cells import Interval, has, where_not_negative
 from garkcli.exact.field import ONE, ZERO, Algebraic, Number
 from garkcli.exact.matrix import Matrix, Vector
-from garkcli.exact.parametric import Parameters, Parametric, fraction
-from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.parametric import Parameters, Parametric, fraction, unknowns_of
+from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.roots import RealRoot, number_of, sign, sign_at
 from garkcli.frozen import replace
 from garkcli.stability.linear import is_a_stable, is_l_stable, stability_function
@@ -134,6 +134,13 @@ def not_negative(family: Family) -> Iterator[fmpq_mpoly]:
         if greatest is not None:
             yield greatest - gens[name]
     yield from family.not_negative
+
+
+def admitted(family: Family, name: str) -> tuple[Interval, ...]:
+    """The numbers that an unknown may be by what depends on no other."""
+    index = family.ring.names.index(name)
+    alone = (p for p in not_negative(family) if unknowns_of(p) == [index])
+    return where_not_negative([in_one(p, index) for p in alone])
 
 
 def is_admissible(family: Family, solution: Solution, root: RealRoot) -> bool:

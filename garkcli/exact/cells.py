@@ -171,6 +171,15 @@ def _simplest(low: fmpq, high: fmpq) -> fmpq:
     return whole + 1 / _simplest(1 / rest, 1 / (low - whole))
 
 
+def where_not_negative(polynomials: Sequence[Polynomial]) -> tuple[Interval, ...]:
+    """The numbers at which polynomials are at least 0.
+
+    >>> where_not_negative([Polynomial([0, 1]), Polynomial([4, 0, -1])])
+    ([0, 2],)
+    """
+    return where(lambda t: all(sign_of(p, t) >= 0 for p in polynomials), polynomials)
+
+
 def is_half_line(intervals: Sequence[Interval]) -> bool:
     """Whether subsets of x ≥ 0 are one interval that goes on to ∞ and has its start."""
     return len(intervals) == 1 and intervals[0].has_start and intervals[0].end is None

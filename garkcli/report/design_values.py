@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING, TypeAlias
 from flint import fmpq, fmpq_mpoly, fmpz_mpoly
 
 from garkcli.design.ideal import integral_scale
+from garkcli.design.member import admitted
+from garkcli.exact.cells import has, roots_of
 from garkcli.exact.parametric import factors
-from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.roots import RealRoot, real_roots
+from garkcli.exact.polynomial import in_one
+from garkcli.exact.polynomial_text import root_text
 from garkcli.reason import Reason
 from garkcli.tableau.family import Family, Radical
 from garkcli.tell.kinds import EXPRESSION
@@ -61,7 +63,7 @@ def conditions(family: Family, nonzero: Iterable[fmpq_mpoly]) -> list[Reason]:
     found = [holds(p, "≠") for p in given if _may_vanish(family, p)]
     ends, others = _bounds(family)
     for name, bounds in ends.items():
-        least, greatest = (None if x is None else EXPRESSION(str(x)) for x in bounds)
+        least, greatest = (EXPRESSION(x) if x else None for x in bounds)
         if least is None or greatest is None:
             parts = [x for x in (least, EXPRESSION(name), greatest) if x is not None]
             found.append(Reason("{} ≤ {}", *parts))
@@ -87,28 +89,26 @@ def where(texts: Sequence[Reason], d: Plain) -> str:
     return f" where {', '.join(others)} and {last}" if others else f" where {last}"
 
 
-Ends: TypeAlias = "tuple[fmpq | None, fmpq | None]"
+LONG = 40
+"""A polynomial stands for an end with more signs."""
 
 
-def _bounds(family: Family) -> tuple[dict[str, Ends], list[fmpq_mpoly]]:
-    """Between which numbers unknowns are, by ranges and by numbers that may not be negative; the
-    rest of that.
+def _bounds(family: Family) -> tuple[dict[str, list[str]], list[fmpq_mpoly]]:
+    """Between which numbers unknowns are, each with two ends, empty where there is none, by ranges
+    and by numbers that may not be negative; the rest of that.
     """
-    ends = {name: x for name, x in family.ranges.items() if x != (None, None)}
-    others = []
-    for p in family.not_negative:
-        name = next((x for k, x in enumerate(family.ring.names) if p.degrees()[k]), "")
-        if p.total_degree() != 1 or sum(p.degrees()) != 1 or name not in family.ranges:
-            others.append(p)
-            continue
-        slope = p.leading_coefficient()
-        bound = -p(*[fmpq(0)] * len(family.ring.names)) / slope
-        least, greatest = ends.get(name, (None, None))
-        if slope > 0:
-            least = bound if least is None else max(least, bound)
+    ends = {}
+    others = list(family.not_negative)
+    for name, rational in family.ranges.items():
+        found = admitted(family, name)
+        whole = [x for interval in found for x in (interval.start, interval.end)]
+        texts = ["" if x is None else root_text(x) or " " * LONG for x in whole]
+        if len(found) == 1 and max(map(len, texts)) < LONG:
+            others = [p for p in others if _names(family.ring.names, p) != [name]]
         else:
-            greatest = bound if greatest is None else min(greatest, bound)
-        ends[name] = (least, greatest)
+            texts = ["" if x is None else str(x) for x in rational]
+        if any(texts):
+            ends[name] = texts
     return ends, others
 
 
@@ -138,14 +138,9 @@ def _may_vanish(family: Family, p: fmpq_mpoly) -> bool:
     used = [k for k, degree in enumerate(p.degrees()) if degree]
     if len(used) > 1:
         return True
-    powers = {int(e[used[0]]): a for e, a in p.to_dict().items()}
-    alone = Polynomial([powers.get(k, fmpq(0)) for k in range(max(powers) + 1)])
-    least, greatest = family.ranges.get(family.ring.names[used[0]], (None, None))
-    return any(
-        (least is None or RealRoot.rational(least) <= root)
-        and (greatest is None or root <= RealRoot.rational(greatest))
-        for root, _ in real_roots(alone)
-    )
+    [index] = used
+    inside = admitted(family, family.ring.names[index])
+    return any(has(inside, root) for root in roots_of([in_one(p, index)]))
 
 
 def _is_number(family: Family, radical: Radical, numbers: set[str]) -> bool:

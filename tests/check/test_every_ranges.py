@@ -289,6 +289,20 @@ def test_algebraic_ends(tmp_path: object, ends: str, is_third: bool, is_stable: 
         assert [x.holds for x in again.claims] == [not is_third, is_stable]
 
 
+def test_algebraic_ends_are_told() -> None:
+    """As radicals where these are short, else by a polynomial; a pole beyond them, 1.42 > √2, is
+    no exception.
+    """
+    text = "parameters: {g: {free: true, range: [%s]}}\nA: [['1/(g - 71/50)']]\nb: [1]\n"
+    for ends, expected in (
+        ("0, sqrt(2)", "where 0 ≤ g ≤ sqrt(2):"),
+        ("0, 3/2", "where 50*g - 71 ≠ 0 and 0 ≤ g ≤ 3/2:"),
+        ("0, 'root_of(x**3 - x - 1, 1.32)'", "where 0 ≤ g ≤ 2 and -g^3 + g + 1 ≥ 0:"),
+    ):
+        told = gark("check", "-", stdin=text % ends).out
+        assert expected in " ".join(told.split())
+
+
 def test_algebraic_ends_beside_other_parameters() -> None:
     """Rational ends around them would let in other values: refused."""
     text = "parameters: {g: {free: true, range: [0, sqrt(3)/6]}, b: free}\n"
