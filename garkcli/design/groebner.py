@@ -28,19 +28,23 @@ def is_small(polynomials: Sequence[fmpz_mpoly]) -> bool:
     return sum(len(p) for p in polynomials) <= FEW_TERMS
 
 
-def groebner_basis(polynomials: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx) -> list[fmpz_mpoly]:
+def groebner_basis(
+    polynomials: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx, may_be_long: bool = False
+) -> list[fmpz_mpoly]:
     """The reduced Gröbner basis of an ideal.
 
     Args:
         polynomials: generators, not all zero.
         context: of theirs.
+        may_be_long: whether few terms are no sign of little work.
 
     Raises:
         NotDecided: the time was not enough.
     """
     check_time()
-    with suppress(_TooLarge):
-        return _basis(polynomials, context, is_bounded=True)
+    if not may_be_long:
+        with suppress(_TooLarge):
+            return _basis(polynomials, context, is_bounded=True)
     return apart(_basis_apart, list(polynomials))
 
 

@@ -332,7 +332,9 @@ def _answer(x: DesignReport, d: Plain) -> str:
     if best is not None and best.of_stable is not None:
         which = "every value of it"
         if best.polynomials_of_stable:
-            which = f"exactly a part of it of dimension {best.of_stable.dimension}"
+            # real zeros may have a smaller one
+            part = f"a part of dimension {best.of_stable.dimension}"
+            which = f"exactly the real values of {part}"
         texts.append(f"P-stable for {which}")
     return "; ".join(texts)
 
