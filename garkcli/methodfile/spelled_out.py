@@ -163,6 +163,13 @@ def entries_of(number: int) -> str:
     return counted(number, "entry", "entries")
 
 
+def _spelled(node: Node, wanted: int, each: str) -> str:
+    """The cure where one ? stands for a list of them; nothing elsewhere."""
+    if not isinstance(node, ScalarNode) or node.value != UNKNOWN:
+        return ""
+    return f"write [{', '.join([repr(UNKNOWN)] * wanted)}], one per {each}"
+
+
 def one_each(
     at: Reading, node: Node, name: str, items: Sized, noun: str, each: str, wanted: int, cure: str
 ) -> bool:
@@ -180,8 +187,7 @@ def one_each(
     """
     found = len(items)
     if found != wanted:
-        if isinstance(node, ScalarNode) and node.value == UNKNOWN:
-            cure = f"write [{', '.join([repr(UNKNOWN)] * wanted)}], one per {each}"
+        cure = _spelled(node, wanted, each) or cure
         has = entries_of(found) if noun == "entry" else counted(found, noun)
         message = f"{name} has {has} for {counted(wanted, each)}"
         at.source.fault(node, message, cure, code="wrong-size")
@@ -245,7 +251,8 @@ def _method(at: Reading, entries: Entries, names: Names) -> tuple[Rows, Row, Row
     if is_square and rows != stages and (c is None or len(c) == rows):
         # A and c agree with each other, so the mistake is in b
         message = f"{name_of_b} has {entries_of(stages)}, {name_of_A} is {rows} by {rows}"
-        at.source.fault(entries["b"], message, "both have one per stage", code="wrong-size")
+        cure = _spelled(entries["b"], rows, "stage") or "both have one per stage"
+        at.source.fault(entries["b"], message, cure, code="wrong-size")
         return None
     A = at.numbers.fitted(A, entries["A"], name_of_A, (stages, stages), why)
     if c is not None:

@@ -376,6 +376,7 @@ def test_symplectic_rules_compare_orders_of_numbers(text: str) -> None:
             "parameters: {g: free}\nA: [[g]]\nb: [1]\ndesign: {range: {g: [sqrt(2), sqrt(2)]}}\n",
             "write fix: {g: sqrt(2)}",
         ),
+        ('A: [[0, 0], [1, 0]]\nb: "?"\n', "write ['?', '?'], one per stage"),
         ("A: ?\nb: [1]\n", "quote a text that begins with ?"),
     ],
 )
