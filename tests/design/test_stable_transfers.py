@@ -255,8 +255,8 @@ def test_a_set_of_one_coordinate() -> None:
 
 
 def test_few_terms_that_are_much_work() -> None:
-    """Generators that python-flint does not autoreduce within ten minutes; methods on the
-    set and off it are P-stable or not by the engine for one method.
+    """Generators that python-flint takes very long to autoreduce; methods on the set and off it
+    are P-stable or not by the engine for one method.
     """
     given = """
     parameters: {p1: free, p2: free, p3: free}
