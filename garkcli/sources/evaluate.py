@@ -261,9 +261,7 @@ class Evaluator:
             old = space.get(name)
             space[name] = unknown
             if isinstance(old, Array) and old.items:
-                space[name] = old.map(
-                    lambda x: written if isinstance(x, Number) and x.is_given else unknown
-                )
+                space[name] = old.map(lambda x: written if _was_written(x) else unknown)
 
     def _assign(self, statement: ir.Assign, space: Space) -> None:
         target, line = statement.target, statement.line
@@ -724,6 +722,12 @@ def _is_unset(value: Value) -> bool:
     return value is FILL or (isinstance(value, Unknown) and value.reason == "never assigned")
 
 
+def _was_written(value: Value) -> bool:
+    """Whether a number was written there, be it known or no longer."""
+    is_lost = isinstance(value, Unknown) and value.was_written
+    return is_lost or (isinstance(value, Number) and value.is_given)
+
+
 def _plain_name(expr: ir.Expr) -> str:
     """The name that an expression is, also as ``self.name``; empty for others."""
     match expr:
@@ -734,8 +738,13 @@ def _plain_name(expr: ir.Expr) -> str:
 
 def names_of(target: ir.Expr) -> Iterator[str]:
     """The names whose values change where something is assigned."""
-    while isinstance(target, ir.Index | ir.Field) and not _plain_name(target):
-        target = target.of
+    while not _plain_name(target):
+        match target:
+            case ir.Index(of=of) | ir.Field(of=of) | ir.Call(callee=ir.Field(of=of)):
+                # A.row(1).head(2) is a part of A
+                target = of
+            case _:
+                break
     for x in target.items if isinstance(target, ir.Items) else ():
         yield from names_of(x)
     if name := _plain_name(target):

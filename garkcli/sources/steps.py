@@ -181,8 +181,8 @@ class Follower(Evaluator):
                 self._store(target, self.value(source, space), space, self.line)
             case ir.Call(ir.Field(of=ir.Name() as of, name="Add"), (factor, term), ()):
                 self._added("+ * x", (of, factor, term), space)
-            case ir.Call(callee, (_, _, *_) as given, ()) if _name(callee) in _SUMS:
-                self._added(_SUMS[_name(callee)], given, space)
+            case ir.Call(callee, given, ()) if roles := _SUMS.get((_name(callee), len(given))):
+                self._added(roles, given, space)
             case ir.Call(callee, (ir.Name() as target, *args), ()) if _name(callee).endswith("!"):
                 self._evaluated(call, target, args, space)
             case ir.Call(_, (_, *_, ir.Name() as target), ()):
@@ -203,7 +203,7 @@ class Follower(Evaluator):
         total: Value = ZERO
         factor: Value = ONE
         target: ir.Expr | None = None
-        for role, arg in zip(roles.split(), args, strict=False):
+        for role, arg in zip(roles.split(), args, strict=True):
             if role in "=+":
                 target = arg
             if role in "+x":
@@ -556,8 +556,14 @@ def _name(callee: ir.Expr) -> str:
 
 _COPIES = {"memcpy", "dbl_memcpy", "copyto!"}
 """Functions that give their first argument the value of their second one."""
-_SUMS = {"add": "x * x =", "vecwaxpy": "= * x x", "vecaxpy": "+ * x", "n_vlinearsum": "* x * x ="}
-"""Functions that add vectors, by what they are given: those of MFEM, PETSc and SUNDIALS."""
+_SUMS = {
+    (name, len(roles.split())): roles
+    for name, roles in (
+        *(("add", "x x ="), ("add", "x * x ="), ("add", "* x * x ="), ("vecwaxpy", "= * x x")),
+        *(("vecaxpy", "+ * x"), ("n_vlinearsum", "* x * x =")),
+    )
+}
+"""Functions that add vectors, by name and arguments: those of MFEM, PETSc and SUNDIALS."""
 _MATHEMATICS = {
     *("min", "max", "minimum", "maximum", "fmin", "fmax", "amin", "amax", "clamp", "clip"),
     *("hypot", "atan2", "arctan2", "pow", "power", "mod", "rem", "div", "fmod", "copysign"),

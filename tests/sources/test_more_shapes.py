@@ -250,6 +250,11 @@ SSP_3 = (
     ),
     (
         c,
+        "struct T { Matrix A = Matrix::Zero(3, 3); T() { A.row(1) << 1, 0, 0; A.row(2) << .25, .25, 0;"
+        " b << 1./6, 1./6, 2./3; c << 0, 1, .5; } };",
+    ),
+    (
+        c,
         "struct T { double b[3]; std::vector<double> A[3]; int order; };\n"
         "T all[] = {{{1./6, 1./6, 2./3}, {{0}, {1}, {.25, .25}}, 3}};",
     ),
@@ -289,6 +294,15 @@ def test_the_same_method_however_it_is_stored(language: ModuleType, text: str) -
     assert judged is not None
     assert judged.order is not None
     assert (judged.order.order, judged.findings) == (3, ())
+
+
+@pytest.mark.parametrize("part", ["A.bottomRows(1)", "A.row(2).head(2)", "A.coeffRef(2, 0) ="])
+def test_a_part_that_is_not_followed_makes_no_zeros(part: str) -> None:
+    """What is assigned to parts of a matrix of Eigen in other ways: the table is told as unread."""
+    sign = "" if part.endswith("=") else "<<"
+    body = f"A << 0, 0, 0, 1, 0, 0, 0, 0, 0; {part} {sign} 0.25; {part} {sign} 0.5; b << 1./6, 1./6, 2./3;"
+    (table,) = c.find(f"struct T {{ T() {{ {body} c << 0, 1, .5; log() << 1; }} }};", "x.h")
+    assert (table.trouble, table.b) == ("an entry at an unknown place, line 1, is not known", ())
 
 
 def test_calls_that_are_known_keep_their_meaning() -> None:

@@ -246,6 +246,16 @@ def test_steps_one_after_the_other_are_told(index: tuple[str, str], loop: str) -
     assert python.find(text + end, "x") == []
 
 
+@pytest.mark.parametrize("both", ["add(k, l, y)", "add(1.0, k, 1.0, l, y)"])
+def test_sums_of_vectors_by_their_arguments(both: str) -> None:
+    """Heun with the sum of its slopes, as MFEM has it; before, y is another vector."""
+    text = f"""
+    void Step(Vector &x, double &t, double &dt)
+    {{ f->Mult(x, k); add(x, dt, k, y); f->Mult(y, l); {both}; x.Add(dt/2, y); }}"""
+    (table,) = c.find(text, "x")
+    assert (table.b, table.A) == ((("1/2", "1/2"),), (((("0", "0"), ("1", "0")),),))
+
+
 def test_which_value_of_a_pair_is_the_step() -> None:
     """The one that is returned, whichever is computed last; where nothing is, it is not known."""
     text = "def step(f, t, y, h):\n    k1 = f(t, y)\n    k2 = f(t + h, y + h*k1)\n"

@@ -101,7 +101,7 @@ class CLowering(Lowering):
                 yield from self._call(node)
             case "expression_statement":
                 yield from self.block(inside[:1])
-            case "comma_expression":
+            case "comma_expression" | "binary_expression":
                 yield from self._listed(self._parts(node), line)
             case kind if kind not in _SKIPPED and kind.endswith("expression"):
                 yield ir.Do(self.expr(node), line)
@@ -244,11 +244,7 @@ class CLowering(Lowering):
             # a = b = 0
             yield from self.block([right])
             right = right.child_by_field_name("left")
-        target = self.expr(left)
-        if isinstance(target, ir.Call) and target.args:
-            # A(1, 0) = 0.5
-            target = ir.Index(target.callee, target.args)
-        yield ir.Assign(target, self.expr(right), line_of(node), sign)
+        yield ir.Assign(_target(self.expr(left)), self.expr(right), line_of(node), sign)
 
     def _parts(self, node: Node) -> list[Node]:
         """What is between the commas."""
@@ -261,9 +257,13 @@ class CLowering(Lowering):
         first = self.expr(parts[0])
         match first:
             case ir.Binary("<<", target, value):
-                yield ir.Assign(target, ir.Items((value, *self.exprs(parts[1:]))), line)
-            case _:
+                more = self.exprs(parts[1:])
+                given = ir.Items((value, *more)) if more else ir.Rows(((value,),))
+                yield ir.Assign(_target(target), given, line)
+            case _ if len(parts) > 1:
                 yield from self.block(parts)
+            case _:
+                yield ir.Do(first, line)
 
     def _counted(self, node: Node) -> tuple[str, ir.Expr]:
         """What ``for (i = a; i < b; i++)`` counts; an empty name for other loops."""
@@ -352,6 +352,20 @@ class CLowering(Lowering):
             is_cast = name in _CASTS and len(args) == 1
             return ir.Call(ir.Name("double" if is_cast else name), args)
         return ir.Call(self.expr(callee), args)
+
+
+def _target(expr: ir.Expr) -> ir.Expr:
+    """What is assigned to: ``A(1, 0)`` is an entry, and Eigen's ``A.row(1)`` a row."""
+    match expr:
+        case ir.Call(ir.Field(of=of, name="row"), (i,)):
+            return ir.Index(of, (i, ir.Range()))
+        case ir.Call(ir.Field(of=of, name="col"), (i,)):
+            return ir.Index(of, (ir.Range(), i))
+        case ir.Call(ir.Field(of=of, name="coeffRef"), (_, *_) as args) | ir.Call(
+            of, (_, *_) as args
+        ):
+            return ir.Index(of, args)
+    return expr
 
 
 def _body_of(node: Node | None) -> Node | None:
