@@ -158,7 +158,8 @@ def _refuse_uses(roles: Roles) -> None:
     is_written = any(x.was_written for x in unknown) or any(
         isinstance(x, Number) and x.is_given for x in entries
     )
-    if not isinstance(matrix, Array) or not others or (unknown and not is_written):
+    is_only_made = not is_written and (unknown or len(items_of(matrix)) > 1)
+    if not isinstance(matrix, Array) or not others or is_only_made:
         raise NoTable
 
 

@@ -77,6 +77,7 @@ class TableFinder(Evaluator):
         self._orders: dict[tuple[str, int], Number] = {}
         self._users: dict[tuple[str, int], set[str]] = {}
         self._arrays: dict[str, dict[str, tuple[Array, int]]] = {}
+        self._taken: set[tuple[str, int]] = set()
 
     def tables(self) -> list[FoundTable]:
         """All of them, each once; arrays that a call takes are found with it."""
@@ -146,7 +147,9 @@ class TableFinder(Evaluator):
         return len(self._meant) + len(self._other)
 
     def replaced(self, scope: ir.Scope, space: Space, name: str) -> None:
-        """Arrays that are complete are a table before one of them is assigned anew."""
+        """Arrays that are complete are a table before one of them is assigned anew; one that is in
+        such a table already is not with those that were assigned since.
+        """
         told = role_of(name)
         if told is None or told[1] not in {"A", "b", "c", "embedded"}:
             return
@@ -158,8 +161,10 @@ class TableFinder(Evaluator):
         stem = told[0]
         names = [x for x in space if (role_of(x) or ("", ""))[0] == stem and role_of(x)]
         roles = {told[1] for told in map(role_of, names) if told}
-        if not {"A", "b"} <= roles:
+        given = {(x, space.lines.get(x, 0)) for x in names}
+        if not {"A", "b"} <= roles or (name, space.lines.get(name, 0)) in self._taken:
             return
+        self._taken |= given
         self._of_names({x: space[x] for x in names}, space.lines, scope)
 
     def _of_classes(self) -> Iterator[Meant]:

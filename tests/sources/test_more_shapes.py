@@ -278,6 +278,22 @@ SSP_3 = (
         "type :: rk\n  real(8) :: a(3,3), b(3), c(3)\nend type\ntype(rk) :: t = rk(reshape([0d0, 0d0, 0d0, 1d0,"
         " 0d0, 0d0, 0.25d0, 0.25d0, 0d0], [3,3], order=[2,1]), [1d0/6, 1d0/6, 2d0/3], [0d0, 1d0, 0.5d0])\n",
     ),
+    (
+        fortran,
+        "real(8), dimension(0:2, 0:2) :: a = 0d0\nreal(8) :: b(3), c(-1:1)\n"
+        "data (a(i, 0), i = 1, 2), a(2, 1), b / 1d0, 2*0.25d0, 2*0.1666666666666667d0, 0.6666666666666667d0 /\n"
+        "c = [0d0, 1d0, 0.5d0]\na(1,0) = c(0)\n",
+    ),
+    (
+        fortran,
+        "real(8) :: a21, a31, a32, b1, b2, b3, c2, c3\ndata a21, a31, a32 /1d0, 2*0.25d0/, b1, b2, b3, c2, c3"
+        " / 2*0.1666666666666667d0, 0.6666666666666667d0, 1d0, 0.5d0 /\n",
+    ),
+    (
+        fortran,
+        "real(8) :: A(3,3) = 0d0, b(3), c(3)\ndata ((a(i, j), j = 1, i-1), i = 2, 3) /1d0, 2*0.25d0/\n"
+        "b = [1d0/6, 1d0/6, 2d0/3]\nc = [0d0, 1d0, 0.5d0]\n",
+    ),
     (matlab, "A = zeros(3); A(2,1) = 1; A(3,1:2) = [1 1]/4; b = [1 1 4]/6; c = [0 1 1/2];"),
 )
 
@@ -285,7 +301,7 @@ SSP_3 = (
 @pytest.mark.parametrize(("language", "text"), SSP_3)
 def test_the_same_method_however_it_is_stored(language: ModuleType, text: str) -> None:
     """SSP 3, in records by position, with fields that have values, by columns, as properties, with
-    the comma of Eigen, in data statements: one table each, of order 3.
+    the comma of Eigen, in data statements, with indices from 0: one table each, of order 3.
     """
     if language is fortran:
         text = f"program p\n{text}end program\n"
@@ -314,6 +330,14 @@ def test_calls_that_are_known_keep_their_meaning() -> None:
     assert judged is not None
     assert judged.order is not None
     assert (table.colours, judged.order.order, judged.findings) == (2, 2, ())
+
+
+def test_tables_one_after_the_other_are_not_mixed() -> None:
+    """Arrays of the same names, assigned anew: no matrix is with the weights of another table."""
+    first, second = "A = [0 0; 1 0]; b = [1/2 1/2];", "A = [0 0; 1/2 0]; b = [0 1];"
+    for text in (f"{first}\n{second}", f"{first}\n{second}\n{first}".replace("; b", "\nb")):
+        found = {(x.A[0][0][1][0], x.b[0]) for x in matlab.find(text, "x.m")}
+        assert found == {("1", ("1/2", "1/2")), ("1/2", ("0", "1"))}
 
 
 @pytest.mark.parametrize("name", ["butcher_tableau", "rk_table", "a_stable", "p_stable_by_c"])
