@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
-from garkcli.frozen import Frozen
+from garkcli.frozen import Frozen, replace
 from garkcli.sources import ir
 from garkcli.sources.evaluate import Evaluator, OutOfSteps, Space, names_of
 from garkcli.sources.found import MAX_STAGES
@@ -135,6 +135,7 @@ class Follower(Evaluator):
         self._assigned: list[str] = []
         self._returned: list[str] = []
         self._is_lost = False
+        self._changed_by: list[tuple[ir.Expr, str]] = []
         self._components: list[str] = []
         self._spans: dict[int, ir.Expr] = {}
         self._space = Space()
@@ -193,10 +194,18 @@ class Follower(Evaluator):
     def _evaluated(
         self, call: ir.Call, target: ir.Expr, args: Sequence[ir.Expr], space: Space
     ) -> None:
-        slope = self._slope(call.callee, [self.value(x, space) for x in args])
+        values = [self.value(x, space) for x in args]
+        slope = self._slope(call.callee, values)
         if not isinstance(slope, Form):
             self._lose([ir.Do(call, self.line)], space)
+        for x, value in zip(args, values, strict=True):
+            terms = _terms(value) or {}
+            if isinstance(x, ir.Name) and any(" " in name for at in terms for name in at):
+                # unless this is f, the slopes in it may have changed
+                mark = f"changed {len(self._slopes) - 1}"
+                space[x.name] = Form({**terms, (mark,): ONE})
         self._store(target, slope, space, self.line)
+        self._changed_by += [(call.callee, x) for x in names_of(target)]
 
     def _added(self, roles: str, args: Sequence[ir.Expr], space: Space) -> None:
         """A sum of vectors: ``*`` is a factor of the next, ``=`` and ``+`` what becomes the sum."""
@@ -343,7 +352,7 @@ class Follower(Evaluator):
         for i, callee in enumerate(callees):
             if callee not in callees[:i]:
                 try:
-                    return self._of([x for x in self._slopes if x.callee == callee])
+                    return self._of(self._unchanged_by(callee))
                 except NoStep:
                     continue
         raise NoStep
@@ -365,6 +374,22 @@ class Follower(Evaluator):
             if len(at) == 2
         )
 
+    def _unchanged_by(self, callee: ir.Expr) -> Sequence[_Slope]:
+        """The evaluations of f, which changes nothing but its slope."""
+        marks = {f"changed {i}" for i, x in enumerate(self._slopes) if x.callee == callee}
+
+        def cleared(terms: Terms) -> Terms:
+            return {at: x for at, x in terms.items() if not marks & set(at)}
+
+        for name, value in self._space.items():
+            if isinstance(value, Form):
+                self._space[name] = Form(cleared(value.terms))
+        return [
+            replace(x, args=tuple(form and cleared(form) for form in x.args))
+            for x in self._slopes
+            if x.callee == callee
+        ]
+
     def _of(self, slopes: Sequence[_Slope]) -> Roles:
         """The same where these are the evaluations of f."""
         names = [x.name for x in slopes]
@@ -379,6 +404,9 @@ class Follower(Evaluator):
         if not values or len(starts) != 1:
             raise NoStep
         start = starts[0]
+        is_changed = any(x == start and by != slopes[0].callee for by, x in self._changed_by)
+        if is_changed or isinstance(self._space.get(start), Unknown):
+            raise NoStep
         result, form = self._result(start, values)
         step = _step(form, set(names))
         others = {x.name for x in self._slopes} - set(names)
@@ -560,7 +588,7 @@ _SUMS = {
     (name, len(roles.split())): roles
     for name, roles in (
         *(("add", "x x ="), ("add", "x * x ="), ("add", "* x * x ="), ("vecwaxpy", "= * x x")),
-        *(("vecaxpy", "+ * x"), ("n_vlinearsum", "* x * x =")),
+        *(("vecaxpy", "+ * x"), ("n_vlinearsum", "* x * x ="), ("axpy!", "* x +")),
     )
 }
 """Functions that add vectors, by name and arguments: those of MFEM, PETSc and SUNDIALS."""

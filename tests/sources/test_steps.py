@@ -224,6 +224,19 @@ def test_a_step_that_is_not_followed_is_told(text: str, old: str, new: str) -> N
     assert (found.name, found.trouble) == (found.name, "a step that is not followed")
 
 
+def test_vectors_that_change_in_place_in_julia() -> None:
+    """Sums in place, at the end too, are followed; other changes of slopes and of the value are not."""
+    assert [x.b for x in julia.find(IN_PLACE, "x")] == [(("0", "1"),)]
+    last = "@. u = u + dt*k2"
+    for sum_ in ("@. u += dt*k2", "axpy!(dt, k2, u)"):
+        (table,) = julia.find(IN_PLACE.replace(last, sum_), "x")
+        assert table.b == (("0", "1"),)
+    for other in ("lmul!(s, k2)", "rmul!(k2, 0.5)", "mul!(u, M, k2)"):
+        for text in (f"{other}\n    {last}", f"{last}\n    {other.replace('k2', 'u')}"):
+            (table,) = julia.find(IN_PLACE.replace(last, text), "x")
+            assert table.trouble == "a step that is not followed"
+
+
 def test_multistep_methods_are_no_steps() -> None:
     """A slope that is given beside the first one is that of an earlier step; where a stage has
     another slope in it, it is not passed over.
@@ -341,6 +354,7 @@ def test_slopes_are_of_one_function(first: str, second: str) -> None:
     "between",
     [
         "call dscal(f1, 2.0_wp)",
+        "call dscal(f1, two)",
         "where (f1 > 0) f1 = 3.0_wp*f1",
         "select case (m)\ncase (1)\nf1 = 3.0_wp*f1\nend select",
     ],

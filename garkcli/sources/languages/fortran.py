@@ -152,7 +152,7 @@ class FortranLowering(Lowering):
                 count = len(targets) if targets and None not in targets else len(items) + 1
                 pairs = [(x, y) for x, y in zip(targets, items, strict=False) if x is not None]
             if count > len(items):
-                # what is behind it is not known either
+                # which of the numbers are whose is not known
                 lost = [ir.Name(self.first_name(x)) for x in named]
                 pairs = [(x, ir.Opaque("a data statement")) for x in lost]
             for target, item in pairs:

@@ -47,7 +47,10 @@ _BLOCKS = frozenset(
     }
 )
 _DEFINITIONS = frozenset(
-    {"function_definition", "struct_definition", "assignment", "if_statement", *_BLOCKS}
+    {
+        *("function_definition", "struct_definition", "assignment", "if_statement"),
+        *("compound_assignment_expression", *_BLOCKS),
+    }
 )
 _SKIPPED = frozenset({"using_statement", "import_statement", "export_statement"})
 _TYPED = frozenset({"where_expression", "typed_expression"})
@@ -168,7 +171,7 @@ class JuliaLowering(Lowering):
         parameters = tuple(filter(None, [self._parameter(x, types) for x in given]))
         statements = self.block(body)
         match statements[-1:]:
-            case (ir.Do(value, last),):
+            case (ir.Do(value, last),) if not _is_for_effect(value):
                 # the last value is what the function gives
                 statements = (*statements[:-1], ir.Return(value, last))
         return ir.Scope("function", name, statements, line, parameters, frozenset(types), of=of)
@@ -370,6 +373,14 @@ class JuliaLowering(Lowering):
                 shape = ir.Items(self.exprs(self.children(sizes)[:2]))
                 return ir.Call(ir.Name("reshape"), (ir.Items(args), shape))
         return self.call(self.expr(callee), args, named)
+
+
+def _is_for_effect(value: ir.Expr) -> bool:
+    """Whether a call changes its arguments, or a statement is not known."""
+    match value:
+        case ir.Call(ir.Name(name) | ir.Field(name=name)):
+            return name.endswith("!")
+    return isinstance(value, ir.Opaque)
 
 
 def _ordered(tokens: deque[Token]) -> ir.Expr:
