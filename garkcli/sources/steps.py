@@ -182,6 +182,9 @@ class Follower(Evaluator):
                 self._store(target, self.value(source, space), space, self.line)
             case ir.Call(ir.Field(of=ir.Name() as of, name="Add"), (factor, term), ()):
                 self._added("+ * x", (of, factor, term), space)
+            case ir.Call(ir.Field(of=ir.Name(name) as of)) if name in space:
+                # k.negate()
+                self.spoil(of, space, "changed elsewhere", self.line)
             case ir.Call(callee, given, ()) if roles := _SUMS.get((_name(callee), len(given))):
                 self._added(roles, given, space)
             case ir.Call(callee, (ir.Name() as target, *args), ()) if _name(callee).endswith("!"):

@@ -222,7 +222,12 @@ SSP_3 = (
     ),
     (
         julia,
-        "@kwdef struct T3\n  A = [0 0 0; 1 0 0; 1//4 1//4 0]\n  b = [1//6, 1//6, 2//3]\n  c = [0, 1, 1//2]\nend",
+        "Base.@kwdef struct T3\n  A = [0 0 0; 1 0 0; 1//4 1//4 0]\n  b = [1//6, 1//6, 2//3]\n  c = [0, 1, 1//2]\nend",
+    ),
+    (
+        julia,
+        "function t()\n  A = zeros(3, 3)\n  for i in 2:3, j in 1:i-1\n    A[i, j] = 5//2 - 3//4*i\n  end\n"
+        "  b = [1//6, 1//6, 2//3]\n  c = [0, 1, 1//2]\n  RK(A, b, c)\nend",
     ),
     (
         python,

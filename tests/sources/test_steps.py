@@ -246,6 +246,15 @@ def test_multistep_methods_are_no_steps() -> None:
     assert found.trouble == "a step that is not followed"
 
 
+def test_vectors_with_indices_from_0_in_fortran() -> None:
+    """Loops over components of vectors of unknown length."""
+    text = "subroutine s(n, t, y, h)\nreal :: y(0:n), k(0:n), w(0:n)\ncall f(t, y, k)\nname = me%name()\n{}\n"
+    text += "call f(t + h/2, w, k)\n{}\nend subroutine\n"
+    loop = "do i = 0, n\n{0}(i) = y(i) + {1}*k(i)\nend do"
+    (table,) = fortran.find(text.format(loop.format("w", "h/2"), loop.format("y", "h")), "x")
+    assert (table.b, table.c) == ((("0", "1"),), (("0", "1/2"),))
+
+
 @pytest.mark.parametrize("index", [("", ""), ("[n]", "[n+1]")])
 @pytest.mark.parametrize("loop", ["for n in range(N)", "while go()"])
 def test_steps_one_after_the_other_are_told(index: tuple[str, str], loop: str) -> None:
@@ -355,6 +364,7 @@ def test_slopes_are_of_one_function(first: str, second: str) -> None:
     [
         "call dscal(f1, 2.0_wp)",
         "call dscal(f1, two)",
+        "call f1%scale()",
         "where (f1 > 0) f1 = 3.0_wp*f1",
         "select case (m)\ncase (1)\nf1 = 3.0_wp*f1\nend select",
     ],

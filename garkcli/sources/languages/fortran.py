@@ -40,6 +40,7 @@ class FortranLowering(Lowering):
         self._extents: dict[str, tuple[ir.Expr, ...]] = {}
         self._lower: dict[str, tuple[ir.Expr | None, ...]] = {}
         self._spelled: dict[str, str] = {}
+        self._numbers: dict[str, int] = {}
 
     def own(self, node: Node, inside: list[Node], line: int) -> Iterator[ir.Statement]:
         match node.type:
@@ -102,6 +103,8 @@ class FortranLowering(Lowering):
                 yield ir.Assign(target, None, line, extents=extents, is_real=is_real)
             if value is not None:
                 first = self.expr(value)
+                number = _number(first)
+                self._numbers |= {} if is_real or number is None else {name: number}
                 if extents and isinstance(first, ir.Literal) and not float(first.text):
                     # zeros that procedures may change
                     first = ir.Call(ir.Name("zeros"), extents)
@@ -219,12 +222,17 @@ class FortranLowering(Lowering):
         return ir.Index(self.expr(callee), self._from_one(name, args))
 
     def _from_one(self, name: str, at: tuple[ir.Expr, ...]) -> tuple[ir.Expr, ...]:
-        """The indices of an array as they are when it begins with 1."""
+        """The indices of an array as they are when it begins with 1; counters of loops over arrays
+        of unknown length, which are vectors, stay as they are.
+        """
         lower = self._lower.get(name, ())
         if len(lower) != len(at):
             return at
+        sizes = (_number(_with_numbers(x, self._numbers)) for x in self._extents.get(name, ()))
+        of_each = zip(at, lower, sizes, strict=True)
         return tuple(
-            x if less is None else _less(x, less) for x, less in zip(at, lower, strict=True)
+            x if by is None or (size is None and isinstance(x, ir.Name)) else _less(x, by)
+            for x, by, size in of_each
         )
 
 

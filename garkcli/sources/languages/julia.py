@@ -119,16 +119,19 @@ class JuliaLowering(Lowering):
                 sign = self.text(inside[1]).rstrip("=")
                 yield ir.Assign(self.expr(inside[0]), self.expr(inside[-1]), line, sign)
             case "for_statement" if inside:
-                bound = self.children(inside[0])
-                name = self.text(bound[0]) if bound and bound[0].type == "identifier" else ""
-                yield self.loop(node, name, self.expr(bound[-1]))
+                heads = [self.children(x) for x in inside if x.type == "for_binding"]
+                turns = self.block(x for x in inside if x.type != "for_binding")
+                for counter, *_, over in reversed(heads):
+                    counted = self.text(counter) if counter.type == "identifier" else ""
+                    turns = (ir.Loop(counted, self.expr(over), turns, line),)
+                yield from turns
             case kind if kind not in _SKIPPED:
                 yield ir.Do(self.expr(node), line)
 
     def _macro(self, node: Node, inside: list[Node], line: int) -> Iterator[ir.Statement]:
         """A macro before a definition is passed over."""
-        args = self.children(inside[1]) if len(inside) > 1 else []
-        if args and self.text(inside[0]) == "@unpack":
+        name, args = self._macro_parts(inside)
+        if args and name == "@unpack":
             first = self.children(args[0])
             for part in (self.children(first[0]) if first else []) or first[:1]:
                 yield ir.Assign(ir.Name(self.text(part)), _ARGUMENT, line)
@@ -136,6 +139,11 @@ class JuliaLowering(Lowering):
             yield from self.block(args[-1:])
         else:
             yield ir.Do(self.expr(node), line)
+
+    def _macro_parts(self, inside: list[Node]) -> tuple[str, list[Node]]:
+        """The name of a macro, without that of its module, and what it is given."""
+        name = next((self.text(x) for x in inside if x.type == "macro_identifier"), "")
+        return name, [] if inside[-1].type == "macro_identifier" else self.children(inside[-1])
 
     def _assignment(self, left: Node, right: Node, line: int) -> Iterator[ir.Statement]:
         head = left
@@ -321,10 +329,10 @@ class JuliaLowering(Lowering):
             case "quote_expression":
                 return ir.Text(self.text(node).lstrip(":"))
             case "macrocall_expression" if inside:
-                args = self.children(inside[1]) if len(inside) > 1 else []
-                if self.text(inside[0]) in _PASSED and len(args) == 1:
+                name, args = self._macro_parts(inside)
+                if name in _PASSED and len(args) == 1:
                     return self.expr(args[0])
-                return ir.Opaque(f"the macro {self.text(inside[0])}")
+                return ir.Opaque(f"the macro {name}")
         return unmeant(node)
 
     def _tuple(self, node: Node, inside: list[Node]) -> ir.Expr:
