@@ -174,8 +174,9 @@ def _simplest(low: fmpq, high: fmpq) -> fmpq:
 def where_not_negative(polynomials: Sequence[Polynomial]) -> tuple[Interval, ...]:
     """The numbers at which polynomials are at least 0.
 
-    >>> where_not_negative([Polynomial([0, 1]), Polynomial([4, 0, -1])])
-    ([0, 2],)
+    >>> (found,) = where_not_negative([Polynomial([0, 1]), Polynomial([4, 0, -1])])
+    >>> found.start, found.end, found.has_end
+    (<RealRoot 0>, <RealRoot 2>, True)
     """
     return where(lambda t: all(sign_of(p, t) >= 0 for p in polynomials), polynomials)
 
