@@ -149,7 +149,7 @@ class Evaluator:
 
     def array(self, items: Iterable[Value]) -> Array:
         """An array of this language."""
-        return Array(list(items), self.base, self._is_growing)
+        return Array(list(items), self._is_growing)
 
     def unknown(self, reason: str) -> Unknown:
         """The unknown parts of the line that is walked."""
@@ -327,7 +327,7 @@ class Evaluator:
         columns = counts[1] if len(counts) > 1 else None
         if columns and items and not any(isinstance(x, Array) for x in items):
             rows = range(0, len(items), columns)
-            items = [Array(items[i : i + columns], self.base) for i in rows]
+            items = [Array(items[i : i + columns]) for i in rows]
         count = len(items) if counts[0] is None else counts[0]
         self.allowance.spend(count)
         given: list[Value | None] = [*items, *[None] * (count - len(items))]
@@ -363,7 +363,7 @@ class Evaluator:
                 record = self._changed(of, space, Record("", {}, (), self.line))
                 return [] if record is None else [(record.fields, key)]
             case ir.Index(of=of, at=at):
-                array = self._changed(of, space, Array([], self.base, is_growing=True))
+                array = self._changed(of, space, Array([], is_growing=True))
                 return [] if array is None else self._entries(array, at, space)
         return []
 
@@ -415,7 +415,7 @@ class Evaluator:
                 continue
             row = array.items[i]
             if array.is_growing and _is_unset(row):
-                row = array.items[i] = Array([], self.base, is_growing=True)
+                row = array.items[i] = Array([], is_growing=True)
             inner = self._entries(row, at[1:], space) if isinstance(row, Array) else []
             if not inner:
                 return []
@@ -696,7 +696,7 @@ class Evaluator:
 
     def _method(self, of: ir.Expr, name: str, args: Sequence[ir.Expr], space: Space) -> Value:
         """What changes an array in place."""
-        box = self._changed(of, space, Array([], self.base, is_growing=True))
+        box = self._changed(of, space, Array([], is_growing=True))
         values = [self.value(x, space) for x in args]
         if box is None:
             return NULL

@@ -79,12 +79,10 @@ class Array(Mutable, eq=False):
 
     Attributes:
         items: the values.
-        base: the index of the first.
         is_growing: whether what is assigned behind its end makes it longer.
     """
 
     items: list[Value]
-    base: int = 0
     is_growing: bool = False
 
     @property
@@ -103,7 +101,7 @@ class Array(Mutable, eq=False):
     def map(self, change: Callable[[Value], Value]) -> Array:
         """The same with other entries."""
         items = [x.map(change) if isinstance(x, Array) else change(x) for x in self.items]
-        return Array(items, self.base, self.is_growing)
+        return Array(items, self.is_growing)
 
 
 class Record(Mutable, eq=False):
@@ -394,13 +392,13 @@ def transposed(value: Value, line: int) -> Value:
         return value
     rows = [x.items for x in value.items if isinstance(x, Array)]
     if not rows:
-        return Array([Array([x], value.base) for x in value.items], value.base)
+        return Array([Array([x]) for x in value.items])
     lengths = {len(x) for x in rows}
     if len(rows) != len(value.items) or len(lengths) != 1:
         return Unknown("a transpose of what is no matrix", line)
     if lengths == {1}:
-        return Array([x[0] for x in rows], value.base)
-    return Array([Array(list(x), value.base) for x in zip(*rows, strict=True)], value.base)
+        return Array([x[0] for x in rows])
+    return Array([Array(list(x)) for x in zip(*rows, strict=True)])
 
 
 def items_of(value: Value | None) -> list[Value]:
