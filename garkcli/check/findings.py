@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 from flint import fmpq
 
 from garkcli.check.outcome import Claim, Outcome
-from garkcli.exact.display import to_decimal, to_text
-from garkcli.exact.expression import read_decimal
+from garkcli.exact.display import shortest, to_decimal, to_text
 from garkcli.exact.field import Number
 from garkcli.frozen import Frozen
 from garkcli.ntrees.notation import format_tree
@@ -166,17 +165,9 @@ def names_of(colours: Sequence[int], names: Sequence[str]) -> tuple[str, ...]:
 
 def value_text(number: Number, digits: int = 17) -> Formula | str:
     """An entry as files have them: short ones exactly, decimals in full, others to some digits."""
-    text = to_text(number)
-    if len(text) <= _SHORT:
-        return Formula(text)
-    shown = to_decimal(number, 60)
-    if isinstance(number, fmpq) and read_decimal(shown.lstrip("-")) == abs(number):
-        # a decimal without the zeros at the end of its fraction
-        mantissa, *exponent = shown.split("e")
-        if "." in mantissa:
-            mantissa = mantissa.rstrip("0").rstrip(".")
-        return "e".join([mantissa, *exponent])
-    return to_decimal(number, digits)
+    text = shortest(number)
+    is_told = len(text) <= _SHORT or (isinstance(number, fmpq) and "." in text)
+    return Formula(text) if is_told else to_decimal(number, digits)
 
 
 CLAIM = "write what holds under expect: gark claims FILE --write"

@@ -17,7 +17,7 @@ from garkcli.cli.arguments import completed
 from garkcli.cli.options import Given, Output, declared
 from garkcli.cli.streams import say_faults
 from garkcli.doing import counting
-from garkcli.errors import HasFreeParameters, MethodFileError, UsageProblem
+from garkcli.errors import HasFreeParameters, MethodFileError, UsageProblem, did_you_mean
 from garkcli.files import is_stream
 from garkcli.tell.report import FORMATS
 
@@ -170,8 +170,13 @@ def _listed(given: Mapping[str, Any]) -> list[Entry]:
     others = ("judge", "sort", "folder", "words")
     values = {key: x for key, x in given.items() if key not in others and x not in (None, "")}
     wanted = Wanted(values, given["folder"] or "", given["words"])
-    found = [x for x in all_entries(bool(given["judge"])) if wanted.takes(x)]
-    return sorted_by(found, given["sort"] or "order")
+    entries = list(all_entries(bool(given["judge"])))
+    for key in ("folder", "structure"):
+        known = sorted({x[key] for x in entries} - {""})
+        if given[key] and given[key] not in known:
+            message = f"--{key} {given[key]}: no method of the catalogue has it"
+            raise UsageProblem(message, did_you_mean(given[key], known), code="option-value")
+    return sorted_by([x for x in entries if wanted.takes(x)], given["sort"] or "order")
 
 
 @declared("show", FORMATS)

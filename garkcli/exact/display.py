@@ -10,10 +10,37 @@ from garkcli.exact.enclosing import enclose
 from garkcli.exact.field import Algebraic, Number
 from garkcli.exact.parametric import Parametric
 
+_LONG_DENOMINATOR = 10000
+_SMALL = fmpq(1, 1000)
+
 
 def to_text(number: Number) -> str:
     """The number as a method file writes it, for instance ``1/2 - sqrt(3)/6``."""
     return str(number)
+
+
+def shortest(number: Number) -> str:
+    """The number as people read it: a long fraction in decimals where all of these are shorter.
+
+    >>> shortest(fmpq(732233047, 2500000000)), shortest(fmpq(1, 20)), shortest(fmpq(1, 30000))
+    ('0.2928932188', '1/20', '1/30000')
+    """
+    text = to_text(number)
+    if isinstance(number, fmpq) and number.q >= _LONG_DENOMINATOR:
+        size = abs(number)
+        decimals = decimal(size) if size < _SMALL else plain_decimal(size)
+        return min(text, f"-{decimals}" if number < 0 else decimals, key=len)
+    return text
+
+
+def decimal_latex(text: str) -> str:
+    r"""A decimal in LaTeX.
+
+    >>> decimal_latex("-1.5e-16"), decimal_latex("0.25")
+    ('-1.5 \\cdot 10^{-16}', '0.25')
+    """
+    mantissa, _, exponent = text.partition("e")
+    return rf"{mantissa} \cdot 10^{{{int(exponent)}}}" if exponent else mantissa
 
 
 def to_latex(number: Number | Parametric) -> str:
@@ -21,7 +48,8 @@ def to_latex(number: Number | Parametric) -> str:
     if isinstance(number, Parametric):
         return number.latex()
     if not isinstance(number, Algebraic):
-        return _latex_term(number, "").removeprefix("+")
+        text = shortest(number)
+        return decimal_latex(text) if "." in text else _latex_term(number, "").removeprefix("+")
     text = ""
     for coefficient, word in number.terms():
         factors = ""

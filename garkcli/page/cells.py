@@ -8,15 +8,15 @@ from typing import NamedTuple
 
 from flint import arb
 
-from garkcli.exact.display import to_text
+from garkcli.exact.display import shortest
 from garkcli.tableau.pointwise import Cell, Entries, Row
 from garkcli.tableau.tableau import Tableau
 
 
 def cell_text(cell: Cell, digits: int) -> str:
-    """An entry as text: exact, or rounded to ``digits`` significant digits."""
+    """An entry for people: exact, or rounded to ``digits`` significant digits."""
     if not isinstance(cell, arb):
-        return to_text(cell)
+        return shortest(cell)
     if cell.contains(0):
         return "0"
     return without_zeros(cell.str(digits, radius=False))

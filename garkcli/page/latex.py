@@ -14,16 +14,6 @@ PREAMBLE = (
 """What a document needs that includes a report."""
 
 
-def number(text: str) -> str:
-    r"""A decimal in LaTeX.
-
-    >>> number("-1.5e-16"), number("0.25")
-    ('-1.5 \\cdot 10^{-16}', '0.25')
-    """
-    mantissa, _, exponent = text.partition("e")
-    return rf"{mantissa} \cdot 10^{{{int(exponent)}}}" if exponent else mantissa
-
-
 def fragment(lines: Iterable[str], is_document: bool) -> Iterator[str]:
     """The lines as a document of their own, or to be included in one whose preamble they name."""
     if is_document:

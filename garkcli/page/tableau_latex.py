@@ -10,11 +10,10 @@ from collections.abc import Callable, Iterator, Sequence
 
 from flint import arb
 
-from garkcli.exact.display import to_latex
+from garkcli.exact.display import decimal_latex, to_latex
 from garkcli.exact.polynomial_text import power_text
 from garkcli.page.cells import cell_text, lines_of, parts_of
 from garkcli.page.exactly import sum_latex
-from garkcli.page.latex import number
 from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.tableau import Tableau
 
@@ -104,4 +103,6 @@ def dense_polynomials(entries: Entries) -> Iterator[tuple[str, str]]:
 
 
 def _cell(cell: Cell, entries: Entries) -> str:
-    return number(cell_text(cell, entries.digits)) if isinstance(cell, arb) else to_latex(cell)
+    return (
+        decimal_latex(cell_text(cell, entries.digits)) if isinstance(cell, arb) else to_latex(cell)
+    )

@@ -7,7 +7,7 @@ from itertools import chain
 
 from flint import arb
 
-from garkcli.exact.display import to_ball, to_text
+from garkcli.exact.display import shortest, to_ball
 from garkcli.page.cells import cell_text, distinct_rows, lines_of
 from garkcli.page.paint import aligned, indented
 from garkcli.tableau.pointwise import Cell, Entries
@@ -26,7 +26,7 @@ def readable(entries: Entries) -> Entries:
     def short(cell: Cell) -> Cell:
         if isinstance(cell, arb):
             return cell
-        if len(to_text(cell)) <= widest:
+        if len(shortest(cell)) <= widest:
             return cell
         return to_ball(cell, entries.digits)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
-from garkcli.exact.display import to_decimal, to_text
+from garkcli.exact.display import shortest, to_decimal
 from garkcli.exact.field import Number
 from garkcli.properties.pattern import Vertex
 from garkcli.reason import Formula, Place, Reason
@@ -17,7 +17,7 @@ _SHORT = 24
 
 def number_words(number: Number) -> Formula | str:
     """A number as it is, or its first digits."""
-    text = to_text(number)
+    text = shortest(number)
     return Formula(text) if len(text) <= _SHORT else f"about {to_decimal(number, 6)}"
 
 

@@ -47,11 +47,19 @@ def stages_text(tableau: Any) -> str:
     return stages if len(counts) == 1 else f"{len(counts)} colours, {stages}"
 
 
+def _shape_words(shape: Shape, tolerance: Any, d: Plain) -> str:
+    """``ESDIRK within 1e-9``: equal entries that are not zero are so within the rounding."""
+    return d.known(shape.name, Status(tolerance if shape.singly else None))
+
+
 def _method_phrase(_: str, answer: Answer, d: Plain) -> str:
     """``explicit, 4 stages``."""
     outcome = answer.value
     structure = "" if outcome.structure == "general" else f"for {outcome.structure} problems, "
-    kind = "" if outcome.every is not None else f"{outcome.analysis.subject.shape.name}, "
+    kind = ""
+    if outcome.every is None:
+        a = outcome.analysis
+        kind = f"{_shape_words(a.subject.shape, a.tolerance, d)}, "
     return f"{structure}{kind}{stages_text(outcome.found.tableau)}"
 
 
@@ -437,7 +445,7 @@ def colours_apart(a: Any) -> list[OfColour] | None:
 def _colours_words(found: Sequence[OfColour], d: Plain) -> str:
     texts = []
     for x in found:
-        said = [] if x.shape is None else [x.shape.name]
+        said = [] if x.shape is None else [_shape_words(x.shape, x.within, d)]
         if x.shape is not None and x.shape.gamma is not None:
             said.append(f"γ = {d.known(d.number(x.shape.gamma), Status(x.within))}")
         stage_order = d.known(d.capped(x.stage_order, x.limit), Status(x.within))

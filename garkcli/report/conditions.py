@@ -8,27 +8,26 @@ from functools import cache
 from flint import fmpq
 
 from garkcli.errors import counted
-from garkcli.exact.display import decimal, to_decimal, to_latex, to_text
+from garkcli.exact.display import decimal, decimal_latex, shortest, to_decimal, to_latex
 from garkcli.exact.parametric import Parametric
 from garkcli.frozen import Frozen, Mutable, replace
 from garkcli.ntrees.notation import condition_latex, condition_text, format_tree, vertex_letters
 from garkcli.ntrees.tree import Tree
 from garkcli.order.conditions import Condition
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
-from garkcli.page.latex import number
 from garkcli.page.paint import numbered
 from garkcli.report.symplectic_subject import SUBJECT, Subject
 from garkcli.report.trees import DATA, DETAIL, SIZES, TREES, pictures
 from garkcli.tableau.meant import AnyTableau, printed, tolerance_of
 from garkcli.tableau.tableau import Tableau
-from garkcli.tell.dialect import Plain
+from garkcli.tell.dialect import LONG, Plain
 from garkcli.tell.facts import Kind, Level, Row, Section, maybe, optional
 from garkcli.tell.kinds import NUMERAL, POSITION, TEXTS, TOLERANCE, choice, numeral_text
 from garkcli.tell.parts import part, sentence, stream, told
 from garkcli.tell.report import Report
 
-MOST_DIGITS = 60
-"""Longer values are shown in decimals."""
+MOST_DECIMALS = 20
+"""Of a value; longer ones are rounded."""
 
 
 class ConditionRow(Frozen):
@@ -188,14 +187,15 @@ def _number(condition: Condition, key: str, d: Plain) -> str:
     x = getattr(condition, key)
     if d.places is not None:
         return NUMERAL(x).words(d)
-    longest = max(len(to_text(condition.value)), len(to_text(condition.residual)))
-    if not x or longest <= MOST_DIGITS or is_parametric(x):
-        return d.expression(to_text(x), lambda: to_latex(x))
+    texts = [shortest(y) for y in (x, condition.residual)]
+    is_long = any(len(text) > (MOST_DECIMALS if "." in text else LONG) for text in texts)
+    if key == "required" or not x or not is_long or is_parametric(x):
+        return d.expression(shortest(x), lambda: to_latex(x))
     if key == "residual":
         text = to_decimal(x, 4)
-        return d.formula(number(text), text)
+        return d.formula(decimal_latex(text), text)
     text = to_decimal(x, 8)
-    return d.formula(rf"\approx {number(text)}", f"about {text}")
+    return d.formula(rf"\approx {decimal_latex(text)}", f"about {text}")
 
 
 def _numeral(key: str, level: Level) -> Row:

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from flint import arb
 
-from garkcli.exact.display import to_float
+from garkcli.exact.display import to_float, to_text
 from garkcli.exact.parametric import Parametric
 from garkcli.page.cells import cell_text, remark
 from garkcli.page.schema import DERIVATION, NUMBER, NUMERAL, Schema, array, nullable
@@ -63,6 +63,10 @@ def _float(cell: Cell | Parametric) -> float | None:
     return float(cell) if isinstance(cell, arb) else to_float(cell)
 
 
+def _numeral(entries: Entries, cell: Cell) -> str:
+    return cell_text(cell, entries.digits) if isinstance(cell, arb) else to_text(cell)
+
+
 def _entries(entry: Schema, change: Callable[[Entries, Cell], object]) -> list[Row]:
     """c, A, b and further weights with their entries changed into what ``entry`` describes."""
 
@@ -91,7 +95,7 @@ TABLEAU = Section(
     Row("exact", TRUTH, "entries.is_exact", DATA),
     sentence(lambda x: remark(x.readable)),
     Row("colours", parts(COLOURS), lambda x: colours_of(x.tableau), DATA),
-    *via(lambda x: x.entries, _entries(NUMERAL, lambda every, x: cell_text(x, every.digits))),
+    *via(lambda x: x.entries, _entries(NUMERAL, _numeral)),
     Row("float", part(FLOATS), "entries", DATA),
     Row("tableau", drawing(lambda x, d: d.tableau(x.tableau, x.readable)), "."),
     title=lambda x, d: d.prose(x.name),

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, TypeAlias
 
 from flint import arb, fmpq
 
-from garkcli.exact.display import decimal, to_decimal, to_text
+from garkcli.exact.display import decimal, shortest, to_decimal, to_text
 from garkcli.exact.field import Algebraic
 from garkcli.exact.polynomial_text import (
     integral,
@@ -195,7 +195,7 @@ class Plain(Mutable):
 
     def number(self, x: Any) -> str:
         """An exact number."""
-        text = to_text(x)
+        text = shortest(x)
         is_number = isinstance(x, (fmpq, int, Algebraic))
         if is_number and (self.places is not None or len(text) > LONG):
             return f"about {to_decimal(x, self.places or 8)}"
@@ -203,7 +203,7 @@ class Plain(Mutable):
 
     def short(self, x: Any) -> str:
         """An exact number among many."""
-        text = to_text(x)
+        text = shortest(x)
         return self.expression(text) if len(text) <= 12 else to_decimal(x, 4)
 
     def size(self, ball: arb) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from html import escape
 from typing import TYPE_CHECKING, Any
 
-from garkcli.exact.display import to_latex, to_text
+from garkcli.exact.display import shortest, to_latex
 from garkcli.exact.polynomial_text import polynomial_text
 from garkcli.page.exactly import polynomial_latex, quotient_latex
 from garkcli.page.plain import printable
@@ -48,7 +48,7 @@ class Html(Plain):
         return f"<strong>{text}</strong>"
 
     def number(self, x: Any) -> str:
-        text = to_text(x)
+        text = shortest(x)
         return super().number(x) if len(text) > LONG else self.formula(to_latex(x), text)
 
     def polynomial(self, p: Polynomial, variable: str) -> str:

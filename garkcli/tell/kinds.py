@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from flint import fmpq
 
-from garkcli.exact.display import decimal, plain_decimal, to_decimal, to_text
+from garkcli.exact.display import decimal, decimal_latex, plain_decimal, to_decimal, to_text
 from garkcli.exact.field import Number
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import integral, polynomial_text
@@ -15,7 +15,6 @@ from garkcli.frozen import Frozen
 from garkcli.ntrees.notation import format_tree
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ALGEBRAIC, ROOT_OF, root_data
-from garkcli.page.latex import number
 from garkcli.page.plain import csv_cell
 from garkcli.page.schema import Schema, array, nullable, one_of
 from garkcli.reason import NO_REASON, Reason
@@ -115,7 +114,7 @@ def numeral_text(x: Number, d: Plain) -> str:
 
 def _numeral(x: Number, d: Plain) -> str:
     text = numeral_text(x, d)
-    return d.number(x) if d.places is None else d.formula(number(text), text)
+    return d.number(x) if d.places is None else d.formula(decimal_latex(text), text)
 
 
 NUMERAL = Kind(S.NUMERAL, numeral_text, _numeral)

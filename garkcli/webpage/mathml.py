@@ -12,13 +12,12 @@ from flint import arb
 from latex2mathml.converter import convert
 from markupsafe import Markup
 
-from garkcli.exact.display import to_decimal, to_latex, to_text
+from garkcli.exact.display import decimal_latex, to_decimal, to_latex, to_text
 from garkcli.exact.field import Number
 from garkcli.exact.parametric import Parametric
 from garkcli.ntrees.notation import condition_latex
 from garkcli.ntrees.tree import Tree
 from garkcli.page.cells import cell_text
-from garkcli.page.latex import number
 from garkcli.reason import Place
 from garkcli.tableau.pointwise import Cell
 from garkcli.tell.html import Html
@@ -105,7 +104,7 @@ def typeset_condition(tree: Tree, has_colours: bool) -> Markup:
 def typeset_cell(cell: Cell, digits: int) -> Markup:
     """An entry of a tableau: exact, or as a decimal of so many digits."""
     if isinstance(cell, arb):
-        return typeset(number(cell_text(cell, digits)))
+        return typeset(decimal_latex(cell_text(cell, digits)))
     return typeset(to_latex(cell), to_text(cell))
 
 
@@ -114,4 +113,4 @@ def typeset_number(value: Number | Parametric) -> Markup:
     text = str(value) if isinstance(value, Parametric) else to_text(value)
     if isinstance(value, Parametric) or len(text) <= _LONGEST:
         return typeset(to_latex(value), text)
-    return typeset(rf"\approx {number(to_decimal(value, _DIGITS))}")
+    return typeset(rf"\approx {decimal_latex(to_decimal(value, _DIGITS))}")

@@ -11,10 +11,9 @@ from garkcli.bridges.numbers import Style
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.registry import Bridge
 from garkcli.bridges.rounding import Cell
-from garkcli.exact.display import to_latex
+from garkcli.exact.display import decimal_latex, to_latex
 from garkcli.exact.field import Algebraic
 from garkcli.frozen import replace
-from garkcli.page.latex import number
 from garkcli.page.tableau_latex import displays
 
 DECIMALS = Style(longest=1000, point=False)
@@ -46,7 +45,7 @@ def _cell(payload: Payload, cell: Cell) -> str:
     is_printed_exactly = payload.tolerance is None and not is_asked_for
     if isinstance(cell, fmpq) and is_printed_exactly:
         return to_latex(cell)
-    return number(payload.number(cell, DECIMALS))
+    return decimal_latex(payload.number(cell, DECIMALS))
 
 
 BRIDGES = (
