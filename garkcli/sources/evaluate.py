@@ -1,8 +1,8 @@
 """What sources say, evaluated: exact constants, unknown where anything is, nothing executed.
 
 Every scope is walked once, with a budget of steps; calls of functions with several statements are
-not followed. A branch whose condition is not known is walked in every way, each with names of its
-own; where these are too many, what it assigns is unknown.
+not followed. Each arm of a branch is walked with names of its own, and ends as a scope does; behind
+the branch what it assigns is unknown.
 """
 
 from __future__ import annotations
@@ -43,8 +43,6 @@ from garkcli.sources.values import (
     whole,
 )
 
-MAX_WORLDS = 8
-"""Most ways through one scope that are walked side by side."""
 MAX_STEPS = 60_000
 """Most steps for one function."""
 MAX_TURNS = 4_000
@@ -118,7 +116,7 @@ class Evaluator:
     """
 
     def ended(self, scope: ir.Scope, space: Space) -> None:
-        """A scope ends; this is called once for each way through it."""
+        """A scope ends, or an arm of a branch in it."""
 
     def replaced(self, scope: ir.Scope, space: Space, name: str) -> None:
         """An array is about to be assigned anew."""
@@ -138,7 +136,6 @@ class Evaluator:
         self._is_growing = is_growing
         self.has_whole_quotients = has_whole_quotients
         self._steps = 0
-        self._worlds = 1
         self._depth = 0
         self._inlined = 0
         self._lengths: list[int] = []
@@ -157,28 +154,22 @@ class Evaluator:
 
     # statements
 
-    def _walked(self, scope: ir.Scope, space: Space) -> list[Space]:
+    def _walked(self, scope: ir.Scope, space: Space) -> None:
         self._scopes.append(scope)
         try:
-            spaces = self._run(scope.body, [space])
+            self._run(scope.body, space)
+            self.ended(scope, space)
         except OutOfSteps:
             self.given_up.append(scope)
-            return []
         finally:
             self._scopes.pop()
-        for each in spaces:
-            self.ended(scope, each)
-        return spaces
 
-    def _run(self, body: ir.Body, spaces: list[Space]) -> list[Space]:
+    def _run(self, body: ir.Body, space: Space) -> None:
         for statement in body:
-            walked = []
-            for space in spaces:
-                walked += [space] if space.returned is not None else self._step(statement, space)
-            spaces = walked
-        return spaces
+            if space.returned is None:
+                self._step(statement, space)
 
-    def _step(self, statement: ir.Statement, space: Space) -> list[Space]:
+    def _step(self, statement: ir.Statement, space: Space) -> None:
         self._steps += 1
         if self._steps > MAX_STEPS:
             raise OutOfSteps
@@ -193,10 +184,9 @@ class Evaluator:
             case ir.Scope():
                 self._scope(statement, space)
             case ir.Branch():
-                return self._branch(statement, space)
+                self._branch(statement, space)
             case ir.Loop():
                 self._loop(statement, space)
-        return [space]
 
     def _scope(self, scope: ir.Scope, space: Space) -> None:
         if scope.name.startswith("_") and self._scopes[-1].kind == "class":
@@ -211,44 +201,26 @@ class Evaluator:
                 if scope.kind == "function" and scope.name not in space:
                     space[scope.name] = Function(scope.parameters, value, inner)
         before, self._steps = self._steps, 0
-        worlds, self._worlds = self._worlds, 1
-        ended = self._walked(scope, inner)
-        self._steps, self._worlds = before, worlds
-        if scope.kind == "function" and scope.name == "order" and len(ended) == 1:
-            given = ended[0].returned
-            if isinstance(given, Number):
-                # a method of a class, which gives the order
-                space[scope.name] = given
-        if scope.kind == "class" and len(ended) == 1:
-            space[scope.name] = Record(scope.name, dict(ended[0]), (), scope.line)
+        self._walked(scope, inner)
+        self._steps = before
+        if scope.name == "order" and isinstance(inner.returned, Number):
+            # a method of a class, which gives the order
+            space[scope.name] = inner.returned
 
-    def _branch(self, branch: ir.Branch, space: Space) -> list[Space]:
-        arms = [arm for arm in branch.arms if _has_effect(arm)]
-        if not arms:
-            return [space]
-        may_pass = not branch.is_total or len(arms) < len(branch.arms)
-        ways: list[ir.Body] = [*arms, ()] if may_pass else arms
-        has_numbers = any(map(_has_numbers, arms))
-        if has_numbers and self._worlds * len(ways) <= MAX_WORLDS:
-            self._worlds *= len(ways)
-            spaces = [each for way in ways for each in self._run(way, [space.fork()])]
-            self._worlds //= len(ways)
-            return _distinct(spaces)
-        for arm in arms if has_numbers else ():
-            # each on its own
-            inside = ir.Scope("entry", self._scopes[-1].name, arm, branch.line)
-            for each in self._run(arm, [space.fork()]):
-                self.ended(inside, each)
-        for target, line in _targets(x for arm in arms for x in arm):
+    def _branch(self, branch: ir.Branch, space: Space) -> None:
+        for arm in filter(_has_numbers, branch.arms):
+            each = space.fork()
+            self._run(arm, each)
+            self.ended(replace(self._scopes[-1], kind="module", body=arm), each)
+        for target, line in _targets([branch]):
             self.spoil(target, space, "assigned in one of several branches", line)
-        return [space]
 
     def _loop(self, loop: ir.Loop, space: Space) -> None:
         over = self.value(loop.over, space) if loop.name else self.unknown("a loop")
         if isinstance(over, Array) and len(over.items) <= MAX_TURNS and _is_plain(loop.body):
             for item in over.items:
                 space[loop.name] = item
-                self._run(loop.body, [space])
+                self._run(loop.body, space)
             return
         for target, line in _targets(loop.body):
             self.spoil(target, space, "assigned in a loop", line)
@@ -774,11 +746,6 @@ def _are_whole(x: Value, y: Value) -> bool:
     return all(isinstance(v, Number) and v.is_whole for v in (x, y))
 
 
-def _has_effect(arm: ir.Body) -> bool:
-    """Whether an arm does more than to refuse or to leave."""
-    return any(_matters(x) for x in arm)
-
-
 def _has_numbers(body: ir.Body) -> bool:
     """Whether fractions, decimals, lists or entries are assigned or given to calls."""
     return any(
@@ -798,20 +765,6 @@ def _is_numeric(expr: object) -> bool:
         case ir.Rows() | ir.Binary(sign="/", left=ir.Literal()):
             return True
     return False
-
-
-_REFUSALS = frozenset({"error", "throw", "ArgumentError", "print", "println", "warn", "raise"})
-
-
-def _matters(statement: ir.Statement) -> bool:
-    match statement:
-        case ir.Return(value=value):
-            return isinstance(value, ir.Call | ir.Fields | ir.Items)
-        case ir.Do(value=ir.Call(callee=ir.Name(name=name))):
-            return name not in _REFUSALS
-        case ir.Do():
-            return False
-    return True
 
 
 def _is_plain(body: ir.Body) -> bool:
@@ -835,15 +788,6 @@ def _is_replaced(old: Value, value: Value) -> bool:
     assert isinstance(old, Array)
     is_written = any(isinstance(x, Number) and x.is_given for x in old.flat())
     return is_written and _shown(old) != _shown(value)
-
-
-def _distinct(spaces: Sequence[Space]) -> list[Space]:
-    """Ways that end with the same names and values are one."""
-    kept: dict[object, Space] = {}
-    for space in spaces:
-        names = tuple((name, _shown(value)) for name, value in sorted(space.items()))
-        kept.setdefault((names, len(space.calls), space.returned is None), space)
-    return list(kept.values())
 
 
 def _shown(value: Value) -> object:

@@ -140,7 +140,7 @@ class Follower(Evaluator):
         self._spans: dict[int, ir.Expr] = {}
         self._space = Space()
 
-    def _step(self, statement: ir.Statement, space: Space) -> list[Space]:
+    def _step(self, statement: ir.Statement, space: Space) -> None:
         match statement:
             case ir.Do(value=ir.Call() as call):
                 self._changing(call, space)
@@ -159,14 +159,13 @@ class Follower(Evaluator):
                         self._store(ir.Name(name), self.value(x, space), space, self.line)
                     self._returned.append(name)
             case _:
-                return super()._step(statement, space)
-        return [space]
+                super()._step(statement, space)
 
     def _loop(self, loop: ir.Loop, space: Space) -> None:
         if loop.name and _is_over_components(loop.name, loop.body):
             self._is_lost |= self._spans.setdefault(len(self._components), loop.over) != loop.over
             self._components.append(loop.name)
-            self._run(loop.body, [space])
+            self._run(loop.body, space)
             self._components.pop()
             return
         self._lose(loop.body, space)
@@ -338,7 +337,7 @@ class Follower(Evaluator):
         """Evaluate some statements."""
         self._space = space
         try:
-            self._run(tuple(way), [space])
+            self._run(tuple(way), space)
         except OutOfSteps:
             self._is_lost = True
 

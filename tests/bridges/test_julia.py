@@ -46,19 +46,9 @@ def test_what_is_not_known_is_told_and_is_no_zero() -> None:
 
 
 def test_both_ways_of_a_branch_are_tables() -> None:
-    """What a type decides is walked in both ways."""
-    text = """
-function heun(::Type{T}) where {T}
-    if T <: Float64
-        a = 1.0
-    else
-        a = T(2.0)
-    end
-    A = [0 0; a 0]
-    c = [0, a]
-    b = [1//2, 1//2]
-    return ExplicitRKTableau(A, c, b, 2)
-end
-"""
-    first, second = find(text, "x.jl")
+    """Each arm of a branch may complete a table; what it assigns is not known behind it."""
+    text = "b = [1//2, 1//2]\nif precise\n    {0}1.0{1}\nelse\n    {0}2.0{1}\nend\n"
+    first, second = find(text.format("A = [0 0; ", " 0]"), "x.jl")
     assert (block(first)[1], block(second)[1]) == (("1", "0"), ("2", "0"))
+    (table,) = find(text.format("a = ", "") + "A = [0 0; a 0]\n", "x.jl")
+    assert table.trouble == "assigned in one of several branches, line 5, is not known"

@@ -118,14 +118,15 @@ class CLowering(Lowering):
         return (ir.Scope("entry", self.text(value), inside, line_of(node)),)
 
     def _conditional(self, node: Node) -> Iterator[ir.Statement]:
-        """``#if``: both ways; a part that has no other way is taken."""
+        """``#if``: both ways; one that has no other is taken, of ``#if 0`` the other."""
         other = node.child_by_field_name("alternative")
         condition = node.child_by_field_name("condition") or node.child_by_field_name("name")
         first = self.block(x for x in node.named_children if x not in (other, condition))
         second = self.block([other])
-        if other is None or (_defines(first) and _defines(second)):
+        is_off = self.text(condition) == "0"
+        if other is None or is_off or (_defines(first) and _defines(second)):
             # a macro in several ways: the last one is the plain one
-            yield from first if other is None else second
+            yield from second if other or is_off else first
         else:
             yield ir.Branch((first, second), line_of(node), is_total=True)
 
