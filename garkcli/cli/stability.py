@@ -58,7 +58,10 @@ def stability(given: Given, output: Output) -> None:
     if given.plot is not None:
         from garkcli.plots.regions import stability_scene
 
-        output.save_plot(stability_scene(reports, given.order_star), given.plot)
+        planes = [x.plane for x in reports if x.plane is not None]
+        named = [(x.name, x.found) for x in reports]
+        scene = stability_scene(named, given.order_star, planes[0] if planes else None)
+        output.save_plot(scene, given.plot)
 
 
 def colour_named(tableau: Tableau, colour: str) -> int:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from flint import arb, arb_mat, ctx, fmpq
@@ -219,8 +219,15 @@ class Convergence(Shown, Frozen):
         seen = "no observed order"
         if self.observed_order is not None:
             seen = f"observed order {self.observed_order:.1f}"
-        name = getattr(self.problem, "name", "oscillator")
-        return f"<Convergence {name}: {seen}, {self.verdict}>"
+        return f"<Convergence {self.problem.name}: {seen}, {self.verdict}>"
+
+
+def curve(result: Convergence, against: str) -> Iterator[tuple[float | fmpq, arb]]:
+    """The points (x, error) over h, evaluations or seconds, where both are known and positive."""
+    for row in result.rows:
+        x = row.h if against == "h" else getattr(row.cost, against, None)
+        if x is not None and row.error > 0:
+            yield x, row.error
 
 
 def absolute(x: arb) -> arb:

@@ -9,6 +9,8 @@ from typing import TypeAlias
 
 from flint import arb, fmpq
 
+from garkcli.page.figures import log10
+
 Positive: TypeAlias = float | fmpq | arb
 """What can be plotted; balls and fractions reach beyond the range of floats."""
 _Field: TypeAlias = Sequence[Sequence[str]]
@@ -27,15 +29,6 @@ FULL = "█"
 """Inside of a region."""
 SHADED = ":"
 """Outside, but inside of a second region."""
-
-
-def log10(x: Positive) -> float:
-    """The decimal logarithm of a positive number, however small.
-
-    >>> log10(fmpq(1, 10**400))
-    -400.0
-    """
-    return float(arb(x).log() / arb(10).log())
 
 
 def terminal_curves(

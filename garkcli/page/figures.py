@@ -7,17 +7,31 @@ of one that is not finite nothing: there is no value, or rounding leaves every v
 
 from __future__ import annotations
 
-from math import ceil, floor, log10
+import math
+from math import ceil, floor
 from typing import Any
 
 from flint import arb
 
-from garkcli.page.asciiplot import log10 as decades_of
-
-_DIGITS_PER_BIT = log10(2)
+_DIGITS_PER_BIT = math.log10(2)
 _ALL = 15  # digits of a float
 UNKNOWN = "unknown"
 """What stands for a ball that is not finite."""
+
+
+def log10(x: Any) -> float:
+    """The decimal logarithm of a positive number, however small.
+
+    >>> from flint import fmpq
+    >>> log10(fmpq(1, 10**400))
+    -400.0
+    """
+    return float(arb(x).log() / arb(10).log())
+
+
+def order_text(order: float | None) -> str:
+    """An observed order; never −0.00."""
+    return "none" if order is None else f"{round(order, 2) + 0.0:.2f}"
 
 
 def rounded(ball: Any, digits: int = 4) -> str:
@@ -57,7 +71,7 @@ def scientific(ball: Any, digits: int = 3) -> str:
         return f"< 1e{bound(ball)}"
     digits = min(digits, certain_digits(ball))
     middle = ball.mid()
-    exponent = floor(decades_of(middle))
+    exponent = floor(log10(middle))
     scaled = float(middle / arb(10) ** exponent)
     decimals = digits - 1
     mantissa = f"{scaled:.{decimals}f}"
@@ -79,7 +93,7 @@ def for_programs(ball: Any, digits: int = 6) -> str:
 
 def bound(ball: Any) -> int:
     """The smallest k for which all of a ball about 0 is below 10^k."""
-    return ceil(decades_of(arb(ball).abs_upper()))
+    return ceil(log10(arb(ball).abs_upper()))
 
 
 def certain_digits(ball: Any) -> int:
@@ -97,5 +111,5 @@ def measured(value: float, good_to: float, most: int = 5) -> str:
     """
     if abs(value) <= good_to:
         return "below round-off"
-    digits = min(most, max(1, floor(log10(abs(value) / good_to)) + 1)) if good_to else most
+    digits = min(most, max(1, floor(math.log10(abs(value) / good_to)) + 1)) if good_to else most
     return f"{value:.{digits - 1}e}"

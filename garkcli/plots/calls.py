@@ -17,9 +17,8 @@ from garkcli.plots.energy import energy_scene
 from garkcli.plots.saving import check_suffix, need_matplotlib, save
 from garkcli.plots.scene import Scene
 from garkcli.plots.sweep import sweep_scene
-from garkcli.report.stability import StabilityReport
-from garkcli.report.sweep import SweepReport
 from garkcli.stability.summary import Stability
+from garkcli.sweep.report import SweepReport
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -96,8 +95,7 @@ def _scene(
     if kind is Stability:
         from garkcli.plots.regions import stability_scene
 
-        reports = [StabilityReport(name, name, result) for name, result in named]
-        return stability_scene(reports, is_order_star)
+        return stability_scene(named, is_order_star)
     if len(results) > 1:
         raise MethodError("several are not drawn together", "draw them apart", code="arrays")
     (result,) = results

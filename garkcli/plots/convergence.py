@@ -8,15 +8,11 @@ from typing import Any, TypeAlias
 
 from flint import fmpq
 
-from garkcli.convergence.result import Convergence
+from garkcli.convergence.result import Convergence, curve
 from garkcli.frozen import Frozen, replace
-from garkcli.page.asciiplot import log10
-from garkcli.page.figures import scientific
+from garkcli.page.figures import log10, order_text, scientific
 from garkcli.plots import scene
 from garkcli.problems.righthandside import RightHandSide
-from garkcli.report.convergence import order_text
-from garkcli.report.costs import curve
-from garkcli.report.problem import name_of
 
 _GAPS = (0.05, 0.08, 0.12, 0.18, 0.26)
 """Distances from the curve that a line is for, in heights of the figure."""
@@ -252,7 +248,7 @@ def step_marks(sizes: Sequence[fmpq]) -> list[scene.Mark]:
 def _about(result: Convergence) -> str:
     """The problem and the time, with a capital."""
     problem = result.problem
-    about = scene.capitalized(name_of(result.problem))
+    about = scene.capitalized(result.problem.name)
     if isinstance(problem, RightHandSide) and problem.stiffness is not None:
         about += f", stiffness {problem.stiffness},"
     return f"{about} to t = {result.t_end}"

@@ -8,7 +8,6 @@ from garkcli.frozen import replace
 from garkcli.longtime.history import InvariantHistory, LongRun
 from garkcli.page.figures import measured
 from garkcli.plots import scene
-from garkcli.report.problem import name_of
 
 _TITLE = "Energy error over a long time"
 _HEIGHT, _LOWER = 200, 110
@@ -25,7 +24,7 @@ _WORDS = {
 
 def energy_scene(run: LongRun) -> scene.Scene:
     """The energy error against time, and below it a panel for the error of each other invariant."""
-    title = f"{scene.capitalized(name_of(run.problem))}, h = {run.step}, {run.steps} steps"
+    title = f"{scene.capitalized(run.problem.name)}, h = {run.step}, {run.steps} steps"
     return scene.Scene(title, [history_panel(run, history) for history in run.invariants])
 
 

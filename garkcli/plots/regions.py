@@ -16,11 +16,11 @@ from flint import fmpq
 from garkcli.exact.roots import RealRoot
 from garkcli.plots.plane import Window, log_modulus, modulus, outlined, values, window_of
 from garkcli.plots.scene import Area, Axis, Curve, Panel, Point, Rule, Scene, Shape
-from garkcli.report.stability import StabilityReport
 from garkcli.stability.damping import ImexPair
 from garkcli.stability.linear import StabilityFunction
 from garkcli.stability.oscillator import OscillatorStability
 from garkcli.stability.springs_plane import SpringsPlane
+from garkcli.stability.summary import Stability
 
 _POINTS = 600
 _HIGHEST = 2.0
@@ -130,28 +130,31 @@ _MUCH = 2.5
 _AROUND = 1.3
 
 
-def stability_scene(reports: Sequence[StabilityReport], is_order_star: bool = False) -> Scene:
+def stability_scene(
+    methods: Sequence[tuple[str, Stability]],
+    is_order_star: bool = False,
+    plane: SpringsPlane | None = None,
+) -> Scene:
     """What there is to draw of one or several methods.
 
     Args:
-        reports: all with a linear part, or all with an oscillator.
+        methods: names and stability, all with a linear part, or all with an oscillator.
         is_order_star: draw |R(z)| > |e^z| instead of |R(z)| ≤ 1.
+        plane: draw this plane of two frequencies instead.
     """
-    first = reports[0]
-    found = first.found
-    title = first.name if len(reports) == 1 else f"{len(reports)} methods"
-    planes = [report.plane for report in reports if report.plane is not None]
-    if planes:
-        return Scene(title, [springs_panel(planes[0])])
-    if not all(report.found.linear for report in reports):
-        oscillators = [(report.name, report.found.oscillator) for report in reports]
+    (name, found), *others = methods
+    title = f"{len(methods)} methods" if others else name
+    if plane is not None:
+        return Scene(title, [springs_panel(plane)])
+    if not all(x.linear for _, x in methods):
+        oscillators = [(name, x.oscillator) for name, x in methods]
         return Scene(title, [trace_panel([(name, x) for name, x in oscillators if x is not None])])
-    if len(reports) > 1:
-        named = [(report.name, report.found.linear[0].R) for report in reports]
+    if others:
+        named = [(name, x.linear[0].R) for name, x in methods]
     else:
         named = of_directions([(x.name, x.R) for x in found.linear])
     panels = [region_panel(named, is_order_star)]
-    if len(reports) == 1 and not is_order_star and found.colours is not None:
+    if not others and not is_order_star and found.colours is not None:
         pair = found.colours.pair
         if pair is not None and found.colours.explicit_alone is not None:
             panels.append(pair_panel(pair, found.colours.explicit_alone))

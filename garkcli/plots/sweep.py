@@ -5,9 +5,9 @@ from __future__ import annotations
 from math import isfinite, log10
 
 from garkcli.plots.scene import Axis, Curve, Panel, Scene
-from garkcli.report.sweep import SweepReport
 from garkcli.sweep.plan import number
 from garkcli.sweep.ranking import kept, pareto_front
+from garkcli.sweep.report import SweepReport
 from garkcli.sweep.row import Row
 
 

@@ -8,7 +8,7 @@ momentum part only.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, ClassVar, TypeAlias
 
 from flint import fmpq
 
@@ -51,6 +51,7 @@ class Oscillator(Frozen):
 
     omega: fmpq
     shares: Shares
+    name: ClassVar[str] = "oscillator"
 
     if TYPE_CHECKING:
 

@@ -9,17 +9,17 @@ from typing import Any, NamedTuple
 
 from flint import fmpq
 
-from garkcli.convergence.result import Convergence
+from garkcli.convergence.result import Convergence, curve
 from garkcli.convergence.result import Row as Step
 from garkcli.errors import Fault, counted
 from garkcli.frozen import Frozen
 from garkcli.page.asciiplot import SEVERAL, terminal_curves
-from garkcli.page.figures import scientific
+from garkcli.page.figures import order_text, scientific
 from garkcli.page.schema import Schema, one_of, published
 from garkcli.problems.oscillator import Oscillator
 from garkcli.problems.righthandside import RightHandSide
 from garkcli.report import convergence as alone
-from garkcli.report.costs import Tested, at_equal_errors, curve
+from garkcli.report.costs import Tested, at_equal_errors
 from garkcli.report.failure import FAULT
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Choice, Level, Row, Section, maybe, via
@@ -117,7 +117,7 @@ def _tested(row: Row) -> Row:
 
 METHOD = Section(
     Row("letter", TEXT, label=""),
-    _tested(Row("observed", told(lambda x, _: alone.order_text(x.observed_order)), ".")),
+    _tested(Row("observed", told(lambda x, _: order_text(x.observed_order)), ".")),
     _tested(Row("visible", COUNT, alone.visible)),
     _tested(Row("predicted", COUNT, alone.predicted)),
     Row("verdict", told(_verdict), "."),

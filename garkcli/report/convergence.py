@@ -6,16 +6,15 @@ from typing import Any, NamedTuple, get_args
 
 from flint import arb
 
-from garkcli.convergence.result import CLOSE, MAX_ORDER, Convergence, Verdict
+from garkcli.convergence.result import CLOSE, MAX_ORDER, Convergence, Verdict, curve
 from garkcli.convergence.result import Row as Step
 from garkcli.exact.display import to_float
 from garkcli.frozen import Frozen
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.asciiplot import POINT, terminal_curves
-from garkcli.page.figures import for_programs, rounded, scientific
+from garkcli.page.figures import for_programs, order_text, rounded, scientific
 from garkcli.problems.oscillator import Oscillator
 from garkcli.reason import Reason
-from garkcli.report.costs import curve
 from garkcli.report.failure import FAILURE, Failure
 from garkcli.report.problem import STEPPED
 from garkcli.tableau.garkmethod import derivation_of
@@ -159,11 +158,6 @@ def lines(x: Any) -> tuple[Section, list[StepTold]]:
 
 
 # orders and the verdict
-
-
-def order_text(order: float | None) -> str:
-    """An observed order; never −0.00."""
-    return "none" if order is None else f"{round(order, 2) + 0.0:.2f}"
 
 
 def visible(x: Convergence) -> Answer:

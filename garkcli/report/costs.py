@@ -1,39 +1,21 @@
-"""What errors cost: points of plots, and costs of equal errors."""
+"""What equal errors cost."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from itertools import pairwise
 from math import ceil, floor
 from typing import TypeAlias
 
-from flint import arb, fmpq
+from flint import arb
 
-from garkcli.convergence.result import Convergence, Cost
-from garkcli.page.asciiplot import log10
-from garkcli.page.figures import scientific
+from garkcli.convergence.result import Convergence, curve
+from garkcli.page.figures import log10, scientific
 
 Tested: TypeAlias = Sequence[tuple[str, Convergence]]
 """The results by the letters of their methods."""
 _GOALS = 6  # errors at which costs are compared
-
-
-def amount(cost: Cost | None, what: str) -> float | None:
-    """How much of ``what`` a row has cost: evaluations or seconds; None where that is not known."""
-    if cost is None:
-        return None
-    return float(cost.evaluations) if what == "evaluations" else cost.seconds
-
-
-def curve(result: Convergence, against: str) -> Iterator[tuple[float | fmpq, arb]]:
-    """The points (x, error) of a plot against h, evaluations or seconds, where both are known and
-    positive.
-    """
-    for row in result.rows:
-        x: float | fmpq | None = amount(row.cost, against) if against != "h" else row.h
-        if x is not None and row.error > 0:
-            yield x, row.error
 
 
 def at_equal_errors(tested: Tested, what: str) -> list[tuple[str, list[tuple[str, str]]]]:

@@ -21,11 +21,6 @@ _LONGEST = 80
 """Characters of the terms that are still shown; longer ones are counted."""
 
 
-def name_of(problem: Stepped) -> str:
-    """What --problem calls it."""
-    return "oscillator" if isinstance(problem, Oscillator) else problem.name
-
-
 def describe(problem: Stepped) -> str:
     """A problem and its split in one line; long terms are counted."""
     if isinstance(problem, Oscillator):
@@ -84,7 +79,7 @@ _TERMS: dict[type[Stepped], tuple[Row, ...]] = {
 }
 STEPPED: dict[type[Stepped], list[Row]] = {
     kind: [
-        Row("problem", TEXT, lambda x: name_of(x.problem), Level.DATA),
+        Row("problem", TEXT, lambda x: x.problem.name, Level.DATA),
         Row(
             "problem_in_words",
             SAID,

@@ -31,7 +31,7 @@ TOLD_BY = {
     "design.StablePlane": "stable_plane",
     "design.StableValues": "stable_values",
     "longtime.LongRun": "energy",
-    "report.SweepReport": "sweep",
+    "sweep.SweepReport": "sweep",
     "stability.Stability": "stability",
 }
 """By room and kind of a value the file that tells it by rows: its ``REPORT``, and ``whole``, which
@@ -158,7 +158,7 @@ WRITERS: Mapping[str, tuple[Writer, Sequence[str]]] = {
     "bridges.Audited": (_audited, (*FORMATS, "github", "sarif")),
     "check.Meaning": (_meanings, FORMATS),
     "check.Outcome": (_outcomes, (*FORMATS, "sarif", "junit", "github")),
-    "report.SweepReport": (_sweeps, (*FORMATS, "csv", "jsonl")),
+    "sweep.SweepReport": (_sweeps, (*FORMATS, "csv", "jsonl")),
     "tableau.GarkMethod": (_methods, FORMATS),
 }
 """The same of values that have formats besides, or no rows: what writes them, in which formats."""

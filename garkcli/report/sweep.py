@@ -4,79 +4,25 @@ from __future__ import annotations
 
 import io
 import json
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import cached_property
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 from garkcli.errors import UsageProblem, counted
-from garkcli.frozen import Frozen
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.report.search import with_root
 from garkcli.sweep.columns import Value, columns
 from garkcli.sweep.plan import Plan
-from garkcli.sweep.ranking import best_first, distinct, kept, pareto_front
+from garkcli.sweep.report import SweepReport
 from garkcli.sweep.row import Row as Judged
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Kind, Level, Row, Section, via
 from garkcli.tell.kinds import COUNT, TEXT, TEXTS, record
 from garkcli.tell.parts import answer, table, told
 from garkcli.tell.report import Report
-from garkcli.upward import Shown
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 WORDS = {"exact": "exact", "exists": "proved to exist", "numerical": "numerical"}
 """What is known of a find, as rows and as people have it."""
-
-
-class SweepReport(Shown, Frozen):
-    """The report of a sweep.
-
-    Attributes:
-        source: the spec file.
-        plan: the sweep.
-        rows: all rows.
-        top: how many of the best are shown in texts.
-    """
-
-    source: str
-    plan: Plan
-    rows: Mapping[str, Judged]
-    top: int
-
-    @property
-    def done(self) -> list[Judged]:
-        """The rows of this sweep, in its order."""
-        keys = (point.key for point in self.plan.points())
-        return [self.rows[key] for key in keys if key in self.rows]
-
-    @cached_property
-    def kept(self) -> list[Judged]:
-        """The rows that are kept, one of each method that was found several times."""
-        return distinct(kept(self.done))
-
-    @property
-    def repeated(self) -> int:
-        """How many more of the kept rows have a method that another has."""
-        return len(kept(self.done)) - len(self.kept)
-
-    @property
-    def best(self) -> list[Judged]:
-        """The kept rows, best first."""
-        found = self.kept
-        return best_first(found, self.plan.best) if self.plan.best else found
-
-    @property
-    def front(self) -> list[Judged]:
-        """The Pareto front."""
-        return pareto_front(self.kept, self.plan.pareto)
-
-    @property
-    def failed(self) -> list[Judged]:
-        """The rows of methods that could not be made."""
-        return [row for row in self.done if "failure" in row]
-
-    def __repr__(self) -> str:
-        return f"<SweepReport {self.source}: {counted(len(self.done), 'row')}>"
 
 
 # for people

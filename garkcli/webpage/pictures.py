@@ -11,6 +11,7 @@ from garkcli.errors import GarkError
 from garkcli.frozen import Frozen
 from garkcli.longtime.history import LongRun
 from garkcli.longtime.longtime import usual
+from garkcli.page.figures import order_text
 from garkcli.plots.convergence import comparison_panel, errors_panel
 from garkcli.plots.energy import became_of, history_panel
 from garkcli.plots.regions import of_directions, pair_panel, region_panel, trace_panel
@@ -18,8 +19,6 @@ from garkcli.plots.scene import Panel
 from garkcli.plots.svg import ON_ANY, svg
 from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.oscillator import terms_of
-from garkcli.report.convergence import order_text
-from garkcli.report.problem import name_of
 from garkcli.stability.damping import imex_pair
 from garkcli.stability.fraction import stability_fraction
 from garkcli.stability.linear import stability_function
@@ -158,7 +157,7 @@ def _convergence(method: GarkMethod) -> tuple[Panel, str]:
     _refuse_large(method, "gark converge", "be tested")
     result = converge(method)
     observed = order_text(result.observed_order)
-    name = name_of(result.problem)
+    name = result.problem.name
     note = (
         f"Numerical: the {word_for(result.method)} on the problem {name} to t = {result.t_end}. "
         f"Observed order {observed}, proved order {result.predicted_order}: "
@@ -211,7 +210,7 @@ def energy(run: LongRun) -> Panel:
     """
     history = run.invariants[0]
     if history.verdict in ("exact", "round-off"):
-        where = f"{run.steps} steps of {run.step} on the problem {name_of(run.problem)}"
+        where = f"{run.steps} steps of {run.step} on the problem {run.problem.name}"
         raise NotDrawn(f"The {history.name} error stays below round-off in {where}.")
     return history_panel(run, history)
 

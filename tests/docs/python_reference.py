@@ -109,7 +109,7 @@ VALUES = (
     "design.search.run:Result",
     "bridges.audit:Audited",
     "sources.found:FoundTable",
-    "report.sweep:SweepReport",
+    "sweep.report:SweepReport",
     "check.meanings:Meaning",
 )
 """What calls return, in the order of the page."""

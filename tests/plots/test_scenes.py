@@ -18,13 +18,11 @@ from garkcli.plots.figure import figure
 from garkcli.plots.regions import stability_scene
 from garkcli.plots.scene import Area, Axis, Curve, Panel, Rule, Scene, common_exponent
 from garkcli.plots.svg import svg
-from garkcli.report.stability import StabilityReport
 
 
 def stability_of(*names: str, is_order_star: bool = False) -> Scene:
     """The scene of the stability of some methods."""
-    reports = [StabilityReport(name, name, find_stability(name)) for name in names]
-    return stability_scene(reports, is_order_star)
+    return stability_scene([(name, find_stability(name)) for name in names], is_order_star)
 
 
 def scenes() -> list[Scene]:

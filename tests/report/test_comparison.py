@@ -13,7 +13,7 @@ import pytest
 from flint import arb, fmpq
 
 from garkcli.convergence.convergence import converge
-from garkcli.convergence.result import Convergence, Cost, Row
+from garkcli.convergence.result import Convergence, Cost, Row, curve
 from garkcli.errors import Fault
 from garkcli.families.registry import diagonal_method
 from garkcli.frozen import replace
@@ -23,7 +23,6 @@ from garkcli.problems.oscillator import Oscillator
 from garkcli.report.comparison import REPORT, Compared, Entry, letters
 from garkcli.report.convergence import REPORT as OF_ONE
 from garkcli.report.convergence import ConvergenceReport
-from garkcli.report.costs import amount, curve
 from garkcli.tableau.forms import gark
 from garkcli.tableau.tableau import Tableau
 
@@ -227,7 +226,6 @@ def test_points_of_a_plot() -> None:
     assert entry.result is not None
     assert [float(x) for x, _ in curve(entry.result, "evaluations")] == [50]
     assert list(curve(entry.result, "seconds")) == []
-    assert amount(None, "seconds") is None
 
 
 def test_work_of_one_method_in_text() -> None:

@@ -25,11 +25,11 @@ from garkcli.exact.apart import start_method
 from garkcli.plots.scene import Curve
 from garkcli.plots.sweep import sweep_scene
 from garkcli.report.schemas import report_schema
-from garkcli.report.sweep import SweepReport
 from garkcli.sweep import run as running
 from garkcli.sweep.columns import columns, property_kind
 from garkcli.sweep.plan import Plan, Point, load_plan
 from garkcli.sweep.ranking import best_first, kept, pareto_front
+from garkcli.sweep.report import SweepReport
 from garkcli.sweep.row import Row, row_of
 from garkcli.sweep.store import RowStore
 from tests.cli.harness import gark
