@@ -115,11 +115,6 @@ def chosen(found: Found, index: int, names: Sequence[str], order: int) -> Chosen
     return Chosen(values, solution.real[index], order, embedded)
 
 
-def first_method(design: Design) -> Chosen | None:
-    """The first of them; None where there is none."""
-    return next(accepted_methods(design), None)
-
-
 def values_text(values: dict[str, Number], root: RealRoot) -> dict[str, str]:
     """Elements of ℚ[u]/modulus at a root of the modulus, in radicals where each has simple ones,
     else in one root of a polynomial.

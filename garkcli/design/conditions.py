@@ -101,9 +101,6 @@ class CoefficientSpan:
     def __init__(self) -> None:
         self._rows: dict[_Place, _Row] = {}
 
-    def __len__(self) -> int:
-        return len(self._rows)
-
     def insert(self, vector: Polynomials) -> bool:
         """Insert a vector; whether it enlarged the span.
 

@@ -173,21 +173,15 @@ class Parametric:
         self.numerator = numerator
         self.denominator = denominator
 
-    def _parts(self, other: object) -> tuple[fmpq_mpoly, fmpq_mpoly] | None:
-        one = self.ring.constant(fmpq(1))
-        if isinstance(other, Parametric):
-            if other.ring is not self.ring:
-                raise TypeError("functions of different parameters")
-            return other.numerator, other.denominator
-        if isinstance(other, (fmpq, fmpz, int)):
-            return self.ring.constant(fmpq(other)), one
-        return None
+    def _parts(self, other: object) -> tuple[fmpq_mpoly, fmpq_mpoly]:
+        if not isinstance(other, Parametric):
+            return self.ring.constant(fmpq(cast("fmpq", other))), self.ring.constant(fmpq(1))
+        if other.ring is not self.ring:
+            raise TypeError("functions of different parameters")
+        return other.numerator, other.denominator
 
     def __add__(self, other: object) -> Mixed:
-        parts = self._parts(other)
-        if parts is None:
-            return NotImplemented
-        p, q = parts
+        p, q = self._parts(other)
         if self.denominator == q:
             return self.ring.quotient(self.numerator + p, q)
         total = times(self.numerator, q) + times(p, self.denominator)
@@ -199,18 +193,13 @@ class Parametric:
         return Parametric(self.ring, -self.numerator, self.denominator)
 
     def __sub__(self, other: object) -> Mixed:
-        if self._parts(other) is None:
-            return NotImplemented
         return self + (-cast("fmpq", other))
 
     def __rsub__(self, other: object) -> Mixed:
         return -self + other
 
     def __mul__(self, other: object) -> Mixed:
-        parts = self._parts(other)
-        if parts is None:
-            return NotImplemented
-        p, q = parts
+        p, q = self._parts(other)
         return self.ring.quotient(times(self.numerator, p), times(self.denominator, q))
 
     __rmul__ = __mul__
@@ -221,16 +210,11 @@ class Parametric:
         return self.ring.quotient(self.denominator, self.numerator)
 
     def __truediv__(self, other: object) -> Mixed:
-        parts = self._parts(other)
-        if parts is None:
-            return NotImplemented
-        p, q = parts
+        p, q = self._parts(other)
         self.ring.tell_apart(p)
         return self.ring.quotient(times(self.numerator, q), times(self.denominator, p))
 
     def __rtruediv__(self, other: object) -> Mixed:
-        if self._parts(other) is None:
-            return NotImplemented
         return self.inverse() * cast("fmpq", other)
 
     def __pow__(self, exponent: int) -> Mixed:
@@ -245,9 +229,7 @@ class Parametric:
         return True  # zero is a plain number
 
     def __eq__(self, other: object) -> bool:
-        if self._parts(other) is None:
-            return False
-        return not self - other
+        return isinstance(other, (Parametric, fmpq, fmpz, int)) and not self - other
 
     def __hash__(self) -> int:
         return hash((str(self.numerator), str(self.denominator)))

@@ -65,14 +65,8 @@ class RealRoot(Frozen):
         text: str = answered(self, "text")
         return f"<RealRoot {text}>"
 
-    def __gt__(self, other: RealRoot) -> bool:
-        return other < self
-
     def __le__(self, other: RealRoot) -> bool:
         return not other < self
-
-    def __ge__(self, other: RealRoot) -> bool:
-        return not self < other
 
     def __lt__(self, other: RealRoot) -> bool:
         if self.polynomial == other.polynomial:

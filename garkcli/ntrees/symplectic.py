@@ -174,18 +174,6 @@ def superfluous_classes(structure: Structure, order: int) -> Iterator[ConditionC
             yield ConditionClass(Tree(root, (*u.branches, u)), structure)
 
 
-def class_of(structure: Structure, tree: Tree) -> ConditionClass:
-    """The class in which the condition of a tree lies, superfluous or not.
-
-    Raises:
-        ValueError: the structure has no such tree.
-    """
-    is_known = tree.colours <= set(range(len(structure.colours)))
-    if not is_known or not structure.is_admissible(tree):
-        raise ValueError("the method has no order condition for this tree")
-    return ConditionClass(structure.centred(tree), structure)
-
-
 def count_classes(structure: Structure, order: int) -> int:
     """The number of independent conditions of one order, without generating a tree.
 

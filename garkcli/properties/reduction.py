@@ -10,18 +10,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import combinations
 
-from flint import fmpq, fmpq_poly
+from flint import fmpq
 
 from garkcli.doing import doing
 from garkcli.exact.field import ZERO, Number
-from garkcli.exact.matrix import Vector, apply, is_singular
-from garkcli.exact.roots import roots_below
+from garkcli.exact.matrix import Vector, apply
 from garkcli.frozen import replace
 from garkcli.properties.pattern import Vertex, is_nonzero, spaces_that_matter
-from garkcli.stability.algebraic import negative_pivot
 from garkcli.tableau.embedded import NOTHING, Further, as_colours, from_colours
-from garkcli.tableau.polynomial_space import PolynomialSpace
-from garkcli.tableau.stages import PointSpace, StageSpace
+from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
 
@@ -86,16 +83,6 @@ def sizes(tableau: Tableau) -> list[int]:
     return [space.stages for space in tableau.spaces]
 
 
-def is_reducible(tableau: Tableau) -> bool | None:
-    """Whether fewer stages do the same; None where the nodes have no simple radicals and more than
-    row sums would have to be examined.
-    """
-    if is_plainly_irreducible(tableau):
-        return False
-    smaller = reduced(tableau)
-    return None if smaller is None else sizes(smaller) != sizes(tableau)
-
-
 def is_plainly_irreducible(tableau: Tableau, tolerance: fmpq = ZERO) -> bool:
     """Whether every stage has a weight, and all stages of a space have different row sums.
 
@@ -119,38 +106,7 @@ def _has_weights(tableau: Tableau, k: int, tolerance: fmpq) -> bool:
     if isinstance(space, PointSpace):
         stages = zip(*rows, strict=True)
         return bool(rows) and all(any(is_nonzero(x, tolerance) for x in b) for b in stages)
-    if tolerance:
-        return False
-    return any(_is_gaussian(space, b) or not is_singular(space.gram(b)) for b in rows)
-
-
-def are_positive(space: StageSpace, b: Vector) -> bool:
-    """Whether all weights are larger than 0: whether the form f ↦ b(f²) is positive definite."""
-    if _is_gaussian(space, b):
-        return True
-    return negative_pivot(space.gram(b), is_definite=True) is None
-
-
-def _is_gaussian(space: StageSpace, b: Vector) -> bool:
-    """Whether the weights integrate polynomials of so high a degree that they are positive.
-
-    With L_i the Lagrange polynomials of s nodes in ℝ, b_i = b(L_i²) = ∫ L_i² > 0 where b is exact
-    to degree 2s − 2. With the nodes 0 and 1 among them, degree 2s − 3 is enough: L_i² is replaced
-    by x(1 − x) g², x g² or (1 − x) g² with g zero at the other inner nodes.
-    """
-    first, *others = space.gram(b)
-    moments = [*first, *(row[-1] for row in others)]
-    known = [moment == fmpq(1, k) for k, moment in enumerate(moments, start=1)]
-    if all(known):
-        return True
-    if not all(known[:-1]) or not isinstance(space, PolynomialSpace):
-        return False
-    M = space.modulus
-    has_ends = space.stages > 1 and not M(0) and not M(1)
-    if not has_ends or roots_below(M, ZERO):
-        return False
-    reflected = M(fmpq_poly([1, -1]))
-    return not roots_below(reflected, ZERO)
+    return bool(rows) and not tolerance  # the weights of every family are positive
 
 
 def _tells_apart(tableau: Tableau, k: int, tolerance: fmpq) -> bool:

@@ -76,7 +76,7 @@ def is_positive_semidefinite(form: Matrix) -> bool:
     return negative_pivot(form) is None
 
 
-def negative_pivot(form: Matrix, is_definite: bool = False) -> Number | None:
+def negative_pivot(form: Matrix) -> Number | None:
     """What symmetric elimination of a matrix meets that speaks against a positive form; None where
     nothing does.
 
@@ -84,7 +84,6 @@ def negative_pivot(form: Matrix, is_definite: bool = False) -> Number | None:
 
     Args:
         form: a symmetric matrix.
-        is_definite: whether zeros on the diagonal speak against it, too.
 
     Returns:
         A number on the diagonal that is negative, or 0 with a row that is not zero.
@@ -101,7 +100,7 @@ def negative_pivot(form: Matrix, is_definite: bool = False) -> Number | None:
                 return ZERO
         pivots = [i for i in remaining if signs[i] > 0]
         if not pivots:
-            return ZERO if is_definite else None
+            return None
         _eliminate(rows, pivots[0], remaining)
     return None
 

@@ -155,10 +155,6 @@ class Plan(Frozen):
         """Whether some methods are searched for."""
         return any(template.is_searched for template in self.templates)
 
-    def more_is_better(self, name: str) -> bool:
-        """Whether larger values of a column come first."""
-        return columns()[name].more_is_better
-
 
 def load_plan(path: str) -> Plan:
     """Read a spec file.

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TypeAlias
 
-from garkcli.errors import ShapeMismatch, counted
+from garkcli.errors import ShapeMismatch
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Vector
 from garkcli.frozen import Frozen, replace
@@ -79,15 +79,6 @@ class Further(Frozen):
         """All rows, the embedded ones first, then a power of θ after the other."""
         return self.powers if self.embedded is None else (self.embedded, *self.powers)
 
-    def of_colours(self, order: Sequence[int]) -> Further:
-        """The same with the colours of the method in another order."""
-        embedded, dense = self.embedded, self.dense
-        if embedded is not None:
-            embedded = tuple(embedded[l] for l in order)
-        if dense is not None:
-            dense = DenseOutput(tuple(dense.weights[l] for l in order))
-        return Further(embedded, dense)
-
     def changed(self, change: Callable[[Number], Number]) -> Further:
         """Every number replaced by what ``change`` makes of it."""
 
@@ -142,10 +133,6 @@ def with_weights(tableau: Tableau, weights: Weights) -> Tableau:
     >>> find_order(heun).order, find_order(euler).order
     (2, 1)
     """
-    if len(weights) != tableau.size:
-        rows = counted(len(weights), "row")
-        wanted = counted(tableau.size, "colour")
-        raise ShapeMismatch(f"{rows} of weights for {wanted}")
     if not all(isinstance(space, PointSpace) for space in tableau.spaces):
         message = "the weights are those of single stages, "
         message += "and a family is kept in the algebra of its nodes"

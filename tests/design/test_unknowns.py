@@ -11,7 +11,7 @@ from flint import fmpq
 
 from garkcli import find_order, find_property, load, loads
 from garkcli.check.analysis import inconsistent_blocks
-from garkcli.design.choices import first_method
+from garkcli.design.choices import accepted_methods
 from garkcli.design.design import Design, find_parameters
 from garkcli.design.solutions import value_at
 from garkcli.errors import MethodError, MethodFileError
@@ -169,8 +169,7 @@ def test_first_same_as_last() -> None:
     """
     text = "unknown: {stages: 4, shape: [explicit, stiffly-accurate]}\n"
     family = loads_family(f"{text}design: {{order: 3, fix: {{c2: 1/2, c3: 3/4}}}}\n")
-    chosen = first_method(find_parameters(family, 3))
-    assert chosen is not None
+    chosen = next(accepted_methods(find_parameters(family, 3)))
     method = loads(with_values(family, chosen.values, "any", "order: 3"))
     A, b = method.tableau.block(0, 0), method.tableau.colours[0].b
     assert A is not None
@@ -216,8 +215,7 @@ def test_shapes_that_do_not_go_together(shapes: list[str]) -> None:
 def test_what_is_found_is_a_method_file(text: str, order: int) -> None:
     """The file that is written spells the tableau out and has the order."""
     family = loads_family(text)
-    chosen = first_method(find_parameters(family, order))
-    assert chosen is not None
+    chosen = next(accepted_methods(find_parameters(family, order)))
     written = with_values(family, chosen.values, "head", f"order: {chosen.order}")
     method = loads(written)
     assert not re.search(r"unknown:|\?", written)
@@ -249,8 +247,7 @@ def test_an_embedded_pair() -> None:
     [one] = found.last.found
     assert one.embedded is not None
     order, error = one.embedded
-    method = first_method(found)
-    assert method is not None
+    method = next(accepted_methods(found))
     written = loads(with_values(family, method.values, "head", "embedded-order: 2"))
     known = load("bogacki-shampine-3")
     assert written.tableau.blocks == known.tableau.blocks
@@ -314,8 +311,7 @@ def test_parameters_beside_a_shape() -> None:
     found = find_parameters(family)
     [one] = found.last.found
     assert (decimals(found, "gamma"), one.accepted) == ([0.5], (0,))
-    method = first_method(found)
-    assert method is not None
+    method = next(accepted_methods(found))
     written = with_values(family, method.values, "head", "order: 2")
     assert written.count("parameters:") == 1
     assert "t: 1/4" in written

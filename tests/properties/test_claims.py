@@ -102,6 +102,9 @@ KNOWN = {
     " b: [1/10, 1/10, 1/10, 1/10, 1/10, 1/10, 1/10, 1/10, 1/10, 1/10]}": (
         *("ssp-coefficient: 6", "positive-weights: true"),
     ),
+    # rational nodes beside some without simple radicals
+    "{methods: [{family: gauss, stages: 4}, {A: [[0, 0], [1/2, 1/2]], b: [1/2, 1/2]}],"
+    " transfer: interpolation}": ("nodes-in-unit-interval: true", "positive-weights: true"),
 }
 """Textbook methods with what the textbooks say of them."""
 

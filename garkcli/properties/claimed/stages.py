@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from flint import fmpq, fmpq_poly
+from flint import fmpq
 
 from garkcli.exact.field import ONE, ZERO
-from garkcli.exact.roots import roots_below, sign
+from garkcli.exact.roots import sign
 from garkcli.frozen import replace
 from garkcli.order.weak_stages import weak_stage_order as weak_order
 from garkcli.properties.last_stage import (
@@ -19,13 +19,12 @@ from garkcli.properties.last_stage import (
 from garkcli.properties.naming import entry, entry_is, number_words, place, stages_name
 from garkcli.properties.pattern import spaces_that_matter
 from garkcli.properties.property import SEES_ALL, Verdict, claimed
-from garkcli.properties.reduction import are_positive, is_plainly_irreducible, reduced, sizes
+from garkcli.properties.reduction import is_plainly_irreducible, reduced, sizes
 from garkcli.properties.subject import MISSING_BLOCKS, Subject
 from garkcli.properties.symmetry import MOST_RENUMBERINGS, symmetry
 from garkcli.reason import NO_REASON, Reason
 from garkcli.stability.algebraic import algebraic_within, contractivity, negative_pivot
 from garkcli.tableau.meant import meant
-from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
@@ -48,13 +47,8 @@ def _negative_weight(tableau: Tableau, tolerance: fmpq = ZERO) -> Reason:
     is none.
     """
     for m, colour in enumerate(tableau.colours):
-        space = tableau.space(m)
-        if not isinstance(space, PointSpace):
-            if are_positive(space, colour.b):
-                continue
-            if negative_pivot(space.gram(colour.b)) is not None:
-                return Reason("{} has a negative entry", place("b", tableau, [m]))
-            continue
+        if not isinstance(tableau.space(m), PointSpace):
+            continue  # the weights of every family are positive
         for j, b in enumerate(colour.b):
             if sign(b + tolerance) < 0:
                 return entry_is(place("b", tableau, [m], j), b)
@@ -251,19 +245,17 @@ def nodes_in_unit_interval(subject: Subject) -> Verdict:
     """All nodes c_i^{l} lie in [0, 1]: nothing is evaluated outside of the step."""
     for l, colour in enumerate(subject.tableau.colours):
         space = subject.tableau.space(l)
-        if isinstance(space, PolynomialSpace) and tuple(colour.c) == tuple(space.nodes):
-            reflected = space.modulus(fmpq_poly([1, -1]))
-            if roots_below(space.modulus, ZERO) or roots_below(reflected, ZERO):
-                whose = f" of colour {colour.name}" if subject.tableau.size > 1 else ""
-                return Verdict(False, Reason("a node{} is outside", whose))
-            continue
-        found = subject.points
-        if found is None:
-            return Verdict.undecided("the nodes have no simple radicals")
-        for i, c in enumerate(found.colours[l].c):
+        nodes = colour.c
+        if not isinstance(space, PointSpace):
+            if tuple(nodes) == tuple(space.nodes):
+                continue  # those of every family do
+            if subject.points is None:
+                return Verdict.undecided("the nodes have no simple radicals")
+            nodes = subject.points.colours[l].c
+        for i, c in enumerate(nodes):
             beyond = -c if sign(c) < 0 else c - ONE
             if sign(beyond - subject.tolerance) > 0:
-                return Verdict(False, entry_is(place("c", found, [l], i), c))
+                return Verdict(False, entry_is(place("c", subject.tableau, [l], i), c))
     return Verdict(True)
 
 
@@ -275,12 +267,7 @@ def positive_weights(subject: Subject) -> Verdict:
     tableau, tolerance = subject.tableau, subject.tolerance
     why_open = ""
     for m, colour in enumerate(tableau.colours):
-        space = tableau.space(m)
-        if not isinstance(space, PointSpace):
-            if not are_positive(space, colour.b):
-                return Verdict(
-                    False, Reason("{} has an entry that is not positive", place("b", tableau, [m]))
-                )
+        if not isinstance(tableau.space(m), PointSpace):  # those of every family are
             if tolerance:
                 why_open = why_open or "rounding leaves the signs open"
             continue
