@@ -9,14 +9,7 @@ from typing import TypeAlias
 from garkcli.frozen import Frozen, field, replace
 from garkcli.sources.found import MAX_STAGES, FoundTable, Misshapen, Row, Rows, Unreadable, troubled
 from garkcli.sources.known import conversion
-from garkcli.sources.registers import (
-    Converted,
-    low_storage,
-    of_nystrom,
-    of_shu_osher,
-    of_three_registers,
-    recognised,
-)
+from garkcli.sources.registers import Converted, converted, recognised
 from garkcli.sources.shaping import (
     ZERO,
     Texts,
@@ -31,6 +24,7 @@ from garkcli.sources.shaping import (
 )
 from garkcli.sources.signatures import Signature
 from garkcli.sources.values import (
+    FILL,
     Array,
     Null,
     Number,
@@ -69,7 +63,6 @@ class Meant(Frozen):
         maker: the call that makes it; empty where names alone speak for it.
         signature: of that call, where it is known.
         is_sure: whether the source says that this is a method.
-        arguments: how many there are.
         bases: of the class that it is in.
         notes: what people should know of how it was read.
         is_assembled: whether it was put together from single numbers.
@@ -81,7 +74,6 @@ class Meant(Frozen):
     maker: str
     signature: Signature | None
     is_sure: bool = False
-    arguments: int = 0
     bases: Sequence[str] = ()
     notes: Sequence[str] = field(default_factory=tuple)
     is_assembled: bool = False
@@ -131,9 +123,6 @@ def table_of(meant: Meant, source: str, format: str) -> FoundTable:
         notes=tuple(meant.notes),
         is_assembled=meant.is_assembled,
     )
-    if signature and signature.counts and meant.arguments not in signature.counts:
-        counts = " or ".join(map(str, signature.counts))
-        return troubled(empty, f"{meant.maker} takes {counts} arguments", is_misshapen=True)
     if not (signature or meant.is_sure or meant.is_assembled):
         _refuse_uses(roles)
     try:
@@ -204,15 +193,12 @@ _WORDS = ("tolerance", "parts", "structure")
 
 def is_complete(roles: Roles) -> bool:
     """Whether these values may be all of a table."""
-    if any(x <= set(roles) for x in _WHOLE):
+    if any(x <= set(roles) for x in _WHOLE) or len(roles.keys() & {"A", "A1", "A2"}) > 1:
         return True
     return "b" not in roles and all(_is_matrix(roles.get(x)) for x in ("A", "c"))
 
 
-_WHOLE = (
-    *({"A", "b"}, {"A", "A2"}, {"drifts"}, {"A_q", "b_q", "b"}),
-    {"A", "delta", "gamma1", "gamma2"},
-)
+_WHOLE = (*({"A", "b"}, {"drifts"}, {"A_q", "b_q", "b"}, {"A", "delta", "gamma1", "gamma2"}),)
 
 
 def _is_matrix(value: Value | None) -> bool:
@@ -221,16 +207,18 @@ def _is_matrix(value: Value | None) -> bool:
 
 def _built(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
     form = meant.signature.form if meant.signature else "rk"
+    A = items_of(roles.get("A"))
     if form == "ark":
-        return _two_parts(roles, empty)
-    if form == "lists":
-        return _listed(roles, empty)
+        return _two_parts(meant, roles, empty)
     if {"A_q", "b_q"} <= set(roles):
         return _nystrom(roles, empty)
     if form.endswith("-first"):
         drifts, kicks = (_row(roles, role, _stages(roles)) for role in ("drifts", "kicks"))
         return symplectic(empty, drifts, kicks, is_force_first=form == "force-first")
-    if any(isinstance(x, Array) for row in items_of(roles.get("A")) for x in items_of(row)):
+    if form == "lists":
+        # [A1, A2, …]
+        return _of_blocks({**roles, "A": Array([Array(A)] * len(A))}, empty)
+    if any(isinstance(x, Array) for row in A for x in items_of(row)):
         return _of_blocks(roles, empty)
     return _single(meant, roles, empty)
 
@@ -240,25 +228,28 @@ MAX_COLOURS = 60
 
 
 def _of_blocks(roles: Roles, empty: FoundTable) -> FoundTable:
-    """The method whose blocks are ``A[l][m]``, weights ``b[l]`` and nodes ``c[l]``."""
+    """The method whose blocks are ``A[l][m]``, weights ``b[l]`` and nodes ``c[l]``; blocks in like
+    rows share their stages, and one row of weights is that of all.
+    """
     rows = [items_of(row) or [row] for row in items_of(roles.get("A"))]
-    if max(len(rows), *map(len, rows)) > MAX_COLOURS:
-        raise Unreadable(f"more than {MAX_COLOURS} vector fields")
+    colours = max(map(len, rows), default=0)
+    if not 0 < max(colours, len(rows)) <= MAX_COLOURS:
+        raise Unreadable(f"more than {MAX_COLOURS} vector fields" if rows else "no matrices")
     blocks = [[plain(_block(x)) for x in row] for row in rows]
-    b, c, embedded = (_row_each(plain(roles.get(x))) for x in ("b", "c", "embedded"))
+    A = tuple(tuple(None if x is None else rows_of(x) for x in row) for row in blocks)
+    b, c, embedded = (_row_each(plain(roles.get(x)), colours) for x in ("b", "c", "embedded"))
     if b is None:
         raise Unreadable("weights are expected")
     dense = plain(roles.get("dense"))
-    return assembled(
-        replace(
-            empty,
-            is_sure=True,
-            A=tuple(tuple(None if x is None else rows_of(x) for x in row) for row in blocks),
-            b=b,
-            c=(None,) * len(rows) if c is None else c,
-            embedded=embedded,
-            dense=tuple(map(rows_of, dense)) if isinstance(dense, list) and dense else None,
-        )
+    are_alike = len(set(A)) == 1 and len(set(c or "-")) == 1
+    return replace(
+        empty,
+        is_sure=True,
+        A=A[:1] if are_alike else A,
+        b=b,
+        c=(c or (None,) * len(A))[: 1 if are_alike else None],
+        embedded=embedded,
+        dense=tuple(map(rows_of, dense)) if isinstance(dense, list) and dense else None,
     )
 
 
@@ -273,26 +264,13 @@ def _block(value: Value) -> Value:
     return Array([value]) if value.items else Null()
 
 
-def _row_each(value: Texts) -> Rows | None:
+def _row_each(value: Texts, colours: int) -> Rows | None:
     """A row for each vector field, or the one that all share."""
     if not isinstance(value, list) or not value:
         return None
     is_each = all(isinstance(x, list) for x in value)
-    return tuple(map(weights, value)) if is_each else (weights(value),)
-
-
-def assembled(table: FoundTable) -> FoundTable:
-    """The same with shared stages as one row of blocks, and one row of weights for each colour."""
-    colours = len(table.A[0])
-    b, c, embedded = table.b, table.c, table.embedded
-    are_alike = all(row == table.A[0] for row in table.A) and len(set(c)) == 1
-    return replace(
-        table,
-        A=table.A[:1] if are_alike else table.A,
-        b=b * colours if len(b) == 1 else b,
-        c=c[:1] if are_alike else c,
-        embedded=embedded * colours if embedded and len(embedded) == 1 else embedded,
-    )
+    rows = tuple(map(weights, value)) if is_each else (weights(value),)
+    return rows * colours if len(rows) == 1 else rows
 
 
 def _stages(roles: Roles) -> int:
@@ -310,11 +288,14 @@ def _single(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
     roles = _without_further_stages(_with_ends(_with_both_rows(roles)))
     if meant.signature and "stages" in meant.signature.roles:
         stages = _stages(roles)
-    elif whole(roles.get("stages")) and meant.is_sure:
+    elif meant.is_sure:
         stages = whole(roles.get("stages")) or 0
     found = _of_registers(meant, roles)
     if found is None:
-        b = _weights_of(roles, meant, stages)
+        given = _given(roles, "b", stages if meant.maker else 0)
+        if given is None and meant.signature and meant.signature.has_default_weights:
+            given = _square(roles, "A", stages)[-1]
+        b = _row(roles, "b") if given is None else given
         if stages and len(b) != stages:
             raise Misshapen(f"n_stages is {stages}, B has {len(b)}")
         A = _square(roles, "A", len(b))
@@ -322,27 +303,17 @@ def _single(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
         form, made = found
         A, b = made.A, made.b
         note = f"the coefficients are those of the form {form}"
-        is_sure = bool(meant.signature) or "c" in roles
-        empty = replace(
-            empty,
-            notes=(*empty.notes, note),
-            is_assembled=not is_sure,
-            is_sure=True,
-            units=made.units,
-        )
+        is_guess = not meant.signature and "c" not in roles
+        is_told = {"notes": (*empty.notes, note), "is_assembled": is_guess, "is_sure": True}
+        empty = replace(empty, **is_told, units=made.units)
         if form == "Shu–Osher":
             roles = {**roles, "c": roles.get("nodes", Null())}
-    c = _nodes(roles, A)
-    A, b, c, embedded, turned = _embedded(roles, A, b, c, meant)
-    return replace(
-        empty,
-        A=((A,),),
-        b=(b,),
-        c=(c,),
-        embedded=None if embedded is None else (embedded,),
-        turned=None if turned is None else (turned,),
-        dense=_dense(roles, len(b)),
-    )
+    table = replace(empty, A=((A,),), b=(b,), c=(_nodes(roles, A),))
+    table = _with_embedded(table, roles, meant)
+    dense = roles.get("dense")
+    if not isinstance(dense, Array) or len(dense.items) != table.stages or not dense.is_matrix:
+        return table
+    return table if first_unknown(dense) else replace(table, dense=(rows_of(plain(dense)),))
 
 
 def _with_both_rows(roles: Roles) -> Roles:
@@ -403,30 +374,29 @@ def _with_ends(roles: Roles) -> Roles:
 def _of_registers(meant: Meant, roles: Roles) -> tuple[str, Converted] | None:
     """The form of low-storage and Shu–Osher coefficients, and what they are; None of others."""
     form = meant.signature.form if meant.signature else "rk"
-    A = roles.get("A")
-    if _is_matrix(A) and len(items_of(A)) == 1 and "c" not in roles:
+    A, b, c = map(roles.get, "Abc")
+    if "gamma1" in roles:
+        rows = [_given(roles, x) or () for x in _THREE_REGISTERS]
+        rows[2] = rows[2] or (ZERO,) * len(rows[-1])
+        return "3S*", converted("3S*", *rows)
+    if b is None and _is_matrix(c) and _is_matrix(A):
+        return "Shu–Osher", converted("Shu–Osher", rows_of(plain(c)), rows_of(plain(A)))
+    if form != "rk":
+        diagonals = [_row(roles, x) for x in roles if x in _DIAGONALS]
+        return form, converted(form, *diagonals, _row(roles, "b"))
+    if _is_matrix(A) and len(items_of(A)) == 1 and c is None:
         # {{a2, a3, …}}
         A = items_of(A)[0]
-    if "gamma1" in roles:
-        names = ("gamma1", "gamma2", "gamma3", "delta", "A")
-        rows = [_given(roles, x) or () for x in names]
-        rows[2] = rows[2] or (ZERO,) * len(rows[-1])
-        return "3S*", of_three_registers(*rows)
-    if "b" not in roles and _is_matrix(roles.get("c")) and _is_matrix(A):
-        alpha, beta = (rows_of(plain(roles[x])) for x in ("c", "A"))
-        return "Shu–Osher", of_shu_osher(alpha, beta)
-    if form not in {"rk", "lists"}:
-        return form, low_storage(
-            form, [_row(roles, x) for x in roles if x in _DIAGONALS], _row(roles, "b")
-        )
-    if not isinstance(A, Array) or _is_matrix(A) or not isinstance(roles.get("b"), Array):
+    if not isinstance(A, Array) or _is_matrix(A) or not isinstance(b, Array):
         return None
-    row, b = plain(A), _row(roles, "b")
-    if not is_row(row) or not _is_pair_of_rows(row_of(row), len(b)):
+    row, b_row = plain(A), weights(plain(b))
+    if not is_row(row) or not _is_pair_of_rows(row_of(row), len(b_row)):
         return None
-    return recognised(row_of(row), b, _row(roles, "c") if "c" in roles else None)
+    nodes = None if c is None else [near(x) for x in Array([c]).flat()]
+    return recognised(row_of(row), b_row, nodes)
 
 
+_THREE_REGISTERS = ("gamma1", "gamma2", "gamma3", "delta", "A")
 _DIAGONALS = ("A", "A_2", "A_3", "A_4")
 
 
@@ -445,11 +415,11 @@ def _nystrom(roles: Roles, empty: FoundTable) -> FoundTable:
     c = _nodes(roles, A)
     if c is None:
         raise Unreadable("the nodes of a Nyström method are not written out")
-    made = of_nystrom(A, b_q, c)
+    made = converted("Nyström", A, b_q, c)
     units = [tuple("1" if i == j else ZERO for j in range(stages)) for i in range(stages)]
     embedded = None
     if all(len(items_of(roles.get(x))) == stages for x in ("error_q", "error")):
-        low = of_nystrom(A, changed("-", b_q, _row(roles, "error_q")), c).b
+        low = converted("Nyström", A, changed("-", b_q, _row(roles, "error_q")), c).b
         embedded = (low, changed("-", b, _row(roles, "error")))
     return replace(
         empty,
@@ -481,14 +451,6 @@ def _given(roles: Roles, role: str, stages: int = 0) -> Row | None:
     return None if value is None or isinstance(value, Null) else _row(roles, role, stages)
 
 
-def _weights_of(roles: Roles, meant: Meant, stages: int) -> Row:
-    has_default = meant.signature is not None and meant.signature.has_default_weights
-    row = _given(roles, "b", stages if has_default or meant.maker else 0)
-    if row is None and has_default:
-        return _square(roles, "A", stages)[-1]
-    return _row(roles, "b") if row is None else row
-
-
 def _nodes(roles: Roles, A: Rows) -> Row | None:
     stages = len(A)
     given = roles.get("c")
@@ -507,87 +469,88 @@ def _nodes(roles: Roles, A: Rows) -> Row | None:
     return row
 
 
-def _embedded(
-    roles: Roles, A: Rows, b: Row, c: Row | None, meant: Meant
-) -> tuple[Rows, Row, Row | None, Row | None, Row | None]:
-    """Embedded weights, or what they are with b an error of, by either sign; one weight more is
-    that of f at the end of the step.
+def _with_embedded(table: FoundTable, roles: Roles, meant: Meant) -> FoundTable:
+    """The table with embedded weights, or with what they are where b has an error, by either sign;
+    one weight more is that of f at the end of the step.
     """
-    none = A, b, c, None, None
     role = next((x for x in ("embedded", "error") if isinstance(roles.get(x), Array)), "")
     if not role or first_unknown(roles[role]) is not None:
-        return none
-    given = roles[role]
-    row = weights(plain(given))
-    if len(row) < len(b) and meant.maker:
-        row = weights(plain(given), len(b))
-    total = near(given)
+        return table
+    ((A,),), (b,), (c,) = table.A, table.b, table.c
+    assert A is not None
+    row = weights(plain(roles[role]))
+    if meant.maker:
+        row += (ZERO,) * (len(b) - len(row))
+    total = near(roles[role])
     is_error = abs(total) < 0.05 or (role == "error" and meant.is_assembled)
     off = total if role == "error" else total - 1
     if not (meant.is_sure or is_error) and abs(off) > FAR:
         # an array of that name which is something else
-        return none
-    if len(row) == len(b) + 1:
-        if is_zero(row[-1]):
-            row = row[:-1]
-        else:
-            A = (*((*x, "0") for x in A), (*b, "0"))
-            c = None if c is None else (*c, "1")
-            b = (*b, "0")
+        return table
+    if len(row) == len(b) + 1 and is_zero(row[-1]):
+        row = row[:-1]
+    elif len(row) == len(b) + 1:
+        A, b = (*((*x, ZERO) for x in A), (*b, ZERO)), (*b, ZERO)
+        table = replace(table, A=((A,),), b=(b,), c=(None if c is None else (*c, "1"),))
     if len(row) != len(b):
         if meant.is_sure:
             raise Misshapen(f"{role} has {len(row)} entries, b has {len(b)}")
-        return none
-    if is_error and all(map(is_zero, row)):
-        return A, b, c, None, None
+        return table
     if not is_error:
-        return A, b, c, row, None
+        return replace(table, embedded=(row,))
+    if all(map(is_zero, row)):
+        return table
     low, high = changed("-", b, row), changed("+", b, row)
     if any("RungeKutta" in x for x in meant.bases):
         # E is b̂ − b in the classes of SciPy
-        return A, b, c, high, None
-    return A, b, c, low, high
+        return replace(table, embedded=(high,))
+    return replace(table, embedded=(low,), turned=(high,))
 
 
-def _dense(roles: Roles, stages: int) -> tuple[Rows, ...] | None:
-    """A row of coefficients for each stage, where that is what it is."""
-    value = roles.get("dense")
-    if not isinstance(value, Array) or len(value.items) != stages or not value.is_matrix:
-        return None
-    if first_unknown(value) is not None:
-        return None
-    return (rows_of(plain(value)),)
-
-
-def _two_parts(roles: Roles, empty: FoundTable) -> FoundTable:
-    """``TSARKIMEXRegister(name, order, s, At, bt, ct, A, b, c, bembedt, bembed, …)``.
-
-    The implicit table is first; no bt is the last row of At, no b is bt.
+def _two_parts(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
+    """An explicit part, 1, and an implicit one, 2; what names no part is of both, or of the one
+    that lacks it. Missing weights are the last row of the matrix, those of PETSc's explicit part
+    the implicit ones.
     """
-    stages = 0 if "stages" in roles else len(items_of(roles.get("b2")))
-    stages = stages or _stages(roles)
-    implicit, explicit = (square(plain(roles.get(x)), stages) for x in ("A2", "A"))
-    b_implicit = _given(roles, "b2", stages) or implicit[-1]
-    b_explicit = _given(roles, "b", stages) or b_implicit
-    c_implicit, c_explicit = _given(roles, "c2", stages), _given(roles, "c", stages)
-    of_implicit = _given_low(roles, "2", b_implicit)
-    of_explicit = _given_low(roles, "", b_explicit)
-    if all(is_zero(x) for row in (*explicit, b_explicit) for x in row):
+    if "A2" not in roles and "embedded" in roles:
+        # the hat is that of the explicit part
+        roles = {**roles, "b1": roles["embedded"]}
+        del roles["embedded"]
+    of: Roles = {
+        f"{role}{part}": x
+        for role in ("A", "b", "c", "embedded", "error")
+        for part in "12"
+        if (x := roles.get(f"{role}{part}", roles.get(role))) and not isinstance(x, Null)
+    }
+    counts = [len(items_of(of.get(f"b{part}", of.get(f"A{part}")))) for part in "12"]
+    stages = _stages(roles) if "stages" in roles else max(counts)
+    if counts == [stages, stages - 1]:
+        # only the explicit part has the first stage
+        of |= {x: Array([FILL, *items_of(of[x])]) for x in ("b2", "c2") if x in of}
+        of["A2"] = Array([Array([]), *(Array([FILL, *items_of(x)]) for x in items_of(of["A2"]))])
+    if len(items_of(of.get("A1"))) == stages - 1:
+        of["A1"] = Array([Array([]), *items_of(of["A1"])])
+    A2, A1 = (square(plain(of.get(x)), stages) for x in ("A2", "A1"))
+    b2 = _given(of, "b2", stages) or A2[-1]
+    has_default = meant.signature is not None and meant.signature.has_default_weights
+    b1 = _given(of, "b1", stages) or (b2 if has_default else A1[-1])
+    low1, low2 = (_given_low(of, part, b) for part, b in (("1", b1), ("2", b2)))
+    c1, c2 = (_given(of, x, stages) for x in ("c1", "c2"))
+    if all(is_zero(x) for row in (*A1, b1) for x in row):
         # nothing is explicit: the way to register an implicit method
-        own = None if of_implicit is None else (of_implicit,)
-        return replace(empty, A=((implicit,),), b=(b_implicit,), c=(c_implicit,), embedded=own)
-    embedded = None if of_implicit is None else (of_explicit or of_implicit, of_implicit)
-    found = replace(empty, b=(b_explicit, b_implicit), embedded=embedded)
-    row, c = (explicit, implicit), (c_explicit, c_implicit)
-    if c == (None, None):
-        sums = [[near(*items_of(x)) for x in items_of(roles[role])] for role in ("A", "A2")]
-        is_shared = all(abs(x - y) <= _SAME for x, y in zip(*sums, strict=False))
-    else:
-        # or each part is evaluated at its own times
-        is_shared = None in c or c_implicit == c_explicit
-    if is_shared:
-        return replace(found, A=(row,), c=(c_explicit or c_implicit,))
-    return replace(found, A=(row, row), c=c)
+        return replace(empty, A=((A2,),), b=(b2,), c=(c2,), embedded=low2 and (low2,))
+    sums = [[near(*items_of(x)) for x in items_of(of[role])] for role in ("A1", "A2")]
+    are_same = all(abs(x - y) <= _SAME for x, y in zip(*sums, strict=False))
+    # each part may be evaluated at its own times
+    is_shared = c1 == c2 if c1 and c2 else bool(c1 or c2) or are_same
+    rows = 1 if is_shared else 2
+    return replace(
+        empty,
+        A=((A1, A2),) * rows,
+        b=(b1, b2),
+        c=(c1 or c2,) if is_shared else (c1, c2),
+        embedded=low2 and (low1 or low2, low2),
+    )
 
 
 def _given_low(roles: Roles, part: str, b: Row) -> Row | None:
@@ -600,15 +563,3 @@ def _given_low(roles: Roles, part: str, b: Row) -> Row | None:
 
 _SAME = 1e-9
 """Sums that differ by less are the same."""
-
-
-def _listed(roles: Roles, empty: FoundTable) -> FoundTable:
-    """``AdditiveRungeKuttaMethod([A1, A2, …], [b1, b2, …], [c1, c2, …])``."""
-    matrices, rows, nodes = (plain(roles.get(role)) for role in ("A", "b", "c"))
-    if not isinstance(matrices, list) or not isinstance(rows, list):
-        raise Unreadable("lists of matrices and of weights are expected")
-    blocks = tuple(rows_of(x) for x in matrices)
-    c = tuple(weights(x) for x in nodes) if isinstance(nodes, list) and nodes else (None,)
-    are_shared = len(set(c)) == 1
-    A, b = (blocks,) * (1 if are_shared else len(blocks)), tuple(weights(x) for x in rows)
-    return assembled(replace(empty, A=A, b=b, c=c[:1] if are_shared else c))

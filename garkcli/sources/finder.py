@@ -11,8 +11,7 @@ from garkcli.sources.allowance import Allowance
 from garkcli.sources.assembling import Meant, NoTable, Roles, is_complete, table_of
 from garkcli.sources.evaluate import Evaluator, Space
 from garkcli.sources.found import FoundTable, troubled
-from garkcli.sources.naming import ROLES, role_of
-from garkcli.sources.parts import PLAIN, role_of_part, roles_of_parts, with_hats
+from garkcli.sources.naming import ROLES, role_of, roles_of_parts
 from garkcli.sources.rklab import blocks_in
 from garkcli.sources.scalar_names import FEWEST_COEFFICIENTS, are_coefficients, scalar_roles
 from garkcli.sources.signatures import (
@@ -227,8 +226,8 @@ class TableFinder(Evaluator):
             if role is not None and not isinstance(value, Null):
                 roles.setdefault(role, value)
         parts = roles_of_parts(fields)
-        if parts is not None:
-            roles, signature = parts, PARTS
+        if parts:
+            roles, signature = {role: fields[name] for name, role in parts.items()}, PARTS
         if signature is PARTS and any(map(_is_given, roles.values())):
             return
         _with_diagonal(roles, fields)
@@ -247,16 +246,15 @@ class TableFinder(Evaluator):
         line = record.line
         if record.kind == _TABLE and scope.kind == "entry":
             line = scope.line
+        counts = signature.counts if signature else ()
+        if counts and len(record.args) not in counts:
+            told = f"{record.kind} takes {' or '.join(map(str, counts))} arguments"
+            self._unread(self._name(record, scope), line, told)
+            return
         is_sure = bool(signature and not signature.is_guess) or record.kind == _TABLE
         self._meant.append(
             Meant(
-                self._name(record, scope),
-                line,
-                roles,
-                record.kind or "record",
-                signature,
-                is_sure,
-                arguments=len(record.args),
+                self._name(record, scope), line, roles, record.kind or "record", signature, is_sure
             )
         )
 
@@ -294,13 +292,11 @@ class TableFinder(Evaluator):
         if tableaus:
             return
         parts = roles_of_parts(values)
-        if parts is not None:
-            is_pair = "H" in values
-            given = {x for x in values if role_of_part(x) or x in PLAIN}
-            given |= {"A", "H", "c"} if is_pair else set()
-            line = min(lines.get(x, scope.line) for x in given)
-            self._meant.append(Meant(scope.title, line, parts, "", PARTS))
-            values = {name: x for name, x in values.items() if name not in given}
+        if parts:
+            line = min(lines.get(x, scope.line) for x in parts)
+            of_parts = {role: values[name] for name, role in parts.items()}
+            self._meant.append(Meant(scope.title, line, of_parts, "", PARTS))
+            values = {name: x for name, x in values.items() if name not in parts}
         groups: dict[str, Roles] = {}
         blocks: dict[str, dict[str, dict[tuple[int, ...], Value]]] = {}
         begins: dict[str, int] = {}
@@ -336,9 +332,9 @@ class TableFinder(Evaluator):
                 continue
             title = roles.pop("title", None)
             signature = None
-            if {"A", "b", "A_hat", "embedded"} <= set(roles):
+            if {"A", "b", "A1", "embedded"} <= set(roles):
                 # an implicit part, and the explicit one with a hat
-                roles, signature = with_hats(roles), PARTS
+                signature = PARTS
             name = stem or scope.title
             if isinstance(title, Word):
                 name = title.text

@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
+from garkcli.sources.values import Array, Value, items_of, near
+
 _WORDS: Mapping[str, tuple[str, ...]] = {
     "A": ("A", "a", "Amat", "amat", "beta", "β", "a_lower", "A_matrix", "aCoefficients"),
     "b": ("b", "B", "bvec", "b_sol", "bsol", "c_sol", "weights", "α", "b_vec", "bCoefficients"),
@@ -29,8 +31,8 @@ _WORDS: Mapping[str, tuple[str, ...]] = {
     "gamma": ("gamma",),
     "A_q": ("Abar", "abar", "A_bar", "a_bar", "Ā", "matrix_bar"),
     "b_q": ("bbar", "b_bar", "b̄", "weights_bar"),
-    "A_hat": ("A_hat",),
-    "c_hat": ("c_hat",),
+    "A1": ("A_hat",),
+    "c1": ("c_hat",),
     "stages": ("stages", "s", "n_stages", "nstages"),
     "title": ("name", "title"),
     "fsal": ("fsal", "FSAL", "is_fsal"),
@@ -45,6 +47,15 @@ _SUFFIX = re.compile(
 _DIGIT = re.compile(r"(?P<stem>\w*[A-Za-z]\w*[0-9])(?P<word>[Aabc]|[Abc]_hat)")
 """``rk4a``, ``lsrk54b``, ``ars222A_hat``."""
 MAX_NAME = 200
+_PART = re.compile(
+    r"(?P<word>butcher|matrix|weights|nodes|[abc]|b_?hat|b_?embed)"
+    r"_?(?P<part>exp?|explicit|imp?|implicit)(?:_tableau)?",
+    re.IGNORECASE,
+)
+_ANY_PART = {"matrix": "A", "weights": "b", "nodes": "c", "order": "order"}
+"""Names beside those of one part."""
+_PAIR = {"A": "A1", "H": "A2", "c": "c"}
+"""In the classes of Dedalus, where the last rows are the weights."""
 
 
 def role_of(name: str) -> tuple[str, str] | None:
@@ -64,3 +75,30 @@ def role_of(name: str) -> tuple[str, str] | None:
         if found:
             return found["stem"], ROLES[found["word"]]
     return None
+
+
+def role_of_part(name: str) -> str:
+    """What an array of an explicit part, 1, or of an implicit one, 2, is; empty where its name does
+    not tell.
+
+    >>> role_of_part("a_exp"), role_of_part("bhatim"), role_of_part("exp")
+    ('A1', 'embedded2', '')
+    """
+    found = _PART.fullmatch(name)
+    if found is None:
+        return ""
+    word = found["word"].lower()
+    role = "A" if word == "butcher" else {**_ANY_PART, **ROLES}.get(word, "embedded")
+    return role + "21"[found["part"].lower().startswith("e")]
+
+
+def roles_of_parts(values: Mapping[str, Value]) -> Mapping[str, str]:
+    """The names of the arrays of two parts, with their roles; empty without two matrices."""
+    found = {name: role for name in values if (role := role_of_part(name))}
+    if found:
+        found |= {name: role for name, role in _ANY_PART.items() if name in values}
+    elif "b" not in values and near(*items_of(values.get("c"))[-1:]) == 1:
+        found = {name: role for name, role in _PAIR.items() if name in values}
+    matrices = [values[name] for name, role in found.items() if role[0] == "A"]
+    are_two = len(matrices) > 1 and all(isinstance(x, Array) and x.is_matrix for x in matrices)
+    return found if are_two else {}

@@ -8,14 +8,13 @@ it has.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, TypeAlias
 
 from flint import arb, ctx, fmpq
 
 from garkcli.conversion.registers import (
     FORMS,
-    Numbers,
     Steps,
     nystrom,
     shu_osher,
@@ -41,64 +40,14 @@ COARSE = fmpq(1, 10**16)
 """A fraction that would approximate a number no better than that is exact."""
 NEAR = 1e-4
 """Nodes and sums of rows that differ by less are meant to be the same."""
+SCHEMES: Mapping[str, Callable[..., Steps]] = {
+    **FORMS,
+    "3S*": three_registers,
+    "Shu–Osher": shu_osher,
+    "Nyström": lambda A, b, c: Steps(*nystrom(A, b, c), ()),
+}
+"""Others, as 2R, are van der Houwen's, with b behind their diagonals."""
 Nested: TypeAlias = "str | Sequence[Nested]"
-Scheme: TypeAlias = Callable[..., Steps]
-
-
-class Printed:
-    """Coefficients as they are printed: exact, and as balls that allow for rounding.
-
-    Args:
-        rows: lists of numbers, or lists of such lists.
-
-    Raises:
-        Unreadable: they are no numbers of one field.
-    """
-
-    def __init__(self, *rows: Nested) -> None:
-        self._rows = rows
-        printed = _flat(rows)
-        expressions = [parse(x) for x in printed]
-        try:
-            domain = Domain(expressions)
-            values = [domain.evaluate(x) for x in expressions]
-        except ExpressionError as error:
-            raise Unreadable(error.message) from None
-        self._values = iter(values)
-        self.exact = [self._nested(row, lambda x: x) for row in rows]
-        units = approximant_units(list(zip(expressions, values, strict=True)))
-        for text, value in zip(printed, values, strict=True):
-            if "." not in text and units.get(value, 0) > COARSE:
-                units[value] = fmpq(0)
-        self._values = iter(values)
-        with ctx.workprec(BITS):
-            self.balls = [self._nested(row, lambda x: _ball(x, units.get(x))) for row in rows]
-
-    def _nested(self, row: Nested, made: Callable[[Number], Any]) -> Any:
-        if isinstance(row, str):
-            return made(next(self._values))
-        return [self._nested(x, made) for x in row]
-
-    def steps(self, scheme: Scheme) -> tuple[Steps, Steps]:
-        """The method of a scheme: exact, and as balls.
-
-        Raises:
-            Unreadable: it is none.
-        """
-        try:
-            with ctx.workprec(BITS):
-                return scheme(*self.exact), scheme(*self.balls)
-        except CannotConvert as error:
-            raise Unreadable(error.message) from None
-
-
-def _flat(rows: Iterable[Nested]) -> list[str]:
-    return [x for row in rows for x in ([row] if isinstance(row, str) else _flat(row))]
-
-
-def _ball(x: Number, unit: fmpq | None) -> arb:
-    middle = arb(x) if isinstance(x, fmpq) else to_ball(x, DIGITS)
-    return middle + arb(0, arb(unit or 0).abs_upper())
 
 
 class Converted(Frozen):
@@ -108,86 +57,102 @@ class Converted(Frozen):
         A: the matrix.
         b: the weights.
         units: by how much each of their texts may be off.
+        near: the floats next to A and, behind it, b.
     """
 
     A: Rows
     b: Row
     units: Units
+    near: Sequence[Sequence[float]]
 
 
-class Writing:
-    """Writes numbers with the digits that rounding leaves of them.
+def converted(form: str, *printed: Nested) -> Converted:
+    """The matrix and the weights of a scheme.
 
-    Attributes:
-        units: by how much each text may be off.
-    """
-
-    def __init__(self) -> None:
-        self.units: dict[str, fmpq] = {}
-
-    def row(self, exact: Numbers, balls: Numbers) -> Row:
-        """A row of numbers with the balls around them."""
-        return tuple(self._text(x, ball) for x, ball in zip(exact, balls, strict=True))
-
-    def rows(self, exact: Sequence[Numbers], balls: Sequence[Numbers]) -> Rows:
-        """The same of a matrix."""
-        return tuple(self.row(*pair) for pair in zip(exact, balls, strict=True))
-
-    def _text(self, x: Number | int, ball: arb | int) -> str:
-        if not isinstance(x, fmpq) or isinstance(ball, int):
-            return str(x)
-        radius = float(ball.rad())
-        if radius < 1e-200 or not x:
-            return str(x)
-        first, last = (math.floor(math.log10(size)) for size in (abs(float(ball.mid())), radius))
-        text = to_decimal(x, max(1, 1 + first - last))
-        unit = rounded_up(arb(ball.rad()) + arb(10) ** min(last, first))
-        self.units[text] = max(unit, self.units.get(text, unit))
-        return text
-
-
-def _butcher(found: tuple[Steps, Steps]) -> Converted:
-    """The matrix and the weights.
+    Args:
+        form: the name of the scheme.
+        printed: its coefficients: A and b of 2N and its like, α and β of the form of Shu and Osher,
+            γ₁, γ₂, γ₃, δ, β of 3S*, Ā, b̄, c of Nyström, for the velocities that positions see.
 
     Raises:
-        Unreadable: a stage begins elsewhere than at the value before the step.
+        Unreadable: they make no method, or none whose stages begin at the value before the step.
     """
-    exact, balls = found
+    texts = list(_flat(printed))
+    expressions = [parse(x) for x in texts]
+    try:
+        domain = Domain(expressions)
+        values = [domain.evaluate(x) for x in expressions]
+    except ExpressionError as error:
+        raise Unreadable(error.message) from None
+    units = approximant_units(list(zip(expressions, values, strict=True)))
+    for text, value in zip(texts, values, strict=True):
+        if "." not in text and units.get(value, 0) > COARSE:
+            units[value] = fmpq(0)
     with ctx.workprec(BITS):
-        for i, (start, ball) in enumerate(zip(exact.starts, balls.starts, strict=True), start=1):
-            radius = 0 if isinstance(ball, int) else 10 * ball.rad()
-            if not arb(abs(to_ball(start - 1 + fmpq(0)))) <= radius:
-                told = to_decimal(start + fmpq(0), 8)
-                raise Unreadable(f"stage {i} begins at {told} y, not at y")
-        writing = Writing()
-        A, b = writing.rows(exact.A, balls.A), writing.row(exact.b, balls.b)
-        return Converted(A, b, tuple(writing.units.items()))
+        balls = [_ball(x) + arb(0, arb(units.get(x, 0)).abs_upper()) for x in values]
+        try:
+            exact, rounded = (_steps(form, _nested(printed, iter(x))) for x in (values, balls))
+        except CannotConvert as error:
+            raise Unreadable(error.message) from None
+        for i, (start, ball) in enumerate(zip(exact.starts, rounded.starts, strict=True), start=1):
+            if start != 1 and not abs(_ball(start - 1)) <= 10 * ball.rad():
+                raise Unreadable(f"stage {i} begins at {to_decimal(start, 8)} y, not at y")
+        off: dict[str, fmpq] = {}
+        *A, b = (
+            tuple(written(x, ball, off) for x, ball in zip(*row, strict=True))
+            for row in zip((*exact.A, exact.b), (*rounded.A, rounded.b), strict=True)
+        )
+        near = tuple(tuple(float(_ball(x).mid()) for x in row) for row in (*exact.A, exact.b))
+    return Converted(tuple(A), b, tuple(off.items()), near)
 
 
-def low_storage(form: str, A: Sequence[Row], b: Row) -> Converted:
-    """The matrix and the weights of a scheme that is named: 2N, 2C, 2R and its like."""
-    scheme = FORMS.get(form, van_der_houwen)
-    numbers = (*A, b) if form in FORMS else (b, *A)
-    return _butcher(Printed(*numbers).steps(scheme))
+def _steps(form: str, rows: Sequence[Any]) -> Steps:
+    scheme = SCHEMES.get(form)
+    return scheme(*rows) if scheme else van_der_houwen(rows[-1], *rows[:-1])
 
 
-def recognised(A: Row, b: Row, c: Row | None) -> tuple[str, Converted]:
+def _flat(rows: Sequence[Nested]) -> Iterator[str]:
+    for row in rows:
+        yield from [row] if isinstance(row, str) else _flat(row)
+
+
+def _nested(rows: Sequence[Nested], numbers: Iterator[Any]) -> list[Any]:
+    return [next(numbers) if isinstance(x, str) else _nested(x, numbers) for x in rows]
+
+
+def _ball(x: Number | int) -> arb:
+    return arb(x) if isinstance(x, int | fmpq) else to_ball(x, DIGITS)
+
+
+def written(x: Number | int, ball: arb | int, units: dict[str, fmpq]) -> str:
+    """A number with the digits that rounding leaves of it; ``units`` has by how much it is off."""
+    if not isinstance(ball, arb) or not isinstance(x, fmpq) or not x or ball.rad() < 1e-200:
+        return str(x)
+    radius = float(ball.rad())
+    first, last = (math.floor(math.log10(size)) for size in (abs(float(ball.mid())), radius))
+    text = to_decimal(x, max(1, 1 + first - last))
+    unit = rounded_up(arb(ball.rad()) + arb(10) ** min(last, first))
+    units[text] = max(unit, units.get(text, unit))
+    return text
+
+
+def recognised(A: Row, b: Row, c: Sequence[float] | None) -> tuple[str, Converted]:
     """The scheme of two rows whose sums are the nodes, and whose weights have the sum 1.
 
     Raises:
         Unreadable: none of them, or several.
     """
-    printed = Printed(A, b)
-    fitting = []
-    for form, scheme in FORMS.items():
-        steps, _ = found = printed.steps(scheme)
-        if _is_near(steps.b, fmpq(1)) and (c is None or _agree(steps, c)):
-            fitting.append((form, found))
-    alike = {_butcher(found): form for form, found in reversed(fitting)}
+    alike: dict[Converted, str] = {}
+    for form in FORMS:
+        made = converted(form, A, b)
+        nodes = [sum(row) for row in made.near[:-1]]
+        given = nodes if c is None else [0.0] * (len(b) - len(c)) + list(c)
+        pairs = [(sum(made.near[-1]), 1.0), *zip(nodes, given, strict=False)]
+        if len(given) == len(b) and all(abs(x - y) < NEAR for x, y in pairs):
+            alike.setdefault(made, form)
     if len(alike) > 1 and c is None:
         # the nodes are the row sums, and weights make at least order 2 with these
-        better = {_butcher(found): form for form, found in fitting if _has_order_two(found[0])}
-        alike = better or alike
+        alike = {made: form for made, form in alike.items() if _has_order_two(made)} or alike
     if len(alike) != 1:
         kind = "no low-storage method" if not alike else "more than one low-storage method"
         raise Unreadable(f"A and b are {kind} with these nodes" if c else f"A and b are {kind}")
@@ -195,39 +160,6 @@ def recognised(A: Row, b: Row, c: Row | None) -> tuple[str, Converted]:
     return form, made
 
 
-def _has_order_two(steps: Steps) -> bool:
-    nodes = [sum(row, start=fmpq(0)) for row in steps.A]
-    return _is_near([b * c for b, c in zip(steps.b, nodes, strict=True)], fmpq(1, 2))
-
-
-def _agree(steps: Steps, c: Row) -> bool:
-    nodes = [parse(x) for x in c]
-    domain = Domain(nodes)
-    given: list[Number] = [fmpq(0)] * (len(steps.b) - len(nodes))
-    given += map(domain.evaluate, nodes)
-    pairs = zip(steps.A, given, strict=False)
-    return len(given) == len(steps.b) and all(_is_near(row, node) for row, node in pairs)
-
-
-def _is_near(row: Numbers, total: Number) -> bool:
-    return bool(abs(to_ball(sum(row, start=fmpq(0)) - total)) < NEAR)
-
-
-def of_three_registers(*given: Row) -> Converted:
-    """The matrix and the weights of 3S*: γ₁, γ₂, γ₃, δ and β."""
-    return _butcher(Printed(*given).steps(three_registers))
-
-
-def of_shu_osher(alpha: Rows, beta: Rows) -> Converted:
-    """The matrix and the weights of the form of Shu and Osher."""
-    return _butcher(Printed(alpha, beta).steps(shu_osher))
-
-
-def of_nystrom(A: Rows, b: Row, c: Row) -> Converted:
-    """The velocities that positions see, and the weights of these."""
-    printed = Printed(A, b, c)
-    with ctx.workprec(BITS):
-        (exact, weights), (balls, ball) = nystrom(*printed.exact), nystrom(*printed.balls)
-        writing = Writing()
-        A, b = writing.rows(exact, balls), writing.row(weights, ball)
-    return Converted(A, b, tuple(writing.units.items()))
+def _has_order_two(made: Converted) -> bool:
+    *rows, weights = made.near
+    return abs(sum(b * sum(row) for b, row in zip(weights, rows, strict=True)) - 1 / 2) < NEAR

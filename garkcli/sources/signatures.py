@@ -43,7 +43,7 @@ PRINTED = "a printed tableau"
 """What stands for a call where data are a table."""
 NDSOLVE = "coefficients of NDSolve"
 """The same for the lists that a function of Mathematica gives."""
-PARTS = Signature(["A", "b", "c", "A2", "b2", "c2"], "ark")
+PARTS = Signature(["A1", "b1", "c1", "A2", "b2", "c2"], "ark")
 """An explicit part and an implicit one."""
 DRIFT_FIRST = Signature(["drifts", "kicks"], "drift-first")
 """Weights of drifts and kicks, drifts first."""
@@ -60,12 +60,13 @@ SIGNATURES: Mapping[str, Signature] = {
         *("TSRKRegister TSDIRKRegister", "title order stages A b c embedded"), counts=(9,), **_PETSC
     ),
     **_all(
-        *("TSARKIMEXRegister", "title order stages A2 b2 c2 A b c embedded2 embedded", "ark"),
+        *("TSARKIMEXRegister", "title order stages A2 b2 c2 A1 b1 c1 embedded2 embedded1", "ark"),
         counts=(14,),
         **_PETSC,
     ),
     **_all(
-        *("ESDIRKIMEXTableau", "A2 b2 A b c2 error2 error - order stages", "ark"), named={"ce": "c"}
+        *("ESDIRKIMEXTableau", "A2 b2 A1 b1 c2 error2 error1 - order stages", "ark"),
+        named={"ce": "c1"},
     ),
     **dict.fromkeys(("IMEXButcher", "IMEXTableau"), PARTS),
     **_all(

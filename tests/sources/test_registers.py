@@ -12,7 +12,7 @@ from garkcli.frozen import replace
 from garkcli.methodfile.load import load
 from garkcli.sources.found import FoundTable
 from garkcli.sources.languages import c, fortran, julia, matlab, python
-from garkcli.sources.registers import Printed, Writing
+from garkcli.sources.registers import converted
 from tests.cli.harness import gark
 
 ROOT = Path(__file__).parents[2]
@@ -167,8 +167,8 @@ def test_a_wrong_start_is_told(tmp_path: Path) -> None:
 
 def test_fractions_that_are_exact_stay_so() -> None:
     """A fraction of eight digits is no approximant; one of thirteen is, to 23 digits and more."""
-    given = Printed(("7987313/109941300", "1767732205903/4055673282236", "0.5", "0.7886751345948"))
-    first, second, third, last = Writing().row(given.exact[0], given.balls[0])
+    b = ("7987313/109941300", "1767732205903/4055673282236", "0.5", "0.7886751345948")
+    first, second, third, last = converted("2R", ("0",) * 3, b).b
     assert (first, third, last) == ("7987313/109941300", "1/2", "0.7886751345948")
     assert second.startswith("0.435866521508458999416019")  # 1767732205903/4055673282236
     assert len(second) <= 28
