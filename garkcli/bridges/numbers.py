@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from decimal import Context, Decimal, Inexact
 
 from flint import fmpq
 
-from garkcli.bridges.rounding import Cell, nearest_float, rounded
+from garkcli.bridges.rounding import Cell, nearest_float, quotient, rounded
 from garkcli.exact.field import Algebraic
 from garkcli.frozen import Frozen
 
@@ -73,77 +74,52 @@ class Style(Frozen):
         ends = ending(x)
         if ends is None:
             return fraction
-        places = len(str(abs(ends[0])))
+        places = len(_digits(ends))
         if places <= self.digits or (not fraction and places <= self.longest):
-            return self._around(self.laid_out(*ends))
+            return self._around(self.laid_out(ends))
         return fraction
 
     def _decimal(self, x: Cell, digits: int, is_short: bool) -> str:
-        if not is_short:
-            return self._around(self.laid_out(*rounded(x, digits)))
-        mantissa, exponent = shortest(nearest_float(x))
-        return self._around(self.laid_out(mantissa, exponent))
+        found = Decimal(repr(nearest_float(x))) if is_short else rounded(x, digits)
+        return self._around(self.laid_out(found))
 
     def _around(self, text: str) -> str:
         return self.decimal.format(x=text)
 
-    def laid_out(self, mantissa: int, exponent: int) -> str:
-        """The number mantissa · 10^exponent as a decimal.
+    def laid_out(self, x: Decimal) -> str:
+        """A decimal without zeros at its end.
 
-        >>> Style().laid_out(-1250, -4), Style().laid_out(125, -10), EXACT.laid_out(5, 0)
-        ('-0.125', '1.25e-8', '5')
+        >>> Style().laid_out(Decimal("-.1250")), Style().laid_out(Decimal("125e-10"))
+        ('-0.125', '1.25e-8')
         """
-        if not mantissa:
-            return "0.0" if self.point else "0"
-        sign = "-" if mantissa < 0 else ""
-        digits = str(abs(mantissa)).rstrip("0")
+        digits, whole = _digits(x), "0" if self.point else ""
         # what is before the point, counted from the first digit
-        before = len(str(abs(mantissa))) + exponent
-        if before > len(digits) and before <= FLOAT_DIGITS:
-            digits = digits.ljust(before, "0")
-        whole, rest = digits[: max(before, 0)], digits[max(before, 0) :]
-        is_plain = -MOST_ZEROS < before <= len(digits)
-        if not is_plain:
-            tail = digits[1:] or ("0" if self.point else "")
-            point = "." if tail else ""
-            return f"{sign}{digits[0]}{point}{tail}{self.exponent}{before - 1}"
-        if rest:
-            zeros = "0" * max(-before, 0)
-            return f"{sign}{whole or '0'}.{zeros}{rest}"
-        return f"{sign}{whole}.0" if self.point else sign + whole
+        before = x.adjusted() + 1
+        if not x or -MOST_ZEROS < before <= max(len(digits), FLOAT_DIGITS):
+            text, _, rest = f"{x:f}".partition(".")
+            rest = rest.rstrip("0") or whole
+            return f"{text}.{rest}" if rest else text
+        sign, rest = "-" if x < 0 else "", digits[1:] or whole
+        return f"{sign}{digits[0]}{'.' if rest else ''}{rest}{self.exponent}{before - 1}"
 
 
-def ending(x: fmpq) -> tuple[int, int] | None:
-    """A decimal that ends as (mantissa, exponent); None for other fractions.
+def _digits(x: Decimal) -> str:
+    """The digits of a decimal, without zeros at its end."""
+    return "".join(map(str, x.as_tuple().digits)).rstrip("0")
+
+
+def ending(x: fmpq) -> Decimal | None:
+    """A decimal that ends, exactly; None for other fractions.
 
     >>> ending(fmpq(-1, 8)), ending(fmpq(1, 3)), ending(fmpq(300))
-    ((-125, -3), None, (3, 2))
+    (Decimal('-0.125'), None, Decimal('300'))
     """
-    p, q = int(x.p), int(x.q)
-    places = 0
-    for prime, other in ((2, 5), (5, 2)):
-        power = 0
-        while q % prime == 0:
-            q //= prime
-            power += 1
-        # the other factor makes it a power of ten
-        p *= other**power
-        places += power
-    if q != 1:
+    # p/q with q = 2^a 5^b has at most a + b digits behind the point
+    room = int(x.p).bit_length() + int(x.q).bit_length() + 1
+    try:
+        return quotient(x, Context(room, traps=[Inexact]))
+    except Inexact:
         return None
-    exponent = -places
-    while p and p % 10 == 0:
-        p //= 10
-        exponent += 1
-    return p, exponent
-
-
-def shortest(x: float) -> tuple[int, int]:
-    """The shortest decimal that is nearest to no other float, as (mantissa, exponent)."""
-    mantissa, _, power = repr(x).partition("e")
-    whole, _, rest = mantissa.partition(".")
-    rest = rest.rstrip("0")
-    return int(whole + rest), int(power or 0) - len(rest)
 
 
 EXACT = Style(

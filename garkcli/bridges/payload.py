@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
@@ -13,7 +14,7 @@ from garkcli.bridges.numbers import EXACT, Style
 from garkcli.bridges.rounding import Cell, TooWide
 from garkcli.frozen import Frozen
 from garkcli.tableau.garkmethod import Derivation
-from garkcli.tableau.pointwise import Block, Entries, Row
+from garkcli.tableau.pointwise import Block, Row
 from garkcli.tableau.tableau import Tableau
 from garkcli.version import __version__
 
@@ -24,6 +25,9 @@ if TYPE_CHECKING:
 Kind: TypeAlias = Literal["rk", "ark", "prk", "gark"]
 """One vector field; several that share all stages; the pair (q, p); anything else."""
 
+Part: TypeAlias = tuple[int, int | str, Sequence[Row]]
+"""An array: its colour and, of a block, the colour that it sees, from 1; its rows."""
+
 
 class Payload(Frozen, eq=False, kw_only=True):
     """A method as writers see it. Colours and stages count from 0.
@@ -32,10 +36,14 @@ class Payload(Frozen, eq=False, kw_only=True):
         name: one line, whatever signs are in it.
         kind: which form it has.
         tableau: with one coordinate a stage where the nodes have simple radicals.
-        entries: c, A and b of each colour: exact numbers, or enclosures fine enough to be rounded.
+        A: ``A[l][m]`` is a matrix, or None where the stages of colour l do not see colour m;
+            entries are exact numbers, or enclosures fine enough to be rounded.
+        b: the weights, a row per colour.
+        c: the nodes, a row per colour.
         embedded: the embedded weights, a row per colour.
         dense: ``dense[l][i]`` are the coefficients of θ, θ², … of b_i(θ) of colour l.
         orders: what was proved.
+        is_exact: whether every entry is an exact number.
         tolerance: the rounding that the coefficients of the file admit; None where they are exact.
         structure: which vector fields the method is for, such as ``general``, ``separable``.
         reference: where it was published, in one line.
@@ -48,8 +56,11 @@ class Payload(Frozen, eq=False, kw_only=True):
     name: str
     kind: Kind
     tableau: Tableau
-    entries: Entries
+    A: tuple[tuple[Block, ...], ...]
+    b: tuple[Row, ...]
+    c: tuple[Row, ...]
     orders: Orders
+    is_exact: bool = True
     embedded: tuple[Row, ...] | None = None
     dense: tuple[tuple[Row, ...], ...] | None = None
     tolerance: fmpq | None = None
@@ -68,27 +79,35 @@ class Payload(Frozen, eq=False, kw_only=True):
     @property
     def stages(self) -> tuple[int, ...]:
         """The number of stages of each colour."""
-        return tuple(map(len, self.entries.b))
+        return tuple(map(len, self.b))
 
     @property
-    def A(self) -> tuple[tuple[Block, ...], ...]:  # noqa: N802 -- the name it has everywhere
-        """``A[l][m]`` is a matrix, or None where the stages of colour l do not see colour m."""
-        return self.entries.A
+    def parts(self) -> Mapping[str, list[Part]]:
+        """The arrays by ``A``, ``b``, ``c``, ``embedded`` and ``dense``, colour by
+        colour.
+        """
+        blocks: list[Part] = [
+            (l, m, block)
+            for l, of_colour in enumerate(self.A, start=1)
+            for m, block in enumerate(of_colour, start=1)
+            if block is not None
+        ]
+        rows = {"b": self.b, "c": self.c, "embedded": self.embedded or ()}
+        found = {"A": blocks}
+        for x, of_colours in rows.items():
+            found[x] = [(l, "", (row,)) for l, row in enumerate(of_colours, start=1)]
+        found["dense"] = [(l, "", weights) for l, weights in enumerate(self.dense or (), start=1)]
+        return found
 
-    @property
-    def b(self) -> tuple[Row, ...]:
-        """The weights, a row per colour."""
-        return self.entries.b
-
-    @property
-    def c(self) -> tuple[Row, ...]:
-        """The nodes, a row per colour."""
-        return self.entries.c
-
-    @property
-    def is_exact(self) -> bool:
-        """Whether every entry is an exact number."""
-        return self.entries.is_exact
+    def arrays(self, before: str = "") -> list[tuple[str, Sequence[Row]]]:
+        """The arrays, each with a name for programs: ``A``, ``b``; ``A1_2``, ``b2`` of several
+        vector fields, with ``before`` between the letter and its numbers.
+        """
+        found = [(part, *x) for part, arrays in self.parts.items() for x in arrays]
+        found.sort(key=lambda x: (x[0] != "A", x[1]))
+        if self.size == 1:
+            return [(part, rows) for part, _, _, rows in found]
+        return [(f"{part}{before}{l}{m and f'_{m}'}", rows) for part, l, m, rows in found]
 
     @cached_property
     def stem(self) -> str:

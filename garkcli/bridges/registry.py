@@ -1,21 +1,36 @@
-"""The targets of ``gark export``, found in the files of ``garkcli.bridges.targets``."""
+"""The targets of ``gark export``: what each declares, what it is given, and the list of them."""
 
 from __future__ import annotations
 
 import pkgutil
+import re
 from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
 from importlib import import_module
-from typing import TypeAlias
+from typing import Literal, TypeAlias
 
 from garkcli.bridges import targets
 from garkcli.bridges.cannot import CannotExport
+from garkcli.bridges.comments import problem_class
 from garkcli.bridges.numbers import DECIMALS, Style
 from garkcli.bridges.payload import Kind, Payload
+from garkcli.bridges.structure import (
+    Composition,
+    Table,
+    composition,
+    shared,
+    table,
+    vanishes,
+    with_last_stage,
+)
 from garkcli.bridges.texts import Values, program_values, text_of
-from garkcli.bridges.trials import trial_of
+from garkcli.bridges.trials import sides, trial_of
 from garkcli.errors import UsageProblem, did_you_mean
 from garkcli.frozen import Frozen
+
+EMBEDDED, DENSE = "embedded weights", "dense output"
+Stages: TypeAlias = Literal["any", "lower", "explicit"]
+"""Which stages a target computes: all together, one after the other, explicit ones alone."""
 
 
 class Written(Frozen):
@@ -34,6 +49,25 @@ TestDriver: TypeAlias = Callable[[Payload, str], Sequence[Written]]
 """From a method and the name of the file with its table (no folder) to the files of a test."""
 
 
+class FileName(Frozen):
+    """How the file has to be called that a program runs.
+
+    Attributes:
+        pattern: of the whole name.
+        why: what the language does with it.
+        cure: for other names.
+    """
+
+    pattern: str
+    why: str
+    cure: str
+
+
+HEADER = FileName(
+    r'[^"\\]*', "C++ includes a header", "-o NAME.hpp, without quotes and backslashes"
+)
+
+
 class Bridge(Frozen):
     """One target.
 
@@ -45,10 +79,18 @@ class Bridge(Frozen):
         kinds: the forms of methods that it can hold, some of them under conditions.
         suffix: of its files.
         style: of its numbers.
-        values: what its template has beyond what all have; raises ``CannotExport`` with the reason
-            and the cure.
-        program: the same for the template of a program that runs the method in the target, from the
-            method and the name of the file with its table (no folder); None where nothing runs it.
+        stages: which it computes.
+        several: what it is given of several vector fields: ``as they are`` the blocks of the
+            method, ``shared`` a table each on the same stages, ``pair`` the explicit table and
+            another one.
+        is_split: whether it takes a method for (q, p) as kicks and drifts.
+        starts: whether an explicit first stage has to be at the beginning of a step.
+        ends: whether explicit methods get a last stage that is the first of the next step.
+        lacks: what its files have no place for.
+        values: what its template has beyond what all have, from the method and its tables; raises
+            ``CannotExport`` with the reason and the cure.
+        words: how its programs write the right-hand sides; None where nothing runs it.
+        file: how its file has to be called to be run.
         reads_back: whether ``gark import`` reads what it writes.
         write: the file of a method, where no template writes it.
     """
@@ -58,23 +100,34 @@ class Bridge(Frozen):
     kinds: tuple[Kind, ...]
     suffix: str
     style: Style = DECIMALS
-    values: Callable[[Payload], Values] = lambda _: {}
-    program: Callable[[Payload, str], Values] | None = None
+    stages: Stages = "any"
+    several: Literal["as they are", "shared", "pair"] = "as they are"
+    is_split: bool = False
+    starts: bool = False
+    ends: bool = False
+    lacks: tuple[str, ...] = (DENSE,)
+    values: Callable[[Payload, Sequence[Table]], Values] = lambda _, __: {}
+    words: Mapping[str, str] | None = None
+    file: FileName | None = None
     reads_back: bool = False
     write: Callable[[Payload], str] | None = None
 
     @property
     def test_driver(self) -> TestDriver | None:
         """What writes a program that runs the method; None where the target is data."""
-        return None if self.program is None else self._tested
+        return None if self.words is None else self._tested
 
     def _tested(self, payload: Payload, file: str) -> Sequence[Written]:
         """The program and its problem."""
-        assert self.program is not None
-        own = self.program(payload, file)
+        if self.file and not (re.fullmatch(self.file.pattern, file) and file.isprintable()):
+            message = f"{self.file.why} by the name of its file, and {file} is none"
+            raise CannotExport(message, self.file.cure)
         ending = _ENDINGS.get(self.suffix, self.suffix)
-        values = {**program_values(payload, file, ending), **own}
-        text = text_of(f"{self.name}_test{ending}", payload, self.style, values)
+        values = self._given(payload)
+        of_program = program_values(payload, file, ending)
+        of_sides = {"sides": sides(payload, values["fields"], self.words or {})}
+        name = f"{self.name}_test{ending}"
+        text = text_of(name, payload, self.style, {**values, **of_program, **of_sides})
         return [Written(f"_test{ending}", text), Written("_problem.yaml", trial_of(payload).file)]
 
     def written(self, payload: Payload) -> str:
@@ -83,15 +136,94 @@ class Bridge(Frozen):
         Raises:
             CannotExport: the target cannot hold it.
         """
-        if payload.kind not in self.kinds:
-            message = f"{self.name} has no {_KINDS[payload.kind]}"
-            cure = f"these have: {', '.join(_holding(payload.kind))}"
-            raise CannotExport(message, cure, code="unknown-word")
+        given = self._given(payload)
         if self.write is not None:
             return self.write(payload)
-        return text_of(self.name + self.suffix, payload, self.style, self.values(payload))
+        return text_of(self.name + self.suffix, payload, self.style, given)
+
+    def _given(self, payload: Payload) -> Values:
+        """What the templates of the target have of a method.
+
+        Raises:
+            CannotExport: the target cannot hold it.
+        """
+        if payload.kind not in self.kinds:
+            message = f"{self.name} has no {_KINDS[payload.kind]}"
+            raise CannotExport(message, _others(payload), code="unknown-word")
+        fields: Sequence[int] = range(payload.size)
+        if payload.kind == "prk" and self.is_split:
+            given = {"steps": self._steps(payload), "tables": [], "fields": fields}
+            return {**given, "left_out": _left_out(payload, (EMBEDDED, DENSE))}
+        tables = [table(payload)] if payload.kind == "rk" else []
+        if payload.kind != "rk" and self.several != "as they are":
+            tables = shared(payload)
+            fields = self._pair(payload, tables) if self.several == "pair" else fields
+        tables = [self._fitting(payload, tables[m]) for m in fields if tables]
+        late = [x.c[0] for x in tables if not vanishes(x.c[0])]
+        if self.starts and late and all(vanishes(x.A[0][0]) for x in tables):
+            node = payload.number(late[0])
+            cure = "where f does not depend on t, set the first node to 0"
+            message = f"the first node is {node}; {self.name} has an explicit first stage at t"
+            raise CannotExport(message, cure)
+        found = {"tables": tables, **self.values(payload, tables)}
+        first = found["tables"][0] if tables else None
+        left_out = _left_out(payload, self.lacks)
+        return {**found, "table": first, "fields": fields, "left_out": left_out}
+
+    def _steps(self, payload: Payload) -> Composition:
+        """A method for (q, p) as kicks and drifts."""
+        found = composition(payload)
+        if found is not None:
+            return found
+        cure = _others(payload, "any")
+        if payload.structure == "general":
+            cure = f"for q' = f(p), p' = g(q) say so: structure: separable; {cure}"
+        raise CannotExport(
+            f"{self.name} takes kicks and drifts by turns, each explicit, and {payload.name} is no"
+            " such composition",
+            cure,
+        )
+
+    def _pair(self, payload: Payload, tables: Sequence[Table]) -> Sequence[int]:
+        """The vector field that has an explicit table, and the other one."""
+        is_other = payload.tableau.is_partitioned and payload.kind != "prk"
+        if len(tables) != 2 or is_other:
+            message = (
+                f"{self.name} adds two vector fields, an explicit and an implicit one;"
+                f" {payload.name} is for {problem_class(payload)}"
+            )
+            raise CannotExport(message, _others(payload, "any"))
+        if tables[0].is_explicit:
+            return 0, 1
+        if tables[1].is_explicit:
+            return 1, 0
+        message = (
+            f"{self.name} pairs an explicit with an implicit method, and both of {payload.name} are"
+            " implicit"
+        )
+        raise CannotExport(message, _others(payload, "any"))
+
+    def _fitting(self, payload: Payload, found: Table) -> Table:
+        """A table whose stages the target computes, with the last stage that it wants."""
+        is_lower = found.is_diagonally_implicit
+        if self.stages == "explicit" and not found.is_explicit:
+            cure = _others(payload, "any", *(("lower",) if is_lower else ()))
+            message = (
+                f"{self.name} has explicit methods only; a stage of {payload.name} sees itself or a"
+                " later one"
+            )
+            raise CannotExport(message, cure)
+        if self.stages == "lower" and not is_lower:
+            message = (
+                f"{self.name} solves one stage after the other; a stage of {payload.name} sees a"
+                " later one"
+            )
+            raise CannotExport(message, _others(payload, "any"))
+        wants_end = self.ends and payload.kind == "rk" and found.is_explicit
+        return with_last_stage(found) if wants_end and not found.is_first_same_as_last else found
 
 
+EVERYTHING: tuple[Kind, ...] = ("rk", "ark", "prk", "gark")
 _ENDINGS = {".hpp": ".cpp"}
 """Of programs that are no files of the same kind as the tables."""
 _KINDS = {
@@ -102,9 +234,17 @@ _KINDS = {
 }
 
 
-def _holding(kind: Kind) -> list[str]:
-    """The targets that have such methods."""
-    return [x.name for x in bridges().values() if kind in x.kinds]
+def _left_out(payload: Payload, lacks: Sequence[str]) -> list[str]:
+    """What a method has that its file has no place for."""
+    has = {EMBEDDED: payload.embedded is not None, DENSE: payload.dense is not None}
+    return [x for x in lacks if has[x]]
+
+
+def _others(payload: Payload, *stages: Stages) -> str:
+    """The targets that have methods of this form; those alone that compute such stages."""
+    known = [x for x in bridges().values() if payload.kind in x.kinds]
+    names = [x.name for x in known if x.stages in stages or not stages]
+    return f"these have: {', '.join(names)}"
 
 
 @lru_cache(maxsize=1)

@@ -7,18 +7,22 @@ until both of its ends round to the same text; it never lies half way between tw
 from __future__ import annotations
 
 from collections.abc import Iterator
+from decimal import MAX_EMAX, MIN_EMIN, ROUND_HALF_EVEN, Context, Decimal
 from typing import TypeAlias
 
-from flint import arb, fmpq
+from flint import arb, ctx, fmpq
 
 from garkcli.exact.display import to_ball
-from garkcli.exact.field import Number
+from garkcli.exact.field import ZERO, Number
 
 Cell: TypeAlias = Number | arb
 """An exact number, or an enclosure of one that is irrational."""
 MOST_DIGITS = 20_000
 """Irrational numbers whose rounding is not told by so many digits are given up: 10 000 nines."""
 _GUARD = 20
+_BITS = 1000
+"""Of arithmetic with enclosures, far beyond what is written of them."""
+_DIGITS = 300
 
 
 class TooWide(ArithmeticError):
@@ -41,43 +45,22 @@ def _exact(point: arb) -> fmpq:
     return fmpq(mantissa, 2**-power)
 
 
-def significant(x: fmpq, digits: int) -> tuple[int, int]:
-    """The integer m and the exponent e with x ≈ m · 10^e, m of ``digits`` digits.
-
-    Half goes to even.
+def significant(x: fmpq, digits: int) -> Decimal:
+    """The nearest decimal of so many digits; half goes to even.
 
     >>> significant(fmpq(2, 3), 3), significant(fmpq(-9999, 10), 3)
-    ((667, -3), (-100, 1))
+    (Decimal('0.667'), Decimal('-1.00E+3'))
     """
-    if not x:
-        return 0, 0
-    p, q = abs(int(x.p)), int(x.q)
-    # the logarithm is off by one at most, which the loop mends
-    exponent = len(str(p)) - len(str(q)) - digits
-    while True:
-        m = _half_even(p, q, exponent)
-        if m < 10 ** (digits - 1):
-            exponent -= 1
-        elif m >= 10**digits:
-            exponent += 1
-        else:
-            return (m if x > 0 else -m), exponent
+    return quotient(x, Context(digits, ROUND_HALF_EVEN))
 
 
-def _half_even(p: int, q: int, exponent: int) -> int:
-    """The fraction p/q over 10^exponent, rounded to an integer."""
-    if exponent >= 0:
-        q *= 10**exponent
-    else:
-        p *= 10**-exponent
-    whole, rest = divmod(p, q)
-    is_odd = whole % 2
-    if 2 * rest > q or (2 * rest == q and is_odd):
-        return whole + 1
-    return whole
+def quotient(x: fmpq, context: Context) -> Decimal:
+    """A fraction as a decimal, rounded once, whatever the size of its powers of ten."""
+    context.Emax, context.Emin = MAX_EMAX, MIN_EMIN
+    return context.divide(Decimal(int(x.p)), Decimal(int(x.q)))
 
 
-def rounded(x: Cell, digits: int) -> tuple[int, int]:
+def rounded(x: Cell, digits: int) -> Decimal:
     """The same for any number.
 
     Raises:
@@ -124,3 +107,21 @@ def _finer(x: Cell, digits: int) -> Iterator[arb]:
     while more < MOST_DIGITS:
         yield to_ball(x, more)
         more *= 2
+
+
+def combined(*terms: tuple[fmpq | int, Cell]) -> Cell:
+    """The sum of multiples k x of entries, given as pairs: exact where all entries are of one
+    field, else an enclosure far finer than what is written.
+    """
+    if not any(isinstance(x, arb) for _, x in terms):
+        try:
+            return sum((k * x for k, x in terms), ZERO)
+        except TypeError:
+            pass  # of two number fields
+    with ctx.workprec(_BITS):
+        return sum((arb(k) * ball(x) for k, x in terms), arb(0))
+
+
+def ball(x: Cell) -> arb:
+    """An enclosure, far finer than what is written."""
+    return x if isinstance(x, arb) else to_ball(x, _DIGITS)

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Sequence
 from typing import TypeAlias
 
 from flint import arb, fmpq
 
-from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.payload import Payload
-from garkcli.bridges.rounding import Cell
-from garkcli.exact.field import ZERO
-from garkcli.frozen import Frozen, Mutable, field
-from garkcli.graph import components
+from garkcli.bridges.rounding import Cell, combined
+from garkcli.exact.field import ONE, ZERO
+from garkcli.frozen import Frozen, Mutable, field, replace
 from garkcli.tableau.pointwise import Row
 
 Rows: TypeAlias = tuple[Row, ...]
@@ -70,23 +68,65 @@ class Table(Frozen):
         is_at_end = self.c[-1] == fmpq(1) and vanishes(self.A[-1][-1])
         return self.stages > 1 and is_at_end and self.A[-1] == self.b
 
+    @property
+    def begins_at_start(self) -> bool:
+        """Whether the first stage is f(t, y) at the beginning of the step."""
+        return all(map(vanishes, (*self.A[0], self.c[0])))
+
+    @property
+    def is_first_same_as_last(self) -> bool:
+        """Whether the last stage of a step is the first of the next."""
+        return self.begins_at_start and self.is_fsal
+
+    @property
+    def lower(self) -> Rows:
+        """The rows of A below the diagonal, from the second on: one entry, two, …"""
+        return tuple(row[:i] for i, row in enumerate(self.A) if i)
+
+    @property
+    def diagonal(self) -> Row:
+        """The diagonal of A."""
+        return tuple(row[i] for i, row in enumerate(self.A))
+
+    @property
+    def error(self) -> Row:
+        """The weights b − b̂ of the error estimate; zeros without embedded weights."""
+        if self.embedded is None:
+            return (ZERO,) * self.stages
+        return tuple(combined((1, x), (-1, y)) for x, y in zip(self.b, self.embedded, strict=True))
+
 
 def table(payload: Payload) -> Table:
     """The one table of a method for one vector field."""
-    block = payload.A[0][0] or ()
-    embedded = payload.embedded
-    dense = payload.dense
     return Table(
-        block,
+        payload.A[0][0] or (),
         payload.b[0],
         payload.c[0],
-        None if embedded is None else embedded[0],
-        None if dense is None else dense[0],
+        None if payload.embedded is None else payload.embedded[0],
+        None if payload.dense is None else payload.dense[0],
     )
 
 
-Place: TypeAlias = tuple[int, int]
-"""A colour and a stage of it."""
+def with_last_stage(found: Table) -> Table:
+    """The same method with f(t + h, y at the end) as one more stage, whose weight is 0."""
+    return replace(
+        found,
+        A=tuple((*row, ZERO) for row in (*found.A, found.b)),
+        b=(*found.b, ZERO),
+        c=(*found.c, ONE),
+        embedded=found.embedded and (*found.embedded, ZERO),
+    )
+
+
+def with_first_stage(found: Table) -> Table:
+    """The same method with f(t, y) as one more stage before all, whose weight is 0."""
+    return replace(
+        found,
+        A=((ZERO,) * (found.stages + 1), *((ZERO, *row) for row in found.A)),
+        b=(ZERO, *found.b),
+        c=(ZERO, *found.c),
+        embedded=found.embedded and (ZERO, *found.embedded),
+    )
 
 
 class _Stage(Mutable):
@@ -119,10 +159,15 @@ def shared(payload: Payload) -> list[Table]:
 def _merged(payload: Payload) -> list[_Stage]:
     """The different stage values of all colours."""
     found: list[_Stage] = []
-    for l in range(payload.size):
+    for l, blocks in enumerate(payload.A):
         for i, node in enumerate(payload.c[l]):
-            rows = tuple(_rows_at(payload, l, i))
-            stage = _same(found, rows, l)
+            rows = tuple(
+                (ZERO,) * len(payload.b[m]) if block is None else block[i]
+                for m, block in enumerate(blocks)
+            )
+            # one with these rows that has no stage of this colour yet
+            same = (x for x in found if l not in x.place_of and x.rows == rows)
+            stage = next(same, None)
             if stage is None:
                 stage = _Stage(rows, node=node)
                 found.append(stage)
@@ -130,46 +175,29 @@ def _merged(payload: Payload) -> list[_Stage]:
     return found
 
 
-def _rows_at(payload: Payload, l: int, i: int) -> Iterator[Row]:
-    """The weights of each vector field in stage i of colour l."""
-    for m in range(payload.size):
-        block = payload.A[l][m]
-        if block is None:
-            yield (ZERO,) * len(payload.b[m])
-        else:
-            yield block[i]
-
-
-def _same(found: Sequence[_Stage], rows: tuple[Row, ...], l: int) -> _Stage | None:
-    """A stage with these rows that has no stage of colour l yet."""
-    for stage in found:
-        if l not in stage.place_of and stage.rows == rows:
-            return stage
-    return None
-
-
 def _sorted(stages: Sequence[_Stage]) -> list[int]:
-    """An order in which no stage needs a later one, the given one as far as possible."""
-    seen: dict[int, list[int]] = {}
+    """An order in which no stage needs a later one, the given one as far as possible; stages that
+    need each other come together.
+    """
     at = {(m, j): k for k, stage in enumerate(stages) for m, j in stage.place_of.items()}
+    needs = [{k} for k in range(len(stages))]
     for k, stage in enumerate(stages):
-        needed = []
         for m, row in enumerate(stage.rows):
-            needed += [at[m, j] for j, x in enumerate(row) if not vanishes(x)]
-        seen[k] = needed
+            needs[k] |= {at[m, j] for j, x in enumerate(row) if not vanishes(x)}
+    for k, further in enumerate(needs):
+        for needed in needs:
+            if k in needed:
+                needed |= further
     order: list[int] = []
-    # each component comes after those that it needs
-    waiting = {min(x): x for x in components(seen)}
-    while waiting:
-        ready = [k for k, x in waiting.items() if _is_ready(x, seen, {*order})]
-        order += sorted(waiting.pop(min(ready)))
+    while len(order) < len(stages):
+        ready = (
+            needed
+            for k, needed in enumerate(needs)
+            if k not in order and all(j in order or needs[j] == needed for j in needed)
+        )
+        together = next(ready)
+        order += [k for k, needed in enumerate(needs) if needed == together]
     return order
-
-
-def _is_ready(component: Sequence[int], seen: Mapping[int, Sequence[int]], done: set[int]) -> bool:
-    """Whether all that some stages need is computed, or among themselves."""
-    needed = {j for k in component for j in seen[k]}
-    return needed <= done | {*component}
 
 
 def _table_of(payload: Payload, stages: Sequence[_Stage], m: int) -> Table:
@@ -183,18 +211,11 @@ def _table_of(payload: Payload, stages: Sequence[_Stage], m: int) -> Table:
         stage.node if j is None else payload.c[m][j]
         for stage, j in zip(stages, places, strict=True)
     ]
-    embedded = payload.embedded
-    dense = None
-    if payload.dense is not None:
-        found = payload.dense[m]
-        nothing = (ZERO,) * len(found[0])
-        dense = tuple(nothing if j is None else found[j] for j in places)
     return Table(
         tuple(spread(stage.rows[m]) for stage in stages),
         spread(payload.b[m]),
         tuple(nodes),
-        None if embedded is None else spread(embedded[m]),
-        dense,
+        None if payload.embedded is None else spread(payload.embedded[m]),
     )
 
 
@@ -274,15 +295,3 @@ def _by_turns(before: Sequence[tuple[Cell, frozenset[int]]], drifts: Row) -> Com
         found_kicks.append(sum(kick, start=ZERO))
         found_drifts.append(sum(drift, start=ZERO))
     return Composition(tuple(found_kicks), tuple(found_drifts))
-
-
-def no_composition(payload: Payload, taker: str) -> CannotExport:
-    """That a method is no such sequence, and what there is instead."""
-    cure = "json, c, fortran and numpy hold it"
-    if payload.structure == "general":
-        cure = f"for q' = f(p), p' = g(q) say so: structure: separable; {cure}"
-    return CannotExport(
-        f"{taker} takes kicks and drifts by turns, each explicit, and {payload.name} is no such "
-        "composition",
-        cure,
-    )

@@ -6,16 +6,16 @@ and what is said about it is a comment already. Only texts and whole numbers can
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 from pathlib import PurePath
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from garkcli.bridges.comments import BANG, HASH, PERCENT, STARRED, XML, C, Comment, head
 from garkcli.bridges.lines import COLUMNS, filled
 from garkcli.bridges.numbers import Style
 from garkcli.bridges.payload import Payload
-from garkcli.bridges.structure import table
 from garkcli.bridges.trials import STEPS, command_of, trial_of
 from garkcli.frozen import Frozen
 from garkcli.tableau.pointwise import Row
@@ -23,7 +23,7 @@ from garkcli.tableau.pointwise import Row
 if TYPE_CHECKING:
     from jinja2 import Environment
 
-Values: TypeAlias = Mapping[str, object]
+Values: TypeAlias = Mapping[str, Any]
 """What one target gives to its template, beyond what all have."""
 
 
@@ -76,7 +76,9 @@ def text_of(file: str, payload: Payload, style: Style, values: Values) -> str:
         values: what the target has computed.
     """
     template = _environment().get_template(f"{file}.jinja")
-    return template.render(_given(payload, LANGUAGES[PurePath(file).suffix], style), **values)
+    language = LANGUAGES[PurePath(file).suffix]
+    left_out = values.get("left_out", ())
+    return template.render(_given(payload, language, style, left_out), **values)
 
 
 def program_values(payload: Payload, file: str, ending: str) -> Values:
@@ -95,14 +97,26 @@ def program_values(payload: Payload, file: str, ending: str) -> Values:
         """Notes in which ``{file}``, ``{stem}`` and ``{command}`` stand for what these are."""
         return "\n".join(mark.lines(note.format(**texts) for note in notes))
 
-    return {"comment": comment, "trial": trial_of(payload), "steps": STEPS, "module": ascii(file)}
+    return {
+        "comment": comment,
+        "trial": trial_of(payload),
+        "counts": STEPS,
+        "file": file,
+        "module": ascii(file),
+        "quoted": json.dumps(file, ensure_ascii=False),
+        "function": stem,
+    }
 
 
-def _given(payload: Payload, language: Language, style: Style) -> dict[str, object]:
+def _given(
+    payload: Payload, language: Language, style: Style, left_out: Sequence[str]
+) -> dict[str, object]:
     """What every template has: the method, its names, and how its numbers become lines."""
 
     def heading(*notes: object) -> str:
         wanted = [str(note) for note in notes if note]
+        if left_out:
+            wanted.append(f"Left out: {', '.join(left_out)}.")
         return "\n".join(language.comment.lines(head(payload, *wanted)))
 
     def filled_lines(begin: str, texts: Sequence[str], end: str) -> list[str]:
@@ -150,7 +164,6 @@ def _given(payload: Payload, language: Language, style: Style) -> dict[str, obje
         "c": payload.c,
         "embedded": payload.embedded,
         "dense": payload.dense,
-        "table": table(payload) if payload.kind == "rk" else None,
     }
 
 

@@ -5,7 +5,7 @@ Each is a problem file too, on which ``gark converge`` prints the same errors.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.payload import Payload
@@ -45,8 +45,9 @@ class Trial(Frozen):
         return ",".join(f"{self.t_end}/{n}" for n in STEPS)
 
 
-WORDS = {"y1": "y[0]", "y2": "y[1]", "t": "t", "sin": "sin", "cos": "cos"}
+WORDS = {"y1": "y[0]", "y2": "y[1]", "t": "t", "sin": "sin", "cos": "cos", "zero": "0.0"}
 """As C, Python and others with arrays from 0 have them."""
+CPP_WORDS = {**WORDS, "sin": "std::sin", "cos": "std::cos"}
 _START = "initial: {y1: 6/5, y2: 2/5}"
 WHOLE = Trial(
     name="whole",
@@ -110,21 +111,21 @@ def trial_of(payload: Payload) -> Trial:
     raise CannotExport(f"no problem to test {payload.size} vector fields with", "leave out --test")
 
 
+def sides(
+    payload: Payload, fields: Sequence[int], words: Mapping[str, str]
+) -> Sequence[tuple[str, str]]:
+    """The right-hand sides in a language, one for each of some vector fields; of a pair (q, p) each
+    has one component.
+    """
+    trial = trial_of(payload)
+    if payload.kind != "prk":
+        return [trial.formulas(m, words) for m in fields]
+    (q, p), zero = trial.formulas(0, words), words["zero"]
+    return [((q, zero), (zero, p))[m] for m in fields]
+
+
 def command_of(payload: Payload, problem_file: str) -> str:
     """What prints the same errors, for the head of a program."""
     trial = trial_of(payload)
     taken = f" --{payload.derivation}" if payload.derivation else ""
     return f"gark converge FILE{taken} --problem {problem_file} --steps {trial.step_sizes}"
-
-
-def cpp_values(payload: Payload, file: str) -> Mapping[str, object]:
-    """What programs of C++ that run an exported header have in common.
-
-    Raises:
-        CannotExport: no header can have the name of the file.
-    """
-    if {'"', "\\"} & set(file) or not file.isprintable():
-        message = f"C++ includes a header by the name of its file, and {file} is none"
-        raise CannotExport(message, "-o NAME.hpp, without quotes and backslashes")
-    words = {**WORDS, "sin": "std::sin", "cos": "std::cos"}
-    return {"header": file, "sides": trial_of(payload).formulas(0, words)}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Literal, TypeAlias
 
 from flint import fmpq
@@ -120,7 +121,7 @@ class Comparison(Shown, Frozen):
             return ""
         kinds = {gap.kind for gap in self.gaps}
         if self.sameness is not None:
-            return "the step is the same, further weights are not"
+            return "; ".join(self._further)
         if kinds == {"c"}:
             return "nodes alone differ"
         first, second = _linear(self.one), _linear(self.other)
@@ -128,6 +129,17 @@ class Comparison(Shown, Frozen):
         if not kinds and has_one_size and first != second:
             return "the entries are the same, which colours are linear is not"
         return ""
+
+    @property
+    def _further(self) -> Iterator[str]:
+        """Which further weights of methods with the same step one lacks, or are others."""
+        for name in ("embedded weights", "dense output"):
+            key = name.partition(" ")[0]
+            missing = [getattr(x, key) is None for x in (self.one, self.other)]
+            if missing == [False, False] and key in {gap.kind for gap in self.gaps}:
+                yield f"other {name}"
+            elif any(missing) and not all(missing):
+                yield f"the {'first' if missing[0] else 'second'} has no {name}"
 
     def __repr__(self) -> str:
         return f"<Comparison {self.relation}>"

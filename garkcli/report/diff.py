@@ -41,6 +41,7 @@ RELATIONS = {
     "different": "different methods",
     "undecided": "not decided",
 }
+SAME_STEP = "the same step"
 """What methods are to each other."""
 
 
@@ -68,10 +69,10 @@ class Compared(NamedTuple):
 
 
 def _relation_phrase(_: str, answer: Answer, d: Plain) -> str:
-    text = d.known(d.prose(RELATIONS[answer.value]), answer.status)
+    text = d.known(d.prose(RELATIONS.get(answer.value, answer.value)), answer.status)
     if answer.reason:
         text += f": {d.reason(answer.reason)}"
-    return (d.bad if answer.value in {"different", "undecided"} else d.good)(text)
+    return (d.bad if answer.value in {"different", "undecided", SAME_STEP} else d.good)(text)
 
 
 def _entry_data(x: Any, _: Plain) -> str:
@@ -98,7 +99,11 @@ def _verdict_cell(verdict: Any, d: Plain) -> str:
     return d.prose(str(verdict_words(verdict)).partition(", a root of ")[0])
 
 
-RELATION = Kind({"enum": [*RELATIONS]}, phrase=_relation_phrase)
+RELATION = Kind(
+    {"enum": [*RELATIONS]},
+    lambda x, _: "different" if x == SAME_STEP else x,
+    phrase=_relation_phrase,
+)
 ENTRY = Kind(S.NUMERAL, _entry_data, _entry_words)
 VALUE = Kind(S.EXACT, kinds.EXACT.data, _entry_words)
 ORDER_ALONE = Kind(S.COUNT, lambda x, _: x.order, kinds.order_cell)
@@ -117,7 +122,8 @@ def relation(x: Compared) -> Answer:
     found = x.found
     same = found.sameness
     allowed = same.allowed if same and found.relation == "within-rounding" else None
-    return Answer(found.relation, Status(allowed), Reason(found.remark or found.obstacle))
+    word = SAME_STEP if same is not None and same.step_only else found.relation
+    return Answer(word, Status(allowed), Reason(found.remark or found.obstacle))
 
 
 def told(x: Compared) -> str:

@@ -42,7 +42,7 @@ ROLES = {word: role for role, words in _WORDS.items() for word in words}
 _PREFIX = re.compile(r"(?P<word>[AaBbCcEd]|bhat|bh|Amat|bembed|order)_(?P<stem>\w+)")
 _SUFFIX = re.compile(
     r"(?P<stem>\w+?)_(?P<word>A|a|b|B|c|C|E|bh|bhat|b_hat|bembed|b2|order"
-    r"|embedded_order|embedded|nodes|weights|stages|fsal|name)"
+    r"|embedded_order|embedded|dense|nodes|weights|stages|fsal|name)"
 )
 _DIGIT = re.compile(r"(?P<stem>\w*[A-Za-z]\w*[0-9])(?P<word>[Aabc]|[Abc]_hat)")
 """``rk4a``, ``lsrk54b``, ``ars222A_hat``."""

@@ -41,12 +41,10 @@ Texts = list[str]
 
 def _printed(x: Number, digits: int) -> str:
     """A number rounded to so many digits; a short decimal as people write it."""
-    m, e = rounded(x, digits)
-    text = str(abs(m)).rjust(1 - e, "0")
-    text = f"{text[:e]}.{text[e:]}"
+    found = rounded(x, digits)
+    text = f"{found:.{digits - 1 - found.adjusted()}f}"
     short = text.rstrip("0")
-    text = f"{short}0" if len(short) < 8 else text
-    return f"-{text}" if m < 0 else text
+    return f"{short}0" if len(short.lstrip("-")) < 8 else text
 
 
 def _c(A: Sequence[Texts], b: Texts, c: Texts, order: int) -> str:

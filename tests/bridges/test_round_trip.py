@@ -142,6 +142,9 @@ def differing(table: FoundTable, wanted: Payload) -> Iterator[str]:
         yield from _rows("c", nodes, wanted.c)  # type: ignore[arg-type]
     if table.embedded is not None or wanted.embedded is not None:
         yield from _rows("embedded", table.embedded or (), wanted.embedded)
+    if table.dense is not None:
+        for ours, theirs in zip(table.dense, wanted.dense or (), strict=True):
+            yield from _rows("dense", ours, theirs)
     found = blocks(table)
     for l in order:
         for m in order:

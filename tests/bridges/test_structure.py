@@ -133,20 +133,24 @@ def test_what_is_no_composition_has_none() -> None:
 
 
 REFUSED = [
-    ("scipy", "{A: [[1/2]], b: [1]}", "implicit stages"),
+    ("scipy", "{A: [[1/2]], b: [1]}", "explicit methods only"),
     ("scipy", "{A: [[0, 0], [1, 0]], b: [1/2, 1/2], c: [1/2, 1]}", "first node is 1/2"),
     ("sundials", "{A: [[0, 0], [1, 0]], b: [1/2, 1/2], c: [1/2, 1]}", "first node is 1/2"),
-    ("sundials", "{methods: [{family: gauss, stages: 2}]}", "solved together"),
-    ("petsc", "{methods: [{family: gauss, stages: 2}]}", "solved together"),
+    ("sundials", "{methods: [{family: gauss, stages: 2}]}", "sees a later one"),
+    ("petsc", "{methods: [{family: gauss, stages: 2}]}", "sees a later one"),
     ("scipy", "{ark: {A: [[[0]], [[0]]], b: [[1], [1]]}}", "scipy has no"),
-    ("sundials-mri", "{A: [[1]], b: [1]}", "implicit stages"),
+    ("sundials-mri", "{A: [[1]], b: [1]}", "explicit methods only"),
     (
         "sundials-mri",
         "{A: [[0, 0, 0], [1, 0, 0], [1/4, 1/4, 0]], b: [1/6, 1/6, 2/3]}",
         "do not ascend",
     ),
     ("sundials", "{ark: {A: [[[1]], [[1]]], b: [[1], [1]]}}", "both"),
-    ("petsc", "{ark: {A: [[[0]], [[0]], [[0]]], b: [[1], [1], [1]]}}", "has 3"),
+    (
+        "petsc",
+        "{ark: {A: [[[0]], [[0]], [[0]]], b: [[1], [1], [1]]}}",
+        "f1(t, y) + f2(t, y) + f3(t, y)",
+    ),
 ]
 
 

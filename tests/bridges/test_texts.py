@@ -18,6 +18,7 @@ from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.numbers import EXACT
 from garkcli.bridges.preparing import prepared
 from garkcli.bridges.registry import bridges
+from garkcli.bridges.structure import table
 from garkcli.frozen import Frozen, fields
 from garkcli.methodfile.load import loads
 from tests.bridges.examples import RALSTON, payload_of
@@ -33,7 +34,7 @@ def test_every_template_is_written_by_a_target() -> None:
     """As its file, as its program, or as a part of another template; and no target lacks its own."""
     own = {f"{x.name}{x.suffix}.jinja" for x in bridges().values() if x.write is None}
     for bridge in bridges().values():
-        if bridge.program is not None:
+        if bridge.words is not None:
             ending = {".hpp": ".cpp"}.get(bridge.suffix, bridge.suffix)
             own.add(f"{bridge.name}_test{ending}.jinja")
     parts: set[str] = set()
@@ -128,7 +129,7 @@ def test_every_ending_has_its_language() -> None:
 def test_a_comment_of_a_template_is_none_where_the_method_ends_it() -> None:
     """The head is a comment whatever the template is: the secret's end of a comment is apart."""
     payload = prepared(loads(named(SECRET, METHODS["rk"])))
-    values = {"arrays": [], "rows": [], "error": None}
+    values = {"table": table(payload)}
     text = texts.text_of("boost.hpp", payload, EXACT, values)
     assert "zqx secret * / words" in text
     assert text.count("*/") == 1

@@ -5,22 +5,8 @@ With embedded weights the stepper estimates errors.
 
 from __future__ import annotations
 
-from garkcli.bridges.payload import Payload
-from garkcli.bridges.registry import Bridge
-from garkcli.bridges.tables import below_diagonal, error_weights, explicit_table
-from garkcli.bridges.texts import Values
-from garkcli.bridges.trials import cpp_values
-
-
-def values(payload: Payload) -> Values:
-    """The arrays with their names."""
-    found = explicit_table(payload, "boost")
-    error = error_weights(found)
-    lower = {f"a{i}": row for i, row in enumerate(below_diagonal(found), start=2)}
-    weights = {"b": found.b} if error is None else {"b": found.b, "e": error}
-    arrays = {**lower, **weights, "c": found.c}
-    return {"arrays": arrays.items(), "rows": list(lower), "error": error}
-
+from garkcli.bridges.registry import HEADER, Bridge
+from garkcli.bridges.trials import CPP_WORDS
 
 BRIDGES = (
     Bridge(
@@ -28,7 +14,8 @@ BRIDGES = (
         summary="Boost.Odeint: a header of C++, explicit methods",
         kinds=("rk",),
         suffix=".hpp",
-        values=values,
-        program=cpp_values,
+        stages="explicit",
+        words=CPP_WORDS,
+        file=HEADER,
     ),
 )

@@ -6,17 +6,17 @@ Several vector fields have arrays ``A1_2``, ``b2`` with their numbers.
 from __future__ import annotations
 
 from garkcli.bridges.numbers import c_style
-from garkcli.bridges.registry import Bridge
-from garkcli.bridges.tables import named_arrays
+from garkcli.bridges.registry import EVERYTHING, Bridge
 
 BRIDGES = (
     Bridge(
         name="c",
         summary="a C header with constant arrays",
-        kinds=("rk", "ark", "prk", "gark"),
+        kinds=EVERYTHING,
         suffix=".h",
         style=c_style("GARK_REAL_C"),
-        values=lambda payload: {"arrays": named_arrays(payload)},
+        lacks=(),
+        values=lambda payload, _: {"arrays": payload.arrays()},
         reads_back=True,
     ),
 )

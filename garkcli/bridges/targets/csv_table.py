@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 from garkcli.bridges.comments import HASH, head
 from garkcli.bridges.payload import Payload
-from garkcli.bridges.registry import Bridge
+from garkcli.bridges.registry import EVERYTHING, Bridge
 from garkcli.bridges.targets.json_data import style_of
-from garkcli.tableau.pointwise import Row
 
 COLUMNS = "part,l,m,i,j,value"
 """Colours and stages count from 1; of ``dense`` j is the power of theta."""
@@ -16,45 +15,25 @@ COLUMNS = "part,l,m,i,j,value"
 
 def write(payload: Payload) -> str:
     """The rows, below a head of comments."""
-    lines = HASH.lines(head(payload))
-    lines.append(COLUMNS)
-    lines += _rows(payload)
-    return "\n".join(lines) + "\n"
+    return "\n".join([*HASH.lines(head(payload)), COLUMNS, *_lines(payload)]) + "\n"
 
 
-def _rows(payload: Payload) -> Iterator[str]:
-    for l, blocks in enumerate(payload.A, start=1):
-        for m, block in enumerate(blocks, start=1):
-            if block is not None:
-                yield from _matrix(payload, f"A,{l},{m}", block)
-    parts = [("b", payload.b), ("c", payload.c)]
-    if payload.embedded is not None:
-        parts.append(("embedded", payload.embedded))
-    for part, rows in parts:
-        for l, row in enumerate(rows, start=1):
-            for i, text in enumerate(_texts(payload, row), start=1):
-                yield f"{part},{l},,{i},,{text}"
-    for l, rows in enumerate(payload.dense or (), start=1):
-        yield from _matrix(payload, f"dense,{l},", rows)
-
-
-def _matrix(payload: Payload, place: str, rows: Sequence[Row]) -> Iterator[str]:
-    for i, row in enumerate(rows, start=1):
-        for j, text in enumerate(_texts(payload, row), start=1):
-            yield f"{place},{i},{j},{text}"
-
-
-def _texts(payload: Payload, row: Row) -> Iterator[str]:
-    for text in payload.numbers(row, style_of(payload)):
-        # the comma of root(x, n)
-        yield f'"{text}"' if "," in text else text
+def _lines(payload: Payload) -> Iterator[str]:
+    for part in ("A", "b", "c", "embedded", "dense"):
+        for l, m, rows in payload.parts[part]:
+            for i, row in enumerate(rows, start=1):
+                for j, text in enumerate(payload.numbers(row, style_of(payload)), start=1):
+                    place = f"{i},{j}" if part in {"A", "dense"} else f"{j},"
+                    # the comma of root(x, n)
+                    value = f'"{text}"' if "," in text else text
+                    yield f"{part},{l},{m},{place},{value}"
 
 
 BRIDGES = (
     Bridge(
         name="csv",
         summary="CSV, a row an entry, every number as exact text",
-        kinds=("rk", "ark", "prk", "gark"),
+        kinds=EVERYTHING,
         suffix=".csv",
         write=write,
         reads_back=True,

@@ -6,8 +6,7 @@ Several vector fields have arrays ``A_1_2``, ``b_2`` with their numbers.
 from __future__ import annotations
 
 from garkcli.bridges.numbers import Style
-from garkcli.bridges.registry import Bridge
-from garkcli.bridges.tables import named_arrays
+from garkcli.bridges.registry import EVERYTHING, Bridge
 
 STYLE = Style(digits=39, longest=80, fraction="{p}.0_wp/{q}.0_wp", decimal="{x}_wp")
 """39 digits are enough for real128; a longer number would not fit a line."""
@@ -16,10 +15,11 @@ BRIDGES = (
     Bridge(
         name="fortran",
         summary="a Fortran module with constant arrays",
-        kinds=("rk", "ark", "prk", "gark"),
+        kinds=EVERYTHING,
         suffix=".f90",
-        reads_back=True,
         style=STYLE,
-        values=lambda payload: {"arrays": named_arrays(payload, "_")},
+        lacks=(),
+        values=lambda payload, _: {"arrays": payload.arrays("_")},
+        reads_back=True,
     ),
 )

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable
 from typing import Any
 
 from garkcli.bridges.comments import problem_class
 from garkcli.bridges.numbers import EXACT, Style
 from garkcli.bridges.payload import Payload
-from garkcli.bridges.registry import Bridge
+from garkcli.bridges.registry import EVERYTHING, Bridge
 from garkcli.exact.display import decimal
 from garkcli.frozen import replace
 from garkcli.page.record import Field, Record, schema_named
@@ -25,7 +25,6 @@ from garkcli.page.schema import (
     one_of,
     published,
 )
-from garkcli.tableau.pointwise import Block, Row
 from garkcli.tableau.tableau import Colour
 
 SCHEMA = "gark/export/1"
@@ -51,33 +50,23 @@ def style_of(payload: Payload) -> Style:
     return _EXACT if payload.tolerance is None else _PRINTED
 
 
-def _row(payload: Payload, cells: Row) -> list[str]:
-    return payload.numbers(cells, style_of(payload))
+def _array(name: str) -> Callable[[Payload], Any]:
+    """The texts of an array, colour by colour; of one vector field its own."""
+
+    def texts(payload: Payload) -> Any:
+        found = getattr(payload, name)
+        if payload.kind == "rk" and found is not None:
+            found = found[0][0] if name == "A" else found[0]
+        return _texts(payload, found)
+
+    return texts
 
 
-def _rows(payload: Payload, found: Sequence[Row] | None) -> Any:
-    """A row per colour; of one vector field the row itself."""
-    if found is None:
-        return None
-    listed = [_row(payload, cells) for cells in found]
-    return listed[0] if payload.kind == "rk" else listed
-
-
-def _blocks(payload: Payload) -> Any:
-    """``A[l][m]``; of one vector field the matrix itself."""
-
-    def block(cells: Block) -> Any:
-        return None if cells is None else [_row(payload, x) for x in cells]
-
-    blocks = [[block(x) for x in of_colour] for of_colour in payload.A]
-    return blocks[0][0] if payload.kind == "rk" else blocks
-
-
-def _dense(payload: Payload) -> Any:
-    if payload.dense is None:
-        return None
-    found = [[_row(payload, x) for x in rows] for rows in payload.dense]
-    return found[0] if payload.kind == "rk" else found
+def _texts(payload: Payload, cells: Any) -> Any:
+    """Lists of texts, as deep as the tuples of entries."""
+    if isinstance(cells, tuple):
+        return [_texts(payload, x) for x in cells]
+    return None if cells is None else payload.number(cells, style_of(payload))
 
 
 def _tolerance(payload: Payload) -> str | None:
@@ -110,17 +99,17 @@ _REPORT: Record[Payload] = Record(
     Field("reference", nullable(TEXT), lambda x: x.reference or None),
     Field("exact", FLAG, lambda x: x.is_exact and x.digits is None),
     _COLOUR.every("colours", lambda x: x.tableau.colours),
-    Field("c", _ONE_ROW, lambda x: _rows(x, x.c)),
-    Field("A", one_of(_MATRIX, array(array(nullable(_MATRIX)))), _blocks),
-    Field("b", _ONE_ROW, lambda x: _rows(x, x.b)),
-    Field("embedded", _ONE_ROW, lambda x: _rows(x, x.embedded), is_optional=True),
-    Field("dense", one_of(_MATRIX, array(_MATRIX)), _dense, is_optional=True),
+    Field("c", _ONE_ROW, _array("c")),
+    Field("A", one_of(_MATRIX, array(array(nullable(_MATRIX)))), _array("A")),
+    Field("b", _ONE_ROW, _array("b")),
+    Field("embedded", _ONE_ROW, _array("embedded"), is_optional=True),
+    Field("dense", one_of(_MATRIX, array(_MATRIX)), _array("dense"), is_optional=True),
 )
 BRIDGES = (
     Bridge(
         name="json",
         summary="JSON, every number as exact text",
-        kinds=("rk", "ark", "prk", "gark"),
+        kinds=EVERYTHING,
         suffix=".json",
         write=write,
         reads_back=True,

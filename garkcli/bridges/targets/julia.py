@@ -2,39 +2,34 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from flint import fmpq
 
 from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.numbers import Style
 from garkcli.bridges.payload import Payload
-from garkcli.bridges.radicals import Words, has_square_roots_alone
-from garkcli.bridges.registry import Bridge
+from garkcli.bridges.radicals import Radicals
+from garkcli.bridges.registry import DENSE, EMBEDDED, EVERYTHING, Bridge
 from garkcli.bridges.rounding import Cell
-from garkcli.bridges.structure import composition, shared, vanishes
-from garkcli.bridges.tables import explicit_table, is_first_same_as_last
+from garkcli.bridges.structure import Table
 from garkcli.bridges.texts import Values
 from garkcli.conversion.registers import in_two_registers
 from garkcli.exact.field import Algebraic
-from garkcli.exact.nodes import AlgebraicRoot
+from garkcli.exact.nodes import Literal, Root
 
 _LARGEST = 2**63 - 1  # of Int64
 _BIG = 77  # digits of a BigFloat, which has 256 bits
 
 
-def _coefficient(x: fmpq) -> str:
-    """A rational factor of a root, exact."""
-    return f"big({x.p})" if x.q == 1 else f"(big({x.p})//{x.q})"
+class _Big(Radicals):
+    """Square roots of BigFloat."""
 
+    def rational(self, x: fmpq) -> str:
+        return f"big({x.p})" if x.q == 1 else f"(big({x.p})//{x.q})"
 
-def _root(radicand: str, _index: int) -> str:
-    return f"sqrt({radicand})"
-
-
-def _no_root(root: AlgebraicRoot) -> str:
-    raise TypeError(f"no square root: {root!r}")
-
-
-WORDS = Words(_coefficient, _root, _no_root, "^")
+    def root(self, radicand: str, _index: int) -> str:
+        return f"sqrt({radicand})"
 
 
 class _Exact(Style):
@@ -47,43 +42,25 @@ class _Exact(Style):
                 return f"{x.p}//{x.q}"
             return f'big"{x.p}"//big"{x.q}"'
         if digits is None and isinstance(x, Algebraic) and has_square_roots_alone(x):
-            return WORDS.text(x)
+            return _Big().text(x)
         return super().text(x, digits)
+
+
+def has_square_roots_alone(x: Algebraic) -> bool:
+    """Whether a number is a sum of multiples of square roots of rational numbers."""
+    radicals = [x.field.radicals[i][0] for _, word in x.terms() for i in word]
+    return all(
+        isinstance(radical, Root) and radical.index == 2 and isinstance(radical.radicand, Literal)
+        for radical in radicals
+    )
 
 
 JULIA = _Exact(digits=_BIG, decimal='big"{x}"')
 
 
-def ordinarydiffeq(payload: Payload) -> Values:
-    """For a function that makes the ``ExplicitRKTableau`` of any type of numbers."""
-    found = explicit_table(payload, "ordinarydiffeq")
-    return {"is_first_same_as_last": is_first_same_as_last(found)}
-
-
-def rootedtrees(payload: Payload) -> Values:
-    """Several tables have the same stages, padded with zeros."""
-    return {} if payload.kind == "rk" else {"tables": shared(payload)}
-
-
-def splitting(payload: Payload) -> Values:
-    """The coefficients of GeometricIntegrators: q for a[1], p for b[1], q for a[2], …"""
-    found = composition(payload)
-    if found is None:
-        raise CannotExport(
-            "geometricintegrators has compositions of the flows of q' = f(p) and p' = g(q);"
-            f" {payload.name} is none",
-            "json, numpy, matlab and julia have every method for a pair (q, p)",
-        )
-    drifts, kicks = found.drift_first
-    pairs = len(drifts)
-    while vanishes(drifts[pairs - 1]) and vanishes(kicks[pairs - 1]):
-        pairs -= 1
-    return {"drifts": drifts[:pairs], "kicks": kicks[:pairs]}
-
-
-def low_storage(payload: Payload) -> Values:
+def low_storage(payload: Payload, tables: Sequence[Table]) -> Values:
     """A, B and c of the 2N form."""
-    found = explicit_table(payload, "climatimesteppers")
+    (found,) = tables
     if not payload.is_exact:
         raise CannotExport(
             f"climatimesteppers has methods in Williamson's 2N form, which {payload.name} has"
@@ -107,7 +84,7 @@ BRIDGES = (
     Bridge(
         name="julia",
         summary="Julia: a named tuple, fractions and square roots exact",
-        kinds=("rk", "ark", "prk", "gark"),
+        kinds=EVERYTHING,
         suffix=".jl",
         style=JULIA,
         reads_back=True,
@@ -118,16 +95,17 @@ BRIDGES = (
         kinds=("rk",),
         suffix=".jl",
         style=JULIA,
-        values=ordinarydiffeq,
+        stages="explicit",
         reads_back=True,
     ),
     Bridge(
         name="rootedtrees",
         summary="Julia: the method of RootedTrees, with any number of vector fields",
-        kinds=("rk", "ark", "prk", "gark"),
+        kinds=EVERYTHING,
         suffix=".jl",
         style=JULIA,
-        values=rootedtrees,
+        several="shared",
+        lacks=(EMBEDDED, DENSE),
     ),
     Bridge(
         name="rungekutta-jl",
@@ -142,6 +120,8 @@ BRIDGES = (
         kinds=("rk",),
         suffix=".jl",
         style=JULIA,
+        stages="explicit",
+        lacks=(EMBEDDED, DENSE),
         values=low_storage,
         reads_back=True,
     ),
@@ -151,6 +131,7 @@ BRIDGES = (
         kinds=("prk",),
         suffix=".jl",
         style=JULIA,
-        values=splitting,
+        stages="explicit",
+        is_split=True,
     ),
 )

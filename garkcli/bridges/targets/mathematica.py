@@ -5,40 +5,33 @@ from __future__ import annotations
 from flint import fmpq
 
 from garkcli.bridges.numbers import Style
-from garkcli.bridges.radicals import Words
-from garkcli.bridges.registry import Bridge
+from garkcli.bridges.radicals import Radicals
+from garkcli.bridges.registry import EVERYTHING, Bridge
 from garkcli.exact.nodes import AlgebraicRoot
 
-_DIGITS = 60  # of numbers that have no radicals
+
+class _Surds(Radicals):
+    """Roots as Mathematica has them."""
+
+    def rational(self, x: fmpq) -> str:
+        return str(x.p) if x.q == 1 else f"({x})"
+
+    def root(self, radicand: str, index: int) -> str:
+        # the principal root of a negative number is no real one
+        return f"Sqrt[{radicand}]" if index == 2 else f"Surd[{radicand}, {index}]"
+
+    def algebraic(self, root: AlgebraicRoot) -> str:
+        """Real roots come first there, in ascending order."""
+        powers = [f"({a})*#^{k}" if k else f"({a})" for k, a in enumerate(root.coefficients) if a]
+        return f"Root[{' + '.join(powers)} &, {root.number + 1}]"
 
 
-def _rational(x: fmpq) -> str:
-    return str(x.p) if x.q == 1 else f"({x})"
-
-
-def _root(radicand: str, index: int) -> str:
-    if index == 2:
-        return f"Sqrt[{radicand}]"
-    # the principal root of a negative number is no real one
-    return f"Surd[{radicand}, {index}]"
-
-
-def _algebraic(root: AlgebraicRoot) -> str:
-    """Real roots come first there, in ascending order."""
-    powers = []
-    for k, a in enumerate(root.coefficients):
-        if a:
-            powers.append(f"({a})*#^{k}" if k else f"({a})")
-    return f"Root[{' + '.join(powers)} &, {root.number + 1}]"
-
-
-WORDS = Words(_rational, _root, _algebraic, "^")
 MATHEMATICA = Style(
-    digits=_DIGITS,
+    digits=60,  # of numbers that have no radicals
     fraction="{p}/{q}",
     is_fraction_first=True,
     largest=10**4000,
-    irrational=WORDS.text,
+    irrational=_Surds().text,
     exponent="*^",
     point=False,
 )
@@ -49,7 +42,7 @@ BRIDGES = (
     Bridge(
         name="mathematica",
         summary="Mathematica: exact lists, and what NDSolve takes of explicit methods",
-        kinds=("rk", "ark", "prk", "gark"),
+        kinds=EVERYTHING,
         suffix=".wl",
         style=MATHEMATICA,
         reads_back=True,

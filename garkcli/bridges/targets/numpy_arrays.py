@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from garkcli.bridges.numbers import PYTHON
-from garkcli.bridges.registry import Bridge
+from garkcli.bridges.registry import EVERYTHING, Bridge
 
 BRIDGES = (
     Bridge(
         name="numpy",
         summary="a Python module with NumPy arrays",
-        kinds=("rk", "ark", "prk", "gark"),
+        kinds=EVERYTHING,
         suffix=".py",
         style=PYTHON,
+        lacks=(),
         reads_back=True,
     ),
 )

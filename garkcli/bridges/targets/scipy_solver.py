@@ -1,4 +1,4 @@
-"""SciPy: a subclass of ``RungeKutta`` for ``solve_ivp``."""
+"""SciPy: a subclass of ``RungeKutta`` for ``solve_ivp``; the program takes fixed steps."""
 
 from __future__ import annotations
 
@@ -6,13 +6,13 @@ from collections.abc import Sequence
 
 from flint import fmpq
 
-from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.numbers import PYTHON
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.registry import Bridge
-from garkcli.bridges.structure import Table, table, vanishes
+from garkcli.bridges.rounding import combined
+from garkcli.bridges.structure import Table
 from garkcli.bridges.texts import Values
-from garkcli.bridges.trials import WORDS, trial_of
+from garkcli.bridges.trials import WORDS
 from garkcli.exact.field import ZERO
 from garkcli.tableau.pointwise import Row
 
@@ -22,59 +22,31 @@ are multiplied by, as coefficients of θ, θ² and θ³.
 """
 
 
-def values(payload: Payload) -> Values:
-    """What the class has; without the last stage where that is f at the new value."""
-    found = table(payload)
-    _refuse(payload, found)
-    kept = found.stages - 1 if found.is_fsal else found.stages
-    return {"kept": kept, "errors": _errors(found, kept), "between": _dense(found, kept)}
+def values(_: Payload, tables: Sequence[Table]) -> Values:
+    """What the class has; without the last stage where that is f at the new value.
 
-
-def _refuse(payload: Payload, found: Table) -> None:
-    """Whether SciPy can hold the method.
-
-    Raises:
-        CannotExport: it cannot.
+    The errors are the differences b̂ − b, the sign that the classes of SciPy have.
     """
-    if not found.is_explicit:
-        message = f"scipy takes explicit methods, and {payload.name} has implicit stages"
-        raise CannotExport(message, "sundials, petsc and diffrax take diagonally implicit ones")
-    if not vanishes(found.c[0]):
-        raise CannotExport(
-            "scipy evaluates the first stage at t, and the first node is "
-            f"{payload.number(found.c[0])}",
-            "where f does not depend on t, set the first node to 0",
-        )
-
-
-def _errors(found: Table, kept: int) -> Row:
-    """The differences b̂ − b of the stages, and of f at the new value: the sign that the classes of
-    SciPy have.
-    """
-    if found.embedded is None:
-        return (ZERO,) * (kept + 1)
-    pairs = zip(found.b, found.embedded, strict=True)
-    errors = tuple(other - b for b, other in pairs)
-    return errors if kept < found.stages else (*errors, ZERO)
+    (found,) = tables
+    kept = found.stages - found.is_fsal
+    last = () if found.is_fsal else (ZERO,)
+    return {
+        "kept": kept,
+        "errors": (*(combined((-1, x)) for x in found.error), *last),
+        "between": _dense(found, kept),
+    }
 
 
 def _dense(found: Table, kept: int) -> Sequence[Row]:
     """The coefficients of θ, θ², … for the stages, and for f at the new value."""
     if found.dense is not None:
         nothing = (ZERO,) * len(found.dense[0])
-        if kept < found.stages:
-            return found.dense
-        return (*found.dense, nothing)
+        return found.dense if found.is_fsal else (*found.dense, nothing)
     of_value, of_first, of_last = HERMITE
     rows = [tuple(b * k for k in of_value) for b in found.b[:kept]]
     rows[0] = tuple(x + k for x, k in zip(rows[0], of_first, strict=True))
     last: Row = tuple(map(fmpq, of_last))
     return [*rows, last]
-
-
-def program(payload: Payload, _file: str) -> Values:
-    """For fixed steps with ``solve_ivp``."""
-    return {"sides": trial_of(payload).formulas(0, WORDS)}
 
 
 BRIDGES = (
@@ -84,7 +56,10 @@ BRIDGES = (
         kinds=("rk",),
         suffix=".py",
         style=PYTHON,
+        stages="explicit",
+        starts=True,
+        lacks=(),
         values=values,
-        program=program,
+        words=WORDS,
     ),
 )

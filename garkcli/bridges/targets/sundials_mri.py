@@ -44,7 +44,7 @@ class Slow(Frozen):
     embedding: tuple[Row, int] | None = None
 
 
-def values(payload: Payload) -> Values:
+def values(payload: Payload, _: Sequence[Table]) -> Values:
     """The coupling; the orders of a file's are those with its fast steps."""
     return {"slow": slow_part(payload), "has_coupling": payload.coupling is not None}
 
@@ -102,11 +102,6 @@ def _refuse(payload: Payload, found: Table) -> None:
     Raises:
         CannotExport: it is implicit, or its stages go back in time.
     """
-    if not found.is_explicit:
-        raise CannotExport(
-            f"sundials-mri takes an explicit slow method, and {payload.name} has implicit stages",
-            "sundials has it for ARKStep",
-        )
     ends = zip(found.c, (*found.c[1:], ONE), strict=True)
     goes_on = all(nearest_float(x) <= nearest_float(y) for x, y in ends)
     if not vanishes(found.c[0]) or not goes_on:
@@ -159,6 +154,7 @@ BRIDGES = (
         summary="C for MRIStep: slow methods, MIS and MRI couplings",
         kinds=("rk", "ark", "gark"),
         suffix=".c",
+        stages="explicit",
         style=c_style("SUN_RCONST"),
         values=values,
     ),

@@ -5,19 +5,7 @@ Tempus reads numbers by the stream operator of C++, for which ``1/3`` is 1: all 
 
 from __future__ import annotations
 
-from garkcli.bridges.payload import Payload
 from garkcli.bridges.registry import Bridge
-from garkcli.bridges.tables import imex_tables, lower_table
-from garkcli.bridges.texts import Values
-
-
-def values(payload: Payload) -> Values:
-    """The table, or the two."""
-    if payload.kind == "rk":
-        return {"table": lower_table(payload, "tempus")}
-    explicit, implicit = imex_tables(payload, "tempus")
-    return {"explicit": explicit, "implicit": implicit}
-
 
 BRIDGES = (
     Bridge(
@@ -25,6 +13,7 @@ BRIDGES = (
         summary="Tempus of Trilinos: XML, explicit, DIRK and IMEX methods",
         kinds=("rk", "ark"),
         suffix=".xml",
-        values=values,
+        stages="lower",
+        several="pair",
     ),
 )

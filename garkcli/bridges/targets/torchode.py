@@ -7,17 +7,7 @@ the end of the step gets one, whose weight is 0, and which is the first one of t
 from __future__ import annotations
 
 from garkcli.bridges.numbers import PYTHON
-from garkcli.bridges.payload import Payload
 from garkcli.bridges.registry import Bridge
-from garkcli.bridges.tables import ends_with_value, error_or_zero
-from garkcli.bridges.texts import Values
-
-
-def values(payload: Payload) -> Values:
-    """The table with its last stage, and the weights of the error."""
-    found = ends_with_value(payload, "torchode")
-    return {"table": found, "error": error_or_zero(found)}
-
 
 BRIDGES = (
     Bridge(
@@ -26,6 +16,8 @@ BRIDGES = (
         kinds=("rk",),
         suffix=".py",
         style=PYTHON,
-        values=values,
+        stages="explicit",
+        starts=True,
+        ends=True,
     ),
 )
