@@ -82,4 +82,4 @@ def check_time() -> None:
     """
     moment = _moment.get()
     if moment is not None and monotonic() >= moment:
-        raise NotDecided
+        raise NotDecided(is_late=True)

@@ -15,7 +15,7 @@ GarkError                     what is wrong, and the cure
 ├── NoLegendreTransform       a Lagrangian whose Hamiltonian is not found
 ├── MethodFileError           one or more faults of a method or problem file, each with its position
 │   └── HasFreeParameters     a family of methods where one method is expected
-├── NotDecided                work that takes longer than the time that it has
+├── NotDecided                work that takes too long, or is not small
 └── UsageProblem              options that do not go together with the method at hand
 """
 
@@ -158,14 +158,21 @@ class NoLegendreTransform(GarkError):
 
 
 class NotDecided(GarkError):
-    """Work takes longer than the time that it has."""
+    """Work takes longer than the time that it has, or is not small.
+
+    Attributes:
+        is_late: whether the time is over.
+    """
 
     code = "not-found"
 
-    def __init__(self) -> None:
-        super().__init__(
-            "not decided in the time there is", "give it more seconds, or give parameters values"
-        )
+    def __init__(self, is_late: bool = False) -> None:
+        if is_late:
+            message, cure = "not decided in the time there is", "give it more seconds, or "
+        else:
+            message, cure = "not decided within the limits of gark", ""
+        super().__init__(message, f"{cure}give parameters values")
+        self.is_late = is_late
 
 
 class UsageProblem(GarkError):

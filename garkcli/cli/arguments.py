@@ -180,7 +180,8 @@ def pairs(
     for given_text in given:
         name, sign, value = given_text.partition("=")
         if not sign or not name.strip() or not value.strip():
-            raise click.BadParameter(f"{given_text!r} is not NAME=VALUE", context, parameter)
+            message = f"{given_text!r} is not NAME=VALUE; write for instance t=1/2"
+            raise click.BadParameter(message, context, parameter)
         if name.strip() in settings:
             raise click.BadParameter(f"{name.strip()!r} is given twice", context, parameter)
         settings[name.strip()] = value.strip()
@@ -277,10 +278,11 @@ def positive(option: str, text: str) -> fmpq:
 
     number = rational(option, text)
     if number <= 0:
-        raise UsageProblem(f"{option} {text}: a positive number is expected", code="option-value")
+        message = f"{option} {text}: a positive number is expected"
+        raise UsageProblem(message, f"write {option} 1/10", code="option-value")
     if not fmpq(1, 10**DECADES) <= number <= 10**DECADES:
         message = f"{option} {text}: a number from 1e-{DECADES} to 1e{DECADES} is expected"
-        raise UsageProblem(message, code="option-value")
+        raise UsageProblem(message, f"write {option} 1/10", code="option-value")
     return number
 
 

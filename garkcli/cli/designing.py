@@ -268,8 +268,8 @@ def _walk(known: Design, choices: Mapping[str, str]) -> list[Choice]:
         raise UsageProblem(message, cure, code="options-clash")
     try:
         return walk_down(known, values)
-    except NotDecided:
-        message = "--choose: the rest is not decided in the time of --seconds"
+    except NotDecided as error:
+        message = f"--choose: the rest is {error.message}"
         raise UsageProblem(message, "choose with --set", code="not-found") from None
 
 

@@ -208,7 +208,8 @@ def _colours(text: str | None, colours: int) -> tuple[int, ...]:
         is_number = number.isascii() and number.isdigit()
         if not is_number or not 1 <= int(number[:6]) <= colours:
             wanted = f"colours are numbers from 1 to {colours}"
-            raise UsageProblem(f"--colours-used {text}: {wanted}", "write 1,2", code="option-value")
+            cure = "write 1,2" if colours > 1 else "--colours 2 gives a second one"
+            raise UsageProblem(f"--colours-used {text}: {wanted}", cure, code="option-value")
         used.add(int(number) - 1)
     return tuple(sorted(used))
 

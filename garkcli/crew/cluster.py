@@ -136,7 +136,7 @@ def _in_time(pool: Any) -> Iterator[Any]:
     try:
         yield from pool
     except TimeoutError:
-        raise NotDecided from None
+        raise NotDecided(is_late=True) from None
 
 
 @contextmanager

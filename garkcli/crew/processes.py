@@ -109,7 +109,7 @@ class Crew(Generic[Item, Outcome]):
             by_connection = {worker.connection: worker for worker in self.workers}
             ready = wait(list(by_connection), seconds_left())
             if not ready:
-                raise NotDecided
+                raise NotDecided(is_late=True)
             for found in ready:
                 # of a type of its own on Windows
                 connection = cast("Connection", found)

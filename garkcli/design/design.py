@@ -92,6 +92,7 @@ class Step(Frozen):
         of_stable: where P-stability is wanted of all transfers of a pair and decided, the ideal
             whose real zeros are the stable methods.
         polynomials_of_stable: of its basis those that are not in the ideal of the order.
+        is_late: of what is not decided, whether for want of time.
     """
 
     order: int
@@ -109,6 +110,7 @@ class Step(Frozen):
     stable: tuple[StableValues, ...] = ()
     of_stable: Ideal | None = None
     polynomials_of_stable: tuple[fmpq_mpoly, ...] = ()
+    is_late: bool = True
 
     @property
     def has_methods(self) -> bool | None:
@@ -254,7 +256,8 @@ class _Finding(Frozen):
             try:
                 with until(first):
                     step = self._step(k, steps[-1].ideal if steps else None)
-            except NotDecided:
+            except NotDecided as error:
+                step = replace(step, is_late=error.is_late)
                 if first is not None:
                     with suppress(NotDecided):
                         step = self._at_once(step.order)
@@ -397,8 +400,8 @@ class _Finding(Frozen):
             step = replace(step, polynomials=tuple(polynomials), nonzero=tuple(nonzero))
             if step.kind == "solutions" and isinstance(ideal, Ideal):
                 step = replace(step, found=self._found(ideal))
-        except NotDecided:
-            return replace(step, kind="undecided")
+        except NotDecided as error:
+            return replace(step, kind="undecided", is_late=error.is_late)
         if not is_last or step.kind not in {"every-value", "family"}:
             return step
         left = seconds_left()

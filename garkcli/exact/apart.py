@@ -63,7 +63,7 @@ def first_of(*tasks: Task[T]) -> T:
         while running:
             ready = wait(running, seconds_left())
             if not ready:
-                raise NotDecided
+                raise NotDecided(is_late=True)
             for pipe in cast("list[Connection]", ready):
                 try:
                     result: T = pipe.recv()

@@ -15,7 +15,16 @@ from flint import ctx, fmpq, fmpq_poly, fmpz
 from garkcli.errors import LimitExceeded, UndefinedValue
 from garkcli.exact.enclosing import OPERATIONS, enclose
 from garkcli.exact.field import ONE, ZERO, Algebraic, Number, NumberField
-from garkcli.exact.nodes import AlgebraicRoot, Chain, Expression, Literal, Name, Power, Root
+from garkcli.exact.nodes import (
+    AlgebraicRoot,
+    Chain,
+    Expression,
+    Literal,
+    Name,
+    Power,
+    Root,
+    divided_by_zero,
+)
 from garkcli.exact.rewriting import roots_in
 
 if TYPE_CHECKING:
@@ -199,16 +208,14 @@ class Domain:
     def _apply(self, sign: str, left: Number, right: Number, at: Expression) -> Number:
         """A sum, a difference, a product or a quotient."""
         if sign == "/" and not right:
-            cure = "the divisor is exactly zero: write another one"
-            message = "division by zero"
-            raise UndefinedValue(message, cure, at.start, at.end, code="division-by-zero")
+            raise divided_by_zero(at, "the divisor is exactly zero: write another one")
         result: Number = OPERATIONS[sign](left, right)
         return result
 
     def _power(self, number: Number, exponent: int, at: Expression) -> Number:
         """A power, refused before it is computed where it would be too long."""
         if not number and exponent < 0:
-            raise UndefinedValue("division by zero", "", at.start, at.end, code="division-by-zero")
+            raise divided_by_zero(at, "a negative power of zero: write another base")
         if _bits(number) * abs(exponent) > MAX_BITS:
             raise too_many_bits(at)
         return number**exponent

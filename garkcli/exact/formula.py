@@ -20,7 +20,17 @@ from garkcli.exact.domain import MAX_BITS, too_many_bits
 from garkcli.exact.enclosing import OPERATIONS, integer_power
 from garkcli.exact.expression import FUNCTIONS as ROOTS
 from garkcli.exact.expression import MAX_EXPONENT, Parser
-from garkcli.exact.nodes import Call, Chain, Expression, Literal, Name, Power, RealPower, Root
+from garkcli.exact.nodes import (
+    Call,
+    Chain,
+    Expression,
+    Literal,
+    Name,
+    Power,
+    RealPower,
+    Root,
+    divided_by_zero,
+)
 from garkcli.exact.rewriting import format_expression
 
 FUNCTIONS = ("sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "log")
@@ -203,11 +213,9 @@ def _check_divisor(number: Value, at: Expression) -> None:
         may_be_zero = number.contains(0)
     if not may_be_zero:
         return
-    what = ""
-    if not isinstance(at, Literal):
-        divisor = _cut(format_expression(at))
-        what = f"{divisor} is 0 here"
-    raise UndefinedValue("division by zero", what, at.start, at.end, code="division-by-zero")
+    if isinstance(at, Literal):
+        raise divided_by_zero(at)
+    raise divided_by_zero(at, f"{_cut(format_expression(at))} is 0 here")
 
 
 def _cut(text: str) -> str:
@@ -256,7 +264,8 @@ def _finite(result: arb, at: Expression, function: str, of: Expression, x: Value
         if what != str(x):
             what = f"{what} = {shown(x)}"
         message = f"{function} of {what} is no real number"
-        raise UndefinedValue(message, "", at.start, at.end, code="not-real")
+        cure = "take it where it is real"
+        raise UndefinedValue(message, cure, at.start, at.end, code="not-real")
     return _bounded(result, at)
 
 

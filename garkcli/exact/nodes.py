@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from flint import fmpq
 
+from garkcli.errors import UndefinedValue
 from garkcli.frozen import FrozenBut
 
 
@@ -16,6 +17,11 @@ class Expression(FrozenBut, kw_only=True):
 
     start: int = 0
     end: int = 0
+
+
+def divided_by_zero(at: Expression, cure: str = "write another divisor") -> UndefinedValue:
+    """The fault of a divisor that is zero."""
+    return UndefinedValue("division by zero", cure, at.start, at.end, code="division-by-zero")
 
 
 class Literal(Expression):

@@ -10,7 +10,16 @@ from flint import arb, ctx, fmpq, fmpq_poly, fmpz_poly
 
 from garkcli.errors import ExpressionError, LimitExceeded, UndefinedValue
 from garkcli.exact.enclosing import isolated
-from garkcli.exact.nodes import AlgebraicRoot, Chain, Expression, Literal, Name, Power, Root
+from garkcli.exact.nodes import (
+    AlgebraicRoot,
+    Chain,
+    Expression,
+    Literal,
+    Name,
+    Power,
+    Root,
+    divided_by_zero,
+)
 
 MAX_POLYNOMIAL_DEGREE = 12
 """Largest degree of such a polynomial."""
@@ -114,7 +123,7 @@ def _joined(sign: str, left: fmpq_poly, right: fmpq_poly, at: Expression) -> fmp
     if right.degree() > 0:
         raise _error("a polynomial is not divided by x", at)
     if right.degree() < 0:
-        raise UndefinedValue("division by zero", "", at.start, at.end, code="division-by-zero")
+        raise divided_by_zero(at)
     return left / right[0]
 
 
@@ -124,7 +133,7 @@ def _power(base: fmpq_poly, exponent: int, at: Expression) -> fmpq_poly:
         if base.degree() > 0:
             raise _error("a polynomial is not divided by x", at)
         if base.degree() < 0:
-            raise UndefinedValue("division by zero", "", at.start, at.end, code="division-by-zero")
+            raise divided_by_zero(at)
         base = fmpq_poly([1 / base[0]])
     size = abs(exponent)
     if base.degree() * size > MAX_POLYNOMIAL_DEGREE or _bits(base) * size > (MAX_COEFFICIENT_BITS):

@@ -223,4 +223,4 @@ def _whole(value: object, key: str) -> int:
     if isinstance(value, int) and not isinstance(value, bool):
         return value
     message = f"{key}: a whole number is expected, not {str(value)[:MAX_NAME]}"
-    raise UnknownFamily(message, code="wrong-value")
+    raise UnknownFamily(message, "write plain digits, such as 2", code="wrong-value")

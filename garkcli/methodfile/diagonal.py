@@ -87,7 +87,7 @@ def methods(
         at.source.fault(node, "methods is empty", "list at least one diagonal method", code="empty")
     if structure != "general" and len(items) != 2:
         message = f"structure: {structure} is for two colours, not {len(items)}"
-        at.source.fault(node, message, code="not-together")
+        at.source.fault(node, message, "list two methods, or leave it out", code="not-together")
     rules = d.TransferText(None, {})
     if transfer is not None:
         from garkcli.methodfile.transfers import rules_of  # one method has none

@@ -9,7 +9,7 @@ from flint import fmpq_mpoly
 from yaml.nodes import ScalarNode
 
 from garkcli.design.want import numerators, sign_polynomial
-from garkcli.errors import HasFreeParameters, MethodError, did_you_mean
+from garkcli.errors import HasFreeParameters, MethodError
 from garkcli.exact.parametric import Parameters, common_denominator
 from garkcli.methodfile.description import (
     ClaimText,
@@ -23,7 +23,7 @@ from garkcli.methodfile.family_values import FamilyValues
 from garkcli.methodfile.load import NO_SETTINGS, built, described, loads, read_method_text
 from garkcli.methodfile.nodes import Extent, extent, one_line
 from garkcli.methodfile.reader import Reader
-from garkcli.methodfile.wishes import Wishes, meaning_of, read_wishes
+from garkcli.methodfile.wishes import Wishes, meaning_of
 from garkcli.tableau.family import Family
 from garkcli.tableau.tableau import Tableau
 
@@ -124,22 +124,10 @@ def loads_family(
         # where the file or a setting has a fault, that is what is reported
         loads(text, source, settings)
         raise _without_unknowns(source, settings)
-    wishes = read_wishes(reader, reader.design) if is_design else Wishes()
-    if is_design:
-        _refuse_unused(reader)
+    wishes = reader.wishes if is_design and reader.wishes is not None else Wishes()
+    reader.numbers.entries += wishes.entries
+    reader.numbers.free |= wishes.ranges
     return _family(reader, description, wishes, settings, deadline)
-
-
-def _refuse_unused(reader: Reader) -> None:
-    """Note parameters beside a shape that are none of its unknowns, and that nothing uses."""
-    if reader.shaped is None:
-        return
-    numbers, unknowns = reader.numbers, reader.shaped.layout.unknowns
-    for name, node in numbers.places.items():
-        if name not in numbers.used:
-            message = f"parameters: {name} is no unknown of the shape, and nothing uses it"
-            cure = did_you_mean(name, unknowns)
-            reader.source.fault(node, message, cure, code="unknown-word")
 
 
 def family_of(error: HasFreeParameters, settings: Mapping[str, str] = NO_SETTINGS) -> FamilyFile:

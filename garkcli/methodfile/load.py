@@ -124,11 +124,10 @@ def works_in(text: str, source: str) -> tuple[Work, ...]:
 
 
 def _free(reader: Reader, description: Description) -> MethodFileError:
-    """The error of a family of methods, with whatever else is wrong with it."""
-    is_faulty = bool(reader.source.faults)
+    """The error of a family of methods, or what else is wrong with it."""
+    if reader.source.faults:
+        return reader.source.error()
     error = reader.source.error_with(lambda: refuse_free(reader.numbers))
-    if is_faulty:
-        return error
     free = HasFreeParameters(error.source, error.faults, error.text)
     free.reading = reader, description
     return free

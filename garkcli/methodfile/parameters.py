@@ -179,6 +179,6 @@ def refuse_unknown_settings(numbers: Numbers) -> None:
     """Note values that are given for parameters that the file does not have."""
     known = list(numbers.parameters)
     for name in (x for x in numbers.settings if x not in known):
-        cure = did_you_mean(name, known) if known else "it has no parameters"
+        cure = did_you_mean(name, known) or "the file has none: leave out --set"
         message = f"no parameter {shortened(name)} to be set"
         numbers.source.fault(None, message, cure, code="unknown-word")

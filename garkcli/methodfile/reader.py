@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, cast
 from flint import fmpq
 from yaml.nodes import MappingNode, Node, ScalarNode
 
+from garkcli.errors import did_you_mean
 from garkcli.frozen import replace
 from garkcli.methodfile import description as d
 from garkcli.methodfile.diagonal import methods
@@ -24,6 +25,7 @@ from garkcli.methodfile.spelled_out import tableau, tableau_of
 if TYPE_CHECKING:
     from garkcli.methodfile.constructed.parts import Open, Opened
     from garkcli.methodfile.shapes import Shaped
+    from garkcli.methodfile.wishes import Wishes
 
 
 _EXAMPLE = "write for instance {family: rk4}, {A: …, b: …} or a name of the catalogue"
@@ -165,6 +167,7 @@ class Reader(Reading):
         content: what reads its coefficients.
         keys: at the top of the file.
         design: what is under ``design``; None without that.
+        wishes: the same as it was read.
     """
 
     def __init__(
@@ -176,6 +179,7 @@ class Reader(Reading):
         self._inside = inside
         self.keys: frozenset[str] = frozenset()
         self.design: Node | None = None
+        self.wishes: Wishes | None = None
         self._entries: Entries = {}
         self._root: MappingNode | None = None
 
@@ -199,6 +203,11 @@ class Reader(Reading):
         if found is None:
             return None
         refuse_unknown_settings(self.numbers)
+        if self.design is not None:
+            from garkcli.methodfile.wishes import read_wishes  # few files have it
+
+            self.wishes = read_wishes(self, self.design)
+        self._refuse_unused()
         if tolerance is None and isinstance(found.content, d.ConstructionText):
             tolerance = found.content.tolerance
         reference, bibliography = said.get("reference", ("", None))
@@ -212,6 +221,17 @@ class Reader(Reading):
             reference=reference,
             bibliography=bibliography,
         )
+
+    def _refuse_unused(self) -> None:
+        """Note parameters beside a shape that are none of its unknowns, and that nothing uses."""
+        if self.shaped is None:
+            return
+        numbers, unknowns = self.numbers, self.shaped.layout.unknowns
+        for name, node in numbers.places.items():
+            if name not in numbers.used:
+                message = f"parameters: {name} is no unknown of the shape, and nothing uses it"
+                cure = did_you_mean(name, unknowns)
+                self.source.fault(node, message, cure, code="unknown-word")
 
     @property
     def shaped(self) -> Shaped | None:
@@ -230,7 +250,8 @@ class Reader(Reading):
         text, found = read_argument(f"catalogue:{name}")
         source = Source(found, text)
         if found in self._inside:
-            source.fault(None, f"{found} is made from itself", code="made-from-itself")
+            message, cure = f"{found} is made from itself", "name another method"
+            source.fault(None, message, cure, code="made-from-itself")
             raise source.error()
         reader = Reader(source, {}, (*self._inside, found))
         description = reader.read()

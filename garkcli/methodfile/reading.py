@@ -37,7 +37,8 @@ def read_text(path: str, kind: FileKind) -> tuple[str, str]:
         fault = Fault("not a regular file", cure, code="cannot-read")
         raise MethodFileError(path, [fault]) from None
     except OSError as error:  # among them names that are too long, and links in a circle
-        fault = Fault(f"cannot be read: {error.strerror}", code="cannot-read")
+        message, cure = f"cannot be read: {error.strerror}", "give another file, or its text by -"
+        fault = Fault(message, cure, code="cannot-read")
         raise MethodFileError(name, [fault]) from None
     text = decoded(name, data)
     if not is_stream(path) and not _may_be_quoted(path, text, kind):

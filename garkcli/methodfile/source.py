@@ -316,7 +316,8 @@ class Source:
         unknown: list[ScalarNode] = []
         for key_node, value in node.value:
             if not isinstance(key_node, ScalarNode):
-                self.fault(key_node, f"{where}: a key is a plain word", code="no-key")
+                cure = "write a word before the colon: name: Heun"
+                self.fault(key_node, f"{where}: a key is a plain word", cure, code="no-key")
                 continue
             key = key_node.value
             if key in entries:
@@ -387,7 +388,8 @@ class Source:
     def scalar(self, node: Node, where: str) -> str | None:
         """The text of a single value, as written."""
         if not isinstance(node, ScalarNode):
-            self.fault(node, "a single value is expected here", where=where, code="value-expected")
+            message, cure = "a single value is expected here", "write one number or word"
+            self.fault(node, message, cure, where=where, code="value-expected")
             return None
         tag = str(node.tag)
         if not tag.startswith("tag:yaml.org,2002:") or tag.startswith(_PYTHON):
@@ -415,7 +417,8 @@ class Source:
             return int(text)
         shown = text if limit == f"most {largest}" else shortened(text)
         message = f"{where}: a whole number of at {limit} is expected, not {shown}"
-        self.fault(node, message, code="wrong-value")
+        example = min(max(smallest, 2), largest or 2)
+        self.fault(node, message, f"write plain digits, such as {example}", code="wrong-value")
         return None
 
     def choice(self, node: Node, where: str, known: Iterable[str]) -> str | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import partial
 from itertools import chain
 from typing import Any
@@ -17,7 +17,7 @@ from garkcli.frozen import Frozen, fields
 from garkcli.methodfile.build import Builder
 from garkcli.methodfile.family_values import FamilyValues
 from garkcli.methodfile.grammar import FLAG, Found, Key, Kind, by_name, count, either, mapping
-from garkcli.methodfile.numbers import Entry, Numbers
+from garkcli.methodfile.numbers import Entry, Free, Numbers
 from garkcli.methodfile.parameters import NUMBER, RANGE
 from garkcli.methodfile.source import Source
 
@@ -58,12 +58,12 @@ def _fixed(at: Any, node: Node, where: str) -> list[tuple[Entry, Entry]]:
     return fixed
 
 
-def _ranges(at: Any, node: Node, where: str) -> bool:
+def _ranges(at: Any, node: Node, where: str) -> dict[str, Free]:
     """``range: {gamma: [1/4, 1]}``: where unknowns lie, besides the ranges that they have."""
-    free = at.numbers.free
-    for name, value, place in _unknowns(at, node, where):
-        free[name] = free[name].within(RANGE.read(at, value, place))
-    return True
+    return {
+        name: at.numbers.free[name].within(RANGE.read(at, value, place))
+        for name, value, place in _unknowns(at, node, where)
+    }
 
 
 def _unknowns(at: Any, node: Node, where: str) -> Iterator[tuple[str, Node, str]]:
@@ -74,7 +74,7 @@ def _unknowns(at: Any, node: Node, where: str) -> Iterator[tuple[str, Node, str]
         if name in numbers.free:
             yield name, value, place
         elif name not in numbers.settings:
-            cure = did_you_mean(name, list(numbers.free))
+            cure = did_you_mean(name, list(numbers.free)) or "the file has no unknowns"
             message = f"{place} is no unknown of the file"
             numbers.source.fault(value, message, cure, code="unknown-word")
 
@@ -100,6 +100,7 @@ DESIGN = mapping(
     form=FORM,
 )
 """What is wanted of the methods of a family; it is read when its unknowns are known."""
+NO_RANGES: Mapping[str, Free] = {}
 
 
 class Wish(Frozen):
@@ -125,26 +126,33 @@ class Wishes(Frozen):
         order: that is wanted; None where the command says it.
         fixed: pairs of entries that are equal.
         wishes: everything else.
+        ranges: unknowns with the range that they are to have.
+        entries: all coefficients in it.
     """
 
     order: int | None = None
     fixed: tuple[tuple[Entry, Entry], ...] = ()
     wishes: tuple[Wish, ...] = ()
+    ranges: Mapping[str, Free] = NO_RANGES
+    entries: tuple[Entry, ...] = ()
 
 
-def read_wishes(at: Any, node: Node | None) -> Wishes:
+def read_wishes(at: Any, node: Node) -> Wishes:
     """What a file wants; its unknowns are known already.
 
     Args:
-        at: what reads the file, with its source and its numbers.
-        node: the value of ``design``; None where there is none.
+        at: what reads the file, with its source and its numbers, which stay as they are.
+        node: the value of ``design``.
     """
-    found: Found | None = None if node is None else DESIGN.read(at, node, "design")
-    if found is None:
-        return Wishes()
+    numbers: Numbers = at.numbers
+    before = len(numbers.entries)
+    found: Found | dict[str, Any] = DESIGN.read(at, node, "design") or {}
+    entries = tuple(numbers.entries[before:])
+    del numbers.entries[before:]
     order, fixed = found.pop("order", None), found.pop("fix", ())
-    found.pop("range", None)
-    return Wishes(order, tuple(fixed), tuple(chain.from_iterable(found.values())))
+    ranges = found.pop("range", NO_RANGES)
+    wishes = tuple(chain.from_iterable(found.values()))
+    return Wishes(order, tuple(fixed), wishes, ranges, entries)
 
 
 def _wishes(want: Want, at: Any, node: Node, where: str) -> list[Wish]:

@@ -59,20 +59,21 @@ class Admissible(Frozen):
         exist.
         """
         if colours < 1:
-            raise TreeError(f"an N-tree needs at least one colour, not {colours}")
+            message = f"an N-tree needs at least one colour, not {colours}"
+            raise TreeError(message, "ask for 1 or more")
         everything = range(colours)
         rows: list[Colours] = [tuple(everything)] * colours
         if edges is not None:
             if {len(edges), *map(len, edges)} != {colours}:
                 shape = f"a {colours} by {colours} matrix"
                 message = f"edges must be {shape}, one row for each colour"
-                raise TreeError(message, code="pasted-tableau")
+                raise TreeError(message, "fill it with 0 and 1", code="pasted-tableau")
             rows = [tuple(m for m in everything if row[m]) for row in edges]
         for colour in linear:
             if colour not in everything:
                 what = f"linear colour {colour}"
                 message = f"{what} is not one of the {colours} colours 0, 1, …"
-                raise TreeError(message, code="wrong-value")
+                raise TreeError(message, "colours count from 0 here", code="wrong-value")
         return cls(colours, tuple(rows), frozenset(linear))
 
     def is_linear(self, colour: int) -> bool:
@@ -129,7 +130,8 @@ def count_by_root(
 def _forests(admissible: Admissible, leaders: Sequence[int], order: int) -> dict[int, list[fmpz]]:
     """For each leader the numbers of forests f(0), …, f(order - 1) that may be on it."""
     if order < 1:
-        raise TreeError(f"the order of a tree is at least 1, not {order}")
+        message = f"the order of a tree is at least 1, not {order}"
+        raise TreeError(message, "ask for order 1 or more")
     growing: dict[int, _Growing] = {}
     for leader in dict.fromkeys(leaders):
         branches = Counter(leaders[m] for m in admissible.branches[leader])

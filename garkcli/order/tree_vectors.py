@@ -12,6 +12,8 @@ from garkcli.tableau.tableau import Tableau
 _Place: TypeAlias = tuple[int, Tree]
 """Who sees a branch, by its stage space, and the branch."""
 
+_CURE = "gark conditions FILE lists the trees of a method"
+
 
 class TreeVectors:
     """Stage vectors of single trees; what the blocks make of their branches is kept.
@@ -33,7 +35,7 @@ class TreeVectors:
         colour = self.tableau.colours[tree.root]
         if colour.is_linear and len(tree.branches) > 1:
             message = f"colour {colour.name} is linear: its vertices have one branch at most"
-            raise MethodError(message, code="tree-not-admissible")
+            raise MethodError(message, _CURE, code="tree-not-admissible")
         space = self.tableau.space(tree.root)
         vector = space.one
         for branch in tree.branches:
@@ -51,6 +53,7 @@ class TreeVectors:
                 raise MethodError(
                     f"colour {colour.name} does not see colour {seen.name}: "
                     "the tree is not admissible",
+                    _CURE,
                     code="tree-not-admissible",
                 )
             self._images[place] = apply(block, self.of(branch))

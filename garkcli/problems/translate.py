@@ -73,8 +73,8 @@ class Translator(Frozen):
         made = self._node(expression)
         start, end = expression.start, expression.end
         if made.has(sympy.I, sympy.zoo, sympy.nan, sympy.oo, -sympy.oo):
-            message = "this is no real number"
-            raise UndefinedValue(message, "", start, end, code="not-real")
+            message, cure = "this is no real number", "use roots and logarithms of positive numbers"
+            raise UndefinedValue(message, cure, start, end, code="not-real")
         if any(abs(x) > 1 << FLOAT_BITS for x in made.atoms(sympy.Rational)):
             number = f"a number above 2^{FLOAT_BITS}"
             message = f"the constants together make {number}"

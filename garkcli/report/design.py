@@ -158,12 +158,13 @@ UNDECIDED = (
 
 def _undecided(found: Order) -> Iterator[str]:
     """Why an order is not decided, and what helps."""
-    yield "not decided in the time of --seconds"
+    limits = "in the time of --seconds" if found.step.is_late else "within the limits of gark"
+    yield f"not decided {limits}"
     ideal, keys = found.step.ideal, found.design.family.unsettled
     if ideal is not None and ideal.is_everything:
         yield "msolve finds that no value has it, which is no proof"
     elif ideal is not None:
-        yield "which values have it is not worked out in that time"
+        yield "which values have it is not worked out"
     if keys:
         yield (
             f"the conditions of {', '.join(keys)} under design take longer than that; ask for"

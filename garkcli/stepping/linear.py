@@ -313,7 +313,7 @@ def whole_steps(t_end: fmpq, h: fmpq) -> int:
     if n.q != 1:
         near = h * max(int(n.floor()), 1)
         message = f"the end time {t_end} is not a whole number of steps {h}"
-        raise UsageProblem(message, f"{near} is", code="step-size")
+        raise UsageProblem(message, f"end at {near}", code="step-size")
     if n.p > MAX_STEPS:
         message = f"{n} steps (limit {MAX_STEPS})"
         raise UsageProblem(message, "choose a shorter time or larger steps", code="too-many")

@@ -164,7 +164,8 @@ def _rounded(text: str) -> float:
     mantissa, _, _ = text.lower().partition("e")
     is_lost = not value and mantissa.strip("-0.") != ""
     if is_lost or not isfinite(value):
-        raise GarkError(f"{text} is beyond the numbers of a column", code="wrong-value")
+        message = f"{text} is beyond the numbers of a column"
+        raise GarkError(message, "compare with a number from 1e-300 to 1e300", code="wrong-value")
     return value
 
 

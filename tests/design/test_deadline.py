@@ -210,7 +210,7 @@ def test_what_is_said_without_time() -> None:
     family = loads_family(SDIRK2)
     with within(0):
         found = find_parameters(family)
-    assert [(x.kind, x.has_methods) for x in found.steps] == [("undecided", None)]
+    assert [(x.kind, x.has_methods, x.is_late) for x in found.steps] == [("undecided", None, True)]
     assert found.reaches() is None
 
 
@@ -224,7 +224,7 @@ def test_only_what_is_small() -> None:
     """What needs a process of its own is refused without a limit, and the rest is done."""
     with only_small():
         assert groebner_basis([X * Y - 1, Y - 1], CONTEXT)
-        with pytest.raises(NotDecided):
+        with pytest.raises(NotDecided, match="within the limits of gark; give parameters values"):
             apart(sorted, [2, 1])
 
 
@@ -246,8 +246,9 @@ def test_a_process_that_fails_leaves_it_open() -> None:
     """Where one ends without a result the other one has it; where all do, it is open."""
     with within(60):
         assert first_of((_fails, ()), (sorted, ([2, 1],))) == [1, 2]
-        with pytest.raises(NotDecided):
+        with pytest.raises(NotDecided) as caught:
             apart(_fails)
+        assert not caught.value.is_late
 
 
 def _fails() -> list[int]:

@@ -48,7 +48,7 @@ def test_an_invalid_file_is_refused_with_its_faults(
     path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The file raises MethodFileError, soon, with the recorded faults, each with a place inside the
-    file.
+    file and a cure.
     """
     monkeypatch.chdir(path.parent)
     start = time.process_time()
@@ -58,6 +58,7 @@ def test_an_invalid_file_is_refused_with_its_faults(
     error = caught.value
     places = [(fault.line, fault.column) for fault in error.faults]
     assert places
+    assert all(fault.help for fault in error.faults)
     assert min(places) >= (1, 1)
     assert places == sorted(places)
     assert max(line for line, _ in places) <= max(1, error.text.count("\n") + 1)
