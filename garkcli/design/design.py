@@ -92,7 +92,7 @@ class Step(Frozen):
         of_stable: where P-stability is wanted of all transfers of a pair and decided, the ideal
             whose real zeros are the stable methods.
         polynomials_of_stable: of its basis those that are not in the ideal of the order.
-        is_late: of what is not decided, whether for want of time.
+        is_late: whether an undecided step ended with its time.
     """
 
     order: int

@@ -163,6 +163,7 @@ _OWN = {
     "error": "The 2-norm of the error coefficients of the first order whose conditions fail.",
     "error-largest": "The largest error coefficient of the first order whose conditions fail.",
     "pair-error": "The 2-norm of the error coefficients of the symplectic pair.",
+    "pair-p-stable": "Whether the symplectic pair is P-stable.",
     "phase-order": "The order of the phase lag on the harmonic oscillator.",
     "phase-constant": "The constant of the phase lag on the harmonic oscillator.",
     "stages": "The stages of all colours together.",

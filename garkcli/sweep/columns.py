@@ -233,6 +233,11 @@ _PLAIN = (
         "the principal error of the pair",
         False,
     ),
+    Column(
+        "pair-p-stable",
+        lambda m: None if m.pair is None else _property("p-stable", Judged(m.pair)),
+        "whether the pair is P-stable",
+    ),
     Column("phase-order", _phase_order, "the order of the phase error on the oscillator"),
     Column("phase-constant", _phase_constant, "the constant of it", False),
     Column(
@@ -260,7 +265,7 @@ def property_kind(name: str) -> str:
     """Of a column: ``truth``, ``count`` or ``number``."""
     if name in KEYS:
         return find(name).kind
-    if name == "symplectic":
+    if name in ("symplectic", "pair-p-stable"):
         return "truth"
     is_real = name.removeprefix("pair-").startswith("error") or name == "phase-constant"
     return "number" if is_real else "count"

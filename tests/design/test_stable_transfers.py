@@ -101,6 +101,24 @@ class Floats:
         return np.array(rows) @ self.A11
 
 
+def some_of_both(
+    family: Family, order: int, dimension: int
+) -> Iterator[tuple[Solution, RealRoot, Floats, bool]]:
+    """Random stable methods of an order, and random others that are not, by traces in floats."""
+    step = last(family, order)
+    assert step.is_real
+    assert step.ideal is not None
+    assert step.of_stable is not None
+    assert step.of_stable.dimension == dimension
+    assert all(not step.ideal.contains(p) for p in step.polynomials_of_stable)
+    for seed in range(3):
+        for ideal, is_stable in ((step.of_stable, True), (step.ideal, False)):
+            solution, root = some(family, ideal, seed)
+            method = Floats(family, solution, root)
+            assert (max(map(abs, method.traces)) <= 2 + 1e-5) == is_stable
+            yield solution, root, method, is_stable
+
+
 @pytest.mark.parametrize(
     ("methods", "order", "dimension"),
     [
@@ -118,21 +136,11 @@ def test_the_stable_transfers(methods: str, order: int, dimension: int) -> None:
     are not, by traces in floats and, where the field is small, by the engine for one method.
     """
     family = p_stable(methods)
-    step = last(family, order)
-    assert step.is_real
-    assert step.ideal is not None
-    assert step.of_stable is not None
-    assert step.of_stable.dimension == dimension
-    assert all(not step.ideal.contains(p) for p in step.polynomials_of_stable)
-    for seed in range(3):
-        for ideal, is_stable in ((step.of_stable, True), (step.ideal, False)):
-            solution, root = some(family, ideal, seed)
-            method = Floats(family, solution, root)
-            assert (max(map(abs, method.traces)) <= 2 + 1e-5) == is_stable
-            assert np.allclose(method.A21, method.interpolated) is is_stable
-            exact = method_at(family.tableau, family.ring, solution, root)
-            oscillator = None if exact is None else usual_oscillator(pair(exact))
-            assert oscillator is None or oscillator.is_p_stable is is_stable
+    for solution, root, method, is_stable in some_of_both(family, order, dimension):
+        assert np.allclose(method.A21, method.interpolated) is is_stable
+        exact = method_at(family.tableau, family.ring, solution, root)
+        oscillator = None if exact is None else usual_oscillator(pair(exact))
+        assert oscillator is None or oscillator.is_p_stable is is_stable
 
 
 @pytest.mark.parametrize(
@@ -212,16 +220,7 @@ def test_the_stable_transfers_that_depend_on_several_numbers(
     methods: str, order: int, dimension: int
 ) -> None:
     """Random ones of them are stable, and random ones of the order are not, by traces in floats."""
-    family = p_stable(methods)
-    step = last(family, order)
-    assert step.is_real
-    assert step.ideal is not None
-    assert step.of_stable is not None
-    assert step.of_stable.dimension == dimension
-    for seed in range(3):
-        for ideal, is_stable in ((step.of_stable, True), (step.ideal, False)):
-            method = Floats(family, *some(family, ideal, seed))
-            assert (max(map(abs, method.traces)) <= 2 + 1e-5) == is_stable
+    assert len([*some_of_both(p_stable(methods), order, dimension)]) == 6
 
 
 def test_the_singular_values_of_a_step() -> None:

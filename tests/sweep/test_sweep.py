@@ -25,6 +25,7 @@ from garkcli.exact.apart import start_method
 from garkcli.plots.scene import Curve
 from garkcli.plots.sweep import sweep_scene
 from garkcli.report.schemas import report_schema
+from garkcli.stability.oscillator import usual_oscillator
 from garkcli.sweep import run as running
 from garkcli.sweep.columns import columns, property_kind
 from garkcli.sweep.plan import Plan, Point, load_plan
@@ -32,6 +33,7 @@ from garkcli.sweep.ranking import best_first, kept, pareto_front
 from garkcli.sweep.report import SweepReport
 from garkcli.sweep.row import Row, row_of
 from garkcli.sweep.store import RowStore
+from garkcli.tableau.forms import pair
 from tests.cli.harness import gark
 from tests.had import needs_fifos, needs_locks
 
@@ -41,13 +43,13 @@ methods:
   - {family: lobatto-iiia, stages: [2, 3]}
 transfer: [collocation, {interpolation: tau, collocation: 1 - tau}]
 parameters: {tau: {from: 0, to: 1, steps: 2}}
-columns: [pair-order, p-stable, stages]
+columns: [pair-order, p-stable, pair-p-stable, stages]
 where: {order: ">= 2"}
 best: [order, error]
 pareto: [order, stages]
 """
 
-LONG = SPEC.replace("steps: 2", "steps: 40").replace("p-stable, ", "")
+LONG = SPEC.replace("steps: 2", "steps: 40").replace("p-stable, pair-p-stable, ", "")
 """336 methods."""
 LONG = LONG.replace("best: [order, error]", "best: [order]")
 
@@ -93,6 +95,8 @@ def test_all_methods_once(spec: Path) -> None:
             assert found.pair_order is not None
             assert row["pair-order"] == found.pair_order.order
             assert row["p-stable"] is found.subject.verdict("p-stable").value
+            oscillator = usual_oscillator(pair(found.tableau))
+            assert row["pair-p-stable"] is (None if oscillator is None else oscillator.is_p_stable)
         else:
             assert "pair-order" not in row
 
@@ -182,7 +186,7 @@ def test_cut_anywhere(data: st.DataObject) -> None:
 def test_rows_of_others(spec: Path, tmp_path: Path) -> None:
     """Rows of other criteria, lines that are no rows, and files in use are refused."""
     gark("sweep", str(spec))
-    spec.write_text(SPEC.replace("p-stable, ", ""), encoding="utf-8")
+    spec.write_text(SPEC.replace("p-stable, pair-p-stable, ", ""), encoding="utf-8")
     other = gark("sweep", str(spec), "--resume")
     assert (other.code, "rows of another spec" in other.err) == (2, True)
     rows = tmp_path / "other.jsonl"
