@@ -99,10 +99,8 @@ ANSWERS = {
     "report.rendering": "GarkMethod.to_latex=latex Analysis.html=html Outcome.html=html "
     "Stability.html=html Comparison.html=html Design.html=html Minimum.html=html "
     "StableValues.html=html StablePlane.html=html SweepReport.html=html MethodProof.html=html "
-    "ModifiedRun.html=html "
-    "BackwardAnalysis.html=html",
+    "ModifiedRun.html=html BackwardAnalysis.html=html Convergence.html=html LongRun.html=html",
     "plots.calls": "GarkMethod.plot=plot_method",
-    "webpage.notebook": "Convergence.html=convergence_html LongRun.html=long_run_html",
 }
 """What values of lower rooms show and answer: the question, and the function that answers it."""
 _ANSWERING = {

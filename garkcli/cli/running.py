@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from garkcli.convergence.result import Convergence
     from garkcli.longtime.history import LongRun
     from garkcli.longtime.symplecticity import Symplecticity
-    from garkcli.plots.scene import Scene
     from garkcli.problems.oscillator import Oscillator
     from garkcli.problems.problem import Problem
     from garkcli.report.comparison import Entry
@@ -107,18 +106,10 @@ def _one(path: str, given: Given, output: Output) -> int:
     output.tell(REPORT, ConvergenceReport(result, name, given.work, given.against))
     hint_rounding(method, result, output)
     if given.plot is not None:
-        output.save_plot(_scene([(name, result)], given), given.plot)
+        from garkcli.plots.convergence import errors_scene
+
+        output.save_plot(errors_scene([(name, result)], given.against), given.plot)
     return result.exit_code
-
-
-def _scene(results: Sequence[tuple[str, Convergence]], given: Given) -> Scene:
-    """Errors over step sizes, of one method with their slopes; or over their costs."""
-    from garkcli.plots.convergence import comparison_scene, convergence_scene
-
-    if len(given.files) == len(results) == 1 and given.against == "h" and not given.work:
-        ((name, result),) = results
-        return convergence_scene(result, name)
-    return comparison_scene(results, given.against)
 
 
 def _several(paths: Sequence[str], given: Given, output: Output) -> int:
@@ -130,6 +121,7 @@ def _several(paths: Sequence[str], given: Given, output: Output) -> int:
         UsageProblem: the steps that are wanted do not fit the time.
     """
     from garkcli.methodfile.naming import called
+    from garkcli.plots.convergence import errors_scene
     from garkcli.report.comparison import REPORT, Compared, Entry
 
     problems = Problems(given)
@@ -147,7 +139,7 @@ def _several(paths: Sequence[str], given: Given, output: Output) -> int:
     output.tell(REPORT, Compared(entries, given.work, given.against))
     results = [(x.name, x.result) for x in entries if x.result is not None]
     if given.plot is not None and results:
-        output.save_plot(_scene(results, given), given.plot)
+        output.save_plot(errors_scene(results, given.against), given.plot)
     elif given.plot is not None:
         output.note(f"nothing to draw into {given.plot}")
     return max(entry.exit_code for entry in entries)

@@ -93,7 +93,12 @@ def _report(file: str, method: GarkMethod, given: Given) -> StabilityReport:
     if not is_of_springs:
         found = find_stability(method, **given.of("find_stability"))
     report = StabilityReport(
-        file, method.name, found, digits=given.digits, derivation=method.derivation
+        file,
+        method.name,
+        found,
+        digits=given.digits,
+        derivation=method.derivation,
+        is_order_star=given.order_star,
     )
     if not is_of_springs:
         return report

@@ -12,8 +12,9 @@ from garkcli.api.files import path_of
 from garkcli.convergence.result import Convergence
 from garkcli.errors import MethodError
 from garkcli.longtime.history import LongRun
-from garkcli.plots.convergence import comparison_scene, convergence_scene
+from garkcli.plots.convergence import errors_scene
 from garkcli.plots.energy import energy_scene
+from garkcli.plots.regions import stability_scene
 from garkcli.plots.saving import check_suffix, need_matplotlib, save
 from garkcli.plots.scene import Scene
 from garkcli.plots.sweep import sweep_scene
@@ -89,12 +90,8 @@ def _scene(
         raise MethodError("the results are of several kinds", "draw them apart", code="arrays")
     named = list(zip(names, results, strict=True))
     if kind is Convergence:
-        if len(named) == 1 and against == "h":
-            return convergence_scene(results[0], names[0])
-        return comparison_scene(named, against)
+        return errors_scene(named, against)
     if kind is Stability:
-        from garkcli.plots.regions import stability_scene
-
         return stability_scene(named, is_order_star)
     if len(results) > 1:
         raise MethodError("several are not drawn together", "draw them apart", code="arrays")

@@ -10,7 +10,7 @@ from flint import fmpq
 
 from garkcli.convergence.result import Convergence, curve
 from garkcli.frozen import Frozen, replace
-from garkcli.page.figures import log10, order_text, scientific
+from garkcli.page.figures import for_programs, log10, order_text, scientific
 from garkcli.plots import scene
 from garkcli.problems.righthandside import RightHandSide
 
@@ -154,23 +154,19 @@ _MOST_STEPS = 6
 _LONGEST_STEP = 6  # characters
 
 
-def convergence_scene(result: Convergence, name: str) -> scene.Scene:
-    """Error and energy error of the method called ``name``."""
-    observed = order_text(result.observed_order)
-    return scene.Scene(
-        f"{name}\n{_about(result)}: observed order {observed}", [errors_panel(result)]
-    )
-
-
-def comparison_scene(named: Sequence[tuple[str, Convergence]], against: str = "h") -> scene.Scene:
-    """Errors of several methods.
+def errors_scene(named: Sequence[tuple[str, Convergence]], against: str = "h") -> scene.Scene:
+    """Errors of methods; of one over step sizes also the energy error.
 
     Args:
         named: names and results of methods, at least one.
         against: h, evaluations or seconds; the latter two need rows with costs.
     """
-    _, first = named[0]
-    return scene.Scene(_about(first), [comparison_panel(named, against)])
+    (name, first), *others = named
+    about = _about(first)
+    if others or against != "h":
+        return scene.Scene(about, [comparison_panel(named, against)])
+    observed = order_text(first.observed_order)
+    return scene.Scene(f"{name}\n{about}: observed order {observed}", [errors_panel(first)])
 
 
 def errors_panel(result: Convergence) -> scene.Panel:
@@ -228,8 +224,10 @@ def _panel(
 
 
 def _decades(points: Iterable[tuple[Any, Any]]) -> list[scene.Point]:
-    """The decimal logarithms of points, without those where there are none."""
-    return [(log10(x), log10(y)) for x, y in points if y > 0]
+    """The decimal logarithms of points, of the digits that are certain; without those where there
+    are none.
+    """
+    return [(log10(x), log10(for_programs(y, 9))) for x, y in points if y > 0]
 
 
 def step_marks(sizes: Sequence[fmpq]) -> list[scene.Mark]:

@@ -19,6 +19,7 @@ from garkcli.plots.scene import (
     Area,
     Axis,
     Curve,
+    Loops,
     Panel,
     Rule,
     Scene,
@@ -79,7 +80,7 @@ def draw(axes: Axes, panel: Panel, has_label: bool = True) -> None:
             xs = [x for x, _ in shape.points]
             axes.plot(xs, [y for _, y in shape.points], **_line(shape))
         elif isinstance(shape, Area):
-            _fill(axes, shape)
+            _fill(axes, shape, shape.outlines(panel.x, panel.y))
         else:
             _rule(axes, shape)
     _add_legend(axes, panel.legend, _BELOW_LABEL if has_label else _BELOW_AXES)
@@ -117,11 +118,11 @@ def _line(shape: Curve | Area) -> dict[str, Any]:
     return drawn
 
 
-def _fill(axes: Axes, area: Area) -> None:
+def _fill(axes: Axes, area: Area, loops: Loops) -> None:
     """An area as one patch, so that there are no seams; outlines of holes turn the other way."""
-    if not area.loops:
+    if not loops:
         return
-    whole = Path.make_compound_path(*(Path([*loop, loop[0]], closed=True) for loop in area.loops))
+    whole = Path.make_compound_path(*(Path([*loop, loop[0]], closed=True) for loop in loops))
     colour = _TEXT if area.style is None else COLOURS[area.style % len(COLOURS)]
     axes.add_patch(PathPatch(whole, facecolor=colour, alpha=area.opacity, linewidth=0))
     if area.has_outline:

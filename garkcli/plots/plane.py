@@ -1,21 +1,17 @@
-"""Functions over the complex plane, in floats."""
+"""Outlines of areas, traced on a grid."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator
 from math import hypot
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from garkcli.exact.display import to_float
-from garkcli.exact.polynomial import Polynomial
-from garkcli.frozen import Frozen
-from garkcli.plots.scene import Point
-from garkcli.stability.linear import StabilityFunction
+from garkcli.plots.scene import Axis, Point
 
 if TYPE_CHECKING:
-    from garkcli.arrays import Array, Floats, Integers
+    from garkcli.arrays import Floats, Integers
 
 
 _Edge: TypeAlias = tuple[int, int, bool]
@@ -158,17 +154,15 @@ _FLAT = 3.0
 _THINNED = 0.06  # cells
 
 
-class Window(Frozen):
-    """A part of the complex plane."""
-
-    left: float
-    right: float
-    top: float
-
-    def grid(self) -> tuple[Floats, Floats]:
-        """The real parts and the imaginary parts of the nodes."""
-        x = np.linspace(self.left, self.right, _NODES)
-        return x, np.linspace(-self.top, self.top, _NODES)
+def compared(
+    small: Callable[[Any], Any], large: Callable[[Any], Any], x: Axis, y: Axis
+) -> list[list[Point]]:
+    """The outlines of where ``small(z)`` ≤ ``large(z)`` for functions of arrays of z."""
+    across = np.linspace(x.low, x.high, _NODES)
+    up = np.linspace(y.low, y.high, _NODES)
+    z = across + 1j * up[:, np.newaxis]
+    with np.errstate(all="ignore"):
+        return outlined(across, up, np.log(small(z) / large(z)))
 
 
 def outlined(x: Floats, y: Floats, level: Floats) -> list[list[Point]]:
@@ -180,41 +174,3 @@ def outlined(x: Floats, y: Floats, level: Floats) -> list[list[Point]]:
     left, bottom = float(x[0]), float(y[0])
     loops = outlines(np.clip(np.nan_to_num(level, nan=_FLAT), -_FLAT, _FLAT), _THINNED)
     return [[(left + column * across, bottom + row * up) for column, row in loop] for loop in loops]
-
-
-def values(p: Polynomial, z: Array) -> Array:
-    """The values of p at many points, in floats."""
-    found: Array = np.polyval(_coefficients(p), z)
-    return found
-
-
-def _coefficients(p: Polynomial) -> list[float]:
-    """In floats, the leading one first."""
-    return [to_float(a) for a in reversed(p.coefficients)]
-
-
-def modulus(R: StabilityFunction, z: Array) -> Array:
-    """|R| at many points; infinite at poles."""
-    with np.errstate(divide="ignore", invalid="ignore"):
-        size: Array = np.abs(values(R.numerator, z) / values(R.denominator, z))
-    return size
-
-
-def log_modulus(R: StabilityFunction, z: Array) -> Floats:
-    """Log |R| at many points; infinite at zeros and poles."""
-    with np.errstate(divide="ignore"):
-        logarithm: Floats = np.log(modulus(R, z))
-    return logarithm
-
-
-def window_of(functions: Sequence[StabilityFunction], is_symmetric: bool) -> Window:
-    """A part of the plane with all that happens: zeros of P, poles, where |R| = 1 on the axis."""
-    reach = 2.0
-    for R in functions:
-        for p in (R.numerator, R.denominator):
-            if p.degree > 0:
-                reach = max(reach, float(np.max(np.abs(np.roots(_coefficients(p))))))
-    reach *= 1.6
-    have_no_poles = all(R.denominator.degree == 0 for R in functions)
-    # regions of polynomials are on the left
-    return Window(-reach, reach / 4 if have_no_poles and not is_symmetric else reach, reach)

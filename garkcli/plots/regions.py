@@ -5,22 +5,27 @@ They illustrate what was decided exactly and decide nothing.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import math
+from collections.abc import Callable, Sequence
+from functools import cache, partial
 from itertools import groupby, pairwise
-from math import hypot
-from typing import TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
-import numpy as np
-from flint import fmpq
+from flint import fmpq, fmpq_poly
 
+from garkcli.exact.display import to_float
+from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot
-from garkcli.plots.plane import Window, log_modulus, modulus, outlined, values, window_of
-from garkcli.plots.scene import Area, Axis, Curve, Panel, Point, Rule, Scene, Shape
+from garkcli.frozen import Frozen, replace
+from garkcli.graph import components
+from garkcli.plots.scene import Area, Axis, Curve, Loops, Panel, Point, Rule, Scene, Shape, polygons
 from garkcli.stability.damping import ImexPair
 from garkcli.stability.linear import StabilityFunction
 from garkcli.stability.oscillator import OscillatorStability
-from garkcli.stability.springs_plane import SpringsPlane
 from garkcli.stability.summary import Stability
+
+if TYPE_CHECKING:
+    from garkcli.stability.springs_plane import SpringsPlane
 
 _POINTS = 600
 _HIGHEST = 2.0
@@ -37,7 +42,7 @@ def trace_panel(named: Sequence[tuple[str, OscillatorStability]]) -> Panel:
     if len(named) == 1:
         bands = [(low, end if high is None else high) for low, high in spans[0]]
         loops = [[(a, 0.0), (b, 0.0), (b, _HIGHEST), (a, _HIGHEST)] for a, b in bands]
-        shapes.append(Area(None, loops, 0.12, has_outline=False))
+        shapes.append(polygons(None, loops, 0.12, has_outline=False))
     for style, (name, oscillator) in enumerate(named):
         label = name if len(named) > 1 else ""
         for part in _parts(oscillator, end):
@@ -80,15 +85,17 @@ def _spans_text(spans: Sequence[tuple[float, float | None]]) -> str:
 
 def _parts(oscillator: OscillatorStability, end: float) -> list[list[Point]]:
     """The curve where it is in the frame or just above, cut where it leaves."""
-    z = np.linspace(0.0, end, _POINTS)
     ratio = oscillator.trace
-    with np.errstate(divide="ignore", invalid="ignore"):
-        trace = values(ratio.numerator, z**2) / values(ratio.denominator, z**2)
-    half = np.nan_to_num(np.abs(trace) / 2, nan=np.inf)
-    # a point above the frame is where a line to it leaves the frame
-    heights = np.minimum(half, 2 * _HIGHEST).tolist()
+    sides = _floats(ratio.numerator), _floats(ratio.denominator)
+    points = []
+    for k in range(_POINTS):
+        z = end * k / (_POINTS - 1)
+        over, under = (abs(_value(p, z**2)) for p in sides)
+        # a point above the frame is where a line to it leaves the frame
+        is_above = over >= 4 * _HIGHEST * under
+        points.append((z, 2 * _HIGHEST if is_above else over / under / 2))
     parts: list[list[Point]] = [[]]
-    for here, there in pairwise(zip(z.tolist(), heights, strict=True)):
+    for here, there in pairwise(points):
         if min(here[1], there[1]) > _HIGHEST:
             parts.append([])
             continue
@@ -100,9 +107,20 @@ def _parts(oscillator: OscillatorStability, end: float) -> list[list[Point]]:
 
 def springs_panel(plane: SpringsPlane) -> Panel:
     """The plane of the two frequencies: where |tr M| > 2, the resonances, is filled."""
-    fast, slow = plane.fast, plane.slow
-    half = np.nan_to_num(plane.half_trace, nan=np.inf)
-    resonances = Area(1, outlined(fast, slow, 1.0 - half), 0.45, has_outline=False)
+    fast, slow, half = plane.fast, plane.slow, plane.half_trace
+
+    def is_unstable(x: float, y: float) -> bool:
+        column, row = (
+            round(at / float(side[-1]) * (len(side) - 1)) for at, side in ((x, fast), (y, slow))
+        )
+        return bool(half[row, column] > 1)
+
+    def outlines(*_: Axis) -> Loops:
+        from garkcli.plots.plane import outlined
+
+        return outlined(fast, slow, 1.0 - half)
+
+    resonances = Area(1, is_unstable, outlines, 0.45, has_outline=False)
     x = Axis("hω of the fast spring", float(fast[0]), float(fast[-1]))
     y = Axis("hω of the slow spring", float(slow[0]), float(slow[-1]))
     description = (
@@ -114,17 +132,20 @@ def springs_panel(plane: SpringsPlane) -> Panel:
 
 Named: TypeAlias = tuple[str, StabilityFunction]
 """A stability function and what the legend calls it."""
+EDGE = 1 + 1e-9
+"""Keeps points on the very edge inside on every machine."""
 FILLED = "Filled: |R(z)| ≤ 1."
+PRINTED = "Of the digits as printed, not of all methods within the tolerance."
 _STAR = "Order star, filled: |R(z)| > |exp z|."
 _HEIGHT = 300
 _SQUARES = 120
 """A side of a region whose squares are decided one by one, even: the lower half is the upper one
 upside down.
 """
-_ABOVE_ONE = 1.001
-"""Where |R(z_E, 0)| is larger there is nothing to decide: z_I = 0 is not damped."""
 _MOST_ZOOMS = 6
 _BLINDLY = 20
+_COARSE = 80
+"""Cells a side of the grid on which regions are sought; a node of it is 0."""
 _MUCH = 2.5
 """How many times as large a window may be as what is around 0."""
 _AROUND = 1.3
@@ -153,7 +174,10 @@ def stability_scene(
         named = [(name, x.linear[0].R) for name, x in methods]
     else:
         named = of_directions([(x.name, x.R) for x in found.linear])
-    panels = [region_panel(named, is_order_star)]
+    region = region_panel(named, is_order_star)
+    if any(x.tolerance is not None for _, x in methods):
+        region = replace(region, note=f"{region.note} {PRINTED}")
+    panels = [region]
     if not others and not is_order_star and found.colours is not None:
         pair = found.colours.pair
         if pair is not None and found.colours.explicit_alone is not None:
@@ -173,13 +197,13 @@ def of_directions(found: Sequence[Named]) -> list[Named]:
 def region_panel(named: Sequence[Named], is_order_star: bool = False) -> Panel:
     """The regions |R(z)| ≤ 1, or the order stars, of some stability functions."""
     functions = [R for _, R in named]
-    whole = window_of(functions, is_order_star)
-    window = whole if is_order_star else _nearer(whole, functions)
     labels = [name if len(named) > 1 else "" for name, _ in named]
     areas = [
-        Area(style, _loops(window, R, is_order_star), 0.16, label=label)
+        _area(style, R, 0.16, label, is_order_star)
         for style, (label, R) in enumerate(zip(labels, functions, strict=True))
     ]
+    whole = _window_of(functions, is_order_star)
+    window = whole if is_order_star else _nearer(whole, areas)
     note = _STAR if is_order_star else FILLED
     if window != whole:
         note += " Islands around zeros of R that are far away are not in the picture."
@@ -195,21 +219,28 @@ def region_panel(named: Sequence[Named], is_order_star: bool = False) -> Panel:
 
 
 def pair_panel(pair: ImexPair, explicit: StabilityFunction) -> Panel:
-    """The z_E for which every z_I in the left half plane is damped, each square decided at its
-    centre, and the outline with z_I = 0.
+    """The z_E for which every z_I in the left half plane is damped, decided exactly point by point,
+    and the outline with z_I = 0.
     """
-    window = window_of([explicit], is_symmetric=False)
-    columns = np.linspace(window.left, window.right, _SQUARES + 1).tolist()
-    rows = np.linspace(0.0, window.top, _SQUARES // 2 + 1).tolist()
-    squares = []
-    for bottom, top in pairwise(rows):
-        for low, high in _damped(pair, explicit, columns, (bottom + top) / 2):
-            for b, t in ((bottom, top), (-top, -bottom)):
-                squares.append([(low, b), (high, b), (high, t), (low, t)])
+    alone = _area(1, explicit, 0.0)
+
+    @cache
+    def is_damped(a: float, b: float) -> bool:
+        # where the colour alone grows there is nothing to decide: z_I = 0 is not damped
+        return alone.holds(a, b) and pair.is_damped(_exact(a), _exact(b))
+
+    window = _window_of([explicit], is_symmetric=False)
     e, i = f"z{pair.explicit + 1}", f"z{pair.implicit + 1}"
     areas = [
-        Area(0, squares, 0.35, has_outline=False, label=f"{e} with every {i} damped"),
-        Area(1, _loops(window, explicit), 0.0, label=f"the same with {i} = 0 alone"),
+        Area(
+            0,
+            lambda a, b: is_damped(a, abs(b)),
+            partial(_squares, is_damped),
+            0.35,
+            has_outline=False,
+            label=f"{e} with every {i} damped",
+        ),
+        replace(alone, label=f"the same with {i} = 0 alone"),
     ]
     description = (
         f"The complex plane of {e}, filled where |R({e}, {i})| is at most 1 for all {i} in the "
@@ -217,13 +248,13 @@ def pair_panel(pair: ImexPair, explicit: StabilityFunction) -> Panel:
     )
     note = (
         f"Filled: the {e} of the explicit colour for which |R({e}, {i})| ≤ 1 for all {i} in "
-        "the left half plane, each square decided exactly at its centre."
+        "the left half plane, each cell decided exactly at its centre."
     )
     return _in_plane("Implicit-explicit pair", description, window, areas, note, e)
 
 
 def _in_plane(
-    title: str, description: str, window: Window, areas: Sequence[Area], note: str, z: str
+    title: str, description: str, window: _Window, areas: Sequence[Area], note: str, z: str
 ) -> Panel:
     """Areas with both axes of the complex plane."""
     left, right, top = window.left, window.right, window.top
@@ -232,58 +263,123 @@ def _in_plane(
     return Panel(title, description, x, y, [*areas, *axes], note, _HEIGHT, is_plane=True)
 
 
-def _damped(
-    pair: ImexPair, explicit: StabilityFunction, columns: Sequence[float], b: float
-) -> Iterator[tuple[float, float]]:
-    """The ends of each run of squares of a row that are damped."""
-    centres = [(x + y) / 2 for x, y in pairwise(columns)]
-    sizes = modulus(explicit, np.array(centres) + 1j * b).tolist()
-    found = [
-        size <= _ABOVE_ONE and pair.is_damped(_exact(a), _exact(b))
-        for a, size in zip(centres, sizes, strict=True)
-    ]
-    for is_damped, run in groupby(range(len(found)), found.__getitem__):
-        squares = list(run)
-        if is_damped:
-            yield columns[squares[0]], columns[squares[-1] + 1]
+def _squares(is_damped: Callable[[float, float], bool], x: Axis, y: Axis) -> Loops:
+    """The squares of a grid whose centres are damped, those beside each other as one."""
+    columns = [x.low + (x.high - x.low) * k / _SQUARES for k in range(_SQUARES + 1)]
+    rows = [2 * y.high * k / _SQUARES for k in range(_SQUARES // 2 + 1)]
+    found = []
+    for bottom, top in pairwise(rows):
+        decided = [is_damped((a + b) / 2, (bottom + top) / 2) for a, b in pairwise(columns)]
+        for is_inside, run in groupby(range(_SQUARES), decided.__getitem__):
+            squares = [*run]
+            low, high = columns[squares[0]], columns[squares[-1] + 1]
+            if is_inside:
+                for b, t in ((bottom, top), (-top, -bottom)):
+                    found.append([(low, b), (high, b), (high, t), (low, t)])
+    return found
 
 
 def _exact(x: float) -> fmpq:
     return fmpq(*x.as_integer_ratio())
 
 
-def _loops(window: Window, R: StabilityFunction, is_order_star: bool = False) -> list[list[Point]]:
-    """The outlines of where |R(z)| ≤ 1, or where |R(z)| > |e^z|."""
-    x, y = window.grid()
-    z = x + 1j * y[:, np.newaxis]
-    level = log_modulus(R, z)
-    if is_order_star:
-        level = z.real - level
-    return outlined(x, y, level)
+def _floats(p: Polynomial) -> list[float]:
+    """The coefficients, the leading one first."""
+    return [to_float(a) for a in reversed(p.coefficients)]
 
 
-def _nearer(window: Window, functions: Sequence[StabilityFunction]) -> Window:
+def _value(coefficients: Sequence[float], z: Any) -> Any:
+    """The value of a polynomial at a point, or at many."""
+    value = 0 * z
+    for a in coefficients:
+        value = value * z + a
+    return value
+
+
+def _area(
+    style: int, R: StabilityFunction, opacity: float, label: str = "", is_order_star: bool = False
+) -> Area:
+    """Where |R(z)| ≤ 1, or where |R(z)| > |e^z|."""
+    P, Q = _floats(R.numerator), _floats(R.denominator)
+
+    def over(z: Any) -> Any:
+        return abs(_value(P, z))
+
+    def under(z: Any) -> Any:
+        return abs(_value(Q, z)) * (math.e**z.real if is_order_star else 1)
+
+    small, large = (under, over) if is_order_star else (over, under)
+
+    def holds(x: float, y: float) -> bool:
+        try:
+            return bool(small(complex(x, y)) <= large(complex(x, y)) * EDGE)
+        except OverflowError:
+            return False
+
+    def outlines(x: Axis, y: Axis) -> Loops:
+        from garkcli.plots.plane import compared
+
+        return compared(small, large, x, y)
+
+    return Area(style, holds, outlines, opacity, label=label)
+
+
+class _Window(Frozen):
+    """A part of the complex plane."""
+
+    left: float
+    right: float
+    top: float
+
+
+def _window_of(functions: Sequence[StabilityFunction], is_symmetric: bool) -> _Window:
+    """A part of the plane with all that happens: zeros of P, poles, where |R| = 1 on the axis."""
+    reach = 2.0
+    for R in functions:
+        for p in (R.numerator, R.denominator):
+            made = fmpq_poly([_exact(to_float(a)) for a in p.coefficients])
+            roots: list[Any] = made.complex_roots()
+            reach = max([reach, *(float(abs(root)) for root, _ in roots)])
+    reach *= 1.6
+    have_no_poles = all(R.denominator.degree == 0 for R in functions)
+    # regions of polynomials are on the left
+    return _Window(-reach, reach / 4 if have_no_poles and not is_symmetric else reach, reach)
+
+
+def _nearer(window: _Window, areas: Sequence[Area]) -> _Window:
     """A part of the window where the regions around 0 fill too little of it, for zeros of R that
     are far away.
     """
     for _ in range(_MOST_ZOOMS):
-        reach = max(_reach(window, R) for R in functions)
+        reach = max(_reach(window, area) for area in areas)
         # nothing is seen of what is smaller than a cell
         top = _AROUND * reach or window.top / _BLINDLY
         if top > window.top / _MUCH:
             return window
         # both sides keep their share
         shrunk = top / window.top
-        window = Window(window.left * shrunk, window.right * shrunk, top)
+        window = _Window(window.left * shrunk, window.right * shrunk, top)
     return window
 
 
-def _reach(window: Window, R: StabilityFunction) -> float:
-    """How far from 0 the largest part of a region goes."""
-    largest = max(_loops(window, R), key=_extent, default=[])
-    return max((hypot(x, y) for x, y in largest), default=0.0)
+def _reach(window: _Window, area: Area) -> float:
+    """How far from 0 the widest connected part of a region goes, on a coarse grid of the upper
+    half.
+    """
+    wide, high = (window.right - window.left) / _COARSE, window.top / (_COARSE // 2)
+    inside = {
+        (j, i): complex(window.left + wide * j, high * i)
+        for j in range(_COARSE + 1)
+        for i in range(_COARSE // 2 + 1)
+        if area.holds(window.left + wide * j, high * i)
+    }
+    beside = {
+        (j, i): [x for x in ((j - 1, i), (j + 1, i), (j, i - 1), (j, i + 1)) if x in inside]
+        for j, i in inside
+    }
 
+    def width(part: Sequence[tuple[int, int]]) -> int:
+        return max(j for j, _ in part) - min(j for j, _ in part)
 
-def _extent(loop: Sequence[Point]) -> float:
-    """From its left to its right end."""
-    return max(x for x, _ in loop) - min(x for x, _ in loop)
+    widest = max(components(beside), key=width, default=())
+    return max((abs(inside[x]) for x in widest), default=0.0)

@@ -1,4 +1,4 @@
-"""What a picture shows, in the coordinates of its axes; ``svg`` and ``figure`` draw it.
+"""What a picture shows, in the coordinates of its axes; ``terminal``, ``svg`` and ``figure`` draw.
 
 Curves and areas have a style, a number: of a colour, of dashes and of marks, so that they can be
 distinguished in grey too.
@@ -6,7 +6,8 @@ distinguished in grey too.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from itertools import pairwise
 from math import ceil, floor, log10
 from typing import TypeAlias
 
@@ -195,22 +196,44 @@ class Curve(Frozen):
     is_dense: bool = False
 
 
+Loops: TypeAlias = Sequence[Sequence[Point]]
+"""The corners of closed outlines, with an area on their left: those of holes turn the other way."""
+
+
 class Area(Frozen):
-    """What lies on the left of closed outlines.
+    """A part of the picture. Every output samples it as finely as it draws.
 
     Attributes:
         style: that of a curve; None for the colour of text.
-        loops: the corners of the outlines; those of holes turn the other way.
+        holds: whether a point belongs to it.
+        outlines: its outlines between two axes.
         opacity: of what is filled, from 0 to 1.
         has_outline: whether the outlines are drawn.
         label: in the legend; empty for none.
     """
 
     style: int | None
-    loops: Sequence[Sequence[Point]]
+    holds: Callable[[float, float], bool]
+    outlines: Callable[[Axis, Axis], Loops]
     opacity: float
     has_outline: bool = True
     label: str = ""
+
+
+def polygons(style: int | None, loops: Loops, opacity: float, has_outline: bool = True) -> Area:
+    """The area inside of outlines."""
+
+    def holds(x: float, y: float) -> bool:
+        sides = (side for loop in loops for side in pairwise([*loop, *loop[:1]]))
+        return sum(_crosses(x, y, *side) for side in sides) % 2 == 1
+
+    return Area(style, holds, lambda *_: loops, opacity, has_outline)
+
+
+def _crosses(x: float, y: float, start: Point, end: Point) -> bool:
+    """Whether a side lies to the right of a point."""
+    (a, b), (c, d) = start, end
+    return (b > y) != (d > y) and a + (c - a) * (y - b) / (d - b) > x
 
 
 class Rule(Frozen):

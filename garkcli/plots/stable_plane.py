@@ -9,7 +9,7 @@ from flint import fmpq
 from garkcli.design.stable_plane import End, Part, StablePlane, Strip
 from garkcli.exact.cells import between
 from garkcli.exact.roots import RealRoot
-from garkcli.plots.scene import Area, Axis, Curve, Panel, Point, Scene, Shape
+from garkcli.plots.scene import Axis, Curve, Panel, Point, Scene, Shape, polygons
 
 _COLUMNS = 120
 """Values of the first parameter at which a strip is drawn."""
@@ -70,7 +70,7 @@ def _shape(strip: Strip, part: Part, x: Axis, y: Axis) -> Shape:
             upper.append((place, _within(over.end, y, 1)))
     if part.start is not None and part.start == part.end:
         return Curve(0, lower)
-    return Area(0, [[*lower, *reversed(upper)]], 0.25, has_outline=False)
+    return polygons(0, [[*lower, *reversed(upper)]], 0.25, has_outline=False)
 
 
 def _within(end: End, y: Axis, which: int) -> float:

@@ -150,9 +150,9 @@ class _Frame:
                 yield element("circle", **place, style=f"fill:{colour(curve.style)}")
 
     def _area(self, area: scene.Area) -> Iterator[str]:
-        if not area.loops:
+        data = "".join(self.path(loop) + "Z" for loop in area.outlines(self._x, self._y))
+        if not data:
             return
-        data = "".join(self.path(loop) + "Z" for loop in area.loops)
         stroke = _stroke(area) if area.has_outline else {}
         style = f"fill:{colour(area.style)};{stroke.pop('style', '')}".removesuffix(";")
         opacity = f"{area.opacity:g}"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from string import ascii_lowercase, ascii_uppercase
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from flint import fmpq
 
@@ -13,9 +13,9 @@ from garkcli.convergence.result import Convergence, curve
 from garkcli.convergence.result import Row as Step
 from garkcli.errors import Fault, counted
 from garkcli.frozen import Frozen
-from garkcli.page.asciiplot import SEVERAL, terminal_curves
 from garkcli.page.figures import order_text, scientific
 from garkcli.page.schema import Schema, one_of, published
+from garkcli.plots.convergence import errors_scene
 from garkcli.problems.oscillator import Oscillator
 from garkcli.problems.righthandside import RightHandSide
 from garkcli.report import convergence as alone
@@ -24,7 +24,7 @@ from garkcli.report.failure import FAULT
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Choice, Level, Row, Section, maybe, via
 from garkcli.tell.kinds import COUNT, TEXT, TRUTH, constant
-from garkcli.tell.parts import SAID, answer, part, parts, picture, rows_of, shown, told
+from garkcli.tell.parts import SAID, answer, part, parts, rows_of, scene, shown, told
 from garkcli.tell.report import Report
 
 HEADLINE, USUAL, DETAIL, DATA = Level
@@ -217,12 +217,9 @@ def _equal(what: str) -> Row:
     )
 
 
-def _plot(compared: Compared, _: Any) -> list[str]:
-    curves = {letter: list(curve(x, compared.against)) for letter, x in compared.tested}
-    if not any(curves.values()):
-        return []
-    plot = terminal_curves(curves, compared.against)
-    return [*plot.splitlines(), *([f"{SEVERAL} several methods"] if SEVERAL in plot else [])]
+def _drawn(compared: Compared) -> Compared | None:
+    curves = (list(curve(x, compared.against)) for _, x in compared.tested)
+    return compared if any(curves) else None
 
 
 # the report
@@ -295,7 +292,7 @@ REPORT: Report[Compared] = Report.only(
         Row("work", shown(WORK, MOST_METHODS), _work),
         _equal("evaluations"),
         _equal("seconds"),
-        Row("plot", picture(_plot), ".", DETAIL),
+        Row("plot", scene(lambda c: errors_scene(c.tested, c.against)), _drawn, DETAIL),
         Row("results", parts(RESULT), "named", DATA),
         Row("summary", part(SUMMARY), ".", DATA),
     ),

@@ -11,8 +11,8 @@ from garkcli.convergence.result import Row as Step
 from garkcli.exact.display import to_float
 from garkcli.frozen import Frozen
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
-from garkcli.page.asciiplot import POINT, terminal_curves
 from garkcli.page.figures import for_programs, order_text, rounded, scientific
+from garkcli.plots.convergence import errors_scene
 from garkcli.problems.oscillator import Oscillator
 from garkcli.reason import Reason
 from garkcli.report.failure import FAILURE, Failure
@@ -32,7 +32,7 @@ from garkcli.tell.facts import (
     via,
 )
 from garkcli.tell.kinds import COUNT, EXACT, POSITION, TEXT, TEXTS, TRUTH, choice
-from garkcli.tell.parts import answer, part, picture, rows_of, table
+from garkcli.tell.parts import answer, part, rows_of, scene, table
 from garkcli.tell.report import Report
 
 HEADLINE, USUAL, DETAIL, DATA = Level
@@ -245,11 +245,6 @@ def notes(test: ConvergenceReport) -> list[str]:
     return [*remarks(test.result), *([NO_TIME] if test.has_work and not is_timed else [])]
 
 
-def _plot(test: ConvergenceReport, _: Any) -> list[str]:
-    points = {POINT: list(curve(test.result, test.against))}
-    return terminal_curves(points, test.against).splitlines()
-
-
 def _drawn(test: ConvergenceReport) -> ConvergenceReport | None:
     return test if len(list(curve(test.result, test.against))) > 1 else None
 
@@ -291,7 +286,7 @@ FORMS = {
         *via(lambda x: x.result, [*rows, *_RESULT]),
         Row("notes", rows_of(lambda xs, d: [("note", d.prose(x)) for x in xs]), notes),
         Row("steps", table(_STEPS, MOST_STEPS), steps),
-        Row("plot", picture(_plot), _drawn, DETAIL),
+        Row("plot", scene(lambda x: errors_scene([(x.name, x.result)], x.against)), _drawn, DETAIL),
         title=lambda x, d: d.prose(x.name),
     )
     for kind, rows in STEPPED.items()

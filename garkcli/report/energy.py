@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import isfinite, isnan
-from typing import Any, NamedTuple, get_args
+from math import isnan
+from typing import NamedTuple, get_args
 
 from garkcli.errors import counted
 from garkcli.exact.display import to_decimal, to_float
-from garkcli.frozen import Frozen
+from garkcli.frozen import Frozen, replace
 from garkcli.longtime.history import Doubt, InvariantHistory, LongRun, Stability, Verdict
 from garkcli.longtime.rounding import power_of_ten
 from garkcli.longtime.symplecticity import Symplecticity
 from garkcli.longtime.trend import LEAST, Shape
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
-from garkcli.page.asciiplot import terminal_band
 from garkcli.page.figures import measured
+from garkcli.plots.energy import energy_scene
 from garkcli.problems.hamiltonian import FLOAT_DIGITS
 from garkcli.report.failure import FAILURE, Failure
 from garkcli.report.problem import STEPPED
@@ -23,7 +23,7 @@ from garkcli.tableau.garkmethod import derivation_of, word_for
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Kind, Level, Row, Section, maybe, optional, via
 from garkcli.tell.kinds import COUNT, EXACT, POSITION, TEXT, TRUTH, choice, claim_word
-from garkcli.tell.parts import SAID, answer, part, parts, picture, rows_of, table
+from garkcli.tell.parts import SAID, answer, part, parts, rows_of, scene, table
 from garkcli.tell.report import Report
 
 HEADLINE, USUAL, DETAIL, DATA = Level
@@ -290,18 +290,9 @@ def _claims(claims: tuple[Claim, ...], d: Plain) -> list[tuple[str, str]]:
 
 
 def _drawn(report: EnergyReport) -> LongRun | None:
-    """The run, where its errors are more than noise, which is different on every machine."""
-    first = report.run.invariants[0]
-    return report.run if first.max_error > first.round_off else None
-
-
-def _plot(run: LongRun, _: Any) -> list[str]:
-    first = run.invariants[0]
-    label = "H(t) − H(0)" if run.energy else f"error of {first.name}"
-    # an invariant may have lost its value on the way
-    points = [(t, x) for t, x in zip(run.times, first.errors, strict=True) if isfinite(x)]
-    times, errors = zip(*points, strict=True)
-    return terminal_band(times, errors, label).splitlines()
+    """The run with the errors that are more than noise, which is different on every machine."""
+    seen = tuple(x for x in report.run.invariants if x.max_error > x.round_off)
+    return replace(report.run, invariants=seen) if seen else None
 
 
 SIZE, NUMBER = Kind(S.SIZE), Kind(S.NUMBER)
@@ -382,7 +373,7 @@ FORMS = {
         *via(lambda x: x.run, [*rows, *RUN]),
         Row("symplectic_in_words", SAID, lambda x: "; ".join(_symplectic(x)), label="symplectic"),
         Row("claims_in_words", rows_of(_claims), "claims"),
-        Row("plot", picture(_plot), _drawn, DETAIL),
+        Row("plot", scene(energy_scene), _drawn, DETAIL),
         maybe(
             "symplectic", part(SYMPLECTIC), lambda x: None if x.symplecticity is None else x, DATA
         ),

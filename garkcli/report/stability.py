@@ -22,8 +22,8 @@ from garkcli.exact.roots import RealRoot
 from garkcli.frozen import Frozen, replace
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ALGEBRAIC, ROOT_OF, root_data
+from garkcli.plots.regions import stability_scene
 from garkcli.reason import NO_REASON, Reason
-from garkcli.report.stability_region import damped_lines, region_lines
 from garkcli.stability.ball_polynomials import Bounds
 from garkcli.stability.fraction import MOST_LINES, Fraction
 from garkcli.stability.linear import poles_are_right
@@ -32,7 +32,7 @@ from garkcli.stability.two_frequencies import SlowInterval, TwoFrequencies
 from garkcli.tableau.garkmethod import Derivation, derived_name
 from garkcli.tell import kinds
 from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, maybe, via
-from garkcli.tell.parts import part, parts, picture
+from garkcli.tell.parts import part, parts, scene
 from garkcli.tell.report import Report
 
 if TYPE_CHECKING:
@@ -54,6 +54,7 @@ class StabilityReport(Frozen):
         plane: both frequencies in floats, for a picture.
         slow: the two-frequency problem for an interval of slow frequencies.
         derivation: whether the method is the pair or the conjugate of what the file gives.
+        is_order_star: whether the picture is |R(z)| > |e^z|.
     """
 
     file: str
@@ -64,6 +65,7 @@ class StabilityReport(Frozen):
     plane: SpringsPlane | None = None
     slow: SlowInterval | None = None
     derivation: Derivation = ""
+    is_order_star: bool = False
 
 
 # kinds
@@ -399,16 +401,15 @@ IMEX = Section(
     Row("implicit", kinds.TEXT, lambda c: c.names[c.pair.implicit], DATA),
     maybe("real_interval", _ray("−z"), "real"),
     maybe("imaginary_interval", _ray("|z|"), "imaginary"),
-    Row("region", picture(lambda c, _: list(damped_lines(c.pair, c.explicit_alone))), ".", DETAIL),
     title=lambda c, d: d.prose(
         f"implicit-explicit pair, z{c.pair.explicit + 1} with |R| ≤ 1 for every"
         f" z{c.pair.implicit + 1} with Re ≤ 0"
     ),
 )
-REGION = Row(
-    "region",
-    picture(lambda R, _: list(region_lines(R))),
-    lambda x: x.found.linear[0].R if x.found.tolerance is None else None,
+PLOT = Row(
+    "plot",
+    scene(lambda x: stability_scene([(x.name, x.found)], x.is_order_star, x.plane)),
+    lambda x: x if x.found.linear or x.found.oscillator or x.plane else None,
     DETAIL,
 )
 
@@ -429,7 +430,6 @@ SEVERAL = [
     *ALIKE[1:],
     ALONE,
     Row("R_alike", kinds.ratio("z"), "found.linear.0.R", DETAIL),
-    REGION,
     Row("ssp_radii", parts(RADII, _radii_words), "found.colours.radii"),
     maybe("pair", part(IMEX), lambda x: x.found.colours if x.found.colours.pair else None),
 ]
@@ -445,16 +445,16 @@ def _waves(linear: str, has_waves: bool) -> list[Row]:
 
 
 WAVES = via(lambda x: x.found.oscillator, OSCILLATOR)
-TAIL = maybe("algebraically_stable", kinds.TRUTH, algebraic)
+TAIL = [maybe("algebraically_stable", kinds.TRUTH, algebraic), PLOT]
 LINEARS = {
     "none": [*head("oscillator")],
-    "alike": [*head("linear"), *ALIKE, REGION, ALONE],
+    "alike": [*head("linear"), *ALIKE, ALONE],
     "several": [*head("linear"), *SEVERAL],
 }
 """By what the colours do on the linear test equation: ``R`` has a z for each colour, or one."""
 COLUMNS = ("file", "a_stable", "l_stable", "real_interval", "imaginary_interval", "ssp")
 FORMS = {
-    (linear, waves): Section(*rows, *_waves(linear, waves), TAIL, title=title, columns=COLUMNS)
+    (linear, waves): Section(*rows, *_waves(linear, waves), *TAIL, title=title, columns=COLUMNS)
     for (linear, rows), waves in product(LINEARS.items(), (False, True))
 }
 

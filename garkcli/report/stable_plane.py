@@ -15,11 +15,12 @@ from garkcli.exact.roots import RealRoot, sign
 from garkcli.frozen import replace
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ALGEBRAIC, root_data
+from garkcli.plots.stable_plane import stable_plane_scene
 from garkcli.tableau.family import Stability
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Kind, Level, Row, Section, maybe
 from garkcli.tell.kinds import INDEX, INTERVAL, ROOTS, TEXT, TEXTS, choice, interval_data, record
-from garkcli.tell.parts import answer, rows_of
+from garkcli.tell.parts import answer, rows_of, scene
 from garkcli.tell.report import Report
 
 HEADLINE, USUAL, DETAIL, DATA = Level
@@ -157,6 +158,7 @@ WHOLE = Section(
             Row("ends", rows_of(strips), "."),
             Row("strips", STRIPS, ".", DATA),
             Row("undecided", ROOTS, level=DATA),
+            Row("plot", scene(lambda x: stable_plane_scene(x, x.family.name)), ".", DETAIL),
         )
     ),
     title=lambda x, d: d.prose(x.file),

@@ -9,6 +9,7 @@ from typing import Any
 
 from garkcli.errors import UsageProblem, counted
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
+from garkcli.plots.sweep import sweep_scene
 from garkcli.report.search import with_root
 from garkcli.sweep.columns import Value, columns
 from garkcli.sweep.plan import Plan
@@ -17,7 +18,7 @@ from garkcli.sweep.row import Row as Judged
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Kind, Level, Row, Section, via
 from garkcli.tell.kinds import COUNT, TEXT, TEXTS, record
-from garkcli.tell.parts import answer, table, told
+from garkcli.tell.parts import answer, scene, table, told
 from garkcli.tell.report import Report
 
 HEADLINE, USUAL, DETAIL, DATA = Level
@@ -114,6 +115,12 @@ def section(report: SweepReport | None = None) -> Section:
             f"Pareto front of {front}" if front else "pareto",
             lambda x: x.front if x.plan.pareto else [],
             most,
+        ),
+        Row(
+            "plot",
+            scene(lambda x: sweep_scene(x, *x.plan.pareto[:2])),
+            lambda x: x if x.kept and len(x.plan.pareto) > 1 else None,
+            DETAIL,
         ),
         title=lambda x, d: d.prose(x.plan.name),
     )

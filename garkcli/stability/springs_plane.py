@@ -75,7 +75,7 @@ def springs_plane(
                 continue
             M = np.eye(2) + weights @ solved
             half[i, j] = abs(np.trace(M)) / 2
-    return SpringsPlane(fast, slow, half)
+    return SpringsPlane(fast, slow, np.nan_to_num(half, nan=np.inf, posinf=np.inf))
 
 
 def plane_with_ends_of(

@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from garkcli.exact.roots import RealRoot
     from garkcli.ntrees.tree import Tree
     from garkcli.order.certificate import Witness
+    from garkcli.plots.scene import Scene
     from garkcli.stability.ball_polynomials import Bounds
     from garkcli.tableau.pointwise import Entries
     from garkcli.tableau.tableau import Tableau
@@ -442,6 +443,14 @@ class Plain(Mutable):
     def picture(self, lines: Sequence[str], depth: int) -> list[str]:
         """A drawing in signs."""
         return indented(lines, "  " * depth)
+
+    def scene(self, scene: Scene, depth: int) -> list[str]:
+        """A drawing of axes, curves and areas."""
+        from garkcli.plots.terminal import COLUMNS, drawn
+
+        columns = min(COLUMNS, self.width - 2 * depth)
+        panels = (drawn(panel, self.spelt, columns) for panel in scene.panels)
+        return self.picture([line for lines in panels for line in lines], depth)
 
     def page(self, lines: Iterable[str]) -> Iterator[str]:
         """The whole text, in pieces."""

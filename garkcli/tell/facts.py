@@ -18,6 +18,7 @@ from garkcli.page.schema import Schema, array, nullable, one_of
 from garkcli.reason import NO_REASON, Reason
 
 if TYPE_CHECKING:
+    from garkcli.plots.scene import Scene
     from garkcli.tell.dialect import Plain
 
 
@@ -116,6 +117,7 @@ class Kind(Frozen):
         cell: the same in a table, where that is shorter.
         lines: a picture of the value, for outputs with room.
         draw: the value in finished lines of the output.
+        scene: a picture of the value, which each output draws in its way.
         rows: the value as labels with words, among those of other facts.
         is_data: whether programs get it; pictures and rows of words are for people alone.
         beside: further fields of JSON.
@@ -137,6 +139,7 @@ class Kind(Frozen):
     cell: Words | None = None
     lines: Callable[[Any, Plain], list[str]] | None = None
     draw: Callable[[Any, Plain], list[str]] | None = None
+    scene: Callable[[Any], Scene] | None = None
     rows: Callable[[Any, Plain], list[tuple[str, str]]] | None = None
     is_data: bool = True
     beside: tuple[Beside, ...] = ()
@@ -152,8 +155,8 @@ class Kind(Frozen):
     @property
     def is_below(self) -> bool:
         """Whether it has lines of its own, below the other facts."""
-        is_shown = self.lines is not None or self.draw is not None or self.most is not None
-        return is_shown or self.is_stream
+        shown = self.lines, self.draw, self.scene, self.most
+        return self.is_stream or any(x is not None for x in shown)
 
     def __call__(self, value: Any) -> Said:
         """A value of this kind in a reason."""

@@ -16,6 +16,7 @@ from garkcli.tell.latex import expression_latex
 if TYPE_CHECKING:
     from garkcli.exact.cells import Interval
     from garkcli.exact.polynomial import Polynomial
+    from garkcli.plots.scene import Scene
     from garkcli.tableau.pointwise import Entries
     from garkcli.tableau.tableau import Tableau
 
@@ -99,6 +100,11 @@ class Html(Plain):
 
     def picture(self, lines: Sequence[str], depth: int) -> list[str]:
         return [f"<pre>{escape(chr(10).join(lines))}</pre>"]
+
+    def scene(self, scene: Scene, depth: int) -> list[str]:
+        from garkcli.plots.svg import svg
+
+        return [f'<div style="max-width:32rem">{svg(panel)}</div>' for panel in scene.panels]
 
     def page(self, lines: Iterable[str]) -> Iterator[str]:
         yield "<div>\n"

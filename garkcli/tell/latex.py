@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from garkcli.exact.polynomial import Polynomial
     from garkcli.exact.roots import RealRoot
     from garkcli.ntrees.tree import Tree
+    from garkcli.plots.scene import Scene
     from garkcli.reason import Place
     from garkcli.tableau.pointwise import Entries
     from garkcli.tableau.tableau import Tableau
@@ -177,6 +178,9 @@ class Latex(Plain):
         return tableau_lines(tableau, entries)
 
     def picture(self, lines: Sequence[str], depth: int) -> list[str]:
+        return []
+
+    def scene(self, scene: Scene, depth: int) -> list[str]:
         return []
 
     def page(self, lines: Iterable[str]) -> Iterator[str]:

@@ -146,7 +146,7 @@ def labelled(
                 below.append((kind.section.title(part, d), part_rows))
         elif kind.rows is not None:
             rows += kind.rows(fact.value, d)
-        elif kind.lines is None and kind.draw is None:
+        elif not kind.is_below or kind.most is not None:
             rows.append((label(fact, d), words(fact, d)))
     yield "", rows
     yield from below
@@ -158,6 +158,8 @@ def block(fact: Fact, d: Plain, level: Level, depth: int) -> Iterator[str]:
     section = kind.section
     if kind.draw is not None:
         yield from kind.draw(value, d)
+    elif kind.scene is not None:
+        yield from d.scene(kind.scene(value), depth)
     elif kind.is_stream:
         yield from stream(fact, d, depth)
     elif section is None:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from garkcli.tell.facts import Answer, Getter, Kind, Level, Row, Section, Words
 
 if TYPE_CHECKING:
+    from garkcli.plots.scene import Scene
     from garkcli.tell.dialect import Plain
 
 
@@ -43,6 +44,11 @@ def picture(lines: Callable[[Any, Plain], list[str]]) -> Kind:
 def drawing(draw: Callable[[Any, Plain], list[str]]) -> Kind:
     """What each output draws in its way, for people alone."""
     return Kind({}, draw=draw, is_data=False)
+
+
+def scene(make: Callable[[Any], Scene]) -> Kind:
+    """A picture of its axes, curves and areas, for people alone."""
+    return Kind({}, scene=make, is_data=False)
 
 
 def sentence(words: Callable[[Any], str]) -> Row:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from itertools import chain
 from typing import Any, Generic, TypeAlias, TypeVar
 
 from garkcli.frozen import Frozen
@@ -11,7 +12,7 @@ from garkcli.page.paint import Paint
 from garkcli.page.schema import Schema, array, one_of, published
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Level, Section
-from garkcli.tell.outputs import labelled, many, one
+from garkcli.tell.outputs import body, labelled, many, one
 
 Whole = TypeVar("Whole")
 Labelled: TypeAlias = "tuple[str, list[tuple[str, str]]]"
@@ -189,8 +190,11 @@ class Report(Frozen, Generic[Whole]):
         return "".join(signs.page(many(self.form, wholes, lambda x: self.dialect(x, format))))
 
     def html(self, whole: Whole) -> str:
-        """A fragment of a page, for notebooks."""
-        return self._told(whole, "html", Level.USUAL)
+        """A fragment of a page with its pictures, for notebooks."""
+        form, d = self.form(whole), self.dialect(whole, "html", is_brief=True)
+        pictures = Section(*(row for row in form.rows if row.kind.scene is not None))
+        lines = one(form, whole, d), body(pictures, whole, d, Level.DETAIL, 1)
+        return "".join(d.page(chain(*lines)))
 
     def labelled(
         self, whole: Whole, signs: type[Plain], without: Collection[str] = ()

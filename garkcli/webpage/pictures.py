@@ -14,7 +14,7 @@ from garkcli.longtime.longtime import usual
 from garkcli.page.figures import order_text
 from garkcli.plots.convergence import comparison_panel, errors_panel
 from garkcli.plots.energy import became_of, history_panel
-from garkcli.plots.regions import of_directions, pair_panel, region_panel, trace_panel
+from garkcli.plots.regions import PRINTED, of_directions, pair_panel, region_panel, trace_panel
 from garkcli.plots.scene import Panel
 from garkcli.plots.svg import ON_ANY, svg
 from garkcli.problems.builtin import hamiltonian
@@ -118,7 +118,8 @@ def _region(method: GarkMethod) -> tuple[Panel, str]:
     panel = region_panel(of_directions(named))
     more = len(found) - len(named)
     left_out = f" The regions of the last {more} colours alone are left out." if more else ""
-    return panel, panel.note + left_out
+    printed = f" {PRINTED}" if method.tolerance is not None else ""
+    return panel, panel.note + left_out + printed
 
 
 def _pair(method: GarkMethod) -> tuple[Panel, str]:

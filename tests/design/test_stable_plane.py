@@ -136,7 +136,7 @@ def test_the_picture() -> None:
     assert kinds == ["Area", "Area", "Curve", "Area"]
     area = panel.shapes[0]
     assert isinstance(area, Area)
-    (loop,) = area.loops
+    (loop,) = area.outlines(panel.x, panel.y)
     for g, d in loop:
         if d < panel.y.high:
             # (1 − g)/2 and (1 − g)/(2 − 4g)

@@ -143,7 +143,7 @@ def row_labels(section: Section) -> Iterator[str]:
         kind = row.kind
         if not is_seen:
             continue
-        if kind.rows is None and kind.lines is None:
+        if kind.rows is None and kind.lines is None and kind.scene is None:
             yield label_of(row.key) if row.label is None else row.label
         if kind.section is not None:
             yield from row_labels(kind.section)

@@ -1,4 +1,4 @@
-"""Scenes, and that both back ends draw the whole of them."""
+"""Scenes, and that all outputs draw the whole of them."""
 
 from __future__ import annotations
 
@@ -12,11 +12,12 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from garkcli import converge, find_stability, long_run
 from garkcli.frozen import replace
-from garkcli.plots.convergence import comparison_scene, convergence_scene
+from garkcli.plots import terminal
+from garkcli.plots.convergence import errors_scene
 from garkcli.plots.energy import energy_scene
 from garkcli.plots.figure import figure
 from garkcli.plots.regions import stability_scene
-from garkcli.plots.scene import Area, Axis, Curve, Panel, Rule, Scene, common_exponent
+from garkcli.plots.scene import Area, Axis, Curve, Panel, Rule, Scene, common_exponent, polygons
 from garkcli.plots.svg import svg
 
 
@@ -29,8 +30,8 @@ def scenes() -> list[Scene]:
     """A scene of each kind that results have."""
     rk4, euler = converge("rk4"), converge("forward-euler")
     return [
-        convergence_scene(rk4, "RK4"),
-        comparison_scene([("RK4", rk4), ("Euler", euler)]),
+        errors_scene([("RK4", rk4)]),
+        errors_scene([("RK4", rk4), ("Euler", euler)]),
         energy_scene(long_run("rk4", "kepler", 100, "1/16")),
         stability_of("forward-euler", "rk4"),
         stability_of("ark-ars222"),
@@ -40,9 +41,9 @@ def scenes() -> list[Scene]:
     ]
 
 
-def test_both_back_ends_draw_all_of_a_scene() -> None:
-    """Each panel has its labels, the names of its legend and the slopes beside lines, as a figure
-    and as SVG, and one path or line for each shape.
+def test_all_outputs_draw_all_of_a_scene() -> None:
+    """Each panel has its labels, its limits, the names of its legend and the slopes beside lines,
+    in a terminal, as a figure and as SVG, which have one path or line for each shape.
     """
     for scene in scenes():
         axes = figure(scene).axes
@@ -52,13 +53,19 @@ def test_both_back_ends_draw_all_of_a_scene() -> None:
             names = [x.label for x in panel.legend]
             slopes = [x.label for x in panel.shapes if isinstance(x, Rule) and x.label]
             assert {panel.x.label, panel.y.label, *names, *slopes} <= {*texts}
+            lines = "\n".join(terminal.drawn(panel))
+            assert all(x in lines for x in (panel.x.label, panel.y.label, *names, *slopes))
+            limits = [x for axis in (panel.x, panel.y) for x in (axis.low, axis.high)]
+            assert [*drawn.get_xlim(), *drawn.get_ylim()] == limits
             legend = drawn.get_legend()
             assert names == ([] if legend is None else [x.get_text() for x in legend.get_texts()])
             assert slopes == [x.get_text() for x in drawn.texts]
             assert drawn.get_ylabel() == panel.y.label
             if scene.is_row or panel is scene.panels[-1]:
                 assert drawn.get_xlabel() == panel.x.label
-            areas = [x for x in panel.shapes if isinstance(x, Area) and x.loops]
+            areas = [
+                x for x in panel.shapes if isinstance(x, Area) and x.outlines(panel.x, panel.y)
+            ]
             nested = root.find("svg")
             assert nested is not None
             assert len(nested.findall("path")) == len(panel.shapes)
@@ -74,7 +81,7 @@ def test_the_outline_of_an_order_star() -> None:
     assert isinstance(area[0], Area)
     on_edge = 0
     reach = 0.0
-    for x, y in (point for loop in area[0].loops for point in loop):
+    for x, y in (point for loop in area[0].outlines(panel.x, panel.y) for point in loop):
         if x <= panel.x.low + 0.1 or abs(y) >= panel.y.high - 0.1:
             continue  # the edge of the picture
         z = complex(x, y)
@@ -92,7 +99,7 @@ def test_holes_are_left_out() -> None:
     outer = [(0.0, 0.0), (3.0, 0.0), (3.0, 3.0), (0.0, 3.0)]
     hole = [(1.0, 1.0), (1.0, 2.0), (2.0, 2.0), (2.0, 1.0)]
     axis = Axis("x", 0.0, 3.0)
-    panel = Panel("t", "d.", axis, axis, [Area(None, [outer, hole], 1.0, has_outline=False)])
+    panel = Panel("t", "d.", axis, axis, [polygons(None, [outer, hole], 1.0, has_outline=False)])
     drawn = figure(Scene("", [panel]))
     canvas = FigureCanvasAgg(drawn)
     canvas.draw()
@@ -113,7 +120,11 @@ def test_little_to_draw() -> None:
     well-formed and have no path without data.
     """
     axis = Axis("x", 0.0, 1.0)
-    shapes = [Curve(0, []), Area(1, [], 0.5), Curve(2, [(0.5, 0.5)], "dot", True, has_line=False)]
+    shapes = [
+        Curve(0, []),
+        polygons(1, [], 0.5),
+        Curve(2, [(0.5, 0.5)], "dot", True, has_line=False),
+    ]
     panel = Panel("t", "d.", axis, axis, shapes)
     root = ET.fromstring(svg(panel))
     assert all("0" in str(x.get("d")) for x in root.iter("path"))
@@ -138,5 +149,5 @@ def test_errors_that_are_no_numbers_or_hardly_any() -> None:
 def test_steps_of_a_run_are_exact_marks() -> None:
     """What is below an axis of step sizes are these, at their logarithms."""
     result = converge("rk4", steps=[fmpq(1, 3), fmpq(1, 9)])
-    (panel,) = convergence_scene(result, "RK4").panels
+    (panel,) = errors_scene([("RK4", result)]).panels
     assert [mark.label for mark in panel.x.marks(6)] == ["1/3", "1/9"]

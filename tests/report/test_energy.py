@@ -18,7 +18,6 @@ from garkcli.longtime.history import LongRun
 from garkcli.longtime.longtime import long_run
 from garkcli.longtime.symplecticity import Defect, Symplecticity
 from garkcli.methodfile.load import load
-from garkcli.page.asciiplot import INSIDE, POINT, terminal_band
 from garkcli.plots.energy import energy_scene
 from garkcli.plots.figure import figure as draw
 from garkcli.plots.saving import save_scene
@@ -284,26 +283,3 @@ def test_names_are_no_formulas(tmp_path: Path) -> None:
     named = replace(run, problem=replace(run.problem, name="$x^{ $"), invariants=(history,))
     save_scene(energy_scene(named), tmp_path / "a.svg")
     assert (tmp_path / "a.svg").stat().st_size > 5000
-
-
-def test_band_joins_its_points() -> None:
-    """Every column is drawn on, every value is within its column's band."""
-    lines = terminal_band([0, 1, 10], [0.0, 5.0, -5.0], "f", columns=39, height=9).splitlines()[
-        1:10
-    ]
-    for column in range(30):
-        drawn = [
-            line.ljust(40)[line.index("┤" if "┤" in line else "│") + 1 + column] for line in lines
-        ]
-        assert any(x in (INSIDE, POINT) for x in drawn)
-
-
-@pytest.mark.parametrize(
-    "values", [[0.0], [1.0], [-1.0], [0.0, 0.0], [1e-300, 2e-300], [-1e300, 1e300], [5.0, 5.0]]
-)
-def test_band_of_little(values: list[float]) -> None:
-    """One point, no height, and the ends of the floats."""
-    found = terminal_band([float(k) for k in range(len(values))], values, "f", columns=27, height=5)
-    assert len(found.splitlines()) == 8
-    assert "nan" not in found
-    assert "inf" not in found

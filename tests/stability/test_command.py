@@ -112,7 +112,8 @@ def test_a_region_in_text_is_that_of_the_method() -> None:
     assert "┤" not in run("methods/rk4.gark.yaml").output
     lines = run("methods/rk4.gark.yaml", "-v").output.splitlines()
     (axis,) = [line for line in lines if line.strip().startswith("0 ┤")]
-    cells = axis.split("┤")[1]
-    step = 8 / (len(cells) - 1)
-    left_end = -6 + step * cells.index("█")
-    assert abs(left_end + 2.785) < 2 * step
+    below = next(k for k, line in enumerate(lines) if "└" in line)
+    first, *_, last = (k for k, sign in enumerate(lines[below]) if sign == "┬")
+    low, *_, high = (int(x.replace("−", "-")) for x in lines[below + 1].split())
+    step = (high - low) / (last - first)
+    assert abs(low + step * (axis.index("█") - first) + 2.785) < 1.5 * step
