@@ -325,7 +325,7 @@ def test_details_end_with_a_plot() -> None:
         assert any("step size h" in line for line in all_of_it.splitlines()[-2:])
         assert gark("converge", *arguments, *steps, "-q").out == usual.splitlines()[0] + "\n"
     worked = gark("converge", VERLET, *steps, "--work", "-v").out
-    assert worked.splitlines()[-1].endswith("evaluations of vector fields")
+    assert worked.splitlines()[-2].endswith("evaluations of vector fields")
 
 
 def test_an_invariant_without_a_value(tmp_path: Path) -> None:
