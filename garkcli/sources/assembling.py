@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from math import isqrt
 from typing import TypeAlias
 
-from garkcli.frozen import Frozen, field, replace
+from garkcli.frozen import Frozen, replace
 from garkcli.sources.found import MAX_STAGES, FoundTable, Misshapen, Row, Rows, Unreadable, troubled
 from garkcli.sources.known import conversion
 from garkcli.sources.registers import Converted, converted, recognised
@@ -22,7 +22,7 @@ from garkcli.sources.shaping import (
     symplectic,
     weights,
 )
-from garkcli.sources.signatures import Signature
+from garkcli.sources.signatures import NAMED, Signature
 from garkcli.sources.values import (
     FILL,
     Array,
@@ -57,26 +57,18 @@ class Meant(Frozen):
     """What may be a table.
 
     Attributes:
-        name: what it is called.
-        line: where it begins.
+        table: what is known of it before its coefficients are.
         roles: its values.
-        maker: the call that makes it; empty where names alone speak for it.
-        signature: of that call, where it is known.
-        is_sure: whether the source says that this is a method.
+        signature: of the call that makes it; ``NAMED`` where names alone speak for it.
+        maker: that call, or what else makes it; empty for names.
         bases: of the class that it is in.
-        notes: what people should know of how it was read.
-        is_assembled: whether it was put together from single numbers.
     """
 
-    name: str
-    line: int
+    table: FoundTable
     roles: Roles
-    maker: str
-    signature: Signature | None
-    is_sure: bool = False
+    signature: Signature = NAMED
+    maker: str = ""
     bases: Sequence[str] = ()
-    notes: Sequence[str] = field(default_factory=tuple)
-    is_assembled: bool = False
 
 
 def plain(value: Value | None) -> Texts:
@@ -99,43 +91,35 @@ def plain(value: Value | None) -> Texts:
     raise Unreadable(f"{described(value)} is not known")
 
 
-def table_of(meant: Meant, source: str, format: str) -> FoundTable:
+def table_of(meant: Meant) -> FoundTable:
     """The table, or what keeps it from being read.
 
     Raises:
         NoTable: it is none.
     """
-    signature = meant.signature
-    roles = meant.roles
+    signature, roles, told = meant.signature, meant.roles, meant.table
     title = roles.get("title")
+    name = title.text if isinstance(title, Word) else told.name
     order, embedded_order = _orders(roles)
-    empty = FoundTable(
-        source,
-        meant.line,
-        signature.format or format if signature else format,
-        title.text if isinstance(title, Word) else meant.name,
-        (),
-        (),
+    empty = replace(
+        told,
+        format=signature.format or told.format,
+        name=name,
         order=order,
         embedded_order=embedded_order,
-        flags=_flags(roles),
-        is_sure=meant.is_sure,
-        notes=tuple(meant.notes),
-        is_assembled=meant.is_assembled,
     )
-    if not (signature or meant.is_sure or meant.is_assembled):
+    is_sure = told.is_sure or told.is_assembled
+    if signature is NAMED and not is_sure:
         _refuse_uses(roles)
     try:
         table = _told(roles, _built(meant, roles, empty))
-        return replace(table, is_sure=True) if signature and signature.is_guess else table
+        return replace(table, is_sure=True) if signature.is_guess else table
     except Unreadable as error:
-        if meant.is_sure or meant.is_assembled:
-            sure = replace(empty, is_sure=True)
-            return troubled(sure, error.message, isinstance(error, Misshapen))
-        if _is_unread(roles) or (_has_weights(roles) and not isinstance(error, Misshapen)):
-            return troubled(replace(empty, is_sure=True), error.message)
-        trouble = f"arrays called A and b do not fit together: {error.message}"
-        return replace(troubled(empty, trouble), is_sure=False)
+        is_misshapen, trouble = isinstance(error, Misshapen), error.message
+        if not (is_sure or _is_unread(roles) or (_has_weights(roles) and not is_misshapen)):
+            trouble = f"arrays called A and b do not fit together: {trouble}"
+            return replace(troubled(empty, trouble), is_sure=False)
+        return troubled(empty, trouble, is_sure and is_misshapen)
 
 
 def _refuse_uses(roles: Roles) -> None:
@@ -167,28 +151,17 @@ def _has_weights(roles: Roles) -> bool:
     return len(items_of(b)) > 1 and abs(near(b) - 1) < _SAME
 
 
-def _flags(roles: Roles) -> dict[str, bool]:
-    fsal = roles.get("fsal")
-    if isinstance(fsal, Word) and fsal.text in {"true", "false"}:
-        return {"fsal": fsal.text == "true"}
-    return {}
-
-
 def _told(roles: Roles, table: FoundTable) -> FoundTable:
     """The table with what data say besides: what colours drive, the rounding."""
-    told = {key: x.text for key in _WORDS if isinstance(x := roles.get(key), Word)}
-    linear = roles.get("linear")
-    numbers = map(whole, linear.items) if isinstance(linear, Array) else ()
+    told = {role: x.text for role, x in roles.items() if isinstance(x, Word)}
     return replace(
         table,
         tolerance=told.get("tolerance", table.tolerance),
         parts=tuple(told["parts"].split()) if "parts" in told else table.parts,
         structure=told.get("structure", table.structure).replace("general", ""),
-        linear=tuple(x for x in numbers if x is not None),
+        linear=tuple(n for x in items_of(roles.get("linear")) if (n := whole(x)) is not None),
+        flags={"fsal": told["fsal"] == "true"} if told.get("fsal") in {"true", "false"} else {},
     )
-
-
-_WORDS = ("tolerance", "parts", "structure")
 
 
 def is_complete(roles: Roles) -> bool:
@@ -206,7 +179,7 @@ def _is_matrix(value: Value | None) -> bool:
 
 
 def _built(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
-    form = meant.signature.form if meant.signature else "rk"
+    form = meant.signature.form
     A = items_of(roles.get("A"))
     if form == "ark":
         return _two_parts(meant, roles, empty)
@@ -286,14 +259,14 @@ def _single(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
     """A table of one colour."""
     stages = 0
     roles = _without_further_stages(_with_ends(_with_both_rows(roles)))
-    if meant.signature and "stages" in meant.signature.roles:
+    if "stages" in meant.signature.roles:
         stages = _stages(roles)
-    elif meant.is_sure:
+    elif empty.is_sure:
         stages = whole(roles.get("stages")) or 0
     found = _of_registers(meant, roles)
     if found is None:
         given = _given(roles, "b", stages if meant.maker else 0)
-        if given is None and meant.signature and meant.signature.has_default_weights:
+        if given is None and meant.signature.has_default_weights:
             given = _square(roles, "A", stages)[-1]
         b = _row(roles, "b") if given is None else given
         if stages and len(b) != stages:
@@ -303,7 +276,7 @@ def _single(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
         form, made = found
         A, b = made.A, made.b
         note = f"the coefficients are those of the form {form}"
-        is_guess = not meant.signature and "c" not in roles
+        is_guess = meant.signature is NAMED and "c" not in roles
         is_told = {"notes": (*empty.notes, note), "is_assembled": is_guess, "is_sure": True}
         empty = replace(empty, **is_told, units=made.units)
         if form == "Shu–Osher":
@@ -363,17 +336,18 @@ def _with_ends(roles: Roles) -> Roles:
     """The rows whole, where their first or last number is apart."""
     found = dict(roles)
     for role in ("A", "b", "embedded"):
-        row = found.get(role)
-        ends = [found.pop(f"{role}_{x}", None) for x in ("first", "last")]
-        if isinstance(row, Array) and ends != [None, None]:
-            parts = ([ends[0]], row.items, [ends[1]])
-            found[role] = Array([x for part in parts for x in part if x is not None])
+        first, last = ([roles[x]] if (x := f"{role}_{end}") in roles else [] for end in _ENDS)
+        if first or last:
+            found[role] = Array([*first, *items_of(roles.get(role)), *last])
     return found
+
+
+_ENDS = ("first", "last")
 
 
 def _of_registers(meant: Meant, roles: Roles) -> tuple[str, Converted] | None:
     """The form of low-storage and Shu–Osher coefficients, and what they are; None of others."""
-    form = meant.signature.form if meant.signature else "rk"
+    form = meant.signature.form
     A, b, c = map(roles.get, "Abc")
     if "gamma1" in roles:
         rows = [_given(roles, x) or () for x in _THREE_REGISTERS]
@@ -482,9 +456,9 @@ def _with_embedded(table: FoundTable, roles: Roles, meant: Meant) -> FoundTable:
     if meant.maker:
         row += (ZERO,) * (len(b) - len(row))
     total = near(roles[role])
-    is_error = abs(total) < 0.05 or (role == "error" and meant.is_assembled)
+    is_error = abs(total) < 0.05 or (role == "error" and meant.table.is_assembled)
     off = total if role == "error" else total - 1
-    if not (meant.is_sure or is_error) and abs(off) > FAR:
+    if not (meant.table.is_sure or is_error) and abs(off) > FAR:
         # an array of that name which is something else
         return table
     if len(row) == len(b) + 1 and is_zero(row[-1]):
@@ -493,7 +467,7 @@ def _with_embedded(table: FoundTable, roles: Roles, meant: Meant) -> FoundTable:
         A, b = (*((*x, ZERO) for x in A), (*b, ZERO)), (*b, ZERO)
         table = replace(table, A=((A,),), b=(b,), c=(None if c is None else (*c, "1"),))
     if len(row) != len(b):
-        if meant.is_sure:
+        if meant.table.is_sure:
             raise Misshapen(f"{role} has {len(row)} entries, b has {len(b)}")
         return table
     if not is_error:
@@ -532,8 +506,7 @@ def _two_parts(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
         of["A1"] = Array([Array([]), *items_of(of["A1"])])
     A2, A1 = (square(plain(of.get(x)), stages) for x in ("A2", "A1"))
     b2 = _given(of, "b2", stages) or A2[-1]
-    has_default = meant.signature is not None and meant.signature.has_default_weights
-    b1 = _given(of, "b1", stages) or (b2 if has_default else A1[-1])
+    b1 = _given(of, "b1", stages) or (b2 if meant.signature.has_default_weights else A1[-1])
     low1, low2 = (_given_low(of, part, b) for part, b in (("1", b1), ("2", b2)))
     c1, c2 = (_given(of, x, stages) for x in ("c1", "c2"))
     if all(is_zero(x) for row in (*A1, b1) for x in row):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from typing import Any
 
 from garkcli.frozen import replace
 from garkcli.sources import ir
@@ -17,6 +18,7 @@ from garkcli.sources.scalar_names import FEWEST_COEFFICIENTS, are_coefficients, 
 from garkcli.sources.signatures import (
     CONSTRUCTOR,
     DRIFT_FIRST,
+    NAMED,
     PARTS,
     PRINTED,
     SIGNATURES,
@@ -24,6 +26,7 @@ from garkcli.sources.signatures import (
 )
 from garkcli.sources.steps import NoStep, step_of
 from garkcli.sources.values import (
+    NULL,
     Array,
     Null,
     Number,
@@ -39,11 +42,12 @@ from garkcli.sources.values import (
 
 _NUMBERED = re.compile(
     r"(?:(?P<stem>\w{1,200}?)_)?(?P<word>A|b|c|embedded|bhat|dense)"
-    r"_?(?P<l>[0-9]{1,2})(?:_(?P<m>[0-9]{1,2}))?"
+    r"_?(?P<at>[0-9]{1,2}(?:_[0-9]{1,2})?)"
 )
 """Names of arrays with the numbers of vector fields."""
 _ARRAY = re.compile(r"(?P<stem>\w{1,200}?)_(?P<role>(?:a[0-9]{1,2}|b|db|c)|[ab]_type)")
 """Names of classes that are arrays."""
+_OF_CLASSES = {"a_type": "drifts", "b_type": "kicks", "b": "b", "c": "c", "db": "error"}
 _WHOLE = re.compile(
     r"(?:(?P<stem>\w{1,200}?)_)??(?:butcher_?)?(?:tableau|table|matrix)(?:_?matrix)?"
 )
@@ -73,8 +77,7 @@ class TableFinder(Evaluator):
         self._format = format
         self._meant: list[Meant] = []
         self._other: dict[tuple[str, int], FoundTable] = {}
-        self._orders: dict[tuple[str, int], Number] = {}
-        self._users: dict[tuple[str, int], set[str]] = {}
+        self._users: dict[tuple[str, int], dict[str, Value | None]] = {}
         self._arrays: dict[str, dict[str, tuple[Array, int]]] = {}
         self._taken: set[tuple[str, int]] = set()
 
@@ -82,16 +85,16 @@ class TableFinder(Evaluator):
         """All of them, each once; arrays that a call takes are found with it."""
         found: dict[object, FoundTable] = {}
         for meant in [*self._meant, *self._of_classes()]:
-            declared = self._orders.get((meant.maker, meant.line))
-            if declared is not None:
-                meant.roles.setdefault("order", declared)
-            users = self._users.get((meant.maker, meant.line), ())
-            if meant.name.startswith("_") and len(users) == 1:
-                meant = replace(meant, name=next(iter(users)))
+            users = self._users.get((meant.maker, meant.table.line), {})
+            for order in users.values():
+                if order is not None:
+                    meant.roles.setdefault("order", order)
             try:
-                table = table_of(meant, self._source, self._format)
+                table = table_of(meant)
             except NoTable:
                 continue
+            if table.name.startswith("_") and len(users) == 1:
+                table = replace(table, name=next(iter(users)))
             key = (table.A, table.b, table.c, table.line, table.name)
             self.allowance.table(table, is_kept=key not in found)
             found.setdefault(key, table)
@@ -169,102 +172,82 @@ class TableFinder(Evaluator):
     def _of_classes(self) -> Iterator[Meant]:
         """Tables whose arrays are classes: a1, a2, …, b, db, c."""
         for stem, arrays in self._arrays.items():
-            if {"a_type", "b_type"} <= set(arrays):
-                (drifts, line), (kicks, _) = arrays["a_type"], arrays["b_type"]
-                of_steps: Roles = {"drifts": drifts, "kicks": kicks}
-                yield Meant("", line, of_steps, "", DRIFT_FIRST, is_sure=True)
-            rows = [arrays.get(f"a{i}") for i in range(1, len(arrays) + 1)]
-            A = [Array([]), *(x[0] for x in rows if x is not None)]
-            roles: Roles = {"A": Array(list(A))}
-            for role, name in (("b", "b"), ("c", "c"), ("error", "db")):
-                if name in arrays:
-                    roles[role] = arrays[name][0]
-            if "b" in roles and len(A) > 1:
-                line = min(line for _, line in arrays.values())
-                name = stem.removesuffix("_coefficients")
-                yield Meant(name, line, roles, "", None, is_sure=True)
+            given = {name: x for name, (x, _) in arrays.items()}
+            roles: Roles = {x: given[name] for name, x in _OF_CLASSES.items() if name in given}
+            rows = [given[f"a{i}"] for i in range(1, len(given) + 1) if f"a{i}" in given]
+            line = min(line for _, line in arrays.values())
+            if {"drifts", "kicks"} <= set(roles):
+                yield Meant(self._place("", line), roles, DRIFT_FIRST)
+            elif "b" in roles and rows:
+                roles["A"] = Array([Array([]), *rows])
+                yield Meant(self._place(stem.removesuffix("_coefficients"), line), roles)
 
     def _declared_by_class(self, scope: ir.Scope, space: Space) -> None:
         """The order of a class is that of the table which it uses; a table whose name is private
         has that of the only class which uses it.
         """
-        used = {(x.kind, x.line) for x in space.values() if isinstance(x, Record)}
         order = space.get("order", space.get("ORDER"))
-        if isinstance(order, Number):
-            self._orders |= dict.fromkeys(used, order)
-        for place in used:
-            self._users.setdefault(place, set()).add(scope.name)
+        for record in space.values():
+            if isinstance(record, Record):
+                users = self._users.setdefault((record.kind, record.line), {})
+                users[scope.name] = order if isinstance(order, Number) else None
 
     # records and calls
 
     def _of_record(self, record: Record, scope: ir.Scope) -> None:
-        kind = other_kind(record.kind)
-        if kind and record.kind not in SIGNATURES:
-            values = [*record.args, *record.fields.values()]
-            is_use = any(isinstance(x, Unknown) and _is_given(x) for x in values)
+        signature, fields = SIGNATURES.get(record.kind, NAMED), record.fields
+        name = self._name(record, scope)
+        kind = other_kind(record.kind) if signature is NAMED else ""
+        is_entry = scope.kind == "entry" and (kind or record.kind == _TABLE)
+        line = scope.line if is_entry else record.line
+        if kind:
+            values = [*record.args, *fields.values()]
+            is_use = any(map(_is_given, values))
             has_numbers = any(isinstance(x, Array) or whole(x) for x in values)
             if len(values) >= 3 and (has_numbers or not is_use):
-                line = scope.line if scope.kind == "entry" else record.line
-                name = self._name(record, scope)
                 self._unread(name, line, kind=kind)
             return
-        signature = SIGNATURES.get(record.kind)
-        fields = record.fields
-        roles: Roles = {}
-        if signature is not None:
-            if not record.args and len(fields) < 2:
-                return
-            values = [x for x in record.args if not isinstance(x, Type)]
-            roles = dict(zip(signature.roles, values, strict=False))
-            roles.pop("-", None)
-            if any(map(_is_given, roles.values())):
-                return
-        for name, value in fields.items():
-            role = name if record.kind == PRINTED else ROLES.get(name)
-            if signature is not None and name in signature.named:
-                role = signature.named[name]
-            if role is not None and not isinstance(value, Null):
-                roles.setdefault(role, value)
+        if signature is not NAMED and not record.args and len(fields) < 2:
+            return
+        values = [x for x in record.args if not isinstance(x, Type)]
+        roles: Roles = dict(zip(signature.roles, values, strict=False))
+        roles.pop("-", None)
         parts = roles_of_parts(fields)
         if parts:
             roles, signature = {role: fields[name] for name, role in parts.items()}, PARTS
-        if signature is PARTS and any(map(_is_given, roles.values())):
+        if any(map(_is_given, roles.values())):
             return
+        told = {**ROLES, **signature.named}
+        for key, value in {} if parts else fields.items():
+            role = key if record.kind == PRINTED else told.get(key)
+            if role is not None and not isinstance(value, Null):
+                roles.setdefault(role, value)
         _with_diagonal(roles, fields)
         if record.kind == _TABLE and not is_written(fields.get("d")):
             roles.pop("embedded", None)
-        if "title" not in roles or not isinstance(roles["title"], Word):
+        if not isinstance(roles.get("title"), Word):
             roles.pop("title", None)
-        are_arrays = all(isinstance(roles.get(x), Array) for x in ("A", "b"))
-        if signature and signature.is_guess and not are_arrays:
+        if not (is_complete(roles) or signature.has_default_weights):
+            if signature is NAMED:
+                self._of_scalars(name, fields, record.line)
             return
-        if signature is None and not is_complete(roles):
-            self._of_scalars(self._name(record, scope), fields, record.line)
+        if signature.is_guess and not all(isinstance(roles.get(x), Array) for x in ("A", "b")):
             return
-        if not is_complete(roles) and not (signature and signature.has_default_weights):
+        if signature.counts and len(record.args) not in signature.counts:
+            wanted = " or ".join(map(str, signature.counts))
+            self._unread(name, line, f"{record.kind} takes {wanted} arguments")
             return
-        line = record.line
-        if record.kind == _TABLE and scope.kind == "entry":
-            line = scope.line
-        counts = signature.counts if signature else ()
-        if counts and len(record.args) not in counts:
-            told = f"{record.kind} takes {' or '.join(map(str, counts))} arguments"
-            self._unread(self._name(record, scope), line, told)
-            return
-        is_sure = bool(signature and not signature.is_guess) or record.kind == _TABLE
-        self._meant.append(
-            Meant(
-                self._name(record, scope), line, roles, record.kind or "record", signature, is_sure
-            )
-        )
+        is_sure = not signature.is_guess and (signature is not NAMED or record.kind == _TABLE)
+        place = self._place(name, line, is_sure=is_sure)
+        self._meant.append(Meant(place, roles, signature, record.kind or "record"))
 
     def _name(self, record: Record, scope: ir.Scope) -> str:
         """What people call a table: a title, a constant, the function that makes it."""
-        signature = SIGNATURES.get(record.kind)
+        signature = SIGNATURES.get(record.kind, NAMED)
         first = record.args[0] if record.args else None
         if isinstance(first, Word):
             return first.text
-        if isinstance(first, Unknown) and (signature is None or signature.roles[0] == "title"):
+        if isinstance(first, Unknown) and (*signature.roles, "title")[0] == "title":
             name = first.reason.removeprefix("the name ")
             if name != first.reason and " " not in name:
                 return name
@@ -281,68 +264,55 @@ class TableFinder(Evaluator):
             return
         beside = _matrices_beside_weights(values)
         tableaus = [
-            (key, dict(block), lines.get(key, lines.get(name, scope.line)))
+            (key, block, lines.get(key, lines.get(name, scope.line)))
             for name, value in values.items()
             if name not in beside and not _is_matrix_of_stages(name)
             for key, block in blocks_in(name, value, scope.title)
         ]
         for key, block, line in tableaus:
             own = scope.title if len(tableaus) == 1 and scope.title else key
-            self._meant.append(Meant(own, line, block, "B", None, is_sure=True))
+            self._meant.append(Meant(self._place(own, line), dict(block), maker="B"))
         if tableaus:
             return
         parts = roles_of_parts(values)
         if parts:
             line = min(lines.get(x, scope.line) for x in parts)
             of_parts = {role: values[name] for name, role in parts.items()}
-            self._meant.append(Meant(scope.title, line, of_parts, "", PARTS))
+            self._meant.append(
+                Meant(self._place(scope.title, line, is_sure=False), of_parts, PARTS)
+            )
             values = {name: x for name, x in values.items() if name not in parts}
         groups: dict[str, Roles] = {}
-        blocks: dict[str, dict[str, dict[tuple[int, ...], Value]]] = {}
         begins: dict[str, int] = {}
         for name, value in values.items():
             owner, _, plain = name.rpartition("::")
+            numbered = _NUMBERED.fullmatch(plain) if isinstance(value, Array) else None
             told = beside.get(name) or role_of(plain.lstrip("_"))
-            numbered = _NUMBERED.fullmatch(plain)
-            line = lines.get(name, scope.line)
-            if numbered and isinstance(value, Array):
-                stem = numbered["stem"] or ""
-                at = tuple(int(x) for x in (numbered["l"], numbered["m"]) if x)
-                role = ROLES[numbered["word"]]
-                blocks.setdefault(stem, {}).setdefault(role, {})[at] = value
+            if numbered:
+                stem, role = numbered["stem"] or "", f"{ROLES[numbered['word']]} {numbered['at']}"
             elif told is not None and _fits(told[1], value):
                 # RK6Solver::a belongs to its class
-                stem = told[0] or owner
-                groups.setdefault(stem, {})[told[1]] = value
+                stem, role = told[0] or owner, told[1]
             else:
                 continue
+            groups.setdefault(stem, {})[role] = value
+            line = lines.get(name, scope.line)
             begins[stem] = min(line, begins.get(stem, line))
-        for stem, of_role in blocks.items():
-            if "A" in of_role and all(len(at) == 2 for at in of_role["A"]):
-                groups[stem] = {**groups.get(stem, {}), **_grid(of_role)}
-            elif stem in groups and set(of_role.get("b", ())) == {(1,), (2,)}:
-                # b1 and b2 beside one A: the weights and the embedded ones
-                pair = {"b": of_role["b"][1,], "embedded": of_role["b"][2,]}
-                groups[stem] = {**pair, **groups[stem]}
-        for stem, roles in groups.items():
+        for stem, numbered_roles in groups.items():
+            roles = _with_grid(numbered_roles)
             if {"A", "c", "gamma"} <= set(roles) and _is_triangle(roles["c"], roles["gamma"]):
                 # α, β, γ are the matrix in one row, the weights and the nodes
                 roles |= {"A": roles["c"], "b": roles["A"], "c": roles.pop("gamma")}
             if not is_complete(roles):
                 continue
             title = roles.pop("title", None)
-            signature = None
-            if {"A", "b", "A1", "embedded"} <= set(roles):
-                # an implicit part, and the explicit one with a hat
-                signature = PARTS
-            name = stem or scope.title
-            if isinstance(title, Word):
-                name = title.text
+            name = title.text if isinstance(title, Word) else stem or scope.title
+            # an implicit part, and the explicit one with a hat
+            signature = PARTS if {"A", "b", "A1", "embedded"} <= set(roles) else NAMED
             bases = scope.bases if scope.kind == "class" else ()
-            meant = Meant(name, begins[stem], roles, "", signature, bases=bases)
-            if "RungeKutta" in {x.rpartition(".")[2] for x in bases}:
-                meant = replace(meant, is_sure=True, line=scope.line)
-            self._meant.append(meant)
+            is_sure = "RungeKutta" in {x.rpartition(".")[2] for x in bases}
+            place = self._place(name, scope.line if is_sure else begins[stem], is_sure=is_sure)
+            self._meant.append(Meant(place, roles, signature, bases=bases))
 
     def _of_step(self, scope: ir.Scope, space: Space) -> bool:
         """The method of a function that is a step; whether another one looks like a step."""
@@ -353,28 +323,30 @@ class TableFinder(Evaluator):
         except NoStep as error:
             return error.looks_like
         note = "the coefficients are those of a step that is written out"
-        meant = Meant(scope.title, scope.line, roles, "a step", None, is_sure=True, notes=(note,))
-        self._meant.append(meant)
+        place = self._place(scope.title, scope.line, notes=(note,))
+        self._meant.append(Meant(place, roles, maker="a step"))
         return False
+
+    def _place(self, name: str, line: int, **told: Any) -> FoundTable:
+        """A table without its coefficients."""
+        return FoundTable(self._source, line, self._format, name, (), (), **told)
 
     def _unread(self, name: str, line: int, trouble: str = "", kind: str = "") -> None:
         """A place with a table that is of another kind, or else not read."""
-        found = FoundTable(self._source, line, self._format, name, (), (), (), kind=kind)
+        found = replace(self._place(name, line), c=(), kind=kind)
         self._other[name, line] = found if kind else troubled(found, trouble)
 
     def _of_scalars(self, name: str, values: Mapping[str, Value], line: int) -> None:
         """Coefficients with names of their own: a21, b1."""
         found = scalar_roles(values)
-        if found is None:
-            if are_coefficients(values):
-                self._unread(name, line, UNRECOGNISED)
-            return
-        if found.kind:
+        if found is None and are_coefficients(values):
+            self._unread(name, line, UNRECOGNISED)
+        elif found is not None and found.kind:
             self._unread(name, line, kind=found.kind)
-            return
-        self._meant.append(
-            Meant(name, line, found.roles, "", None, notes=found.notes, is_assembled=True)
-        )
+        elif found is not None:
+            notes = tuple(found.notes)
+            place = self._place(name, line, is_sure=False, is_assembled=True, notes=notes)
+            self._meant.append(Meant(place, found.roles))
 
 
 def _is_matrix_of_stages(name: str) -> bool:
@@ -430,17 +402,23 @@ def _fits(role: str, value: Value) -> bool:
     return isinstance(value, Array) and bool(value.items)
 
 
-def _grid(of_role: Mapping[str, Mapping[tuple[int, ...], Value]]) -> Roles:
-    """Blocks ``A1_2`` and weights ``b1`` as nested arrays."""
-    found: Roles = {}
-    count = max(max(at) for at in of_role["A"])
-    numbers = range(1, count + 1)
-    blocks = of_role["A"]
-    found["A"] = Array([Array([blocks.get((l, m), Null()) for m in numbers]) for l in numbers])
-    for role, rows in of_role.items():
-        if role != "A" and all(len(at) == 1 for at in rows):
-            found[role] = Array([rows.get((l,), Null()) for l in numbers])
-    return found
+def _with_grid(given: Roles) -> Roles:
+    """Blocks ``A1_2`` and weights ``b1`` as nested arrays; b1 and b2 beside one A are the weights
+    and the embedded ones.
+    """
+    of = {tuple(role.replace("_", " ").split(" ")): x for role, x in given.items() if " " in role}
+    roles = {role: x for role, x in given.items() if " " not in role}
+    blocks = [at[1:] for at in of if at[0] == "A"]
+    if blocks and all(len(at) == 2 for at in blocks):
+        count = max(int(x) for at in blocks for x in at)
+        numbers = [str(l) for l in range(1, count + 1)]
+        rows = [Array([of.get(("A", l, m), NULL) for m in numbers]) for l in numbers]
+        roles["A"] = Array(list(rows))
+        for role in {at[0] for at in of if len(at) == 2}:
+            roles[role] = Array([of.get((role, l), NULL) for l in numbers])
+    elif {at for at in of if at[0] == "b"} == {("b", "1"), ("b", "2")}:
+        roles = {"b": of["b", "1"], "embedded": of["b", "2"], **roles}
+    return roles
 
 
 def _is_triangle(entries: Value, row: Value) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import accumulate
 from typing import TypeAlias
 
 from garkcli.frozen import replace
@@ -82,13 +83,9 @@ def square(value: Texts, stages: int) -> Rows:
     >>> square([["1"], ["1", "1"]], 3)
     (('0', '0', '0'), ('1', '0', '0'), ('1', '1', '0'))
     """
-    if is_row(value) and stages > 1:
-        return _of_flat(row_of(value), stages)
     if is_row(value):
-        return (weights(value, 1),)
-    if not isinstance(value, list):
-        raise Unreadable("a matrix is expected")
-    if len(value) > stages:
+        return _of_flat(row_of(value), stages) if stages > 1 else (weights(value, 1),)
+    if isinstance(value, list) and len(value) > stages:
         raise Misshapen(f"{len(value)} rows for {stages} stages")
     return _padded(rows_of(value), stages)
 
@@ -100,11 +97,7 @@ def _padded(rows: Sequence[Row], stages: int) -> Rows:
     is_from_the_second = lengths == [*range(1, stages)] or (
         len(rows) == stages - 1 and set(lengths) == {stages} and _has_subdiagonal(rows)
     )
-    full = list(rows)
-    if is_from_the_second:
-        full = [(), *rows]
-    while len(full) < stages:
-        full.append(())
+    full = [*[()] * is_from_the_second, *rows, *[()] * (stages - len(rows) - is_from_the_second)]
     return tuple(row + (ZERO,) * (stages - len(row)) for row in full)
 
 
@@ -115,21 +108,12 @@ def _has_subdiagonal(rows: Sequence[Row]) -> bool:
 
 
 def _of_flat(entries: Row, stages: int) -> Rows:
-    count = len(entries)
-    if count == stages * stages:
-        lengths = [stages] * stages
-    elif count == stages * (stages + 1) // 2:
-        lengths = [*range(1, stages + 1)]
-    elif count == stages * (stages - 1) // 2:
-        lengths = [*range(stages)]
-    else:
-        raise Misshapen(f"{count} entries for {stages} stages")
-    rows = []
-    start = 0
-    for length in lengths:
-        rows.append(entries[start : start + length])
-        start += length
-    return _padded(rows, stages)
+    """All entries in one row: of the square, of a triangle with its diagonal, of one without."""
+    for lengths in ([stages] * stages, range(1, stages + 1), range(stages)):
+        if sum(lengths) == len(entries):
+            ends = list(accumulate(lengths))
+            return _padded([entries[y - x : y] for x, y in zip(lengths, ends, strict=True)], stages)
+    raise Misshapen(f"{len(entries)} entries for {stages} stages")
 
 
 def changed(sign: str, row: Row, error: Row) -> Row:
@@ -155,17 +139,14 @@ def symplectic(empty: FoundTable, drifts: Row, kicks: Row, is_force_first: bool)
         kicks: those of the forces.
         is_force_first: whether each kick is followed by its drift, or the other way round.
     """
-    zeros = (ZERO,) * len(drifts)
-    at_momenta: list[Row] = []
-    at_positions: list[Row] = []
-    for i in range(len(drifts)):
-        kicked = i + 1 if is_force_first else i
-        drifted = i if is_force_first else i + 1
-        at_momenta.append(kicks[:kicked] + zeros[kicked:])
-        at_positions.append(drifts[:drifted] + zeros[drifted:])
+    stages = range(len(drifts))
+
+    def lower(row: Row, is_behind: bool) -> Rows:
+        return tuple(row[: i + is_behind] + (ZERO,) * (len(row) - i - is_behind) for i in stages)
+
     return replace(
         empty,
-        A=((None, tuple(at_momenta)), (tuple(at_positions), None)),
+        A=((None, lower(kicks, is_force_first)), (lower(drifts, not is_force_first), None)),
         b=(drifts, kicks),
         c=(None, None),
         parts=("q", "p"),

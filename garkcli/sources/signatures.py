@@ -43,6 +43,8 @@ PRINTED = "a printed tableau"
 """What stands for a call where data are a table."""
 NDSOLVE = "coefficients of NDSolve"
 """The same for the lists that a function of Mathematica gives."""
+NAMED = Signature([])
+"""No call: names alone speak for a table."""
 PARTS = Signature(["A1", "b1", "c1", "A2", "b2", "c2"], "ark")
 """An explicit part and an implicit one."""
 DRIFT_FIRST = Signature(["drifts", "kicks"], "drift-first")
