@@ -53,6 +53,8 @@ _WHOLE = re.compile(
 )
 """Names of whole tableaus, and of their matrices."""
 _TABLE = "ARKodeButcherTable_Alloc"
+_PARTS = " "
+"""The stem of the arrays of an explicit and an implicit part."""
 _MADE = frozenset({"", _TABLE, "ARKodeSPRKTable_Alloc"})
 """Records that are filled after they are made."""
 
@@ -274,21 +276,14 @@ class TableFinder(Evaluator):
             self._meant.append(Meant(self._place(own, line), dict(block), maker="B"))
         if tableaus:
             return
-        parts = roles_of_parts(values)
-        if parts:
-            line = min(lines.get(x, scope.line) for x in parts)
-            of_parts = {role: values[name] for name, role in parts.items()}
-            self._meant.append(
-                Meant(self._place(scope.title, line, is_sure=False), of_parts, PARTS)
-            )
-            values = {name: x for name, x in values.items() if name not in parts}
+        parts = {x: (_PARTS, role) for x, role in roles_of_parts(values).items()}
         groups: dict[str, Roles] = {}
         begins: dict[str, int] = {}
         for name, value in values.items():
             owner, _, plain = name.rpartition("::")
             numbered = _NUMBERED.fullmatch(plain) if isinstance(value, Array) else None
-            told = beside.get(name) or role_of(plain.lstrip("_"))
-            if numbered:
+            told = parts.get(name) or beside.get(name) or role_of(plain.lstrip("_"))
+            if numbered and name not in parts:
                 stem, role = numbered["stem"] or "", f"{ROLES[numbered['word']]} {numbered['at']}"
             elif told is not None and _fits(told[1], value):
                 # RK6Solver::a belongs to its class
@@ -306,13 +301,13 @@ class TableFinder(Evaluator):
             if not is_complete(roles):
                 continue
             title = roles.pop("title", None)
-            name = title.text if isinstance(title, Word) else stem or scope.title
-            # an implicit part, and the explicit one with a hat
-            signature = PARTS if {"A", "b", "A1", "embedded"} <= set(roles) else NAMED
+            name = title.text if isinstance(title, Word) else stem.strip() or scope.title
+            # with a hat it is the explicit part
+            are_parts = stem == _PARTS or {"A", "b", "A1", "embedded"} <= set(roles)
             bases = scope.bases if scope.kind == "class" else ()
             is_sure = "RungeKutta" in {x.rpartition(".")[2] for x in bases}
             place = self._place(name, scope.line if is_sure else begins[stem], is_sure=is_sure)
-            self._meant.append(Meant(place, roles, signature, bases=bases))
+            self._meant.append(Meant(place, roles, PARTS if are_parts else NAMED, bases=bases))
 
     def _of_step(self, scope: ir.Scope, space: Space) -> bool:
         """The method of a function that is a step; whether another one looks like a step."""

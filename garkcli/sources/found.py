@@ -8,7 +8,7 @@ from typing import TypeAlias
 from flint import fmpq
 
 from garkcli.errors import GarkError
-from garkcli.frozen import Frozen, field
+from garkcli.frozen import Frozen, field, replace
 
 Row: TypeAlias = tuple[str, ...]
 """Numbers as texts of ``garkcli.exact.expression``."""
@@ -150,17 +150,6 @@ class Reader(Frozen):
 
 def troubled(table: FoundTable, trouble: str, is_misshapen: bool = False) -> FoundTable:
     """A place where a table is meant to be, and why it is none."""
-    empty: Rows = ()
-    return FoundTable(
-        table.source,
-        table.line,
-        table.format,
-        table.name,
-        (),
-        empty,
-        (),
-        order=table.order,
-        embedded_order=table.embedded_order,
-        trouble=trouble,
-        is_misshapen=is_misshapen,
-    )
+    place = FoundTable(table.source, table.line, table.format, table.name, (), (), ())
+    orders = {"order": table.order, "embedded_order": table.embedded_order}
+    return replace(place, **orders, trouble=trouble, is_misshapen=is_misshapen)
