@@ -26,6 +26,13 @@ _WORDS = re.compile(
 )
 MAX_NESTING = 60
 """Deepest nesting of what is lowered."""
+_KINDS = {
+    "comment": "comment",
+    "if_statement": "branch",
+    "while_statement": "loop",
+    "return_statement": "giving",
+}
+"""What nodes are in all grammars."""
 _SIGNS = {"**": "^", "//": "÷"}
 TOO_DEEP = ir.Opaque("an expression that is nested too deep")
 
@@ -39,20 +46,11 @@ class Lowering:
 
     Attributes:
         grammar: of the language.
-        comments: nodes without a meaning.
-        blocks: statements that are what is in them.
-        unfollowed: loops that have no names and ranges.
-        passed: statements that may change values in ways that are not followed.
-        statements: the methods that lower other statements.
-        expressions: nodes that several languages have, see ``kinds``.
+        kinds: what its nodes are, see ``kinds``.
     """
 
     grammar: ClassVar[Language]
-    comments: ClassVar[frozenset[str]] = frozenset({"comment"})
-    blocks: ClassVar[frozenset[str]]
-    unfollowed: ClassVar[frozenset[str]] = frozenset({"while_statement"})
-    passed: ClassVar[frozenset[str]] = frozenset()
-    expressions: ClassVar[Mapping[str, str]]
+    kinds: ClassVar[Mapping[str, str]]
 
     def __init__(self, text: str, language: Language | None = None) -> None:
         self._data = text.encode(errors="replace")
@@ -82,19 +80,23 @@ class Lowering:
         """The name that is first in a node, at whatever depth; empty for none."""
         while node is not None and node.type != "identifier":
             node = next(iter(self.children(node)), None)
-        return self.text(node)
+        return self.name(node)
+
+    def is_a(self, kind: str, node: Node | None) -> bool:
+        """Whether a node is of a kind."""
+        return node is not None and self.kinds.get(node.type) == kind
 
     def children(self, node: Node | None) -> list[Node]:
         """What is in a node, without comments."""
         if node is None:
             return []
-        return [x for x in node.named_children if x.type not in self.comments]
+        return [x for x in node.named_children if not self.is_a("comment", x)]
 
     def block(self, nodes: Iterable[Node | None]) -> ir.Body:
         """Statements one after the other."""
         found: list[ir.Statement] = []
         for node in nodes:
-            if node is None or node.type in self.comments or self._depth >= MAX_NESTING:
+            if node is None or self.is_a("comment", node) or self._depth >= MAX_NESTING:
                 continue
             self._depth += 1
             try:
@@ -105,47 +107,81 @@ class Lowering:
 
     def statement(self, node: Node) -> Iterator[ir.Statement]:
         """What a statement is lowered to."""
-        kind = node.type
-        if kind in self.passed:
-            yield ir.Do(unmeant(node), line_of(node))
-        if kind in self.blocks:
-            yield from self.block(node.named_children)
-        elif kind in self.unfollowed:
-            yield self.loop(node, "", ir.Nothing())
-        elif kind == "return_statement":
-            given = self.children(node)
-            yield ir.Return(self.expr(given[0] if given else None), line_of(node))
-        elif kind == "if_statement":
-            yield self.branch(node)
-        elif kind not in self.passed:
-            yield from self.own(node, self.children(node), line_of(node))
+        inside, line = self.children(node), line_of(node)
+        match self.kinds.get(node.type):
+            case "block":
+                yield from self.block(inside)
+            case "passed":
+                yield ir.Do(unmeant(node), line)
+            case "tried":
+                yield from (ir.Do(unmeant(node), line), *self.block(inside))
+            case "loop":
+                yield self.loop(node)
+            case "giving":
+                yield ir.Return(self.expr(inside[0] if inside else None), line)
+            case "branch":
+                yield self.branch(inside, line)
+            case "switch":
+                cases = self.children(part(node, "body") or node)
+                arms = (self.case(x) for x in cases if self.is_a("case", x))
+                yield ir.Branch(tuple(arm for arm in arms if arm[0].body), line)
+            case "assignment":
+                yield from self.assignment(node, part(node, "left"), part(node, "right"))
+            case _:
+                yield from self.own(node, inside, line)
 
     def own(self, node: Node, inside: list[Node], line: int) -> Iterator[ir.Statement]:
         """What a statement of the language is lowered to."""
         raise NotImplementedError
 
-    def loop(self, node: Node, name: str, over: ir.Expr) -> ir.Loop:
-        """A loop: its body is what is behind its head."""
-        body = node.child_by_field_name("body")
-        inside = self.children(node)[1:] if body is None else [body]
-        return ir.Loop(name, over, self.block(inside), line_of(node))
+    def assignment(
+        self, node: Node, left: Node | None, right: Node | None, sign: str | None = None
+    ) -> Iterator[ir.Statement]:
+        """A target has a value; ``a = b = 0`` are two statements."""
+        if sign is None:
+            sign = sign_of(self.text(part(node, "operator")).rstrip("="))
+        if right is not None and self.is_a("assignment", right):
+            yield from self.block([right])
+            right = self.children(right)[0]
+        if left is not None and right is not None:
+            yield ir.Assign(self.target(left), self.expr(right), line_of(node), sign)
 
-    def branch(self, node: Node) -> ir.Branch:
+    def target(self, node: Node) -> ir.Expr:
+        """What is assigned to; ``A(2, 1)`` is an entry."""
+        match found := self.expr(node):
+            case ir.Call(of, args) if args:
+                return ir.Index(of, args)
+        return found
+
+    def loop(self, node: Node, name: str = "", over: ir.Expr | None = None) -> ir.Loop:
+        """A loop: its body is what is behind its head."""
+        body = part(node, "body")
+        inside = self.children(node)[1:] if body is None else [body]
+        return ir.Loop(name, over or ir.Nothing(), self.block(inside), line_of(node))
+
+    def case(self, node: Node) -> tuple[ir.Scope]:
+        """One of several ways, by the value that leads to it."""
+        value = part(node, "value") or part(node, "condition")
+        body = self.block(x for x in node.named_children if x != value)
+        return (ir.Scope("entry", self.title(value), body, line_of(node)),)
+
+    def title(self, node: Node | None) -> str:
+        """What a value calls a way."""
+        return self.text(node)
+
+    def branch(self, inside: list[Node], line: int) -> ir.Branch:
         """The ways of an ``if``; the first child of each is its condition, but for the last way."""
         ways: list[list[Node]] = [[]]
         is_total = False
-        for part in self.children(node):
-            if part.type in {"elseif_clause", "elif_clause", "else_clause"}:
-                ways.append(self.children(part))
-                is_total = part.type == "else_clause"
+        for each in inside:
+            if each.type in {"elseif_clause", "elif_clause", "else_clause"}:
+                ways.append(self.children(each))
+                is_total = each.type == "else_clause"
             else:
-                ways[-1].append(part)
-        last = len(ways) - 1
-        arms = (
-            self.way(way[:1], way[1:]) if i < last or not is_total else self.way([], way)
-            for i, way in enumerate(ways)
-        )
-        return ir.Branch(tuple(arms), line_of(node), is_total)
+                ways[-1].append(each)
+        last = self.way([], ways.pop()) if is_total else None
+        arms = [self.way(way[:1], way[1:]) for way in ways]
+        return ir.Branch((*arms, *([] if last is None else [last])), line, is_total)
 
     def way(self, condition: list[Node], inside: list[Node]) -> ir.Body:
         """One of several ways."""
@@ -174,7 +210,7 @@ class Lowering:
 
     def expression(self, node: Node, inside: list[Node]) -> ir.Expr:
         """The same, one level deeper."""
-        match self.expressions.get(node.type):
+        match self.kinds.get(node.type):
             case "name":
                 return ir.Name(self.name(node))
             case "number":
@@ -190,9 +226,19 @@ class Lowering:
             case "unary" if inside:
                 return ir.Unary(self.text(node.children[0]), self.expr(inside[-1]))
             case "binary":
-                operator = node.child_by_field_name("operator")
+                operator = part(node, "operator")
                 sign = self.text(operator or next(x for x in node.children if not x.is_named))
                 return ir.Binary(sign_of(sign), self.expr(inside[0]), self.expr(inside[-1]))
+            case "field" if len(inside) > 1:
+                return ir.Field(self.expr(inside[0]), self.name(inside[-1]))
+            case "index" if inside:
+                return ir.Index(self.expr(inside[0]), self.exprs(inside[1:]))
+            case "call" if inside:
+                return self.call(self.expr(inside[0]), *self.arguments(self.children(inside[-1])))
+            case "range" if len(inside) == 2:
+                return ir.Range(*self.exprs(inside))
+            case "transposed" if inside:
+                return ir.Transposed(self.expr(inside[0]))
         return self.other(node, inside)
 
     def declares(self, record: str, names: Iterable[str], least: int | None = None) -> None:
@@ -231,36 +277,48 @@ class Lowering:
     def ends(self, node: Node) -> list[ir.Expr | None]:
         """What is between the colons of a slice."""
         found: list[ir.Expr | None] = [None]
-        for part in node.children:
-            if part.type == ":":
+        for each in node.children:
+            if each.type == ":":
                 found.append(None)
-            elif part.is_named:
-                found[-1] = self.expr(part)
+            elif each.is_named:
+                found[-1] = self.expr(each)
         return found
 
     def exprs(self, nodes: Iterable[Node]) -> tuple[ir.Expr, ...]:
         """Several expressions, without comments."""
-        return tuple(self.expr(x) for x in nodes if x.type not in self.comments)
+        return tuple(self.expr(x) for x in nodes if not self.is_a("comment", x))
 
     def arguments(
         self, nodes: Iterable[Node]
     ) -> tuple[tuple[ir.Expr, ...], tuple[tuple[str, ir.Expr], ...]]:
         """The arguments of a call, those with a name apart."""
         args, named = [], []
-        for part in nodes:
-            if part.type in {"keyword_argument", "named_argument"}:
-                key, *_, value = self.children(part)
+        for each in nodes:
+            if each.type in {"keyword_argument", "named_argument"}:
+                key, *_, value = self.children(each)
                 named.append((self.name(key), self.expr(value)))
             else:
-                args.append(self.expr(part))
+                args.append(self.expr(each))
         return tuple(args), tuple(named)
 
 
 def kinds(**nodes: str) -> Mapping[str, str]:
-    """What nodes are: ``name``, ``number``, ``nothing``, ``text``, ``inside`` (of brackets),
-    ``list``, ``unary``, ``binary``, each with the nodes of a grammar that are it.
+    """What nodes are, each kind with the nodes of a grammar that are it.
+
+    Statements are a ``block``, ``assignment``, ``loop`` that has no name and range, ``giving`` what
+    a function returns, ``branch``, ``switch`` with ``case``, ``passed`` where they may change
+    values in ways that are not followed, and ``tried`` where they are a block besides.
+    Expressions are a ``name``, ``number``, ``nothing``, ``text``, ``list``, ``unary``, ``binary``,
+    ``field``, ``index``, ``call``, ``range``, ``transposed``, or what is ``inside`` of brackets.
     """
-    return {node: kind for kind, text in nodes.items() for node in text.split()}
+    return _KINDS | {node: kind for kind, text in nodes.items() for node in text.split()}
+
+
+def part(node: Node | None, *fields: str) -> Node | None:
+    """The child of a node that has a name, and so on."""
+    for field in fields:
+        node = None if node is None else node.child_by_field_name(field)
+    return node
 
 
 def sign_of(sign: str) -> str:

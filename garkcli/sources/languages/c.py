@@ -12,7 +12,7 @@ from tree_sitter import Language, Node
 
 from garkcli.sources import ir
 from garkcli.sources.found import FoundTable, Reader
-from garkcli.sources.lowering import Lowering, kinds, less_one, line_of, unmeant
+from garkcli.sources.lowering import Lowering, kinds, less_one, line_of, part, unmeant
 from garkcli.sources.reading import tables_in
 
 NAME = "c"
@@ -26,7 +26,6 @@ _NAMES = frozenset(
         *("operator_name", "type_identifier", "template_function"),
     }
 )
-_SKIPPED = frozenset({"preproc_include", "using_declaration", "break_statement", "preproc_call"})
 _WHOLE_TYPES = re.compile(r"\b(?:int|long|short|unsigned|size_t|auto|bool|PetscInt|u?int\d+_t)\b")
 _NUMBER = re.compile(r"(?P<digits>[0-9']*\.?[0-9']*(?:[eE][-+]?[0-9]+)?)(?P<suffix>[a-zA-Z_]\w*)?")
 _DECLARED = frozenset({"array_declarator", "identifier", "field_identifier"})
@@ -39,23 +38,24 @@ class CLowering(Lowering):
     """Declarations, assignments, calls, branches and loops of C and C++."""
 
     grammar = CPP
-    blocks = frozenset(
-        {
-            *("translation_unit", "compound_statement", "declaration_list", "labeled_statement"),
-            *("linkage_specification", "namespace_definition", "template_declaration", "ERROR"),
-            *("attributed_statement", "else_clause", "field_declaration_list", "preproc_else"),
-            "enumerator_list",
-        }
-    )
-    unfollowed = frozenset({"while_statement", "do_statement", "for_range_loop"})
-    expressions = kinds(
-        name="identifier field_identifier type_identifier this true false",
+    kinds = kinds(
+        block="translation_unit compound_statement declaration_list labeled_statement ERROR"
+        " linkage_specification namespace_definition template_declaration attributed_statement"
+        " else_clause field_declaration_list preproc_else enumerator_list field_initializer_list",
+        assignment="assignment_expression",
+        loop="do_statement for_range_loop",
+        switch="switch_statement",
+        case="case_statement",
+        name="identifier field_identifier type_identifier this true false qualified_identifier"
+        " primitive_type template_method template_type",
         number="number_literal",
         nothing="null nullptr",
         text="string_literal",
-        inside="parenthesized_expression template_function dependent_name",
+        inside="parenthesized_expression template_function dependent_name subscript_argument_list",
         unary="unary_expression",
         binary="binary_expression",
+        field="field_expression",
+        index="subscript_expression",
     )
 
     def __init__(self, text: str, language: Language) -> None:
@@ -63,7 +63,6 @@ class CLowering(Lowering):
         self._data = _DEVICE.sub(lambda x: b" " * len(x[0]), self._data)
 
     def own(self, node: Node, inside: list[Node], line: int) -> Iterator[ir.Statement]:
-        field = node.child_by_field_name
         match node.type:
             case "preproc_ifdef" | "preproc_if" | "preproc_elif":
                 yield from self._conditional(node)
@@ -71,56 +70,56 @@ class CLowering(Lowering):
                 yield from self._definition(node)
             case "function_definition":
                 yield self._function(node)
-            case "class_specifier" | "struct_specifier" if (body := field("body")) is not None:
-                given = [
-                    y for x in inside if x.type == "base_class_clause" for y in self.children(x)
-                ]
-                bases = tuple(self.text(x) for x in given)
-                self._declares(self.text(field("name")), body)
-                made = self.block(body.named_children)
-                yield ir.Scope("class", self.text(field("name")), made, line, bases=bases)
-            case "type_definition" if (body := _body_of(field("type"))) is not None:
-                self._declares(self.text(field("declarator")), body)
+            case "class_specifier" | "struct_specifier" if body := part(node, "body"):
+                name = self.text(part(node, "name"))
+                given = (x for x in inside if x.type == "base_class_clause")
+                bases = tuple(self.text(y) for x in given for y in self.children(x))
+                self._declares(name, body)
+                yield ir.Scope("class", name, self.block([body]), line, bases=bases)
+            case "type_definition" if body := part(node, "type", "body"):
+                self._declares(self.text(part(node, "declarator")), body)
             case "enum_specifier":
-                for each in self.children(field("body")):
-                    value = each.child_by_field_name("value")
-                    if value is not None:
-                        name = ir.Name(self.text(each.child_by_field_name("name")))
-                        yield ir.Assign(name, self.expr(value), line_of(each))
+                for each in self.children(part(node, "body")):
+                    if value := part(each, "value"):
+                        target = ir.Name(self.text(part(each, "name")))
+                        yield ir.Assign(target, self.expr(value), line_of(each))
             case "declaration" | "field_declaration":
                 yield from self._declaration(node)
-            case "assignment_expression":
-                yield from self._assignment(node)
-            case "switch_statement":
-                cases = [x for x in self.children(field("body")) if x.type == "case_statement"]
-                arms = tuple(arm for arm in map(self._case, cases) if arm[0].body)
-                yield ir.Branch(arms, line)
             case "for_statement":
                 yield self.loop(node, *self._counted(node))
             case "call_expression":
                 yield from self._call(node)
             case "expression_statement":
                 yield from self.block(inside[:1])
+            case "field_initializer" if len(inside) > 1:
+                # Base(s, a, b, c) of a constructor
+                args = self.exprs(inside[1].named_children)
+                yield ir.Do(ir.Call(ir.Name(self.name(inside[0])), args), line)
             case "comma_expression" | "binary_expression":
-                yield from self._listed(self._parts(node), line)
-            case kind if kind not in _SKIPPED and kind.endswith("expression"):
+                first, *more = self._parts(node)
+                match self.expr(first):
+                    case ir.Binary("<<", left, right):
+                        # A << 0, 1; of Eigen
+                        row = (right, *self.exprs(more))
+                        rows = ir.Items(row) if more else ir.Rows((row,))
+                        yield ir.Assign(_target(left), rows, line)
+                    case _ if more:
+                        yield from self.block([first, *more])
+                    case done:
+                        yield ir.Do(done, line)
+            case kind if kind.endswith("expression"):
                 yield ir.Do(self.expr(node), line)
 
     def _declares(self, record: str, body: Node) -> None:
         """The fields of a structure that no function makes."""
         if all(x.type != "function_definition" for x in body.named_children):
-            inside = [x for part in self.children(body) for x, _ in _declarators(part)]
+            inside = (x for each in self.children(body) for x, _ in _declarators(each))
             self.declares(record, (self._declared(x)[0] for x in inside))
-
-    def _case(self, node: Node) -> tuple[ir.Scope]:
-        value = node.child_by_field_name("value")
-        inside = self.block(x for x in node.named_children if x != value)
-        return (ir.Scope("entry", self.text(value), inside, line_of(node)),)
 
     def _conditional(self, node: Node) -> Iterator[ir.Statement]:
         """``#if``: both ways; one that has no other is taken, of ``#if 0`` the other."""
-        other = node.child_by_field_name("alternative")
-        condition = node.child_by_field_name("condition") or node.child_by_field_name("name")
+        other = part(node, "alternative")
+        condition = part(node, "condition") or part(node, "name")
         first = self.block(x for x in node.named_children if x not in (other, condition))
         second = self.block([other])
         is_off = self.text(condition) == "0"
@@ -131,13 +130,11 @@ class CLowering(Lowering):
             yield ir.Branch((first, second), line_of(node), is_total=True)
 
     def _definition(self, node: Node) -> Iterator[ir.Statement]:
-        value = self._fragment(self.text(node.child_by_field_name("value")))
-        if value is None:
-            return
-        if node.type == "preproc_function_def":
-            given = self.children(node.child_by_field_name("parameters"))
-            value = ir.Lambda(tuple(map(self.text, given)), value)
-        yield ir.Assign(ir.Name(self.text(node.child_by_field_name("name"))), value, line_of(node))
+        value = self._fragment(self.text(part(node, "value")))
+        if value is not None:
+            if given := part(node, "parameters"):
+                value = ir.Lambda(tuple(map(self.text, self.children(given))), value)
+            yield ir.Assign(ir.Name(self.text(part(node, "name"))), value, line_of(node))
 
     def _fragment(self, text: str) -> ir.Expr | None:
         """The expression that a macro stands for; None where it is none."""
@@ -153,48 +150,29 @@ class CLowering(Lowering):
         return None
 
     def _function(self, node: Node) -> ir.Scope:
-        declarator = node.child_by_field_name("declarator")
-        name, _ = self._declared(declarator)
-        while declarator is not None and declarator.type != "function_declarator":
-            declarator = declarator.child_by_field_name("declarator")
-        given = () if declarator is None else declarator.child_by_field_name("parameters")
-        inside = [x.child_by_field_name("declarator") for x in self.children(given or None)]
-        parameters = tuple(self._declared(x)[0] for x in inside if x is not None)
-        body = node.child_by_field_name("body")
-        statements = tuple(y for x in self.children(node) for y in self._initialisers(x))
-        if body is not None and self.may_hold_a_table(body):
-            statements += self.block(body.named_children)
-        return ir.Scope("function", name, statements, line_of(node), parameters)
-
-    def _initialisers(self, node: Node) -> Iterator[ir.Statement]:
-        """The bases and members that a constructor makes: ``Base(s, a, b, c)``."""
-        for given in self.children(node) if node.type == "field_initializer_list" else ():
-            inside = self.children(given)
-            if len(inside) > 1:
-                name = ir.Name(self.text(inside[0]).partition("<")[0])
-                yield ir.Do(ir.Call(name, self.exprs(inside[1].named_children)), line_of(given))
+        head = declarator = part(node, "declarator")
+        while head is not None and head.type != "function_declarator":
+            head = part(head, "declarator")
+        given = (x for x in self.children(part(head, "parameters")) if part(x, "declarator"))
+        made = self.block(x for x in self.children(node) if x.type == "field_initializer_list")
+        body = part(node, "body")
+        made += self.block([body]) if body and self.may_hold_a_table(body) else ()
+        parameters = tuple(self._declared(x)[0] for x in given)
+        return ir.Scope("function", self._declared(declarator)[0], made, line_of(node), parameters)
 
     def _declaration(self, node: Node) -> Iterator[ir.Statement]:
-        kind = node.child_by_field_name("type")
+        kind = part(node, "type")
         is_real = not _WHOLE_TYPES.search(self.text(kind))
         if kind is not None and kind.type.endswith("_specifier"):
             yield from self.block([kind])
         sizes = self._array_sizes(kind)
         for each, default in _declarators(node):
-            value = None if default is None else self.expr(default)
-            inner: Node | None = each
-            if each.type == "init_declarator":
-                inner, given = map(each.child_by_field_name, ("declarator", "value"))
-                value = self.expr(given)
-                if given is not None and given.type == "argument_list":
-                    # T x(args)
-                    value = ir.Call(ir.Name("constructor"), self.exprs(given.named_children))
-            elif each.type not in _DECLARED and default is None:
-                continue
-            name, extents = self._declared(inner)
+            given = part(each, "value") or default
+            name, extents = self._declared(each)
             extents = (*extents, *sizes)
-            if value is None and not extents:
+            if given is None and (not extents or each.type not in _DECLARED):
                 continue
+            value = None if given is None else self.expr(given)
             if value is not None:
                 value = self._with_fields(value, kind, line_of(each), bool(extents))
             if sizes and value is not None:
@@ -216,11 +194,9 @@ class CLowering(Lowering):
     def _array_sizes(self, kind: Node | None) -> tuple[ir.Expr, ...]:
         """The extents of ``std::array<double, 3>``, and of arrays in it."""
         while kind is not None and kind.type in {"qualified_identifier", "type_descriptor"}:
-            kind = kind.child_by_field_name("name") or kind.child_by_field_name("type")
-        if kind is None or kind.type != "template_type":
-            return ()
-        args = self.children(kind.child_by_field_name("arguments"))
-        if self.text(kind.child_by_field_name("name")) not in {"array", "Array"} or len(args) != 2:
+            kind = part(kind, "name") or part(kind, "type")
+        args = self.children(part(kind, "arguments"))
+        if self.text(part(kind, "name")) not in {"array", "Array"} or len(args) != 2:
             return ()
         return (self.expr(args[1]), *self._array_sizes(args[0]))
 
@@ -229,23 +205,14 @@ class CLowering(Lowering):
         extents: list[ir.Expr | None] = []
         while node is not None and node.type not in _NAMES:
             if node.type == "array_declarator":
-                size = node.child_by_field_name("size")
-                extents.insert(0, None if size is None else self.expr(size))
-            node = (
-                next(iter(node.named_children), None)
-                if (inside := node.child_by_field_name("declarator")) is None
-                else inside
-            )
+                size = part(node, "size")
+                extents.insert(0, size and self.expr(size))
+            node = part(node, "declarator") or next(iter(node.named_children), None)
         return self.text(node), tuple(extents)
 
-    def _assignment(self, node: Node) -> Iterator[ir.Statement]:
-        left, right = node.child_by_field_name("left"), node.child_by_field_name("right")
-        sign = self.text(node.child_by_field_name("operator")).rstrip("=")
-        while right is not None and right.type == "assignment_expression":
-            # a = b = 0
-            yield from self.block([right])
-            right = right.child_by_field_name("left")
-        yield ir.Assign(_target(self.expr(left)), self.expr(right), line_of(node), sign)
+    def target(self, node: Node) -> ir.Expr:
+        """What is assigned to: ``A(1, 0)`` is an entry, and Eigen's ``A.row(1)`` a row."""
+        return _target(self.expr(node))
 
     def _parts(self, node: Node) -> list[Node]:
         """What is between the commas."""
@@ -253,40 +220,22 @@ class CLowering(Lowering):
             return [node]
         return [y for x in self.children(node) for y in self._parts(x)]
 
-    def _listed(self, parts: list[Node], line: int) -> Iterator[ir.Statement]:
-        """Statements with commas between, and ``A << 0, 1;`` of Eigen."""
-        first = self.expr(parts[0])
-        match first:
-            case ir.Binary("<<", target, value):
-                more = self.exprs(parts[1:])
-                given = ir.Items((value, *more)) if more else ir.Rows(((value,),))
-                yield ir.Assign(_target(target), given, line)
-            case _ if len(parts) > 1:
-                yield from self.block(parts)
-            case _:
-                yield ir.Do(first, line)
-
     def _counted(self, node: Node) -> tuple[str, ir.Expr]:
         """What ``for (i = a; i < b; i++)`` counts; an empty name for other loops."""
-        start, condition, update = map(
-            node.child_by_field_name, ("initializer", "condition", "update")
-        )
-        if start is not None and start.type == "declaration":
-            start = start.child_by_field_name("declarator")
-        if start is not None and condition is not None:
-            named = start.child_by_field_name("declarator") or start.child_by_field_name("left")
-            first = start.child_by_field_name("value") or start.child_by_field_name("right")
-            sign = self.text(condition.child_by_field_name("operator"))
-            if named and first and sign in {"<", "<="} and "++" in self.text(update):
-                last = self.expr(condition.child_by_field_name("right"))
-                last = less_one(last) if sign == "<" else last
-                return self._declared(named)[0], ir.Range(self.expr(first), last)
-        return "", ir.Opaque("a loop")
+        start, condition = part(node, "initializer"), part(node, "condition")
+        start = part(start, "declarator") or start
+        name = self._declared(part(start, "declarator") or part(start, "left"))[0]
+        first = part(start, "value") or part(start, "right")
+        sign = self.text(part(condition, "operator"))
+        if not (first and sign in {"<", "<="} and "++" in self.text(part(node, "update"))):
+            return "", ir.Opaque("a loop")
+        last = self.expr(part(condition, "right"))
+        return name, ir.Range(self.expr(first), less_one(last) if sign == "<" else last)
 
     def _call(self, node: Node) -> Iterator[ir.Statement]:
-        args = self.children(node.child_by_field_name("arguments"))
+        args = self.children(part(node, "arguments"))
         bodies = [x for x in args if x.type in {"compound_statement", "initializer_list", "ERROR"}]
-        called = self.text(node.child_by_field_name("function"))
+        called = self.text(part(node, "function"))
         if args and bodies and called.isupper():
             # ARK_BUTCHER_TABLE(NAME, {…}): an entry of a list of macros
             inside = self.block(x for body in bodies for x in body.named_children)
@@ -296,45 +245,41 @@ class CLowering(Lowering):
         else:
             yield ir.Do(self.expr(node), line_of(node))
 
+    def name(self, node: Node | None) -> str:
+        """A name without the arguments of a template."""
+        return self.text(node).partition("<")[0]
+
     def other(self, node: Node, inside: list[Node]) -> ir.Expr:
-        field = node.child_by_field_name
         match node.type:
-            case "qualified_identifier" | "primitive_type":
-                return ir.Name(self.text(node).partition("<")[0])
             case "new_expression":
                 return ir.Opaque("never assigned")
             case "pointer_expression":
                 # &A[0][0] is the array
-                of = field("argument")
-                while of is not None and of.type == "subscript_expression":
-                    of = of.child_by_field_name("argument")
+                of = part(node, "argument")
+                while self.is_a("index", of):
+                    of = part(of, "argument")
                 return self.expr(of)
             case "cast_expression":
-                name, value = self.text(field("type")).partition(" ")[0], self.expr(field("value"))
-                return value if _WHOLE_TYPES.search(name) else ir.Call(ir.Name("double"), (value,))
+                name, value = self.text(part(node, "type")), self.expr(part(node, "value"))
+                is_whole = _WHOLE_TYPES.search(name.partition(" ")[0])
+                return value if is_whole else ir.Call(ir.Name("double"), (value,))
             case "compound_literal_expression" if inside:
-                return self._with_fields(self.expr(inside[-1]), field("type"), line_of(node))
+                return self._with_fields(self.expr(inside[-1]), inside[0], line_of(node))
             case "initializer_list":
-                if all(x.type != "initializer_pair" for x in inside):
+                pairs = [x.named_children for x in inside if x.type == "initializer_pair"]
+                if not pairs:
                     return ir.Items(self.exprs(inside))
-                pairs = [x.named_children for x in inside if x.named_children]
                 return ir.Fields(
                     tuple((self.text(x[0]).lstrip("."), self.expr(x[-1])) for x in pairs)
                 )
-            case "call_expression":
-                return self._called(
-                    field("function"), self.exprs(self.children(field("arguments")))
-                )
-            case "field_expression":
-                name = self.text(field("field")).partition("<")[0]
-                return ir.Field(self.expr(field("argument")), name)
-            case "subscript_expression":
-                index = field("index") or field("indices")
-                if index is not None and index.type == "subscript_argument_list":
-                    index = next(iter(self.children(index)), None)
-                return ir.Index(self.expr(field("argument")), (self.expr(index),))
-            case "template_method" | "template_type" if inside:
-                return ir.Name(self.text(inside[0]))
+            case "argument_list":
+                # T x(args)
+                return ir.Call(ir.Name("constructor"), self.exprs(inside))
+            case "call_expression" if inside:
+                callee, args = inside[0], self.exprs(inside[-1].named_children)
+                is_cast = callee.type == "template_function" and self.name(callee) in _CASTS
+                is_cast = is_cast and len(args) == 1
+                return ir.Call(ir.Name("double") if is_cast else self.expr(callee), args)
         return unmeant(node)
 
     def number(self, text: str) -> ir.Expr:
@@ -347,16 +292,8 @@ class CLowering(Lowering):
         is_whole = digits.isdigit() and (found["suffix"] or "").lower() not in {"f", "q"}
         return ir.Literal(digits, is_whole)
 
-    def _called(self, callee: Node | None, args: tuple[ir.Expr, ...]) -> ir.Expr:
-        if callee is not None and callee.type == "template_function":
-            name = self.text(callee.child_by_field_name("name"))
-            is_cast = name in _CASTS and len(args) == 1
-            return ir.Call(ir.Name("double" if is_cast else name), args)
-        return ir.Call(self.expr(callee), args)
-
 
 def _target(expr: ir.Expr) -> ir.Expr:
-    """What is assigned to: ``A(1, 0)`` is an entry, and Eigen's ``A.row(1)`` a row."""
     match expr:
         case ir.Call(ir.Field(of=of, name="row"), (i,)):
             return ir.Index(of, (i, ir.Range()))
@@ -367,10 +304,6 @@ def _target(expr: ir.Expr) -> ir.Expr:
         ):
             return ir.Index(of, args)
     return expr
-
-
-def _body_of(node: Node | None) -> Node | None:
-    return None if node is None else node.child_by_field_name("body")
 
 
 def _declarators(node: Node) -> list[tuple[Node, Node | None]]:

@@ -9,17 +9,23 @@ from __future__ import annotations
 
 import re
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import tree_sitter_julia
 from tree_sitter import Language, Node
 
-from garkcli.frozen import Frozen, replace
 from garkcli.sources import ir
-from garkcli.sources.lowering import MAX_NESTING, TOO_DEEP, Lowering, kinds, reader, unmeant
+from garkcli.sources.lowering import (
+    MAX_NESTING,
+    TOO_DEEP,
+    Lowering,
+    kinds,
+    line_of,
+    reader,
+    unmeant,
+)
 
 NAME = "julia"
-TIMES = "juxtaposed"
 _LEVELS = {
     **dict.fromkeys(("=>", "?"), 0),
     **dict.fromkeys(("||", "&&"), 1),
@@ -27,11 +33,12 @@ _LEVELS = {
     **dict.fromkeys(("+", "-"), 3),
     **dict.fromkeys(("*", "/", "÷", "%", "\\"), 4),
     "//": 5,
-    TIMES: 6,
+    "": 6,
     "^": 8,
 }
-"""How tightly operators hold; a sign is between the product and the power."""
+"""How tightly operators hold, the empty one between factors; a sign is below the power."""
 _SIGN_LEVEL = 7
+_PLAIN = {"": "*", "//": "/"}
 _PASSED = frozenset(
     {
         *("@big", "@SVector", "@SMatrix", "@SArray", "@MVector", "@MMatrix", "@dd", "@df64"),
@@ -39,21 +46,10 @@ _PASSED = frozenset(
     }
 )
 """Macros that give what they get."""
-_BLOCKS = frozenset(
-    {
-        *("source_file", "module_definition", "begin_block", "compound_statement", "block"),
-        *("let_statement", "toplevel", "const_statement", "global_statement"),
-        *("local_statement", "try_statement", "ERROR"),
-    }
-)
-_DEFINITIONS = frozenset(
-    {
-        *("function_definition", "struct_definition", "assignment", "if_statement"),
-        *("compound_assignment_expression", *_BLOCKS),
-    }
-)
+_PARTED = frozenset({"block", "tried", "branch", "assignment"})
+_DEFINITIONS = frozenset({"function_definition", "struct_definition"})
 _SKIPPED = frozenset({"using_statement", "import_statement", "export_statement"})
-_TYPED = frozenset({"where_expression", "typed_expression"})
+_TYPED = frozenset({"signature", "where_expression", "typed_expression"})
 _GENERAL = frozenset({"Type", "Val", "Number", "Real", "Integer", "Int", "Bool", "Union", "Any"})
 """Types that say nothing of what a function belongs to."""
 _BY_COLUMNS = frozenset({"SMatrix", "MMatrix"})
@@ -64,35 +60,23 @@ _FIELDS = frozenset({"identifier", "typed_expression"})
 _ARGUMENT = ir.Name("the argument")
 
 
-class Token(Frozen):
-    """An operand or a sign of an expression.
-
-    Attributes:
-        sign: empty for an operand.
-        start, end: its bytes.
-        operand: what it is.
-        is_prefix: whether the sign is before a value.
-    """
-
-    sign: str
-    start: int
-    end: int
-    operand: ir.Expr = ir.Nothing()
-    is_prefix: bool = False
-
-
 class JuliaLowering(Lowering):
     """Functions, assignments, matrices and records of Julia."""
 
     grammar = Language(tree_sitter_julia.language())
-    comments = frozenset({"comment", "line_comment", "block_comment"})
-    blocks = _BLOCKS
-    passed = frozenset({"try_statement"})
-    expressions = kinds(
+    kinds = kinds(
+        comment="line_comment block_comment",
+        block="source_file module_definition begin_block compound_statement block let_statement"
+        " toplevel const_statement global_statement local_statement ERROR",
+        tried="try_statement",
+        assignment="assignment compound_assignment_expression",
         name="boolean_literal identifier",
         number="integer_literal",
         text="string_literal",
         inside="parametrized_type_expression where_expression typed_expression",
+        field="field_expression",
+        range="range_expression",
+        transposed="adjoint_expression",
     )
 
     def own(self, node: Node, inside: list[Node], line: int) -> Iterator[ir.Statement]:
@@ -104,20 +88,15 @@ class JuliaLowering(Lowering):
             case "struct_definition":
                 made = [y for x in inside for y in (self.children(x) if x.type == "block" else [x])]
                 makers = [x for x in made if x.type == "function_definition"]
-                values = [x for x in made if x.type == "assignment"]
+                values = [x for x in made if self.is_a("assignment", x)]
+                values = [x for x in values if self.children(x)[0].type in _FIELDS]
                 name = self.first_name(inside[0])
                 if not makers:
                     fields = [x for x in made if x.type in _FIELDS or x in values]
                     self.declares(name, map(self.first_name, fields))
                 yield from self.block(makers)
-                values = [x for x in values if self.children(x)[0].type in _FIELDS]
                 if values:
                     yield ir.Scope("class", name, self.block(values), line)
-            case "assignment" if len(inside) > 2:
-                yield from self._assignment(inside[0], inside[-1], line)
-            case "compound_assignment_expression":
-                sign = self.text(inside[1]).rstrip("=")
-                yield ir.Assign(self.expr(inside[0]), self.expr(inside[-1]), line, sign)
             case "for_statement" if inside:
                 heads = [self.children(x) for x in inside if x.type == "for_binding"]
                 turns = self.block(x for x in inside if x.type != "for_binding")
@@ -135,7 +114,7 @@ class JuliaLowering(Lowering):
             first = self.children(args[0])
             for part in (self.children(first[0]) if first else []) or first[:1]:
                 yield ir.Assign(ir.Name(self.text(part)), _ARGUMENT, line)
-        elif args and args[-1].type in _DEFINITIONS:
+        elif args and (self.kinds.get(args[-1].type) in _PARTED or args[-1].type in _DEFINITIONS):
             yield from self.block(args[-1:])
         else:
             yield ir.Do(self.expr(node), line)
@@ -145,31 +124,31 @@ class JuliaLowering(Lowering):
         name = next((self.text(x) for x in inside if x.type == "macro_identifier"), "")
         return name, [] if inside[-1].type == "macro_identifier" else self.children(inside[-1])
 
-    def _assignment(self, left: Node, right: Node, line: int) -> Iterator[ir.Statement]:
-        head = left
+    def assignment(
+        self, node: Node, left: Node | None, right: Node | None, sign: str | None = None
+    ) -> Iterator[ir.Statement]:
+        """A target has a value, or a function one expression."""
+        head, *_, right = inside = self.children(node)
+        left = head
         while head.type in _TYPED and head.named_children:
             head = head.named_children[0]
         if head.type == "call_expression":
-            yield self._function(left, [right], line)
-            return
-        if right.type == "assignment":
-            # a = b = 0
-            yield from self.block([right])
-            right = self.children(right)[0]
-        target = self.expr(head)
-        if head.type in {"open_tuple", "tuple_expression"}:
-            target = ir.Items(self.exprs(head.named_children))
-        yield ir.Assign(target, self.expr(right), line)
+            yield self._function(left, [right], line_of(node))
+        elif len(inside) > 2:
+            sign = self.text(inside[1]).rstrip("=")
+            yield from super().assignment(node, head, right, sign)
+
+    def target(self, node: Node) -> ir.Expr:
+        """What is assigned to, or several."""
+        is_several = node.type in {"open_tuple", "tuple_expression"}
+        return ir.Items(self.exprs(node.named_children)) if is_several else self.expr(node)
 
     def _function(self, head: Node, body: list[Node], line: int) -> ir.Scope:
         types: set[str] = set()
-        if head.type == "signature" and head.named_children:
-            head = head.named_children[0]
-        while head.type in _TYPED:
-            parts = self.children(head)
-            if head.type == "where_expression":
-                types |= {x for part in parts[1:] for x in self._type_names(part)}
-            head = parts[0]
+        while head.type in _TYPED and head.named_children:
+            head, *bounds = self.children(head)
+            for each in bounds:
+                types |= set(map(self.first_name, self.children(each) or [each]))
         inside = self.children(head)
         name, of, given = self.text(head) if head.type == "identifier" else "", "", inside[:0]
         if head.type == "call_expression" and inside:
@@ -188,10 +167,7 @@ class JuliaLowering(Lowering):
         """The type of an argument: ``::RK4{T}``, ``alg::RK4``."""
         if given.type not in {"unary_typed_expression", "typed_expression"}:
             return ""
-        node = given.named_children[-1]
-        if node.type == "parametrized_type_expression" and node.named_children:
-            node = node.named_children[0]
-        name = self.text(node)
+        name = self.text(given.named_children[-1]).partition("{")[0]
         is_general = name in types or name in _GENERAL or name.startswith("Abstract")
         return "" if is_general else name
 
@@ -207,91 +183,94 @@ class JuliaLowering(Lowering):
             return ""
         return known
 
-    def _type_names(self, node: Node) -> list[str]:
-        if node.type == "identifier":
-            return [self.text(node)]
-        inside = self.children(node)[: 1 if node.type == "binary_expression" else None]
-        return [x for part in inside for x in self._type_names(part)]
-
     # arithmetic
 
     def expression(self, node: Node, inside: list[Node]) -> ir.Expr:
-        if node.type in {"binary_expression", "juxtaposition_expression"} or self._is_signed(node):
-            return _ordered(deque(self._tokens(node)))
+        if self._is_arithmetic(node, inside):
+            return self._whole(self._leaves(node))
         return super().expression(node, inside)
 
-    def _is_signed(self, node: Node) -> bool:
-        inside = node.named_children
-        is_unary = node.type == "unary_expression" and len(inside) == 2
-        return is_unary and self.text(inside[0]) in {"+", "-"}
+    def _is_arithmetic(self, node: Node, inside: list[Node]) -> bool:
+        """Whether a node is operands and signs; ``5^(1/2)`` has a call of ``^``."""
+        match node.type:
+            case "binary_expression":
+                return len(inside) == 3
+            case "unary_expression":
+                return len(inside) == 2 and self.text(inside[0]) in {"+", "-", "√"}
+            case "call_expression":
+                return len(inside) == 2 and inside[0].type == "operator"
+        return node.type == "juxtaposition_expression"
 
-    def _tokens(self, node: Node) -> list[Token]:
-        """The operands and signs of an expression, in order."""
+    def _leaves(self, node: Node) -> Iterator[Node]:
+        """The operands and signs of an expression, in order; ``a (b)`` are two operands."""
+        waiting = [node]
+        while waiting:
+            node = waiting.pop()
+            inside = self.children(node)
+            is_apart = (
+                node.type == "call_expression"
+                and len(inside) == 2
+                and inside[0].end_byte < inside[1].start_byte
+                and len(self.children(inside[1])) == 1
+            )
+            if is_apart or self._is_arithmetic(node, inside):
+                waiting += reversed(inside)
+            else:
+                yield node
+
+    def _sign(self, node: Node) -> str:
+        """An operator; empty for an operand."""
+        text = self.text(node) if node.type == "operator" else ""
+        return text[1:] if text[:1] == "." and len(text) > 1 else text
+
+    def _whole(self, leaves: Iterable[Node]) -> ir.Expr:
+        """The expression that leaves are; long ones count as deep ones."""
+        waiting = deque(leaves)
+        longer = len(waiting) // 4
+        self._depth += longer
+        found = self._ordered(waiting)
+        self._depth -= longer
+        return found
+
+    def _ordered(self, leaves: deque[Node], least: int = 0) -> ir.Expr:
+        """Their beginning, as far as its operators hold at least so tightly."""
         if self._depth >= MAX_NESTING:
-            return [Token("", node.start_byte, node.end_byte, TOO_DEEP)]
+            leaves.clear()
+            return TOO_DEEP
+        if not leaves:
+            return ir.Opaque("an operator without an operand")
         self._depth += 1
-        try:
-            return self._parted(node)
-        finally:
-            self._depth -= 1
-
-    def _parted(self, node: Node) -> list[Token]:
-        inside = self.children(node)
-        kind = node.type
-        if kind == "binary_expression" and len(inside) == 3:
-            return [*self._tokens(inside[0]), self._sign(inside[1]), *self._tokens(inside[2])]
-        if self._is_signed(node):
-            return [replace(self._sign(inside[0]), is_prefix=True), *self._tokens(inside[-1])]
-        if kind == "juxtaposition_expression" and inside:
-            found = self._tokens(inside[0])
-            for part in inside[1:]:
-                tokens = self._tokens(part)
-                if not tokens[0].sign or tokens[0].is_prefix:
-                    found.append(Token(TIMES, part.start_byte, part.start_byte))
-                found += tokens
-            return found
-        if kind == "call_expression" and len(inside) == 2:
-            args = inside[1]
-            if inside[0].type == "operator":
-                # 5^(1/2)
-                return [self._sign(inside[0]), self._bracket(args)]
-            if inside[0].end_byte < args.start_byte and len(self.children(args)) == 1:
-                # a (b)
-                times = Token(TIMES, args.start_byte, args.start_byte)
-                return [*self._tokens(inside[0]), times, self._bracket(args)]
-        return [Token("", node.start_byte, node.end_byte, super().expression(node, inside))]
-
-    def _sign(self, node: Node) -> Token:
-        text = self.text(node)
-        plain = text[1:] if text[:1] == "." and len(text) > 1 else text
-        return Token(plain, node.start_byte, node.end_byte)
-
-    def _bracket(self, args: Node) -> Token:
-        inner = self.exprs(args.named_children)
-        value = inner[0] if len(inner) == 1 else ir.Items(inner)
-        return Token("", args.start_byte, args.end_byte, value)
+        first = leaves.popleft()
+        sign = self._sign(first)
+        value: ir.Expr = ir.Opaque(f"the operator {sign} without an operand")
+        if not sign:
+            value = self.expr(first)
+        elif sign in {"+", "-", "√"}:
+            inner = self._ordered(leaves, _SIGN_LEVEL)
+            value = ir.Call(ir.Name("sqrt"), (inner,)) if sign == "√" else ir.Unary(sign, inner)
+        while leaves and (level := _LEVELS.get(sign := self._sign(leaves[0]), 2)) >= least:
+            if sign:
+                leaves.popleft()
+            right = self._ordered(leaves, level if sign == "^" else level + 1)
+            value = ir.Binary(_PLAIN.get(sign, sign), value, right)
+        self._depth -= 1
+        return value
 
     def _entries(self, node: Node) -> list[list[ir.Expr]]:
         """Rows of entries: ``a -b`` are two, and a new line begins a row."""
         rows: list[list[ir.Expr]] = [[]]
-        part: deque[Token] = deque()
-        end = node.start_byte
-        for token in self._tokens(node):
-            gap = self._data[end : token.start]
-            after = self._data[token.end : token.end + 1]
-            end = token.end
-            is_gap = bool(gap) and gap.isspace()
-            is_sign = token.sign in {"+", "-"} and not token.is_prefix and not after.isspace()
-            if part and is_gap and (token.sign == TIMES or is_sign):
-                rows[-1].append(_ordered(part))
-                part = deque()
-                if b"\n" in gap:
-                    rows.append([])
-                if token.sign != TIMES:
-                    part.append(replace(token, is_prefix=True))
-                continue
-            part.append(token)
-        rows[-1].append(_ordered(part))
+        entry: list[Node] = []
+        for leaf in self._leaves(node):
+            if entry and not self._sign(entry[-1]):
+                gap = self._data[entry[-1].end_byte : leaf.start_byte]
+                sign, after = self._sign(leaf), self._data[leaf.end_byte : leaf.end_byte + 1]
+                is_first = not sign or (sign in {"+", "-"} and not after.isspace())
+                if gap.isspace() and is_first:
+                    rows[-1].append(self._whole(entry))
+                    entry = []
+                    rows += [[]] if b"\n" in gap else []
+            entry.append(leaf)
+        rows[-1].append(self._whole(entry))
         return rows
 
     # operands
@@ -300,29 +279,24 @@ class JuliaLowering(Lowering):
         match node.type:
             case "float_literal":
                 return ir.Literal(self.text(node).lower().replace("f0", "").replace("f", "e"))
-            case "parenthesized_expression" if len(inside) == 1:
+            case "parenthesized_expression" | "argument_list" if len(inside) == 1:
                 return self.expr(inside[0])
+            case "argument_list":
+                return ir.Items(self.exprs(inside))
             case "vector_expression" if len(inside) == 1 and self.text(node)[-2:] != ",]":
                 # [1 (2)] is a row of two
-                rows = self._entries(inside[0])
+                rows = self._rows([node])
                 is_list = len(rows) == len(rows[0]) == 1
-                return ir.Items(tuple(rows[0])) if is_list else ir.Rows(tuple(map(tuple, rows)))
+                return ir.Items(rows[0]) if is_list else ir.Rows(rows)
+            case "matrix_expression":
+                other = next((x for x in inside if x.type != "matrix_row"), None)
+                return unmeant(other) if other else ir.Rows(self._rows(inside))
             case "vector_expression" | "tuple_expression" | "open_tuple":
                 return self._tuple(node, inside)
-            case "matrix_expression":
-                return self._matrix(inside)
-            case "unary_expression" if len(inside) == 2 and self.text(inside[0]) == "√":
-                return ir.Call(ir.Name("sqrt"), (self.expr(inside[1]),))
             case "call_expression" | "broadcast_call_expression" if inside:
                 return self._call(inside)
-            case "field_expression" if len(inside) > 1:
-                return ir.Field(self.expr(inside[0]), self.text(inside[-1]))
             case "index_expression" if len(inside) > 1:
                 return self._index(inside[0], inside[1])
-            case "range_expression" if len(inside) == 2:
-                return ir.Range(self.expr(inside[0]), self.expr(inside[1]))
-            case "adjoint_expression" if inside:
-                return ir.Transposed(self.expr(inside[0]))
             case "prefixed_string_literal" if len(inside) == 2:
                 if self.text(inside[0]) in {"big", "df64", "BigFloat"}:
                     return ir.Literal(self.text(inside[1]).strip('"'))
@@ -342,17 +316,16 @@ class JuliaLowering(Lowering):
         parts = [self.children(x) or [x] for x in inside]
         return ir.Fields(tuple((self.text(x[0]), self.expr(x[-1])) for x in parts))
 
-    def _matrix(self, inside: list[Node]) -> ir.Expr:
-        rows: list[list[ir.Expr]] = []
-        for row in inside:
-            if row.type != "matrix_row":
-                return unmeant(row)
-            rows.append([])
-            for part in self.children(row):
-                found = self._entries(part)
-                rows[-1] += found[0]
-                rows += found[1:]
-        return ir.Rows(tuple(map(tuple, rows)))
+    def _rows(self, rows: list[Node]) -> tuple[tuple[ir.Expr, ...], ...]:
+        """The entries of rows."""
+        found: list[list[ir.Expr]] = []
+        for row in rows:
+            found.append([])
+            for each in self.children(row):
+                first, *more = self._entries(each)
+                found[-1] += first
+                found += more
+        return tuple(map(tuple, found))
 
     def _index(self, of: Node, at: Node) -> ir.Expr:
         if at.type == "matrix_expression":
@@ -389,35 +362,6 @@ def _is_for_effect(value: ir.Expr) -> bool:
         case ir.Call(ir.Name(name) | ir.Field(name=name)):
             return name.endswith("!")
     return isinstance(value, ir.Opaque)
-
-
-def _ordered(tokens: deque[Token]) -> ir.Expr:
-    """The expression that all tokens are."""
-    found = _climbed(tokens)
-    return ir.Opaque("an operator is missing") if tokens else found
-
-
-def _climbed(tokens: deque[Token], least: int = 0) -> ir.Expr:
-    """The expression that tokens are, by how tightly its operators hold."""
-    if not tokens:
-        return ir.Opaque("an operator without an operand")
-    token = tokens.popleft()
-    if token.sign in {"+", "-"}:
-        value: ir.Expr = ir.Unary(token.sign, _climbed(tokens, _SIGN_LEVEL))
-    elif token.sign:
-        return ir.Opaque(f"the operator {token.sign} without an operand")
-    else:
-        value = token.operand
-    while tokens:
-        sign = tokens[0].sign
-        level = _LEVELS.get(sign, 2)
-        if level < least or not sign or tokens[0].is_prefix:
-            break
-        tokens.popleft()
-        right = _climbed(tokens, level if sign == "^" else level + 1)
-        plain = {TIMES: "*", "//": "/"}.get(sign, sign)
-        value = ir.Binary(plain, value, right)
-    return value
 
 
 READER = reader(
