@@ -172,7 +172,7 @@ def _listed(given: Mapping[str, Any]) -> list[Entry]:
     wanted = Wanted(values, given["folder"] or "", given["words"])
     entries = list(all_entries(bool(given["judge"])))
     for key in ("folder", "structure"):
-        known = sorted({x[key] for x in entries} - {""})
+        known = sorted({x[key] for x in entries if x[key]})
         if given[key] and given[key] not in known:
             message = f"--{key} {given[key]}: no method of the catalogue has it"
             raise UsageProblem(message, did_you_mean(given[key], known), code="option-value")
