@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from garkcli.check.analysis import Analysis
 from garkcli.check.outcome import Claim
@@ -10,8 +10,10 @@ from garkcli.methodfile.description import ClaimText
 from garkcli.methodfile.expectations import AtLeast, Measure
 from garkcli.properties.property import Size, Verdict
 from garkcli.properties.registry import KEYS
-from garkcli.properties.subject import Subject
 from garkcli.reason import NO_REASON, Reason
+
+if TYPE_CHECKING:
+    from garkcli.properties.subject import Subject
 
 
 def verify(claims: tuple[ClaimText, ...], analysis: Analysis) -> tuple[Claim, ...]:

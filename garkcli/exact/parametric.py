@@ -22,7 +22,7 @@ from garkcli.frozen import Frozen
 
 MAX_TERMS = 500_000
 """Most terms of a product, multiplied out."""
-_NAME = re.compile(r"[A-Za-z_]\w*")
+_NAME = r"[A-Za-z_]\w*"
 Mixed: TypeAlias = "fmpq | Parametric"
 """A rational number or a rational function."""
 
@@ -73,7 +73,7 @@ class Parameters:
         text = str(polynomial)
         if not self.shown:
             return text
-        return _NAME.sub(lambda name: self.shown.get(name[0], (name[0], ""))[0], text)
+        return re.sub(_NAME, lambda name: self.shown.get(name[0], (name[0], ""))[0], text)
 
     def latex(self, polynomial: fmpq_mpoly) -> str:
         """A polynomial in LaTeX."""

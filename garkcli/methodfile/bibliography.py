@@ -15,8 +15,8 @@ from garkcli.methodfile.nodes import one_line, shortened
 from garkcli.methodfile.source import Source
 from garkcli.reference import WORKS, Reference
 
-_BETWEEN_PEOPLE = re.compile(r",\s+and\s+|,\s*|\s+and\s+|\s*&\s*")
-_YEAR = re.compile(r"[0-9]{4}[a-z]?", re.ASCII)
+_BETWEEN_PEOPLE = r",\s+and\s+|,\s*|\s+and\s+|\s*&\s*"
+_YEAR = r"[0-9]{4}[a-z]?"
 _FORM = "write reference: {authors: ..., title: ..., year: ...}, or one text"
 
 
@@ -26,7 +26,7 @@ def _text(at: Any, node: Node, where: str) -> str:
 
 def _year(at: Any, node: Node, where: str) -> str:
     text = _text(at, node, where)
-    if not _YEAR.fullmatch(text):
+    if not re.fullmatch(_YEAR, text, re.ASCII):
         message = f"{where}: a year is expected, not {shortened(text)}"
         at.source.fault(node, message, "for instance 1980", code="wrong-value")
     return text
@@ -37,7 +37,7 @@ def _people(at: Any, node: Node, where: str) -> tuple[str, ...]:
     if isinstance(node, SequenceNode):
         names = [_text(at, item, where) for item in node.value]
     else:
-        names = _BETWEEN_PEOPLE.split(_text(at, node, where))
+        names = re.split(_BETWEEN_PEOPLE, _text(at, node, where))
     return tuple(name for name in names if name)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterator
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from flint import fmpq
 from yaml.nodes import Node, ScalarNode, SequenceNode
@@ -13,8 +13,6 @@ from garkcli.errors import ExpressionError
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.field import ZERO, Number
-from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.roots import RealRoot, real_roots
 from garkcli.frozen import Frozen
 from garkcli.methodfile.description import ClaimText
 from garkcli.methodfile.grammar import FLAG, Key, Kind, mapping
@@ -23,9 +21,12 @@ from garkcli.methodfile.source import Source
 from garkcli.properties.definitions import ORDERS, definition, every_definition
 from garkcli.properties.registry import KEYS
 
+if TYPE_CHECKING:
+    from garkcli.exact.roots import RealRoot
+
 INFINITY = "infinity"
-_DECIMAL = re.compile(r"[0-9]*\.(?P<places>[0-9]*)(?:[eE](?P<exponent>[+-]?[0-9]{1,3}))?")
-_LEAST = re.compile(r">=\s*(.*)", re.DOTALL)
+_DECIMAL = r"[0-9]*\.(?P<places>[0-9]*)(?:[eE](?P<exponent>[+-]?[0-9]{1,3}))?"
+_LEAST = r">=\s*(.*)"
 
 
 class Measure(Frozen):
@@ -65,6 +66,9 @@ class Measure(Frozen):
 
 
 def _root(number: Number) -> RealRoot:
+    from garkcli.exact.polynomial import Polynomial
+    from garkcli.exact.roots import real_roots
+
     ((root, _),) = real_roots(Polynomial([-number, 1]))
     return root
 
@@ -74,7 +78,7 @@ def read_measure(source: Source, node: Node, where: str) -> Measure | None:
     text = source.scalar(node, where)
     if text is None:
         return None
-    least = _LEAST.fullmatch(text)
+    least = re.fullmatch(_LEAST, text, re.DOTALL)
     body = (least[1] if least else text).strip()
     if body == INFINITY:
         return Measure(text, None)
@@ -89,7 +93,7 @@ def read_measure(source: Source, node: Node, where: str) -> Measure | None:
 
 
 def _half_unit(text: str) -> fmpq:
-    decimal = _DECIMAL.fullmatch(text)
+    decimal = re.fullmatch(_DECIMAL, text)
     if decimal is None:
         return ZERO
     exponent = int(decimal["exponent"] or 0) - len(decimal["places"])
@@ -99,7 +103,7 @@ def _half_unit(text: str) -> fmpq:
 CLAIMS = (*ORDERS, *KEYS)
 """Everything a file may claim."""
 _FORM = "write for instance expect: {order: 4}"
-_AT_LEAST = re.compile(r">=\s*([0-9]{1,4})")
+_AT_LEAST = r">=\s*([0-9]{1,4})"
 
 
 class AtLeast(Frozen):
@@ -116,7 +120,7 @@ Wanted: TypeAlias = "int | AtLeast | bool | Measure | list[Wanted] | None"
 
 def _number(at: Any, node: Node, where: str) -> Wanted:
     text = at.source.scalar(node, where) or ""
-    if at_least := _AT_LEAST.fullmatch(text):
+    if at_least := re.fullmatch(_AT_LEAST, text):
         return AtLeast(int(at_least[1]))
     if text.isascii() and text.isdigit() and len(text) < 5:
         return int(text)

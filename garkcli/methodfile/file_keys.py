@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 _PAGE = "docs/method-file.md#"
 _MADE = f"{_PAGE}compose-adjoint-extrapolate-splitting-methods-made-from-methods"
 _PAPER = f"{_PAGE}methods-and-transfer-the-papers-construction"
-_DECIMAL = re.compile(r"([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?", re.ASCII)
+_DECIMAL = r"([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?"
 
 
 def _tolerance(at: Any, node: Node, where: str) -> fmpq | None:
@@ -42,7 +42,7 @@ def _tolerance(at: Any, node: Node, where: str) -> fmpq | None:
     if text is None:
         return None
     try:
-        value = read_decimal(text) if _DECIMAL.fullmatch(text) else None
+        value = read_decimal(text) if re.fullmatch(_DECIMAL, text, re.ASCII) else None
     except LimitExceeded:
         value = None
     if value is not None and 0 < value < 1:

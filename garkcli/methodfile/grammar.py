@@ -6,12 +6,12 @@ say of it.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+from msgspec import json
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
 from garkcli.frozen import Frozen
@@ -98,7 +98,7 @@ class Key(Frozen):
         if "$ref" in schema:  # what is beside a reference is not read
             schema = {"allOf": [schema]}
         value = yaml.safe_load(self.line)[self.name]
-        as_json = json.loads(json.dumps(value))  # keys are texts in JSON
+        as_json = json.decode(json.encode(value))  # keys are texts in JSON
         told = {**schema, "description": self.text, "examples": [as_json]}
         return told if self.default is None else {**told, "default": self.default}
 

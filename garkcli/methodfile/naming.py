@@ -8,7 +8,6 @@ digits: ``ARS(2,2,2)`` is ``ARS222``.
 
 from __future__ import annotations
 
-import json
 import os
 import re
 from collections.abc import Iterable, Iterator, Sequence
@@ -161,6 +160,8 @@ def _made(name: str, reference: Reference | None = None) -> Shelved:
 
     def written() -> str:
         known = {key: getattr(reference, key) for key in fields(reference)} if reference else {}
+        import json  # only members of families need it
+
         told = json.dumps({key: x for key, x in known.items() if x}, ensure_ascii=False)
         return f"methods: {name}\n" + (f"reference: {told}\n" if reference else "")
 

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 UNKNOWN = "?"
 """What is in a file for a coefficient that is not known."""
-_PLACE = re.compile(
+_PLACE = (
     r"(?:(?P<part>[qp])\.)?(?P<letter>[Abc]|embedded)(?:\^\{(?P<colours>[0-9,]+)\})?"
     r"(?:, row (?P<row>[0-9]+))?(?:, entry (?P<entry>[0-9]+))?"
 )
@@ -41,7 +41,7 @@ def name_of_place(where: str) -> str | None:
     >>> name_of_place("embedded, entry 1")
     'bh1'
     """
-    found = _PLACE.fullmatch(where)
+    found = re.fullmatch(_PLACE, where)
     if found is None:
         return None
     part, letter, colours, row, entry = found.groups()

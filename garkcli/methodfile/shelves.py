@@ -5,7 +5,6 @@ A shelf knows its methods by their names, which are those of their files, and by
 
 from __future__ import annotations
 
-import json
 import os
 import re
 import unicodedata
@@ -13,6 +12,8 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cache, cached_property
 from itertools import chain
 from typing import TYPE_CHECKING, Any
+
+from msgspec import json
 
 from garkcli.errors import Fault, MethodFileError
 from garkcli.frozen import Frozen
@@ -31,8 +32,8 @@ INDEX = "catalogue/index.json"
 """What there is in the package, from its root."""
 DATA = "catalogue/data"
 """The method files of the package, from its root."""
-_BETWEEN_WORDS = re.compile("[\\s_\u2010-\u2015\u2212-]+")
-_NO_LETTERS = re.compile(r"[\W_]+")
+_BETWEEN_WORDS = "[\\s_\u2010-\u2015\u2212-]+"
+_NO_LETTERS = r"[\W_]+"
 
 
 def key_of(name: str) -> str:
@@ -41,7 +42,7 @@ def key_of(name: str) -> str:
     >>> key_of("Dormand_Prince 5"), key_of("Runge–Kutta")
     ('dormand-prince-5', 'runge-kutta')
     """
-    return _BETWEEN_WORDS.sub("-", unicodedata.normalize("NFC", name).casefold().strip())
+    return re.sub(_BETWEEN_WORDS, "-", unicodedata.normalize("NFC", name).casefold().strip())
 
 
 def letters_of(name: str) -> str:
@@ -53,7 +54,7 @@ def letters_of(name: str) -> str:
     'lobattoiiicstar2'
     """
     spelt = unicodedata.normalize("NFC", name).casefold().replace("*", "star")
-    return _NO_LETTERS.sub("", spelt)
+    return re.sub(_NO_LETTERS, "", spelt)
 
 
 class Shelved(Frozen):
@@ -156,14 +157,15 @@ class Package(Shelf):
     @cached_property
     def entries(self) -> Mapping[str, Mapping[str, Any]]:
         """What the index says of each, by its name."""
-        return {x["name"]: x for x in json.loads(self._index)["methods"]}
+        return {x["name"]: x for x in json.decode(self._index)["methods"]}
 
     def named(self, key: str) -> Sequence[Shelved]:
         """Those of a name, by its key, which it is itself; no other entry of the index is read."""
-        start = self._index.find(f'\n{{"name": {json.dumps(key)}, ')
-        if start < 0:
+        start = self._index.find(f'\n{{"name": {json.encode(key).decode()}, ') + 1
+        if not start:
             return ()
-        return [self._entered(json.JSONDecoder().raw_decode(self._index, start + 1)[0])]
+        line = self._index[start : self._index.index("\n", start)]
+        return [self._entered(json.decode(line.removesuffix(",")))]
 
     def called(self, method: Shelved) -> Sequence[str]:
         """The aliases of one of its methods; no file is read for it."""

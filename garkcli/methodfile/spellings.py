@@ -39,9 +39,9 @@ def first_list_in_rows(items: Sequence[Node]) -> Node | None:
     return next((x for x in chain.from_iterable(rows) if isinstance(x, SequenceNode)), None)
 
 
-_SEVERAL = re.compile(r"[0-9)][ \t]*[,;\n]|[0-9)][ \t]+[0-9.]")
+_SEVERAL = r"[0-9)][ \t]*[,;\n]|[0-9)][ \t]+[0-9.]"
 """Two numbers with no sign of an operation between them."""
-_IN_PARENTHESES = re.compile(r"\([^()]*\)")
+_IN_PARENTHESES = r"\([^()]*\)"
 MAX_PRINTED = 2_000
 """Longest text that is examined for being a printed row or matrix."""
 
@@ -59,12 +59,12 @@ def holds_several(text: str) -> bool:
     >>> holds_several("0 0; 1/2 0"), holds_several("1/2 - 1/3"), holds_several("root(2, 5)")
     (True, False, False)
     """
-    if len(text) > MAX_PRINTED or not _SEVERAL.search(text):
+    if len(text) > MAX_PRINTED or not re.search(_SEVERAL, text):
         return False
     outside = text
-    while _IN_PARENTHESES.search(outside):
-        outside = _IN_PARENTHESES.sub("0", outside)
-    return _SEVERAL.search(outside) is not None
+    while re.search(_IN_PARENTHESES, outside):
+        outside = re.sub(_IN_PARENTHESES, "0", outside)
+    return re.search(_SEVERAL, outside) is not None
 
 
 def bracketed(text: str) -> str:
@@ -76,7 +76,7 @@ def bracketed(text: str) -> str:
     lines = re.split("[;\n]", text.replace(",", " "))
     rows = [line.split() for line in lines if line.split()]
     words = [word for row in rows for word in row]
-    if len(words) > 16 or not all(_PLAIN.fullmatch(word) for word in words):
+    if len(words) > 16 or not all(re.fullmatch(_PLAIN, word, re.ASCII) for word in words):
         return ""
     texts = [f"[{', '.join(row)}]" for row in rows]
     return texts[0] if len(texts) == 1 else f"[{', '.join(texts)}]"
@@ -96,7 +96,7 @@ def printed_row(rows: Sequence[Node], example: str) -> tuple[Node, str, str] | N
     return None
 
 
-_PLAIN = re.compile(r"[-+]?[0-9][0-9./]*", re.ASCII)
+_PLAIN = r"[-+]?[0-9][0-9./]*"
 
 
 _SPELLINGS: tuple[tuple[str, str], ...] = (
@@ -137,15 +137,14 @@ def explained(error: ExpressionError, text: str) -> tuple[ExpressionError, str]:
             return explanation, pattern
     # a tableau copied with its symbols; a slip in the name of a parameter is another matter
     is_name = isinstance(error, UndefinedValue) and not error.help.startswith("did you mean")
-    is_symbol = is_name and _SYMBOLS.fullmatch(text[error.start : error.end])
-    return error, _SYMBOLS.pattern if is_symbol else ""
+    is_symbol = is_name and re.fullmatch(_SYMBOLS, text[error.start : error.end], re.ASCII)
+    return error, _SYMBOLS if is_symbol else ""
 
 
-_SYMBOLS = re.compile(r"[A-Za-z]+_?[0-9]+(_[0-9]+)*", re.ASCII)
+_SYMBOLS = r"[A-Za-z]+_?[0-9]+(_[0-9]+)*"
 """Names as a11, b_2, x1_2: the symbols of a tableau in general, all without values."""
-_READ_DIFFERENTLY = re.compile(
-    r"[-+]?(0[0-9_]+|0[xob][0-9a-f_]+|[0-9][0-9_]*(:[0-5]?[0-9])+(\.[0-9_]*)?|[0-9]*_[0-9_.]*)",
-    re.IGNORECASE,
+_READ_DIFFERENTLY = (
+    r"[-+]?(0[0-9_]+|0[xob][0-9a-f_]+|[0-9][0-9_]*(:[0-5]?[0-9])+(\.[0-9_]*)?|[0-9]*_[0-9_.]*)"
 )
 """Plain scalars that YAML 1.1 reads as another number than they look: octal, hexadecimal, base 60,
 with _.
@@ -166,7 +165,7 @@ def is_misread(source: Source, node: Node, text: str, where: str) -> bool:
         word = repr(text or "nothing")
         message = f"{word} is no number: YAML reads it as {kind}"
         cure, code = "write a number, such as 1/2", "yaml-word"
-    elif _READ_DIFFERENTLY.fullmatch(text):
+    elif re.fullmatch(_READ_DIFFERENTLY, text, re.IGNORECASE):
         readers = "different readers of YAML"
         message = f"{text} means different numbers to {readers}"
         cure, code = "write the number in plain decimal digits", "ambiguous-number"

@@ -10,9 +10,9 @@ from garkcli.frozen import Frozen
 
 _CODES = {"good": "32", "bad": "31;1", "strong": "1", "faint": "2", "note": "36"}
 
-_STYLE = re.compile("\x1b\\[[0-9;]*m")
+_STYLE = "\x1b\\[[0-9;]*m"
 """What starts or ends a style."""
-_DOT = re.compile("●([0-9]+)")
+_DOT = "●([0-9]+)"
 """A dot of a drawn tree, with the number of its colour."""
 _DOTS = (34, 33, 32, 35, 36, 31)
 """The codes of the colours 1, 2, …, taken anew after the last."""
@@ -35,7 +35,7 @@ class Paint(Frozen):
 
     def dots(self, line: str) -> str:
         """A line of a drawn tree, its dots in the colours of their numbers."""
-        return line if not self.color else _DOT.sub(_coloured_dot, line)
+        return line if not self.color else re.sub(_DOT, _coloured_dot, line)
 
     def verdict(self, holds: bool, yes: str = "yes", no: str = "no") -> str:
         """A word that is good or bad news."""
@@ -87,7 +87,7 @@ def _widths(rows: Sequence[Sequence[str]]) -> list[int]:
     return [max(map(len, column)) for column in zip(*rows, strict=True)]
 
 
-_JOINTS = re.compile(r".+?(?:(?<![∀=⊙]) |\}(?=[Ab(])|\](?:_\d+)?,|$)")
+_JOINTS = r".+?(?:(?<![∀=⊙]) |\}(?=[Ab(])|\](?:_\d+)?,|$)"
 """Pieces of a formula or of a tree, each up to a place where a line may end."""
 
 
@@ -97,7 +97,7 @@ def shown_width(text: str) -> int:
     >>> shown_width(Paint(True)("good", "yes"))
     3
     """
-    return len(_STYLE.sub("", text)) if "\x1b" in text else len(text)
+    return len(re.sub(_STYLE, "", text)) if "\x1b" in text else len(text)
 
 
 def folded(text: str, width: int, indent: str = "      ") -> list[str]:
@@ -108,7 +108,7 @@ def folded(text: str, width: int, indent: str = "      ") -> list[str]:
     ['b{l}A{l,m}A{m,n}', '  = 1/24']
     """
     lines = [""]
-    for piece in _JOINTS.findall(text):
+    for piece in re.findall(_JOINTS, text):
         longer = lines[-1] + piece
         is_begun = bool(lines[-1].strip())
         if is_begun and shown_width(longer.rstrip()) > width:

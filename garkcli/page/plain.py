@@ -12,9 +12,9 @@ from garkcli.errors import printable
 
 __all__ = ["csv_cell", "inert", "printable"]
 
-_COMMAND = re.compile(r"^([^\S\n]*):(?=:)", re.MULTILINE)
+_COMMAND = r"^([^\S\n]*):(?=:)"
 """A line that GitHub Actions takes for a workflow command: it begins with two colons."""
-_OLD_COMMAND = re.compile(r"##(?=\[)")
+_OLD_COMMAND = r"##(?=\[)"
 """The older form of these commands, which is sought anywhere in a line."""
 _FORMULA = ("=", "+", "-", "@", "\t", "\r")
 """What a spreadsheet takes for the beginning of a formula."""
@@ -26,7 +26,7 @@ def inert(text: str) -> str:
     >>> print(inert("::error::no"))
     \x3a:error::no
     """
-    return _OLD_COMMAND.sub(r"#\\x23", _COMMAND.sub(r"\1\\x3a", text))
+    return re.sub(_OLD_COMMAND, r"#\\x23", re.sub(_COMMAND, r"\1\\x3a", text, flags=re.MULTILINE))
 
 
 def csv_cell(text: str) -> str:

@@ -38,12 +38,12 @@ DRAWN = frozenset("●○─│└┘┌┐├┤┬┴┼╯╰")
 """What trees and plots are drawn with: lines of these are below each other."""
 EVERYTHING = "¹⁴γ𝟙●"
 """An encoding that has these has every sign: it is one of Unicode."""
-_GREEK = re.compile(r"GREEK (SMALL|CAPITAL) LETTER (FINAL )?(?P<name>[A-Z]+)( |$)")
+_GREEK = r"GREEK (SMALL|CAPITAL) LETTER (FINAL )?(?P<name>[A-Z]+)( |$)"
 _BLANKS = re.compile(" +")
-_COLOURS = re.compile(r"\x1b\[[0-9;]*m")
+_COLOURS = r"\x1b\[[0-9;]*m"
 HANGING = 4
 """How far the rest of a broken line is indented, beside its beginning."""
-_SCRIPT = re.compile(r"(SUPERSCRIPT|SUBSCRIPT) ")
+_SCRIPT = r"(SUPERSCRIPT|SUBSCRIPT) "
 
 
 @lru_cache(4096)
@@ -58,7 +58,7 @@ def ascii_form(sign: str) -> str:
     if sign in SIGNS:
         return SIGNS[sign]
     name = unicodedata.name(sign, "")
-    greek = _GREEK.match(name)
+    greek = re.match(_GREEK, name)
     if greek is not None:
         letter = greek["name"].lower().replace("lamda", "lambda")
         return letter.capitalize() if greek[1] == "CAPITAL" else letter
@@ -66,7 +66,7 @@ def ascii_form(sign: str) -> str:
     plain = "".join(x for x in plain if not unicodedata.combining(x)).replace("−", "-")
     if not plain.isascii() or not plain:
         return sign.encode("ascii", "backslashreplace").decode("ascii")
-    if _SCRIPT.match(name):
+    if re.match(_SCRIPT, name):
         return ("^" if name.startswith("SUPER") else "_") + plain
     return plain
 
@@ -123,7 +123,7 @@ def _forms(line: str, encoding: str) -> Iterator[tuple[str, str]]:
         if mark and mark == raised:
             form = form[1:]
         raised = mark
-        is_spelled = form != sign and (_GREEK.match(unicodedata.name(sign, "")) is not None)
+        is_spelled = form != sign and (re.match(_GREEK, unicodedata.name(sign, "")) is not None)
         needs_gap = ended or (is_spelled and last.isalpha())
         if needs_gap and form[:1].isalpha():
             form = f" {form}"
@@ -185,7 +185,7 @@ def _last_place(line: str, width: int, start: int) -> re.Match[str] | None:
 
 def _columns(line: str) -> int:
     """How many columns a line takes; its colours take none."""
-    return len(_COLOURS.sub("", line))
+    return len(re.sub(_COLOURS, "", line))
 
 
 @lru_cache(4096)
@@ -195,7 +195,7 @@ def _has(encoding: str, text: str) -> bool:
     An exponent of two digits must not be half a sign and half ASCII: what has no fourth power has
     no powers.
     """
-    if _SCRIPT.match(unicodedata.name(text, "") if len(text) == 1 else ""):
+    if re.match(_SCRIPT, unicodedata.name(text, "") if len(text) == 1 else ""):
         text = "⁴"
     try:
         text.encode(encoding)

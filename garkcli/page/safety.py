@@ -17,7 +17,7 @@ XML = frozenset({"junit", "html"})
 """Formats in which a sign may be written as a reference to its number."""
 TABBED = frozenset({"rungekutta-jl"})
 """Tables whose columns are parted by tabs, which command nothing."""
-_COLOURS = re.compile(r"(\x1b\[(?:[012]|3[1-6]|31;1)m)")
+_COLOURS = r"(\x1b\[(?:[012]|3[1-6]|31;1)m)"
 
 
 def written_out(text: str, format: str = "text", coloured: bool = False) -> str:
@@ -34,7 +34,7 @@ def written_out(text: str, format: str = "text", coloured: bool = False) -> str:
         return text
     if not coloured:
         return _written_out(text, format)
-    pieces = _COLOURS.split(text)
+    pieces = re.split(_COLOURS, text)
     # the odd ones are colours
     pieces[::2] = [_written_out(piece, format) for piece in pieces[::2]]
     return "".join(pieces)
