@@ -464,4 +464,4 @@ def sweep(given: Given, output: Output) -> None:
     if given.plot is not None:
         from garkcli.plots.sweep import sweep_scene
 
-        output.save_plot(sweep_scene(report, *plan.pareto[:2]), given.plot)
+        output.save_plot(sweep_scene(report), given.plot)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from garkcli.api.calls import find_stability
 from garkcli.api.files import path_of
 from garkcli.convergence.result import Convergence
+from garkcli.design.stable_plane import StablePlane
 from garkcli.errors import MethodError
 from garkcli.longtime.history import LongRun
 from garkcli.plots.convergence import errors_scene
@@ -17,6 +18,7 @@ from garkcli.plots.energy import energy_scene
 from garkcli.plots.regions import stability_scene
 from garkcli.plots.saving import check_suffix, need_matplotlib, save
 from garkcli.plots.scene import Scene
+from garkcli.plots.stable_plane import stable_plane_scene
 from garkcli.plots.sweep import sweep_scene
 from garkcli.stability.summary import Stability
 from garkcli.sweep.report import SweepReport
@@ -26,11 +28,11 @@ if TYPE_CHECKING:
 
     from garkcli.tableau.garkmethod import GarkMethod
 
-_CURE = "give what converge, long_run, find_stability or run_sweep returned"
+_CURE = "give what converge, long_run, find_stability, run_sweep or stable_values returned"
 
 
 def plot(
-    *results: Convergence | LongRun | Stability | SweepReport,
+    *results: Convergence | LongRun | Stability | StablePlane | SweepReport,
     path: str | os.PathLike[str] | None = None,
     names: Sequence[str] = (),
     against: str = "h",
@@ -39,8 +41,9 @@ def plot(
     """A figure of results, as ``--plot`` draws it; needs ``garkcli[plot]``.
 
     Args:
-        results: what ``converge``, ``long_run``, ``find_stability`` or ``run_sweep`` returned;
-            several convergence tests or stabilities are drawn together.
+        results: what ``converge``, ``long_run``, ``find_stability``, ``run_sweep``, or
+            ``stable_values`` of two parameters returned; several convergence tests or stabilities
+            are drawn together.
         path: where to save it besides: .png, .svg or .pdf.
         names: of the methods, one a result.
         against: of convergence tests: ``"h"``, ``"evaluations"`` or ``"seconds"``.
@@ -98,9 +101,11 @@ def _scene(
     (result,) = results
     if isinstance(result, LongRun):
         return energy_scene(result)
+    if isinstance(result, StablePlane):
+        return stable_plane_scene(result, names[0] or result.family.name)
     if isinstance(result, SweepReport):
         if len(result.plan.pareto) < 2:
             message = "the sweep compares no two columns"
             raise MethodError(message, "say pareto: [x, y] in its file", code="arrays")
-        return sweep_scene(result, *result.plan.pareto[:2])
+        return sweep_scene(result)
     raise MethodError(f"there is no figure of the kind {kind.__name__}", _CURE, code="arrays")

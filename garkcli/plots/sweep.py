@@ -11,8 +11,11 @@ from garkcli.sweep.report import SweepReport
 from garkcli.sweep.row import Row
 
 
-def sweep_scene(report: SweepReport, x: str, y: str) -> Scene:
-    """The kept methods in the plane of two columns; those without finite values are left out."""
+def sweep_scene(report: SweepReport) -> Scene:
+    """The kept methods in the plane of the first two columns of the front; those without finite
+    values are left out.
+    """
+    x, y = report.plan.pareto[:2]
     rows = [row for row in kept(report.done) if _is_finite(row, x) and _is_finite(row, y)]
     front = pareto_front(rows, [x, y])
     # errors spread over powers of ten

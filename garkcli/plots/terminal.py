@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from itertools import pairwise
 from typing import TypeAlias
 
+from garkcli.errors import printable
 from garkcli.page.paint import folded
 from garkcli.plots.scene import Area, Curve, Mark, Panel, Rule, shortened
 
@@ -58,10 +59,11 @@ class _Picture:
     """The cells of a panel between its axes."""
 
     def __init__(self, panel: Panel, spelt: Callable[[str], str], columns: int) -> None:
-        self.panel, self.spelt, self.columns = panel, spelt, columns
+        self.panel, self.columns = panel, columns
+        self.spelt: Callable[[str], str] = lambda text: spelt(printable(text))
         self.height = 2 * round(panel.height / _LINE / 2) + 1
         marks = panel.y.marks(self.height // 2 + 1)
-        self.rows = {self.row(mark.at): spelt(mark.label) for mark in marks}
+        self.rows = {self.row(mark.at): self.spelt(mark.label) for mark in marks}
         self.margin = max(map(len, self.rows.values()), default=0)
         self.width = columns - self.margin - 2
 
@@ -177,7 +179,7 @@ class _Picture:
 
     def lines(self) -> list[str]:
         """The note, the frame with its labels, the legend."""
-        panel, spelt, cells = self.panel, self.spelt, self.cells()
+        panel, cells, spelt = self.panel, self.cells(), self.spelt
         blank = " " * self.margin
         columns = {self.column(mark.at): mark for mark in panel.x.marks(max(self.width // 7, 2))}
         lines = folded(spelt(panel.note), self.columns, "") if panel.note else []

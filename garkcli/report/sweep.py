@@ -118,7 +118,7 @@ def section(report: SweepReport | None = None) -> Section:
         ),
         Row(
             "plot",
-            scene(lambda x: sweep_scene(x, *x.plan.pareto[:2])),
+            scene(sweep_scene),
             lambda x: x if x.kept and len(x.plan.pareto) > 1 else None,
             DETAIL,
         ),

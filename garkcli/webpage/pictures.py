@@ -6,10 +6,8 @@ from collections.abc import Callable, Sequence
 
 from garkcli.api.runs import converge, long_run
 from garkcli.convergence.convergence import in_common, seeing_problem
-from garkcli.convergence.result import Convergence
 from garkcli.errors import GarkError
 from garkcli.frozen import Frozen
-from garkcli.longtime.history import LongRun
 from garkcli.longtime.longtime import usual
 from garkcli.page.figures import order_text
 from garkcli.plots.convergence import comparison_panel, errors_panel
@@ -157,6 +155,8 @@ def _convergence(method: GarkMethod) -> tuple[Panel, str]:
     """The convergence test, on the problem that sees every tree of the method."""
     _refuse_large(method, "gark converge", "be tested")
     result = converge(method)
+    if sum(row.error > 0 for row in result.rows) < 2:
+        raise NotDrawn("The method makes no error on the problem of the test.")
     observed = order_text(result.observed_order)
     name = result.problem.name
     note = (
@@ -166,7 +166,7 @@ def _convergence(method: GarkMethod) -> tuple[Panel, str]:
     )
     if result.plateau:
         note += " The last errors are those of the rounded coefficients."
-    return errors(result), note
+    return errors_panel(result), note
 
 
 _VERDICTS = {
@@ -175,17 +175,6 @@ _VERDICTS = {
     "undecided": "these steps do not decide whether they agree",
     "reduced": "steps that do not resolve a stiff problem show a smaller one",
 }
-
-
-def errors(result: Convergence) -> Panel:
-    """Errors over step sizes.
-
-    Raises:
-        NotDrawn: there are fewer than two errors.
-    """
-    if sum(row.error > 0 for row in result.rows) < 2:
-        raise NotDrawn("The method makes no error on the problem of the test.")
-    return errors_panel(result)
 
 
 def _energy(method: GarkMethod) -> tuple[Panel, str]:
@@ -197,23 +186,13 @@ def _energy(method: GarkMethod) -> tuple[Panel, str]:
         run = long_run(method, problem, STEPS * step, step, points=_POINTS)
     except StepFailed as error:
         raise NotDrawn(f"A step fails on Kepler's problem: {error}.") from None
-    where = f"Kepler's problem, {run.steps} steps of {run.step}"
-    return energy(
-        run
-    ), f"Numerical: the {word_for(run.method)} on {where}; {became_of(run.invariants[0])}."
-
-
-def energy(run: LongRun) -> Panel:
-    """The error of the first invariant over time.
-
-    Raises:
-        NotDrawn: it is nowhere above round-off.
-    """
-    history = run.invariants[0]
+    history, steps = run.invariants[0], f"{run.steps} steps of {run.step}"
     if history.verdict in ("exact", "round-off"):
-        where = f"{run.steps} steps of {run.step} on the problem {run.problem.name}"
+        where = f"{steps} on the problem {run.problem.name}"
         raise NotDrawn(f"The {history.name} error stays below round-off in {where}.")
-    return history_panel(run, history)
+    where = f"Kepler's problem, {steps}"
+    note = f"Numerical: the {word_for(run.method)} on {where}; {became_of(history)}."
+    return history_panel(run, history), note
 
 
 def _is_large(method: GarkMethod) -> bool:

@@ -127,6 +127,15 @@ def test_ascii_is_as_wide(name: str, columns: int) -> None:
             assert line.find("┤") in (-1, plain.find("+"))
 
 
+def test_names_from_outside_are_harmless() -> None:
+    """Controls in a name of a curve, a label of an axis and a note are written as text."""
+    hostile = "\x1b[31m"
+    axis = Axis(hostile, 0.0, 1.0)
+    lines = drawn(Panel("", "", axis, axis, [Curve(0, [(0, 0)], hostile)], note=hostile))
+    assert "\x1b" not in "".join(lines)
+    assert "".join(lines).count("x1b[31m") == 4
+
+
 def test_labels_of_rules_are_on_no_point() -> None:
     """The slope beside a line, where there is space for it."""
     rule = Rule((0, 0), (6, 6), "slope 1")

@@ -333,7 +333,7 @@ def test_the_plot(spec: Path) -> None:
     report = SweepReport(
         str(spec), load_plan(str(spec)), {str(x["key"]): x for x in rows_in(rows)}, 1
     )
-    (panel,) = sweep_scene(report, "order", "stages").panels
+    (panel,) = sweep_scene(report).panels
     drawn = [curve.points for curve in panel.legend if isinstance(curve, Curve)]
     everything = [(x["order"], x["stages"]) for x in kept(report.done)]
     assert drawn == [everything, [(x["order"], x["stages"]) for x in report.front]]
