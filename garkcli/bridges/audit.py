@@ -10,13 +10,12 @@ from typing import Literal, TypeAlias
 from flint import fmpq
 
 from garkcli.bridges.elsewhere import declared_orders, order_of
-from garkcli.bridges.importing import orders_of, read, with_orders
 from garkcli.bridges.judging import Judged, judged
 from garkcli.bridges.plausible import is_plausible
 from garkcli.bridges.readers.registry import find_tables, readers_for
 from garkcli.bridges.said import order_said_of
 from garkcli.bridges.sources import source_text
-from garkcli.bridges.subject import Subject, sum_text
+from garkcli.bridges.subject import Subject, orders_of, read, sum_text, with_orders
 from garkcli.check.findings import repair_text, witness_text
 from garkcli.crew.hiring import hired
 from garkcli.crew.work import WorkerLost, in_order
@@ -160,54 +159,62 @@ def _lost(path: str, why: str) -> list[Audited] | Exception:
 def _audited(path: str, orders: Mapping[str, int]) -> list[Audited]:
     """The tables of one source."""
     text, source = source_text(path)
-    judged, lines = [], text.split("\n")
+    found, lines = [], text.split("\n")
     for table in find_tables(text, source, readers_for(path)):
         if not (table.order or table.kind):
             said = order_said_of(lines, table.line)
             table = replace(table, order=order_of(table, orders), said_order=said)
-        judged.append(audit(table))
-    return [found for found in judged if found is not None]
+        found.append(audit(table))
+    return [x for x in found if x is not None]
 
 
 def audit(table: FoundTable) -> Audited | None:
     """What is true of a table; None where it is no method at all."""
     if table.kind:
         message = f"a {table.kind} table, which is not judged as one of Runge–Kutta"
-        return Audited(table, findings=(AuditFinding("other-kind", message, level="note"),))
+        return _noted(table, message, "other-kind")
+    if table.is_misshapen:
+        return Audited(table, findings=(AuditFinding("shape", table.trouble),))
     if table.trouble:
-        return Audited(table, findings=(_of_trouble(table),))
+        return _noted(table, table.trouble)
     try:
         method = read(table)
     except MethodFileError as error:
-        message = error.faults[0].message
-        return Audited(table, findings=(AuditFinding("unread", message, level="note"),))
+        return _noted(table, error.faults[0].message)
     if not is_plausible(table, method):
-        return None if table.c[0] is not None else _without_nodes(table, method)
-    declared = table.order or 0
-    is_high = declared == 0 or declared >= HIGH
-    found = with_orders(table, method, HIGH if is_high else None)
-    table, method, order, embedded_order = found
-    subject = Subject(*found)
-    if table.is_assembled and order.order < 2 and not subject.is_slightly_off:
-        return Audited(table, findings=(AuditFinding("unread", UNRECOGNISED, level="note"),))
-    findings: list[AuditFinding] = []
-    for check in CHECKS:
-        findings += [_weighed(x, subject) for x in check(subject)]
-    return Audited(table, method, order, embedded_order, subject.nonautonomous, tuple(findings))
+        may_be = table.c[0] is None and _may_be_method(method)
+        message = "A and b without nodes, which may be no method"
+        return _noted(table, message) if may_be else None
+    is_high = not table.order or table.order >= HIGH
+    subject = with_orders(table, method, HIGH if is_high else None)
+    if table.is_assembled and subject.order.order < 2 and not subject.is_slightly_off:
+        return _noted(subject.table, UNRECOGNISED)
+    return Audited(
+        subject.table,
+        subject.method,
+        subject.order,
+        subject.embedded_order,
+        subject.nonautonomous,
+        tuple(_weighed(x, subject) for check in CHECKS for x in check(subject)),
+    )
 
 
-def _without_nodes(table: FoundTable, method: MethodFile) -> Audited | None:
-    """A and b that may be no method: b has the sum 1, or A is strictly triangular; not all of it
-    whole numbers.
-    """
+def _noted(table: FoundTable, message: str, code: str = "unread") -> Audited:
+    """A table that is not judged, and why."""
+    return Audited(table, findings=(AuditFinding(code, message, level="note"),))
+
+
+def _may_be_method(method: MethodFile) -> bool:
+    """Whether b has the sum 1 or A is strictly triangular, not all of them whole numbers."""
     block, b = method.tableau.block(0, 0), method.tableau.colours[0].b
-    is_explicit = block is not None and not any(any(row[i:]) for i, row in enumerate(block))
-    if len(b) < 2 or block is None or not (sum(b, ZERO) == 1 or (is_explicit and any(block[-1]))):
-        return None
-    if all(isinstance(x, fmpq) and x.q == 1 for row in (*block, b) for x in row):
-        return None
-    message = "A and b without nodes, which may be no method"
-    return Audited(table, findings=(AuditFinding("unread", message, level="note"),))
+    if block is None or len(b) < 2 or all(_is_integer(x) for row in (*block, b) for x in row):
+        return False
+    is_explicit = not any(any(row[i:]) for i, row in enumerate(block))
+    return sum(b, ZERO) == 1 or (is_explicit and any(block[-1]))
+
+
+def _is_integer(x: Number) -> bool:
+    return isinstance(x, fmpq) and x.q == 1
 
 
 def _weighed(finding: AuditFinding, subject: Subject) -> AuditFinding:
@@ -239,12 +246,6 @@ def _is_explained(code: str, subject: Subject) -> bool:
         wanted = table.embedded_order or 1 if code == "embedded-order" else 1
     rounded = subject.digits.careless(tableau)
     return bool(rounded.tolerance) and find_order_within(rounded, wanted).order >= wanted
-
-
-def _of_trouble(table: FoundTable) -> AuditFinding:
-    if table.is_misshapen:
-        return AuditFinding("shape", table.trouble)
-    return AuditFinding("unread", table.trouble, level="note")
 
 
 def _order(subject: Subject) -> Iterator[AuditFinding]:

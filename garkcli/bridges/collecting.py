@@ -6,11 +6,11 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import PurePath
 
-from garkcli.bridges.importing import Imported, imported
 from garkcli.bridges.plausible import is_plausible
 from garkcli.bridges.readers.registry import find_tables, readers_for
 from garkcli.bridges.recognising import Proposal, Recognised, recognised
 from garkcli.bridges.sources import STDIN_NAME, source_text
+from garkcli.bridges.subject import Subject, imported
 from garkcli.errors import MethodFileError
 from garkcli.exact.display import decimal
 from garkcli.frozen import Frozen, replace
@@ -34,7 +34,7 @@ class Result(Frozen, eq=False):
 
     table: FoundTable
     stem: str = ""
-    method: Imported | None = None
+    method: Subject | None = None
     recognised: Recognised | None = None
     trouble: str = ""
 

@@ -1,4 +1,4 @@
-"""From a table that was found to a method file: its text, its rounding, its claims."""
+"""The text of the method file of a table that was found."""
 
 from __future__ import annotations
 
@@ -9,22 +9,14 @@ from typing import TypeAlias
 
 from flint import fmpq
 
-from garkcli.bridges.judging import Digits, Judged, judged
 from garkcli.errors import ExpressionError, printable
 from garkcli.exact.display import decimal
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
-from garkcli.exact.field import Number
 from garkcli.exact.nodes import Literal
-from garkcli.frozen import Frozen, replace
-from garkcli.methodfile.build import MethodFile
-from garkcli.methodfile.load import loads
-from garkcli.methodfile.printed import FEWEST_DIGITS
 from garkcli.methodfile.writer import quoted
-from garkcli.order.certificate import StageSpans
 from garkcli.page.plaintext import plain_line
 from garkcli.sources.found import FoundTable, Row, Rows
-from garkcli.tableau.embedded import with_weights
 
 Tree: TypeAlias = "str | Sequence[Tree] | Mapping[str, Tree] | None"
 """What is in a method file: words, rows of numbers, lists and mappings of these."""
@@ -34,111 +26,6 @@ _LONG = re.compile(rf"[0-9]{{{SHORT},}}|[0-9]\.[0-9]{{{SHORT - 1},}}")
 _TAIL = re.compile(r"(?<=[0-9.])0{6,}(?![0-9])")
 """Zeros that a printed decimal ends with."""
 _INTEGER = re.compile(r"-?(?:0|[1-9][0-9]*)")
-
-
-class Imported(Frozen, eq=False):
-    """A method out of a source.
-
-    Attributes:
-        table: as it was found.
-        method: as its file is read.
-        order: of the method, exactly or within the rounding of its digits.
-        embedded_order: the same with the embedded weights; None without them.
-        text: of the method file.
-    """
-
-    table: FoundTable
-    method: MethodFile
-    order: Judged
-    embedded_order: Judged | None
-    text: str
-
-    @property
-    def tolerance(self) -> fmpq | None:
-        """The rounding that the method file admits."""
-        return self.method.tolerance
-
-
-def imported(table: FoundTable, name: str) -> Imported:
-    """The method of a table, with the claims that hold.
-
-    Args:
-        table: as it was found.
-        name: what the method file calls it.
-
-    Raises:
-        MethodFileError: its numbers make no method.
-    """
-    table, method, order, embedded_order = with_orders(table, read(table, name))
-    tolerance = _tolerance(table, (order, embedded_order))
-    text = written(table, name, tolerance, _claims(order, embedded_order))
-    method = loads(text, place_of(table))
-    return Imported(table, method, order, embedded_order, text)
-
-
-def read(table: FoundTable, name: str = "") -> MethodFile:
-    """The method of a table as it is, with no tolerance.
-
-    Raises:
-        MethodFileError: its numbers make no method.
-    """
-    return loads(written(table, name, None, {}), place_of(table))
-
-
-def with_orders(
-    table: FoundTable, method: MethodFile, limit: int | None = None
-) -> tuple[FoundTable, MethodFile, Judged, Judged | None]:
-    """A table and its method with their orders, up to ``limit``.
-
-    An error estimate E means the embedded weights b − E or b + E: those of the declared order, else
-    those of the higher order. Both have the same order where it is lower than that of b, as E then
-    misses a condition, but for sums of weights that rounding spoils in one of them.
-
-    Raises:
-        MethodFileError: the numbers of the other sign make no method.
-    """
-    found = table, method, *orders_of(method, table, limit)
-    _, _, order, embedded = found
-    if table.turned is None or embedded is None:
-        return found
-    declared = table.embedded_order
-    if 0 < embedded.order < order.order and declared in (None, embedded.order):
-        return found
-    turned = replace(table, embedded=table.turned, turned=None)
-    other = read(turned, method.name)
-    _, low = orders_of(other, turned, limit)
-    if low is None or _fit(low, declared) <= _fit(embedded, declared):
-        return found
-    return turned, other, order, low
-
-
-def _fit(found: Judged, declared: int | None) -> tuple[bool, int]:
-    return found.order == declared, found.order
-
-
-def orders_of(
-    method: MethodFile, table: FoundTable, limit: int | None = None
-) -> tuple[Judged, Judged | None]:
-    """The order of a method and that of its embedded weights, within what their digits say, up to
-    ``limit``.
-    """
-    admitted = fmpq_of(table.tolerance) if table.tolerance else None
-    digits, spans = digits_of(method, table), StageSpans(method.tableau)
-    order = judged(digits, method.tableau, table.order, limit, admitted, spans)
-    if method.embedded is None:
-        return order, None
-    other = with_weights(method.tableau, method.embedded)
-    return order, judged(digits, other, table.embedded_order, limit, admitted, spans)
-
-
-def digits_of(method: MethodFile, table: FoundTable) -> Digits:
-    """How exactly the coefficients of a table are written: also those that its method file has as
-    fractions.
-    """
-    texts = {x for x in numbers_of(table) if len(x) > FEWEST_DIGITS and "." in x}
-    short = [(parse(x), fmpq_of(x)) for x in sorted(texts) if _fraction(x)]
-    units: dict[Number, fmpq] = {fmpq_of(text): unit for text, unit in table.units}
-    return Digits((*method.printed, *short), units)
 
 
 def numbers_of(table: FoundTable) -> Iterator[str]:
@@ -154,15 +41,6 @@ def place_of(table: FoundTable) -> str:
     return f"{table.source}:{table.line}"
 
 
-def _tolerance(table: FoundTable, orders: Sequence[Judged | None]) -> fmpq | None:
-    """The rounding that the file has to admit; None where everything holds exactly."""
-    wanted = [x.tolerance for x in orders if x is not None]
-    found = [x for x in wanted if x is not None]
-    if table.tolerance:
-        found.append(fmpq_of(table.tolerance))
-    return max(found, default=None)
-
-
 def fmpq_of(text: str) -> fmpq:
     """A rational number; 0 for anything else."""
     try:
@@ -170,15 +48,6 @@ def fmpq_of(text: str) -> fmpq:
     except ExpressionError:
         return fmpq(0)
     return value if isinstance(value, fmpq) else fmpq(0)
-
-
-def _claims(order: Judged, embedded: Judged | None) -> Mapping[str, str]:
-    claims = {}
-    if order.order:
-        claims["order"] = order.claim
-    if embedded is not None and embedded.order:
-        claims["embedded-order"] = embedded.claim
-    return claims
 
 
 def written(table: FoundTable, name: str, tolerance: fmpq | None, claims: Mapping[str, str]) -> str:
@@ -284,14 +153,14 @@ def entry_text(text: str) -> str:
     """
     if _INTEGER.fullmatch(text):
         return text
-    short = _fraction(text)
+    short = fraction_of(text)
     if short:
         return short
     is_plain = not set(text) & set(",#:{}[]&*!|>'\"%@`\\\n")
     return text if is_plain and text[:1] not in "-?" else quoted(text)
 
 
-def _fraction(text: str) -> str:
+def fraction_of(text: str) -> str:
     """The fraction that a text without long decimals and without roots is; empty for others."""
     if _LONG.search(_TAIL.sub("", text)) and not _is_quotient(text):
         return ""

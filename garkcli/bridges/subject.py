@@ -1,18 +1,27 @@
-"""A table as an audit checks it: its method, and what several checks need once."""
+"""From a table that was found to a method: its orders, its rounding, its file, and what several
+checks of an audit need once.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from functools import cached_property
 
-from garkcli.bridges.importing import digits_of
+from flint import fmpq
+
+from garkcli.bridges.importing import fmpq_of, fraction_of, numbers_of, place_of, written
 from garkcli.bridges.judging import Digits, Judged, judged
 from garkcli.exact.display import to_ball, to_decimal, to_text
+from garkcli.exact.expression import parse
 from garkcli.exact.field import ZERO, Number
-from garkcli.frozen import Frozen
+from garkcli.frozen import Frozen, replace
 from garkcli.methodfile.build import MethodFile
+from garkcli.methodfile.load import loads
+from garkcli.methodfile.printed import FEWEST_DIGITS
+from garkcli.order.certificate import StageSpans
 from garkcli.order.simplifying import RoundedDefects
 from garkcli.sources.found import FoundTable
+from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.forms import with_time
 from garkcli.tableau.rounded import RoundedTableau
 from garkcli.tableau.tableau import Tableau
@@ -21,20 +30,27 @@ NEAR = 1e-3
 """Row sums and nodes that differ by less are meant to be the same."""
 
 
-class Subject(Frozen):
-    """A table as it is checked.
+class Subject(Frozen, eq=False):
+    """A table with the method that it is.
 
     Attributes:
         table: as it was found.
-        method: as it is read.
-        order: of the method.
-        embedded_order: with the embedded weights; None without them.
+        method: as its file is read.
+        order: of the method, exactly or within the rounding of its digits.
+        embedded_order: the same with the embedded weights; None without them.
+        text: of the method file, where there is one.
     """
 
     table: FoundTable
     method: MethodFile
     order: Judged
     embedded_order: Judged | None
+    text: str = ""
+
+    @property
+    def tolerance(self) -> fmpq | None:
+        """The rounding that the method file admits."""
+        return self.method.tolerance
 
     @property
     def tableau(self) -> Tableau:
@@ -116,6 +132,84 @@ class Subject(Frozen):
         if declared is None or self.order.is_limited or self.order.order >= declared:
             return False
         return not self.order.is_open
+
+
+def imported(table: FoundTable, name: str) -> Subject:
+    """The method of a table, with the claims that hold.
+
+    Args:
+        table: as it was found.
+        name: what the method file calls it.
+
+    Raises:
+        MethodFileError: its numbers make no method.
+    """
+    found = with_orders(table, read(table, name))
+    claims, tolerances = {}, [fmpq_of(table.tolerance)] if table.tolerance else []
+    for key, order in (("order", found.order), ("embedded-order", found.embedded_order)):
+        if order is not None and order.order:
+            claims[key] = order.claim
+        if order is not None and order.tolerance is not None:
+            tolerances.append(order.tolerance)
+    text = written(found.table, name, max(tolerances, default=None), claims)
+    return replace(found, method=loads(text, place_of(table)), text=text)
+
+
+def read(table: FoundTable, name: str = "") -> MethodFile:
+    """The method of a table as it is, with no tolerance.
+
+    Raises:
+        MethodFileError: its numbers make no method.
+    """
+    return loads(written(table, name, None, {}), place_of(table))
+
+
+def with_orders(table: FoundTable, method: MethodFile, limit: int | None = None) -> Subject:
+    """A table and its method with their orders, up to ``limit``.
+
+    An error estimate E means the embedded weights b − E or b + E: those of the declared order, else
+    those of the higher order. Both have the same order where it is lower than that of b, as E then
+    misses a condition, but for sums of weights that rounding spoils in one of them.
+
+    Raises:
+        MethodFileError: the numbers of the other sign make no method.
+    """
+    found = Subject(table, method, *orders_of(method, table, limit))
+    embedded, declared = found.embedded_order, table.embedded_order
+    if table.turned is None or embedded is None:
+        return found
+    if 0 < embedded.order < found.order.order and declared in (None, embedded.order):
+        return found
+    turned = replace(table, embedded=table.turned, turned=None)
+    other = read(turned, method.name)
+    _, low = orders_of(other, turned, limit)
+    fits = [(x.order == declared, x.order) for x in (low, embedded) if x is not None]
+    return found if fits[0] <= fits[-1] else Subject(turned, other, found.order, low)
+
+
+def orders_of(
+    method: MethodFile, table: FoundTable, limit: int | None = None
+) -> tuple[Judged, Judged | None]:
+    """The order of a method and that of its embedded weights, within what their digits say, up to
+    ``limit``.
+    """
+    admitted = fmpq_of(table.tolerance) if table.tolerance else None
+    digits, spans = digits_of(method, table), StageSpans(method.tableau)
+    order = judged(digits, method.tableau, table.order, limit, admitted, spans)
+    if method.embedded is None:
+        return order, None
+    other = with_weights(method.tableau, method.embedded)
+    return order, judged(digits, other, table.embedded_order, limit, admitted, spans)
+
+
+def digits_of(method: MethodFile, table: FoundTable) -> Digits:
+    """How exactly the coefficients of a table are written: also those that its method file has as
+    fractions.
+    """
+    texts = {x for x in numbers_of(table) if len(x) > FEWEST_DIGITS and "." in x}
+    short = [(parse(x), fmpq_of(x)) for x in sorted(texts) if fraction_of(x)]
+    units: dict[Number, fmpq] = {fmpq_of(text): unit for text, unit in table.units}
+    return Digits((*method.printed, *short), units)
 
 
 def _row_text(i: int, total: Number, node: Number) -> str:

@@ -18,12 +18,13 @@ import pytest
 from flint import arb, ctx, fmpq
 
 from garkcli.bridges.cannot import CannotExport
-from garkcli.bridges.importing import entry_text, read
+from garkcli.bridges.importing import entry_text
 from garkcli.bridges.orders import Orders
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.preparing import prepared
 from garkcli.bridges.readers.registry import reader_named
 from garkcli.bridges.registry import bridges
+from garkcli.bridges.subject import read
 from garkcli.exact.display import to_ball
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
