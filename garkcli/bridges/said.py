@@ -92,56 +92,50 @@ def _passages(lines: Sequence[str], line: int) -> Iterator[str]:
         yield " ".join([*_above(lines, at), end["text"] if end else ""])
         at = _around(lines, at)
     if at >= 0:
-        yield " ".join([*_above(lines, at), *_docstring(lines, at)])
+        # the docstring of Python is below the end of the head
+        ends = (i for i in range(at, min(len(lines) - 1, at + 11)) if lines[i].rstrip()[-1:] == ":")
+        below = next((_quoted(lines, i + 1, 1) for i in ends), [])
+        yield " ".join([*_above(lines, at), *below])
 
 
 def _around(lines: Sequence[str], at: int) -> int:
     """The line on which the function or class around a line begins; -1 where there is none."""
-    width = len(lines[at]) - len(lines[at].lstrip())
+    width = _indent(lines[at])
     for i in range(at - 1, max(-1, at - MAX_SCOPE), -1):
-        indent = len(lines[i]) - len(lines[i].lstrip())
-        if lines[i].strip() and indent < width:
+        if lines[i].strip() and _indent(lines[i]) < width:
             if _SCOPE.match(lines[i]):
                 return i
-            width = indent
+            width = _indent(lines[i])
     return -1
 
 
-def _above(lines: Sequence[str], at: int) -> list[str]:
+def _indent(line: str) -> int:
+    return len(line) - len(line.lstrip())
+
+
+def _above(lines: Sequence[str], at: int) -> Sequence[str]:
     """The comment, or the docstring of Julia, that ends right above a line."""
     if at > 1 and _SCOPE.match(lines[at]) and not lines[at - 1].strip():
         # Fortran leaves a line between a comment and the head below it
         at -= 1
     first = at
-    above = lines[at - 1].strip() if at else ""
-    end = next((x for x in ('"""', "*/") if above.endswith(x)), "")
-    begin = {'"""': '"""', "*/": "/*"}.get(end, "")
-    if end:
-        is_begun = above.startswith(begin) and len(above) > len(end)
-        first = at - 1
-        while not is_begun and first > max(0, at - MAX_LINES):
-            first -= 1
-            is_begun = begin in lines[first]
-        return list(lines[first:at]) if is_begun else []
     while first > max(0, at - MAX_LINES) and _COMMENT.match(lines[first - 1]):
         first -= 1
-    return list(lines[first:at])
+    return _quoted(lines, at - 1, -1) or lines[first:at]
 
 
-def _docstring(lines: Sequence[str], at: int) -> list[str]:
-    """The docstring of Python below the head of a function or class."""
-    body = at + 1
-    while body < min(len(lines), at + 12) and not lines[body - 1].rstrip().endswith(":"):
-        body += 1
-    if body >= len(lines):
+def _quoted(lines: Sequence[str], at: int, step: int) -> Sequence[str]:
+    """A docstring, or above a table a comment of C, that has one end on a line, and the other there
+    or below it, by a step of 1, or above it, by -1.
+    """
+    text = lines[at].strip().lstrip("rRuU") if at >= 0 else ""
+    mark = text[:3] if step > 0 else text[-3:]
+    if step < 0 and text.endswith("*/"):
+        mark = "/*"
+    elif mark not in {'"""', "'''"}:
         return []
-    first = lines[body].strip().lstrip("rRuU")
-    mark = first[:3]
-    if mark not in {'"""', "'''"}:
-        return []
-    if mark in first[3:]:
-        return [first]
-    for end in range(body + 1, min(len(lines), body + MAX_LINES)):
-        if mark in lines[end]:
-            return list(lines[body : end + 1])
-    return []
+    if text.count(mark) > (mark != "/*"):
+        return [text]
+    others = range(at + step, at + step * MAX_LINES, step)
+    other = next((i for i in others if 0 <= i < len(lines) and mark in lines[i]), None)
+    return [] if other is None else lines[min(at, other) : max(at, other) + 1]
