@@ -37,6 +37,7 @@ Level: TypeAlias = Literal["error", "warning", "note"]
 """Errors fail an audit; warnings and notes are reported."""
 HIGH = 10
 """Higher orders are not tried: a wrong digit costs a lower one."""
+CARELESS = "careless rounding explains it"
 _BY_DIGITS = frozenset({"order", "weights", "nodes", "embedded-order", "embedded-weights"})
 MAX_BLAMED = 12
 """Most stages of a table whose wrong entry is sought."""
@@ -223,26 +224,27 @@ def _weighed(finding: AuditFinding, subject: Subject) -> AuditFinding:
     """
     if finding.level != "error":
         return finding
-    if finding.code in _BY_DIGITS and _is_explained(finding.code, subject):
+    if _is_explained(finding.code, subject):
         code = "nodes" if finding.code == "nodes" else "open"
-        message = f"{finding.message}: careless rounding explains it"
-        return AuditFinding(code, message, level="note")
+        return AuditFinding(code, f"{finding.message}: {CARELESS}", level="note")
     if subject.table.is_assembled:
         message = f"{finding.message}; in doubt, as the table is put together from single numbers"
         return replace(finding, message=message, level="warning")
     return finding
 
 
-def _is_explained(code: str, subject: Subject) -> bool:
-    """Whether rounding by many units of the last digits might be why an order is missed."""
+def _is_explained(code: str, subject: Subject, said: int = 0) -> bool:
+    """Whether rounding by many units of the last digits might be why an order is missed: the
+    declared one, or the one that words say.
+    """
+    table, tableau = subject.table, subject.tableau
     if code == "nodes":
         return not subject.misprinted_rows
-    tableau, method, table = subject.tableau, subject.method, subject.table
-    wanted = min(table.order or 1, HIGH)
-    if code == "said":
-        wanted = table.said_order or 1
-    elif code.startswith("embedded"):
-        tableau = with_weights(tableau, method.embedded or ())
+    if code not in _BY_DIGITS:
+        return False
+    wanted = said or min(table.order or 1, HIGH)
+    if code.startswith("embedded"):
+        tableau = with_weights(tableau, subject.method.embedded or ())
         wanted = table.embedded_order or 1 if code == "embedded-order" else 1
     rounded = subject.digits.careless(tableau)
     return bool(rounded.tolerance) and find_order_within(rounded, wanted).order >= wanted
@@ -252,11 +254,12 @@ def _order(subject: Subject) -> Iterator[AuditFinding]:
     """The declared order against the true one."""
     declared = subject.table.order
     finding = _held(subject.order, declared, "order", subject.tableau)
-    if finding is None or declared is None or finding.level != "error":
-        yield from [] if finding is None else [finding]
+    if finding is None or declared is None:
         return
     found = subject.order.order
-    if _is_transposed(subject):
+    if finding.level != "error":
+        yield finding
+    elif _is_transposed(subject):
         message = f"with the matrix transposed the order is {declared}"
         yield AuditFinding("transposed", f"order {found}, declared {declared}: {message}")
     elif _is_of_nystrom(subject, declared):
@@ -266,9 +269,11 @@ def _order(subject: Subject) -> Iterator[AuditFinding]:
         yield replace(finding, help=_culprit(subject, declared))
 
 
-def _held(found: Judged, declared: int | None, what: str, tableau: Tableau) -> AuditFinding | None:
+def _held(
+    found: Judged | None, declared: int | None, what: str, tableau: Tableau
+) -> AuditFinding | None:
     """What is wrong with a declared order; None where it holds or is not decided."""
-    if declared is None or found.is_limited or found.order == declared:
+    if found is None or declared is None or found.is_limited or found.order == declared:
         return None
     code, message = what.replace(" ", "-"), f"{what} {found.order}, declared {declared}"
     if found.order > declared:
@@ -282,10 +287,9 @@ def _held(found: Judged, declared: int | None, what: str, tableau: Tableau) -> A
 
 def _said(subject: Subject) -> Iterator[AuditFinding]:
     """The order that words say against the true one: they may speak of something else."""
-    said, found = subject.table.said_order, subject.order
-    if subject.table.order or not said or found.is_limited or found.is_open:
-        return
-    if found.order < said <= HIGH and not _is_explained("said", subject):
+    said, found = subject.table.said_order or 0, subject.order
+    is_known = not (subject.table.order or found.is_limited or found.is_open)
+    if is_known and found.order < said <= HIGH and not _is_explained("order", subject, said):
         message = f"order {found.order}, a comment or docstring says {said}"
         yield AuditFinding("order", message + _witness(found, subject.tableau), level="warning")
 
@@ -306,22 +310,18 @@ def _is_of_nystrom(subject: Subject, declared: int) -> bool:
 
 def _is_transposed(subject: Subject) -> bool:
     """Whether the declared order is that of the transposed matrix."""
-    tableau, declared = subject.tableau, subject.table.order
-    block = tableau.block(0, 0)
-    if tableau.size > 1 or block is None or declared is None:
-        return False
-    turned = tuple(zip(*block, strict=True))
+    block, turned = subject.block, tuple(zip(*subject.block, strict=True))
     if turned == block:
         return False
-    other = replace(tableau, blocks={(0, 0): turned})
-    return judged(subject.digits, other, declared).order >= declared
+    declared = subject.table.order
+    other = replace(subject.tableau, blocks={(0, 0): turned})
+    return judged(subject.digits, other, declared).order >= (declared or 0)
 
 
 def _culprit(subject: Subject, declared: int) -> str:
     """The row that does not fit its node, or the entry that restores the order."""
-    rows = subject.wrong_rows
-    if len(rows) == 1:
-        return rows[0]
+    if len(subject.wrong_rows) == 1:
+        return subject.wrong_rows[0]
     stages = sum(space.stages for space in subject.tableau.spaces)
     witness = subject.order.witness
     if stages > MAX_BLAMED or witness is None:
@@ -339,63 +339,51 @@ def _culprit(subject: Subject, declared: int) -> str:
 
 def _embedded(subject: Subject) -> Iterator[AuditFinding]:
     """The declared order of the embedded weights against the true one."""
-    found = subject.embedded_order
-    if found is None or subject.method.embedded is None:
+    found, embedded = subject.embedded_order, subject.method.embedded
+    if found is None or embedded is None:
         return
+    declared = subject.table.embedded_order
+    # the matrix is to blame, which is reported with the order already
+    is_known = subject.misses_order and 0 < found.order < (declared or 0)
     if not found.order and not found.is_open:
-        total = _sums(subject.method.embedded)
+        total = " and ".join(map(sum_text, embedded))
         yield AuditFinding("embedded-weights", f"the embedded weights have the sum {total}")
-    elif not _explains(subject, found):
-        tableau = with_weights(subject.tableau, subject.method.embedded)
-        declared = subject.table.embedded_order
+    elif not is_known:
+        tableau = with_weights(subject.tableau, embedded)
         finding = _held(found, declared, "embedded order", tableau)
         yield from [] if finding is None else [finding]
 
 
-def _explains(subject: Subject, found: Judged) -> bool:
-    """Whether the matrix is to blame, which is reported with the order already."""
-    declared = subject.table.embedded_order or 0
-    return subject.misses_order and 0 < found.order < declared
-
-
-def _sums(weights: Iterable[Iterable[Number]]) -> str:
-    return " and ".join(map(sum_text, weights))
-
-
 def _weights(subject: Subject) -> Iterator[AuditFinding]:
     """Weights whose sum is not 1, where no declared order tells."""
-    if subject.order.order or subject.order.is_open:
-        return
-    if subject.table.order is None:
-        total = _sums(colour.b for colour in subject.tableau.colours)
+    found = subject.order
+    if not (found.order or found.is_open) and subject.table.order is None:
+        total = " and ".join(sum_text(colour.b) for colour in subject.tableau.colours)
         yield AuditFinding("weights", f"the weights have the sum {total}")
 
 
 def _nodes(subject: Subject) -> Iterator[AuditFinding]:
     """Nodes that are no row sums, as far as they cost an order."""
-    rows = subject.wrong_rows
+    rows, declared = subject.wrong_rows, subject.table.order
     if subject.misses_order or all(x is None for x in subject.table.c):
         return
     if not rows:
         careless = subject.careless_rows
         if careless:
-            message = f"{_listed(careless)}: careless rounding explains it"
-            yield AuditFinding("nodes", message, level="note")
+            yield AuditFinding("nodes", f"{_listed(careless)}: {CARELESS}", level="note")
         return
-    declared = subject.table.order
     timed = subject.nonautonomous
     wanted = subject.order.order if declared is None else declared
     loses = timed is not None and timed.order < min(wanted, subject.order.order)
-    text = _listed(rows)
-    if (loses or declared is None or _is_upper(subject)) and _is_turned(subject):
+    is_upper = not any(any(row[: i + 1]) for i, row in enumerate(subject.block))
+    if (loses or declared is None or is_upper) and _is_turned(subject):
         yield AuditFinding("transposed", "the columns have the nodes for sums")
     elif loses and timed is not None:
         message = f"order {timed.order} where f depends on t, and else {wanted}"
-        yield AuditFinding("nodes", f"{message}: {text}")
+        yield AuditFinding("nodes", f"{message}: {_listed(rows)}")
     else:
         is_error = declared is None or subject.is_misprinted
-        level: Level = "error" if is_error else "note"
-        yield AuditFinding("nodes", text, level=level)
+        yield AuditFinding("nodes", _listed(rows), level="error" if is_error else "note")
 
 
 def _listed(rows: Sequence[str]) -> str:
@@ -403,33 +391,21 @@ def _listed(rows: Sequence[str]) -> str:
     return f"{text}; and {len(rows) - 3} more" if len(rows) > 3 else text
 
 
-def _is_upper(subject: Subject) -> bool:
-    """Whether the matrix is that of an explicit method, transposed."""
-    block = subject.tableau.block(0, 0) or ()
-    return not any(any(row[: i + 1]) for i, row in enumerate(block))
-
-
 def _is_turned(subject: Subject) -> bool:
     """Whether the columns of the only matrix sum to the nodes."""
-    tableau = subject.tableau
-    block = tableau.block(0, 0)
-    if tableau.size > 1 or block is None:
-        return False
-    tolerance = (len(block) + 1) * subject.rounded.tolerance
-    columns = zip(*block, strict=True)
-    pairs = zip(columns, tableau.colours[0].c, strict=True)
-    return all(within(sum(x, ZERO) - c, tolerance) for x, c in pairs)
+    tolerance = (len(subject.block) + 1) * subject.rounded.tolerance
+    columns = zip(*subject.block, strict=True)
+    pairs = zip(columns, subject.tableau.colours[0].c, strict=False)
+    return bool(subject.block) and all(within(sum(x, ZERO) - c, tolerance) for x, c in pairs)
 
 
 def _flags(subject: Subject) -> Iterator[AuditFinding]:
     """Properties that the source declares."""
-    tableau = subject.tableau
-    block = tableau.block(0, 0)
-    if not subject.table.flags.get("fsal") or block is None or tableau.size > 1:
+    if not subject.table.flags.get("fsal") or not subject.block:
         return
-    tolerance = subject.rounded.tolerance
-    pairs = zip(block[-1], tableau.colours[0].b, strict=True)
-    if not all(within(x - y, 2 * tolerance) for x, y in pairs):
+    tolerance = 2 * subject.rounded.tolerance
+    pairs = zip(subject.block[-1], subject.tableau.colours[0].b, strict=True)
+    if not all(within(x - y, tolerance) for x, y in pairs):
         yield AuditFinding("fsal", "declared first same as last, and the last row is not b")
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 
 from flint import arb, fmpq
 
@@ -18,7 +19,7 @@ from garkcli.methodfile.constructed.multirate import coupling_of
 from garkcli.properties.family_entries import is_nonzero_at, nodes_of
 from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.garkmethod import GarkMethod, derived_name
-from garkcli.tableau.pointwise import Block, Cell, Entries, entries, in_points, numeric_entries
+from garkcli.tableau.pointwise import Block, Cell, Entries, Row, entries, in_points, numeric_entries
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau
 
@@ -48,7 +49,7 @@ def prepared(method: GarkMethod, digits: int | None = None) -> Payload:
     if tableau.has_parameters:
         message = f"{method.name} has free parameters"
         raise CannotExport(message, "give each a value: --set NAME=VALUE", code="free-parameters")
-    found = _seen(_entries(tableau, digits))
+    found = _entries(tableau, digits)
     embedded, dense = method.embedded, method.dense
     other = None if embedded is None else with_weights(tableau, embedded)
     return Payload(
@@ -83,72 +84,54 @@ def _name(method: MethodFile) -> str:
 
 def kind_of(tableau: Tableau) -> Kind:
     """Which form a tableau has."""
-    parts = [colour.part for colour in tableau.colours]
-    if parts == ["q", "p"]:
+    if [colour.part for colour in tableau.colours] == ["q", "p"]:
         return "prk"
-    if tableau.is_partitioned:
-        return "gark"
-    if tableau.size == 1:
+    if tableau.size == 1 and not tableau.is_partitioned:
         return "rk"
-    shares_stages = len(tableau.spaces) == 1
-    is_complete = len(tableau.blocks) == tableau.size
-    return "ark" if shares_stages and is_complete else "gark"
+    shares_stages = len(tableau.spaces) == 1 and len(tableau.blocks) == tableau.size
+    return "ark" if shares_stages and not tableau.is_partitioned else "gark"
 
 
 def _entries(tableau: Tableau, digits: int | None) -> Entries:
-    """The entries, exact where that is possible; enclosures of zero are exact zeros."""
-    exact = entries(tableau)
-    if exact.is_exact:
-        return exact
-    wanted = max(digits or 0, USUAL) + EXTRA
-    fine = numeric_entries(tableau, wanted)
-    colours = range(tableau.size)
-    c = tuple(_nodes(tableau, l, fine.c[l]) for l in colours)
-
-    def blocks(l: int) -> tuple[Block, ...]:
-        return tuple(_block(tableau, fine, l, m) for m in colours)
-
-    return replace(fine, c=c, A=tuple(map(blocks, colours)))
-
-
-def _seen(found: Entries) -> Entries:
-    """The entries, with zeros for the block that a method for one vector field lacks."""
-    (first, *further), *_ = found.A
-    if further or first is not None:
-        return found
-    zeros = (ZERO,) * len(found.b[0])
-    return replace(found, A=(((zeros,) * len(zeros),),))
+    """The entries, exact where that is possible; enclosures of zero are exact zeros, and so is the
+    block that a method for one vector field lacks.
+    """
+    found = entries(tableau)
+    if not found.is_exact:
+        fine = numeric_entries(tableau, max(digits or 0, USUAL) + EXTRA)
+        A = [
+            tuple(_block(tableau, l, m, block) for m, block in enumerate(blocks))
+            for l, blocks in enumerate(fine.A)
+        ]
+        c = [_nodes(tableau, l, row) for l, row in enumerate(fine.c)]
+        found = replace(fine, c=tuple(c), A=tuple(A))
+    if tableau.size == 1 and found.A[0][0] is None:
+        zeros = (ZERO,) * len(found.b[0])
+        return replace(found, A=(((zeros,) * len(zeros),),))
+    return found
 
 
-def _nodes(tableau: Tableau, l: int, row: tuple[Cell, ...]) -> tuple[Cell, ...]:
+def _nodes(tableau: Tableau, l: int, row: Row) -> Row:
     """The nodes of a colour, rational ones exact."""
     colour = tableau.colours[l]
     space = tableau.spaces[colour.space]
-    is_own = isinstance(space, PolynomialSpace) and colour.c == space.nodes
-    if not isinstance(space, PolynomialSpace) or not is_own:
-        return tuple(map(_exact_where_known, colour.c, row))
-    found = []
-    for root, cell in zip(nodes_of(space), row, strict=True):
-        found.append(cell if root.exact is None else root.exact)
-    return tuple(found)
+    exact: Sequence[object] = colour.c
+    if isinstance(space, PolynomialSpace):
+        if colour.c != space.nodes:
+            return row
+        exact = [root.exact for root in nodes_of(space)]
+    pairs = zip(exact, row, strict=True)
+    return tuple(x if isinstance(x, fmpq) else cell for x, cell in pairs)
 
 
-def _exact_where_known(exact: object, cell: Cell) -> Cell:
-    return exact if isinstance(exact, fmpq) else cell
-
-
-def _block(tableau: Tableau, fine: Entries, l: int, m: int) -> Block:
+def _block(tableau: Tableau, l: int, m: int, block: Block) -> Block:
     """A block, with zeros that are proved to be zero."""
-    block = fine.A[l][m]
+    place = tableau.colours[l].space, m
+
+    def cell(i: int, j: int, x: Cell) -> Cell:
+        may_be_zero = isinstance(x, arb) and x.contains(0)
+        return ZERO if may_be_zero and is_nonzero_at(tableau, place, i, j) is False else x
+
     if block is None:
         return None
-    place = tableau.colours[l].space, m
-    rows = []
-    for i, row in enumerate(block):
-        cells = list(row)
-        for j, cell in enumerate(row):
-            may_be_zero = isinstance(cell, arb) and cell.contains(0)
-            if may_be_zero and is_nonzero_at(tableau, place, i, j) is False:
-                cells[j] = fmpq(0)
-        rows.append(tuple(cells))
-    return tuple(rows)
+    return tuple(tuple(cell(i, j, x) for j, x in enumerate(row)) for i, row in enumerate(block))

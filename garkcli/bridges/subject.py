@@ -14,6 +14,7 @@ from garkcli.bridges.judging import Digits, Judged, judged
 from garkcli.exact.display import to_ball, to_decimal, to_text
 from garkcli.exact.expression import parse
 from garkcli.exact.field import ZERO, Number
+from garkcli.exact.matrix import Matrix
 from garkcli.frozen import Frozen, replace
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.load import loads
@@ -56,6 +57,11 @@ class Subject(Frozen, eq=False):
     def tableau(self) -> Tableau:
         """The method."""
         return self.method.tableau
+
+    @property
+    def block(self) -> Matrix:
+        """The only matrix; empty where there is none, or more than one."""
+        return (self.tableau.size == 1 and self.tableau.block(0, 0)) or ()
 
     @cached_property
     def digits(self) -> Digits:

@@ -7,7 +7,7 @@ and what is said about it is a comment already. Only texts and whole numbers can
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import cache
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -66,6 +66,9 @@ LANGUAGES: Mapping[str, Language] = {
 """By the ending of a file; the lines of C and of Fortran are longer than those of the others."""
 
 
+_OF_METHOD = ("stem", "kind", "size", "stages", "A", "b", "c", "embedded", "dense")
+
+
 def text_of(file: str, payload: Payload, style: Style, values: Values) -> str:
     """The text that a template makes.
 
@@ -119,15 +122,12 @@ def _given(
             wanted.append(f"Left out: {', '.join(left_out)}.")
         return "\n".join(language.comment.lines(head(payload, *wanted)))
 
-    def filled_lines(begin: str, texts: Sequence[str], end: str) -> list[str]:
-        joint, continuation = language.joint, language.continuation
-        return filled(texts, begin, end, joint, continuation, language.width)
-
     def texts(cells: Row, *before: object) -> list[str]:
         return [*map(str, before), *payload.numbers(cells, style)]
 
-    def listed(begin: str, items: Iterable[str], end: str) -> str:
-        return "\n".join(filled_lines(begin, [*items], end))
+    def listed(begin: str, items: Sequence[str], end: str) -> str:
+        joint, continuation = language.joint, language.continuation
+        return "\n".join(filled(items, begin, end, joint, continuation, language.width))
 
     def row(begin: str, cells: Row, end: str) -> str:
         return listed(begin, texts(cells), end)
@@ -136,12 +136,9 @@ def _given(
         begin: str, rows: Sequence[Row], end: str, last: str | None = None, then: str | None = None
     ) -> str:
         """A row a line at least; the last one may end, and those after the first begin, apart."""
-        lines: list[str] = []
-        for place, cells in enumerate(rows):
-            start = begin if then is None or not place else then
-            close = end if last is None or place < len(rows) - 1 else last
-            lines += filled_lines(start, texts(cells), close)
-        return "\n".join(lines)
+        begins = [begin, *[begin if then is None else then] * (len(rows) - 1)]
+        ends = [*[end] * (len(rows) - 1), end if last is None else last]
+        return "\n".join(map(row, begins, rows, ends))
 
     orders = payload.orders
     return {
@@ -152,18 +149,10 @@ def _given(
         "matrix": matrix,
         "name": payload.identifier(language.names),
         "class_name": payload.class_name(language.names),
-        "stem": payload.stem,
-        "kind": payload.kind,
-        "size": payload.size,
-        "stages": payload.stages,
         "order": orders.order,
         "effective": orders.effective,
         "embedded_order": orders.embedded,
-        "A": payload.A,
-        "b": payload.b,
-        "c": payload.c,
-        "embedded": payload.embedded,
-        "dense": payload.dense,
+        **{name: getattr(payload, name) for name in _OF_METHOD},
     }
 
 
