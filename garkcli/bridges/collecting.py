@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from itertools import chain, count
 from pathlib import PurePath
 
 from garkcli.bridges.plausible import is_plausible
 from garkcli.bridges.readers.registry import find_tables, readers_for
-from garkcli.bridges.recognising import Proposal, Recognised, recognised
+from garkcli.bridges.recognising import Recognised, recognised
 from garkcli.bridges.sources import STDIN_NAME, source_text
 from garkcli.bridges.subject import Subject, imported
 from garkcli.errors import MethodFileError
@@ -43,11 +44,6 @@ class Result(Frozen, eq=False):
         """The name of the method file."""
         return f"{self.stem}{SUFFIX}"
 
-    @property
-    def taken(self) -> tuple[Proposal, ...]:
-        """The exact forms that decimals were replaced by."""
-        return () if self.recognised is None else self.recognised.taken
-
     def notes(self) -> Iterator[str]:
         """What people should know, a sentence each."""
         yield from self.table.notes
@@ -64,18 +60,8 @@ class Result(Frozen, eq=False):
             yield f"the source declares order {declared}, found is {found}"
         if self.method.order.is_open:
             yield f"its digits do not decide whether it has order {found + 1}"
-        yield from self._of_recognised()
-
-    def _of_recognised(self) -> Iterator[str]:
-        found = self.recognised
-        if found is None:
-            return
-        for x in found.taken:
-            yield f"{x.printed} is {x.exact}, {x.distance} away"
-        for x in found.refused:
-            yield f"{x.printed} is not {x.exact}: with it the order falls"
-        for text in found.left:
-            yield f"{text} stays a decimal"
+        if self.recognised is not None:
+            yield from self.recognised.notes()
 
 
 def no_one(table: FoundTable) -> None:
@@ -100,7 +86,7 @@ def collected(
     Raises:
         UsageProblem: a source cannot be read.
     """
-    names = Stems()
+    used: set[str] = set()
     for path in paths:
         text, source = source_text(path)
         for table in find_tables(text, source, chosen or readers_for(path)):
@@ -114,7 +100,7 @@ def collected(
             if is_other and not chosen:
                 left_out(table)
                 continue
-            yield replace(result, stem=names.unique(name))
+            yield replace(result, stem=_unique(stem_of(name), used))
 
 
 def _result(table: FoundTable, name: str, is_recognising: bool) -> Result:
@@ -139,26 +125,19 @@ def default_name(source: str) -> str:
     return PurePath(source).name.split(".")[0] or "method"
 
 
-class Stems:
-    """Names of files: lower case, words joined by hyphens, no two alike."""
+def stem_of(name: str) -> str:
+    """A name of a file for the name of a method: lower case, words joined by hyphens.
 
-    def __init__(self) -> None:
-        self._used: set[str] = set()
+    >>> stem_of("RalstonEuler"), stem_of("3/8 rule"), stem_of("...")
+    ('ralston-euler', '3-8-rule', 'method')
+    """
+    words = re.findall("[a-z0-9]+", _SMALL.sub("-", plain_line(name)).lower())
+    return "-".join(words)[:60].strip("-") or "method"
 
-    def unique(self, name: str) -> str:
-        """A name of a file for the name of a method.
 
-        >>> stems = Stems()
-        >>> stems.unique("RalstonEuler"), stems.unique("ralston_euler")
-        ('ralston-euler', 'ralston-euler-2')
-        """
-        parted = _SMALL.sub("-", plain_line(name))
-        words = re.findall("[a-z0-9]+", parted.lower())
-        stem = "-".join(words)[:60].strip("-") or "method"
-        found = stem
-        number = 1
-        while found in self._used:
-            number += 1
-            found = f"{stem}-{number}"
-        self._used.add(found)
-        return found
+def _unique(stem: str, used: set[str]) -> str:
+    """The name of a file, with a number where it is used."""
+    names = chain([stem], (f"{stem}-{number}" for number in count(2)))
+    found = next(x for x in names if x not in used)
+    used.add(found)
+    return found

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from decimal import Decimal
 from operator import ge
 from typing import Any
@@ -67,6 +67,13 @@ class Recognised(Frozen):
     taken: tuple[Proposal, ...]
     refused: tuple[Proposal, ...]
     left: tuple[str, ...]
+
+    def notes(self) -> Iterator[str]:
+        """What people should know, a sentence each."""
+        yield from (f"{x.printed} is {x.exact}, {x.distance} away" for x in self.taken)
+        for x in self.refused:
+            yield f"{x.printed} is not {x.exact}: with it the order falls"
+        yield from (f"{text} stays a decimal" for text in self.left)
 
 
 def recognised(before: Subject, name: str) -> Recognised:

@@ -31,7 +31,10 @@ def source_files(paths: Iterable[str], told: Callable[[str], None] = no_one) -> 
         if path == STDIN or not os.path.isdir(path):
             yield path
             continue
-        for file in _below(path, told):
+        for count, file in enumerate(_below(path)):
+            if count == MAX_FILES:
+                told(f"{printable(path)} has more than {MAX_FILES} files: the rest is left out")
+                break
             reason = _why_not(file, path)
             if reason:
                 told(f"{printable(file)} is left out: {reason}")
@@ -56,20 +59,13 @@ def _why_not(path: str, folder: str) -> str:
     return ""
 
 
-def _below(folder: str, told: Callable[[str], None]) -> Iterator[str]:
+def _below(folder: str) -> Iterator[str]:
     known = suffixes()
-    count = 0
     for place, folders, files in os.walk(folder):
         folders[:] = sorted(x for x in folders if not x.startswith("."))
         for name in sorted(files):
-            is_known = PurePath(name).suffix.lower() in known
-            if name.startswith(".") or not is_known:
-                continue
-            if count == MAX_FILES:
-                told(f"{printable(folder)} has more than {MAX_FILES} files: the rest is left out")
-                return
-            yield os.path.join(place, name)
-            count += 1
+            if not name.startswith(".") and PurePath(name).suffix.lower() in known:
+                yield os.path.join(place, name)
 
 
 def source_text(path: str) -> tuple[str, str]:
@@ -81,14 +77,11 @@ def source_text(path: str) -> tuple[str, str]:
     name = STDIN_NAME if path == STDIN else path
     try:
         data = read_bytes(path, MAX_CHARACTERS)
-    except NotAFile as error:
-        message = f"{name} cannot be read: {error.strerror}"
-        cure = "name a file or a folder, or - for standard input"
-        raise UsageProblem(message, cure, code="cannot-read") from None
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or "no file has such a name"
         message = f"{name} cannot be read: {reason}"
-        raise UsageProblem(message, "name a file or a folder", code="cannot-read") from None
+        more = ", or - for standard input" if isinstance(error, NotAFile) else ""
+        raise UsageProblem(message, f"name a file or a folder{more}", code="cannot-read") from None
     if len(data) > MAX_CHARACTERS:
         message = f"{name} has more than {MAX_CHARACTERS} bytes"
         raise UsageProblem(message, "give the part with the tables", code="file-too-large")
