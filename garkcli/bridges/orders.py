@@ -7,7 +7,7 @@ from flint import fmpq
 from garkcli.exact.display import decimal
 from garkcli.frozen import Frozen
 from garkcli.order.certificate import DEFAULT_LIMIT
-from garkcli.order.deciding import order_of
+from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.simplifying import consistent_blocks
 from garkcli.tableau.forms import with_time
 from garkcli.tableau.meant import meant
@@ -67,21 +67,14 @@ def find_orders(
         tolerance: the rounding of its coefficients; None where they are exact.
         limit: where the search stops.
     """
-    order, is_lower_bound = _order(tableau, tolerance, limit)
-    of_embedded = None
-    if embedded is not None:
-        of_embedded, _ = _order(embedded, tolerance, limit)
-    timed_order = None
-    timed = with_time(tableau)
-    consistent = consistent_blocks(meant(tableau, tolerance)).values()
-    if timed is not None and not all(consistent):
-        timed_order, _ = _order(timed, tolerance, limit)
-    if timed_order == order:
-        timed_order = None
-    return Orders(order, is_lower_bound, of_embedded, timed_order, tolerance)
 
+    def found(of: Tableau | None) -> AnyOrder | None:
+        return None if of is None else order_of(meant(of, tolerance), limit)
 
-def _order(tableau: Tableau, tolerance: fmpq | None, limit: int) -> tuple[int, bool]:
-    """The order, and whether it is a lower bound only."""
-    found = order_of(meant(tableau, tolerance), limit)
-    return found.order, found.is_lower_bound
+    order = order_of(meant(tableau, tolerance), limit)
+    is_consistent = all(consistent_blocks(meant(tableau, tolerance)).values())
+    timed = None if is_consistent else found(with_time(tableau))
+    with_nodes = None if timed is None or timed.order == order.order else timed.order
+    other = found(embedded)
+    of_embedded = None if other is None else other.order
+    return Orders(order.order, order.is_lower_bound, of_embedded, with_nodes, tolerance)

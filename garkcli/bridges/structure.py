@@ -247,51 +247,25 @@ def composition(payload: Payload) -> Composition | None:
     if at_forces is None or at_velocities is None or sees_itself:
         return None
     drifts, kicks = payload.b
-    before: list[tuple[Cell, frozenset[int]]] = []
-    for i, kick in enumerate(kicks):
-        taken = _taken(at_forces[i], drifts)
-        if taken is None:
+    # the kicks, by the drifts that lie before each
+    steps: dict[frozenset[int], Cell] = {}
+    for row, kick in zip(at_forces, kicks, strict=True):
+        before = frozenset(j for j, x in enumerate(row) if not vanishes(x))
+        if any(row[j] != drifts[j] for j in before):
             return None
         if not vanishes(kick):
-            before.append((kick, taken))
+            steps[before] = steps.get(before, ZERO) + kick
     for j, drift in enumerate(drifts):
-        taken = _taken(at_velocities[j], kicks)
-        if taken is None:
+        # the kicks that do not have this drift before them
+        later = (x if vanishes(row[j]) else ZERO for row, x in zip(at_forces, kicks, strict=True))
+        if not vanishes(drift) and at_velocities[j] != tuple(later):
             return None
-        if not vanishes(drift) and taken != _later(at_forces, kicks, j):
-            return None
-    return _by_turns(before, drifts)
-
-
-def _taken(row: Row, weights: Row) -> frozenset[int] | None:
-    """Which steps of the other part lie before a stage; None where one does so in part."""
-    found = set()
-    for j, (x, weight) in enumerate(zip(row, weights, strict=True)):
-        if vanishes(x):
-            continue
-        if x != weight:
-            return None
-        found.add(j)
-    return frozenset(found)
-
-
-def _later(at_forces: Rows, kicks: Row, j: int) -> frozenset[int]:
-    """The kicks at positions that do not have drift j in them."""
-    numbered = enumerate(zip(at_forces, kicks, strict=True))
-    return frozenset(i for i, (row, kick) in numbered if kick and vanishes(row[j]))
-
-
-def _by_turns(before: Sequence[tuple[Cell, frozenset[int]]], drifts: Row) -> Composition | None:
-    """Kicks with the drifts that lie before each, put in order; None where there is none."""
-    everything = frozenset(j for j, drift in enumerate(drifts) if not vanishes(drift))
-    steps = sorted({taken for _, taken in before} | {frozenset()}, key=len)
-    found_kicks: list[Cell] = []
-    found_drifts: list[Cell] = []
-    for taken, following in zip(steps, [*steps[1:], everything], strict=True):
-        if not taken <= following:
-            return None
-        kick = [x for x, when in before if when == taken]
-        drift = [drifts[j] for j in sorted(following - taken)]
-        found_kicks.append(sum(kick, start=ZERO))
-        found_drifts.append(sum(drift, start=ZERO))
-    return Composition(tuple(found_kicks), tuple(found_drifts))
+    begins = sorted({*steps, frozenset()}, key=len)
+    ends = [*begins[1:], frozenset(j for j, drift in enumerate(drifts) if not vanishes(drift))]
+    between = list(zip(begins, ends, strict=True))
+    if not all(x <= y for x, y in between):
+        return None
+    return Composition(
+        tuple(steps.get(x, ZERO) for x in begins),
+        tuple(sum((drifts[j] for j in sorted(y - x)), start=ZERO) for x, y in between),
+    )

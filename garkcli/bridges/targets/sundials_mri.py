@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
+from operator import mul
 from typing import TYPE_CHECKING
 
 from flint import fmpq
@@ -17,8 +18,8 @@ from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.numbers import c_style
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.registry import Bridge
-from garkcli.bridges.rounding import Cell, nearest_float
-from garkcli.bridges.structure import Rows, Table, table, vanishes
+from garkcli.bridges.rounding import combined, nearest_float
+from garkcli.bridges.structure import Rows, Table, table, vanishes, with_last_stage
 from garkcli.bridges.texts import Values
 from garkcli.exact.field import ONE, ZERO
 from garkcli.frozen import Frozen
@@ -62,18 +63,22 @@ def slow_part(payload: Payload) -> Slow:
         cure = "give the slow method alone, or a file with multirate: {mis: ...} or {mri: ...}"
         raise CannotExport(message, cure)
     found = table(payload)
-    _refuse(payload, found)
-    stages, nodes = _with_value(found)
-    s = len(nodes)
-    nothing: Row = (ZERO,) * s
-    increments = [_difference(row, before) for before, row in pairwise(stages)]
+    ends = zip(found.c, (*found.c[1:], ONE), strict=True)
+    goes_on = all(nearest_float(x) <= nearest_float(y) for x, y in ends)
+    if not vanishes(found.c[0]) or not goes_on:
+        raise CannotExport(
+            "a multirate infinitesimal step goes from node to node, from 0 to 1, and those of "
+            f"{payload.name} do not ascend",
+            "choose a method with ascending nodes, such as Ralston's of order 3",
+        )
+    whole = _with_value(found)
+    increments = map(_difference, whole.A[1:], whole.A)
     order = infinitesimal_order(found, payload.orders.effective)
     embedding = None
-    if found.embedded is not None:
-        padding = (ZERO,) * (s - found.stages)
-        row = _difference((*found.embedded, *padding), stages[-2])
-        embedding = row, min(payload.orders.embedded or 0, 2)
-    return Slow(nodes, {"W": [(nothing, *increments)]}, order, embedding)
+    if whole.embedded is not None:
+        last = _difference(whole.embedded, whole.A[-2])
+        embedding = last, min(payload.orders.embedded or 0, 2)
+    return Slow(whole.c, {"W": [((ZERO,) * whole.stages, *increments)]}, order, embedding)
 
 
 def _coupled(payload: Payload, coupling: Coupling) -> Slow:
@@ -96,32 +101,13 @@ def _looks_ahead(matrix: Rows) -> bool:
     return any(any(row[i + 1 :]) for i, row in enumerate(matrix))
 
 
-def _refuse(payload: Payload, found: Table) -> None:
-    """Whether the method can be the slow one.
-
-    Raises:
-        CannotExport: it is implicit, or its stages go back in time.
-    """
-    ends = zip(found.c, (*found.c[1:], ONE), strict=True)
-    goes_on = all(nearest_float(x) <= nearest_float(y) for x, y in ends)
-    if not vanishes(found.c[0]) or not goes_on:
-        raise CannotExport(
-            "a multirate infinitesimal step goes from node to node, from 0 to 1, and those of "
-            f"{payload.name} do not ascend",
-            "choose a method with ascending nodes, such as Ralston's of order 3",
-        )
-
-
-def _with_value(found: Table) -> tuple[Rows, Row]:
-    """The stages with the new value as the last, padded with zeros; and their nodes."""
-    if found.is_fsal:
-        return found.A, found.c
-    rows = [(*row, ZERO) for row in (*found.A, found.b)]
-    return tuple(rows), (*found.c, ONE)
+def _with_value(found: Table) -> Table:
+    """The table with the new value as the last stage."""
+    return found if found.is_fsal else with_last_stage(found)
 
 
 def _difference(row: Row, before: Row) -> Row:
-    return tuple(x - y for x, y in zip(row, before, strict=True))
+    return tuple(combined((1, x), (-1, y)) for x, y in zip(row, before, strict=True))
 
 
 def infinitesimal_order(found: Table, order: int) -> int:
@@ -132,20 +118,10 @@ def infinitesimal_order(found: Table, order: int) -> int:
     """
     if order < 3:
         return order
-    stages, nodes = _with_value(found)
-    values = [_product(row, nodes) for row in stages]
-    total: Cell = ZERO
-    for i in range(1, len(nodes)):
-        width = nodes[i] - nodes[i - 1]
-        total = total + width * (values[i] + values[i - 1])
-    return 3 if total == fmpq(1, 3) else 2
-
-
-def _product(row: Sequence[Cell], nodes: Sequence[Cell]) -> Cell:
-    total: Cell = ZERO
-    for x, c in zip(row, nodes, strict=True):
-        total = total + x * c
-    return total
+    whole = _with_value(found)
+    values = [sum(map(mul, row, whole.c), start=ZERO) for row in whole.A]
+    pairs = zip(_difference(whole.c[1:], whole.c[:-1]), pairwise(values), strict=True)
+    return 3 if sum((width * (x + y) for width, (x, y) in pairs), start=ZERO) == fmpq(1, 3) else 2
 
 
 BRIDGES = (
