@@ -96,6 +96,8 @@ class Budget(Mutable):
 
 Question: TypeAlias = Callable[[Tableau], Any]
 """Something to be asked of a tableau, whatever its coefficients are; answers are compared."""
+UNDECIDED = object()
+"""The answer of a question that is not decided for a tableau."""
 
 
 def answer(ask: Question, tableau: Tableau) -> Any:
@@ -135,18 +137,19 @@ def find(
         if p not in known and not family.is_number(p) and family.can_vanish(p)
     ]
     _, sample = next(family.samples(critical), (None, None))
-    if sample is not None and answer(ask, sample) != value:
+    if value is UNDECIDED or (sample is not None and answer(ask, sample) != value):
         return Fact(None, is_undecided=True, why=NOT_DECIDED)
     if family.has_one:
         # the values at which a polynomial is zero, one by one
         special, unknown = [], []
         for number, root in enumerate(family.roots(critical)):
             exact = exact_value(root)
-            if exact is None or number >= MOST_SPECIAL:
+            there = UNDECIDED
+            if exact is not None and number < MOST_SPECIAL:
+                there = answer(ask, family.at(exact))
+            if there is UNDECIDED:
                 unknown.append(root)
-                continue
-            there = answer(ask, family.at(exact))
-            if there != value:
+            elif there != value:
                 special.append((root, there))
         return Fact(value, tuple(special), unknown=tuple(unknown))
     elsewhere, open_ = [], []
@@ -192,6 +195,8 @@ def by_samples(family: EveryFamily, ask: Question) -> Fact:
     first: tuple[Reason, Any] | None = None
     for values, method in family.samples():
         found = answer(ask, method)
+        if found is UNDECIDED:
+            continue
         at = joined(
             ", ", [Reason("{} = {}", Formula(x), Formula(str(y))) for x, y in values.items()]
         )
@@ -267,7 +272,7 @@ def exceptions(fact: Fact, name: str, text: Callable[[object], Worded] = told) -
 
 
 def _text(value: object, text: Callable[[object], Worded]) -> Worded:
-    return "none" if value is None else text(value)
+    return "none" if value is None and text is not told else text(value)
 
 
 def _unknown(fact: Fact, name: str) -> Reason:

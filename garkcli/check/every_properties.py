@@ -11,7 +11,7 @@ from collections.abc import Callable
 from itertools import pairwise
 from typing import Any
 
-from garkcli.check.every_facts import Fact, Question, answer, by_samples, find
+from garkcli.check.every_facts import UNDECIDED, Fact, Question, answer, by_samples, find
 from garkcli.check.every_family import EveryFamily, exact_value
 from garkcli.design.stable_values import Wanted, stable_values
 from garkcli.errors import GarkError
@@ -48,6 +48,13 @@ STABLE: dict[str, Wanted] = {"a-stable": "a-stable", "l-stable": "l-stable", "p-
 _NOTHING = Simplifying((), (), ())
 
 
+class OrMore(int):
+    """A number at which a search stopped."""
+
+    def __str__(self) -> str:
+        return f"at least {int(self)}"
+
+
 def find_property(family: EveryFamily, key: str, limit: int) -> Fact:
     """What is true of a property.
 
@@ -60,8 +67,13 @@ def find_property(family: EveryFamily, key: str, limit: int) -> Fact:
     def ask(tableau: Tableau) -> Any:
         # the order is requested with rounded coefficients only, B, C and D for one property
         known = simplifying(tableau, limit) if key == "stage-order" else _NOTHING
-        value = Subject(tableau, 1, known, limit).verdict(key).value
-        return value if isinstance(value, (bool, int)) else str(value)
+        verdict = Subject(tableau, 1, known, limit).verdict(key)
+        value = verdict.value
+        if verdict.is_undecided:
+            return UNDECIDED
+        if verdict.is_at_least and isinstance(value, int):
+            return OrMore(value)
+        return value if value is None or isinstance(value, (bool, int)) else str(value)
 
     if key in COMPARING:
         return find(family, ask, is_of_stages=True)
@@ -126,7 +138,10 @@ def _by_signs(family: EveryFamily, ask: Question, numbers: list[object]) -> Fact
         if exact is None:
             unknown.append(root)
             return False
-        return answer(ask, family.at(exact)) is True
+        found = answer(ask, family.at(exact))
+        if found is UNDECIDED:
+            unknown.append(root)
+        return found is True
 
     return _of_set(family, where(holds, critical), tuple(unknown))
 

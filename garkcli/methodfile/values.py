@@ -9,9 +9,8 @@ from garkcli.exact.domain import Domain
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.exact.nodes import Expression
-from garkcli.exact.rewriting import roots_in
+from garkcli.exact.rewriting import parts, roots_in
 from garkcli.methodfile.numbers import Entry, Numbers, Row, Rows
-from garkcli.methodfile.source import Source
 from garkcli.tableau.forms import gark
 from garkcli.tableau.tableau import Method, Tableau
 
@@ -35,7 +34,7 @@ class Values:
             return
         known = self._evaluate(numbers, domain)
         self.printed = tuple((expressions[key], number) for key, number in known.items())
-        _note_faults(numbers.source, numbers.of_parameters)
+        _note_faults(numbers, numbers.of_parameters)
 
     def alone(self, method: Method) -> Tableau:
         """A diagonal method as a tableau."""
@@ -53,7 +52,7 @@ class Values:
                     known[key] = domain.coefficient(entry.expression)
                 self._values[id(entry)] = known[key]
             except ExpressionError as error:
-                numbers.source.expression_fault(entry.node, entry.where, error)
+                _note(numbers, entry, error)
         return known
 
     def _find_culprits(self, numbers: Numbers, error: ExpressionError) -> None:
@@ -64,8 +63,7 @@ class Values:
         """
         source = numbers.source
         before = len(source.faults)
-        _note_faults(source, numbers.of_parameters)
-        _note_faults(source, numbers.entries)
+        _note_faults(numbers, (*numbers.of_parameters, *numbers.entries))
         if len(source.faults) > before:
             return
         with_roots = (x for x in numbers.entries if any(roots_in(x.expression)))
@@ -84,12 +82,38 @@ class Values:
         return tuple(self.vector(row) for row in rows)
 
 
-def _note_faults(source: Source, entries: Iterable[Entry]) -> None:
+def _note_faults(numbers: Numbers, entries: Iterable[Entry]) -> None:
     """Note each coefficient that has no real value; no field is made for any of them."""
     for entry in entries:
-        try:
-            domain = Domain([entry.expression], only_check=True)
-            if not any(roots_in(entry.expression)):
-                domain.evaluate(entry.expression)
-        except ExpressionError as own:
-            source.expression_fault(entry.node, entry.where, own)
+        error = _fault_of(entry)
+        if error is not None:
+            _note(numbers, entry, error)
+
+
+def _fault_of(entry: Entry) -> ExpressionError | None:
+    try:
+        domain = Domain([entry.expression], only_check=True)
+        if not any(roots_in(entry.expression)):
+            domain.evaluate(entry.expression)
+    except ExpressionError as error:
+        return error
+    return None
+
+
+def _note(numbers: Numbers, entry: Entry, error: ExpressionError) -> None:
+    """Note why a coefficient has no value: at its parameter where that has none."""
+    source = numbers.source
+    for given in numbers.of_parameters:
+        own = _fault_of(given) if _has(entry.expression, given.expression) else None
+        if own is not None and own.message == error.message:
+            cause = f"{given.where}: {own.message}"
+            source.expression_fault(given.node, given.where, own, cause)
+            if entry is not given:
+                again = entry.where, cause
+                source.fault(entry.node, own.message, own.help, 0, *again, code=own.code)
+            return
+    source.expression_fault(entry.node, entry.where, error)
+
+
+def _has(whole: Expression, part: Expression) -> bool:
+    return whole is part or any(_has(x, part) for x in parts(whole))

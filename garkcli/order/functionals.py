@@ -52,10 +52,6 @@ class Functional(Frozen):
     exact_at: int | None = None
     terms: Weights | None = None
 
-    def required(self, tree: Tree) -> fmpq:
-        """What the elementary weight of a tree should be."""
-        return fmpq(self.share(tree.order), tree.density)
-
     def share(self, order: int) -> int:
         """1 where the weights of an order should be those of the exact solution, else 0."""
         return int(order == self.exact_at)

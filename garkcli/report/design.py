@@ -410,9 +410,10 @@ def _least(minimum: Minimum, d: Plain) -> str:
     value = d.infinity if minimum.value is None else _number(minimum.value, d)
     if not minimum.design.family.parameters:
         return f"{what} {value}"
+    found = " found" if minimum.extent in {"critical-points", "found"} else ""
     if minimum.minimisers:
-        return f"{'greatest' if is_level else 'least'} {what} {value}"
-    of = " of what was found" if minimum.extent in {"critical-points", "found"} else ""
+        return f"{'greatest' if is_level else 'least'} {what}{found} {value}"
+    of = f" of what was{found}" if found else ""
     return f"no {'maximum' if is_level else 'minimum'} of {what}{of}: it comes near {value}"
 
 

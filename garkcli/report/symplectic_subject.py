@@ -97,10 +97,6 @@ class Subject(Frozen):
         """Whether trees are written with their colours."""
         return len(self.names) > 1
 
-    def text(self, tree: ConditionClass) -> str:
-        """The representative of a class in bracket text."""
-        return format_tree(tree.representative, self.has_colours)
-
     def members(self, tree: ConditionClass) -> list[str]:
         """The rooted trees of a class in bracket text."""
         return [format_tree(u, self.has_colours) for u in tree.members]

@@ -14,7 +14,6 @@ from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.polynomial import Polynomial
 from garkcli.frozen import Frozen
 from garkcli.order.deciding import order_of
-from garkcli.problems.oscillator import Oscillator
 from garkcli.stability.algebraic import AlgebraicStability, algebraic_stability, algebraic_within
 from garkcli.stability.damping import ImexPair, Ray, imex_pair
 from garkcli.stability.fraction import Fraction, lines_needed, stability_fraction
@@ -27,7 +26,7 @@ from garkcli.stability.linear import (
     real_set,
     stability_function,
 )
-from garkcli.stability.oscillator import OscillatorStability, oscillator_stability, usual_oscillator
+from garkcli.stability.oscillator import OscillatorStability, usual_oscillator
 from garkcli.stability.sector import Sector, largest_sector
 from garkcli.stability.ssp import AdditiveRadius, SspCoefficient, additive_radius, ssp_coefficient
 from garkcli.stability.within import StabilityWithin, stability_within
@@ -164,11 +163,6 @@ class Stability(Shown, Frozen):
     colours: Colours | None = None
     algebraic_within: bool | None = None
 
-    @property
-    def kind(self) -> str:
-        """``linear`` where the linear test equation has a meaning, else ``oscillator``."""
-        return "linear" if self.linear else "oscillator"
-
     def __repr__(self) -> str:
         if not self.linear:
             return f"<Stability of {self.tableau!r} on the oscillator>"
@@ -176,14 +170,11 @@ class Stability(Shown, Frozen):
 
 
 @doing("stability")
-def stability(
-    tableau: Tableau, problem: Oscillator | None = None, ratios: Sequence[fmpq] = ()
-) -> Stability:
+def stability(tableau: Tableau, ratios: Sequence[fmpq] = ()) -> Stability:
     """Decide everything that ``gark stability`` reports.
 
     Args:
         tableau: the method, with coefficients that are meant exactly.
-        problem: the split of the oscillator; None for the usual one.
         ratios: r_2/r_1 of further additive SSP radii of methods of two colours.
 
     >>> from garkcli.families.registry import diagonal_method
@@ -192,10 +183,7 @@ def stability(
     True
     """
     linear = tuple(starmap(partial(linear_stability, tableau), directions(tableau)))
-    if problem is None:
-        oscillator = usual_oscillator(tableau)
-    else:
-        oscillator = oscillator_stability(tableau, problem)
+    oscillator = usual_oscillator(tableau)
     algebraic = algebraic_stability(tableau)
     colours = None
     if linear and tableau.size > 1:

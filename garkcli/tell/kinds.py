@@ -237,11 +237,6 @@ ORDER = Kind(
 # numbers that a search bounds
 
 
-def at_least(number: int, is_open: bool) -> Answer:
-    """A number that may be larger where a search stopped."""
-    return Answer(number, Status(at_least=is_open))
-
-
 # polynomials, roots, intervals
 
 

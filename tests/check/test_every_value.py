@@ -11,8 +11,9 @@ from flint import fmpq
 
 from garkcli.check.check_file import check_file
 from garkcli.check.deciding import analyse
-from garkcli.check.every_facts import Fact
-from garkcli.check.every_properties import COMPARING, SIGNS, STABLE
+from garkcli.check.every_facts import Fact, fact_reason
+from garkcli.check.every_family import every_family
+from garkcli.check.every_properties import COMPARING, SIGNS, STABLE, find_property
 from garkcli.check.every_value import EveryValue, every_value
 from garkcli.check.outcome import Outcome
 from garkcli.exact.cells import Interval
@@ -105,6 +106,29 @@ def test_every_value_agrees_with_each(found: tuple[str, EveryValue], value: str)
         assert not fact.is_undecided, key
         assert root not in fact.unknown
         assert at(fact, root) == ordinary.subject.verdict(key).value, key
+
+
+EQUAL = f"[{', '.join(['g'] * 9)}]"
+
+
+@pytest.mark.parametrize(
+    ("text", "key", "said"),
+    [
+        ("A: [[0, 0], [g, 0]]\nb: [0, 1]", "weak-stage-order", "1; at least 12 where g = 0"),
+        (
+            "tableau: {A: [[[[0, 0], [g, 0]], [[0], [1]]], [null, [[1/2]]]], b: [[0, 1], [1]]}",
+            *("fsal", "no meaning"),
+        ),
+        (
+            f"A: [{', '.join([EQUAL] * 9)}]\nb: [{', '.join(['1/9'] * 9)}]",
+            *("symmetric", "no; not decided where g = 1/18"),
+        ),
+    ],
+)
+def test_bounds_no_meaning_and_open_answers_are_told_apart(text: str, key: str, said: str) -> None:
+    """A search that stopped, a question without meaning, and one that is not decided."""
+    family = every_family(loads_family(f"parameters: {{g: free}}\n{text}\n", is_design=False))
+    assert str(fact_reason(find_property(family, key, LIMIT), "g")) == said
 
 
 def checked(tmp_path: object, text: str) -> Outcome:

@@ -116,6 +116,23 @@ def test_a_small_weight_leaves_the_conjugate_open() -> None:
     assert "order 3 is not decided: a weight that the conjugate divides by may be 0" in shown
 
 
+@pytest.mark.parametrize(
+    ("rows", "tolerance"),
+    [
+        ("[[4/5, -4/5], [-1/5, 701663/990000]]", "1e-3"),
+        ("[[17/20, -7/10], [0, 44207/99000]]", "1e-2"),
+    ],
+)
+def test_conjugate_and_pair_fail_order_2_with_the_method(rows: str, tolerance: str) -> None:
+    """Though rounding would explain it in them: both divide by a small weight."""
+    method = loads(f"A: {rows}\nb: [1/100, 99/100]\ntolerance: {tolerance}\n")
+    found = analyse(method.tableau, LIMIT, method.tolerance)
+    assert_no_contradiction(found)
+    assert found.order.witness is not None
+    assert found.pair_order is not None
+    assert found.pair_order.witness == found.order.witness
+
+
 def test_a_tolerance_that_is_too_tight_gets_the_one_that_would_do() -> None:
     """Gauss 2 in 8 decimals is off by 4e-9: with 1e-9 the hint says 1e-8, and that does."""
     method = loads(f"{GAUSS}tolerance: 1e-9\n")

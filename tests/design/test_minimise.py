@@ -37,6 +37,7 @@ from garkcli.exact.projection import PLANE
 from garkcli.exact.roots import RealRoot
 from garkcli.methodfile.family import loads_family
 from garkcli.order.constants import error_constants
+from garkcli.report.rendering import render
 from garkcli.tableau.forms import pair
 from garkcli.tableau.pointwise import numeric_entries
 from tests.cli.harness import gark
@@ -600,6 +601,7 @@ def test_by_trial() -> None:
     assert (found["c2"], found["c3"]) == (1, 0.5)
     assert value(best) == "1"
     assert candidate.proof == "numerical"
+    assert "greatest ssp found 1: the best of what was found" in render(best)
 
 
 def test_beside_a_critical_point(monkeypatch: pytest.MonkeyPatch) -> None:
