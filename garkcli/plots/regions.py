@@ -132,7 +132,7 @@ def springs_panel(plane: SpringsPlane) -> Panel:
 
 Named: TypeAlias = tuple[str, StabilityFunction]
 """A stability function and what the legend calls it."""
-EDGE = 1 + 1e-9
+_EDGE = 1 + 1e-9
 """Keeps points on the very edge inside on every machine."""
 FILLED = "Filled: |R(z)| ≤ 1."
 PRINTED = "Of the digits as printed, not of all methods within the tolerance."
@@ -142,6 +142,8 @@ _SQUARES = 120
 """A side of a region whose squares are decided one by one, even: the lower half is the upper one
 upside down.
 """
+_ABOVE_ONE = 1.001
+"""Where |R(z_E, 0)| is larger there is nothing to decide: z_I = 0 is not damped."""
 _MOST_ZOOMS = 6
 _BLINDLY = 20
 _COARSE = 80
@@ -222,12 +224,11 @@ def pair_panel(pair: ImexPair, explicit: StabilityFunction) -> Panel:
     """The z_E for which every z_I in the left half plane is damped, decided exactly point by point,
     and the outline with z_I = 0.
     """
-    alone = _area(1, explicit, 0.0)
+    near = _area(1, explicit, 0.0, edge=_ABOVE_ONE)
 
     @cache
     def is_damped(a: float, b: float) -> bool:
-        # where the colour alone grows there is nothing to decide: z_I = 0 is not damped
-        return alone.holds(a, b) and pair.is_damped(_exact(a), _exact(b))
+        return near.holds(a, b) and pair.is_damped(_exact(a), _exact(b))
 
     window = _window_of([explicit], is_symmetric=False)
     e, i = f"z{pair.explicit + 1}", f"z{pair.implicit + 1}"
@@ -240,7 +241,7 @@ def pair_panel(pair: ImexPair, explicit: StabilityFunction) -> Panel:
             has_outline=False,
             label=f"{e} with every {i} damped",
         ),
-        replace(alone, label=f"the same with {i} = 0 alone"),
+        _area(1, explicit, 0.0, f"the same with {i} = 0 alone"),
     ]
     description = (
         f"The complex plane of {e}, filled where |R({e}, {i})| is at most 1 for all {i} in the "
@@ -297,7 +298,12 @@ def _value(coefficients: Sequence[float], z: Any) -> Any:
 
 
 def _area(
-    style: int, R: StabilityFunction, opacity: float, label: str = "", is_order_star: bool = False
+    style: int,
+    R: StabilityFunction,
+    opacity: float,
+    label: str = "",
+    is_order_star: bool = False,
+    edge: float = _EDGE,
 ) -> Area:
     """Where |R(z)| ≤ 1, or where |R(z)| > |e^z|."""
     P, Q = _floats(R.numerator), _floats(R.denominator)
@@ -312,7 +318,7 @@ def _area(
 
     def holds(x: float, y: float) -> bool:
         try:
-            return bool(small(complex(x, y)) <= large(complex(x, y)) * EDGE)
+            return bool(small(complex(x, y)) <= large(complex(x, y)) * edge)
         except OverflowError:
             return False
 

@@ -408,8 +408,8 @@ IMEX = Section(
 )
 PLOT = Row(
     "plot",
-    scene(lambda x: stability_scene([(x.name, x.found)], x.is_order_star, x.plane)),
-    lambda x: x if x.found.linear or x.found.oscillator or x.plane else None,
+    scene(lambda x: stability_scene([(x.name, x.found)], x.is_order_star)),
+    lambda x: x if x.found.linear or x.found.oscillator else None,
     DETAIL,
 )
 

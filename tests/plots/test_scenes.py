@@ -16,9 +16,10 @@ from garkcli.plots import terminal
 from garkcli.plots.convergence import errors_scene
 from garkcli.plots.energy import energy_scene
 from garkcli.plots.figure import figure
-from garkcli.plots.regions import stability_scene
+from garkcli.plots.regions import springs_panel, stability_scene
 from garkcli.plots.scene import Area, Axis, Curve, Panel, Rule, Scene, common_exponent, polygons
 from garkcli.plots.svg import svg
+from garkcli.stability.springs_plane import SpringsPlane
 
 
 def stability_of(*names: str, is_order_star: bool = False) -> Scene:
@@ -29,6 +30,7 @@ def stability_of(*names: str, is_order_star: bool = False) -> Scene:
 def scenes() -> list[Scene]:
     """A scene of each kind that results have."""
     rk4, euler = converge("rk4"), converge("forward-euler")
+    side = np.linspace(0, 2, 9)
     return [
         errors_scene([("RK4", rk4)]),
         errors_scene([("RK4", rk4), ("Euler", euler)]),
@@ -38,6 +40,7 @@ def scenes() -> list[Scene]:
         stability_of("gauss-3", is_order_star=True),
         stability_of("stoermer-verlet"),
         stability_of("stoermer-verlet", "forest-ruth"),
+        Scene("springs", [springs_panel(SpringsPlane(side, side, np.outer(side, side)))]),
     ]
 
 
