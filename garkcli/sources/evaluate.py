@@ -787,17 +787,18 @@ def _is_replaced(old: Value, value: Value) -> bool:
     """Whether an array that somebody wrote gets other entries."""
     assert isinstance(old, Array)
     is_written = any(isinstance(x, Number) and x.is_given for x in old.flat())
-    return is_written and _shown(old) != _shown(value)
+    return is_written and shown(old) != shown(value)
 
 
-def _shown(value: Value) -> object:
+def shown(value: Value) -> object:
+    """What values have in common whose texts are the same."""
     match value:
         case Number():
             return value.scalar.text
         case Array(items=items):
-            return tuple(map(_shown, items))
+            return tuple(map(shown, items))
         case Record(kind=kind, fields=fields):
-            return kind, tuple((name, _shown(x)) for name, x in fields.items())
+            return kind, tuple((name, shown(x)) for name, x in fields.items())
         case Word(text=text):
             return text
     return type(value).__name__

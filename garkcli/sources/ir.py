@@ -243,10 +243,11 @@ def statements(body: Iterable[Statement]) -> Iterator[Statement]:
 
 def inside(node: object) -> Iterator[object]:
     """What is in an expression, itself first."""
-    if isinstance(node, tuple):
-        for x in node:
-            yield from inside(x)
-    elif isinstance(node, Frozen):
-        yield node
-        for name in fields(node):
-            yield from inside(getattr(node, name))
+    waiting = [node]
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, Frozen):
+            yield node
+            waiting += [getattr(node, name) for name in reversed(fields(node))]
+        elif isinstance(node, tuple):
+            waiting += reversed(node)

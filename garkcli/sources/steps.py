@@ -10,10 +10,11 @@ whatever does not fit makes no table.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from typing import TypeGuard
 
-from garkcli.frozen import Frozen, replace
+from garkcli.frozen import Frozen
 from garkcli.sources import ir
-from garkcli.sources.evaluate import Evaluator, OutOfSteps, Space, names_of
+from garkcli.sources.evaluate import Evaluator, OutOfSteps, Space, names_of, shown
 from garkcli.sources.found import MAX_STAGES
 from garkcli.sources.known import CONVERSIONS
 from garkcli.sources.values import (
@@ -22,6 +23,7 @@ from garkcli.sources.values import (
     Array,
     Form,
     Number,
+    Record,
     Terms,
     Unknown,
     Value,
@@ -36,6 +38,7 @@ MAX_WAYS = 8
 NEAR = 1e-3
 """Sums that differ by less are meant to be the same."""
 Roles = dict[str, Value]
+Place = tuple[str, ...]
 
 
 class NoStep(Exception):
@@ -70,33 +73,17 @@ def step_of(body: ir.Body, space: Space, like: Evaluator) -> Roles:
     Raises:
         NoStep: it is none.
     """
-    found: dict[str, Roles] = {}
+    found: dict[object, Roles] = {}
+    look_like: list[bool] = []
     for way in _ways(body):
-        roles = _step_by(way, space, like)
-        found[" ".join(f"{name} {_shown(x)}" for name, x in roles.items())] = roles
-    if len(found) != 1:
-        raise NoStep(looks_like=bool(found))
-    return found.popitem()[1]
-
-
-def _step_by(way: Sequence[ir.Statement], space: Space, like: Evaluator) -> Roles:
-    """The step of one way, where calls give slopes, or else change their last argument."""
-    looks_like = False
-    calls = [x.value for x in way if isinstance(x, ir.Assign) and isinstance(x.value, ir.Call)]
-    has_status = any(len(x.args) > 1 and isinstance(x.args[-1], ir.Name) for x in calls)
-    for is_last_changed in (False, True)[: 1 + has_status]:
-        follower = Follower(like, is_last_changed)
         try:
-            return follower.roles(way, Space(space))
-        except NoStep:
-            looks_like |= follower.looks_like
-    raise NoStep(looks_like)
-
-
-def _shown(value: Value) -> str:
-    if isinstance(value, Array):
-        return f"({' '.join(map(_shown, value.items))})"
-    return value.scalar.text if isinstance(value, Number) else "?"
+            roles = Follower(like, way).roles(Space(space))
+            found[shown(Record("", roles))] = roles
+        except NoStep as error:
+            look_like.append(error.looks_like)
+    if look_like or len(found) != 1:
+        raise NoStep(any(look_like) or bool(found))
+    return found.popitem()[1]
 
 
 def _ways(body: ir.Body) -> list[list[ir.Statement]]:
@@ -115,27 +102,53 @@ def _ways(body: ir.Body) -> list[list[ir.Statement]]:
     return found
 
 
+def _for_effect(way: Sequence[ir.Statement]) -> list[ir.Statement]:
+    """The same, where the values of a function are not used, ``status = f(t, x, k)``, as calls for
+    their effect.
+    """
+    if not any(isinstance(x, ir.Assign) and _is_effect(x.value) for x in way):
+        return list(way)
+    used: set[object] = set()
+    meant: set[ir.Expr] = set()
+    for x in reversed(way):
+        if isinstance(x, ir.Assign):
+            if isinstance(x.value, ir.Call) and x.target in used:
+                meant.add(x.value.callee)
+            used.update(y for y in ir.inside(x.value) if isinstance(y, ir.Name))
+        else:
+            used.update(y for y in ir.inside(x) if isinstance(y, ir.Name))
+    return [
+        ir.Do(x.value, x.line)
+        if isinstance(x, ir.Assign)
+        and isinstance(x.target, ir.Name)
+        and _is_effect(x.value)
+        and x.value.callee not in meant
+        else x
+        for x in way
+    ]
+
+
 class Follower(Evaluator):
     """Evaluates statements without branches, unknown names as polynomials.
 
     Args:
         like: what evaluates the language.
-        is_last_changed: whether ``status = f(t, x, k)`` gives k the slope.
+        way: the statements.
         counters: names that count steps: ``x[n]`` is a value, as x is.
     """
 
     def __init__(
-        self, like: Evaluator, is_last_changed: bool, counters: Sequence[str] = ()
+        self, like: Evaluator, way: Sequence[ir.Statement], counters: Sequence[str] = ()
     ) -> None:
         super().__init__(like.base, like.allowance, has_whole_quotients=like.has_whole_quotients)
-        self._is_last_changed = is_last_changed
+        self._way = _for_effect(way)
         self._counters = counters
+        calls = [x.value.callee for x in self._way if isinstance(x, ir.Do) and _is_effect(x.value)]
+        self._f = max(calls, key=calls.count, default=None)
         self._has_step_inside = False
         self._slopes: list[_Slope] = []
-        self._assigned: list[str] = []
         self._returned: list[str] = []
         self._is_lost = False
-        self._changed_by: list[tuple[ir.Expr, str]] = []
         self._components: list[str] = []
         self._spans: dict[int, ir.Expr] = {}
         self._space = Space()
@@ -143,8 +156,6 @@ class Follower(Evaluator):
     def _step(self, statement: ir.Statement, space: Space) -> None:
         match statement:
             case ir.Do(value=ir.Call() as call):
-                self._changing(call, space)
-            case ir.Assign(value=ir.Call(args=(_, _, *_)) as call) if self._is_last_changed:
                 self._changing(call, space)
             case ir.Do(value=ir.Opaque()) | ir.Scope(kind="entry" | "module"):
                 self._is_lost = True
@@ -170,44 +181,30 @@ class Follower(Evaluator):
             return
         self._lose(loop.body, space)
         # one step after the other
-        inside = Follower(self, self._is_last_changed, (*self._counters, loop.name))
-        inside.follow(loop.body, Space(space.up))
+        inside = Follower(self, loop.body, (*self._counters, loop.name))
+        inside.follow(Space(space.up))
         self._has_step_inside |= inside.looks_like
 
     def _changing(self, call: ir.Call, space: Space) -> None:
-        """A call for its effect: a copy, an evaluation of f, or a change of what it is given."""
+        """A call for its effect: a copy, a sum, an evaluation of f, or a change of what it has."""
         match call:
             case ir.Call(callee, (target, source, *_), ()) if _name(callee) in _COPIES:
                 self._store(target, self.value(source, space), space, self.line)
             case ir.Call(ir.Field(of=ir.Name() as of, name="Add"), (factor, term), ()):
                 self._added("+ * x", (of, factor, term), space)
-            case ir.Call(ir.Field(of=ir.Name(name) as of)) if name in space:
-                # k.negate()
-                self.spoil(of, space, "changed elsewhere", self.line)
             case ir.Call(callee, given, ()) if roles := _SUMS.get((_name(callee), len(given))):
                 self._added(roles, given, space)
-            case ir.Call(callee, (ir.Name() as target, *args), ()) if _name(callee).endswith("!"):
-                self._evaluated(call, target, args, space)
-            case ir.Call(_, (_, *_, ir.Name() as target), ()):
-                self._evaluated(call, target, call.args[:-1], space)
+            case ir.Call(callee, (*args, target), ()) if _is_effect(call):
+                if _name(callee).endswith("!"):
+                    target, *args = call.args
+                values = [self.value(x, space) for x in args]
+                for x, value in zip(args, values, strict=True):
+                    if callee != self._f and any(" " in x for x in _symbols([_terms(value) or {}])):
+                        # slopes may have changed
+                        self.spoil(x, space, "changed elsewhere", self.line)
+                self._store(target, self._slope(callee, values), space, self.line)
             case _:
                 self._lose([ir.Do(call, self.line)], space)
-
-    def _evaluated(
-        self, call: ir.Call, target: ir.Expr, args: Sequence[ir.Expr], space: Space
-    ) -> None:
-        values = [self.value(x, space) for x in args]
-        slope = self._slope(call.callee, values)
-        if not isinstance(slope, Form):
-            self._lose([ir.Do(call, self.line)], space)
-        for x, value in zip(args, values, strict=True):
-            terms = _terms(value) or {}
-            if isinstance(x, ir.Name) and any(" " in name for at in terms for name in at):
-                # unless this is f, the slopes in it may have changed
-                mark = f"changed {len(self._slopes) - 1}"
-                space[x.name] = Form({**terms, (mark,): ONE})
-        self._store(target, slope, space, self.line)
-        self._changed_by += [(call.callee, x) for x in names_of(target)]
 
     def _added(self, roles: str, args: Sequence[ir.Expr], space: Space) -> None:
         """A sum of vectors: ``*`` is a factor of the next, ``=`` and ``+`` what becomes the sum."""
@@ -232,8 +229,10 @@ class Follower(Evaluator):
             match x:
                 case ir.Assign(target=target):
                     targets = [target]
-                case ir.Do(value=ir.Call(args=args, named=named)):
-                    targets = [*args, *(given for _, given in named)]
+                case ir.Do(value=ir.Call(callee, args, named)):
+                    # k.negate()
+                    of = [callee.of] if isinstance(callee, ir.Field) else []
+                    targets = [*of, *args, *(given for _, given in named)]
             for target in targets:
                 self.spoil(target, space, "changed elsewhere", self.line)
 
@@ -243,9 +242,10 @@ class Follower(Evaluator):
 
     def _store(self, target: ir.Expr, value: Value, space: Space, line: int) -> None:
         target = self._whole(target)
-        super()._store(target, value, space, line)
         if isinstance(target, ir.Name):
-            self._assigned.append(target.name)
+            # what is assigned last is last
+            space.pop(target.name, None)
+        super()._store(target, value, space, line)
 
     def _taken_apart(self, target: ir.Items, value: Value, space: Space, line: int) -> None:
         if isinstance(value, Array) or any(name in space for name in names_of(target)):
@@ -303,10 +303,8 @@ class Follower(Evaluator):
 
     def negated(self, value: Value) -> Value:
         """The value with the other sign."""
-        minus = computed("-", ZERO, ONE, 0)
-        return (
-            self.combined("*", minus, value) if isinstance(value, Form) else super().negated(value)
-        )
+        is_form = isinstance(value, Form)
+        return self.combined("-", ZERO, value) if is_form else super().negated(value)
 
     def combined(self, sign: str, x: Value, y: Value) -> Value:
         """An operation, on polynomials term by term."""
@@ -333,31 +331,28 @@ class Follower(Evaluator):
 
     # what it makes
 
-    def follow(self, way: Iterable[ir.Statement], space: Space) -> None:
-        """Evaluate some statements."""
+    def follow(self, space: Space) -> None:
+        """Evaluate the statements."""
         self._space = space
         try:
-            self._run(tuple(way), space)
+            self._run(tuple(self._way), space)
         except OutOfSteps:
             self._is_lost = True
 
-    def roles(self, way: Iterable[ir.Statement], space: Space) -> Roles:
-        """A, b, c and the error of the step that some statements are.
+    def roles(self, space: Space) -> Roles:
+        """A, b, c and the error of the step that the statements are.
 
         Raises:
             NoStep: they are none.
         """
-        self.follow(way, space)
-        callees = [x.callee for x in self._slopes if _name(x.callee) not in _MATHEMATICS]
-        if self._is_lost or len(self._slopes) > MAX_STAGES:
-            raise NoStep
-        for i, callee in enumerate(callees):
-            if callee not in callees[:i]:
-                try:
-                    return self._of(self._unchanged_by(callee))
-                except NoStep:
-                    continue
-        raise NoStep
+        self.follow(space)
+        callees = {x.callee: 0 for x in self._slopes if _name(x.callee) not in _MATHEMATICS}
+        for callee in () if self._is_lost or len(self._slopes) > MAX_STAGES else callees:
+            try:
+                return self._of([x for x in self._slopes if x.callee == callee])
+            except NoStep:
+                continue
+        raise NoStep(self.looks_like)
 
     @property
     def looks_like(self) -> bool:
@@ -376,22 +371,6 @@ class Follower(Evaluator):
             if len(at) == 2
         )
 
-    def _unchanged_by(self, callee: ir.Expr) -> Sequence[_Slope]:
-        """The evaluations of f, which changes nothing but its slope."""
-        marks = {f"changed {i}" for i, x in enumerate(self._slopes) if x.callee == callee}
-
-        def cleared(terms: Terms) -> Terms:
-            return {at: x for at, x in terms.items() if not marks & set(at)}
-
-        for name, value in self._space.items():
-            if isinstance(value, Form):
-                self._space[name] = Form(cleared(value.terms))
-        return [
-            replace(x, args=tuple(form and cleared(form) for form in x.args))
-            for x in self._slopes
-            if x.callee == callee
-        ]
-
     def _of(self, slopes: Sequence[_Slope]) -> Roles:
         """The same where these are the evaluations of f."""
         names = [x.name for x in slopes]
@@ -400,31 +379,23 @@ class Follower(Evaluator):
             raise NoStep
         columns = [_known_forms(x.args[i] for x in slopes) for i in range(width)]
         seen = [i for i, forms in enumerate(columns) if set(names) & _symbols(forms)]
-        place = seen[0] if seen else min(1, width - 1)
-        values = columns[place]
+        values = columns.pop(seen[0] if seen else min(1, width - 1))
         starts = [at[0] for at, x in (values or [{}])[0].items() if len(at) == 1 and _is_one(x)]
-        if not values or len(starts) != 1:
+        if len(starts) != 1:
             raise NoStep
         start = starts[0]
-        is_changed = any(x == start and by != slopes[0].callee for by, x in self._changed_by)
-        if is_changed or isinstance(self._space.get(start), Unknown):
+        if (start,) not in (_terms(self._space.get(start, Form({(start,): ONE}))) or ()):
+            # its last value is another one
             raise NoStep
         result, form = self._result(start, values)
         step = _step(form, set(names))
         others = {x.name for x in self._slopes} - set(names)
-        used = {
-            x
-            for each in map(_terms, self._space.values())
-            for at in each or ()
-            if step in at
-            for x in at
-        }
-        if used & others or (others and len(names) == 1):
+        forms = [_terms(x) or {} for x in self._space.values()]
+        if others and (len(names) == 1 or others & _besides(forms, step)):
             # values of another function take part in the step
             raise NoStep
-        nodes = _nodes([x for i, x in enumerate(columns) if i != place], step)
-        given = {x for each in (*values, form) for at in each if step in at for x in at}
-        given -= {step, start, *names}
+        nodes = _nodes(columns, step)
+        given = _besides((*values, form), step) - {step, start, *names}
         is_elsewhere = all(len(x) > 1 for x in values)
         if len(given) == 1 and nodes and is_elsewhere and not any(" " in x for x in given):
             # the first slope is an argument; where f is evaluated at the start too, that is
@@ -432,15 +403,16 @@ class Follower(Evaluator):
             names, values, nodes = [*given, *names], [{(start,): ONE}, *values], [ZERO, *nodes]
         if not nodes and len(names) < 2:
             raise NoStep
-        A = [_row(x, start, step, names) for x in values]
-        b = _row(form, start, step, names)
+        places = [(x,) for x in names]
+        A = [_before(x, (start,), step, places) for x in values]
+        b = _before(form, (start,), step, places)
         if abs(near(*b) - 1) > NEAR or not all(isinstance(x, Number) for x in (*b, *nodes)):
             raise NoStep
         error: list[Value] = []
-        for name in reversed(self._assigned):
-            of_error = _terms(self._space.get(name))
+        for name in reversed(self._space):
+            of_error = _terms(self._space[name])
             if of_error and name != result and _is_error(of_error, step, set(names)):
-                error = _row({**of_error, (start,): ONE}, start, step, names)
+                error = _before({**of_error, (start,): ONE}, (start,), step, places)
                 if result not in self._returned and _are_apart(b, A[-1], error):
                     # either may be the step
                     raise NoStep
@@ -459,10 +431,10 @@ class Follower(Evaluator):
             NoStep: nothing; or one of several, as those of a pair, which are no values of stages.
         """
         names = [x for x in self._returned if self._ends(x, start)]
-        names = names or [x for x in reversed(self._assigned) if self._ends(x, start)]
+        names = names or [x for x in reversed(self._space) if self._ends(x, start)]
         found = {x: form for x in names if (form := _terms(self._space[x])) is not None}
         others = {
-            str(sorted((at, _shown(x)) for at, x in form.items()))
+            str(sorted((at, shown(x)) for at, x in form.items()))
             for form in found.values()
             if form not in values and _is_one_in_all(form)
         }
@@ -492,6 +464,11 @@ def _symbols(forms: Iterable[Terms]) -> set[str]:
     return {name for form in forms for at in form for name in at}
 
 
+def _besides(forms: Iterable[Terms], step: str) -> set[str]:
+    """The names in terms with the step."""
+    return {name for form in forms for at in form if step in at for name in at}
+
+
 def _step(form: Terms, names: set[str]) -> str:
     """The name of the step."""
     others = {x for at in form if names & set(at) for x in at if x not in names}
@@ -513,7 +490,7 @@ def _nodes(columns: Sequence[Sequence[Terms]], step: str) -> list[Value]:
             if len(times) != 1:
                 raise NoStep
             (time,) = times
-            found = [_node(form, time, step) for form in forms]
+            found = [_before(form, time, step, [()])[0] for form in forms]
     is_single = any(len(forms) == 1 for forms in columns)
     return found or [ZERO] * is_single
 
@@ -544,27 +521,30 @@ def _is_error(form: Terms, step: str, names: set[str]) -> bool:
     return len(form) > 1 and is_sum and abs(near(*form.values())) < NEAR
 
 
-def _row(form: Terms, start: str, step: str, names: Sequence[str]) -> list[Value]:
-    """What is before the slopes.
+def _before(form: Terms, base: Place, step: str, places: Sequence[Place]) -> list[Value]:
+    """What is before the step times each of some names, in what a step adds to ``base``.
 
     Raises:
         NoStep: something else is there, too.
     """
     rest = {at: x for at, x in form.items() if not is_zero(x)}
-    if not _is_one(rest.pop((start,), ZERO)):
-        raise NoStep
-    row = [rest.pop((min(step, x), max(step, x)), ZERO) for x in names]
-    if rest:
+    is_based = _is_one(rest.pop(base, ZERO))
+    row = [rest.pop(tuple(sorted((*x, step))), ZERO) for x in places]
+    if rest or not is_based:
         raise NoStep
     return row
 
 
-def _node(form: Terms, time: tuple[str, ...], step: str) -> Value:
-    rest = dict(form)
-    one, node = rest.pop(time, None), rest.pop((step,), ZERO)
-    if rest or not isinstance(one, Number) or one.value != 1:
-        raise NoStep
-    return node
+def _is_effect(value: ir.Expr | None) -> TypeGuard[ir.Call]:
+    """Whether a call may give one of its arguments a slope: the last one, in Julia the first."""
+    match value:
+        case ir.Call(callee, (ir.Name(), _, *_), ()) if _name(callee).endswith("!"):
+            pass
+        case ir.Call(callee, (_, _, *_, ir.Name()) | (_, ir.Name()), ()):
+            pass
+        case _:
+            return False
+    return (_name(callee), len(value.args)) not in _SUMS and _name(callee) not in _COPIES
 
 
 def _is_over_components(name: str, body: ir.Body) -> bool:
