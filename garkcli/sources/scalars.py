@@ -9,7 +9,7 @@ from garkcli.exact.polynomial_text import root_decimal
 from garkcli.exact.root_of import polynomial_in_x
 from garkcli.exact.roots import real_roots
 from garkcli.frozen import Frozen
-from garkcli.sources.found import MAX_LENGTH, Unreadable
+from garkcli.sources.found import Unreadable
 
 SUM, PRODUCT, ATOM = range(3)
 """How tightly the parts of a text hold together."""
@@ -41,28 +41,25 @@ def combined(sign: str, left: Scalar, right: Scalar) -> Scalar:
 
     >>> combined("/", number("1"), Scalar("1+2", SUM)).text
     '1/(1+2)'
-
-    Raises:
-        Unreadable: it is too long.
     """
     level = LEVELS[sign]
     before = left.inside(level)
     # a − (b − c) and a/(b/c) need their parentheses
     after = right.inside(level + 1)
     spaced = f" {sign} " if level == SUM else sign
-    return _checked(f"{before}{spaced}{after}", level)
+    return Scalar(f"{before}{spaced}{after}", level)
 
 
 def rooted(radicand: Scalar, index: int) -> Scalar:
     """A root."""
     inner = radicand.text
     names = {2: f"sqrt({inner})", 3: f"cbrt({inner})"}
-    return _checked(names.get(index, f"root({inner}, {index})"), ATOM)
+    return Scalar(names.get(index, f"root({inner}, {index})"))
 
 
 def negated(value: Scalar) -> Scalar:
     """The same with its sign changed."""
-    return _checked(f"-{value.inside(PRODUCT)}", SUM)
+    return Scalar(f"-{value.inside(PRODUCT)}", SUM)
 
 
 def real_root(polynomial: Scalar, place: int) -> Scalar:
@@ -79,14 +76,8 @@ def real_root(polynomial: Scalar, place: int) -> Scalar:
     if not 0 < place <= len(roots):
         raise Unreadable("a root that is not real")
     near = root_decimal(roots[place - 1], DIGITS_OF_ROOTS)
-    return _checked(f"root_of({polynomial.text}, {near})", ATOM)
+    return Scalar(f"root_of({polynomial.text}, {near})")
 
 
 DIGITS_OF_ROOTS = 30
 """Of the decimal that tells a root from the others."""
-
-
-def _checked(text: str, level: int) -> Scalar:
-    if len(text) > MAX_LENGTH:
-        raise Unreadable(f"a number of more than {MAX_LENGTH} characters")
-    return Scalar(text, level)

@@ -5,16 +5,17 @@ records, and what is unknown with the reason.
 from __future__ import annotations
 
 import math
+import operator
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from flint import fmpq
 
 from garkcli.errors import ExpressionError
 from garkcli.exact.expression import read_decimal
 from garkcli.frozen import Frozen, Mutable, field
-from garkcli.sources.found import MAX_LENGTH, Unreadable
+from garkcli.sources.found import MAX_LENGTH
 from garkcli.sources.scalars import ATOM, PRODUCT, Scalar, combined, negated, number, rooted
 
 if TYPE_CHECKING:
@@ -23,8 +24,6 @@ if TYPE_CHECKING:
 
 FEWEST_DIGITS = 6
 """A decimal of so many digits may be rounded: its text is kept."""
-LONG_TEXT = 400
-"""A text that is longer is written as one decimal, where its numbers are rounded anyway."""
 MAX_BITS = 20_000
 """Of the numerator and the denominator of a number."""
 MAX_POWER = 200
@@ -50,18 +49,19 @@ class Number(Frozen, eq=False):
     Attributes:
         value: as it is printed; None for an irrational one.
         near: the float next to it, for sizes alone.
-        unit: how far rounding of the printed digits may move it, for sizes alone.
         written: its text where that says more than the value.
         is_whole: whether dividing it by a whole number gives a whole number.
-        is_given: whether it was written; what C fills an array with was not.
     """
 
     value: fmpq | None
     near: float
-    unit: float = 0.0
     written: Scalar | None = None
     is_whole: bool = False
-    is_given: bool = True
+
+    @property
+    def is_given(self) -> bool:
+        """Whether it was written; what C fills an array with was not."""
+        return self is not FILL
 
     @cached_property
     def scalar(self) -> Scalar:
@@ -159,9 +159,9 @@ Terms: TypeAlias = Mapping[tuple[str, ...], Value]
 NULL = Null()
 
 
-def exact(value: fmpq, is_whole: bool = False, is_given: bool = True) -> Number:
+def exact(value: fmpq, is_whole: bool = False) -> Number:
     """A rational number that is known exactly."""
-    return Number(value, _near(value), is_whole=is_whole, is_given=is_given)
+    return Number(value, _near(value), is_whole=is_whole)
 
 
 def _near(value: fmpq) -> float:
@@ -173,7 +173,7 @@ def _near(value: fmpq) -> float:
 
 ZERO = exact(fmpq(0), is_whole=True)
 ONE = exact(fmpq(1), is_whole=True)
-FILL = exact(fmpq(0), is_whole=True, is_given=False)
+FILL = exact(fmpq(0), is_whole=True)
 """A zero that nobody wrote."""
 
 
@@ -191,12 +191,18 @@ def literal(text: str, line: int, is_whole: bool = False) -> Value:
         value = read_decimal(plain)
     except (ExpressionError, ValueError):
         return Unknown(f"the number {text[:20]}", line)
-    digits, _, exponent = plain.partition("e")
+    digits, _, _ = plain.partition("e")
     if "." in digits and len(digits.replace(".", "").lstrip("0")) >= FEWEST_DIGITS:
-        places = len(digits.partition(".")[2]) - int(exponent or 0)
-        unit = 10.0**-places if abs(places) < 300 else 0.0
-        return Number(value, _near(value), unit, number(plain))
+        return Number(value, _near(value), number(plain))
     return exact(value, is_whole)
+
+
+_OPERATIONS: Mapping[str, Callable[[Any, Any], Any]] = {
+    "+": operator.add,
+    "-": operator.sub,
+    "*": operator.mul,
+    "/": operator.truediv,
+}
 
 
 def computed(sign: str, x: Value, y: Value, line: int) -> Value:
@@ -210,68 +216,33 @@ def computed(sign: str, x: Value, y: Value, line: int) -> Value:
     assert isinstance(y, Number)
     if sign in {"^", "**"}:
         return _power(x, y, line)
-    if sign in {"/", "//", "÷", "\\"} and y.is_zero:
-        return Unknown("a division by zero", line)
-    if sign not in {"+", "-", "*", "/"}:
+    operation = _OPERATIONS.get(sign)
+    if operation is None:
         return Unknown(f"the operator {sign}", line)
-    near, unit = _sizes(sign, x, y)
-    is_whole = x.is_whole and y.is_whole and sign != "/"
+    if sign == "/" and not y.near:
+        return Unknown("a division by zero", line)
     value = None
     if x.value is not None and y.value is not None:
-        value = _exactly(sign, x.value, y.value)
-        if max(int(value.p).bit_length(), int(value.q).bit_length()) > MAX_BITS:
-            return Unknown("a number that is too long", line)
-        if x.written is None and y.written is None:
-            return exact(value, is_whole)
+        value = operation(x.value, y.value)
+        if x.written is None and y.written is None and not _is_long(value):
+            return exact(value, x.is_whole and y.is_whole and sign != "/")
     if x.is_zero:
         return ZERO if sign in "*/" else y if sign == "+" else negative(y, line)
     if y.is_zero:
         return ZERO if sign == "*" else x
-    return _written(sign, x, y, Number(value, near, unit), line)
+    text = combined(sign, x.scalar, y.scalar)
+    return _written(value, operation(x.near, y.near), text, line)
 
 
-def _written(sign: str, x: Number, y: Number, found: Number, line: int) -> Value:
-    """The number with its text: that of its parts, or one decimal where it is long and rounded."""
-    value = found.value
-    try:
-        text = combined(sign, x.scalar, y.scalar)
-    except Unreadable as error:
-        return Unknown(error.message, line)
-    if value is not None and found.unit and len(text.text) > LONG_TEXT:
-        places = 1 - math.floor(math.log10(found.unit))
-        if 0 < places < MAX_LENGTH:
-            text = number(_decimal(value, places))
-    return Number(value, found.near, found.unit, text)
+def _written(value: fmpq | None, near: float, text: Scalar, line: int) -> Value:
+    """A number with its text."""
+    if len(text.text) > MAX_LENGTH or (value is not None and _is_long(value)):
+        return Unknown(f"a number of more than {MAX_LENGTH} characters", line)
+    return Number(value, near, text)
 
 
-def _decimal(value: fmpq, places: int) -> str:
-    scaled = value * 10**places
-    n = abs(int((scaled + fmpq(1, 2)).floor()))
-    digits = str(n).rjust(places + 1, "0")
-    return f"{'-' if value < 0 else ''}{digits[:-places]}.{digits[-places:]}"
-
-
-def _exactly(sign: str, x: fmpq, y: fmpq) -> fmpq:
-    match sign:
-        case "+":
-            return x + y
-        case "-":
-            return x - y
-        case "*":
-            return x * y
-    return x / y
-
-
-def _sizes(sign: str, x: Number, y: Number) -> tuple[float, float]:
-    """The float next to the result, and how far rounding may move it."""
-    if sign == "*":
-        return x.near * y.near, abs(x.near) * y.unit + abs(y.near) * x.unit
-    if sign == "/":
-        if not y.near:
-            return math.nan, math.inf
-        near = x.near / y.near
-        return near, (x.unit + abs(near) * y.unit) / abs(y.near)
-    return x.near + y.near if sign == "+" else x.near - y.near, x.unit + y.unit
+def _is_long(value: fmpq) -> bool:
+    return max(int(value.p).bit_length(), int(value.q).bit_length()) > MAX_BITS
 
 
 def truncated(x: Value, y: Value, line: int) -> Value:
@@ -289,7 +260,7 @@ def negative(x: Value, line: int) -> Value:
     if not isinstance(x, Number):
         return x if isinstance(x, Unknown) else Unknown(f"a sign before {described(x)}", line)
     text = None if x.written is None else negated(x.written)
-    return Number(None if x.value is None else -x.value, -x.near, x.unit, text, x.is_whole)
+    return Number(None if x.value is None else -x.value, -x.near, text, x.is_whole)
 
 
 def real(value: Value) -> Value:
@@ -297,42 +268,24 @@ def real(value: Value) -> Value:
     if isinstance(value, Array):
         return value.map(real)
     if isinstance(value, Number) and value.is_whole and value is not FILL:
-        return Number(value.value, value.near, value.unit, value.written)
+        return Number(value.value, value.near, value.written)
     return value
 
 
 def _power(x: Number, y: Number, line: int) -> Value:
-    if y.value is None or y.unit:
-        return Unknown("a power whose exponent is rounded", line)
+    if y.value is None or abs(y.near) > MAX_POWER:
+        return Unknown("a power that is too high, or none of rational exponent", line)
     p, q = int(y.value.p), int(y.value.q)
-    if abs(p) > MAX_POWER:
-        return Unknown("a power that is too high", line)
-    base: Value = x if q == 1 else root(x, q, line)
-    if not isinstance(base, Number) or not p:
-        return ONE if not p else base
-    found = base if abs(p) == 1 else _multiplied(base, abs(p), line)
-    return found if p > 0 else computed("/", ONE, found, line)
-
-
-def _multiplied(x: Number, times: int, line: int) -> Value:
-    value = None if x.value is None else x.value**times
-    if value is not None and max(map(abs, (int(value.p), int(value.q)))).bit_length() > MAX_BITS:
-        return Unknown("a number that is too long", line)
-    if value is not None and x.written is None:
-        return exact(value, x.is_whole)
-    near = _power_near(x.near, times)
-    unit = times * abs(near / x.near) * x.unit if x.near else 0.0
-    text = f"{x.scalar.inside(ATOM)}**{times}"
-    if len(text) > MAX_LENGTH:
-        return Unknown(f"a number of more than {MAX_LENGTH} characters", line)
-    return Number(value, near, unit, Scalar(text, PRODUCT))
-
-
-def _power_near(near: float, times: int) -> float:
-    try:
-        return float(near**times)
-    except OverflowError:
-        return math.inf
+    base = x if q == 1 else root(x, q, line)
+    if not isinstance(base, Number) or abs(p) < 2:
+        found: Value = ONE if not p else base
+    else:
+        value = None if base.value is None else base.value ** abs(p)
+        text = Scalar(f"{base.scalar.inside(ATOM)}**{abs(p)}", PRODUCT)
+        found = _written(value, math.prod([base.near] * abs(p)), text, line)
+        if value is not None and base.written is None and isinstance(found, Number):
+            found = exact(value, base.is_whole)
+    return computed("/", ONE, found, line) if p < 0 else found
 
 
 def root(x: Value, index: int, line: int) -> Value:
@@ -346,11 +299,7 @@ def root(x: Value, index: int, line: int) -> Value:
         if p is not None and q is not None:
             return exact(fmpq(-p if x.near < 0 else p, q))
     near = math.copysign(abs(x.near) ** (1 / index), x.near)
-    unit = x.unit / (index * abs(near) ** (index - 1)) if x.unit and near else 0.0
-    try:
-        return Number(None, near, unit, rooted(x.scalar, index))
-    except Unreadable as error:
-        return Unknown(error.message, line)
+    return _written(None, near, rooted(x.scalar, index), line)
 
 
 def _whole_root(n: int, index: int) -> int | None:
