@@ -49,14 +49,14 @@ MAX_TURNS = 4_000
 """Most turns of a loop."""
 MAX_DEPTH = 80
 """Deepest nesting of expressions."""
-MAX_INLINED = 8
-"""Deepest nesting of calls of functions of one expression."""
-MAX_OPEN = 2
-"""The same where no argument is known: little comes of it, and the work may double each time."""
+MAX_INLINED = 3
+"""Deepest nesting of calls of functions of one expression: the work may double each time."""
 _GROWING = frozenset({"push_back", "append", "emplace_back", "push!"})
 _SAME = frozenset({"copy", "astype", "tolist", "to", "clone", "item", "double", "float", "numpy"})
 """Methods that give the array or the number itself."""
-_METHODS = _GROWING | {"resize", "reserve", "clear", "reinit"}
+_EMPTYING = frozenset({"resize", "clear", "reinit"})
+"""Methods after which an array has what is assigned from then on."""
+_METHODS = _GROWING | _EMPTYING | {"reserve"}
 
 
 class OutOfSteps(Exception):
@@ -241,7 +241,9 @@ class Evaluator:
         if statement.value is not None:
             value = self.value(statement.value, space)
         if isinstance(value, Record) and not value.key:
-            value.key = self._key(target, space)
+            # RK["Heun"] = …
+            key = self.value(target.at[-1], space) if isinstance(target, ir.Index) else NULL
+            value.key = key.text if isinstance(key, Word) else getattr(target, "name", "")
         if isinstance(target, ir.Items):
             self._taken_apart(target, value, space, line)
             return
@@ -258,16 +260,6 @@ class Evaluator:
                 filling = value
                 value = old.map(lambda _: filling)
         self._store(target, value, space, line)
-
-    def _key(self, target: ir.Expr, space: Space) -> str:
-        """The name of an assigned record: its own, or its key among others."""
-        match target:
-            case ir.Name(name=name):
-                return name
-            case ir.Index(at=(*_, last)):
-                key = self.value(last, space)
-                return key.text if isinstance(key, Word) else ""
-        return ""
 
     def _taken_apart(self, target: ir.Items, value: Value, space: Space, line: int) -> None:
         items = items_of(value)
@@ -398,40 +390,32 @@ class Evaluator:
         """The indices from 0 that an expression names; none where they are not known."""
         count = len(box.items)
         self._lengths.append(count)
-        try:
-            if not isinstance(at, ir.Range):
-                i = whole(self.value(at, space))
-                if i is None:
-                    return ()
-                return [i + count if i < 0 == self.base else i - self.base]
-            first = self._end(at.first, 0, count, space)
-            last = self._end(at.last, count - 1, count, space)
-            if first is None or last is None or last - first > MAX_TURNS:
-                return ()
-            return range(first, last + 1)
-        finally:
-            self._lengths.pop()
+        ends = [at.first, at.last] if isinstance(at, ir.Range) else [at, at]
+        given = [None if x is None else self.value(x, space) for x in ends]
+        self._lengths.pop()
+        first, last = (
+            default if x is None else self._place(whole(x), count)
+            for x, default in zip(given, (0, count - 1), strict=True)
+        )
+        if first is None or last is None or last - first > MAX_TURNS:
+            return ()
+        return range(first, last + 1)
 
-    def _end(self, at: ir.Expr | None, default: int, count: int, space: Space) -> int | None:
-        if at is None:
-            return default
-        i = whole(self.value(at, space))
-        if i is None:
-            return None
-        return i + count if i < 0 == self.base and default else i - self.base
+    def _place(self, i: int | None, count: int) -> int | None:
+        """An index from 0; in languages that begin with 0 negative ones are from the end."""
+        return i if i is None else i + count if i < 0 == self.base else i - self.base
 
     # expressions
 
     def value(self, expr: ir.Expr, space: Space) -> Value:
         """The value of an expression."""
-        self._depth += 1
         self._steps += 1
-        try:
-            if self._depth > MAX_DEPTH or self._steps > 50 * MAX_STEPS:
-                return self.unknown("an expression that is too deep")
-            return self._value(expr, space)
-        finally:
-            self._depth -= 1
+        if self._depth > MAX_DEPTH or self._steps > 50 * MAX_STEPS:
+            return self.unknown("an expression that is too deep")
+        self._depth += 1
+        found = self._value(expr, space)
+        self._depth -= 1
+        return found
 
     def _value(self, expr: ir.Expr, space: Space) -> Value:
         match expr:
@@ -655,37 +639,24 @@ class Evaluator:
 
     def applied(self, function: Function, args: Sequence[Value]) -> Value:
         """The value of a function of one expression."""
-        is_open = all(isinstance(x, Unknown) for x in args)
-        if self._inlined >= (MAX_OPEN if is_open else MAX_INLINED):
+        if self._inlined >= MAX_INLINED:
             return self.unknown("calls that are nested too deep")
         inner = Space(function.space)
         inner.update(zip(function.parameters, args, strict=True))
         self._inlined += 1
-        try:
-            return self.value(function.body, inner)
-        finally:
-            self._inlined -= 1
+        found = self.value(function.body, inner)
+        self._inlined -= 1
+        return found
 
     def _method(self, of: ir.Expr, name: str, args: Sequence[ir.Expr], space: Space) -> Value:
         """What changes an array in place."""
+        if name in _EMPTYING:
+            self._store(of, Array([], is_growing=True), space, self.line)
         box = self._changed(of, space, Array([], is_growing=True))
         values = [self.value(x, space) for x in args]
-        if box is None:
-            return NULL
-        if name in _GROWING and values:
+        if box is not None and name in _GROWING and values:
             self.allowance.spend(size(values[0]))
             box.items.append(copied(values[0]))
-        elif name == "clear":
-            box.items.clear()
-        elif name in {"resize", "reinit"} and values:
-            counts: list[int | None] = [whole(x) for x in values]
-            if None in counts or any(n is None or not 0 <= n <= MAX_STAGES for n in counts):
-                self.spoil(of, space, "an array of unknown length", self.line)
-                return NULL
-            shaped = self._shaped(None, counts, FILL)
-            assert isinstance(shaped, Array)
-            kept = box.items if name == "resize" and len(counts) == 1 else []
-            box.items[:] = [*kept[: len(shaped.items)], *shaped.items[len(kept) :]]
         return NULL
 
 

@@ -153,19 +153,16 @@ def _converted(call: Call, *args: Value) -> Value | None:
     return conversion(values[1:] if is_second else values, call.line)
 
 
-@_known("sqrt Sqrt PetscSqrtReal SUNRsqrt √ dsqrt std_sqrt")
-def _square_root(call: Call, value: Value, *_: Value) -> Value | None:
-    return _root(call, value, integer(2))
+_ROOTS = {
+    **dict.fromkeys(("sqrt", "Sqrt", "PetscSqrtReal", "SUNRsqrt", "√", "dsqrt", "std_sqrt"), 2),
+    **dict.fromkeys(("cbrt", "CubeRoot"), 3),
+}
+"""Roots that have names of their own."""
 
 
-@_known("cbrt CubeRoot")
-def _cube_root(call: Call, value: Value, *_: Value) -> Value | None:
-    return _root(call, value, integer(3))
-
-
-@_known("nthroot real_nthroot root Surd")
-def _root(call: Call, value: Value, index: Value) -> Value | None:
-    n = whole(index)
+@_known(" ".join([*_ROOTS, "nthroot", "real_nthroot", "root", "Surd"]))
+def _root(call: Call, value: Value, index: Value = NULL) -> Value | None:
+    n = _ROOTS.get(call.name) or whole(index)
     if n is None:
         return call.unknown()
     if isinstance(value, Array):
@@ -238,21 +235,14 @@ def _one(_call: Call, *_: Value) -> Value | None:
 
 
 @_known("sum")
-def _sum(call: Call, values: Value, axis: Value = NULL, *_: Value) -> Value | None:
-    """The sum of a list; of a matrix those of its rows."""
-    if not isinstance(values, Array):
-        return values if isinstance(values, Unknown) else None
-    rows = [x for x in values.items if isinstance(x, Array)] if values.is_matrix else [values]
-    totals: list[Value] = []
-    for row in rows:
-        total: Value = ZERO
-        for x in row.items:
-            total = call.evaluator.combined("+", total, x)
-        totals.append(total)
-    if not values.is_matrix:
-        return totals[0]
-    along = whole(call.named.get("axis", call.named.get("dims", axis)))
-    return call.array(totals) if along == 1 + call.evaluator.base else call.unknown()
+def _sum(call: Call, values: Value) -> Value | None:
+    """The sum of a list."""
+    if not isinstance(values, Array) or values.is_matrix:
+        return call.unknown()
+    total: Value = ZERO
+    for x in values.items:
+        total = call.evaluator.combined("+", total, x)
+    return total
 
 
 @_known("transpose permutedims adjoint")
@@ -269,10 +259,8 @@ def _reshaped(call: Call, value: Value, *shape: Value) -> Value | None:
     turned = value if is_by_rows or not value.is_matrix else transposed(value, call.line)
     flat = list((turned if isinstance(turned, Array) else value).flat())
     sizes = _sizes(shape[:2])
-    if not sizes or math.prod(sizes) != len(flat):
+    if len(sizes) != 2 or math.prod(sizes) != len(flat):
         return call.unknown()
-    if len(sizes) == 1:
-        return call.array(flat)
     order = call.named.get("order")
     if isinstance(order, Array):
         is_by_rows = [whole(x) for x in order.items] == [2, 1]
@@ -331,11 +319,6 @@ CALLS["list of each"] = _each
 @_known("power pow Power SUNRpowerR")
 def _power(call: Call, base: Value, exponent: Value) -> Value | None:
     return call.evaluator.combined("^", base, exponent)
-
-
-@_known("rdivide")
-def _quotient(call: Call, above: Value, below: Value) -> Value | None:
-    return call.evaluator.combined("/", real(above), real(below))
 
 
 @_known("PetscSqr SUNSQR")
