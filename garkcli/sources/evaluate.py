@@ -243,7 +243,8 @@ class Evaluator:
         if isinstance(value, Record) and not value.key:
             # RK["Heun"] = …
             key = self.value(target.at[-1], space) if isinstance(target, ir.Index) else NULL
-            value.key = key.text if isinstance(key, Word) else getattr(target, "name", "")
+            name = target.name if isinstance(target, ir.Name) else ""
+            value.key = key.text if isinstance(key, Word) else name
         if isinstance(target, ir.Items):
             self._taken_apart(target, value, space, line)
             return
@@ -394,14 +395,14 @@ class Evaluator:
         given = [None if x is None else self.value(x, space) for x in ends]
         self._lengths.pop()
         first, last = (
-            default if x is None else self._place(whole(x), count)
+            default if x is None else self._from_0(whole(x), count)
             for x, default in zip(given, (0, count - 1), strict=True)
         )
         if first is None or last is None or last - first > MAX_TURNS:
             return ()
         return range(first, last + 1)
 
-    def _place(self, i: int | None, count: int) -> int | None:
+    def _from_0(self, i: int | None, count: int) -> int | None:
         """An index from 0; in languages that begin with 0 negative ones are from the end."""
         return i if i is None else i + count if i < 0 == self.base else i - self.base
 
