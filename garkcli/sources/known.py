@@ -259,8 +259,10 @@ def _reshaped(call: Call, value: Value, *shape: Value) -> Value | None:
     turned = value if is_by_rows or not value.is_matrix else transposed(value, call.line)
     flat = list((turned if isinstance(turned, Array) else value).flat())
     sizes = _sizes(shape[:2])
-    if len(sizes) != 2 or math.prod(sizes) != len(flat):
+    if not sizes or math.prod(sizes) != len(flat):
         return call.unknown()
+    if len(sizes) == 1:
+        return call.array(flat)
     order = call.named.get("order")
     if isinstance(order, Array):
         is_by_rows = [whole(x) for x in order.items] == [2, 1]
