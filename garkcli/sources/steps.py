@@ -243,7 +243,7 @@ class Follower(Evaluator):
     def _store(self, target: ir.Expr, value: Value, space: Space, line: int) -> None:
         target = self._whole(target)
         if isinstance(target, ir.Name):
-            # what is assigned last is last
+            # names are in the order of their last values
             space.pop(target.name, None)
         super()._store(target, value, space, line)
 
