@@ -68,7 +68,7 @@ def true_claims_of(method: GarkMethod, keys: Sequence[str]) -> TrueClaims:
     wanted = keys or usual_keys(found)
     true = true_claims(found, wanted)
     source = method.source if isinstance(method, MethodFile) else method.name
-    return TrueClaims(source, true, tuple(key for key in wanted if key not in true))
+    return TrueClaims(source, true, tuple(key for key in wanted if key not in true), found)
 
 
 def with_claims(method: AnyMethod, keys: str | Iterable[str] = ()) -> str:

@@ -25,11 +25,13 @@ class TrueClaims(Frozen):
         file: its path as given.
         claims: values as they are written in YAML, by key.
         left: what was requested and has no meaning for the method, or is not decided.
+        analysis: that decides them.
     """
 
     file: str
     claims: Mapping[str, str]
-    left: tuple[str, ...] = ()
+    left: tuple[str, ...]
+    analysis: Analysis
 
 
 def usual_keys(analysis: Analysis) -> list[str]:

@@ -52,7 +52,7 @@ def claims(given: Given, output: Output) -> None:
                 write_whole(method.source, [text], is_renewed=True)
     told = [Claims(true, given.write) for true in found]
     if output.format == "text":
-        output.write(yaml_text(told, output.width))
+        output.write(yaml_text(told, output.width, output.verbosity <= 0))
     else:
         output.tell(REPORT, *told)
 

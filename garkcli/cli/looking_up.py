@@ -213,7 +213,7 @@ def cite(given: Given, output: Output) -> None:
 
     found = references(given.files_meant(output))
     if output.format == "bibtex":
-        output.write(bibliography(found))
+        output.write(bibliography(found, output.verbosity <= 0))
     else:
         output.tell(REPORT, found)
     bare = [one.methods[0] for one in found if not one.text]

@@ -286,6 +286,7 @@ looking_up: show FILE | one method: tableau, orders, properties, reference
 looking_up: report FILE... | methods as one HTML page
     = report_page
     --conjugate --pair --order --pictures --set
+    only --format --output --quiet --color --help
 looking_up: list [WHAT] [WORD...] | families, transfer rules, problems, methods of the catalogue
     = names catalogue
     --catalogue
@@ -320,6 +321,7 @@ running: energy FILE | does the energy drift over a long time?
 new: new [PLACE] | a new method file, from a tableau or from families
     = from_arrays loads with_claims
     --tableau --family --transfer --name --force
+    only --format --output --quiet --color --help
 tableaux: tableau FILE | the whole tableau, block by block
     = load
     --conjugate --pair --digits --document --set
@@ -361,6 +363,7 @@ looking_up: certificate FILE | a proof of the orders, which a separate short scr
 looking_up: schema | JSON Schemas of method files, problem files and reports
     = method_file_schema problem_file_schema sweep_schema project_schema report_schema
     --problem --sweep --project --report
+    only --format --output --help
 [hidden]
 tableaux: reduce FILE | the smallest method that does the same: convert --to reduced
     = reduced

@@ -263,7 +263,8 @@ def reduce(given: Given, output: Output) -> None:
     elif made is method:
         output.write(method.text)
     elif can_spell_out(made.tableau):
-        output.write(write_method(made.tableau, made.name, made.tolerance, made.further))
+        text = write_method(made.tableau, made.name, made.tolerance, made.further)
+        output.write(_against(method, made, output) + text)
     else:
         message = f"{file}: a method of this structure cannot be spelled out in a file"
         cure = "--format json has the entries of the smaller method"
@@ -290,16 +291,30 @@ def convert(given: Given, output: Output) -> None:
     from garkcli.methodfile.load import load
     from garkcli.methodfile.naming import called
 
-    made = convert(load(given.file, given.settings), **given.of("convert"))
+    method = load(given.file, given.settings)
+    made = convert(method, **given.of("convert"))
     file = called(given.file)
     if made.left_out:
         output.note(f"{file}: claims that are left out: {', '.join(made.left_out)}")
     if made.loses_further:
         output.note(f"{file}: embedded and dense weights are left out")
-    if output.format == "yaml":
-        output.write(made.method.text)
-    else:
+    if output.format != "yaml":
         write_tableau(made.method, output)
+    else:
+        output.write(_against(method, made.method, output) + made.method.text)
+
+
+def _against(first: MethodFile, second: GarkMethod, output: Output) -> str:
+    """With details, what a method is to the one in the file below, as a comment."""
+    if output.verbosity <= 0:
+        return ""
+    from garkcli.comparison.comparison import compare
+    from garkcli.methodfile.naming import called
+    from garkcli.report.diff import REPORT, Compared
+
+    names = called(first.source), "the method below"
+    lines = REPORT.render([Compared(compare(first, second), names)], verbosity=-1).splitlines()
+    return "".join(f"# {line}\n" for line in lines)
 
 
 @declared("diff", FORMATS)

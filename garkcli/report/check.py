@@ -826,7 +826,8 @@ def every_property(o: Any) -> Any:
     return [(key, a.subject.verdict(key), within(a, key)) for key in KEYS]
 
 
-def _property_rows(found: Any, d: Plain) -> list[tuple[str, str]]:
+def property_rows_of(found: Any, d: Plain) -> list[tuple[str, str]]:
+    """Properties with their verdicts, and what decides them."""
     rows = []
     for key, v, tolerance in found:
         why = f": {d.reason(v.reason)}" if v.reason and v.value is not True else ""
@@ -907,7 +908,7 @@ CHECKED = Section(
     optional("differs_from", part(DIFFERS_FROM, _known_words), _known(is_same=False)),
     *CLAIMS,
     HINTS,
-    Row("properties_in_words", rows_of(_property_rows), every_property),
+    Row("properties_in_words", rows_of(property_rows_of), every_property),
     title=title,
     columns=COLUMNS,
 )

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from string import ascii_lowercase
+from typing import Any
 
 from garkcli.errors import counted
 from garkcli.frozen import Frozen, fields
@@ -13,7 +14,7 @@ from garkcli.page.plain import printable
 from garkcli.reference import ARXIV, Reference
 from garkcli.tell.facts import Level, Row, Section, maybe, optional
 from garkcli.tell.kinds import TEXT, TEXTS
-from garkcli.tell.parts import part, parts, shown
+from garkcli.tell.parts import SAID, part, parts, shown
 from garkcli.tell.report import FORMATS as TOLD
 from garkcli.tell.report import Report
 
@@ -122,9 +123,13 @@ def short_name(name: str) -> str:
     return last if last[:1].isupper() else name.removeprefix("The ").split()[0]
 
 
-def bibliography(cited: Sequence[Cited]) -> str:
-    """The publications, each once, as BibTeX."""
-    return "\n".join(map(_bibtex, cited, keys(cited)))
+def bibliography(cited: Sequence[Cited], is_brief: bool = True) -> str:
+    """The publications, each once, as BibTeX; with where the digits come from in comments."""
+    texts = []
+    for one, key in zip(cited, keys(cited), strict=True):
+        source = "" if is_brief or one.reference is None else one.reference.coefficients
+        texts.append(f"% coefficients: {printable(source)}\n" * bool(source) + _bibtex(one, key))
+    return "\n".join(texts)
 
 
 def _bibtex(cited: Cited, key: str) -> str:
@@ -230,6 +235,11 @@ def _of(field: str) -> Row:
     return optional(field, TEXTS if is_list else TEXT, lambda x: getattr(x, field) or None)
 
 
+def of_reference(field: str) -> Callable[[Any], str | None]:
+    """What a reference has besides its line; None of one that is plain text."""
+    return lambda x: getattr(x.reference, field) if x.reference else None
+
+
 REFERENCE = Section(*(_of(name) for name in fields(Reference)))
 """The fields of a publication, those that it has."""
 CITED = Section(
@@ -242,6 +252,7 @@ CITED = Section(
 LINE = Section(
     Row("methods", TEXTS, label=""),
     Row("reference", TEXT, lambda x: x.text or "no reference in its file"),
+    *(Row(name, SAID, of_reference(name), Level.DETAIL) for name in ("doi", "coefficients")),
 )
 REPORT: Report[Sequence[Cited]] = Report.only(
     "gark/cite/1",

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from garkcli.check.true_claims import TrueClaims
 from garkcli.page.paint import folded
 from garkcli.page.plain import printable
+from garkcli.properties.registry import KEYS
+from garkcli.report.check import ANALYSIS, SIMPLIFYING, property_rows_of, within
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Level, Row, Section
 from garkcli.tell.kinds import TEXT, TEXTS, TRUTH
+from garkcli.tell.outputs import words
 from garkcli.tell.parts import parts, rows_of
 from garkcli.tell.report import Report
 
@@ -28,6 +31,20 @@ def _claim_rows(found: TrueClaims, d: Plain) -> list[tuple[str, str]]:
     return [(d.prose(key), d.prose(value)) for key, value in found.claims.items()]
 
 
+_ROWS = {row.key: row for row in (*ANALYSIS, *SIMPLIFYING.rows)}
+
+
+def _how(found: TrueClaims, d: Plain) -> Iterator[tuple[str, str]]:
+    """The value of each claim with what decides it."""
+    a = found.analysis
+    for key, value in found.claims.items():
+        row = _ROWS.get(key.replace("-", "_"))
+        if key in KEYS:
+            yield from property_rows_of([(key, a.subject.verdict(key), within(a, key))], d)
+        else:
+            yield key, d.prose(value) if row is None else words(row.fact(a), d)
+
+
 CLAIM = Section(Row("claim", TEXT, "0"), Row("value", TEXT, "1"))
 FILE = Section(
     *(
@@ -35,7 +52,8 @@ FILE = Section(
         for row in (
             Row("file", TEXT, level=DATA),
             Row("claims", parts(CLAIM), lambda x: list(x.claims.items()), DATA),
-            Row("claims_in_words", rows_of(_claim_rows), "."),
+            Row("claims_in_words", rows_of(_claim_rows), ".", is_short=True),
+            Row("how", rows_of(lambda x, d: [*_how(x, d)]), ".", Level.DETAIL),
             Row("not_claimed", TEXTS, lambda x: list(x.left)),
         )
     ),
@@ -50,12 +68,18 @@ REPORT: Report[Claims] = Report(
 )
 
 
-def yaml_text(claims: Sequence[Claims], width: int) -> str:
-    """The claims as they are in a method file; each file's below its name in a comment."""
+def yaml_text(claims: Sequence[Claims], width: int, is_brief: bool = True) -> str:
+    """The claims as they are in a method file; each file's below its name in a comment, with what
+    decides them in further ones.
+    """
     lines: list[str] = []
     for found, is_written in claims:
         lines += [f"# {printable(found.file)}{': written' * is_written}", "expect:"]
         lines += [f"  {key}: {x}" for key, x in found.claims.items()]
+        if not is_brief:
+            d = Plain(colours=[x.name for x in found.analysis.tableau.colours])
+            told = (f"{key}: {text}" for key, text in _how(found, d))
+            lines += [f"# {x}" for text in told for x in folded(text, width - 2, "  ")]
         if found.left:
             left = f"not claimed, without a meaning or not decided: {', '.join(found.left)}"
             lines += [f"# {x}" for x in folded(left, width - 2, "")]

@@ -48,7 +48,7 @@ PROPERTIES = [
     _field(
         x.field,
         KINDS[x.kind],
-        DETAIL if x.kind == "truth" else USUAL,
+        USUAL if x.kind == "number" or x.field == "stage_order" else DETAIL,
         line=ORDER if x.field == "stage_order" else "",
     )
     for x in every_property()
@@ -58,7 +58,7 @@ STAGES = Kind(S.array(S.POSITION), csv=lambda xs: "; ".join(map(str, xs)))
 METHOD = [
     _field("name", TEXT, USUAL, has_null=False),
     _field("aliases", TEXTS, USUAL, has_null=False),
-    _field("file", TEXT, USUAL, has_null=False),
+    _field("file", TEXT, DETAIL, has_null=False),
     _field("folder", TEXT, DETAIL, has_null=False),
     _field("catalogue", TEXT, DETAIL, has_null=False),
     _field("facts", choice("found", "claimed", "unread"), DETAIL, has_null=False),

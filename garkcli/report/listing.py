@@ -12,13 +12,12 @@ from garkcli.errors import counted
 from garkcli.families.family import Family, Option
 from garkcli.families.registry import FAMILIES
 from garkcli.frozen import replace
-from garkcli.problems.builtin import PROBLEMS
-from garkcli.tell.dialect import Plain
+from garkcli.problems.builtin import PROBLEMS, BuiltIn
 from garkcli.tell.facts import Level, Row, Section
 from garkcli.tell.kinds import TEXT, TEXTS, TRUTH
-from garkcli.tell.parts import parts, sentence, shown, table, told
+from garkcli.tell.parts import SAID, parts, sentence, shown, table
 from garkcli.tell.report import ListReport, Report
-from garkcli.transfer import SUMMARIES
+from garkcli.transfer import PAIR_RULES, SUMMARIES
 
 DETAIL, DATA = Level.DETAIL, Level.DATA
 
@@ -30,13 +29,12 @@ class Lists(NamedTuple):
     rules: Mapping[str, str]
     schemes: Mapping[str, Scheme]
     splittings: Mapping[str, Splitting]
-    problems: Mapping[str, str]
+    problems: Mapping[str, BuiltIn]
 
 
 def all_lists() -> Lists:
     """What method files and commands can name."""
-    problems = {entry.name: entry.summary for entry in PROBLEMS.values()}
-    return Lists(FAMILIES, SUMMARIES, SCHEMES, SPLITTINGS, problems)
+    return Lists(FAMILIES, SUMMARIES, SCHEMES, SPLITTINGS, PROBLEMS)
 
 
 def _sizes(family: Family) -> str:
@@ -57,9 +55,8 @@ def _values(option: Option) -> str:
     return "a coefficient" if option.smallest is None else f">= {option.smallest}"
 
 
-def _family_words(family: Family, d: Plain) -> str:
-    options = (f"{key} {values}" for key, values in chosen_by(family))
-    return d.prose("; ".join([family.summary, *options]))
+def _key_words(family: Family) -> str:
+    return "; ".join(f"{key} {values}" for key, values in chosen_by(family))
 
 
 NAME = Row("name", TEXT, "0", label="")
@@ -69,10 +66,21 @@ FAMILY = Section(
     Row("stages", TEXT, lambda x: _sizes(x) if x.size == "stages" else ""),
     Row("options", parts(OPTION), lambda x: [*chosen_by(x)], DATA),
     Row("order", TEXT),
-    Row("summary", TEXT, level=DATA),
-    Row("summary", told(_family_words), "."),
+    Row("summary", TEXT),
+    Row("keys", SAID, _key_words, DETAIL),
+    Row("reference", SAID, lambda x: str(x.reference), DETAIL),
 )
-NAMED = Section(NAME, Row("summary", TEXT, "1"))
+RULE = Section(
+    NAME,
+    Row("summary", TEXT, "1"),
+    Row("makes", SAID, lambda x: "both blocks" if x[0] in PAIR_RULES else "one block", DETAIL),
+)
+PROBLEM = Section(
+    Row("name", TEXT, label=""),
+    Row("summary", TEXT),
+    Row("formula", SAID, level=DETAIL),
+    Row("sees", SAID, level=DETAIL),
+)
 TOPIC = Section(Row("name", TEXT, "0", label=""), Row("count", TEXT, "1"), Row("see", TEXT, "2"))
 SCHEME = Section(
     Row("name", TEXT, label=""),
@@ -93,10 +101,10 @@ ROWS = {
     row.key: row
     for row in (
         Row("families", table(FAMILY, 0), lambda x: [*x.families.values()]),
-        Row("transfer", table(NAMED, 0), lambda x: [*x.rules.items()]),
+        Row("transfer", table(RULE, 0), lambda x: [*x.rules.items()]),
         Row("schemes", table(SCHEME, 0), lambda x: [*x.schemes.values()]),
         Row("splittings", table(SCHEME, 0), lambda x: [*x.splittings.values()]),
-        Row("problems", table(NAMED, 0), lambda x: [*x.problems.items()]),
+        Row("problems", table(PROBLEM, 0), lambda x: [*x.problems.values()]),
     )
 }
 """By what gark list can list alone."""

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 from garkcli.backward.formulas import ModifiedFormula, PowerTerm
 from garkcli.backward.summary import BackwardAnalysis
 from garkcli.errors import counted
+from garkcli.exact.display import to_decimal
 from garkcli.exact.field import Number
 from garkcli.frozen import Frozen
 from garkcli.ntrees.tree import Tree
@@ -80,6 +81,11 @@ class Term(NamedTuple):
     coefficient: Number
 
 
+def _size(factor: Number, d: Plain) -> str:
+    """How large a factor is; the tables of documents are wide without it."""
+    return "" if d.breadth == "page" else to_decimal(factor, 4)
+
+
 TERM = Section(
     Row("power", told(lambda x, d: d.formula(f"h^{{{x}}}", f"h^{x}")), lambda x: x.tree.order - 1),
     Row("picture", told(lambda x, d: d.sketch(x)), "tree", label=""),
@@ -89,6 +95,7 @@ TERM = Section(
     Row("symmetry", POSITION),
     Row("coefficient", NUMERAL),
     Row("factor", NUMERAL, lambda x: x.coefficient / x.symmetry),
+    Row("size", told(_size), lambda x: x.coefficient / x.symmetry, Level.DETAIL),
 )
 """Of the sum Σ h^(ρ−1) b(u)/σ F(u), or of Σ h^(ρ−1) b(u)/|Aut| H(u) over free trees."""
 
@@ -215,7 +222,8 @@ def _order(key: str, level: Level = HEADLINE, is_formless: bool = False) -> Row:
 
 def _symplectic(x: BackwardAnalysis) -> Answer:
     is_formless = x.structure is None and x.tolerance is None
-    return Answer(x.is_symplectic, Status(x.tolerance), _FORMLESS if is_formless else NO_REASON)
+    status = Status(x.tolerance if x.is_symplectic else None)
+    return Answer(x.is_symplectic, status, _FORMLESS if is_formless else NO_REASON)
 
 
 def _vertices(report: ModifiedReport) -> str:

@@ -8,8 +8,8 @@ from garkcli.errors import counted
 from garkcli.frozen import Frozen
 from garkcli.page.plain import printable
 from garkcli.reference import Reference
-from garkcli.report.citation import REFERENCE
-from garkcli.report.list_methods import METHOD, TRUTHS, Entry
+from garkcli.report.citation import REFERENCE, of_reference
+from garkcli.report.list_methods import METHOD, TRUTHS, TYPES, Entry
 from garkcli.report.tableau import DOCUMENT
 from garkcli.report.tableau import Shown as ShownTableau
 from garkcli.tableau.pointwise import Entries
@@ -67,18 +67,16 @@ def kind(x: Shown) -> str:
 
 
 def such(value: bool) -> Any:
-    """The properties that the method has, or that it has not."""
-    return lambda x: ", ".join(key.replace("_", "-") for key in TRUTHS if x.entry[key] is value)
+    """The properties that the method has, or that it has not; what it has says which kinds of
+    stages it has not.
+    """
+    told = [key for key in TRUTHS if value or key not in TYPES]
+    return lambda x: ", ".join(key.replace("_", "-") for key in told if x.entry[key] is value)
 
 
 def undecided(x: Shown) -> str:
     """The properties that are open."""
     return ", ".join(key.replace("_", "-") for key in x.entry["undecided"])
-
-
-def of_reference(field: str) -> Any:
-    """What a reference has besides its line."""
-    return lambda x: getattr(x.reference, field) if x.reference else None
 
 
 REPORT: Report[Shown] = Report.only(

@@ -6,26 +6,32 @@ Numbers are exact strings, with floats of the same shape beside them.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from itertools import chain
 from typing import Any, NamedTuple
 
-from flint import arb
+from flint import arb, fmpq
 
+from garkcli.check.analysis import inconsistent_blocks
 from garkcli.exact.display import to_float, to_text
+from garkcli.exact.field import Algebraic
 from garkcli.exact.parametric import Parametric
+from garkcli.order.simplifying import is_symplectic
 from garkcli.page.cells import cell_text, remark
 from garkcli.page.schema import DERIVATION, NUMBER, NUMERAL, Schema, array, nullable
 from garkcli.page.tableau_text import readable
-from garkcli.report.check import COLOURS, colours_of
+from garkcli.report.check import COLOURS, colours_of, wrong
 from garkcli.tableau import pointwise
 from garkcli.tableau.garkmethod import Derivation, GarkMethod
 from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.tableau import Tableau
-from garkcli.tell.facts import Kind, Level, Row, Section, optional, via
+from garkcli.tell.dialect import Plain
+from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, optional, via
 from garkcli.tell.kinds import TEXT, TRUTH, constant
-from garkcli.tell.parts import drawing, part, parts, sentence
+from garkcli.tell.outputs import labelled
+from garkcli.tell.parts import SAID, drawing, part, parts, rows_of, sentence, told
 from garkcli.tell.report import Report
 
-DATA = Level.DATA
+DETAIL, DATA = Level.DETAIL, Level.DATA
 
 
 class Shown(NamedTuple):
@@ -33,6 +39,7 @@ class Shown(NamedTuple):
 
     Attributes:
         is_rounded: whether people read long fractions as decimals.
+        method: of which it is, where its properties are told with details.
     """
 
     tableau: Tableau
@@ -40,6 +47,7 @@ class Shown(NamedTuple):
     name: str
     derivation: Derivation = ""
     is_rounded: bool = False
+    method: GarkMethod | None = None
 
     @property
     def readable(self) -> Entries:
@@ -54,7 +62,11 @@ def of_method(method: GarkMethod, digits: int | None = None) -> Shown:
         entries = pointwise.entries(method.tableau, digits).beside(method.further)
         entries = entries.in_decimals(digits)
     is_rounded = method.tolerance is not None
-    return Shown(method.tableau, entries, method.name, method.derivation, is_rounded)
+    return Shown(method.tableau, entries, method.name, method.derivation, is_rounded, method)
+
+
+DIGITS = 12
+"""Of the decimals of a tableau."""
 
 
 def _float(cell: Cell | Parametric) -> float | None:
@@ -88,16 +100,68 @@ def _entries(entry: Schema, change: Callable[[Entries, Cell], object]) -> list[R
     ]
 
 
+def _consistent(x: Any) -> Answer:
+    return wrong(inconsistent_blocks(x.method.meant), "A", x.method.tolerance)
+
+
+def _symplectic(x: Any) -> Answer:
+    found = is_symplectic(x.method.meant)
+    return Answer(found, Status(x.method.tolerance if found else None))
+
+
+def _sums(x: Shown, _: Plain) -> str:
+    """What the weights of each colour add up to."""
+    sums = (sum(row[1:], row[0]) for row in x.readable.b)
+    return ", ".join(cell_text(total, x.entries.digits) for total in sums)
+
+
+FORMULAS = {
+    "": "",
+    "conjugate": "Â_ij = b_j − b_j a_ji / b_i; conjugated again it is the method",
+    "pair": "A for positions, Â_ij = b_j − b_j a_ji / b_i for momenta",
+}
+"""How what is made of a method is made."""
+
+
+ABOUT = Section(
+    Row("made_by", SAID, lambda x: FORMULAS[x.derivation]),
+    Row("weights_sum", told(_sums), "."),
+    Row("consistent", TRUTH, _consistent),
+    Row("symplectic", TRUTH, _symplectic),
+)
+
+
+def _about(x: Shown, d: Plain) -> list[tuple[str, str]]:
+    """What a tableau is like; a document takes the tableau alone."""
+    if d.breadth == "page" or x.method is None:
+        return []
+    ((_, rows),) = labelled(ABOUT, x, d, DETAIL)
+    return rows
+
+
+def _decimals(x: Shown, d: Plain) -> list[str]:
+    """The tableau once more in decimals, where it has other numbers."""
+    entries = x.entries
+    numbers = [*chain(*entries.c, *entries.b, *chain(*(y for row in entries.A for y in row if y)))]
+    is_told = d.breadth == "terminal" and not d.is_brief and not x.is_rounded
+    has_others = any(isinstance(y, Algebraic) or (isinstance(y, fmpq) and y.q > 1) for y in numbers)
+    if not is_told or not has_others or any(isinstance(y, Parametric) for y in numbers):
+        return []
+    return d.tableau(x.tableau, entries.in_decimals(DIGITS))
+
+
 FLOATS = Section(*_entries(NUMBER, lambda _, x: _float(x)))
 TABLEAU = Section(
     Row("name", TEXT, level=DATA),
     Row("derivation", Kind(DERIVATION), level=DATA),
     Row("exact", TRUTH, "entries.is_exact", DATA),
     sentence(lambda x: remark(x.readable)),
+    Row("about", rows_of(_about), ".", DETAIL),
     Row("colours", parts(COLOURS), lambda x: colours_of(x.tableau), DATA),
     *via(lambda x: x.entries, _entries(NUMERAL, _numeral)),
     Row("float", part(FLOATS), "entries", DATA),
     Row("tableau", drawing(lambda x, d: d.tableau(x.tableau, x.readable)), "."),
+    Row("decimals", drawing(_decimals), ".", DETAIL),
     title=lambda x, d: d.prose(x.name),
 )
 SCHEMA = "gark/tableau/1"

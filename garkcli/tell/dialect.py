@@ -370,11 +370,27 @@ class Plain(Mutable):
     def grid(self, head: Cells, rows: Iterable[Cells], how: Layout = WHOLE) -> Iterator[str]:
         """A table. A last column of words is folded where it does not fit, or cut where that may
         be; other columns that do not fit continue below, each time beside the first one. Of a
-        stream columns are as wide as its rows so far ask for.
+        stream columns are as wide as its rows so far ask for. With details a row of a table that
+        has words in other columns is its name with a line a column below.
         """
+        if not (self.is_brief or how.is_stream):
+            rows = [*rows]
+            if self._is_wordy(head, rows, how):
+                for name, *cells in rows:
+                    yield from self.title(name, how.depth)
+                    labelled = [x for x in zip(head[1:], cells, strict=True) if x[1]]
+                    yield from self.rows(labelled, how.depth + 1)
+                return
         find = self._stream if how.is_stream else self._whole
         for line in find(head, rows, how):
             yield "  " * how.depth + line
+
+    def _is_wordy(self, head: Cells, rows: Sequence[Cells], how: Layout) -> bool:
+        """Whether a table does not fit, and has words before its last column."""
+        columns = self._columns([head, *rows])
+        widths = [max(map(_cell_width, column)) for column in columns]
+        room = self.width - 2 * how.depth - 2 * (len(columns) - 1)
+        return sum(widths) > room and any(width > WORDS for width in widths[1:-1])
 
     def _whole(self, head: Cells, rows: Iterable[Cells], how: Layout) -> Iterator[str]:
         columns = self._columns([head, *rows])

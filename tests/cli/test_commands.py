@@ -190,7 +190,7 @@ def test_help_of_every_command(command: str) -> None:
     assert run.code == 0
     assert run.out == gark(command, "-h").out
     options = set(re.findall(r"--[a-z]+", run.out))
-    assert {"--format", "--output", "--quiet", "--verbose", "--color", "--help"} <= options
+    assert {*COMMANDS[command].common.split()} <= options
     assert (f"  {command} " in gark("--help").out) is (command in SHOWN)
 
 

@@ -19,6 +19,7 @@ from tests.cli.harness import gark
 
 RUNS = [
     ("list",),
+    *(("list", what, "-v") for what in ("families", "transfer", "problems")),
     ("--help",),
     ("trees", "-n", "7"),
     ("trees", "--tree", "[" * 40 + "[]_1,[]_1" + "]_1" * 40),
