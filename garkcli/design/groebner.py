@@ -28,23 +28,19 @@ def is_small(polynomials: Sequence[fmpz_mpoly]) -> bool:
     return sum(len(p) for p in polynomials) <= FEW_TERMS
 
 
-def groebner_basis(
-    polynomials: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx, may_be_long: bool = False
-) -> list[fmpz_mpoly]:
+def groebner_basis(polynomials: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx) -> list[fmpz_mpoly]:
     """The reduced Gröbner basis of an ideal.
 
     Args:
         polynomials: generators, not all zero.
         context: of theirs.
-        may_be_long: whether few terms are no sign of little work.
 
     Raises:
         NotDecided: the time was not enough.
     """
     check_time()
-    if not may_be_long:
-        with suppress(_TooLarge):
-            return _basis(polynomials, context, is_bounded=True)
+    with suppress(_TooLarge):
+        return _basis(polynomials, context, is_bounded=True)
     return apart(_basis_apart, list(polynomials))
 
 
@@ -137,39 +133,44 @@ def _basis(
     Raises:
         _TooLarge: it is not small, and is to be.
     """
+    if is_bounded and not is_small(polynomials):
+        raise _TooLarge
     vector: Any = fmpz_mpoly_vec(list(polynomials), context)
     if not is_bounded:
-        return reduced_basis(list(vector.buchberger_naive()), context)
-    if not is_small(polynomials):
-        raise _TooLarge
-    found, is_whole = vector.autoreduction().buchberger_naive(limits=SMALL)
+        return reduced(list(vector.buchberger_naive()), context)
+    vector = fmpz_mpoly_vec(reduced(polynomials, context, is_whole=False), context)
+    found, is_whole = vector.buchberger_naive(limits=SMALL)
     if not is_whole:
         raise _TooLarge
-    return reduced_basis(list(found), context)
+    return reduced(list(found), context)
 
 
-def reduced_basis(basis: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx) -> list[fmpz_mpoly]:
-    """The reduced Gröbner basis of an ideal, primitive, the smallest leading monomials first.
+def reduced(
+    polynomials: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx, is_whole: bool = True
+) -> list[fmpz_mpoly]:
+    """Generators of the same ideal, each reduced once by those with smaller leading monomials, the
+    smallest first; of a Gröbner basis the reduced one, primitive.
 
-    Each is reduced by those that are done, whose leading monomials are smaller: python-flint's
-    ``autoreduction`` takes a hundred times as long where there are many.
+    python-flint's ``autoreduction`` takes a hundred times as long where there are many and may
+    not end in lexicographic order.
 
     Args:
-        basis: any Gröbner basis of it in degree reverse lexicographic order.
+        polynomials: the generators.
         context: of theirs.
+        is_whole: whether they are a Gröbner basis in its order.
     """
     done: list[fmpz_mpoly] = []
     known: list[Exponents] = []
-    for p in sorted(basis, key=lambda p: degrevlex(leading(p))):
-        first = leading(p)
-        if any(divides(smaller, first) for smaller in known):
+    for p in sorted(filter(None, polynomials), key=lambda p: degrevlex(leading(p))):
+        if is_whole and any(divides(smaller, leading(p)) for smaller in known):
             continue
         _, rest = p.primitive()
         if done:
             dividend: Any = rest  # the types of python-flint lack the method
             rest = dividend.reduction_primitive_part(fmpz_mpoly_vec(done, context))
-        done.append(rest if rest.leading_coefficient() > 0 else -rest)
-        known.append(first)
+        if rest:
+            done.append(rest if rest.leading_coefficient() > 0 else -rest)
+            known.append(leading(rest))
     return done
 
 
@@ -221,4 +222,4 @@ def _grown_apart(
 def _verified(basis: list[fmpz_mpoly], given: list[fmpz_mpoly]) -> list[fmpz_mpoly] | None:
     """The reduced basis; None where polynomials are no basis of an ideal that has those given."""
     context = given[0].context()
-    return reduced_basis(basis, context) if is_basis(basis, given, context) else None
+    return reduced(basis, context) if is_basis(basis, given, context) else None

@@ -103,7 +103,7 @@ class Ideal:
         product = self._context.gen(self.variables - 1)
         for polynomial in self.nonzero:
             product *= self._integral(polynomial)
-        return groebner.reduced_basis([product - 1], self._context)
+        return groebner.reduced([product - 1], self._context)
 
     def _with_basis(self, basis: list[fmpz_mpoly], is_proved: bool = True) -> Ideal:
         grown = Ideal(self.ring)

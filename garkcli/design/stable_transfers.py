@@ -204,7 +204,7 @@ def _eliminated(zeros: Sequence[fmpq_mpoly], family: Family) -> list[fmpq_mpoly]
     for p in (*zeros, *raised):
         unit = integral_scale(p)
         given.append(context.from_dict({e: (a * unit).p for e, a in p.to_dict().items()}))
-    basis = groebner_basis([p for p in given if p], context, may_be_long=True)
+    basis = groebner_basis([p for p in given if p], context)
     return [
         family.ring.context.from_dict({e[2:]: fmpq(a) for e, a in p.to_dict().items()})
         for p in basis
