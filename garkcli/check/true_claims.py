@@ -77,8 +77,8 @@ def _text(key: str, analysis: Analysis) -> str | None:
         if value is None:
             return None
         if isinstance(value, Size):
-            if value.root is None:
-                return "infinity"
+            if value.root is None or value.root.exact is not None:
+                return str(value)
             return root_text(value.root) or root_decimal(value.root, DIGITS)
         if verdict.is_at_least and isinstance(value, int):
             return _written(AtLeast(value))

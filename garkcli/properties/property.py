@@ -46,9 +46,12 @@ class Size(Frozen):
     def __str__(self) -> str:
         if self.root is None:
             return "infinity"
-        from garkcli.exact.polynomial import Polynomial  # few checks show such numbers
+        from garkcli.exact.display import shortest  # few checks show such numbers
+        from garkcli.exact.polynomial import Polynomial
         from garkcli.exact.polynomial_text import polynomial_text, root_decimal, root_text
 
+        if self.root.exact is not None:
+            return shortest(self.root.exact)
         simple = root_text(self.root)
         if simple is not None:
             return simple

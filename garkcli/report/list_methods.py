@@ -8,7 +8,9 @@ from typing import Any, TypeAlias
 from flint import fmpq
 
 from garkcli.errors import counted
+from garkcli.exact.display import shortest
 from garkcli.exact.expression import read_decimal
+from garkcli.frozen import replace
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.properties.registry import every_property
 from garkcli.report.citation import short_name
@@ -43,7 +45,15 @@ def _order(key: str, level: Level = USUAL) -> Row:
     return maybe(key, COUNT, order(key), level, line=ORDER)
 
 
-KINDS = {"truth": TRUTH, "count": COUNT, "number": TEXT}
+def _size_words(text: str, d: Plain) -> str:
+    """A number of the index; a long fraction in decimals."""
+    over, _, under = text.partition("/")
+    is_fraction = over.lstrip("-").isdecimal() and under.isdecimal()
+    return d.prose(shortest(fmpq(int(over), int(under))) if is_fraction else text)
+
+
+SIZE = replace(TEXT, words=_size_words)
+KINDS = {"truth": TRUTH, "count": COUNT, "number": SIZE}
 PROPERTIES = [
     _field(
         x.field,

@@ -67,19 +67,19 @@ FAMILY = Section(
     Row("options", parts(OPTION), lambda x: [*chosen_by(x)], DATA),
     Row("order", TEXT),
     Row("summary", TEXT),
-    Row("keys", SAID, _key_words, DETAIL),
+    Row("options", SAID, _key_words, DETAIL),
     Row("reference", SAID, lambda x: str(x.reference), DETAIL),
 )
 RULE = Section(
     NAME,
     Row("summary", TEXT, "1"),
-    Row("makes", SAID, lambda x: "both blocks" if x[0] in PAIR_RULES else "one block", DETAIL),
+    Row("blocks", SAID, lambda x: "both" if x[0] in PAIR_RULES else "one", DETAIL),
 )
 PROBLEM = Section(
     Row("name", TEXT, label=""),
     Row("summary", TEXT),
     Row("formula", SAID, level=DETAIL),
-    Row("sees", SAID, level=DETAIL),
+    Row("trees", SAID, "sees", DETAIL),
 )
 TOPIC = Section(Row("name", TEXT, "0", label=""), Row("count", TEXT, "1"), Row("see", TEXT, "2"))
 SCHEME = Section(

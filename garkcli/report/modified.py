@@ -95,7 +95,7 @@ TERM = Section(
     Row("symmetry", POSITION),
     Row("coefficient", NUMERAL),
     Row("factor", NUMERAL, lambda x: x.coefficient / x.symmetry),
-    Row("size", told(_size), lambda x: x.coefficient / x.symmetry, Level.DETAIL),
+    Row("value", told(_size), lambda x: x.coefficient / x.symmetry, Level.DETAIL),
 )
 """Of the sum Σ h^(ρ−1) b(u)/σ F(u), or of Σ h^(ρ−1) b(u)/|Aut| H(u) over free trees."""
 

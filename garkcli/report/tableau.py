@@ -39,7 +39,7 @@ class Shown(NamedTuple):
 
     Attributes:
         is_rounded: whether people read long fractions as decimals.
-        method: of which it is, where its properties are told with details.
+        method: the one that it is of, for its properties.
     """
 
     tableau: Tableau
@@ -161,7 +161,7 @@ TABLEAU = Section(
     *via(lambda x: x.entries, _entries(NUMERAL, _numeral)),
     Row("float", part(FLOATS), "entries", DATA),
     Row("tableau", drawing(lambda x, d: d.tableau(x.tableau, x.readable)), "."),
-    Row("decimals", drawing(_decimals), ".", DETAIL),
+    Row("decimals", drawing(_decimals), ".", DETAIL, label=""),
     title=lambda x, d: d.prose(x.name),
 )
 SCHEMA = "gark/tableau/1"
