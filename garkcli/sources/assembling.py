@@ -38,6 +38,7 @@ from garkcli.sources.values import (
     near,
     whole,
 )
+from garkcli.sources.values import is_zero as is_nought
 
 Roles: TypeAlias = dict[str, Value]
 """What is known of a table, by role: A, b, c, embedded, error, dense, order, …"""
@@ -116,7 +117,9 @@ def table_of(meant: Meant) -> FoundTable:
         return replace(table, is_sure=True) if signature.is_guess else table
     except Unreadable as error:
         is_misshapen, trouble = isinstance(error, Misshapen), error.message
-        if not (is_sure or _is_unread(roles) or (_has_weights(roles) and not is_misshapen)):
+        is_record = signature is NAMED and bool(meant.maker)
+        has_weights = _has_weights(roles) and (is_record or not is_misshapen)
+        if not (is_sure or _is_unread(roles) or has_weights):
             trouble = f"arrays called A and b do not fit together: {trouble}"
             return replace(troubled(empty, trouble), is_sure=False)
         return troubled(empty, trouble, is_sure and is_misshapen)
@@ -271,6 +274,8 @@ def _single(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
         b = _row(roles, "b") if given is None else given
         if stages and len(b) != stages:
             raise Misshapen(f"n_stages is {stages}, B has {len(b)}")
+        if meant.maker and _has_weights(roles):
+            roles = {**roles, "A": _without_zeros(roles.get("A"), len(b))}
         A = _square(roles, "A", len(b))
     else:
         form, made = found
@@ -414,6 +419,15 @@ def _square(roles: Roles, role: str, stages: int) -> Rows:
     if any(isinstance(x, Array) for x in rows):
         value = Array([x if isinstance(x, Array) or is_written(x) else Array([]) for x in rows])
     return square(plain(value), stages)
+
+
+def _without_zeros(value: Value | None, stages: int) -> Value:
+    """The matrix of a structure of fixed size without the zeros behind its stages."""
+    rows = [x.items for x in items_of(value) if isinstance(x, Array)]
+    behind = [x for i, row in enumerate(rows) for x in row[stages * (i < stages) :]]
+    if value is None or len(rows) < len(items_of(value)) or not all(map(is_nought, behind)):
+        return value or Null()
+    return Array([Array(row[:stages]) for row in rows[:stages]]) if behind else value
 
 
 def _row(roles: Roles, role: str, stages: int = 0) -> Row:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from operator import sub
 from typing import Any
 
 from garkcli.frozen import replace
@@ -14,7 +15,7 @@ from garkcli.sources.evaluate import Evaluator, Space
 from garkcli.sources.found import FoundTable, troubled
 from garkcli.sources.naming import ROLES, role_of, roles_of_parts
 from garkcli.sources.rklab import blocks_in
-from garkcli.sources.scalar_names import FEWEST_COEFFICIENTS, are_coefficients, scalar_roles
+from garkcli.sources.scalar_names import FEWEST_COEFFICIENTS, NEAR, are_coefficients, scalar_roles
 from garkcli.sources.signatures import (
     CONSTRUCTOR,
     DRIFT_FIRST,
@@ -35,8 +36,10 @@ from garkcli.sources.values import (
     Unknown,
     Value,
     Word,
+    first_unknown,
     is_written,
     items_of,
+    near,
     whole,
 )
 
@@ -138,14 +141,16 @@ class TableFinder(Evaluator):
             self._of_scalars(owner or scope.title, own, line)
         if self._count() > count:
             return
+        numbers = Array(list(values.values())).flat()
+        fractions = sum(isinstance(x, Number) and not x.is_whole for x in numbers)
         if looks_like_a_step:
             self._unread(scope.title, scope.line, "a step that is not followed")
-        elif CONSTRUCTOR.fullmatch(scope.name):
-            numbers = Array(list(values.values())).flat()
-            fractions = sum(isinstance(x, Number) and not x.is_whole for x in numbers)
-            if fractions < FEWEST_COEFFICIENTS:
-                return
+        elif CONSTRUCTOR.fullmatch(scope.name) and fractions >= FEWEST_COEFFICIENTS:
             self._unread(scope.title, scope.line, UNRECOGNISED, other_kind(scope.name))
+        for record in made if self._count() == count else ():
+            if _looks_like_a_table(record.args):
+                told = f"a matrix, its row sums and weights as arguments of {record.kind}"
+                self._unread(self._name(record, scope), record.line, told)
 
     def _count(self) -> int:
         return len(self._meant) + len(self._other)
@@ -168,8 +173,8 @@ class TableFinder(Evaluator):
         given = {(x, space.lines.get(x, 0)) for x in names}
         if not {"A", "b"} <= roles or (name, space.lines.get(name, 0)) in self._taken:
             return
-        self._taken |= given
         self._of_names({x: space[x] for x in names}, space.lines, scope)
+        self._taken |= given
 
     def _of_classes(self) -> Iterator[Meant]:
         """Tables whose arrays are classes: a1, a2, …, b, db, c."""
@@ -278,7 +283,8 @@ class TableFinder(Evaluator):
             return
         parts = {x: (_PARTS, role) for x, role in roles_of_parts(values).items()}
         groups: dict[str, Roles] = {}
-        begins: dict[str, int] = {}
+        taken: dict[str, dict[str, bool]] = {}
+        places: dict[str, list[tuple[str, int]]] = {}
         for name, value in values.items():
             owner, _, plain = name.rpartition("::")
             numbered = _NUMBERED.fullmatch(plain) if isinstance(value, Array) else None
@@ -291,8 +297,9 @@ class TableFinder(Evaluator):
             else:
                 continue
             groups.setdefault(stem, {})[role] = value
-            line = lines.get(name, scope.line)
-            begins[stem] = min(line, begins.get(stem, line))
+            places.setdefault(stem, []).append((name, lines.get(name, scope.line)))
+            if role in {"A", "b"}:
+                taken.setdefault(stem, {})[role] = places[stem][-1] in self._taken
         for stem, numbered_roles in groups.items():
             roles = _with_grid(numbered_roles)
             if {"A", "c", "gamma"} <= set(roles) and _is_triangle(roles["c"], roles["gamma"]):
@@ -306,7 +313,12 @@ class TableFinder(Evaluator):
             are_parts = stem == _PARTS or {"A", "b", "A1", "embedded"} <= set(roles)
             bases = scope.bases if scope.kind == "class" else ()
             is_sure = "RungeKutta" in {x.rpartition(".")[2] for x in bases}
-            place = self._place(name, scope.line if is_sure else begins[stem], is_sure=is_sure)
+            begin = scope.line if is_sure else min(line for _, line in places[stem])
+            if len({*taken.get(stem, {}).values()}) > 1 and "gamma1" not in roles:
+                latest = max(line for _, line in places[stem])
+                self._unread(name, latest, "A is assigned anew without b, or b without A")
+                continue
+            place = self._place(name, begin, is_sure=is_sure)
             self._meant.append(Meant(place, roles, PARTS if are_parts else NAMED, bases=bases))
 
     def _of_step(self, scope: ir.Scope, space: Space) -> bool:
@@ -372,6 +384,19 @@ def _is_general_linear(values: Mapping[str, Value]) -> bool:
     """Whether there are matrices A, B and U."""
     cases = [[values.get(x) for x in case] for case in ("ABU", "abu")]
     return any(all(isinstance(x, Array) and x.is_matrix for x in case) for case in cases)
+
+
+def _looks_like_a_table(values: Sequence[Value]) -> bool:
+    """Whether there are a matrix, its row sums and a row of numbers with the sum 1."""
+    for A in values:
+        if isinstance(A, Array) and A.is_matrix and first_unknown(A) is None:
+            sums = [near(row) for row in A.items]
+            given = [[near(x) for x in items_of(row)] for row in values if row is not A]
+            rows = [row for row in given if len(row) == len(sums) > 1]
+            are_nodes = [max(map(abs, map(sub, row, sums))) < NEAR for row in rows]
+            if len(rows) > 1 and any(are_nodes) and any(abs(sum(x) - 1) < NEAR for x in rows):
+                return True
+    return False
 
 
 def _by_owner(values: Mapping[str, Value]) -> Mapping[str, Mapping[str, Value]]:

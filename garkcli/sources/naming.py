@@ -66,8 +66,10 @@ def role_of(name: str) -> tuple[str, str] | None:
     >>> role_of("rk4a")
     ('rk4', 'A')
     """
-    if name in ROLES:
-        return "", ROLES[name]
+    # d_A is on the device
+    plain = name[2:] if name.startswith("d_") and name[2:] in ROLES else name
+    if plain in ROLES:
+        return "", ROLES[plain]
     if len(name) > MAX_NAME:
         return None
     for pattern in (_DIGIT, _SUFFIX, _PREFIX):

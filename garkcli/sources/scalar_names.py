@@ -81,6 +81,8 @@ def scalar_roles(values: Mapping[str, Value]) -> Scalars | None:
         # a table is used, and none is made
         return None
     weight, node = {"b": ("c", "a"), "α": ("β", "c")}.get(stem, ("b", "c"))
+    if stem == "A" and "B" in rows:
+        weight, node = "B", "C"
     if {"w", "d"} <= set(rows) and not {weight, node} & set(rows):
         weight, node = "w", "d"
     given: _Row = {i: x for i, x in rows.get(weight, {}).items() if not isinstance(x, Unknown)}

@@ -265,8 +265,18 @@ SSP_3 = (
     ),
     (
         c,
-        "__constant__ double A[3][3] = {{0}, {1}, {.25, .25}};\n__device__ double b[3] = {1./6, 1./6,"
-        " 2./3};\n__constant__ double c[3] = {0, 1, .5};",
+        "__constant__ double d_A[3][3] = {{0}, {1}, {.25, .25}};\n__device__ double d_b[3] = {1./6, 1./6,"
+        " 2./3};\n__constant__ double d_c[3] = {0, 1, .5};",
+    ),
+    (
+        c,
+        "struct T { double A[4][4], b[4], c[4]; };\nT ssp = {{{0, 0, 0, 0}, {1, 0, 0, 0}, {.25, .25, 0, 0}},"
+        " {1./6, 1./6, 2./3}, {0, 1, .5}};",
+    ),
+    (
+        c,
+        "#define A21 1.0\n#define A31 0.25\n#define A32 0.25\n#define B1 (1.0/6)\n#define B2 (1.0/6)\n"
+        "#define B3 (2.0/3)\n#define C2 1.0\n#define C3 0.5\n",
     ),
     (
         fortran,
@@ -346,6 +356,15 @@ def test_tables_one_after_the_other_are_not_mixed() -> None:
     for text in (f"{first}\n{second}", f"{first}\n{second}\n{first}".replace("; b", "\nb")):
         found = {(x.A[0][0][1][0], x.b[0]) for x in matlab.find(text, "x.m")}
         assert found == {("1", ("1/2", "1/2")), ("1/2", ("0", "1"))}
+    *_, mixed = matlab.find(f"{first}\nA = [0 0; 1/2 0];", "x.m")
+    assert (mixed.trouble, mixed.b) == ("A is assigned anew without b, or b without A", ())
+
+
+def test_arguments_that_look_like_a_table_are_told() -> None:
+    """Heun's, for a class whose parameters are not known; a linear system is none."""
+    (table,) = python.find("heun = Tab([[0, 0], [1, 0]], [1/2, 1/2], [0, 1])", "x.py")
+    assert table.trouble == "a matrix, its row sums and weights as arguments of Tab"
+    assert python.find("solve([[0, 0], [1, 0]], [1/2, 1/2], [1, 1])", "x.py") == []
 
 
 @pytest.mark.parametrize("name", ["butcher_tableau", "rk_table", "a_stable", "p_stable_by_c"])
