@@ -12,6 +12,7 @@ from garkcli.plots.scene import Area, Curve, Mark, Panel, Rule, shortened
 
 COLUMNS = 58
 """Of a picture; indented by two it fits narrow terminals."""
+_NARROWEST = 8  # columns between the axes
 _LINE = 16
 """Units of a picture in a line."""
 _DOTS = "•○×+"
@@ -33,7 +34,7 @@ def drawn(panel: Panel, spelt: Callable[[str], str] = str, columns: int = COLUMN
     Args:
         panel: what is drawn.
         spelt: a text in the signs that the terminal has.
-        columns: of the longest line.
+        columns: of the longest line, if there is space for the axes.
 
     >>> from garkcli.plots.scene import Axis
     >>> squares = [(x, x * x) for x in range(-3, 4)]
@@ -59,13 +60,14 @@ class _Picture:
     """The cells of a panel between its axes."""
 
     def __init__(self, panel: Panel, spelt: Callable[[str], str], columns: int) -> None:
-        self.panel, self.columns = panel, columns
+        self.panel = panel
         self.spelt: Callable[[str], str] = lambda text: spelt(printable(text))
         self.height = 2 * round(panel.height / _LINE / 2) + 1
         marks = panel.y.marks(self.height // 2 + 1)
         self.rows = {self.row(mark.at): self.spelt(mark.label) for mark in marks}
         self.margin = max(map(len, self.rows.values()), default=0)
-        self.width = columns - self.margin - 2
+        self.width = max(columns - self.margin - 2, _NARROWEST)
+        self.columns = self.margin + 2 + self.width
 
     # places
 

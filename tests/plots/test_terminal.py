@@ -77,10 +77,11 @@ def test_a_line_joins_its_points() -> None:
 @pytest.mark.parametrize("factor", [1e-300, 1.0, 1e300])
 @pytest.mark.parametrize("points", [[], [(0.0, 0.0)], [(0.0, 1.0), (0.0, -1.0)]])
 def test_little_to_draw(points: list[tuple[float, float]], factor: float) -> None:
-    """No point, one, no breadth, and the ends of the floats."""
+    """No point, one, no breadth, the ends of the floats, and terminals of a column."""
     scaled = [(x, y * factor) for x, y in points]
     y = Axis("y", -factor, factor)
-    text = "\n".join(drawn(Panel("", "", LIMITS[0], y, [Curve(0, scaled)])))
+    panel = Panel("", "", LIMITS[0], y, [Curve(0, scaled)])
+    text = "\n".join([*drawn(panel), *drawn(panel, columns=1)])
     assert "nan" not in text
     assert "inf" not in text
 
