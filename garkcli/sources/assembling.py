@@ -101,14 +101,9 @@ def table_of(meant: Meant) -> FoundTable:
     signature, roles, told = meant.signature, meant.roles, meant.table
     title = roles.get("title")
     name = title.text if isinstance(title, Word) else told.name
-    order, embedded_order = _orders(roles)
-    empty = replace(
-        told,
-        format=signature.format or told.format,
-        name=name,
-        order=order,
-        embedded_order=embedded_order,
-    )
+    order, low = _orders(roles)
+    format = signature.format or told.format
+    empty = replace(told, format=format, name=name, order=order, embedded_order=low)
     is_sure = told.is_sure or told.is_assembled
     if signature is NAMED and not is_sure:
         _refuse_uses(roles)
@@ -130,11 +125,9 @@ def _refuse_uses(roles: Roles) -> None:
     matrix = roles.get("A", roles.get("A_q"))
     others = [x for x in _COEFFICIENTS if isinstance(roles.get(x), Array)]
     entries = list(matrix.flat()) if isinstance(matrix, Array) else []
-    unknown = [x for x in entries if isinstance(x, Unknown)]
-    is_written = any(x.was_written for x in unknown) or any(
-        isinstance(x, Number) and x.is_given for x in entries
-    )
-    is_only_made = not is_written and (unknown or len(items_of(matrix)) > 1)
+    unknown = [x.was_written for x in entries if isinstance(x, Unknown)]
+    given = [x.is_given for x in entries if isinstance(x, Number)]
+    is_only_made = not any(unknown + given) and (unknown or len(items_of(matrix)) > 1)
     if not isinstance(matrix, Array) or not others or is_only_made:
         raise NoTable
 
@@ -174,7 +167,7 @@ def is_complete(roles: Roles) -> bool:
     return "b" not in roles and all(_is_matrix(roles.get(x)) for x in ("A", "c"))
 
 
-_WHOLE = (*({"A", "b"}, {"drifts"}, {"A_q", "b_q", "b"}, {"A", "delta", "gamma1", "gamma2"}),)
+_WHOLE = ({"A", "b"}, {"drifts"}, {"A_q", "b_q", "b"}, {"A", "delta", "gamma1", "gamma2"})
 
 
 def _is_matrix(value: Value | None) -> bool:

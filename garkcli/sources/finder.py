@@ -103,6 +103,12 @@ class TableFinder(Evaluator):
             key = (table.A, table.b, table.c, table.line, table.name)
             self.allowance.table(table, is_kept=key not in found)
             found.setdefault(key, table)
+        for scope in self.given_up:
+            assigned = tuple(x.target for x in ir.inside(scope.body) if isinstance(x, ir.Assign))
+            names = (x.name for x in ir.inside(assigned) if isinstance(x, ir.Name | ir.Field))
+            roles = {told[1] for told in map(role_of, names) if told}
+            if {"A", "b"} <= roles or CONSTRUCTOR.fullmatch(scope.name):
+                self._unread(scope.name, scope.line, "it takes too much work to read")
         tables = [*found.values(), *self._other.values()]
         sure = {(x.A, x.b) for x in tables if x.is_sure and x.b}
         kept = [x for x in tables if x.is_sure or not x.b or (x.A, x.b) not in sure]

@@ -8,9 +8,7 @@ from collections.abc import Callable
 from garkcli.sources import ir
 from garkcli.sources.allowance import Allowance
 from garkcli.sources.finder import TableFinder
-from garkcli.sources.found import FoundTable, troubled
-from garkcli.sources.naming import role_of
-from garkcli.sources.signatures import CONSTRUCTOR
+from garkcli.sources.found import FoundTable
 
 HINTS = re.compile(
     r"tableau|butcher|runge.?kutta|register|embedd|order|weights|nodes"
@@ -50,13 +48,4 @@ def tables_in(
     allowance = Allowance(len(text))
     finder = TableFinder(source, format, base, allowance, is_growing, has_whole_quotients)
     finder.module(lowered(text))
-    found = finder.tables()
-    for scope in finder.given_up:
-        assigned = (x.target for x in ir.inside(scope.body) if isinstance(x, ir.Assign))
-        names = (x.name for x in ir.inside(tuple(assigned)) if isinstance(x, ir.Name | ir.Field))
-        roles = {told[1] for told in map(role_of, names) if told}
-        if not ({"A", "b"} <= roles or CONSTRUCTOR.fullmatch(scope.name)):
-            continue
-        place = FoundTable(source, scope.line, format, scope.name, (), ())
-        found.append(troubled(place, "it takes too much work to read"))
-    return found
+    return finder.tables()
