@@ -238,8 +238,7 @@ class Domain:
 
     def _rational_value(self, expression: Expression) -> fmpq:
         value = self.evaluate(expression)
-        if isinstance(value, Algebraic):
-            raise TypeError("an irrational value where a rational one is due")
+        assert not isinstance(value, Algebraic)
         return value
 
     def _quadratic(self, roots: list[Radical]) -> bool:

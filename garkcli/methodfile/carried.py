@@ -61,8 +61,7 @@ def parameter_names(text: str, source: str) -> list[str]:
 
 def _entries(method: MethodFile) -> list[tuple[Node, Node]]:
     root = Source(method.source, method.text).compose()
-    if root is None:
-        raise ValueError("the text of a method file")
+    assert root is not None
     return list(root.value)
 
 

@@ -31,11 +31,8 @@ def key_nodes(node: Node) -> dict[str, ScalarNode]:
 
 def key_of(root: MappingNode, value: Node) -> Node:
     """The key of a value, as it is in the file."""
-    for key, other in root.value:
-        if other is value:
-            found: Node = key
-            return found
-    raise LookupError("the value is none of the mapping")
+    found: Node = next(key for key, other in root.value if other is value)
+    return found
 
 
 def extent(text: str, first: Node, last: Node) -> Extent:

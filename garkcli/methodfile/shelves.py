@@ -193,8 +193,7 @@ def _resource(file: str) -> bytes:
     from pkgutil import get_data
 
     data = get_data("garkcli", file)
-    if data is None:
-        raise FileNotFoundError(file)
+    assert data is not None
     return data
 
 

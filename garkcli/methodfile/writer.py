@@ -110,8 +110,7 @@ def _rounded_tableau(tableau: Tableau, entries: Entries) -> Tableau:
 
 
 def _rounded(cell: Cell, digits: int) -> fmpq:
-    if not isinstance(cell, arb):
-        raise TypeError("an enclosure is rounded, not an exact number")
+    assert isinstance(cell, arb)
     if cell.contains(0):
         return fmpq(0)
     return read_decimal(cell.str(digits, radius=False))

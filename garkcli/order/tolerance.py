@@ -53,8 +53,7 @@ def rounded_up(size: arb) -> fmpq:
 
 def _whole(number: arb) -> int:
     whole = number.unique_fmpz()
-    if whole is None:
-        raise ArithmeticError(f"{number} is no whole number")
+    assert whole is not None
     return int(whole)
 
 

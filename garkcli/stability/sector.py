@@ -144,9 +144,7 @@ def _squared_on_ray(p: Polynomial, c: Number) -> Polynomial:
 
 def _is_bounded_at(R: StabilityFunction, c: fmpq) -> bool:
     """Whether |R| ≤ 1 on the whole ray with cos φ = c, decided exactly."""
-    ray = _on_ray(R, c)
-    if not ray:
-        return True
+    ray = _on_ray(R, c)  # not zero: |R| = 1 on a ray with rational cos φ > 0 alone means R = 1
     if sign(ray.leading) < 0:
         return False
     poles = _squared_on_ray(R.denominator, c)

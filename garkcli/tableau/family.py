@@ -110,16 +110,9 @@ NAME = "_node"
 
 
 def ring_of(tableau: Tableau) -> Parameters:
-    """The ring of the coefficients of a family; one of them at least is no number.
-
-    Raises:
-        TypeError: all of them are numbers.
-    """
+    """The ring of the coefficients of a family; one of them at least is no number."""
     numbers: Iterable[object] = chain.from_iterable(tableau.rows)
-    for x in numbers:
-        if isinstance(x, Parametric):
-            return x.ring
-    raise TypeError("no coefficient depends on a parameter")
+    return next(x.ring for x in numbers if isinstance(x, Parametric))
 
 
 def family_in_points(tableau: Tableau, ring: Parameters) -> Tableau | None:
