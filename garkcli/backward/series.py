@@ -23,8 +23,6 @@ from collections.abc import Iterator, Sequence
 from math import factorial
 from typing import TypeAlias
 
-from flint import fmpq
-
 from garkcli.errors import UsageProblem
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Vector, apply, dot
@@ -213,17 +211,13 @@ def elementary_weights(tableau: Tableau, forest: Forest) -> list[Number]:
     return weights
 
 
-def exact_weights(forest: Forest) -> list[Number]:
-    """1/γ(u), the B-series of the exact flow."""
-    return [fmpq(1, tree.density) for tree in forest.trees]
-
-
 def logarithm(forest: Forest, a: Coefficients) -> list[Number]:
     """The b with B(a, y) the flow of B(b, y): the modified vector field of a method, times h.
 
+    >>> from flint import fmpq
     >>> from garkcli.ntrees.count import Admissible
     >>> forest = Forest.of(Admissible.of(1), 4)
-    >>> logarithm(forest, exact_weights(forest))
+    >>> logarithm(forest, [fmpq(1, u.density) for u in forest.trees])  # the exact flow
     [1, 0, 0, 0, 0, 0, 0, 0]
     >>> logarithm(forest, [1, 0, 0, 0, 0, 0, 0, 0])  # the explicit Euler method
     [1, -1/2, 1/6, 1/3, 0, -1/12, -1/6, -1/4]
@@ -232,16 +226,6 @@ def logarithm(forest: Forest, a: Coefficients) -> list[Number]:
     for number, weight in enumerate(a):
         powers.add(number, weight - powers.sum_of_higher(number))
     return powers.field
-
-
-def exponential(forest: Forest, b: Coefficients) -> list[Number]:
-    """The a with B(a, y) the flow of B(b, y) over the time 1."""
-    powers = _Powers(forest)
-    weights: list[Number] = []
-    for number, coefficient in enumerate(b):
-        weights.append(coefficient + powers.sum_of_higher(number))
-        powers.add(number, coefficient)
-    return weights
 
 
 class _Powers:

@@ -258,15 +258,6 @@ def interpolated(points: Sequence[fmpq], values: Sequence[Number]) -> Polynomial
     return result
 
 
-def resultant(a: Polynomial, b: Polynomial) -> Number:
-    """The resultant of two polynomials ≠ 0.
-
-    >>> resultant(Polynomial([-1, 1]), Polynomial([-3, 1]))
-    -2
-    """
-    return subresultant(a, b, 0)
-
-
 def subresultant(a: Polynomial, b: Polynomial, k: int) -> Number:
     """The principal subresultant coefficient of index k of a and b, deg a ≥ deg b, by Euclid.
 

@@ -14,12 +14,6 @@ from flint import arb, ctx, fmpq
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import Algebraic, Number
 
-FIRST_BITS = 128
-"""Precision at which values at irrational nodes are compared first; doubled until they tell."""
-MOST_BITS = 8192
-"""Precision at which a value at an irrational node that still cannot be distinguished from the
-tolerance counts as equal.
-"""
 TINY = fmpq(1, 10**6)
 """No larger residual counts as rounding, at any order."""
 UNNATURAL = fmpq(1, 1000)

@@ -126,17 +126,3 @@ def beside(left: Sequence[str], right: Sequence[str], gap: str = "   ") -> list[
         line = a.ljust(width) + gap + b
         lines.append(line.rstrip())
     return lines
-
-
-def padded(rows: Sequence[Sequence[str]], gap: str = "   ") -> list[str]:
-    """The same with the first column to the left, the others to the right.
-
-    >>> padded([["order", "4"], ["A", "12"]])
-    ['order    4', 'A       12']
-    """
-    first_width, *other_widths = _widths(rows)
-    lines = []
-    for first, *others in rows:
-        label = first.ljust(first_width)
-        lines.append(gap.join([label, *map(str.rjust, others, other_widths)]).rstrip())
-    return lines

@@ -75,11 +75,6 @@ def first_same_as_last(tableau: Tableau, tolerance: fmpq = ZERO) -> FirstSameAsL
     return FirstSameAsLast()
 
 
-def is_first_same_as_last(tableau: Tableau, tolerance: fmpq = ZERO) -> bool:
-    """Whether a method is FSAL."""
-    return first_same_as_last(tableau, tolerance).holds
-
-
 def new_value(tableau: Tableau) -> list[Vector]:
     """The rows, one per colour, of a stage that is the new value: the weights."""
     return [tuple(colour.b) for colour in tableau.colours]

@@ -158,23 +158,6 @@ class Shape(Frozen):
         return self.singly or self.kind
 
 
-def shape(tableau: Tableau, colour: int | None = None, tolerance: fmpq = ZERO) -> Shape:
-    """The shape of the whole tableau, or of the diagonal method of one colour.
-
-    Args:
-        tableau: the method.
-        colour: counted from 0; None for the whole method.
-        tolerance: the rounding of its coefficients; those that are 0 in the file are 0.
-
-    >>> from garkcli.families.registry import diagonal_method
-    >>> from garkcli.tableau.forms import gark
-    >>> shape(gark([diagonal_method("rk4", None)], {})).name
-    'explicit'
-    """
-    colours = None if colour is None else [colour]
-    return shape_of(stage_graph(tableau, colours, tolerance), tolerance)
-
-
 def shape_of(graph: StageGraph, tolerance: fmpq = ZERO) -> Shape:
     """The shape of the stages of a graph."""
     together = [tuple(sorted(found)) for found in graph.systems if len(found) > 1]

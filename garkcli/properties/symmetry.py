@@ -78,17 +78,6 @@ def symmetry(tableau: Tableau, tolerance: fmpq = ZERO) -> Symmetry:
     return Symmetry(None if tolerance and has_algebra else False)
 
 
-def is_symmetric(tableau: Tableau) -> bool | None:
-    """Whether a method is its own adjoint; None where too many renumberings would have to be tried.
-
-    >>> from garkcli.families.registry import diagonal_method
-    >>> from garkcli.tableau.forms import gark
-    >>> is_symmetric(gark([diagonal_method("gauss", 5)], {}))
-    True
-    """
-    return symmetry(tableau).holds
-
-
 def _turns_into_adjoint(tableau: Tableau, chosen: Sequence[Reflection], tolerance: fmpq) -> bool:
     """Whether S A^{k,m} S_m + A^{k,m} = 𝟙 b_mᵀ and b_m S_m = b_m for reflections S = S⁻¹."""
     for colour in tableau.colours:

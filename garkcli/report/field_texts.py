@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from functools import lru_cache
 from typing import Any
 
@@ -66,19 +66,3 @@ def _elsewhere() -> Mapping[str, str]:
     for claim in every_definition():
         found[claim.key] = found[claim.key.replace("-", "_")] = claim.text
     return found
-
-
-def fields_of(node: Any, path: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], Any]]:
-    """The path of each field of a schema, with the schema of its values."""
-    if isinstance(node, list):
-        for part in node:
-            yield from fields_of(part, path)
-    if not isinstance(node, dict):
-        return
-    for word, part in node.items():
-        if word == "properties":
-            for name, value in part.items():
-                yield (*path, name), value
-                yield from fields_of(value, (*path, name))
-        else:
-            yield from fields_of(part, path)

@@ -6,7 +6,7 @@ Nothing is coloured, so that a page is readable whatever its background; all tex
 from __future__ import annotations
 
 from html import escape
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 from garkcli.check.findings import witness_text
 from garkcli.exact.polynomial_text import integral
@@ -29,8 +29,6 @@ if TYPE_CHECKING:
 
 MAX_COLUMNS = 24
 """Most stages side by side; a larger tableau is named, not shown."""
-Fact: TypeAlias = tuple[str, str]
-"""A label and a text."""
 
 
 def method_latex(method: GarkMethod) -> str | None:

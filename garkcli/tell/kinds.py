@@ -290,7 +290,6 @@ def expression(text: Callable[[Any], str] = str, latex: Callable[[Any], str] | N
 
 
 EXPRESSION = expression()
-ROOT = Kind(ALGEBRAIC, lambda x, d: root_data(x, d.digits), lambda x, d: d.root(x))
 ROOTS = Kind(
     array(ALGEBRAIC),
     lambda xs, d: [root_data(x, d.digits) for x in xs],

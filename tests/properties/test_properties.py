@@ -19,10 +19,10 @@ from garkcli.frozen import replace
 from garkcli.methodfile.load import load, loads
 from garkcli.order.certificate import find_order
 from garkcli.properties.algebra_shape import shape_of_families
-from garkcli.properties.last_stage import is_first_same_as_last, is_stiffly_accurate
-from garkcli.properties.pattern import shape
+from garkcli.properties.last_stage import first_same_as_last, is_stiffly_accurate
+from garkcli.properties.pattern import Shape, shape_of, stage_graph
 from garkcli.properties.reduction import is_plainly_irreducible, reduced
-from garkcli.properties.symmetry import is_symmetric, symmetry
+from garkcli.properties.symmetry import symmetry
 from garkcli.stability.algebraic import negative_pivot
 from garkcli.stability.linear import stability_function
 from garkcli.tableau.forms import gark
@@ -62,6 +62,21 @@ def followed_by_adjoint(A: Rows, b: list[Fraction]) -> tuple[Rows, list[Fraction
     first = [[half * x for x in row] + [Fraction(0)] * s for row in A]
     second = [[half * x for x in b] + [half * x for x in row] for row in adjoint]
     return first + second, [half * x for x in b] + [half * x for x in weights]
+
+
+def is_symmetric(tableau: Tableau) -> bool | None:
+    """Whether a method is its own adjoint."""
+    return symmetry(tableau).holds
+
+
+def is_first_same_as_last(tableau: Tableau) -> bool:
+    """Whether a method is FSAL."""
+    return first_same_as_last(tableau).holds
+
+
+def shape(tableau: Tableau, colour: int | None = None) -> Shape:
+    """The shape of the whole tableau, or of the diagonal method of one colour."""
+    return shape_of(stage_graph(tableau, None if colour is None else [colour]))
 
 
 @given(methods())

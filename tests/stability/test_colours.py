@@ -13,7 +13,7 @@ from garkcli.exact.enclosing import root_count
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import SingularMatrixError, solve
 from garkcli.exact.multivariate import Multivariate
-from garkcli.exact.polynomial import Polynomial, gcd, resultant, subresultant
+from garkcli.exact.polynomial import Polynomial, gcd, subresultant
 from garkcli.exact.roots import real_roots
 from garkcli.methodfile.load import load, loads
 from garkcli.stability.damping import ImexPair, imex_pair
@@ -314,4 +314,3 @@ def test_subresultants_tell_the_degree_of_the_gcd(k: int) -> None:
     a, b = p * common, q * common
     assert gcd(a, b).degree == k
     assert [bool(subresultant(a, b, j)) for j in range(k + 1)] == [False] * k + [True]
-    assert resultant(a, b) == subresultant(a, b, 0)
