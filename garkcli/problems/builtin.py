@@ -12,7 +12,7 @@ from typing import TypeAlias
 from flint import fmpq
 
 from garkcli.errors import UsageProblem, did_you_mean
-from garkcli.frozen import Frozen, replace
+from garkcli.frozen import Frozen
 from garkcli.problems import stiff, textbook
 from garkcli.problems.generic import generic, generic_rhs, nystrom, semi_separable, separable
 from garkcli.problems.hamiltonian import Hamiltonian
@@ -48,7 +48,6 @@ class BuiltIn(Frozen):
         sees: which trees it sees, for people.
         make: makes it.
         takes_seed: whether its coefficients depend on the seed.
-        is_hamiltonian: whether it is; otherwise its terms are right-hand sides.
         stiff: makes it with a stiffness, where it has one to be chosen.
     """
 
@@ -58,13 +57,7 @@ class BuiltIn(Frozen):
     sees: str
     make: Maker
     takes_seed: bool = False
-    is_hamiltonian: bool = True
     stiff: StiffMaker | None = None
-
-    @property
-    def takes_stiffness(self) -> bool:
-        """Whether it has a stiffness to be chosen."""
-        return self.stiff is not None
 
 
 def mechanical(name: str, summary: str, formula: str, sees: str, made: Mechanical) -> BuiltIn:
@@ -82,7 +75,7 @@ def stiff_one(name: str, summary: str, formula: str, sees: str, made: StiffMaker
     def make(terms: int, _: int) -> RightHandSide:
         return made(terms, fmpq(1))
 
-    return replace(BuiltIn(name, summary, formula, sees, make, is_hamiltonian=False), stiff=made)
+    return BuiltIn(name, summary, formula, sees, make, stiff=made)
 
 
 def problem(name: str, terms: int, seed: int = 1, stiffness: fmpq | None = None) -> Problem:
@@ -114,8 +107,8 @@ def check_stiffness(name: str) -> None:
     Raises:
         UsageProblem: it would change nothing.
     """
-    if not built_in(name).takes_stiffness:
-        takers = ", ".join(x.name for x in PROBLEMS.values() if x.takes_stiffness)
+    if built_in(name).stiff is None:
+        takers = ", ".join(x.name for x in PROBLEMS.values() if x.stiff is not None)
         message = f"--stiffness is for the problems {takers}, not for {name}"
         raise UsageProblem(message, "leave it out, or choose one of these", code="other-problem")
 
@@ -185,7 +178,6 @@ _ENTRIES = (
         "ẏ = y − y²: y and the rest",
         "all, with at most 2 branches at a vertex of the rest, 1 at the first",
         textbook.logistic,
-        is_hamiltonian=False,
     ),
     BuiltIn(
         "lotka-volterra",
@@ -193,7 +185,6 @@ _ENTRIES = (
         "u̇ = u (1 − v), v̇ = v (u − 1): u̇ and the rest",
         "all, with at most 2 branches at a vertex",
         textbook.lotka_volterra,
-        is_hamiltonian=False,
     ),
     mechanical(
         "oscillator",
@@ -327,7 +318,6 @@ _ENTRIES = (
         "all, with at most 7 branches at a vertex",
         generic_rhs,
         takes_seed=True,
-        is_hamiltonian=False,
     ),
 )
 PROBLEMS: Mapping[str, BuiltIn] = {entry.name: entry for entry in _ENTRIES}

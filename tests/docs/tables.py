@@ -14,7 +14,7 @@ from garkcli.glossary.key import Key, keys_of
 from garkcli.glossary.term import PAPER, Term
 from garkcli.properties.definitions import every_definition
 from garkcli.properties.registry import KEYS
-from garkcli.report.field_texts import REFERENCES, fields_of
+from garkcli.report.field_texts import REFERENCES
 from garkcli.report.schemas import REPORTS, report_schema
 
 
@@ -225,6 +225,22 @@ def _choices(schema: Any) -> Iterator[dict[str, Any]]:
 
 
 _ENDINGS = {x: text for x, text in read("fields").items() if x.startswith("_")}
+
+
+def fields_of(node: Any, path: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], Any]]:
+    """The path of each field of a schema, with the schema of its values."""
+    if isinstance(node, list):
+        for part in node:
+            yield from fields_of(part, path)
+    if not isinstance(node, dict):
+        return
+    for word, part in node.items():
+        if word == "properties":
+            for name, value in part.items():
+                yield (*path, name), value
+                yield from fields_of(value, (*path, name))
+        else:
+            yield from fields_of(part, path)
 
 
 def _fields_table() -> str:

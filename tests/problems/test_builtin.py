@@ -52,7 +52,6 @@ def test_entries_are_whole(entry: BuiltIn, terms: int) -> None:
     assert problem.name == entry.name
     assert len(problem.terms) == terms
     assert len(problem.initial) == problem.layout.unknowns
-    assert isinstance(problem, Hamiltonian) is entry.is_hamiltonian
     assert entry.make(terms, 1) == problem
     assert (entry.make(terms, 2) != problem) is entry.takes_seed
     if not entry.takes_seed:

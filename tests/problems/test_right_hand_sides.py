@@ -97,7 +97,7 @@ def test_steepness() -> None:
 def test_stiffness_is_for_those_that_have_one() -> None:
     """Others refuse it, and say which have one."""
     for entry in PROBLEMS.values():
-        if entry.takes_stiffness:
+        if entry.stiff is not None:
             assert rhs(entry.name, 2, 7).stiffness == 7
         else:
             with pytest.raises(UsageProblem, match="for the problems dahlquist"):

@@ -12,22 +12,7 @@ from garkcli.glossary import read
 from garkcli.glossary.fields import ORDERS, field_entries
 from garkcli.report.field_texts import text_of
 from garkcli.report.schemas import REPORTS, report_schema
-
-
-def fields_of(node: Any, path: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], Any]]:
-    """The path of each field of a schema, with the schema of its values."""
-    if isinstance(node, list):
-        for part in node:
-            yield from fields_of(part, path)
-    if not isinstance(node, dict):
-        return
-    for word, part in node.items():
-        if word == "properties":
-            for name, value in part.items():
-                yield (*path, name), value
-                yield from fields_of(value, (*path, name))
-        else:
-            yield from fields_of(part, path)
+from tests.docs.tables import fields_of
 
 
 @pytest.fixture(scope="module")
