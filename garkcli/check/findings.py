@@ -166,8 +166,9 @@ def names_of(colours: Sequence[int], names: Sequence[str]) -> tuple[str, ...]:
 def value_text(number: Number, digits: int = 17) -> Formula | str:
     """An entry as files have them: short ones exactly, decimals in full, others to some digits."""
     text = shortest(number)
-    is_told = len(text) <= _SHORT or (isinstance(number, fmpq) and "." in text)
-    return Formula(text) if is_told else to_decimal(number, digits)
+    if isinstance(number, fmpq) and "." in text:
+        return text
+    return Formula(text) if len(text) <= _SHORT else to_decimal(number, digits)
 
 
 CLAIM = "write what holds under expect: gark claims FILE --write"

@@ -4,7 +4,7 @@ met.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any, Literal, cast
 
 from flint import fmpq
@@ -207,7 +207,8 @@ class Reader(Reading):
             from garkcli.methodfile.wishes import read_wishes  # few files have it
 
             self.wishes = read_wishes(self, self.design)
-        self._refuse_unused()
+        if self.content.shaped is not None:
+            self._refuse_unused(self.content.shaped.layout.unknowns)
         if tolerance is None and isinstance(found.content, d.ConstructionText):
             tolerance = found.content.tolerance
         reference, bibliography = said.get("reference", ("", None))
@@ -222,13 +223,10 @@ class Reader(Reading):
             bibliography=bibliography,
         )
 
-    def _refuse_unused(self) -> None:
+    def _refuse_unused(self, unknowns: Iterable[str]) -> None:
         """Note parameters beside a shape that are none of its unknowns, and that nothing uses."""
-        if self.shaped is None:
-            return
-        numbers, unknowns = self.numbers, self.shaped.layout.unknowns
-        for name, node in numbers.places.items():
-            if name not in numbers.used:
+        for name, node in self.numbers.places.items():
+            if name not in self.numbers.used:
                 message = f"parameters: {name} is no unknown of the shape, and nothing uses it"
                 cure = did_you_mean(name, unknowns)
                 self.source.fault(node, message, cure, code="unknown-word")

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
+from flint import fmpq
+
 from garkcli.exact.display import shortest, to_decimal
 from garkcli.exact.field import Number
 from garkcli.properties.pattern import Vertex
@@ -18,7 +20,9 @@ _SHORT = 24
 def number_words(number: Number) -> Formula | str:
     """A number as it is, or its first digits."""
     text = shortest(number)
-    return Formula(text) if len(text) <= _SHORT else f"about {to_decimal(number, 6)}"
+    if len(text) > _SHORT:
+        return f"about {to_decimal(number, 6)}"
+    return text if isinstance(number, fmpq) and "." in text else Formula(text)
 
 
 def entry(tableau: Tableau, space: int, m: int, i: int, j: int) -> Place:

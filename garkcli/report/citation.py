@@ -14,7 +14,7 @@ from garkcli.page.plain import printable
 from garkcli.reference import ARXIV, Reference
 from garkcli.tell.facts import Level, Row, Section, maybe, optional
 from garkcli.tell.kinds import TEXT, TEXTS
-from garkcli.tell.parts import SAID, part, parts, shown
+from garkcli.tell.parts import BESIDE, part, parts, shown
 from garkcli.tell.report import FORMATS as TOLD
 from garkcli.tell.report import Report
 
@@ -252,7 +252,7 @@ CITED = Section(
 LINE = Section(
     Row("methods", TEXTS, label=""),
     Row("reference", TEXT, lambda x: x.text or "no reference in its file"),
-    *(Row(name, SAID, of_reference(name), Level.DETAIL) for name in ("doi", "coefficients")),
+    *(Row(name, BESIDE, of_reference(name), Level.DETAIL) for name in ("doi", "coefficients")),
 )
 REPORT: Report[Sequence[Cited]] = Report.only(
     "gark/cite/1",

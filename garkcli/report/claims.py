@@ -28,6 +28,8 @@ class Claims(NamedTuple):
 
 
 def _claim_rows(found: TrueClaims, d: Plain) -> list[tuple[str, str]]:
+    if d.breadth != "page" and not d.is_brief:
+        return [*_how(found, d)]
     return [(d.prose(key), d.prose(value)) for key, value in found.claims.items()]
 
 
@@ -52,8 +54,7 @@ FILE = Section(
         for row in (
             Row("file", TEXT, level=DATA),
             Row("claims", parts(CLAIM), lambda x: list(x.claims.items()), DATA),
-            Row("claims_in_words", rows_of(_claim_rows), ".", is_short=True),
-            Row("how", rows_of(lambda x, d: [*_how(x, d)]), ".", Level.DETAIL),
+            Row("claims_in_words", rows_of(_claim_rows), "."),
             Row("not_claimed", TEXTS, lambda x: list(x.left)),
         )
     ),

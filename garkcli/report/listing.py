@@ -15,7 +15,7 @@ from garkcli.frozen import replace
 from garkcli.problems.builtin import PROBLEMS, BuiltIn
 from garkcli.tell.facts import Level, Row, Section
 from garkcli.tell.kinds import TEXT, TEXTS, TRUTH
-from garkcli.tell.parts import SAID, parts, sentence, shown, table
+from garkcli.tell.parts import BESIDE, parts, sentence, shown, table
 from garkcli.tell.report import ListReport, Report
 from garkcli.transfer import PAIR_RULES, SUMMARIES
 
@@ -67,19 +67,19 @@ FAMILY = Section(
     Row("options", parts(OPTION), lambda x: [*chosen_by(x)], DATA),
     Row("order", TEXT),
     Row("summary", TEXT),
-    Row("options", SAID, _key_words, DETAIL),
-    Row("reference", SAID, lambda x: str(x.reference), DETAIL),
+    Row("options", BESIDE, _key_words, DETAIL),
+    Row("reference", BESIDE, lambda x: str(x.reference), DETAIL),
 )
 RULE = Section(
     NAME,
     Row("summary", TEXT, "1"),
-    Row("blocks", SAID, lambda x: "both" if x[0] in PAIR_RULES else "one", DETAIL),
+    Row("blocks", BESIDE, lambda x: "both" if x[0] in PAIR_RULES else "one", DETAIL),
 )
 PROBLEM = Section(
     Row("name", TEXT, label=""),
     Row("summary", TEXT),
-    Row("formula", SAID, level=DETAIL),
-    Row("trees", SAID, "sees", DETAIL),
+    Row("formula", BESIDE, level=DETAIL),
+    Row("trees", BESIDE, "sees", DETAIL),
 )
 TOPIC = Section(Row("name", TEXT, "0", label=""), Row("count", TEXT, "1"), Row("see", TEXT, "2"))
 SCHEME = Section(

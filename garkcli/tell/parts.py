@@ -25,6 +25,9 @@ def told(words: Words, phrase: Callable[[str, Answer, Plain], str] | None = None
 SAID = Kind({}, words=lambda text, d: d.prose(text), is_data=False)
 """Words for people alone."""
 
+BESIDE = told(lambda text, d: "" if d.breadth == "page" else d.prose(text))
+"""Words for which documents have no room."""
+
 
 def answer(words: Words, get: Getter = ".") -> Row:
     """The answer, in the first line."""
