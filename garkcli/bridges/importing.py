@@ -13,6 +13,7 @@ from garkcli.errors import ExpressionError, printable
 from garkcli.exact.display import decimal
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
+from garkcli.exact.field import Number
 from garkcli.exact.nodes import Literal
 from garkcli.methodfile.writer import quoted
 from garkcli.page.plaintext import plain_line
@@ -43,11 +44,19 @@ def place_of(table: FoundTable) -> str:
 
 def fmpq_of(text: str) -> fmpq:
     """A rational number; 0 for anything else."""
-    try:
-        value = Domain([parse(text)]).evaluate(parse(text))
-    except ExpressionError:
-        return fmpq(0)
+    value = _value(text)
     return value if isinstance(value, fmpq) else fmpq(0)
+
+
+def _value(text: str) -> Number | None:
+    """The number that a text is; None where it is none."""
+    try:
+        expression = parse(text)
+        if isinstance(expression, Literal):
+            return expression.value
+        return Domain([expression]).evaluate(expression)
+    except ExpressionError:
+        return None
 
 
 def written(table: FoundTable, name: str, tolerance: fmpq | None, claims: Mapping[str, str]) -> str:
@@ -164,13 +173,7 @@ def fraction_of(text: str) -> str:
     """The fraction that a text without long decimals and without roots is; empty for others."""
     if _LONG.search(_TAIL.sub("", text)) and not _is_quotient(text):
         return ""
-    try:
-        expression = parse(text)
-        if isinstance(expression, Literal):
-            return str(expression.value)
-        value = Domain([expression]).evaluate(expression)
-    except ExpressionError:
-        return ""
+    value = _value(text)
     return str(value) if isinstance(value, fmpq) else ""
 
 

@@ -13,7 +13,6 @@ from pathlib import PurePath
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from garkcli.bridges.comments import BANG, HASH, PERCENT, STARRED, XML, C, Comment, head
-from garkcli.bridges.lines import COLUMNS, filled
 from garkcli.bridges.numbers import Style
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.trials import STEPS, command_of, trial_of
@@ -42,7 +41,7 @@ class Language(Frozen):
     names: str
     joint: str = ", "
     continuation: str = ""
-    width: int = COLUMNS
+    width: int = 88
 
 
 _PYTHON = Language(HASH, "python")
@@ -126,8 +125,7 @@ def _given(
         return [*map(str, before), *payload.numbers(cells, style)]
 
     def listed(begin: str, items: Sequence[str], end: str) -> str:
-        joint, continuation = language.joint, language.continuation
-        return "\n".join(filled(items, begin, end, joint, continuation, language.width))
+        return "\n".join(filled(language, begin, items, end))
 
     def row(begin: str, cells: Row, end: str) -> str:
         return listed(begin, texts(cells), end)
@@ -154,6 +152,24 @@ def _given(
         "embedded_order": orders.embedded,
         **{name: getattr(payload, name) for name in _OF_METHOD},
     }
+
+
+def filled(language: Language, begin: str, items: Sequence[str], end: str) -> list[str]:
+    """Items one after the other in as few lines as hold them, those behind the first indented as
+    far as its begin; one that is too long has its own.
+
+    >>> filled(Language(HASH, "python", width=12), "x = [", ["1", "22", "333"], "]")
+    ['x = [1, 22,', '     333]']
+    """
+    room = language.width - len(language.continuation)
+    lines = [begin]
+    for place, item in enumerate(items, start=1):
+        piece = item + (end if place == len(items) else language.joint)
+        if place > 1 and len(lines[-1]) + len(piece.rstrip()) > room:
+            lines[-1] = lines[-1].rstrip() + language.continuation
+            lines.append(" " * len(begin))
+        lines[-1] += piece
+    return [*lines[:-1], (lines[-1] if items else begin + end).rstrip()]
 
 
 @cache

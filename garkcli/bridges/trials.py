@@ -19,25 +19,41 @@ class Trial(Frozen):
     """A problem with two unknowns.
 
     Attributes:
-        name: of the problem file.
+        name: of the problem.
         sides: the right-hand sides, a pair of formulas each, with ``{y1}``, ``{y2}``, ``{t}``,
             ``{sin}`` and ``{cos}`` in them; of the separable one q' and p' of (q, p).
-        file: the text of the problem file.
         t_end: where the errors are measured.
         final: the solution there, correct to all digits.
+        hamiltonian: the terms of the separable one, in x and px.
     """
 
     name: str
     sides: tuple[tuple[str, str], ...]
-    file: str
     t_end: int
     final: tuple[str, str]
     initial: tuple[str, str] = ("1.2", "0.4")
+    hamiltonian: tuple[str, ...] = ()
 
     def formulas(self, side: int, words: Mapping[str, str]) -> tuple[str, str]:
         """A right-hand side in a language: words for y1, y2, t, sin and cos."""
         first, second = self.sides[side]
         return first.format(**words), second.format(**words)
+
+    @property
+    def file(self) -> str:
+        """The text of its problem file."""
+        words = {x: x for x in ("y1", "y2", "t", "sin", "cos")}
+        sides = [self.formulas(side, words) for side in range(len(self.sides))]
+        form, q, p = ("hamiltonian", "x", "px") if self.hamiltonian else ("rhs", "y1", "y2")
+        lines = [
+            f"name: {self.name}",
+            f"variables: [{'x' if self.hamiltonian else 'y1, y2'}]",
+            f"{form}:",
+            *(f"  - {x}" for x in self.hamiltonian or [f"{{y1: {a}, y2: {b}}}" for a, b in sides]),
+            f"initial: {{{q}: {self.initial[0]}, {p}: {self.initial[1]}}}",
+            f"t_end: {self.t_end}",
+        ]
+        return "".join(f"{x}\n" for x in lines)
 
     @property
     def step_sizes(self) -> str:
@@ -48,50 +64,24 @@ class Trial(Frozen):
 WORDS = {"y1": "y[0]", "y2": "y[1]", "t": "t", "sin": "sin", "cos": "cos", "zero": "0.0"}
 """As C, Python and others with arrays from 0 have them."""
 CPP_WORDS = {**WORDS, "sin": "std::sin", "cos": "std::cos"}
-_START = "initial: {y1: 6/5, y2: 2/5}"
 WHOLE = Trial(
-    name="whole",
+    name="one right-hand side, with time in it",
     sides=(("{y2}*{cos}({t})", "-{sin}({y1})"),),
-    file=f"""\
-name: one right-hand side, with time in it
-variables: [y1, y2]
-rhs:
-  - {{y1: y2*cos(t), y2: -sin(y1)}}
-{_START}
-t_end: 2
-""",
     t_end=2,
     final=("1.17800823846054054133145213501406815", "-1.43877953451330962805445307202278551"),
 )
 SPLIT = Trial(
-    name="split",
+    name="two right-hand sides",
     sides=(("{y2}", "0.3*{sin}({y1})*{y2}"), ("-0.5*{y1}*{y2}", "(1.0 - {y1}*{y1})*{y2} - {y1}")),
-    file=f"""\
-name: two right-hand sides
-variables: [y1, y2]
-rhs:
-  - {{y1: y2, y2: 3/10*sin(y1)*y2}}
-  - {{y1: -y1*y2/2, y2: (1 - y1**2)*y2 - y1}}
-{_START}
-t_end: 1
-""",
     t_end=1,
     final=("1.11251631371073201960701475776329010", "-0.78381339848673613949632823473644073"),
 )
 SEPARABLE = Trial(
-    name="separable",
+    name="a pendulum",
     sides=(("{y2}", "-{sin}({y1})"),),
-    file="""\
-name: a pendulum
-variables: [x]
-hamiltonian:
-  - px**2/2
-  - -cos(x)
-initial: {x: 6/5, px: 2/5}
-t_end: 2
-""",
     t_end=2,
     final=("0.20358087395061007056665965504276729", "-1.18067026009027434070547740953813522"),
+    hamiltonian=("px**2/2", "-cos(x)"),
 )
 TRIALS = (WHOLE, SPLIT, SEPARABLE)
 
