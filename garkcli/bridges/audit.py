@@ -146,27 +146,23 @@ def audited(
 
 def _done(path: str, orders: Mapping[str, int]) -> list[Audited] | Exception:
     """The tables of one source, or what kept it from being read: both travel between processes."""
+    found = []
     try:
         with doing(path):
-            return _audited(path, orders)
+            text, source = source_text(path)
+            lines = text.split("\n")
+            for table in find_tables(text, source, readers_for(path)):
+                if not (table.order or table.kind):
+                    said = order_said_of(lines, table.line)
+                    table = replace(table, order=order_of(table, orders), said_order=said)
+                found.append(audit(table))
     except Exception as error:
         return error
+    return [x for x in found if x is not None]
 
 
 def _lost(path: str, why: str) -> list[Audited] | Exception:
     return WorkerLost(f"the audit of {path} was ended {why}", "use fewer --jobs")
-
-
-def _audited(path: str, orders: Mapping[str, int]) -> list[Audited]:
-    """The tables of one source."""
-    text, source = source_text(path)
-    found, lines = [], text.split("\n")
-    for table in find_tables(text, source, readers_for(path)):
-        if not (table.order or table.kind):
-            said = order_said_of(lines, table.line)
-            table = replace(table, order=order_of(table, orders), said_order=said)
-        found.append(audit(table))
-    return [x for x in found if x is not None]
 
 
 def audit(table: FoundTable) -> Audited | None:

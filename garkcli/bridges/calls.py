@@ -9,12 +9,13 @@ from typing import TypeAlias
 from garkcli.api.anymethod import AnyMethod, method_of, refuse_rounded
 from garkcli.api.numbers import Whole, whole
 from garkcli.bridges.audit import Audited, audited
-from garkcli.bridges.collecting import Result, collected, no_one
+from garkcli.bridges.collecting import Result, collected
 from garkcli.bridges.preparing import prepared
 from garkcli.bridges.readers.registry import reader_named
 from garkcli.bridges.registry import bridge_named
 from garkcli.bridges.sources import source_files
 from garkcli.methodfile.build import MethodFile
+from garkcli.methodfile.reading import no_one
 from garkcli.sources.found import FoundTable
 
 AnyPath: TypeAlias = "str | os.PathLike[str]"

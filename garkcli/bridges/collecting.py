@@ -15,6 +15,7 @@ from garkcli.bridges.subject import Subject, imported
 from garkcli.errors import MethodFileError
 from garkcli.exact.display import decimal
 from garkcli.frozen import Frozen, replace
+from garkcli.methodfile.reading import no_one
 from garkcli.page.plaintext import plain_line
 from garkcli.sources.found import FoundTable, Reader
 
@@ -62,11 +63,6 @@ class Result(Frozen, eq=False):
             yield f"its digits do not decide whether it has order {found + 1}"
         if self.recognised is not None:
             yield from self.recognised.notes()
-
-
-def no_one(table: FoundTable) -> None:
-    """Nobody hears of what is left out."""
-    del table
 
 
 def collected(

@@ -114,14 +114,6 @@ class Payload(Frozen, eq=False, kw_only=True):
         """The name as ASCII letters, digits and underscores, for what is put behind ``gark_``."""
         return names.stem_of(self.name)
 
-    def identifier(self, language: str) -> str:
-        """The name as one of a language, which its files do not have for anything else."""
-        return names.identifier(self.name, language)
-
-    def class_name(self, language: str = "python") -> str:
-        """The same as the name of a class: ``RalstonEuler``."""
-        return names.class_name(self.name, language)
-
     def number(self, x: Cell, style: Style = EXACT) -> str:
         """An entry in the style of a language, with the digits that were requested.
 

@@ -76,8 +76,8 @@ class Bridge(Frozen):
     Attributes:
         name: on the command line.
         summary: half a line.
-        kinds: the forms of methods that it can hold, some of them under conditions.
         suffix: of its files.
+        kinds: the forms of methods that it can hold, some of them under conditions.
         style: of its numbers.
         stages: which it computes.
         several: what it is given of several vector fields: ``as they are`` the blocks of the
@@ -97,8 +97,8 @@ class Bridge(Frozen):
 
     name: str
     summary: str
-    kinds: tuple[Kind, ...]
     suffix: str
+    kinds: tuple[Kind, ...] = ("rk",)
     style: Style = DECIMALS
     stages: Stages = "any"
     several: Literal["as they are", "shared", "pair"] = "as they are"

@@ -13,6 +13,7 @@ from typing import TypeAlias
 from flint import arb, ctx, fmpq
 
 from garkcli.exact.display import to_ball
+from garkcli.exact.enclosing import midpoint
 from garkcli.exact.field import ZERO, Number
 
 Cell: TypeAlias = Number | arb
@@ -31,18 +32,8 @@ class TooWide(ArithmeticError):
 
 def ends(ball: arb) -> tuple[fmpq, fmpq]:
     """The ends of a ball, which are rational."""
-    middle = _exact(ball.mid())
-    radius = _exact(ball.rad())
+    middle, radius = midpoint(ball), midpoint(ball.rad())
     return middle - radius, middle + radius
-
-
-def _exact(point: arb) -> fmpq:
-    """A ball of radius 0 as a fraction."""
-    mantissa, exponent = point.man_exp()
-    power = int(exponent)
-    if power >= 0:
-        return fmpq(mantissa * 2**power)
-    return fmpq(mantissa, 2**-power)
 
 
 def significant(x: fmpq, digits: int) -> Decimal:

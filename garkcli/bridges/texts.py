@@ -13,6 +13,7 @@ from pathlib import PurePath
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from garkcli.bridges.comments import BANG, HASH, PERCENT, STARRED, XML, C, Comment, head
+from garkcli.bridges.names import class_name, identifier
 from garkcli.bridges.numbers import Style
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.trials import STEPS, command_of, trial_of
@@ -145,8 +146,8 @@ def _given(
         "listed": listed,
         "row": row,
         "matrix": matrix,
-        "name": payload.identifier(language.names),
-        "class_name": payload.class_name(language.names),
+        "name": identifier(payload.name, language.names),
+        "class_name": class_name(payload.name, language.names),
         "order": orders.order,
         "effective": orders.effective,
         "embedded_order": orders.embedded,

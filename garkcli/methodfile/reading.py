@@ -117,9 +117,9 @@ SUFFIX = ".gark.yaml"
 """How method files end."""
 
 
-def no_one(text: str) -> None:
+def no_one(told: object) -> None:
     """Who hears where nobody asks."""
-    del text
+    del told
 
 
 def files_below(folder: str, told: Callable[[str], None] = no_one) -> list[str]:

@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garkcli.bridges.cannot import CannotExport
+from garkcli.bridges.names import class_name
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.preparing import prepared
 from garkcli.bridges.registry import bridges
@@ -170,7 +171,7 @@ def test_a_file_is_named_without_its_folder(tmp_path: Path) -> None:
     payload = prepared(load(str(path)))
     assert payload.name == "my method"
     assert payload.stem == "my_method"
-    assert payload.class_name() == "MyMethod"
+    assert class_name(payload.name) == "MyMethod"
 
 
 def test_tables_know_their_last_stage() -> None:

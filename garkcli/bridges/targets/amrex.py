@@ -8,7 +8,6 @@ BRIDGES = (
     Bridge(
         name="amrex",
         summary="AMReX: lines of an inputs file, explicit methods",
-        kinds=("rk",),
         suffix=".inputs",
         stages="explicit",
     ),

@@ -12,7 +12,6 @@ BRIDGES = (
     Bridge(
         name="boost",
         summary="Boost.Odeint: a header of C++, explicit methods",
-        kinds=("rk",),
         suffix=".hpp",
         stages="explicit",
         words=CPP_WORDS,

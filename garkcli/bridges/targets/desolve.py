@@ -17,7 +17,6 @@ BRIDGES = (
     Bridge(
         name="desolve",
         summary="deSolve of R: a method for rk, explicit methods",
-        kinds=("rk",),
         suffix=".R",
         style=R,
         stages="explicit",

@@ -9,7 +9,6 @@ BRIDGES = (
     Bridge(
         name="irksome",
         summary="Irksome: a module with a ButcherTableau",
-        kinds=("rk",),
         suffix=".py",
         style=PYTHON,
     ),

@@ -69,11 +69,6 @@ def _texts(payload: Payload, cells: Any) -> Any:
     return None if cells is None else payload.number(cells, style_of(payload))
 
 
-def _tolerance(payload: Payload) -> str | None:
-    tolerance = payload.tolerance
-    return None if tolerance is None else decimal(tolerance)
-
-
 _COLOUR: Record[Colour] = Record(
     Field("name", TEXT, lambda x: x.name),
     Field("term", POSITION, lambda x: x.term + 1),
@@ -95,7 +90,9 @@ _REPORT: Record[Payload] = Record(
     Field("order", COUNT, lambda x: x.orders.order),
     Field("embedded_order", nullable(COUNT), lambda x: x.orders.embedded),
     Field("nonautonomous_order", nullable(COUNT), lambda x: x.orders.nonautonomous),
-    Field("tolerance", nullable(TEXT), _tolerance),
+    Field(
+        "tolerance", nullable(TEXT), lambda x: None if x.tolerance is None else decimal(x.tolerance)
+    ),
     Field("reference", nullable(TEXT), lambda x: x.reference or None),
     Field("exact", FLAG, lambda x: x.is_exact and x.digits is None),
     _COLOUR.every("colours", lambda x: x.tableau.colours),

@@ -76,8 +76,7 @@ def low_storage(payload: Payload, tables: Sequence[Table]) -> Values:
             "julia and ordinarydiffeq have all explicit methods",
         )
     A, B = form
-    rows = {"A": tuple(fmpq(x) if x == 0 else x for x in A), "B": tuple(B), "C": found.c}
-    return {"class": payload.class_name("julia"), "rows": rows}
+    return {"rows": [tuple(fmpq(x) if x == 0 else x for x in A), tuple(B), found.c]}
 
 
 BRIDGES = (
@@ -92,7 +91,6 @@ BRIDGES = (
     Bridge(
         name="ordinarydiffeq",
         summary="Julia: ExplicitRKTableau of OrdinaryDiffEq, explicit methods",
-        kinds=("rk",),
         suffix=".jl",
         style=JULIA,
         stages="explicit",
@@ -110,14 +108,12 @@ BRIDGES = (
     Bridge(
         name="rungekutta-jl",
         summary="Julia: the table in tabs of RungeKutta.jl",
-        kinds=("rk",),
         suffix=".tsv",
         reads_back=True,
     ),
     Bridge(
         name="climatimesteppers",
         summary="Julia: Williamson's 2N form for ClimaTimeSteppers, where a method has it",
-        kinds=("rk",),
         suffix=".jl",
         style=JULIA,
         stages="explicit",

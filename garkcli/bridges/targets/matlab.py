@@ -33,7 +33,6 @@ BRIDGES = (
     Bridge(
         name="rklab",
         summary="MATLAB: the block matrix of RKLab",
-        kinds=("rk",),
         suffix=".m",
         style=MATLAB,
         reads_back=True,

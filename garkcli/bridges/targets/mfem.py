@@ -12,7 +12,6 @@ BRIDGES = (
     Bridge(
         name="mfem",
         summary="MFEM: a header of C++, explicit methods",
-        kinds=("rk",),
         suffix=".hpp",
         stages="explicit",
         starts=True,

@@ -43,7 +43,6 @@ BRIDGES = (
     Bridge(
         name="nodepy",
         summary="nodepy: a module with exact numbers of SymPy",
-        kinds=("rk",),
         suffix=".py",
         style=SYMPY,
     ),

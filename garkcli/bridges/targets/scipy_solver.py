@@ -53,7 +53,6 @@ BRIDGES = (
     Bridge(
         name="scipy",
         summary="a method of scipy.integrate.solve_ivp, explicit",
-        kinds=("rk",),
         suffix=".py",
         style=PYTHON,
         stages="explicit",

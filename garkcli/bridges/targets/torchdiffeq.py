@@ -44,7 +44,6 @@ BRIDGES = (
     Bridge(
         name="torchdiffeq",
         summary="torchdiffeq: a module that registers a solver, explicit methods",
-        kinds=("rk",),
         suffix=".py",
         style=PYTHON,
         stages="explicit",

@@ -13,7 +13,6 @@ BRIDGES = (
     Bridge(
         name="torchode",
         summary="torchode: a module with a class, explicit methods",
-        kinds=("rk",),
         suffix=".py",
         style=PYTHON,
         stages="explicit",
