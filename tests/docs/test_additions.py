@@ -147,7 +147,7 @@ def test_a_target_is_a_file_and_a_template(copy: Copy) -> None:
         "garkcli/bridges/targets/weights.py",
         '"""The weights alone."""\n\n'
         "from garkcli.bridges.registry import Bridge\n\n"
-        'BRIDGES = (Bridge("weights", "the weights alone", ("rk",), ".tsv"),)\n',
+        'BRIDGES = (Bridge("weights", "the weights alone", ".tsv"),)\n',
     )
     copy.write("garkcli/bridges/templates/weights.tsv.jinja", "{{ row('b = ', b[0], '') }}\n")
     listed, exported = copy.gark("list exports", "export m.yaml --to weights")
