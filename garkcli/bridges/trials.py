@@ -19,7 +19,8 @@ class Trial(Frozen):
     """A problem with two unknowns.
 
     Attributes:
-        name: of the problem.
+        name: of the problem, in one word.
+        title: of its file.
         sides: the right-hand sides, a pair of formulas each, with ``{y1}``, ``{y2}``, ``{t}``,
             ``{sin}`` and ``{cos}`` in them; of the separable one q' and p' of (q, p).
         t_end: where the errors are measured.
@@ -28,6 +29,7 @@ class Trial(Frozen):
     """
 
     name: str
+    title: str
     sides: tuple[tuple[str, str], ...]
     t_end: int
     final: tuple[str, str]
@@ -46,7 +48,7 @@ class Trial(Frozen):
         sides = [self.formulas(side, words) for side in range(len(self.sides))]
         form, q, p = ("hamiltonian", "x", "px") if self.hamiltonian else ("rhs", "y1", "y2")
         lines = [
-            f"name: {self.name}",
+            f"name: {self.title}",
             f"variables: [{'x' if self.hamiltonian else 'y1, y2'}]",
             f"{form}:",
             *(f"  - {x}" for x in self.hamiltonian or [f"{{y1: {a}, y2: {b}}}" for a, b in sides]),
@@ -65,19 +67,22 @@ WORDS = {"y1": "y[0]", "y2": "y[1]", "t": "t", "sin": "sin", "cos": "cos", "zero
 """As C, Python and others with arrays from 0 have them."""
 CPP_WORDS = {**WORDS, "sin": "std::sin", "cos": "std::cos"}
 WHOLE = Trial(
-    name="one right-hand side, with time in it",
+    name="whole",
+    title="one right-hand side, with time in it",
     sides=(("{y2}*{cos}({t})", "-{sin}({y1})"),),
     t_end=2,
     final=("1.17800823846054054133145213501406815", "-1.43877953451330962805445307202278551"),
 )
 SPLIT = Trial(
-    name="two right-hand sides",
+    name="split",
+    title="two right-hand sides",
     sides=(("{y2}", "0.3*{sin}({y1})*{y2}"), ("-0.5*{y1}*{y2}", "(1.0 - {y1}*{y1})*{y2} - {y1}")),
     t_end=1,
     final=("1.11251631371073201960701475776329010", "-0.78381339848673613949632823473644073"),
 )
 SEPARABLE = Trial(
-    name="a pendulum",
+    name="separable",
+    title="a pendulum",
     sides=(("{y2}", "-{sin}({y1})"),),
     t_end=2,
     final=("0.20358087395061007056665965504276729", "-1.18067026009027434070547740953813522"),
