@@ -1,1 +1,1 @@
-"""Tables in other people's formats, read and never executed: a file a format."""
+"""Tables in other people's formats, read and never executed."""

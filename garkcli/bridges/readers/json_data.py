@@ -7,13 +7,11 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from garkcli.bridges.readers.printed import found_in, printed
+from garkcli.bridges.readers.printed import Values, reader
 from garkcli.sources import ir
 from garkcli.sources.formulas import formula
-from garkcli.sources.found import FoundTable, Reader
 from garkcli.sources.naming import ROLES
 
-NAME = "json"
 MAX_DEPTH = 12
 """Deepest nesting of objects that tables are sought in."""
 _KEYS = {
@@ -28,13 +26,13 @@ _HEAD = ("order", "claimed_order", "embedded_order", "tolerance")
 _OBJECT = re.compile(r'"(?:[^"\\]|\\.)*"|\{')
 
 
-def find(text: str, source: str) -> list[FoundTable]:
+def _found(text: str) -> Iterator[tuple[int, Values]]:
     """The tables of a JSON document."""
     try:
         document = json.loads(text, parse_float=ir.Literal, parse_int=ir.Literal)
     except (ValueError, RecursionError):
-        return []
-    return found_in(source, NAME, _tableaus(document, "", 0, _lines(text)))
+        return
+    yield from _tableaus(document, "", 0, _lines(text))
 
 
 def _lines(text: str) -> Iterator[int]:
@@ -53,7 +51,7 @@ def _has_matrix(mapping: Mapping[str, Any]) -> bool:
 
 def _tableaus(
     document: object, title: str, depth: int, lines: Iterator[int]
-) -> Iterator[ir.Statement]:
+) -> Iterator[tuple[int, Values]]:
     """The objects that may be tables, each with its name; ``lines`` has those of all objects."""
     line = next(lines, 1) if isinstance(document, dict) else 1
     if isinstance(document, list):
@@ -63,7 +61,7 @@ def _tableaus(
         name = document.get("name")
         title = name if isinstance(name, str) else title
         if _has_matrix(document):
-            yield _tableau(document, title, line)
+            yield line, _tableau(document, title)
         for key, value in document.items():
             inner = key if depth or len(document) > 1 else title
             if key in {"blocks", "tableau", "methods", "tables"} and title:
@@ -73,7 +71,7 @@ def _tableaus(
             yield from _tableaus(value, inner, depth + 1, lines)
 
 
-def _tableau(mapping: Mapping[str, Any], title: str, line: int) -> ir.Statement:
+def _tableau(mapping: Mapping[str, Any], title: str) -> Values:
     values: dict[str, ir.Expr] = {"title": ir.Text(title)}
     for key, content in mapping.items():
         if key in _KEYS:
@@ -83,7 +81,7 @@ def _tableau(mapping: Mapping[str, Any], title: str, line: int) -> ir.Statement:
     if [x.get("drives") for x in colours] == ["q", "p"]:
         values["parts"] = ir.Text("q p")
     linear = [str(l) for l, x in enumerate(colours) if x.get("linear")]
-    return printed(line, **values, linear=linear)
+    return {**values, "linear": linear}
 
 
 def _value(content: object, depth: int = 0) -> ir.Expr:
@@ -102,4 +100,4 @@ def _value(content: object, depth: int = 0) -> ir.Expr:
     return ir.Opaque("what is no number")
 
 
-READER = Reader(NAME, "JSON: gark's export, or any object with A and b", (".json",), find)
+READER = reader("json", "JSON: gark's export, or any object with A and b", (".json",), _found)
