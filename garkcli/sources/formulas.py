@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
 from garkcli.frozen import Frozen
 from garkcli.sources import ir
@@ -14,11 +14,13 @@ MAX_TOKENS = 1_000_000
 """Most tokens of a source."""
 SLOT = ir.Name("#")
 """The variable of a polynomial."""
+_JOINING = frozenset({"=", ":=", "+", "-", "*", "/", "^", ",", "->", "\n"})
+"""What a line that goes on may end with."""
 CLOSERS = {"(": ")", "[": "]", "{": "}", "<|": "|>"}
 _LEVELS = {"->": 1, "+": 2, "-": 2, "*": 3, "/": 3, "^": 5, "**": 5}
 _SIGN_LEVEL = 4
 _PATTERN = re.compile(
-    r"(?P<blank>[ \t\f\v\r]+|\\\r?\n|\(\*[\s\S]*?(?:\*\)|\Z))"
+    r"(?P<blank>[ \t\f\v\r&]+|\\\r?\n|\(\*[\s\S]*?(?:\*\)|\Z))"
     r"|(?P<line>\n)"
     r'|(?P<text>"(?:[^"\\]|\\[\s\S])*+"?+)'
     r"|(?P<number>(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)"
@@ -32,7 +34,7 @@ class Token(Frozen):
     """A piece of a source.
 
     Attributes:
-        kind: ``number``, ``name``, ``text``, ``sign`` or ``line``, an end of line.
+        kind: ``number``, ``name``, ``text``, ``sign`` or ``line``, the end of a line in no bracket.
         text: as it is written; of a text what is between its quotes.
         line: from 1.
     """
@@ -40,21 +42,6 @@ class Token(Frozen):
     kind: str
     text: str
     line: int
-
-
-def _tokens(text: str) -> Iterator[Token]:
-    line = 1
-    for match in _PATTERN.finditer(text):
-        kind = match.lastgroup or ""
-        kind = "number" if kind == "power" else kind
-        shown = match[kind]
-        if kind == "text":
-            shown = shown.strip('"')
-        if kind == "number" and match["power"]:
-            shown += f"e{int(match['power'])}"
-        if kind != "blank":
-            yield Token(kind, shown, line)
-        line += match.group().count("\n")
 
 
 class Formulas:
@@ -70,27 +57,29 @@ class Formulas:
 
     def __init__(self, text: str, call: str = "(") -> None:
         self.tokens: list[Token] = []
-        for token in _tokens(text):
-            self.tokens.append(token)
-            if len(self.tokens) >= MAX_TOKENS:
-                raise TooLarge(f"the source has more than {MAX_TOKENS} words and signs", token.line)
+        self.closes: dict[int, int] = {}
+        """The place of the bracket that closes each; the end for one that nothing closes."""
         self._call = call
         self._called_kinds = (ir.Name,) if call == "(" else (ir.Name, ir.Call, ir.Index)
         self._depth = 0
-        self.closes = self._matched()
-
-    def _matched(self) -> Mapping[int, int]:
-        """The place of the bracket that closes each; the end for one that nothing closes."""
-        found: dict[int, int] = {}
         waiting: list[int] = []
-        for place, token in enumerate(self.tokens):
-            if token.kind != "sign":
-                continue
-            if token.text in CLOSERS:
-                waiting.append(place)
-            elif waiting and token.text == CLOSERS[self.tokens[waiting[-1]].text]:
-                found[waiting.pop()] = place
-        return found | dict.fromkeys(waiting, len(self.tokens))
+        line, before = 1, "\n"
+        for match in _PATTERN.finditer(text):
+            power = match["power"]
+            kind = "number" if power else match.lastgroup or ""
+            shown = match[kind].strip('"') + (f"e{int(power)}" if power else "")
+            if kind == "sign" and shown in CLOSERS:
+                waiting.append(len(self.tokens))
+            elif kind == "sign" and waiting and shown == CLOSERS[self.tokens[waiting[-1]].text]:
+                self.closes[waiting.pop()] = len(self.tokens)
+            is_within = kind == "line" and (waiting or before in _JOINING)
+            if kind != "blank" and not is_within:
+                self.tokens.append(Token(kind, shown, line))
+                before = shown
+            if len(self.tokens) >= MAX_TOKENS:
+                raise TooLarge(f"the source has more than {MAX_TOKENS} words and signs", line)
+            line += match.group().count("\n")
+        self.closes |= dict.fromkeys(waiting, len(self.tokens))
 
     def sign(self, at: int, end: int | None = None) -> str:
         """The sign at a place; empty for what is none."""
@@ -117,25 +106,25 @@ class Formulas:
         depth = self._depth
         try:
             found, at = self._sum(start, end, 0)
-            if self._over_lines(at, end) < end:
+            if at < end:
                 raise Unreadable(f"{self.tokens[at].text[:20]!r} behind a value")
         except Unreadable as error:
             self._depth = depth
             return ir.Opaque(error.message)
         return found
 
-    def _over_lines(self, at: int, end: int) -> int:
-        while at < end and (self.tokens[at].kind == "line" or self.sign(at) == "&"):
-            at += 1
-        return at
-
     def _sum(self, at: int, end: int, level: int) -> tuple[ir.Expr, int]:
         """The value that begins at a place, with signs that hold at least so tightly."""
         self._depth += 1
         if self._depth > MAX_NESTING:
             raise Unreadable("an expression that is nested too deep")
-        left, at = self._signed(at, end)
-        while (at := self._over_lines(at, end)) < end:
+        sign = self.sign(at, end)
+        if sign in {"+", "-"}:
+            left, at = self._sum(at + 1, end, _SIGN_LEVEL)
+            left = ir.Unary(sign, left)
+        else:
+            left, at = self._atom(at, end)
+        while at < end:
             sign, step = self.sign(at), 1
             if not sign or sign in CLOSERS or sign == "#":
                 sign, step = "*", 0
@@ -147,21 +136,10 @@ class Formulas:
         self._depth -= 1
         return left, at
 
-    def _signed(self, at: int, end: int) -> tuple[ir.Expr, int]:
-        at = self._over_lines(at, end)
-        signs = []
-        while self.sign(at, end) in {"+", "-"}:
-            signs.append(self.sign(at))
-            at = self._over_lines(at + 1, end)
-        if not signs:
-            return self._atom(at, end)
-        found, at = self._sum(at, end, _SIGN_LEVEL)
-        return (ir.Unary("-", found) if signs.count("-") % 2 else found), at
-
     def _atom(self, at: int, end: int) -> tuple[ir.Expr, int]:
         if not at < end:
             raise Unreadable("a number is expected")
-        token, place = self.tokens[at], at
+        token, place = self.tokens[at], self.closes.get(at, at)
         found: ir.Expr
         match token.kind, token.text:
             case "number", text:
@@ -173,11 +151,9 @@ class Formulas:
             case "name", text:
                 found = ir.Name(text)
             case "sign", "(":
-                found = self.expression(at + 1, self.closes[at])
-                place = self.closes[at]
+                found = self.expression(at + 1, place)
             case "sign", "{" | "<|":
                 found = self._items(at)
-                place = self.closes[at]
             case _:
                 raise Unreadable("a number is expected")
         at = place + 1

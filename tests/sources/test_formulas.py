@@ -52,14 +52,14 @@ def test_mathematica(text: str) -> None:
 def test_latex(text: str) -> None:
     """Fractions of one sign, roots in fractions, powers of ten."""
     rows = rf"0 & & \\ 1 & {text} & \\ \hline & 1/2 & 1/2"
-    (table,) = latex.find(rf"\begin{{array}}{{c|cc}} {rows} \end{{array}}", "x")
+    (table,) = latex.READER.find(rf"\begin{{array}}{{c|cc}} {rows} \end{{array}}", "x")
     assert _is_same(table, TEX[text])
 
 
 @pytest.mark.parametrize("text", TEXTS)
 def test_texts(text: str) -> None:
     """What gark writes into JSON and CSV."""
-    (table,) = json_data.find(f'{{"A": [[0, 0], ["{text}", 0]], "b": ["1/2", 0.5]}}', "x")
+    (table,) = json_data.READER.find(f'{{"A": [[0, 0], ["{text}", 0]], "b": ["1/2", 0.5]}}', "x")
     assert _is_same(table, TEXTS[text])
 
 

@@ -14,8 +14,6 @@ from garkcli.sources.signatures import NDSOLVE
 NAME = "mathematica"
 _ROUNDED = frozenset({"N", "SetPrecision", "SetAccuracy", "Rationalize"})
 _ORDER = ir.Name("order")
-_JOINING = frozenset({"=", ":=", "+", "-", "*", "/", "^", ",", "->"})
-"""What a line that goes on may end with."""
 
 
 class MathematicaLowering(Formulas):
@@ -26,16 +24,8 @@ class MathematicaLowering(Formulas):
 
     def block(self, start: int, end: int, depth: int = 0) -> ir.Body:
         """The statements between two places."""
-        found: list[ir.Statement] = []
-        first: int | None = None
-        for begin, behind in self.parts(start, end, ";", "\n"):
-            if begin == behind:
-                continue
-            first = begin if first is None else first
-            if self.sign(behind - 1) not in _JOINING:
-                found += self._statement(first, behind, depth)
-                first = None
-        return tuple(found)
+        parts = [x for x in self.parts(start, end, ";", "\n") if x[0] < x[1]]
+        return tuple(y for part in parts for y in self._statement(*part, depth))
 
     def _statement(self, start: int, end: int, depth: int) -> Iterator[ir.Statement]:
         *targets, value = self.parts(start, end, "=", ":=")

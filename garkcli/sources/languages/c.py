@@ -123,7 +123,8 @@ class CLowering(Lowering):
         first = self.block(x for x in node.named_children if x not in (other, condition))
         second = self.block([other])
         is_off = self.text(condition) == "0"
-        if other is None or is_off or (_defines(first) and _defines(second)):
+        made = [x for x in ir.statements((*first, *second)) if not isinstance(x, ir.Branch)]
+        if other is None or is_off or (first and second and all(map(_is_macro, made))):
             # a macro in several ways: the last one is the plain one
             yield from second if other or is_off else first
         else:
@@ -333,12 +334,8 @@ def _depth(value: ir.Expr) -> int:
     return 1 + max(map(_depth, value.items), default=0)
 
 
-def _defines(arm: ir.Body) -> bool:
-    """Whether an arm is definitions of macros, and nothing else."""
-    names = (ir.Lambda, ir.Name, ir.Literal)
-    if len(arm) == 1 and isinstance(arm[0], ir.Branch):
-        return all(map(_defines, arm[0].arms))
-    return bool(arm) and all(isinstance(x, ir.Assign) and isinstance(x.value, names) for x in arm)
+def _is_macro(made: ir.Statement) -> bool:
+    return isinstance(made, ir.Assign) and isinstance(made.value, ir.Lambda | ir.Name | ir.Literal)
 
 
 @lru_cache(maxsize=1)

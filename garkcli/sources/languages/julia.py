@@ -128,13 +128,16 @@ class JuliaLowering(Lowering):
         self, node: Node, left: Node | None, right: Node | None, sign: str | None = None
     ) -> Iterator[ir.Statement]:
         """A target has a value, or a function one expression."""
-        head, *_, right = inside = self.children(node)
-        left = head
+        inside = self.children(node)
+        if len(inside) < 3:
+            return
+        left = head = inside[0]
+        right = inside[-1]
         while head.type in _TYPED and head.named_children:
             head = head.named_children[0]
         if head.type == "call_expression":
             yield self._function(left, [right], line_of(node))
-        elif len(inside) > 2:
+        else:
             sign = self.text(inside[1]).rstrip("=")
             yield from super().assignment(node, head, right, sign)
 
