@@ -213,7 +213,7 @@ class Plain(Mutable):
 
     def root(self, root: RealRoot) -> str:
         """A real algebraic number."""
-        simple = root_text(root)
+        simple = root_text(root) if root.exact is None else shortest(root.exact)
         decimals = root_decimal(root, self.digits)
         if simple is None:
             if self.is_brief:
