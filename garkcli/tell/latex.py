@@ -115,6 +115,8 @@ class Latex(Plain):
         return self.over(*(f"${multivariate_latex(x, names)}$" for x in (p, q)))
 
     def root(self, root: RealRoot) -> str:
+        if root.exact is not None:
+            return self.number(root.exact)
         text = root_text(root)
         return super().root(root).replace("…", r"\dots") if text is None else self.expression(text)
 
