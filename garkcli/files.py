@@ -16,7 +16,7 @@ from garkcli.doing import hush
 
 STDIN = "-"
 """What stands for standard input."""
-_OWN_STREAM = re.compile(r"/dev/(?:fd/)?(\d{1,9}|stdin|stdout|stderr)|/proc/self/fd/(\d{1,9})")
+_OWN_STREAM = r"/dev/(?:fd/)?(\d{1,9}|stdin|stdout|stderr)|/proc/self/fd/(\d{1,9})"
 _NAMED = {"stdin": 0, "stdout": 1, "stderr": 2}
 _inputs: ContextVar[set[tuple[int, int]] | None] = ContextVar("inputs", default=None)
 
@@ -34,7 +34,9 @@ def own_stream(path: str) -> int | None:
     >>> own_stream("/dev/fd/63"), own_stream("/dev/stdin"), own_stream("m.yaml")
     (63, 0, None)
     """
-    found = _OWN_STREAM.fullmatch(os.path.normpath(path).replace(os.sep, "/"))
+    if not path.startswith(("/", os.sep)):
+        return None
+    found = re.fullmatch(_OWN_STREAM, os.path.normpath(path).replace(os.sep, "/"))
     if found is None:
         return None
     word = found[1] or found[2]

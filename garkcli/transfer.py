@@ -17,13 +17,10 @@ from flint import fmpq
 from garkcli.errors import BlockTooLarge, counted
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix, add, multiply, outer, scale, transpose
-from garkcli.families.collocation import legendre as legendre_polynomial
 from garkcli.frozen import Frozen
-from garkcli.order.pair_order import pair_criterion
 from garkcli.tableau.conjugate import conjugate_block
 from garkcli.tableau.forms import gark
 from garkcli.tableau.meant import AnyTableau
-from garkcli.tableau.polynomial_space import antiderivative
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Edge, Method
 
@@ -45,6 +42,8 @@ def collocation(l: Method, m: Method) -> Matrix:
         CoincidingNodes: two nodes of ``m`` are equal.
         BlockTooLarge: the entries would be too long.
     """
+    from garkcli.tableau.polynomial_space import antiderivative
+
     _refuse_large(l, m)
     columns = [
         l.space.of_polynomial(antiderivative(basis)) for basis in m.space.basis_polynomials()
@@ -81,6 +80,8 @@ def legendre(l: Method, m: Method, degree: int | None = None) -> Matrix:
     """
     if degree is None:
         degree = legendre_degree([gark([l], {}), gark([m], {})])
+    from garkcli.families.collocation import legendre as legendre_polynomial
+
     P = [legendre_polynomial(j) for j in range(degree + 1)]
     blocks = []
     for j, P_j in enumerate(P):
@@ -97,6 +98,8 @@ def legendre_degree(methods: Iterable[AnyTableau]) -> int:
     """K = ⌊p/2⌋, p the least order of the pairs of the diagonal ``methods`` that the criterion
     bears out: of all transfers whose pair keeps the order p that one has the least error.
     """
+    from garkcli.order.pair_order import pair_criterion  # few transfers ask for it
+
     return min(pair_criterion(method).order for method in methods) // 2
 
 

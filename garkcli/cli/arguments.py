@@ -11,12 +11,12 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import click
-from click.shell_completion import CompletionItem
 
 from garkcli.errors import ExpressionError, GarkError, UsageProblem, did_you_mean
 from garkcli.files import note_input
 
 if TYPE_CHECKING:
+    from click.shell_completion import CompletionItem
     from flint import fmpq
 
 _NOTES = "garkcli.notes"
@@ -60,6 +60,8 @@ class MethodType(InputType):
         self, ctx: click.Context, param: click.Parameter, incomplete: str
     ) -> list[CompletionItem]:
         """Names that begin so with files beside them; below folders the shell goes on alone."""
+        from click.shell_completion import CompletionItem
+
         from garkcli.methodfile.naming import can_be_name, names_beginning
 
         found: list[str] = []
@@ -104,6 +106,8 @@ class ProblemType(click.ParamType):  # type: ignore[type-arg]
         self, ctx: click.Context, param: click.Parameter, incomplete: str
     ) -> list[CompletionItem]:
         """The names, and problem files; folders are for the shell, which goes on below them."""
+        from click.shell_completion import CompletionItem
+
         from garkcli.problems.builtin import PROBLEMS
 
         found = [name for name in PROBLEMS if name.startswith(incomplete)]

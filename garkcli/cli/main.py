@@ -8,10 +8,9 @@ import os
 import sys
 from collections.abc import Sequence
 from itertools import groupby
-from typing import NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
 import click
-from click.shell_completion import CompletionItem
 
 from garkcli.cli import streams
 from garkcli.cli.options import command_of, help_option
@@ -20,6 +19,9 @@ from garkcli.errors import GarkError, UsageProblem, counted
 from garkcli.files import noting_inputs
 from garkcli.page.progress import watching
 from garkcli.version import __version__
+
+if TYPE_CHECKING:
+    from click.shell_completion import CompletionItem
 
 REPORT_TO = "the issue tracker of the project"
 HELP = "help"
@@ -50,6 +52,8 @@ class _LazyGroup(click.Group):
 
     def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem]:
         """Commands, also behind the word that shows their help, and that word."""
+        from click.shell_completion import CompletionItem
+
         found = super().shell_complete(ctx, incomplete)
         if HELP.startswith(incomplete):
             found.append(CompletionItem(HELP, help="more of one command"))

@@ -22,9 +22,9 @@ from garkcli.cli.table import COMMANDS, HIDDEN, Option, Rule, option_of, options
 from garkcli.doing import hush
 from garkcli.errors import Fault, GarkError, MethodFileError, UsageProblem
 from garkcli.files import STDIN, note_input
-from garkcli.page.paint import Paint
 
 if TYPE_CHECKING:
+    from garkcli.page.paint import Paint
     from garkcli.plots.scene import Scene
     from garkcli.tableau.garkmethod import GarkMethod
     from garkcli.tell.report import Report
@@ -382,7 +382,8 @@ class Output:
         self.path = path
         self.verbosity = verbosity
         self.is_streamed = False
-        self._color = color
+        is_wanted = color == "auto" and path is None and wants_colour(sys.stdout)
+        self._has_colour = color == "always" or is_wanted
         if verbosity < 0:
             hush()
         self.check_place()
@@ -416,12 +417,11 @@ class Output:
 
     @property
     def paint(self) -> Paint:
-        """Colour, where it is requested or the report goes to a terminal, and its encoding."""
-        has_colour = self._color == "always"
-        if self._color == "auto":
-            has_colour = self.path is None and wants_colour(sys.stdout)
+        """Colour, where it is wanted, and the encoding of where the report goes."""
+        from garkcli.page.paint import Paint
+
         encoding = None if self.path else getattr(sys.stdout, "encoding", None)
-        return Paint(has_colour, encoding or "utf-8")
+        return Paint(self._has_colour, encoding or "utf-8")
 
     @property
     def width(self) -> int:
@@ -439,7 +439,7 @@ class Output:
         """
         pieces = [text] if isinstance(text, str) else text
         format = format or self.format
-        coloured = self.paint.color
+        coloured = self._has_colour
         if self.path is None:
             for piece in pieces:
                 put(piece, format, coloured)

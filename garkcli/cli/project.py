@@ -7,10 +7,9 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
-from garkcli.errors import UsageProblem
+from garkcli.errors import UsageProblem, printable
 from garkcli.files import is_elsewhere, is_inside, read_bytes
 from garkcli.frozen import Frozen, field, replace
-from garkcli.page.plain import printable
 
 if TYPE_CHECKING:
     from garkcli.glossary.key import Files, Key
@@ -83,7 +82,7 @@ def _text(path: str, name: str) -> str | None:
     """
     try:
         data = read_bytes(path, MOST_BYTES)
-        if name == SHARED and _TOOL.search(data) is None:
+        if name == SHARED and re.search(_TOOL, data, re.MULTILINE) is None:
             return None  # to parse TOML takes longer than all else that is done of it
         if len(data) <= MOST_BYTES:
             return data.decode("utf-8")
@@ -93,10 +92,7 @@ def _text(path: str, name: str) -> str | None:
     raise UsageProblem(message, "split it", code="file-too-large")
 
 
-_TOOL = re.compile(
-    rb"tool[\"'\s]*\.[\"'\s]*gark|^\s*\[\s*[\"']?tool[\"']?\s*\]|^\s*[\"']?tool[\"']?\s*=",
-    re.MULTILINE,
-)
+_TOOL = rb"tool[\"'\s]*\.[\"'\s]*gark|^\s*\[\s*[\"']?tool[\"']?\s*\]|^\s*[\"']?tool[\"']?\s*="
 """What begins a table of gark, or one of tools that may have it."""
 
 

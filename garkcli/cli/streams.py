@@ -4,6 +4,7 @@ end the program.
 
 from __future__ import annotations
 
+import codecs
 import io
 import os
 import signal
@@ -15,16 +16,15 @@ from types import FrameType
 from typing import TYPE_CHECKING, NoReturn
 
 from garkcli.doing import hush
-from garkcli.errors import GarkError, MethodFileError
-from garkcli.page.plain import printable
-from garkcli.page.plaintext import HANDLER, plain_text
+from garkcli.errors import GarkError, MethodFileError, printable
 from garkcli.page.progress import aside
-from garkcli.page.safety import JSON, XML, YAML, escaped, without_commands, written_out
 
 if TYPE_CHECKING:
     from garkcli.check.outcome import Outcome
 
 
+HANDLER = "garkcli.plaintext"
+"""The name of the error handler of streams."""
 TERMINAL = 80
 """Columns that texts for people fit, in the longer forms of ASCII too."""
 ENDING = ("SIGTERM", "SIGHUP")
@@ -47,6 +47,7 @@ def prepare() -> None:
     leaves no place for a file to be opened in.
     """
     _fill_places()
+    codecs.register_error(HANDLER, _handled)
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors=HANDLER)
@@ -56,6 +57,12 @@ def prepare() -> None:
         just_fix_windows_console()
     if sys.stderr is None:  # nobody listens
         sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
+
+
+def _handled(error: UnicodeError) -> tuple[str, int]:
+    from garkcli.page.plaintext import handled  # few streams lack a sign
+
+    return handled(error)
 
 
 def _fill_places() -> None:
@@ -156,6 +163,8 @@ def drop(stream: io.TextIOBase | object) -> None:
 
 def safe(text: str, format: str = "text", coloured: bool = False) -> str:
     """A text that gives no orders to a terminal or to the runner of a job."""
+    from garkcli.page.safety import without_commands, written_out
+
     text = written_out(text, format, coloured)
     is_job = os.environ.get("GITHUB_ACTIONS") == "true"
     return without_commands(text, format) if is_job and format != "github" else text
@@ -171,6 +180,9 @@ def _for(encoding: str | None, text: str, format: str, width: int | None = None)
     encoding = encoding or "utf-8"
     if text.isascii() or encoding.lower().replace("_", "-").startswith("utf"):
         return text
+    from garkcli.page.plaintext import plain_text
+    from garkcli.page.safety import JSON, XML, YAML, escaped
+
     if format in JSON | YAML | XML:
         return "".join(x if x.isascii() else escaped(x, format) for x in text)
     return plain_text(text, encoding, width)

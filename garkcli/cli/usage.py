@@ -9,8 +9,7 @@ from collections.abc import Iterable, Iterator
 
 import click
 
-from garkcli.errors import MethodFileError, did_you_mean, nearest
-from garkcli.page.plain import printable
+from garkcli.errors import MethodFileError, did_you_mean, nearest, printable
 
 MEANT = {
     "order": "check",

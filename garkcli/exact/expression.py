@@ -39,7 +39,7 @@ MAX_ROOT = 12
 
 _TOKEN = re.compile(
     r"[ \t\r\n]*(?:(?P<number>(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)"
-    r"|(?P<name>[A-Za-z_][A-Za-z_0-9]*)|(?P<op>\*\*|[-+*/^(),√])|(?P<end>$))"
+    r"|(?P<name>[A-Za-z_][A-Za-z_0-9]*)|(?P<op>\*\*|[-+*/^(),]|√)|(?P<end>$))"
 )
 ROOT_SIGN = "√"
 INDEX_OF_ROOT = {"sqrt": 2, "cbrt": 3}

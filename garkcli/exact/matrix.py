@@ -14,8 +14,6 @@ from flint import fmpq, fmpq_mat, fmpq_poly, fmpz
 
 from garkcli.deadline import check_time
 from garkcli.exact.field import ONE, ZERO, Algebraic, Number, NumberField, sum_of_products
-from garkcli.exact.polynomial import Polynomial
-from garkcli.graph import components
 
 Vector: TypeAlias = tuple[Number, ...]
 Matrix: TypeAlias = tuple[Vector, ...]
@@ -152,39 +150,6 @@ def _eliminated(rows: list[list[Number]]) -> Matrix:
                 continue
             rows[i] = [x - factor * y if y else x for x, y in zip(row, pivot_row, strict=True)]
     return tuple(tuple(row[n:]) for row in rows)
-
-
-def reciprocal_characteristic(W: Matrix) -> Polynomial:
-    """det(I − z W), the characteristic polynomial of W read backwards.
-
-    The strongly connected components of the graph of W are taken one by one: an explicit method
-    has none but single vertices, and a diagonally implicit one the entries of its diagonal.
-
-    Args:
-        W: square, exact.
-
-    >>> half = fmpq(1, 2)
-    >>> reciprocal_characteristic(((half, half), (half, half)))
-    Polynomial([1, -1])
-    """
-    neighbours: dict[int, list[int]] = {}
-    for i, row in enumerate(W):
-        neighbours[i] = [j for j, w in enumerate(row) if w]
-    result = Polynomial([1])
-    for component in components(neighbours):
-        result = result * _dense(tuple(tuple(W[i][j] for j in component) for i in component))
-    return result
-
-
-def _dense(W: Matrix) -> Polynomial:
-    """The same of one component."""
-    size = len(W)
-    if size == 1:
-        [[entry]] = W
-        return Polynomial([ONE, -entry])
-    if is_rational(W):
-        return Polynomial.from_flint(to_flint(W, size).charpoly()).reversed(size)
-    return Polynomial(characteristic_coefficients(W))
 
 
 def characteristic_coefficients(A: Matrix) -> list[Any]:

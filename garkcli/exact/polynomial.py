@@ -10,6 +10,8 @@ from flint import arb, ctx, fmpq, fmpq_mpoly, fmpq_poly, fmpz_poly
 from garkcli.deadline import check_time
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import ONE, ZERO, Algebraic, Number, NumberField
+from garkcli.exact.matrix import Matrix, characteristic_coefficients, is_rational, to_flint
+from garkcli.graph import components
 
 
 class Polynomial:
@@ -293,3 +295,36 @@ def gcd(a: Polynomial, b: Polynomial) -> Polynomial:
     while b:
         a, b = b, (a % b).monic()
     return a.monic()
+
+
+def reciprocal_characteristic(W: Matrix) -> Polynomial:
+    """det(I − z W), the characteristic polynomial of W read backwards.
+
+    The strongly connected components of the graph of W are taken one by one: an explicit method
+    has none but single vertices, and a diagonally implicit one the entries of its diagonal.
+
+    Args:
+        W: square, exact.
+
+    >>> half = fmpq(1, 2)
+    >>> reciprocal_characteristic(((half, half), (half, half)))
+    Polynomial([1, -1])
+    """
+    neighbours: dict[int, list[int]] = {}
+    for i, row in enumerate(W):
+        neighbours[i] = [j for j, w in enumerate(row) if w]
+    result = Polynomial([1])
+    for component in components(neighbours):
+        result = result * _dense(tuple(tuple(W[i][j] for j in component) for i in component))
+    return result
+
+
+def _dense(W: Matrix) -> Polynomial:
+    """The same of one component."""
+    size = len(W)
+    if size == 1:
+        [[entry]] = W
+        return Polynomial([ONE, -entry])
+    if is_rational(W):
+        return Polynomial.from_flint(to_flint(W, size).charpoly()).reversed(size)
+    return Polynomial(characteristic_coefficients(W))

@@ -25,7 +25,6 @@ from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.embedded import DenseOutput, Further, padded
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.meant import AnyTableau, meant
-from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.stages import StageSpace
 from garkcli.tableau.tableau import Method, Tableau, butcher
 from garkcli.transfer import (
@@ -369,10 +368,10 @@ def _family_nodes(text: d.FamilyText, space: StageSpace, numbers: Numbers, why: 
     """The nodes of a family as coefficients; None where there is nothing to spell out, or a fault
     where it cannot be.
     """
+    from garkcli.tableau.polynomial_space import PolynomialSpace, simple_nodes  # few files need it
+
     if not isinstance(space, PolynomialSpace):
         return None
-    from garkcli.tableau.polynomial_space import simple_nodes  # few files need it
-
     nodes = simple_nodes(space)
     if nodes is None:
         message = f"a block next to {text.name} is spelled out, whose nodes have no simple radicals"

@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING, Literal, TypeAlias, get_args
 from flint import fmpq
 from yaml.nodes import Node
 
-from garkcli.families.family import Recipe
-from garkcli.families.registry import FAMILIES
 from garkcli.frozen import Frozen, FrozenBut
 from garkcli.methodfile.numbers import Entry, Row, Rows
 from garkcli.methodfile.source import Source
@@ -17,6 +15,7 @@ from garkcli.reference import ZANNA, Reference, Work
 from garkcli.tableau.tableau import Method, Tableau
 
 if TYPE_CHECKING:
+    from garkcli.families.family import Recipe
     from garkcli.methodfile.values import Values
 
 Structure: TypeAlias = Literal["general", "semi-separable", "separable", "nystrom"]
@@ -281,6 +280,8 @@ def works_of(said: Description) -> tuple[Work, ...]:
     if isinstance(said.content, ConstructionText):
         found += [x for part in said.content.parts for x in works_of(part.description)]
     elif isinstance(said.content, MethodsText):
+        from garkcli.families.registry import FAMILIES
+
         families = [x.name for x in said.content.methods if isinstance(x, FamilyText)]
         works = [FAMILIES[name].reference for name in families]
         transfer = said.content.transfer

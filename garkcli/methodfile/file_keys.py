@@ -19,7 +19,6 @@ from garkcli.exact.expression import read_decimal
 from garkcli.methodfile import grammar as g
 from garkcli.methodfile.bibliography import ALIASES, REFERENCE
 from garkcli.methodfile.description import BESIDE, CONSTRUCTIONS, FORMS, PLAIN, STRUCTURES
-from garkcli.methodfile.diagonal import FAMILY
 from garkcli.methodfile.expectations import EXPECT
 from garkcli.methodfile.nodes import shortened
 from garkcli.methodfile.parameters import DEFINITIONS, NUMBER, PARAMETERS
@@ -59,6 +58,8 @@ def _methods() -> g.Schema:
 
 
 def _inside_methods() -> Iterable[g.Key]:
+    from garkcli.methodfile.diagonal import FAMILY
+
     return {key.name: key for key in (*BUTCHER.inside(), *FAMILY.inside())}.values()
 
 
@@ -298,6 +299,8 @@ def method_file_schema() -> g.Schema:
     >>> method_file_schema()["title"]
     'gark method file'
     """
+    from garkcli.methodfile.diagonal import FAMILY
+
     name: g.Schema = {
         "type": "string",
         "description": "A single method of a family, or a name of the catalogue.",

@@ -13,7 +13,6 @@ from yaml.nodes import MappingNode, Node, ScalarNode
 from garkcli.errors import did_you_mean
 from garkcli.frozen import replace
 from garkcli.methodfile import description as d
-from garkcli.methodfile.diagonal import methods
 from garkcli.methodfile.file_keys import BESIDE_FORM, FORM, KEYS, KEYS_OF_METHOD, elsewhere
 from garkcli.methodfile.grammar import FILE, entries_in
 from garkcli.methodfile.nodes import Extent, extent, key_of, keys_of
@@ -133,6 +132,8 @@ class ContentReader(Reading):
             return tableau_of(self, entries, entries.get("linear"))
         node = entries[form]
         if form == "methods":
+            from garkcli.methodfile.diagonal import methods  # which loads every family
+
             return methods(self, node, structure, entries.get("transfer"))
         if form == "tableau":
             return tableau(self, node, entries.get("linear"))

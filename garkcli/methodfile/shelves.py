@@ -32,7 +32,7 @@ INDEX = "catalogue/index.json"
 """What there is in the package, from its root."""
 DATA = "catalogue/data"
 """The method files of the package, from its root."""
-_BETWEEN_WORDS = "[\\s_\u2010-\u2015\u2212-]+"
+_DASHES = dict.fromkeys([*range(0x2010, 0x2016), 0x2212], "-")
 _NO_LETTERS = r"[\W_]+"
 
 
@@ -42,7 +42,8 @@ def key_of(name: str) -> str:
     >>> key_of("Dormand_Prince 5"), key_of("Runge–Kutta")
     ('dormand-prince-5', 'runge-kutta')
     """
-    return re.sub(_BETWEEN_WORDS, "-", unicodedata.normalize("NFC", name).casefold().strip())
+    spelt = unicodedata.normalize("NFC", name).casefold().strip()
+    return re.sub(r"[\s_-]+", "-", spelt.translate(_DASHES))
 
 
 def letters_of(name: str) -> str:
@@ -161,8 +162,8 @@ class Package(Shelf):
 
     def named(self, key: str) -> Sequence[Shelved]:
         """Those of a name, by its key, which it is itself; no other entry of the index is read."""
-        start = self._index.find(f'\n{{"name": {json.encode(key).decode()}, ') + 1
-        if not start:
+        start = self._index.find(f'\n{{"name": "{key}", ') + 1
+        if not start or '"' in key:
             return ()
         line = self._index[start : self._index.index("\n", start)]
         return [self._entered(json.decode(line.removesuffix(",")))]
@@ -178,11 +179,9 @@ class Package(Shelf):
     def _entered(self, entry: Mapping[str, Any]) -> Shelved:
         name, file = entry["name"], entry["file"]
         folder = file.partition("/")[0]
-        return Shelved(name, folder, file, self.label, _text_within(f"{DATA}/{file}", name))
-
-
-def _text_within(file: str, name: str) -> Callable[[], str]:
-    return lambda: decoded(name, _resource(file))
+        return Shelved(
+            name, folder, file, self.label, lambda: decoded(name, _resource(f"{DATA}/{file}"))
+        )
 
 
 def _resource(file: str) -> bytes:

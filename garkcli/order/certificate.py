@@ -17,7 +17,6 @@ from collections.abc import Iterable, Iterator
 from flint import fmpq
 
 from garkcli.doing import doing
-from garkcli.exact.display import to_decimal, to_text
 from garkcli.exact.field import Number, flat
 from garkcli.exact.matrix import LinearMap, dot
 from garkcli.exact.span import AffineSpan
@@ -50,6 +49,8 @@ class Witness(Shown, Frozen):
         return self.value - self.required
 
     def __repr__(self) -> str:
+        from garkcli.exact.display import to_decimal, to_text
+
         value = to_text(self.value)
         if len(value) > 30:
             value = to_decimal(self.value, 8)

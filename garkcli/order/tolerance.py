@@ -11,7 +11,6 @@ from math import factorial
 
 from flint import arb, ctx, fmpq
 
-from garkcli.exact.display import to_ball
 from garkcli.exact.field import Algebraic, Number
 
 TINY = fmpq(1, 10**6)
@@ -61,6 +60,8 @@ def within(number: Number, tolerance: fmpq) -> bool:
         return not number
     if not isinstance(number, Algebraic):
         return bool(abs(number) <= tolerance)
+    from garkcli.exact.display import to_ball
+
     digits = 17
     while True:  # an irrational number is never equal to a rational one
         ball = to_ball(number, digits)

@@ -8,10 +8,6 @@ from __future__ import annotations
 
 import re
 
-from garkcli.errors import printable
-
-__all__ = ["csv_cell", "inert", "printable"]
-
 _COMMAND = r"^([^\S\n]*):(?=:)"
 """A line that GitHub Actions takes for a workflow command: it begins with two colons."""
 _OLD_COMMAND = r"##(?=\[)"

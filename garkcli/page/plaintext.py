@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import codecs
 import re
 import unicodedata
 from collections.abc import Iterator
 from functools import lru_cache
 
-HANDLER = "garkcli.plaintext"
-"""The name of the error handler, for ``reconfigure(errors=…)`` of a stream."""
 PHRASES = {" · ": " * ", "½": "1/2 "}
 """Signs that read differently among others than alone; they come first."""
 SIGNS = {
@@ -204,7 +201,7 @@ def _has(encoding: str, text: str) -> bool:
     return True
 
 
-def _handle(error: UnicodeError) -> tuple[str, int]:
+def handled(error: UnicodeError) -> tuple[str, int]:
     """What to write from the first sign that cannot be encoded to the end of its line.
 
     The net below ``plain_text``, for what others write to the stream.
@@ -213,6 +210,3 @@ def _handle(error: UnicodeError) -> tuple[str, int]:
     end = error.object.find("\n", error.start)
     end = len(error.object) if end < 0 else end
     return plain_line(error.object[error.start : end], error.encoding), end
-
-
-codecs.register_error(HANDLER, _handle)

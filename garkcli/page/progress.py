@@ -11,7 +11,6 @@ does whenever something begins or ends.
 from __future__ import annotations
 
 import os
-import select
 import signal
 import sys
 from collections.abc import Callable, Iterator
@@ -21,8 +20,7 @@ from typing import NoReturn, TypeAlias
 
 from garkcli import doing
 from garkcli.doing import Work
-from garkcli.page.plain import printable
-from garkcli.page.plaintext import plain_text
+from garkcli.errors import printable
 
 PATIENCE = 2.0
 """Seconds of work before the line appears."""
@@ -153,6 +151,8 @@ class Pen:
         """Write the line over the one before, if it is time."""
         if self.wait:
             return
+        from garkcli.page.plaintext import plain_text
+
         now = monotonic()
         told = f"{text}, {int(now - self._start)} s"
         plain = plain_text(printable(told), sys.stderr.encoding or "ascii")
@@ -211,6 +211,8 @@ class Process:
 
 def _draw_for(parent: int, commands: int, answers: int) -> NoReturn:
     """What the process does, until it has to end or its parent is gone."""
+    import select
+
     try:
         signal.signal(signal.SIGINT, signal.SIG_IGN)  # that is for the parent
         pen = Pen(_put_at_once)

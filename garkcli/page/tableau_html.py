@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 
+from garkcli.errors import printable
 from garkcli.page.cells import cell_text, lines_of, parts_of
-from garkcli.page.plain import printable
 from garkcli.tableau.pointwise import Entries
 from garkcli.tableau.tableau import Tableau
 

@@ -12,10 +12,10 @@ from typing import Any
 from garkcli.check.baseline import Regression
 from garkcli.check.findings import KINDS, Finding, claim_hint, claim_witness, findings
 from garkcli.check.outcome import Outcome
-from garkcli.errors import counted
+from garkcli.errors import counted, printable
 from garkcli.page.json_text import to_json
 from garkcli.page.paint import Paint
-from garkcli.page.plain import inert, printable
+from garkcli.page.plain import inert
 from garkcli.report import check_text
 from garkcli.report.check_text import no_claims
 from garkcli.version import __version__

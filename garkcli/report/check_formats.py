@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from garkcli.check.outcome import Outcome
-from garkcli.page.paint import Paint
+
+if TYPE_CHECKING:
+    from garkcli.page.paint import Paint
 
 Renderer: TypeAlias = "Callable[[Sequence[Outcome], Paint, int, int | None, int], str]"
 MACHINES = ("sarif", "junit", "github")

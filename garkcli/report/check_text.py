@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from garkcli.check.outcome import Outcome
-from garkcli.errors import counted, excerpt
+from garkcli.errors import counted, excerpt, printable
 from garkcli.page.paint import Paint
-from garkcli.page.plain import inert, printable
+from garkcli.page.plain import inert
 from garkcli.report.check import CLAIMS, HINTS
 from garkcli.report.checked import REPORT
 from garkcli.tell.dialect import Plain

@@ -7,10 +7,9 @@ from collections.abc import Callable, Iterator, Sequence
 from string import ascii_lowercase
 from typing import Any
 
-from garkcli.errors import counted
+from garkcli.errors import counted, printable
 from garkcli.frozen import Frozen, fields
 from garkcli.page.latex_letters import ascii_letters, letters
-from garkcli.page.plain import printable
 from garkcli.reference import ARXIV, Reference
 from garkcli.tell.facts import Level, Row, Section, maybe, optional
 from garkcli.tell.kinds import TEXT, TEXTS

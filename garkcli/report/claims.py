@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from garkcli.check.true_claims import TrueClaims
+from garkcli.errors import printable
 from garkcli.page.paint import folded
-from garkcli.page.plain import printable
 from garkcli.properties.registry import KEYS
 from garkcli.report.check import ANALYSIS, SIMPLIFYING, property_rows_of, within
 from garkcli.tell.dialect import Plain

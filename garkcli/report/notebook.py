@@ -9,11 +9,11 @@ from html import escape
 from typing import TYPE_CHECKING
 
 from garkcli.check.findings import witness_text
+from garkcli.errors import printable
 from garkcli.exact.polynomial_text import integral
 from garkcli.ntrees.drawing import draw_svg_sheet
 from garkcli.page.cells import remark
 from garkcli.page.exactly import polynomial_latex
-from garkcli.page.plain import printable
 from garkcli.page.tableau_html import tableau_lines
 from garkcli.page.tableau_latex import displays
 

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from garkcli.errors import counted
+from garkcli.errors import counted, printable
 from garkcli.frozen import Frozen
-from garkcli.page.plain import printable
 from garkcli.reference import Reference
 from garkcli.report.citation import REFERENCE, of_reference
 from garkcli.report.list_methods import METHOD, TRUTHS, TYPES, Entry

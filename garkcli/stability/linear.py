@@ -16,8 +16,8 @@ from itertools import pairwise
 
 from garkcli.exact.cells import Interval, Point, is_half_line, sign_of, where
 from garkcli.exact.field import ONE, ZERO, Number
-from garkcli.exact.matrix import Vector, apply, reciprocal_characteristic, transpose
-from garkcli.exact.polynomial import Polynomial, gcd, squared_on_axis
+from garkcli.exact.matrix import Vector, apply, transpose
+from garkcli.exact.polynomial import Polynomial, gcd, reciprocal_characteristic, squared_on_axis
 from garkcli.exact.polynomial_text import polynomial_text
 from garkcli.exact.roots import sign
 from garkcli.frozen import Frozen

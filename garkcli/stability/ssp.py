@@ -18,8 +18,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from garkcli.exact.field import ONE, ZERO, Number
-from garkcli.exact.matrix import Matrix, apply, reciprocal_characteristic, scale, transpose
-from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.matrix import Matrix, apply, scale, transpose
+from garkcli.exact.polynomial import Polynomial, reciprocal_characteristic
 from garkcli.exact.roots import RealRoot, real_roots, sign
 from garkcli.frozen import Frozen, replace
 from garkcli.tableau.pointwise import in_points

@@ -16,10 +16,10 @@ from garkcli.doing import doing
 from garkcli.errors import UsageProblem, counted
 from garkcli.exact.cells import Interval, Point, contains, has, where
 from garkcli.exact.field import ONE, ZERO, Number
-from garkcli.exact.matrix import Matrix, outer, reciprocal_characteristic, subtract
+from garkcli.exact.matrix import Matrix, outer, subtract
 from garkcli.exact.multivariate import Exponents, Multivariate, lattice, through_points
 from garkcli.exact.parametric import factors
-from garkcli.exact.polynomial import Polynomial, gcd, interpolated
+from garkcli.exact.polynomial import Polynomial, gcd, interpolated, reciprocal_characteristic
 from garkcli.exact.projection import PLANE, projected
 from garkcli.exact.roots import RealRoot, number_of
 from garkcli.frozen import Frozen

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, TypeAlias
 
 from flint import arb, fmpq
 
+from garkcli.errors import printable
 from garkcli.exact.display import decimal, shortest, to_decimal, to_text
 from garkcli.exact.field import Algebraic
 from garkcli.exact.polynomial_text import (
@@ -25,7 +26,7 @@ from garkcli.exact.polynomial_text import (
 from garkcli.frozen import Mutable, field
 from garkcli.ntrees.notation import format_tree
 from garkcli.page.paint import Paint, folded, indented, shown_width
-from garkcli.page.plain import inert, printable
+from garkcli.page.plain import inert
 from garkcli.page.plaintext import plain_text
 from garkcli.reason import Place, Reason
 

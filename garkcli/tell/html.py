@@ -6,10 +6,10 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from html import escape
 from typing import TYPE_CHECKING, Any
 
+from garkcli.errors import printable
 from garkcli.exact.display import shortest, to_latex
 from garkcli.exact.polynomial_text import polynomial_text
 from garkcli.page.exactly import polynomial_latex, quotient_latex
-from garkcli.page.plain import printable
 from garkcli.tell.dialect import LONG, LONG_POLYNOMIAL, WHOLE, Cells, Layout, Plain
 from garkcli.tell.latex import expression_latex
 

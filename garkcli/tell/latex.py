@@ -6,12 +6,12 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
+from garkcli.errors import printable
 from garkcli.exact.display import to_latex
 from garkcli.exact.polynomial_text import root_text
 from garkcli.ntrees.notation import format_latex, parse_tree
 from garkcli.page.exactly import multivariate_latex, polynomial_latex
 from garkcli.page.latex_letters import greek
-from garkcli.page.plain import printable
 from garkcli.tell.dialect import WHOLE, Cells, Layout, Plain
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from garkcli.page.plain import printable
+from garkcli.errors import printable
 from garkcli.tell.dialect import WHOLE, Cells, Layout, Plain
 
 if TYPE_CHECKING:

@@ -11,6 +11,7 @@ import pytest
 from garkcli.cli.arguments import MethodType
 from garkcli.cli.main import COMMANDS
 from garkcli.cli.options import command_of
+from garkcli.methodfile.naming import look_up
 from tests.cli.harness import Run, gark
 from tests.cli.test_completion import completions
 
@@ -184,3 +185,9 @@ def test_a_star_tells_methods_apart() -> None:
     """Lobatto IIIC* of two stages is Heun's method, and no other spelling of Lobatto IIIC."""
     assert "fully implicit, 2 stages" in gark("check", "lobatto-iiic-2").out
     assert "explicit, 2 stages" in gark("check", "lobatto-iiic*-2").out
+
+
+@pytest.mark.parametrize("name", ["no\udcffne", 'rk4", "aliases": ["RK44', "no\\ne"])
+def test_a_name_is_never_read_as_json(name: str) -> None:
+    """Half a sign, quotes and a backslash are in no name, although the index is text."""
+    assert look_up(name) is None

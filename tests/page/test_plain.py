@@ -7,9 +7,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from garkcli.check.outcome import Outcome
-from garkcli.errors import Fault
+from garkcli.errors import Fault, printable
 from garkcli.page.paint import Paint
-from garkcli.page.plain import csv_cell, inert, printable
+from garkcli.page.plain import csv_cell, inert
 from garkcli.report import check_findings, check_text
 from garkcli.report.check_formats import FORMATS
 
