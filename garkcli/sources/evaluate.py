@@ -310,7 +310,8 @@ class Evaluator:
             self._put(target, value, space, line)
             return
         old = space.get(name) if isinstance(target, ir.Name) else None
-        if isinstance(old, Array) and isinstance(value, Array) and _is_replaced(old, value):
+        is_other = isinstance(value, Array) and shown(old or NULL) != shown(value)
+        if is_other and any(map(_was_written, Array(items_of(old)).flat())):
             self.replaced(self._scopes[-1], space, name)
         space[name] = value
         space.lines[name] = line
@@ -358,7 +359,7 @@ class Evaluator:
         match target:
             case ir.Index(at=(ir.Text(text=key),)):
                 space.lines[key] = line
-            case ir.Index(at=at) if isinstance(value, Array) and _is_slice(at):
+            case ir.Index(at=at) if isinstance(value, Array) and any(map(_is_range, at)):
                 items = value.items if len(value.items) == len(places) else list(value.flat())
         if len(items) == len(places) > 0:
             for (inside, key), item in zip(places, items, strict=True):
@@ -550,7 +551,7 @@ class Evaluator:
 
     def _sliced(self, of: Array, at: Sequence[ir.Expr], space: Space) -> Value:
         numbers = self._numbers(at[0], of, space)
-        is_slice = isinstance(at[0], ir.Range)
+        is_slice = _is_range(at[0])
         if not numbers and not is_slice:
             return self.unknown("an entry at an unknown place")
         if any(not 0 <= i < len(of.items) for i in numbers):
@@ -695,8 +696,8 @@ def names_of(target: ir.Expr) -> Iterator[str]:
         yield name
 
 
-def _is_slice(at: Sequence[ir.Expr]) -> bool:
-    return any(isinstance(x, ir.Range) for x in at)
+def _is_range(at: ir.Expr) -> TypeGuard[ir.Range]:
+    return isinstance(at, ir.Range)
 
 
 def _may_make_a_table(name: str, args: Sequence[Value], named: Mapping[str, Value]) -> bool:
@@ -753,13 +754,6 @@ def _targets(body: Iterable[ir.Statement]) -> Iterator[tuple[ir.Expr, int]]:
             case ir.Do(value=ir.Call(callee=ir.Field(of=of, name=name)), line=line):
                 if name in _METHODS:
                     yield of, line
-
-
-def _is_replaced(old: Value, value: Value) -> bool:
-    """Whether an array that somebody wrote gets other entries."""
-    assert isinstance(old, Array)
-    is_written = any(isinstance(x, Number) and x.is_given for x in old.flat())
-    return is_written and shown(old) != shown(value)
 
 
 def shown(value: Value) -> object:

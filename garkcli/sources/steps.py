@@ -74,15 +74,18 @@ def step_of(body: ir.Body, space: Space, like: Evaluator) -> Roles:
         NoStep: it is none.
     """
     found: dict[object, Roles] = {}
-    look_like: list[bool] = []
-    for way in _ways(body):
+    is_lost = False
+    for way in reversed(_ways(body)):
         try:
             roles = Follower(like, way).roles(Space(space))
-            found[shown(Record("", roles))] = roles
         except NoStep as error:
-            look_like.append(error.looks_like)
-    if look_like or len(found) != 1:
-        raise NoStep(any(look_like) or bool(found))
+            if error.looks_like:
+                raise
+            is_lost = True
+        else:
+            found[shown(Record("", roles))] = roles
+    if is_lost or len(found) != 1:
+        raise NoStep(looks_like=bool(found))
     return found.popitem()[1]
 
 
