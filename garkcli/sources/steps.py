@@ -144,7 +144,8 @@ class Follower(Evaluator):
         self, like: Evaluator, way: Sequence[ir.Statement], counters: Sequence[str] = ()
     ) -> None:
         super().__init__(like.base, like.allowance, has_whole_quotients=like.has_whole_quotients)
-        self._way = _for_effect(way)
+        # where arrays begin with 0, functions may give back whether all went well
+        self._way = _for_effect(way) if like.base == 0 else way
         self._counters = counters
         calls = [x.value.callee for x in self._way if isinstance(x, ir.Do) and _is_effect(x.value)]
         self._f = max(calls, key=calls.count, default=None)
