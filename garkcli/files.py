@@ -34,9 +34,8 @@ def own_stream(path: str) -> int | None:
     >>> own_stream("/dev/fd/63"), own_stream("/dev/stdin"), own_stream("m.yaml")
     (63, 0, None)
     """
-    if not path.startswith(("/", os.sep)):
-        return None
-    found = re.fullmatch(_OWN_STREAM, os.path.normpath(path).replace(os.sep, "/"))
+    whole = os.path.normpath(path).replace(os.sep, "/")
+    found = re.fullmatch(_OWN_STREAM, whole) if whole.startswith("/") else None
     if found is None:
         return None
     word = found[1] or found[2]
