@@ -281,10 +281,13 @@ def _single(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
             roles = {**roles, "c": roles.get("nodes", Null())}
     table = replace(empty, A=((A,),), b=(b,), c=(_nodes(roles, A),))
     table = _with_embedded(table, roles, meant)
-    dense = roles.get("dense")
-    if not isinstance(dense, Array) or len(dense.items) != table.stages or not dense.is_matrix:
+    dense, degree = items_of(roles.get("dense")), whole(roles.get("dense_degree"))
+    if degree and len(dense) == table.stages * degree:
+        dense = [Array(dense[i : i + degree]) for i in range(0, len(dense), degree)]
+    rows = Array(dense)
+    if len(dense) != table.stages or not rows.is_matrix or first_unknown(rows):
         return table
-    return table if first_unknown(dense) else replace(table, dense=(rows_of(plain(dense)),))
+    return replace(table, dense=(rows_of(plain(rows)),))
 
 
 def _with_both_rows(roles: Roles) -> Roles:

@@ -59,7 +59,9 @@ SIGNATURES: Mapping[str, Signature] = {
     ),
     **_all("ARKodeSPRKTable_Create", "stages order drifts kicks", "force-first", counts=(4,)),
     **_all(
-        *("TSRKRegister TSDIRKRegister", "title order stages A b c embedded"), counts=(9,), **_PETSC
+        *("TSRKRegister TSDIRKRegister", "title order stages A b c embedded dense_degree dense"),
+        counts=(9,),
+        **_PETSC,
     ),
     **_all(
         *("TSARKIMEXRegister", "title order stages A2 b2 c2 A1 b1 c1 embedded2 embedded1", "ark"),
