@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 from garkcli.errors import ExpressionError, LimitExceeded, UndefinedValue
 from garkcli.exact.domain import Domain
@@ -103,8 +103,9 @@ def _fault_of(entry: Entry) -> ExpressionError | None:
 def _note(numbers: Numbers, entry: Entry, error: ExpressionError) -> None:
     """Note why a coefficient has no value: at its parameter where that has none."""
     source = numbers.source
+    within = set(_identities(entry.expression))
     for given in numbers.of_parameters:
-        own = _fault_of(given) if _has(entry.expression, given.expression) else None
+        own = _fault_of(given) if id(given.expression) in within else None
         if own is not None and own.message == error.message:
             cause = f"{given.where}: {own.message}"
             source.expression_fault(given.node, given.where, own, cause)
@@ -115,5 +116,8 @@ def _note(numbers: Numbers, entry: Entry, error: ExpressionError) -> None:
     source.expression_fault(entry.node, entry.where, error)
 
 
-def _has(whole: Expression, part: Expression) -> bool:
-    return whole is part or any(_has(x, part) for x in parts(whole))
+def _identities(expression: Expression) -> Iterator[int]:
+    """Of an expression and of all that it is made of: the text of a parameter is one expression."""
+    yield id(expression)
+    for part in parts(expression):
+        yield from _identities(part)

@@ -41,8 +41,9 @@ RELATIONS = {
     "different": "different methods",
     "undecided": "not decided",
 }
-SAME_STEP = "the same step"
 """What methods are to each other."""
+SAME_STEP = "the same step"
+"""Of different ones, where only embedded weights or dense output differ."""
 
 
 class Method(NamedTuple):
