@@ -405,6 +405,12 @@ def _flags(subject: Subject) -> Iterator[AuditFinding]:
         yield AuditFinding("fsal", "declared first same as last, and the last row is not b")
 
 
+def _unread(subject: Subject) -> Iterator[AuditFinding]:
+    """Nodes and embedded weights that are not known."""
+    lost = (x for x in subject.table.notes if " not read: " in x)
+    yield from (AuditFinding("unread", x, level="note") for x in lost)
+
+
 _Check: TypeAlias = Callable[[Subject], Iterator[AuditFinding]]
-CHECKS: tuple[_Check, ...] = (_order, _said, _weights, _nodes, _embedded, _flags)
+CHECKS: tuple[_Check, ...] = (_order, _said, _weights, _nodes, _embedded, _flags, _unread)
 """What is examined, in the order in which it is reported."""

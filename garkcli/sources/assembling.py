@@ -279,7 +279,8 @@ def _single(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
         empty = replace(empty, **is_told, units=made.units)
         if form == "Shu–Osher":
             roles = {**roles, "c": roles.get("nodes", Null())}
-    table = replace(empty, A=((A,),), b=(b,), c=(_nodes(roles, A),))
+    notes = (*empty.notes, *not_read(roles))
+    table = replace(empty, A=((A,),), b=(b,), c=(_nodes(roles, A),), notes=notes)
     table = _with_embedded(table, roles, meant)
     dense, degree = items_of(roles.get("dense")), whole(roles.get("dense_degree"))
     if degree and len(dense) == table.stages * degree:
@@ -288,6 +289,20 @@ def _single(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
     if len(dense) != table.stages or not rows.is_matrix or first_unknown(rows):
         return table
     return replace(table, dense=(rows_of(plain(rows)),))
+
+
+BESIDE = {"c": "nodes are", "embedded": "embedded weights are", "error": "error weights are"}
+"""What a table may be without."""
+
+
+def not_read(roles: Roles) -> tuple[str, ...]:
+    """What is written beside a matrix and its weights, and is not known."""
+    unknown = {role: first_unknown(roles[role]) for role in BESIDE if role in roles}
+    return tuple(
+        f"{BESIDE[role]} not read: {x.reason}"
+        for role, x in unknown.items()
+        if x and x.reason != "never assigned" and not x.reason.startswith("the argument")
+    )
 
 
 def _with_both_rows(roles: Roles) -> Roles:

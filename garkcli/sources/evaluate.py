@@ -121,6 +121,9 @@ class Evaluator:
     def replaced(self, scope: ir.Scope, space: Space, name: str) -> None:
         """An array is about to be assigned anew."""
 
+    def refilled(self, scope: ir.Scope, record: Record, name: str) -> None:
+        """A field is about to be assigned anew."""
+
     def __init__(
         self,
         base: int,
@@ -348,6 +351,8 @@ class Evaluator:
         if not is_free:
             return None
         inside[key] = made
+        if isinstance(made, Record) and self._scopes[-1].kind == "module":
+            made.key = str(key)
         if inside is space:
             space.lines.setdefault(str(key), self.line)
         return made
@@ -361,6 +366,11 @@ class Evaluator:
                 space.lines[key] = line
             case ir.Index(at=at) if isinstance(value, Array) and any(map(_is_range, at)):
                 items = value.items if len(value.items) == len(places) else list(value.flat())
+            case ir.Field(of=of, name=key) if isinstance(value, Array):
+                record = self.value(of, space)
+                old = record.fields.get(key, NULL) if isinstance(record, Record) else value
+                if isinstance(record, Record) and shown(old) != shown(value):
+                    self.refilled(self._scopes[-1], record, key)
         if len(items) == len(places) > 0:
             for (inside, key), item in zip(places, items, strict=True):
                 inside[key] = item

@@ -10,7 +10,15 @@ from typing import Any
 from garkcli.frozen import replace
 from garkcli.sources import ir
 from garkcli.sources.allowance import Allowance
-from garkcli.sources.assembling import Meant, NoTable, Roles, is_complete, table_of
+from garkcli.sources.assembling import (
+    BESIDE,
+    Meant,
+    NoTable,
+    Roles,
+    is_complete,
+    not_read,
+    table_of,
+)
 from garkcli.sources.evaluate import Evaluator, Space
 from garkcli.sources.found import FoundTable, troubled
 from garkcli.sources.naming import ROLES, role_of, roles_of_parts
@@ -36,6 +44,7 @@ from garkcli.sources.values import (
     Unknown,
     Value,
     Word,
+    copied,
     first_unknown,
     is_written,
     items_of,
@@ -62,6 +71,7 @@ _MADE = frozenset({"", _TABLE, "ARKodeSPRKTable_Alloc"})
 """Records that are filled after they are made."""
 
 
+NUMBERED = "A and b have numbers: methods of their own, or parts of one"
 UNRECOGNISED = "numbers with the names of coefficients whose roles are not recognised"
 
 
@@ -85,6 +95,7 @@ class TableFinder(Evaluator):
         self._users: dict[tuple[str, int], dict[str, Value | None]] = {}
         self._arrays: dict[str, dict[str, tuple[Array, int]]] = {}
         self._taken: set[tuple[str, int]] = set()
+        self._refilled: dict[int, Value] = {}
 
     def tables(self) -> list[FoundTable]:
         """All of them, each once; arrays that a call takes are found with it."""
@@ -109,11 +120,14 @@ class TableFinder(Evaluator):
             roles = {told[1] for told in map(role_of, names) if told}
             if {"A", "b"} <= roles or CONSTRUCTOR.fullmatch(scope.name):
                 self._unread(scope.name, scope.line, "it takes too much work to read")
-        tables = [*found.values(), *self._other.values()]
+        # behind a branch that assigns the nodes the table is without them
+        with_nodes = {(x.A, x.b, x.line) for x in found.values() if any(x.c)}
+        read = [x for x in found.values() if any(x.c) or (x.A, x.b, x.line) not in with_nodes]
+        tables = [*read, *self._other.values()]
         sure = {(x.A, x.b) for x in tables if x.is_sure and x.b}
         kept = [x for x in tables if x.is_sure or not x.b or (x.A, x.b) not in sure]
-        read = {x.line for x in kept if x.b}
-        kept = [x for x in kept if not x.trouble or x.line not in read]
+        lines = {x.line for x in kept if x.b}
+        kept = [x for x in kept if not x.trouble or x.line not in lines]
         return sorted(kept, key=lambda x: x.line)
 
     # a scope
@@ -179,8 +193,21 @@ class TableFinder(Evaluator):
         given = {(x, space.lines.get(x, 0)) for x in names}
         if not {"A", "b"} <= roles or (name, space.lines.get(name, 0)) in self._taken:
             return
-        self._of_names({x: space[x] for x in names}, space.lines, scope)
+        # entries of arrays that stay may be assigned later
+        self._of_names({x: copied(space[x]) for x in names}, space.lines, scope)
         self._taken |= given
+
+    def refilled(self, scope: ir.Scope, record: Record, name: str) -> None:
+        """As for arrays: a structure is a table before its matrix or its weights are new."""
+        both = [x for key, x in record.fields.items() if ROLES.get(key) in {"A", "b"}]
+        is_one = ROLES.get(name) in {"A", "b"} and name in record.fields
+        ids = {id(x): x for x in both}
+        is_new = not ids.keys() & self._refilled.keys()
+        before = copied(record)
+        is_whole = is_one and len(ids) == 2 and all(map(is_written, both))
+        if is_whole and is_new and isinstance(before, Record):
+            self._of_record(before, scope)
+            self._refilled |= ids
 
     def _of_classes(self) -> Iterator[Meant]:
         """Tables whose arrays are classes: a1, a2, …, b, db, c."""
@@ -291,6 +318,7 @@ class TableFinder(Evaluator):
         groups: dict[str, Roles] = {}
         taken: dict[str, dict[str, bool]] = {}
         places: dict[str, list[tuple[str, int]]] = {}
+        unread: dict[str, Roles] = {}
         for name, value in values.items():
             owner, _, plain = name.rpartition("::")
             numbered = _NUMBERED.fullmatch(plain) if isinstance(value, Array) else None
@@ -301,6 +329,8 @@ class TableFinder(Evaluator):
                 # RK6Solver::a belongs to its class
                 stem, role = told[0] or owner, told[1]
             else:
+                if told is not None and told[1] in BESIDE and isinstance(value, Unknown):
+                    unread.setdefault(told[0] or owner, {})[told[1]] = value
                 continue
             groups.setdefault(stem, {})[role] = value
             places.setdefault(stem, []).append((name, lines.get(name, scope.line)))
@@ -312,6 +342,9 @@ class TableFinder(Evaluator):
                 # α, β, γ are the matrix in one row, the weights and the nodes
                 roles |= {"A": roles["c"], "b": roles["A"], "c": roles.pop("gamma")}
             if not is_complete(roles):
+                b = numbered_roles.get("b 1")
+                if "A 1" in numbered_roles and abs(near(b) - 1) < NEAR:
+                    self._unread(stem or scope.title, places[stem][0][1], NUMBERED)
                 continue
             title = roles.pop("title", None)
             name = title.text if isinstance(title, Word) else stem.strip() or scope.title
@@ -324,7 +357,8 @@ class TableFinder(Evaluator):
                 latest = max(line for _, line in places[stem])
                 self._unread(name, latest, "A is assigned anew without b, or b without A")
                 continue
-            place = self._place(name, begin, is_sure=is_sure)
+            notes = not_read(unread.get(stem, {}))
+            place = self._place(name, begin, is_sure=is_sure, notes=notes)
             self._meant.append(Meant(place, roles, PARTS if are_parts else NAMED, bases=bases))
 
     def _of_step(self, scope: ir.Scope, space: Space) -> bool:

@@ -131,7 +131,7 @@ _TYPES = """
     PetscReal PetscScalar real Real dble identity parse vec fraction static_cast
     Number vector make_array sym vpa mp str2sym full num2cell cell2mat as_double
     deepcopy copy freeze array_from rational float128 cpp_bin_float String
-    LinearAlgebra string value_type RC REAL N SetPrecision SetAccuracy Rationalize
+    LinearAlgebra string value_type RC REAL N SA SA_F64 SA_F32 SetPrecision SetAccuracy Rationalize
 """
 CONVERSIONS = frozenset(_TYPES.split())
 """Types, and functions that give back the number, the list or the matrix that they get."""
@@ -235,9 +235,14 @@ def _one(_call: Call, *_: Value) -> Value | None:
 
 
 @_known("sum")
-def _sum(call: Call, values: Value) -> Value | None:
-    """The sum of a list."""
-    if not isinstance(values, Array) or values.is_matrix:
+def _sum(call: Call, values: Value, axis: Value = NULL) -> Value | None:
+    """The sum of a list; of a matrix those of its rows."""
+    along = whole(call.named.get("axis", call.named.get("dims", axis)))
+    if not isinstance(values, Array):
+        return call.unknown()
+    if values.is_matrix and along == 1 + call.evaluator.base:
+        return call.array(_sum(call, row) or NULL for row in values.items)
+    if values.is_matrix:
         return call.unknown()
     total: Value = ZERO
     for x in values.items:

@@ -560,3 +560,36 @@ def test_a_matrix_and_a_row_without_nodes_are_told(last: str, b: str, is_told: b
     found = audit(table)
     assert (found is not None) == is_told
     assert not is_told or (found is not None and found.looks_like)
+
+
+KUTTA = "[0 0 0; 1/2 0 0; -1 2 0]"
+HEUN = "A = [[0, 0], [1, 0]]\nb = [1/2, 1/2]\n"
+OF_TYPE = """
+template <typename T, typename = void> struct Kutta {
+  static constexpr T a[2][2] = {{T(0), T(0)}, {T(1) / T(2), T(0)}}, b[2] = {T(0), T(1)};
+};
+"""
+
+
+@pytest.mark.parametrize(
+    ("find", "text", "orders", "told"),
+    [
+        (matlab.find, "r.A = [0 0; 1 0]; r.b = [.5 .5]; r.A = [0 0; 0 0]; r.b = [0 1];", "21", ""),
+        (matlab.find, "A_1 = [0 0; 1 0]; b_1 = [.5 .5];", "-", "A and b have numbers"),
+        (matlab.find, f"A = {KUTTA}; b = [1 4 1] / 6; c = sum(A, 2);", "3", ""),
+        (julia.find, f"const K = (; A = SA{KUTTA}, b = SA[1/6, 2/3, 1/6])", "3", ""),
+        (c.find, OF_TYPE, "2", ""),
+        (python.find, f"{HEUN}if x:\n    b = [1/4, 3/4]\n    A[1][0] = 2/3", "2-", "anew"),
+        (python.find, f"{HEUN}c = [0, f(1)]", "2", "nodes are not read: the call f"),
+        (python.find, f"{HEUN}c = f(1)", "2", "nodes are not read: the call f"),
+    ],
+)
+def test_what_is_not_read_is_told(find: Find, text: str, orders: str, told: str) -> None:
+    """Structures and arrays that are assigned anew, types of templates, unknown nodes."""
+    tables = find(text, "x")
+    found = [audit(x) for x in tables]
+    shown = [str(x.order.order) if x is not None and x.order else "-" for x in found]
+    assert "".join(shown) == orders
+    texts = "".join(y for x in tables for y in (*x.notes, x.trouble))
+    assert told in texts
+    assert bool(told) == bool(texts)

@@ -75,7 +75,8 @@ class CLowering(Lowering):
                 given = (x for x in inside if x.type == "base_class_clause")
                 bases = tuple(self.text(y) for x in given for y in self.children(x))
                 self._declares(name, body)
-                yield ir.Scope("class", name, self.block([body]), line, bases=bases)
+                types = self._types(node)
+                yield ir.Scope("class", name, self.block([body]), line, types=types, bases=bases)
             case "type_definition" if body := part(node, "type", "body"):
                 self._declares(self.text(part(node, "declarator")), body)
             case "enum_specifier":
@@ -159,7 +160,15 @@ class CLowering(Lowering):
         body = part(node, "body")
         made += self.block([body]) if body and self.may_hold_a_table(body) else ()
         parameters = tuple(self._declared(x)[0] for x in given)
-        return ir.Scope("function", self._declared(declarator)[0], made, line_of(node), parameters)
+        name, types = self._declared(declarator)[0], self._types(node)
+        return ir.Scope("function", name, made, line_of(node), parameters, types)
+
+    def _types(self, node: Node) -> frozenset[str]:
+        """The types that a template is given."""
+        given = self.children(part(node.parent, "parameters"))
+        kinds = {"type_parameter_declaration", "optional_type_parameter_declaration"}
+        named = (y for x in given if x.type in kinds for y in self.children(x)[:1])
+        return frozenset(map(self.text, named))
 
     def _declaration(self, node: Node) -> Iterator[ir.Statement]:
         kind = part(node, "type")
