@@ -8,6 +8,8 @@ from collections.abc import Iterator, Mapping
 from garkcli.sources.found import MAX_STAGES
 from garkcli.sources.values import ZERO, Array, Number, Record, Value, whole
 
+TINY = 1e-9
+"""Rounding of weights leaves their sum nearer to 1."""
 NEAR = 0.01
 """Sums that differ by less are meant to be the same."""
 _TABLEAU = re.compile("butcher|tableau|(?<!s)table")
@@ -62,7 +64,9 @@ def _block_roles(value: Array, name: str) -> Mapping[str, Value] | None:
     order = whole(corners[0])
     is_tableau = _TABLEAU.search(name) is not None
     is_named = is_tableau or (name.startswith("b") and order is not None and order > 0)
-    is_block = off < FAR and 2 * agreeing >= stages
+    # an order before weights with the sum 1 needs no nodes that are the sums of their rows
+    is_ordered = name == "b" and is_named and off < TINY
+    is_block = is_ordered or (off < FAR and 2 * agreeing >= stages)
     is_plain = off < NEAR and agreeing >= max(2, stages - 1)
     # the weights alone may be wrong where the rows are those of an explicit method
     is_explicit = not any(x for i, row in enumerate(near[:stages]) for x in row[i + 1 :])

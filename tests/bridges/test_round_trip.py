@@ -67,8 +67,11 @@ def sample() -> list[Path]:
         return CATALOGUE
     few = CATALOGUE[::EVERY]
     special = [x for x in CATALOGUE if x.parent.name in SHOWN]
-    dense = [x for x in CATALOGUE if x.name.startswith("dormand-prince-5.")]
-    return sorted({*few, *special[::5], *dense})
+    # dense output, and nodes that are no sums of rows
+    others = [
+        x for x in CATALOGUE if x.name.split(".")[0] in {"dormand-prince-5", "lobatto-iiib-2"}
+    ]
+    return sorted({*few, *special[::5], *others})
 
 
 @cache
@@ -195,7 +198,9 @@ def test_what_is_written_is_read(target: str) -> None:
         method = payload(path)
         if target in {"rungekutta-jl", "climatimesteppers"}:
             method = replace(method, embedded=None)
-        if not of_one_table(target, method):
+        # by weights with the sum 3 no matrix is known to be a tableau
+        is_known = target != "rklab" or path.name != "verner-6-misprint.gark.yaml"
+        if not (is_known and of_one_table(target, method)):
             continue
         try:
             text = bridge.written(method)
