@@ -209,7 +209,10 @@ class _Picture:
     def legend(self, cells: _Cells) -> list[str]:
         """What signs mean, as many on a line as fit."""
         named = [x for x in self.panel.legend if x.label != sign_of(x)]
-        texts = [f"{sign_of(x)} {self.spelt(shortened(x.label, self.columns - 2))}" for x in named]
+        # a dot alone is a dot in ASCII, and between blanks a product
+        signs = [self.spelt(sign_of(x)) for x in named]
+        labels = [self.spelt(shortened(x.label, self.columns - 2)) for x in named]
+        texts = [f"{sign} {label}" for sign, label in zip(signs, labels, strict=True)]
         if SEVERAL in cells.values():
             texts.append(f"{SEVERAL} several")
         lines: list[str] = []

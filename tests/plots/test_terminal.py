@@ -128,6 +128,19 @@ def test_ascii_is_as_wide(name: str, columns: int) -> None:
             assert line.find("┤") in (-1, plain.find("+"))
 
 
+def test_signs_of_a_legend_differ_in_ascii() -> None:
+    """A straight line is made of dots there too, not of the stars of the first curve."""
+
+    def spelt(text: str) -> str:
+        return plain_text(text, "ascii")
+
+    axis = Axis("x", 0.0, 1.0)
+    curves = [Curve(0, [(0, 0), (0.5, 1), (1, 0)], "first"), Curve(1, [(0, 0), (1, 1)], "line")]
+    assert spelt(drawn(Panel("", "", axis, axis, curves), spelt)[-1]).split() == (
+        ["*", "first", ".", "line"]
+    )
+
+
 def test_names_from_outside_are_harmless() -> None:
     """Controls in a name of a curve, a label of an axis and a note are written as text."""
     hostile = "\x1b[31m"
