@@ -151,6 +151,10 @@ _COARSE = 80
 _MUCH = 2.5
 """How many times as large a window may be as what is around 0."""
 _AROUND = 1.3
+_FAR = 1e6
+"""How many times as far as all nearer ones a zero or pole is that is in no picture: where a leading
+coefficient is the rounding of 0.
+"""
 
 
 def stability_scene(
@@ -209,6 +213,8 @@ def region_panel(named: Sequence[Named], is_order_star: bool = False) -> Panel:
     note = _STAR if is_order_star else FILLED
     if window != whole:
         note += " Islands around zeros of R that are far away are not in the picture."
+    elif any(size > whole.top for size in _sizes(functions)):
+        note += " What R does far away is not in the picture."
     what = "|R(z)| is larger than |exp z|" if is_order_star else "|R(z)| is at most 1"
     description = (
         f"The complex plane from {window.left:.3g} to {window.right:.3g} and from "
@@ -341,15 +347,25 @@ class _Window(Frozen):
 def _window_of(functions: Sequence[StabilityFunction], is_symmetric: bool) -> _Window:
     """A part of the plane with all that happens: zeros of P, poles, where |R| = 1 on the axis."""
     reach = 2.0
-    for R in functions:
-        for p in (R.numerator, R.denominator):
-            made = fmpq_poly([_exact(to_float(a)) for a in p.coefficients])
-            roots: list[Any] = made.complex_roots()
-            reach = max([reach, *(float(abs(root)) for root, _ in roots)])
+    for size in _sizes(functions):
+        if size > _FAR * reach:
+            break
+        reach = max(reach, size)
     reach *= 1.6
     have_no_poles = all(R.denominator.degree == 0 for R in functions)
     # regions of polynomials are on the left
     return _Window(-reach, reach / 4 if have_no_poles and not is_symmetric else reach, reach)
+
+
+def _sizes(functions: Sequence[StabilityFunction]) -> list[float]:
+    """How far from 0 the zeros and poles are, ascending."""
+    sizes = []
+    for R in functions:
+        for p in (R.numerator, R.denominator):
+            made = fmpq_poly([_exact(to_float(a)) for a in p.coefficients])
+            roots: list[Any] = made.complex_roots()
+            sizes += [float(abs(root)) for root, _ in roots]
+    return sorted(sizes)
 
 
 def _nearer(window: _Window, areas: Sequence[Area]) -> _Window:

@@ -180,6 +180,13 @@ def _plane(svg: ET.Element) -> tuple[float, float, float]:
     return unit, below[0], beside[0] - 4
 
 
+def test_a_pole_at_a_rounding_of_zero_is_not_in_the_picture() -> None:
+    region = by_name(pictures(loads("A: [[1e-25]]\nb: [1]\n")))["region"]
+    assert "What R does far away" in region.note
+    _, ends, _ = str(region.svg).partition("from -3.2 to 3.2")
+    assert ends
+
+
 @pytest.mark.parametrize("name", ["feagin-12", "feagin-14"])
 def test_a_small_region_is_seen_from_near(name: str) -> None:
     """Feagin's methods have zeros of R up to a thousand times as far as their regions, which fill
