@@ -8,7 +8,7 @@ from collections.abc import Callable
 from garkcli.sources import ir
 from garkcli.sources.allowance import Allowance
 from garkcli.sources.finder import TableFinder
-from garkcli.sources.found import FoundTable
+from garkcli.sources.found import FoundTable, TooLarge
 
 HINTS = re.compile(
     r"tableau|butcher|runge.?kutta|register|embedd|order|weights|nodes"
@@ -47,5 +47,9 @@ def tables_in(
         return []
     allowance = Allowance(len(text))
     finder = TableFinder(source, format, base, allowance, is_growing, has_whole_quotients)
-    finder.module(lowered(text))
-    return finder.tables()
+    statements = lowered(text)
+    try:
+        finder.module(statements)
+        return finder.tables()
+    except RecursionError:
+        raise TooLarge("values are nested too deep", allowance.line) from None

@@ -8,6 +8,7 @@ import math
 import operator
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
+from itertools import repeat
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from flint import fmpq
@@ -383,12 +384,22 @@ def first_unknown(value: Value) -> Unknown | None:
     return Unknown(described(value), getattr(value, "line", 0))
 
 
-def size(value: Value) -> int:
-    """About how many characters a value has when it is written out."""
+MAX_LEVELS = 100
+"""Deepest nesting of values."""
+
+
+def size(value: Value, level: int = 0) -> int:
+    """About how many characters a value has when it is written out.
+
+    Raises:
+        RecursionError: values are nested too deep.
+    """
+    if level > MAX_LEVELS:
+        raise RecursionError
     if isinstance(value, Array):
-        return 1 + sum(map(size, value.items))
+        return 1 + sum(map(size, value.items, repeat(level + 1)))
     if isinstance(value, Record):
-        return 1 + sum(map(size, value.fields.values())) + sum(map(size, value.args))
+        return 1 + sum(map(size, (*value.fields.values(), *value.args), repeat(level + 1)))
     if not isinstance(value, Number):
         return 1
     if value.written is not None:
