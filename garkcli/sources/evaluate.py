@@ -380,7 +380,7 @@ class Evaluator:
     def _entries(self, array: Array, at: Sequence[ir.Expr], space: Space) -> list[Place]:
         """The entries that indices name."""
         places: list[Place] = []
-        for i in self._numbers(at[0], array, space):
+        for i in self._numbers(at[0], array, space) if at else ():
             if array.is_growing and len(array.items) <= i < MAX_STAGES:
                 self.allowance.spend(i)
                 array.items += [FILL] * (i + 1 - len(array.items))
@@ -626,7 +626,7 @@ class Evaluator:
         if made is not None:
             return made
         if isinstance(callee, ir.Field) and isinstance(target := self.value(callee, space), Array):
-            return self._sliced(target, call.args, space)
+            return self._sliced(target, call.args, space) if args else target
         if isinstance(callee, ir.Field) and plain in _SAME:
             return self.value(callee.of, space)
         if isinstance(callee, ir.Field) and plain == "back" and not args:
