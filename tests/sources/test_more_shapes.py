@@ -7,7 +7,7 @@ from types import ModuleType
 import pytest
 
 from garkcli.bridges.audit import Audited, audit
-from garkcli.sources.found import Find
+from garkcli.sources.found import Find, TooLarge
 from garkcli.sources.languages import c, fortran, julia, matlab, python
 
 SHU_OSHER = """
@@ -593,3 +593,22 @@ def test_what_is_not_read_is_told(find: Find, text: str, orders: str, told: str)
     texts = "".join(y for x in tables for y in (*x.notes, x.trouble))
     assert told in texts
     assert bool(told) == bool(texts)
+
+
+@pytest.mark.parametrize(
+    ("find", "text"),
+    [
+        (python.find, "x.A = [[0, 0], [1, 0]]\ny = x.A()\n"),
+        (fortran.find, "program p\nreal :: a(2)\na = [1.0, 2.0]\na() = 3.0\nend program\n"),
+    ],
+)
+def test_an_entry_without_an_index_is_no_fault(find: Find, text: str) -> None:
+    """Neither as a call nor as what is assigned to."""
+    assert [x for x in find(text, "x") if not x.trouble] == []
+
+
+@pytest.mark.parametrize("text", ["A = [0]\n" + "A = [A]\n" * 3000, "b = 1\n" + "b = [b]\n" * 150])
+def test_values_that_hold_one_another_have_a_limit(text: str) -> None:
+    """No recursion of Python ends the program."""
+    with pytest.raises(TooLarge, match="nested too deep"):
+        python.find(text, "x")
