@@ -15,7 +15,7 @@ from garkcli.bridges.plausible import is_plausible
 from garkcli.bridges.readers.registry import find_tables, readers_for
 from garkcli.bridges.said import order_said_of
 from garkcli.bridges.sources import source_text
-from garkcli.bridges.subject import Subject, orders_of, read, sum_text, with_orders
+from garkcli.bridges.subject import HIGH, Subject, orders_of, read, sum_text, with_orders
 from garkcli.check.findings import repair_text, witness_text
 from garkcli.crew.hiring import hired
 from garkcli.crew.work import WorkerLost, in_order
@@ -26,7 +26,6 @@ from garkcli.files import STDIN
 from garkcli.frozen import Frozen, replace
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.reading import no_one
-from garkcli.order.rounded import find_order_within
 from garkcli.order.tolerance import within
 from garkcli.sources.finder import UNRECOGNISED
 from garkcli.sources.found import FoundTable
@@ -35,10 +34,7 @@ from garkcli.tableau.tableau import Tableau
 
 Level: TypeAlias = Literal["error", "warning", "note"]
 """Errors fail an audit; warnings and notes are reported."""
-HIGH = 10
-"""Higher orders are not tried: a wrong digit costs a lower one."""
 CARELESS = "careless rounding explains it"
-_BY_DIGITS = frozenset({"order", "weights", "nodes", "embedded-order", "embedded-weights"})
 MAX_BLAMED = 12
 """Most stages of a table whose wrong entry is sought."""
 
@@ -229,21 +225,19 @@ def _weighed(finding: AuditFinding, subject: Subject) -> AuditFinding:
     return finding
 
 
-def _is_explained(code: str, subject: Subject, said: int = 0) -> bool:
-    """Whether rounding by many units of the last digits might be why an order is missed: the
-    declared one, or the one that words say.
-    """
-    table, tableau = subject.table, subject.tableau
+def _is_explained(code: str, subject: Subject) -> bool:
+    """Whether rounding by many units of the last digits might be why something is missed."""
+    if code == "order":
+        return not subject.misses_order
     if code == "nodes":
         return not subject.misprinted_rows
-    if code not in _BY_DIGITS:
+    if code == "weights":
+        return subject.is_careless(subject.tableau, 1)
+    if code not in {"embedded-order", "embedded-weights"}:
         return False
-    wanted = said or min(table.order or 1, HIGH)
-    if code.startswith("embedded"):
-        tableau = with_weights(tableau, subject.method.embedded or ())
-        wanted = table.embedded_order or 1 if code == "embedded-order" else 1
-    rounded = subject.digits.careless(tableau)
-    return bool(rounded.tolerance) and find_order_within(rounded, wanted).order >= wanted
+    embedded = with_weights(subject.tableau, subject.method.embedded or ())
+    wanted = subject.table.embedded_order if code == "embedded-order" else None
+    return subject.is_careless(embedded, wanted or 1)
 
 
 def _order(subject: Subject) -> Iterator[AuditFinding]:
@@ -285,7 +279,9 @@ def _said(subject: Subject) -> Iterator[AuditFinding]:
     """The order that words say against the true one: they may speak of something else."""
     said, found = subject.table.said_order or 0, subject.order
     is_known = not (subject.table.order or found.is_limited or found.is_open)
-    if is_known and found.order < said <= HIGH and not _is_explained("order", subject, said):
+    if not is_known or not found.order < said <= HIGH:
+        return
+    if not subject.is_careless(subject.tableau, said):
         message = f"order {found.order}, a comment or docstring says {said}"
         yield AuditFinding("order", message + _witness(found, subject.tableau), level="warning")
 
@@ -297,10 +293,12 @@ def _witness(found: Judged, tableau: Tableau) -> str:
 
 
 def _is_of_nystrom(subject: Subject, declared: int) -> bool:
-    """Whether kicks and drifts have the declared order for second-order equations."""
-    if subject.table.structure != "separable":
+    """Whether kicks and drifts have the declared order for second-order equations: two vector
+    fields, neither of which sees itself, whatever else the source says of them.
+    """
+    table = replace(subject.table, parts=("q", "p"), structure="nystrom")
+    if set(subject.tableau.edges()) != {(0, 1), (1, 0)}:
         return False
-    table = replace(subject.table, structure="nystrom")
     return orders_of(read(table), table)[0].order >= declared
 
 

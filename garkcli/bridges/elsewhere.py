@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
+from textwrap import dedent
 
 from garkcli.bridges.sources import source_text
 from garkcli.errors import UsageProblem
@@ -15,9 +16,10 @@ _OF_ALGORITHM = re.compile(
     re.MULTILINE,
 )
 """``alg_order(::Tsit5) = 5`` of SciML."""
-_CLASS = re.compile(r"^class\s+(?P<name>\w+).*(?:\n(?:[ \t].*)?)*", re.MULTILINE)
-_USED = re.compile(r"^[ \t]+\w*tableau\b[^=\n]*=[ \t]*(?P<name>\w+)[ \t]*(?:#.*)?$", re.MULTILINE)
-_ORDER = re.compile(r"^[ \t]+order\b[^=\n]*=[ \t]*(?P<n>[0-9]{1,2})[ \t]*(?:#.*)?$", re.MULTILINE)
+_CLASS = re.compile(r"^class\s+(?P<name>\w+).*(?P<body>(?:\n(?:[ \t].*)?)*)", re.MULTILINE)
+_USED = re.compile(r"^\w*tableau\b[^=\n]*=[ \t]*(?P<name>\w+)[ \t]*(?:#.*)?$", re.MULTILINE)
+_ORDER = re.compile(r"^order\b[^=\n]*=[ \t]*(?P<n>[0-9]{1,2})[ \t]*(?:#.*)?$", re.MULTILINE)
+"""Of the class itself: what is in its functions has a margin."""
 _MADE_FOR = re.compile(
     r"(?P<name>\w+?)(?:E?S?DIRK)?(?:IMEX)?(?:Constant)?(?:Cache|Tableau)(?:Actual)?"
 )
@@ -44,7 +46,7 @@ def orders_in(text: str) -> list[tuple[str, int]]:
 
     >>> orders_in("alg_order(alg::Union{BS5, Tsit5}) = 5")
     [('BS5', 5), ('Tsit5', 5)]
-    >>> orders_in("class RK4(Solver):\n    order = 4\n    tableau = _RK4\n")
+    >>> orders_in("class RK4(Solver):\n  def f():\n    order = 3\n  order = 4\n  tableau = _RK4\n")
     [('RK4', 4), ('_RK4', 4)]
     """
     found = []
@@ -52,9 +54,10 @@ def orders_in(text: str) -> list[tuple[str, int]]:
         names = [name.strip().rpartition(".")[2] for name in match["names"].split(",")]
         found += [(name, int(match["order"])) for name in names]
     for match in _CLASS.finditer(text) if "order" in text else ():
-        order = _ORDER.search(match[0])
+        body = dedent(match["body"])
+        order = _ORDER.search(body)
         if order is not None:
-            names = [match["name"], *(x["name"] for x in _USED.finditer(match[0]))]
+            names = [match["name"], *(x["name"] for x in _USED.finditer(body))]
             found += [(name, int(order["n"])) for name in names]
     return found
 

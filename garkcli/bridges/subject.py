@@ -20,6 +20,7 @@ from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.load import loads
 from garkcli.methodfile.printed import FEWEST_DIGITS
 from garkcli.order.certificate import StageSpans
+from garkcli.order.rounded import find_order_within
 from garkcli.order.simplifying import RoundedDefects
 from garkcli.sources.found import FoundTable
 from garkcli.tableau.embedded import with_weights
@@ -27,6 +28,8 @@ from garkcli.tableau.forms import with_time
 from garkcli.tableau.rounded import RoundedTableau
 from garkcli.tableau.tableau import Tableau
 
+HIGH = 10
+"""Higher orders are not tried: a wrong digit costs a lower one."""
 NEAR = 1e-3
 """Row sums and nodes that differ by less are meant to be the same."""
 
@@ -131,13 +134,18 @@ class Subject(Frozen, eq=False):
             return self.order
         return judged(self.digits, timed, self.table.order, max(self.order.order, 1))
 
-    @property
+    @cached_property
     def misses_order(self) -> bool:
-        """Whether the order is lower than declared, and known to be."""
-        declared = self.table.order
-        if declared is None or self.order.is_limited or self.order.order >= declared:
+        """Whether the order is lower than declared, for another reason than careless rounding."""
+        declared, found = self.table.order, self.order
+        if declared is None or found.is_limited or found.is_open or found.order >= declared:
             return False
-        return not self.order.is_open
+        return not self.is_careless(self.tableau, declared)
+
+    def is_careless(self, tableau: Tableau, wanted: int) -> bool:
+        """Whether careless rounding may be why a tableau of these numbers misses an order."""
+        rounded, wanted = self.digits.careless(tableau), min(wanted, HIGH)
+        return bool(rounded.tolerance) and find_order_within(rounded, wanted).order >= wanted
 
 
 def imported(table: FoundTable, name: str) -> Subject:

@@ -211,6 +211,52 @@ def test_products_are_no_better_than_their_factors(tmp_path: Path) -> None:
     assert gark("audit", str(tmp_path)).code == 1
 
 
+def test_careless_digits_hide_no_misprint(tmp_path: Path) -> None:
+    """A matrix whose last digits are careless, so that the order is open, with a node that is off at
+    the sixth digit, or an embedded weight: an error.
+    """
+    table = (
+        "double A[3][3] = {{0}, {0.33333333333333333333}, {0, 0.66666666666666667000}};\n"
+        "double b[3] = {0.25, 0, 0.75}, bembed[3] = {0.20000000000000000001, 0.5, 0.3};\n"
+        "double c[3] = {0, 0.33333333333333333333, 0.66666666666666666667};\nint order = 3;\n"
+        "int embedded_order = 1;\n"
+    )
+    wrong = {
+        "careless": (table, []),
+        "node": (table.replace("c[3] = {0, 0.33333", "c[3] = {0, 0.33334"), ["nodes"]),
+        "weight": (table.replace("0.2000000", "0.2000010"), ["embedded-weights"]),
+    }
+    for name, (text, codes) in wrong.items():
+        (tmp_path / "m.c").write_text(text, encoding="utf-8")
+        (read,) = audited([str(tmp_path / "m.c")])
+        assert [x.code for x in read.findings if x.level == "error"] == codes, name
+
+
+@pytest.mark.parametrize(("target", "ending"), [("c", "h"), ("numpy", "py"), ("julia", "jl")])
+def test_kicks_and_drifts_of_second_order_equations(
+    target: str, ending: str, tmp_path: Path
+) -> None:
+    """A method for q'' = g(q) in a format that does not say so has its order there: a warning."""
+    path = tmp_path / f"m.{ending}"
+    path.write_text(gark("export", "calvo-sanz-serna-4", "--to", target).out, encoding="utf-8")
+    (read,) = audited([str(path)])
+    assert [(x.level, x.message) for x in read.findings] == [
+        ("warning", "order 4 where q' = p, and else 3")
+    ]
+
+
+def test_an_order_of_a_function_is_none_of_its_class(tmp_path: Path) -> None:
+    """What a class declares has its margin; what a function of it sets has a larger one."""
+    (tmp_path / "tables.py").write_text(
+        "_HEUN = ButcherTableau(a=[[0, 0], [1, 0]], b=[0.5, 0.5], c=[0, 1])\n"
+    )
+    (tmp_path / "solvers.py").write_text(
+        "class Heun:\n    tableau = _HEUN\n\n    def spline(self):\n        order = 3\n"
+    )
+    (read,) = audited(map(str, sorted(tmp_path.iterdir())))
+    assert (read.table.order, read.findings) == (None, ())
+
+
 LONG = re.compile(r"SUN_RCONST\((-?[0-9]+\.[0-9]{15,})\)")
 
 
