@@ -1,8 +1,10 @@
-"""Directed graphs: strongly connected components."""
+"""Directed graphs: strongly connected components, one after the other."""
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Callable, Hashable, Iterable, Mapping
+from heapq import heapify, heappop, heappush
 from typing import TypeAlias, TypeVar
 
 T = TypeVar("T", bound=Hashable)
@@ -34,6 +36,35 @@ def components(after: Edges[T]) -> list[list[T]]:
             component.reverse()
             found.append(component)
     return found
+
+
+def solving_order(needs: Edges[T], places: Mapping[T, int]) -> list[T]:
+    """Every vertex after those that it needs, and beside those that need it too; among what nothing
+    holds up any more the first place comes first, those of one place as they are given.
+
+    >>> needs = {"a": ["c"], "b": [], "c": ["d"], "d": ["c"]}
+    >>> solving_order(needs, {vertex: number for number, vertex in enumerate(needs)})
+    ['b', 'c', 'd', 'a']
+    """
+    rank = {vertex: (places[vertex], k) for k, vertex in enumerate(needs)}
+    systems = [sorted(x, key=rank.__getitem__) for x in components(needs)]
+    number = {vertex: k for k, system in enumerate(systems) for vertex in system}
+    waits_for = [{number[w] for v in x for w in needs[v]} - {k} for k, x in enumerate(systems)]
+    wanted_by = defaultdict(list)
+    for k, others in enumerate(waits_for):
+        for other in others:
+            wanted_by[other].append(k)
+    ready = [(places[x[0]], k) for k, x in enumerate(systems) if not waits_for[k]]
+    heapify(ready)
+    ordered: list[T] = []
+    while ready:
+        _, done = heappop(ready)
+        ordered += systems[done]
+        for k in wanted_by[done]:
+            waits_for[k].remove(done)
+            if not waits_for[k]:
+                heappush(ready, (places[systems[k][0]], k))
+    return ordered
 
 
 def _visit(root: T, after: Edges[T], seen: set[T], finish: Callable[[T], None]) -> None:

@@ -11,6 +11,7 @@ from garkcli.bridges.payload import Payload
 from garkcli.bridges.rounding import Cell, combined
 from garkcli.exact.field import ONE, ZERO
 from garkcli.frozen import Frozen, Mutable, field, replace
+from garkcli.graph import solving_order
 from garkcli.tableau.pointwise import Row
 
 Rows: TypeAlias = tuple[Row, ...]
@@ -180,24 +181,16 @@ def _sorted(stages: Sequence[_Stage]) -> list[int]:
     need each other come together.
     """
     at = {(m, j): k for k, stage in enumerate(stages) for m, j in stage.place_of.items()}
-    needs = [{k} for k in range(len(stages))]
-    for k, stage in enumerate(stages):
-        for m, row in enumerate(stage.rows):
-            needs[k] |= {at[m, j] for j, x in enumerate(row) if not vanishes(x)}
-    for k, further in enumerate(needs):
-        for needed in needs:
-            if k in needed:
-                needed |= further
-    order: list[int] = []
-    while len(order) < len(stages):
-        ready = (
-            needed
-            for k, needed in enumerate(needs)
-            if k not in order and all(j in order or needs[j] == needed for j in needed)
-        )
-        together = next(ready)
-        order += [k for k, needed in enumerate(needs) if needed == together]
-    return order
+    needs = {
+        k: [
+            at[m, j]
+            for m, row in enumerate(stage.rows)
+            for j, x in enumerate(row)
+            if not vanishes(x)
+        ]
+        for k, stage in enumerate(stages)
+    }
+    return solving_order(needs, {k: k for k in needs})
 
 
 def _table_of(payload: Payload, stages: Sequence[_Stage], m: int) -> Table:

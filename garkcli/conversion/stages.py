@@ -10,15 +10,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cmp_to_key
-from heapq import heapify, heappop, heappush
 from typing import Any, TypeAlias
 
 from garkcli.conversion.sheet import Place, Sheet, all_rows, arranged
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Vector
 from garkcli.exact.roots import sign
-from garkcli.frozen import Mutable, field
-from garkcli.graph import components
+from garkcli.graph import solving_order
 from garkcli.tableau.tableau import Tableau
 
 Stage: TypeAlias = tuple[int, int]
@@ -129,63 +127,10 @@ def _stages(tableau: Tableau) -> list[Stage]:
 def _arranged(sheet: Sheet, places: Classes) -> Sheet:
     """The stages of each space, the first place first among those that nothing holds up."""
     spaces: list[list[Place]] = [[] for _ in sheet.tableau.spaces]
-    for stage in _solved(sheet.tableau, places):
+    for stage in solving_order(_needs(sheet.tableau), places):
         k, _ = stage
         spaces[k].append(stage)
     return arranged(sheet, spaces)
-
-
-class _System(Mutable):
-    """Stages that need each other, or a single one.
-
-    Attributes:
-        stages: in their order.
-        place: the least place of them, and the number of the system.
-        waits_for: the systems that it needs and that are not done yet, by their numbers.
-        wanted_by: those that need it.
-    """
-
-    stages: list[Stage]
-    place: tuple[int, int]
-    waits_for: set[int] = field(default_factory=set)
-    wanted_by: list[int] = field(default_factory=list)
-
-
-def _solved(tableau: Tableau, places: Classes) -> list[Stage]:
-    """All stages; of the systems that wait for no other any more the first place comes first."""
-    systems = _systems(tableau, places)
-    ready = [system.place for system in systems if not system.waits_for]
-    heapify(ready)
-    ordered: list[Stage] = []
-    while ready:
-        _, done = heappop(ready)
-        ordered += systems[done].stages
-        for k in systems[done].wanted_by:
-            other = systems[k]
-            other.waits_for.remove(done)
-            if not other.waits_for:
-                heappush(ready, other.place)
-    return ordered
-
-
-def _systems(tableau: Tableau, places: Classes) -> list[_System]:
-    """The stages in systems that are solved together, with what each of them needs."""
-    needs = _needs(tableau)
-    systems: list[_System] = []
-    number: dict[Stage, int] = {}
-    for k, stages in enumerate(components(needs)):
-        stages.sort(key=lambda stage: (places[stage], stage))
-        systems.append(_System(stages, (places[stages[0]], k)))
-        for stage in stages:
-            number[stage] = k
-    for stage, needed in needs.items():
-        own = number[stage]
-        for other in needed:
-            before = number[other]
-            if before != own and before not in systems[own].waits_for:
-                systems[own].waits_for.add(before)
-                systems[before].wanted_by.append(own)
-    return systems
 
 
 def _needs(tableau: Tableau) -> dict[Stage, list[Stage]]:
