@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from typing import TypeAlias
 
 from garkcli.api.anymethod import AnyMethod, method_of, refuse_rounded
 from garkcli.api.numbers import Whole, whole
 from garkcli.bridges.audit import Audited, audited
-from garkcli.bridges.collecting import Result, collected
+from garkcli.bridges.collecting import collected
 from garkcli.bridges.preparing import prepared
-from garkcli.bridges.readers.registry import reader_named
 from garkcli.bridges.registry import bridge_named
 from garkcli.bridges.sources import source_files
 from garkcli.methodfile.build import MethodFile
-from garkcli.methodfile.reading import no_one
-from garkcli.sources.found import FoundTable
 
 AnyPath: TypeAlias = "str | os.PathLike[str]"
 """The path of a file or of a folder."""
@@ -63,21 +60,8 @@ def import_methods(
     >>> import_methods("tests/bridges/sources/kutta.csv")
     [<MethodFile kutta: 1 colour, stages 3>]
     """
-    results = results_of(_files(paths), format, is_recognising)
+    results = collected(_files(paths), format, is_recognising)
     return [result.method.method for result in results if result.method is not None]
-
-
-def results_of(
-    files: Iterable[str],
-    format: str | None = None,
-    is_recognising: bool = False,
-    left_out: Callable[[FoundTable], None] = no_one,
-) -> Iterator[Result]:
-    """What becomes of every table of some files; ``left_out`` hears of tables that may be no
-    methods.
-    """
-    readers = [] if format is None else [reader_named(format)]
-    return collected(files, readers, is_recognising, left_out)
 
 
 def audit(paths: AnyPath | Iterable[AnyPath], jobs: Whole = 1) -> Iterator[Audited]:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from itertools import chain, count
 from pathlib import PurePath
 
 from garkcli.bridges.plausible import is_plausible
-from garkcli.bridges.readers.registry import find_tables, readers_for
+from garkcli.bridges.readers.registry import find_tables, reader_named, readers_for
 from garkcli.bridges.recognising import Recognised, recognised
 from garkcli.bridges.sources import STDIN_NAME, source_text
 from garkcli.bridges.subject import Subject, imported
@@ -17,7 +17,7 @@ from garkcli.exact.display import decimal
 from garkcli.frozen import Frozen, replace
 from garkcli.methodfile.reading import no_one
 from garkcli.page.plaintext import plain_line
-from garkcli.sources.found import FoundTable, Reader
+from garkcli.sources.found import FoundTable
 
 SUFFIX = ".gark.yaml"
 _SMALL = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
@@ -67,7 +67,7 @@ class Result(Frozen, eq=False):
 
 def collected(
     paths: Iterable[str],
-    chosen: Sequence[Reader] = (),
+    format: str | None = None,
     is_recognising: bool = False,
     left_out: Callable[[FoundTable], None] = no_one,
 ) -> Iterator[Result]:
@@ -75,13 +75,14 @@ def collected(
 
     Args:
         paths: files, ``-`` for standard input.
-        chosen: who reads them; those of the endings of their names where none are given.
+        format: what they are; None for what the endings of their names say.
         is_recognising: whether exact forms of decimals are sought.
         left_out: who hears of tables that are left out, as they may be no methods.
 
     Raises:
-        UsageProblem: a source cannot be read.
+        UsageProblem: a source cannot be read, or there is no such format.
     """
+    chosen = None if format is None else [reader_named(format)]
     used: set[str] = set()
     for path in paths:
         text, source = source_text(path)

@@ -132,7 +132,7 @@ EXACT = Style(
 )
 """As method files have it: nothing is lost."""
 PYTHON = Style(longest=100, fraction="{p}/{q}", point=False)
-"""Python rounds the quotient of two whole numbers, and a decimal of any length, once."""
+"""Python and MATLAB round the quotient of two whole numbers, and a decimal of any length, once."""
 DECIMALS = Style()
 """The floats of languages that divide no whole numbers as they read them."""
 

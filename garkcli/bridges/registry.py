@@ -33,22 +33,6 @@ Stages: TypeAlias = Literal["any", "lower", "explicit"]
 """Which stages a target computes: all together, one after the other, explicit ones alone."""
 
 
-class Written(Frozen):
-    """A file beside the table: a driver, or what is needed to build it.
-
-    Attributes:
-        ending: what is put after the stem of the table's name: ``_test.c``.
-        text: of the file.
-    """
-
-    ending: str
-    text: str
-
-
-TestDriver: TypeAlias = Callable[[Payload, str], Sequence[Written]]
-"""From a method and the name of the file with its table (no folder) to the files of a test."""
-
-
 class FileName(Frozen):
     """How the file has to be called that a program runs.
 
@@ -61,11 +45,6 @@ class FileName(Frozen):
     pattern: str
     why: str
     cure: str
-
-
-HEADER = FileName(
-    r'[^"\\]*', "C++ includes a header", "-o NAME.hpp, without quotes and backslashes"
-)
 
 
 class Bridge(Frozen):
@@ -112,23 +91,29 @@ class Bridge(Frozen):
     reads_back: bool = False
     write: Callable[[Payload], str] | None = None
 
-    @property
-    def test_driver(self) -> TestDriver | None:
-        """What writes a program that runs the method; None where the target is data."""
-        return None if self.words is None else self._tested
+    def tested(self, payload: Payload, file: str) -> Mapping[str, str]:
+        """A program that runs a method, and its problem, by what is put after the stem of the
+        table's name: ``_test.c``; none where the target is data.
 
-    def _tested(self, payload: Payload, file: str) -> Sequence[Written]:
-        """The program and its problem."""
+        Args:
+            payload: the method.
+            file: the name of the file with its table, no folder.
+
+        Raises:
+            CannotExport: the target cannot hold it, or the file must have another name.
+        """
+        if self.words is None:
+            return {}
         if self.file and not (re.fullmatch(self.file.pattern, file) and file.isprintable()):
             message = f"{self.file.why} by the name of its file, and {file} is none"
             raise CannotExport(message, self.file.cure)
         ending = _ENDINGS.get(self.suffix, self.suffix)
         values = self._given(payload)
         of_program = program_values(payload, file, ending)
-        of_sides = {"sides": sides(payload, values["fields"], self.words or {})}
+        of_sides = {"sides": sides(payload, values["fields"], self.words)}
         name = f"{self.name}_test{ending}"
         text = text_of(name, payload, self.style, {**values, **of_program, **of_sides})
-        return [Written(f"_test{ending}", text), Written("_problem.yaml", trial_of(payload).file)]
+        return {f"_test{ending}": text, "_problem.yaml": trial_of(payload).file}
 
     def written(self, payload: Payload) -> str:
         """The file of a method.
@@ -266,5 +251,5 @@ def bridge_named(name: str) -> Bridge:
     known = bridges()
     if name not in known:
         message = f"no target {name!r}"
-        raise UsageProblem(message, did_you_mean(name, list(known)), code="unknown-word")
+        raise UsageProblem(message, did_you_mean(name, known), code="unknown-word")
     return known[name]

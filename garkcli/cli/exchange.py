@@ -27,16 +27,16 @@ def export(given: Given, output: Output) -> None:
     from garkcli.bridges.registry import bridge_named
 
     bridge = bridge_named(given.to)
-    if given.test and bridge.test_driver is None:
+    if given.test and bridge.words is None:
         message = f"{bridge.name} is data, not a program"
         raise UsageProblem(message, "leave out --test", code="cannot-export")
     payload = prepared(given.method(is_exact=True), given.digits)
     table = bridge.written(payload)
     path = Path(output.path or "")
-    beside = bridge.test_driver(payload, path.name) if given.test and bridge.test_driver else ()
+    beside = bridge.tested(payload, path.name) if given.test else {}
     output.write(table, bridge.name)
-    for written in beside:
-        Output(path=str(path.with_name(path.stem + written.ending))).write(written.text)
+    for ending, text in beside.items():
+        Output(path=str(path.with_name(path.stem + ending))).write(text)
 
 
 @declared("import", (*FORMATS, "yaml"))
@@ -49,7 +49,7 @@ def import_(given: Given, output: Output) -> None:
 
     Exit code: 0 methods were found, 2 there is none.
     """
-    from garkcli.bridges.calls import results_of
+    from garkcli.bridges.collecting import collected
     from garkcli.bridges.sources import source_files
     from garkcli.report.imported import REPORT, all_found, yaml_text
 
@@ -60,7 +60,7 @@ def import_(given: Given, output: Output) -> None:
     paths = list(source_files(given.sources, output.note))
     left_out: list[FoundTable] = []
     read = counting("sources", paths, len(paths))
-    results = list(results_of(read, **given.of("import_methods"), left_out=left_out.append))
+    results = list(collected(read, **given.of("import_methods"), left_out=left_out.append))
     if not any(result.method is not None for result in results):
         raise _nothing(given.sources, len(paths), results, left_out)
     for table in left_out:

@@ -132,7 +132,7 @@ TARGET = Section(
     Row("name", TEXT, label=""),
     Row("kinds", TEXTS, lambda x: [*x.kinds]),
     Row("reads_back", TRUTH, level=DETAIL),
-    Row("has_test", TRUTH, lambda x: x.test_driver is not None, DETAIL),
+    Row("has_test", TRUTH, lambda x: x.words is not None, DETAIL),
     Row("suffix", TEXT, level=DETAIL),
     Row("summary", TEXT),
 )

@@ -111,12 +111,11 @@ def _written(runner: Runner, payload: Payload, folder: Path) -> str:
     bridge = bridges()[runner.target]
     stem = payload.stem
     file = stem + bridge.suffix
-    assert bridge.test_driver is not None
     (folder / file).write_text(bridge.written(payload), encoding="utf-8")
-    for written in bridge.test_driver(payload, file):
-        path = folder / f"{stem}{written.ending}"
+    for ending, program in bridge.tested(payload, file).items():
+        path = folder / f"{stem}{ending}"
         # people are shown four digits of an error, we compare them all
-        text = written.text.replace(".3e", ".16e")
+        text = program.replace(".3e", ".16e")
         path.write_text(text, encoding="utf-8")
     return stem
 

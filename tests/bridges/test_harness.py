@@ -148,7 +148,7 @@ def test_what_is_run_is_there() -> None:
     kinds = {"explicit": "rk", "DIRK": "rk", "IMEX": "ark", "SPRK": "prk"}
     for runner in RUNNERS:
         bridge = bridges()[runner.target]
-        assert bridge.test_driver is not None
+        assert bridge.words is not None
         assert {kinds[kind] for kind in runner.kinds} <= {*bridge.kinds}
     assert len({runner.name for runner in RUNNERS}) == len(RUNNERS)
 

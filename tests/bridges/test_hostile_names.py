@@ -117,11 +117,8 @@ def exported(
 
 def _texts(bridge: Bridge, payload: Payload) -> list[str]:
     """The file of a method, and the program that runs it."""
-    texts = [bridge.written(payload)]
-    if bridge.test_driver is not None:
-        written = bridge.test_driver(payload, f"neutral{bridge.suffix}")
-        texts += [x.text for x in written if not x.ending.endswith(".yaml")]
-    return texts
+    program = [*bridge.tested(payload, f"neutral{bridge.suffix}").values()][:1]
+    return [bridge.written(payload), *program]
 
 
 def turned(place: int) -> list[str]:
@@ -338,11 +335,10 @@ def test_headers_of_cpp_compile(tmp_path: Path) -> None:
     for target, (k, name) in product(["boost", "mfem"], enumerate([*bare, "int", "errno"])):
         payload = payload_of(name, METHODS["pair"])
         bridge = bridges()[target]
-        assert bridge.test_driver is not None
         stem = f"{target}{k}"
         (tmp_path / f"{stem}.hpp").write_text(bridge.written(payload))
-        for written in bridge.test_driver(payload, f"{stem}.hpp"):
-            (tmp_path / f"{stem}{written.ending}").write_text(written.text)
+        for ending, content in bridge.tested(payload, f"{stem}.hpp").items():
+            (tmp_path / f"{stem}{ending}").write_text(content)
         sources.append(f"{stem}_test.cpp")
     # what all programs include is parsed once
     text = "\n".join((tmp_path / x).read_text() for x in sources)
@@ -371,10 +367,9 @@ def test_lists_of_r_are_made(tmp_path: Path) -> None:
     for k, name in enumerate([*WORDS, *sorted(RESERVED["r"])]):
         payload = payload_of(name, METHODS["pair"])
         bridge = bridges()["desolve"]
-        assert bridge.test_driver is not None
         (tmp_path / f"x{k}.R").write_text(bridge.written(payload))
-        program, _ = bridge.test_driver(payload, f"x{k}.R")
-        (tmp_path / f"x{k}_test.R").write_text(program.text)
+        program, _ = bridge.tested(payload, f"x{k}.R").values()
+        (tmp_path / f"x{k}_test.R").write_text(program)
         lines += [f'local(source("x{k}.R", local = TRUE))', f'invisible(parse("x{k}_test.R"))']
     (tmp_path / "all.R").write_text("\n".join(lines) + "\n")
     built(["Rscript", "all.R"], tmp_path)

@@ -73,10 +73,9 @@ def test_recorded_texts(target: str, name: str, method: str) -> None:
 @pytest.mark.parametrize(("target", "name", "method"), PROGRAMS, ids=PROGRAM_IDS)
 def test_recorded_programs(target: str, name: str, method: str) -> None:
     """The whole program of ``--test``, and its problem, which others have too."""
-    driver = bridges()[target].test_driver
-    assert driver is not None
-    program, _ = driver(payload_of(method), f"table{bridges()[target].suffix}")
-    compare(TEXTS / f"{target}-{name}{program.ending}.txt", program.text)
+    files = bridges()[target].tested(payload_of(method), f"table{bridges()[target].suffix}")
+    (ending, program), _ = files.items()
+    compare(TEXTS / f"{target}-{name}{ending}.txt", program)
 
 
 def compare(path: Path, text: str) -> None:
@@ -342,12 +341,10 @@ def test_irrational_numbers_of_mathematica() -> None:
 
 def test_names_of_functions_are_those_of_files() -> None:
     """MATLAB calls a function by its file: names that are none are refused for a test."""
-    driver = bridges()["matlab"].test_driver
-    assert driver is not None
+    tested = bridges()["matlab"].tested
     with pytest.raises(CannotExport, match="name of its file"):
-        driver(payload_of(RALSTON), "2-stages.m")
-    names = [x.ending for x in driver(payload_of(RALSTON), "ralston.m")]
-    assert names == ["_test.m", "_problem.yaml"]
+        tested(payload_of(RALSTON), "2-stages.m")
+    assert [*tested(payload_of(RALSTON), "ralston.m")] == ["_test.m", "_problem.yaml"]
 
 
 DRIVEN = ("boost", "desolve", "diffrax", "matlab", "mfem", "torchdiffeq")
@@ -358,9 +355,8 @@ def test_programs_say_which_errors_are_the_same(target: str) -> None:
     """Each has the command, and the problem file beside it; names stay in comments."""
     hostile = RALSTON.replace("Ralston-Euler", '"x */ y ?? -- %} (* #="')
     bridge = bridges()[target]
-    assert bridge.test_driver is not None
-    files = bridge.test_driver(payload_of(hostile), f"x{bridge.suffix}")
-    program, problem = (file.text for file in files)
+    files = bridge.tested(payload_of(hostile), f"x{bridge.suffix}")
+    program, problem = files.values()
     assert "gark converge FILE" in " ".join(program.split())
     assert problem.startswith("name: one right-hand side")
     assert program.isascii()

@@ -105,8 +105,7 @@ def test_no_text_of_a_file_is_given_to_a_template() -> None:
             for bridge in bridges().values():
                 try:
                     bridge.written(payload)
-                    if bridge.test_driver is not None:
-                        bridge.test_driver(payload, f"neutral{bridge.suffix}")
+                    bridge.tested(payload, f"neutral{bridge.suffix}")
                 except CannotExport:
                     continue
     written = [x for x in bridges().values() if x.write is None]

@@ -42,7 +42,7 @@ def test_lists_are_in_the_files_that_are_named() -> None:
         ("garkcli/cli/table.py", "COMMANDS"),
         ("garkcli/webpage/page.py", "SECTIONS"),
         ("garkcli/webpage/sections/orders.py", "content"),
-        ("garkcli/bridges/targets/mfem.py", "BRIDGES"),
+        ("garkcli/bridges/targets/plain.py", "BRIDGES"),
         ("garkcli/sources/languages/julia.py", "READER"),
     ):
         assert f"`{name}`" in TEXT
