@@ -66,21 +66,13 @@ def _capitalized(stem: str) -> str:
     return "".join(x.capitalize() for x in stem.split("_"))
 
 
-def _words(text: str) -> frozenset[str]:
-    return frozenset(text.split())
-
-
-_C = _words(
-    """
+_WORDS = {
+    "cpp": """
     auto break case char const continue default do double else enum extern float for goto if inline
     int long register restrict return short signed sizeof static struct switch typedef union
     unsigned void volatile while asm alignas alignof bool constexpr false nullptr static_assert
     thread_local true typeof typeof_unqual
     errno assert stdin stdout stderr linux unix
-    """
-)
-_CPP = _words(
-    """
     and and_eq bitand bitor catch char8_t char16_t char32_t class co_await co_return co_yield compl
     concept const_cast consteval constinit decltype delete dynamic_cast explicit export friend
     module mutable namespace new noexcept not not_eq operator or or_eq private protected public
@@ -89,18 +81,14 @@ _CPP = _words(
     array before boost cmath cos cstdio data do_step dt error explicit_error_generic_rk
     explicit_generic_rk field fusion h hpp include k log2 main make_vector mfem n numeric odeint
     once pragma printf problem sin solver sqrt state std stepper steps t y a b c d e e1 e2 f
-    """
-)
-_JULIA = _words(
-    """
+    """,
+    "julia": """
     abstract baremodule begin break catch const continue do else elseif end export false finally for
     function global if import in isa let local macro missing module mutable nothing outer primitive
     public quote return struct true try type using where while
     adaptiveorder as b bhat big bs c cs embedded_order fsal im map order pi a reshape sqrt tableau
-    """
-)
-_MATLAB = _words(
-    """
+    """,
+    "matlab": """
     arguments break case catch classdef continue do else elseif end endfor endfunction endif
     endparfor endswitch endwhile enumeration events for function global if methods otherwise parfor
     persistent properties return spmd switch try until unwind_protect while
@@ -112,17 +100,9 @@ _MATLAB = _words(
     mean min null ode ode113 ode15i ode15s ode23 ode23s ode23t ode23tb ode45 ode78 ode89 ones plot
     prod rand real round run save single size sort std stderr stdin stdout string struct sum system
     table test true uint8 uint16 uint32 uint64 var version what which who why
-    """
-)
-_R = _words(
-    """
-    break else for function if in next repeat while
-    atol b1 b2 before c cat class cos error f final h hini hmax is length library list log2 n na out
-    parms rbind rk rtol run seq sin slope source sprintf sqrt stage sum t times varstep y
-    """
-)
-_PYTHON = _words(
-    """
+    """,
+    "mathematica": "I Precision",
+    "python": """
     AbstractERK AbstractESDIRK AbstractImplicitSolver AbstractRootFinder AbstractRungeKutta
     AbstractTerm ButcherTableau ButcherTableaux CalculateJacobian ClassVar ConstantStepSize
     ExplicitRungeKutta ExplicitRungeKuttaMethod ExplicitRungeKuttaPair LocalLinearInterpolation
@@ -131,14 +111,15 @@ _PYTHON = _words(
     A B C E H P
     abc array b bhat c dedalus diffrax dtype float importlib int irksome name nodepy np numpy object
     order real_root rootof runge_kutta_method sqrt super sympy tableaux torch torchode tuple x
-    """
-)
+    """,
+    "r": """
+    break else for function if in next repeat while
+    atol b1 b2 before c cat class cos error f final h hini hmax is length library list log2 n na out
+    parms rbind rk rtol run seq sin slope source sprintf sqrt stage sum t times varstep y
+    """,
+}
 RESERVED: Mapping[str, frozenset[str]] = {
-    "cpp": _C | _CPP,
-    "julia": _JULIA,
-    "matlab": _MATLAB,
-    "mathematica": _words("I Precision"),
-    "python": _PYTHON.union(kwlist, softkwlist),
-    "r": _R,
+    language: frozenset(words.split()).union(*[kwlist, softkwlist] if language == "python" else [])
+    for language, words in _WORDS.items()
 }
 """The words of a language, with those that the files and programs of ``gark export`` have in it."""

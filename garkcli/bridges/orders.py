@@ -6,8 +6,7 @@ from flint import fmpq
 
 from garkcli.exact.display import decimal
 from garkcli.frozen import Frozen
-from garkcli.order.certificate import DEFAULT_LIMIT
-from garkcli.order.deciding import AnyOrder, order_of
+from garkcli.order.deciding import order_of
 from garkcli.order.simplifying import consistent_blocks
 from garkcli.tableau.forms import with_time
 from garkcli.tableau.meant import meant
@@ -56,25 +55,20 @@ class Orders(Frozen):
         return f"{text}; order conditions met within {decimal(self.tolerance)}"
 
 
-def find_orders(
-    tableau: Tableau, embedded: Tableau | None, tolerance: fmpq | None, limit: int = DEFAULT_LIMIT
-) -> Orders:
+def find_orders(tableau: Tableau, embedded: Tableau | None, tolerance: fmpq | None) -> Orders:
     """Prove the orders of a method.
 
     Args:
         tableau: the method.
         embedded: the same with the embedded weights; None without them.
         tolerance: the rounding of its coefficients; None where they are exact.
-        limit: where the search stops.
     """
 
-    def found(of: Tableau | None) -> AnyOrder | None:
-        return None if of is None else order_of(meant(of, tolerance), limit)
+    def found(of: Tableau | None) -> int | None:
+        return None if of is None else order_of(meant(of, tolerance)).order
 
-    order = order_of(meant(tableau, tolerance), limit)
-    is_consistent = all(consistent_blocks(meant(tableau, tolerance)).values())
-    timed = None if is_consistent else found(with_time(tableau))
-    with_nodes = None if timed is None or timed.order == order.order else timed.order
-    other = found(embedded)
-    of_embedded = None if other is None else other.order
-    return Orders(order.order, order.is_lower_bound, of_embedded, with_nodes, tolerance)
+    method = meant(tableau, tolerance)
+    order = order_of(method)
+    timed = None if all(consistent_blocks(method).values()) else found(with_time(tableau))
+    with_nodes = None if timed == order.order else timed
+    return Orders(order.order, order.is_lower_bound, found(embedded), with_nodes, tolerance)

@@ -6,9 +6,9 @@ until both of its ends round to the same text; it never lies half way between tw
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from decimal import MAX_EMAX, MIN_EMIN, ROUND_HALF_EVEN, Context, Decimal
-from typing import TypeAlias
+from typing import TypeAlias, TypeVar
 
 from flint import arb, ctx, fmpq
 
@@ -18,6 +18,7 @@ from garkcli.exact.field import ZERO, Number
 
 Cell: TypeAlias = Number | arb
 """An exact number, or an enclosure of one that is irrational."""
+T = TypeVar("T", Decimal, float)
 MOST_DIGITS = 20_000
 """Irrational numbers whose rounding is not told by so many digits are given up: 10 000 nines."""
 _GUARD = 20
@@ -57,14 +58,7 @@ def rounded(x: Cell, digits: int) -> Decimal:
     Raises:
         TooWide: an enclosure that is given does not tell.
     """
-    if isinstance(x, fmpq):
-        return significant(x, digits)
-    for ball in _finer(x, digits):
-        low, high = ends(ball)
-        found = significant(low, digits)
-        if found == significant(high, digits):
-            return found
-    raise TooWide
+    return _told(x, digits, lambda end: significant(end, digits))
 
 
 def nearest_float(x: Cell) -> float:
@@ -74,13 +68,17 @@ def nearest_float(x: Cell) -> float:
         TooWide: an enclosure that is given does not tell.
         OverflowError: there is none.
     """
+    return _told(x, 17, _nearest)
+
+
+def _told(x: Cell, digits: int, nearest: Callable[[fmpq], T]) -> T:
+    """What is nearest to a number, and to both ends of an enclosure that is fine enough."""
     if isinstance(x, fmpq):
-        return _nearest(x)
-    for ball in _finer(x, 17):
-        low, high = ends(ball)
-        found = _nearest(low)
-        if found == _nearest(high):
-            return found
+        return nearest(x)
+    for ball in _finer(x, digits):
+        low, high = map(nearest, ends(ball))
+        if low == high:
+            return low
     raise TooWide
 
 
