@@ -21,7 +21,7 @@ from garkcli.crew.hiring import hired
 from garkcli.crew.work import WorkerLost, in_order
 from garkcli.doing import counting, doing
 from garkcli.errors import MethodFileError, counted
-from garkcli.exact.field import ZERO, Number
+from garkcli.exact.field import ZERO
 from garkcli.files import STDIN
 from garkcli.frozen import Frozen, replace
 from garkcli.methodfile.build import MethodFile
@@ -200,14 +200,11 @@ def _noted(table: FoundTable, message: str, code: str = "unread") -> Audited:
 def _may_be_method(method: MethodFile) -> bool:
     """Whether b has the sum 1 or A is strictly triangular, not all of them whole numbers."""
     block, b = method.tableau.block(0, 0), method.tableau.colours[0].b
-    if block is None or len(b) < 2 or all(_is_integer(x) for row in (*block, b) for x in row):
+    numbers = (x for row in (*(block or ()), b) for x in row)
+    if block is None or len(b) < 2 or all(isinstance(x, fmpq) and x.q == 1 for x in numbers):
         return False
     is_explicit = not any(any(row[i:]) for i, row in enumerate(block))
     return sum(b, ZERO) == 1 or (is_explicit and any(block[-1]))
-
-
-def _is_integer(x: Number) -> bool:
-    return isinstance(x, fmpq) and x.q == 1
 
 
 def _weighed(finding: AuditFinding, subject: Subject) -> AuditFinding:
@@ -337,8 +334,10 @@ def _embedded(subject: Subject) -> Iterator[AuditFinding]:
     if found is None or embedded is None:
         return
     declared = subject.table.embedded_order
-    # the matrix is to blame, which is reported with the order already
+    # the matrix is to blame, which is reported with the order already; or the order of the estimate
+    # is meant, which is the lower one of both
     is_known = subject.misses_order and 0 < found.order < (declared or 0)
+    is_known = is_known or declared == subject.order.order < found.order
     if not found.order and not found.is_open:
         total = " and ".join(map(sum_text, embedded))
         yield AuditFinding("embedded-weights", f"the embedded weights have the sum {total}")

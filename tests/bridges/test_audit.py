@@ -232,6 +232,15 @@ def test_careless_digits_hide_no_misprint(tmp_path: Path) -> None:
         assert [x.code for x in read.findings if x.level == "error"] == codes, name
 
 
+def test_the_order_of_an_estimate_is_the_lower_one(tmp_path: Path) -> None:
+    """SciPy has it, where the embedded weights are those of the higher order: no finding."""
+    table = gark("export", "fehlberg-1", "--to", "scipy").out
+    (tmp_path / "m.py").write_text(table, encoding="utf-8")
+    (read,) = audited([str(tmp_path / "m.py")])
+    assert read.embedded_order is not None
+    assert (read.table.embedded_order, read.embedded_order.order, read.findings) == (1, 2, ())
+
+
 @pytest.mark.parametrize(("target", "ending"), [("c", "h"), ("numpy", "py"), ("julia", "jl")])
 def test_kicks_and_drifts_of_second_order_equations(
     target: str, ending: str, tmp_path: Path
@@ -281,7 +290,7 @@ def test_a_short_decimal_is_exact_among_long_ones(place: int, tmp_path: Path) ->
 
 
 UNLIKE = {
-    "m.py": "A = [[0.0], [0.5, 0.0], [1, 2, 3]]\nb = [0.1, 0.8]\nc = [0, 0.5]\n",
+    "m.py": "A = [[0.0], [0.5, 0.0], [1, 2, 3]]\nb = [0.1, 0.9]\nc = [0, 0.5]\n",
     "m.m": "A = [0 0; 0.5 0 0];\nb = [0 1];\n",
     "m.jl": "A = [0 0 0; 0.5 0 0; 0 0 0]\nb = [0, 1]\n",
     "m.json": '{"A": [[0, 0], [0.5, 0, 1]], "b": [0, 1], "c": [0, 0.5]}',
