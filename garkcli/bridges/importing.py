@@ -95,7 +95,7 @@ def _lines(value: Mapping[str, Tree] | Sequence[Tree], indent: str) -> Iterator[
             yield head
             yield from _lines(x, f"{indent}  ")
         else:
-            yield f"{head} {row_text([str(number) for number in x])}"
+            yield f"{head} [{', '.join(entry_text(str(number)) for number in x)}]"
 
 
 def _coefficients(table: FoundTable) -> Mapping[str, Tree]:
@@ -148,11 +148,6 @@ def _prk(table: FoundTable) -> Mapping[str, Tree]:
     return {"prk": {"q": q, "p": p}, "structure": structure}
 
 
-def row_text(row: Sequence[str]) -> str:
-    """A row of a method file."""
-    return f"[{', '.join(map(entry_text, row))}]"
-
-
 @lru_cache(maxsize=4096)
 def entry_text(text: str) -> str:
     """A number of a method file: fractions in lowest terms, long decimals and roots as they are.
@@ -170,13 +165,10 @@ def entry_text(text: str) -> str:
 
 
 def fraction_of(text: str) -> str:
-    """The fraction that a text without long decimals and without roots is; empty for others."""
-    if _LONG.search(_TAIL.sub("", text)) and not _is_quotient(text):
+    """The fraction that a text without long decimals and without roots is; empty for others. What
+    is made of whole numbers, however long, is exact.
+    """
+    if _LONG.search(_TAIL.sub("", text)) and {*text} & {*".eq"}:
         return ""
     value = _value(text)
     return str(value) if isinstance(value, fmpq) else ""
-
-
-def _is_quotient(text: str) -> bool:
-    """Whether a text is made of whole numbers, however long: those are exact."""
-    return "." not in text and "e" not in text and "q" not in text

@@ -8,7 +8,6 @@ from flint import arb
 
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import Number
-from garkcli.exact.matrix import Matrix
 from garkcli.methodfile.build import MethodFile
 from garkcli.sources.found import FoundTable
 
@@ -37,8 +36,8 @@ def is_plausible(table: FoundTable, method: MethodFile) -> bool:
     if table.c[0] is None:
         products = [to_ball(x) * _sum(row) for x, row in zip(colour.b, block, strict=True)]
         has_order_two = abs(sum(products, arb(0)) - 0.5) < NEAR
-        is_method = _is_triangular(block) or bool(has_order_two)
-        return bool(off < NEAR) and len(block) > 1 and is_method
+        is_triangular = not any(any(row[i + 1 :]) for i, row in enumerate(block))
+        return bool(off < NEAR) and len(block) > 1 and (is_triangular or bool(has_order_two))
     columns = tuple(zip(*block, strict=True))
     least = (len(block) + 1) // 2
     agreeing = max(_agreeing(block, colour.c), _agreeing(columns, colour.c))
@@ -55,7 +54,3 @@ def _agreeing(rows: Sequence[Sequence[Number]], nodes: Sequence[Number]) -> int:
     for row, node in zip(rows, nodes, strict=True):
         count += bool(abs(_sum(row) - to_ball(node)) < NEAR)
     return count
-
-
-def _is_triangular(block: Matrix) -> bool:
-    return not any(any(row[i + 1 :]) for i, row in enumerate(block))

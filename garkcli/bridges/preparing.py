@@ -19,7 +19,7 @@ from garkcli.methodfile.constructed.multirate import coupling_of
 from garkcli.properties.family_entries import is_nonzero_at, nodes_of
 from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.garkmethod import GarkMethod, derived_name
-from garkcli.tableau.pointwise import Block, Cell, Entries, Row, entries, in_points, numeric_entries
+from garkcli.tableau.pointwise import Block, Cell, Entries, Row, entries, in_points
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau
 
@@ -96,15 +96,14 @@ def _entries(tableau: Tableau, digits: int | None) -> Entries:
     """The entries, exact where that is possible; enclosures of zero are exact zeros, and so is the
     block that a method for one vector field lacks.
     """
-    found = entries(tableau)
+    found = entries(tableau, max(digits or 0, USUAL) + EXTRA)
     if not found.is_exact:
-        fine = numeric_entries(tableau, max(digits or 0, USUAL) + EXTRA)
         A = [
             tuple(_block(tableau, l, m, block) for m, block in enumerate(blocks))
-            for l, blocks in enumerate(fine.A)
+            for l, blocks in enumerate(found.A)
         ]
-        c = [_nodes(tableau, l, row) for l, row in enumerate(fine.c)]
-        found = replace(fine, c=tuple(c), A=tuple(A))
+        c = [_nodes(tableau, l, row) for l, row in enumerate(found.c)]
+        found = replace(found, c=tuple(c), A=tuple(A))
     if tableau.size == 1 and found.A[0][0] is None:
         zeros = (ZERO,) * len(found.b[0])
         return replace(found, A=(((zeros,) * len(zeros),),))

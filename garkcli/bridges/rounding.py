@@ -68,7 +68,8 @@ def nearest_float(x: Cell) -> float:
         TooWide: an enclosure that is given does not tell.
         OverflowError: there is none.
     """
-    return _told(x, 17, _nearest)
+    # the quotient of two integers of Python is rounded once
+    return _told(x, 17, lambda end: int(end.p) / int(end.q))
 
 
 def _told(x: Cell, digits: int, nearest: Callable[[fmpq], T]) -> T:
@@ -80,11 +81,6 @@ def _told(x: Cell, digits: int, nearest: Callable[[fmpq], T]) -> T:
         if low == high:
             return low
     raise TooWide
-
-
-def _nearest(x: fmpq) -> float:
-    # the quotient of two integers of Python is rounded once
-    return int(x.p) / int(x.q)
 
 
 def _finer(x: Cell, digits: int) -> Iterator[arb]:

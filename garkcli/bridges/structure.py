@@ -22,15 +22,6 @@ def vanishes(x: Cell) -> bool:
     return not isinstance(x, arb) and not x
 
 
-def is_lower(rows: Rows, has_diagonal: bool) -> bool:
-    """Whether all entries above the diagonal are zero, and those on it unless it may have them."""
-    for i, row in enumerate(rows):
-        first = i + 1 if has_diagonal else i
-        if not all(map(vanishes, row[first:])):
-            return False
-    return True
-
-
 class Table(Frozen):
     """The coefficients of one vector field, as a Butcher tableau.
 
@@ -56,12 +47,12 @@ class Table(Frozen):
     @property
     def is_explicit(self) -> bool:
         """Whether each stage needs only those before it."""
-        return is_lower(self.A, has_diagonal=False)
+        return self.is_diagonally_implicit and all(map(vanishes, self.diagonal))
 
     @property
     def is_diagonally_implicit(self) -> bool:
         """Whether each stage needs only itself and those before it."""
-        return is_lower(self.A, has_diagonal=True)
+        return all(vanishes(x) for i, row in enumerate(self.A) for x in row[i + 1 :])
 
     @property
     def is_fsal(self) -> bool:
@@ -110,23 +101,24 @@ def table(payload: Payload) -> Table:
 
 def with_last_stage(found: Table) -> Table:
     """The same method with f(t + h, y at the end) as one more stage, whose weight is 0."""
-    return replace(
-        found,
-        A=tuple((*row, ZERO) for row in (*found.A, found.b)),
-        b=(*found.b, ZERO),
-        c=(*found.c, ONE),
-        embedded=found.embedded and (*found.embedded, ZERO),
-    )
+    return _with_stage(found, found.stages, found.b, ONE)
 
 
 def with_first_stage(found: Table) -> Table:
     """The same method with f(t, y) as one more stage before all, whose weight is 0."""
+    return _with_stage(found, 0, (ZERO,) * found.stages, ZERO)
+
+
+def _with_stage(found: Table, at: int, weights: Row, node: Cell) -> Table:
+    def with_zero(row: Row) -> Row:
+        return (*row[:at], ZERO, *row[at:])
+
     return replace(
         found,
-        A=((ZERO,) * (found.stages + 1), *((ZERO, *row) for row in found.A)),
-        b=(ZERO, *found.b),
-        c=(ZERO, *found.c),
-        embedded=found.embedded and (ZERO, *found.embedded),
+        A=tuple(map(with_zero, (*found.A[:at], weights, *found.A[at:]))),
+        b=with_zero(found.b),
+        c=(*found.c[:at], node, *found.c[at:]),
+        embedded=found.embedded and with_zero(found.embedded),
     )
 
 

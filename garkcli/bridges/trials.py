@@ -57,11 +57,6 @@ class Trial(Frozen):
         ]
         return "".join(f"{x}\n" for x in lines)
 
-    @property
-    def step_sizes(self) -> str:
-        """The steps as ``gark converge --steps`` has them."""
-        return ",".join(f"{self.t_end}/{n}" for n in STEPS)
-
 
 WORDS = {"y1": "y[0]", "y2": "y[1]", "t": "t", "sin": "sin", "cos": "cos", "zero": "0.0"}
 """As C, Python and others with arrays from 0 have them."""
@@ -121,6 +116,6 @@ def sides(
 
 def command_of(payload: Payload, problem_file: str) -> str:
     """What prints the same errors, for the head of a program."""
-    trial = trial_of(payload)
+    steps = ",".join(f"{trial_of(payload).t_end}/{n}" for n in STEPS)
     taken = f" --{payload.derivation}" if payload.derivation else ""
-    return f"gark converge FILE{taken} --problem {problem_file} --steps {trial.step_sizes}"
+    return f"gark converge FILE{taken} --problem {problem_file} --steps {steps}"

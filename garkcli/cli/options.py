@@ -205,8 +205,7 @@ def _made(
     def run(**values: Any) -> Any:
         output = Output.of(values)
         if rules:
-            told = {"format": output.format, "output": output.path}
-            _check(rules, name, {**values, **told, "verbose": output.verbosity > 0})
+            _check(rules, name, {**values, "format": output.format, "output": output.path})
         return function(Given(values, calls), output)
 
     return click.Command(

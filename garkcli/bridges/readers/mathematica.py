@@ -22,8 +22,9 @@ class MathematicaLowering(Formulas):
     def __init__(self, text: str) -> None:
         super().__init__(text, call="[")
 
-    def block(self, start: int, end: int, depth: int = 0) -> ir.Body:
+    def block(self, start: int = 0, end: int | None = None, depth: int = 0) -> ir.Body:
         """The statements between two places."""
+        end = len(self.tokens) if end is None else end
         parts = [x for x in self.parts(start, end, ";", "\n") if x[0] < x[1]]
         return tuple(y for part in parts for y in self._statement(*part, depth))
 
@@ -73,14 +74,9 @@ def _of_ndsolve(value: ir.Expr) -> tuple[ir.Expr, ...]:
     return ()
 
 
-def _lowered(text: str) -> ir.Body:
-    source = MathematicaLowering(text)
-    return source.block(0, len(source.tokens))
-
-
 def find(text: str, source: str) -> list[FoundTable]:
     """The tables of a Mathematica source."""
-    return tables_in(text, source, NAME, _lowered, base=1)
+    return tables_in(text, source, NAME, lambda x: MathematicaLowering(x).block(), base=1)
 
 
 READER = Reader(

@@ -1,4 +1,7 @@
-"""CSV: a row an entry, every number as exact text."""
+"""CSV: a row an entry, every number as exact text.
+
+Colours and stages count from 1; of ``dense`` j is the power of theta.
+"""
 
 from __future__ import annotations
 
@@ -6,16 +9,14 @@ from collections.abc import Iterator
 
 from garkcli.bridges.comments import HASH, head
 from garkcli.bridges.payload import Payload
+from garkcli.bridges.readers.rows import COLUMNS
 from garkcli.bridges.registry import EVERYTHING, Bridge
 from garkcli.bridges.targets.json_data import style_of
-
-COLUMNS = "part,l,m,i,j,value"
-"""Colours and stages count from 1; of ``dense`` j is the power of theta."""
 
 
 def write(payload: Payload) -> str:
     """The rows, below a head of comments."""
-    return "\n".join([*HASH.lines(head(payload)), COLUMNS, *_lines(payload)]) + "\n"
+    return "\n".join([*HASH.lines(head(payload)), ",".join(COLUMNS), *_lines(payload)]) + "\n"
 
 
 def _lines(payload: Payload) -> Iterator[str]:

@@ -23,16 +23,9 @@ def values(_: Payload, tables: Sequence[Table]) -> Values:
         return {"form": "ark"}
     if not first.is_explicit:
         return {"form": "dirk"}
-    return {"form": "erk" if for_erkstep(first) else "explicit"}
-
-
-def for_erkstep(found: Table) -> bool:
-    """Whether ERKStep of every version steps with an explicit table as it is.
-
-    Before 6.6.1 it takes each method whose last node is 1 for one whose last stage is the first
-    of the next step, and is of another order then, in silence.
-    """
-    return found.is_fsal or found.c[-1] != ONE
+    # Before 6.6.1 ERKStep takes each method whose last node is 1 for one whose last stage is the
+    # first of the next step, and is of another order then, in silence.
+    return {"form": "erk" if first.is_fsal or first.c[-1] != ONE else "explicit"}
 
 
 BRIDGES = (
