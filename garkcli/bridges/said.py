@@ -18,7 +18,7 @@ _ORDER = re.compile(
     rf"(?P<before>[\w-]{{1,30}}[ \t]|)\b(?:(?P<word>{_ORDINAL})[ -]order"
     r"|(?P<ordinal>[0-9]{1,2})(?:st|nd|rd|th)[ -]order"
     rf"|order(?:[ ]of[ ]accuracy)?(?:[ ](?:of|is)|:|[ ]=)?[ ]"
-    rf"(?P<number>[0-9]{{1,2}}|{_ANY}))(?![\w.,/-]{{0,9}}[0-9])(?:[ -]accurate)?[ ]?"
+    rf"(?P<number>[0-9]{{1,2}}|{_ANY}))(?![\w.,/-]{{0,9}}[0-9]|st|nd|rd|th)(?:[ -]accurate)?[ ]?"
     r"(?P<after>[\w-]*)",
     re.IGNORECASE,
 )
@@ -63,7 +63,8 @@ def order_said(text: str) -> int | None:
     (None, 4)
     """
     said = set()
-    for found in _ORDER.finditer(_REFERENCES.split(text)[0]):
+    plain = " ".join(text.split())
+    for found in _ORDER.finditer(_REFERENCES.split(plain)[0]):
         before = found["before"].strip().lower()
         if before in _OTHER_BEFORE or _OTHER_AFTER.match(found["after"]):
             continue

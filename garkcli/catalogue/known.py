@@ -67,7 +67,8 @@ def fingerprint(tableau: Tableau) -> float:
             [sum(sum(map(mul, A[i], u)) for A, u in zip(row, vectors, strict=True) if A) for i in s]
             for row, s in zip(blocks, map(range, map(len, vectors)), strict=True)
         ]
-        vectors = [[1 / (1 + (25 * x - 8) ** 2) for x in row] for row in seen]
+        # a product of floats is infinite where a power would be a fault
+        vectors = [[1 / (1 + (y := 25 * x - 8) * y) for x in row] for row in seen]
     total: float = sum(sum(map(mul, b, u)) for b, u in zip(weights, vectors, strict=True))
     return round(total, _DIGITS)
 

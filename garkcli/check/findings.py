@@ -166,7 +166,7 @@ def names_of(colours: Sequence[int], names: Sequence[str]) -> tuple[str, ...]:
 def value_text(number: Number, digits: int = 17) -> Formula | str:
     """An entry as files have them: short ones exactly, decimals in full, others to some digits."""
     text = shortest(number)
-    if isinstance(number, fmpq) and "." in text:
+    if isinstance(number, fmpq) and "." in text and len(text) <= _LONG:
         return text
     return Formula(text) if len(text) <= _SHORT else to_decimal(number, digits)
 

@@ -205,7 +205,8 @@ def _made(
     def run(**values: Any) -> Any:
         output = Output.of(values)
         if rules:
-            _check(rules, name, {**values, "format": output.format, "output": output.path})
+            told = {"format": output.format, "output": output.path}
+            _check(rules, name, {**values, **told, "verbose": output.verbosity > 0})
         return function(Given(values, calls), output)
 
     return click.Command(

@@ -53,14 +53,13 @@ def stability(given: Given, output: Output) -> None:
             read, family = read_family(error, given.settings, needs)
             output.tell(STABILITY, every_stability(read.source, read.name, family))
             return
-        reports.append(_report(called(file), method, given))
+        reports.append(_report(called(file), method, given, output))
     output.tell(REPORT, *reports)
     if given.plot is not None:
         from garkcli.plots.regions import stability_scene
 
-        planes = [x.plane for x in reports if x.plane is not None]
         named = [(x.name, x.found) for x in reports]
-        scene = stability_scene(named, given.order_star, planes[0] if planes else None)
+        scene = stability_scene(named, given.order_star, reports[0].plane)
         output.save_plot(scene, given.plot)
 
 
@@ -77,7 +76,7 @@ def colour_named(tableau: Tableau, colour: str) -> int:
     return 1 + names.index(colour)
 
 
-def _report(file: str, method: GarkMethod, given: Given) -> StabilityReport:
+def _report(file: str, method: GarkMethod, given: Given, output: Output) -> StabilityReport:
     """What the report says of one method: its stability, or the two springs that the options ask
     for.
     """
@@ -109,7 +108,7 @@ def _report(file: str, method: GarkMethod, given: Given) -> StabilityReport:
         report = replace(report, slow=of_springs)
     else:
         report = replace(report, springs=of_springs)
-    if given.plot is None:
+    if given.plot is None and output.verbosity <= 0:
         return report
     split = springs(tableau, tableau.colours[colour - 1].term)
     return replace(report, plane=plane_with_ends_of(tableau, split, of_springs.stable, high))

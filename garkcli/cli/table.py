@@ -177,7 +177,7 @@ convert --to words=forms = convert.to | The form of the result.
 --fast COLOUR default= = two_springs.fast | With --slow: the colour of the fast spring.
 --ratio Q many ratios = find_stability.ratios
 stability --digits N 1..1000 default=12 | Digits of numbers that have no simple radicals.
---order-star = plot.is_order_star | With --plot: |R(z)| > |exp z| instead.
+--order-star = plot.is_order_star | In the picture |R(z)| > |exp z| instead.
 
 modified --order -n n 1..100 default=5 = backward_analysis.max_order
 --equation | Show rooted trees too if there is a modified Hamiltonian.
@@ -419,7 +419,8 @@ design: --output-dir with --minimise
 energy: --omega --split --stiffness --digits --symplecticity --bounded --max-error --plot
     with --modified | OPTION does not go with --modified | leave it out
 modified: --seed without --problem | --seed is for the problem | give --problem too
-stability: --order-star without --plot | --order-star is for the picture | give --plot FILE too
+stability: --order-star without --plot --verbose
+    | --order-star is for the picture | give -v or --plot FILE too
 export: --test without --output
     | --test writes further files beside the first | name it: -o FILE
 """

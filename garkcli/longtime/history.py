@@ -96,6 +96,15 @@ Verdict: TypeAlias = Literal["exact", "round-off", "bounded", "drifts", "unstabl
 """Conserved exactly; no error above round-off; no drift to be reported; a drift; blown up or
 escaped; left open, for the reason that a ``Doubt`` is.
 """
+WORDS: dict[str, tuple[str, str]] = {
+    "exact": ("good", "conserved"),
+    "round-off": ("good", "no error"),
+    "bounded": ("good", "bounded"),
+    "unstable": ("bad", "UNSTABLE"),
+    "undecided": ("note", "undecided"),
+    "drifts": ("bad", "DRIFTS"),
+}
+"""What news a verdict is, and its word."""
 Doubt: TypeAlias = Literal[
     "steps", "turns", "rest", "value", "round-off", "modulation", "level", "symplectic", "rounding"
 ]

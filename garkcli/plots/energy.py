@@ -5,21 +5,13 @@ from __future__ import annotations
 from math import isfinite
 
 from garkcli.frozen import replace
-from garkcli.longtime.history import InvariantHistory, LongRun
+from garkcli.longtime.history import WORDS, InvariantHistory, LongRun
 from garkcli.page.figures import measured
 from garkcli.plots import scene
 
 _TITLE = "Energy error over a long time"
 _HEIGHT, _LOWER = 200, 110
 """Of the panel of the energy, and of the others."""
-_WORDS = {
-    "exact": "conserved exactly",
-    "round-off": "not above round-off",
-    "bounded": "no drift is visible",
-    "drifts": "it drifts",
-    "unstable": "it blows up, or the orbit escapes",
-    "undecided": "the run does not tell whether it drifts",
-}
 
 
 def energy_scene(run: LongRun) -> scene.Scene:
@@ -70,11 +62,11 @@ def history_panel(run: LongRun, history: InvariantHistory) -> scene.Panel:
 
 def became_of(history: InvariantHistory) -> str:
     """The largest error, with the digits that are certain, and the verdict."""
-    words = _WORDS[history.verdict]
+    _, word = WORDS[history.verdict]
     if history.verdict in ("exact", "round-off") or not isfinite(history.max_error):
-        return words
+        return word
     largest = scene.in_words(measured(history.max_error, history.round_off, 2))
-    return f"the largest error is {largest}; {words}"
+    return f"{word}, largest error {largest}"
 
 
 def _scaled(points: list[scene.Point], factor: float) -> list[scene.Point]:

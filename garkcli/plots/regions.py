@@ -9,6 +9,7 @@ import math
 from collections.abc import Callable, Sequence
 from functools import cache, partial
 from itertools import groupby, pairwise
+from sys import float_info
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from flint import fmpq, fmpq_poly
@@ -211,9 +212,7 @@ def region_panel(named: Sequence[Named], is_order_star: bool = False) -> Panel:
     whole = _window_of(functions, is_order_star)
     window = whole if is_order_star else _nearer(whole, areas)
     note = _STAR if is_order_star else FILLED
-    if window != whole:
-        note += " Islands around zeros of R that are far away are not in the picture."
-    elif any(size > whole.top for size in _sizes(functions)):
+    if any(size > window.top for size in _sizes(functions)):
         note += " What R does far away is not in the picture."
     what = "|R(z)| is larger than |exp z|" if is_order_star else "|R(z)| is at most 1"
     description = (
@@ -291,8 +290,8 @@ def _exact(x: float) -> fmpq:
 
 
 def _floats(p: Polynomial) -> list[float]:
-    """The coefficients, the leading one first."""
-    return [to_float(a) for a in reversed(p.coefficients)]
+    """The coefficients, the leading one first, cut off where floats end."""
+    return [min(max(to_float(a), -float_info.max), float_info.max) for a in p.coefficients[::-1]]
 
 
 def _value(coefficients: Sequence[float], z: Any) -> Any:
@@ -362,7 +361,7 @@ def _sizes(functions: Sequence[StabilityFunction]) -> list[float]:
     sizes = []
     for R in functions:
         for p in (R.numerator, R.denominator):
-            made = fmpq_poly([_exact(to_float(a)) for a in p.coefficients])
+            made = fmpq_poly([_exact(a) for a in reversed(_floats(p))])
             roots: list[Any] = made.complex_roots()
             sizes += [float(abs(root)) for root, _ in roots]
     return sorted(sizes)

@@ -9,7 +9,7 @@ from typing import NamedTuple, get_args
 from garkcli.errors import counted
 from garkcli.exact.display import to_decimal, to_float
 from garkcli.frozen import Frozen, replace
-from garkcli.longtime.history import Doubt, InvariantHistory, LongRun, Stability, Verdict
+from garkcli.longtime.history import WORDS, Doubt, InvariantHistory, LongRun, Stability, Verdict
 from garkcli.longtime.rounding import power_of_ten
 from garkcli.longtime.symplecticity import Symplecticity
 from garkcli.longtime.trend import LEAST, Shape
@@ -74,20 +74,9 @@ class Quantity(NamedTuple):
 # verdicts
 
 
-_WORDS: dict[str, tuple[str, str]] = {
-    "exact": ("good", "conserved"),
-    "round-off": ("good", "no error"),
-    "bounded": ("good", "bounded"),
-    "unstable": ("bad", "UNSTABLE"),
-    "undecided": ("note", "undecided"),
-    "drifts": ("bad", "DRIFTS"),
-}
-"""What news a verdict is, and its word."""
-
-
 def _word(history: InvariantHistory, d: Plain) -> str:
     """The verdict."""
-    news, word = _WORDS[history.verdict]
+    news, word = WORDS[history.verdict]
     return str(getattr(d, news)(word))
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from functools import partial
 from typing import NamedTuple
 
 from garkcli.bridges.registry import Bridge
@@ -108,12 +109,23 @@ ROWS = {
     )
 }
 """By what gark list can list alone."""
+
+
+def _counted(row: Row, lists: Lists) -> str:
+    """How many a list has of what, above it."""
+    return f"{len(row.value(lists))} {'transfer rules' if row.key == 'transfer' else row.key}"
+
+
 REPORT: Report[Lists] = Report.only(
     "gark/list/1",
     "report of gark list",
     Section(
         Row("topics", shown(TOPIC, 0), _topics, label="", is_short=True),
-        *(replace(row, level=DETAIL, is_optional=True) for row in ROWS.values()),
+        *(
+            replace(line, level=DETAIL, is_optional=True)
+            for row in ROWS.values()
+            for line in (sentence(partial(_counted, row)), row)
+        ),
         sentence(lambda _: "your own problem: --problem FILE.yaml (docs/problem-file.md)"),
         title=lambda *_: "what files and commands can name",
     ),
@@ -123,8 +135,7 @@ REPORT: Report[Lists] = Report.only(
 def only(what: str) -> Report[Lists]:
     """The report of one of the lists."""
     row = ROWS[what]
-    name = "transfer rules" if what == "transfer" else what
-    section = Section(row, title=lambda x, _: f"{len(row.value(x))} {name}")
+    section = Section(row, title=lambda x, _: _counted(row, x))
     return Report.only("gark/list/1", f"report of gark list {what}", section)
 
 

@@ -408,8 +408,8 @@ IMEX = Section(
 )
 PLOT = Row(
     "plot",
-    scene(lambda x: stability_scene([(x.name, x.found)], x.is_order_star)),
-    lambda x: x if x.found.linear or x.found.oscillator else None,
+    scene(lambda x: stability_scene([(x.name, x.found)], x.is_order_star, x.plane)),
+    lambda x: x if x.found.linear or x.found.oscillator or x.plane else None,
     DETAIL,
 )
 
@@ -492,6 +492,7 @@ SPRINGS = Section(
             Row("stable", STABLE),
         ],
     ),
+    PLOT,
     title=title,
 )
 SLOW = Section(
@@ -509,6 +510,7 @@ SLOW = Section(
             Row("open_points", kinds.ROOTS),
         ],
     ),
+    PLOT,
     title=title,
 )
 

@@ -109,12 +109,16 @@ def table_of(meant: Meant) -> FoundTable:
         _refuse_uses(roles)
     try:
         table = _told(roles, _built(meant, roles, empty))
+        if not is_sure and not 0 < (order or 1) <= 2 * table.stages:
+            # no method has it: it is the order of something else
+            table = replace(table, order=None)
         return replace(table, is_sure=True) if signature.is_guess else table
     except Unreadable as error:
         is_misshapen, trouble = isinstance(error, Misshapen), error.message
-        is_record = signature is NAMED and bool(meant.maker)
-        has_weights = _has_weights(roles) and (is_record or not is_misshapen)
-        if not (is_sure or _is_unread(roles) or has_weights):
+        is_likely = bool(meant.maker) or may_be_coefficients(roles)
+        is_close = not is_misshapen or (is_likely and signature is NAMED)
+        is_unread = is_likely and _is_unread(roles)
+        if not (is_sure or is_unread or (is_close and _has_weights(roles))):
             trouble = f"arrays called A and b do not fit together: {trouble}"
             return replace(troubled(empty, trouble), is_sure=False)
         return troubled(empty, trouble, is_sure and is_misshapen)
@@ -139,6 +143,16 @@ _COEFFICIENTS = ("b", "c", "delta")
 def _is_unread(roles: Roles) -> bool:
     """Whether it is for an entry that is not known that a table cannot be read."""
     return any(first_unknown(roles[x]) is not None for x in ("A", "b") if x in roles)
+
+
+def may_be_coefficients(roles: Roles) -> bool:
+    """Whether arrays called A and b are more than those of linear algebra: there are nodes, or
+    fractions.
+    """
+    A, b, c = (items_of(roles.get(x)) for x in "Abc")
+    numbers = Array([x for x in roles.values() if isinstance(x, Array)]).flat()
+    fractions = sum(isinstance(x, Number) and (x.value is None or x.value.q != 1) for x in numbers)
+    return len(A) == len(b) == len(c) or fractions > 1
 
 
 def _has_weights(roles: Roles) -> bool:
@@ -525,10 +539,15 @@ def _two_parts(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
     stages = _stages(roles) if "stages" in roles else max(counts)
     if counts == [stages, stages - 1]:
         # only the explicit part has the first stage
-        of |= {x: Array([FILL, *items_of(of[x])]) for x in ("b2", "c2") if x in of}
         of["A2"] = Array([Array([]), *(Array([FILL, *items_of(x)]) for x in items_of(of["A2"]))])
-    if len(items_of(of.get("A1"))) == stages - 1:
-        of["A1"] = Array([Array([]), *items_of(of["A1"])])
+    if isinstance(of.get("A1"), Array) and not items_of(of["A1"]):
+        of["A1"] = Array([Array([])] * stages)
+    firsts: Roles = {"A1": Array([]), "b2": FILL, "c1": FILL, "c2": FILL}
+    of |= {
+        role: Array([first, *items_of(of[role])])
+        for role, first in firsts.items()
+        if len(items_of(of.get(role))) == stages - 1 > 0
+    }
     A2, A1 = (square(plain(of.get(x)), stages) for x in ("A2", "A1"))
     b2 = _given(of, "b2", stages) or A2[-1]
     b1 = _given(of, "b1", stages) or (b2 if meant.signature.has_default_weights else A1[-1])

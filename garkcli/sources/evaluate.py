@@ -7,6 +7,7 @@ the branch what it assigns is unknown.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import chain, repeat
 from typing import Any, TypeAlias, TypeGuard, TypeVar
@@ -33,6 +34,7 @@ from garkcli.sources.values import (
     copied,
     described,
     integer,
+    is_written,
     items_of,
     literal,
     negative,
@@ -279,6 +281,8 @@ class Evaluator:
             if size_ is not None and (count is None or not 0 <= count <= MAX_STAGES**2):
                 is_array = isinstance(value, Array) and is_filled
                 return value if is_array else self.unknown("an extent that is not known")
+        if math.prod(filter(None, counts)) > MAX_STAGES**2:
+            return self.unknown(f"an array of more than {MAX_STAGES**2} entries")
         fill: Value = FILL if is_filled else self.unknown("never assigned")
         found = self._shaped(value if is_filled else None, counts, fill)
         self.allowance.spend(size(found))
@@ -635,13 +639,16 @@ class Evaluator:
                 return copied(items[-1])
         if plain.endswith("!"):
             for arg in call.args:
-                if isinstance(arg, ir.Name) and isinstance(space.find(arg.name), Array):
+                found = space.find(arg.name) if isinstance(arg, ir.Name) else None
+                # what is changed comes first
+                if isinstance(found, Array) and not (arg != call.args[0] and is_written(found)):
                     self.spoil(arg, space, f"changed by {plain}", self.line)
         if not _may_make_a_table(plain, args, named):
             return self.unknown(f"the call {plain}")
-        # a record in it is one of its own
+        are_halves = plain in SIGNATURES and SIGNATURES[plain].form == "halves"
+        # another record in it is one of its own
         alone: list[Value] = [
-            self.unknown(described(x)) if isinstance(x, Record) else x
+            self.unknown(described(x)) if isinstance(x, Record) and not are_halves else x
             for x in (*args, *named.values())
         ]
         fields = dict(zip(named, alone[len(args) :], strict=True))

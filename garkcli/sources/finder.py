@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from operator import sub
-from typing import Any
+from typing import Any, TypeGuard
 
 from garkcli.frozen import replace
 from garkcli.sources import ir
@@ -16,6 +16,7 @@ from garkcli.sources.assembling import (
     NoTable,
     Roles,
     is_complete,
+    may_be_coefficients,
     not_read,
     table_of,
 )
@@ -67,6 +68,8 @@ _WHOLE = re.compile(
 _TABLE = "ARKodeButcherTable_Alloc"
 _PARTS = " "
 """The stem of the arrays of an explicit and an implicit part."""
+_COUPLED = frozenset({name for name, x in SIGNATURES.items() if x.form == "halves"})
+"""Calls that make one table of two."""
 _MADE = frozenset({"", _TABLE, "ARKodeSPRKTable_Alloc"})
 """Records that are filled after they are made."""
 
@@ -96,6 +99,7 @@ class TableFinder(Evaluator):
         self._arrays: dict[str, dict[str, tuple[Array, int]]] = {}
         self._taken: set[tuple[str, int]] = set()
         self._refilled: dict[int, Value] = {}
+        self._halves: set[tuple[str, int]] = set()
 
     def tables(self) -> list[FoundTable]:
         """All of them, each once; arrays that a call takes are found with it."""
@@ -148,8 +152,11 @@ class TableFinder(Evaluator):
         if scope.kind == "class":
             self._declared_by_class(scope, space)
         count = self._count()
+        halves = (y for x in made if x.kind in _COUPLED for y in x.args if isinstance(y, Record))
+        self._halves.update((x.kind, x.line) for x in halves)
         for record in made:
-            self._of_record(record, scope)
+            if (record.kind, record.line) not in self._halves:
+                self._of_record(record, scope)
         values, lines = dict(space), space.lines
         if self._count() == count:
             self._of_names(values, lines, scope)
@@ -252,17 +259,18 @@ class TableFinder(Evaluator):
         values = [x for x in record.args if not isinstance(x, Type)]
         roles: Roles = dict(zip(signature.roles, values, strict=False))
         roles.pop("-", None)
+        if signature.form == "halves":
+            for part, half in zip("12", filter(_is_record, values), strict=False):
+                own = _roles_of(half.fields, ROLES)
+                roles |= {f"{role}{part}": x for role, x in own.items()}
+            signature = PARTS
         parts = roles_of_parts(fields)
         if parts:
             roles, signature = {role: fields[name] for name, role in parts.items()}, PARTS
         if any(map(_is_given, roles.values())):
             return
-        told = {**ROLES, **signature.named}
-        for key, value in {} if parts else fields.items():
-            role = key if record.kind == PRINTED else told.get(key)
-            if role is not None and not isinstance(value, Null):
-                roles.setdefault(role, value)
-        _with_diagonal(roles, fields)
+        told = {x: x for x in fields} if record.kind == PRINTED else {**ROLES, **signature.named}
+        roles = _roles_of({} if parts else fields, told) | roles
         if record.kind == _TABLE and not is_written(fields.get("d")):
             roles.pop("embedded", None)
         if not isinstance(roles.get("title"), Word):
@@ -292,7 +300,8 @@ class TableFinder(Evaluator):
             if name != first.reason and " " not in name:
                 return name
         is_entry = (scope.kind == "entry" or record.kind in _MADE - {""}) and scope.name
-        return scope.name if is_entry else record.key or scope.title
+        is_of_class = scope.kind == "class" and _WHOLE.fullmatch(record.key)
+        return scope.name if is_entry or is_of_class else record.key or scope.title
 
     # arrays by their names
 
@@ -354,8 +363,9 @@ class TableFinder(Evaluator):
             is_sure = "RungeKutta" in {x.rpartition(".")[2] for x in bases}
             begin = scope.line if is_sure else min(line for _, line in places[stem])
             if len({*taken.get(stem, {}).values()}) > 1 and "gamma1" not in roles:
-                latest = max(line for _, line in places[stem])
-                self._unread(name, latest, "A is assigned anew without b, or b without A")
+                if may_be_coefficients(roles):
+                    latest = max(line for _, line in places[stem])
+                    self._unread(name, latest, "A is assigned anew without b, or b without A")
                 continue
             notes = not_read(unread.get(stem, {}))
             place = self._place(name, begin, is_sure=is_sure, notes=notes)
@@ -487,11 +497,20 @@ def _is_triangle(entries: Value, row: Value) -> bool:
     return n > 0 and 2 * m == n * (n - 1) and not any(isinstance(x, Array) for x in items_of(row))
 
 
-def _with_diagonal(roles: Roles, fields: Mapping[str, Value]) -> None:
-    """A diagonal that is apart is put into the matrix."""
+def _is_record(value: Value) -> TypeGuard[Record]:
+    return isinstance(value, Record)
+
+
+def _roles_of(fields: Mapping[str, Value], told: Mapping[str, str]) -> Roles:
+    """The roles of values with names; a diagonal that is apart is put into the matrix."""
+    roles: Roles = {}
+    for key, value in fields.items():
+        if key in told and not isinstance(value, Null):
+            roles.setdefault(told[key], value)
     diagonal = items_of(fields.get("a_diagonal"))
     rows = [items_of(x) or [x] for x in items_of(roles.get("A"))]
     rows = [[]] * (len(rows) == len(diagonal) - 1) + rows
     if rows and len(rows) == len(diagonal):
         pairs = enumerate(zip(rows, diagonal, strict=True))
         roles["A"] = Array([Array([*row[:i], x]) for i, (row, x) in pairs])
+    return roles

@@ -71,7 +71,7 @@ def _block_roles(value: Array, name: str) -> Mapping[str, Value] | None:
     # the weights alone may be wrong where the rows are those of an explicit method
     is_explicit = not any(x for i, row in enumerate(near[:stages]) for x in row[i + 1 :])
     is_plain |= off < FAR and is_explicit and agreeing == stages > 2
-    if not (is_block if is_named else is_plain):
+    if not (is_block if is_named else is_plain and any(row[0] for row in near[:stages])):
         # a matrix like any other
         return None
     roles: dict[str, Value] = {

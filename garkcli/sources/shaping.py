@@ -94,11 +94,15 @@ def _padded(rows: Sequence[Row], stages: int) -> Rows:
     lengths = [len(row) for row in rows]
     if max(lengths, default=0) > stages:
         raise Misshapen(f"rows of {max(lengths)} for {stages} stages")
-    is_from_the_second = lengths == [*range(1, stages)] or (
-        len(rows) == stages - 1 and set(lengths) == {stages} and _has_subdiagonal(rows)
-    )
-    full = [*[()] * is_from_the_second, *rows, *[()] * (stages - len(rows) - is_from_the_second)]
-    return tuple(row + (ZERO,) * (stages - len(row)) for row in full)
+    if len(rows) == stages - 1 and (
+        lengths in ([*range(1, stages)], [*range(2, stages + 1)])
+        or (set(lengths) == {stages} and _has_subdiagonal(rows))
+    ):
+        # from the second row on
+        rows = [(), *rows]
+    if len(rows) < stages:
+        raise Misshapen(f"{len(rows)} rows for {stages} stages")
+    return tuple(row + (ZERO,) * (stages - len(row)) for row in rows)
 
 
 def _has_subdiagonal(rows: Sequence[Row]) -> bool:

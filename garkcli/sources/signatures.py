@@ -14,8 +14,9 @@ class Signature(Frozen):
 
     Attributes:
         roles: of its arguments, in order; ``-`` for those that say nothing of a table.
-        form: ``rk``, ``ark`` (two parts on shared stages), ``lists`` (a list of each), ``steps``
-            (weights of kicks and drifts), a scheme of few registers.
+        form: ``rk``, ``ark`` (two parts on shared stages), ``halves`` (two tables that are these
+            parts), ``lists`` (a list of each), ``drift-first`` or ``force-first`` (weights of
+            drifts and kicks), a scheme of few registers.
         counts: how many arguments it has; empty where that is not fixed.
         format: of the table, where it is another one than that of the language.
         has_default_weights: whether missing weights are the last row of the matrix.
@@ -72,6 +73,7 @@ SIGNATURES: Mapping[str, Signature] = {
         *("ESDIRKIMEXTableau", "A2 b2 A1 b1 c2 error2 error1 - order stages", "ark"),
         named={"ce": "c1"},
     ),
+    **_all("MultiButcherTableau", "", "halves"),
     **dict.fromkeys(("IMEXButcher", "IMEXTableau"), PARTS),
     **_all(
         *("TSBasicSymplecticRegister", "title order stages drifts kicks", "drift-first"),

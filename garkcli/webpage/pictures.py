@@ -17,6 +17,7 @@ from garkcli.plots.scene import Panel
 from garkcli.plots.svg import ON_ANY, svg
 from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.oscillator import terms_of
+from garkcli.report.convergence import verdict_words
 from garkcli.stability.damping import imex_pair
 from garkcli.stability.fraction import stability_fraction
 from garkcli.stability.linear import stability_function
@@ -25,6 +26,7 @@ from garkcli.stability.summary import directions
 from garkcli.stepping.fields import with_joined_terms
 from garkcli.stepping.integrator import StepFailed
 from garkcli.tableau.garkmethod import GarkMethod, word_for
+from garkcli.tell.dialect import Plain
 
 MOST = len(ON_ANY)
 """Curves in one picture; more could not be distinguished."""
@@ -162,19 +164,11 @@ def _convergence(method: GarkMethod) -> tuple[Panel, str]:
     note = (
         f"Numerical: the {word_for(result.method)} on the problem {name} to t = {result.t_end}. "
         f"Observed order {observed}, proved order {result.predicted_order}: "
-        f"{_VERDICTS[result.verdict]}."
+        f"{verdict_words(result.verdict, Plain())}."
     )
     if result.plateau:
         note += " The last errors are those of the rounded coefficients."
     return errors_panel(result), note
-
-
-_VERDICTS = {
-    "agree": "they agree",
-    "disagree": "they do not agree",
-    "undecided": "these steps do not decide whether they agree",
-    "reduced": "steps that do not resolve a stiff problem show a smaller one",
-}
 
 
 def _energy(method: GarkMethod) -> tuple[Panel, str]:

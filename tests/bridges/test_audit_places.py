@@ -255,7 +255,7 @@ def test_orders_are_declared_elsewhere(tmp_path: Path) -> None:
         "KuttaConstantCache": (4, ["warning"]),
         "MidpointTableau": (2, []),
         "EULER": (1, ["warning"]),
-        "tableau": (3, ["error"]),
+        "Third": (3, ["error"]),
     }
 
 

@@ -73,7 +73,7 @@ GROWING = {
     "python, lists of nothing": _doubled("x{0} = [x{1}, x{1}]\n", "x0 = []"),
     "python, names": f"A = [1]\nq = {'9' * 900}\n" + "".join(f"x{k} = q\n" for k in range(1_400)),
     "python, rows of zeros": "".join(
-        f"class C{k}:\n A = [[1]]\n b = [{'1, ' * 200}]\n" for k in range(20)
+        f"class C{k}:\n A = [{'[1], ' * 200}]\n b = [{'1, ' * 200}]\n" for k in range(20)
     ),
     "julia": _doubled("x{0} = [x{1}, x{1}]\n", "x0 = [1, 1]"),
     "matlab": _doubled("x{0} = [x{1} x{1}];\n", "x0 = [1 1];"),
@@ -84,7 +84,7 @@ GROWING = {
     "c, entries": "".join(f"void f{k}() {{A[199][199] = 1; b[199] = 1;}}\n" for k in range(50)),
     "c, arrays": "void f() {double A[200][200] = {{1}};}\n" * 50,
     "csv": ("1," * 200 + "1\n" + "1\n" * 199 + ",1" * 200 + "\n\n") * 2,
-    "json": json.dumps([{"A": [[1]], "b": [1] * 200}] * 20),
+    "json": json.dumps([{"A": [[1]] * 200, "b": [1] * 200}] * 20),
     "latex": (
         r"\begin{array}{c|c}" + "0&" * 200 + r"0\\" * 200 + r"\hline" + "&1" * 200 + r"\end{array}"
     )

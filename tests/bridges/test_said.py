@@ -79,6 +79,8 @@ def test_words_about_something_else(text: str, tmp_path: Path) -> None:
         ("of order 1.5", None),
         ("the second-order equation", None),
         ("reorder 4 entries, in order", None),
+        ("a (3-ε)-order 3rd-stage scheme", None),
+        ("second-order accurate for one part and third-order\n    accurate for the other", None),
     ],
 )
 def test_what_words_say(text: str, order: int | None) -> None:

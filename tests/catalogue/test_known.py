@@ -102,6 +102,10 @@ def test_it_is_told_in_every_format(tmp_path: Path) -> None:
     assert "differs from  rk4 by at most 1e-7\n" in gark("check", "mine.yaml", cwd=tmp_path).out
 
 
+def test_huge_coefficients_have_a_fingerprint() -> None:
+    assert fingerprint(loads("A: [[0, 0], [1e200, 0]]\nb: [1, 1e300]\n").tableau) > 0
+
+
 def test_fingerprints_of_the_index() -> None:
     """Each is that of its file; those of methods with other steps are rarely near each other."""
     methods = json.loads(INDEX.read_text(encoding="utf-8"))["methods"]

@@ -15,6 +15,7 @@ from garkcli.api.problems import problem_for
 from garkcli.cli.arguments import ProblemType
 from garkcli.cli.main import gark as group
 from garkcli.errors import UsageProblem
+from garkcli.families.registry import FAMILIES
 from garkcli.methodfile.load import load
 from garkcli.problems.builtin import PROBLEMS, is_path
 from garkcli.problems.oscillator import Oscillator
@@ -186,6 +187,9 @@ def test_list_mentions_files() -> None:
     run = gark("list")
     assert "docs/problem-file.md" in run.out
     assert all(len(line) <= 80 for line in run.out.splitlines())
+    every = gark("list", "-v").out
+    assert f"\n{len(PROBLEMS)} problems\n" in every
+    assert f"\n{len(FAMILIES)} families\n" in every
 
 
 def test_names_are_completed() -> None:

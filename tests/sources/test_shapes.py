@@ -147,6 +147,42 @@ WRITTEN = {
 }
 
 
+HALVES = """
+_b = np.array([0.0, 1.0])
+_explicit = ButcherTableau(a_lower=(np.array([0.5]),), b_sol=_b, c=np.array([0.5]))
+_implicit = ButcherTableau(
+    a_lower=(np.array([0.0]),), b_sol=_b, c=np.array([0.5]), a_diagonal=np.array([0, 0.5])
+)
+
+class Imex(Solver):
+    tableau: ClassVar = MultiButcherTableau(_explicit, _implicit)
+
+    def order(self, terms):
+        return 2
+"""
+WITHOUT_FIRST_ROWS = """
+step = imex(ImExButcherTableau(
+    a_ex=[[1/3], [1/6, 1/2], [1/2, -1/2, 1]],
+    a_im=[[1/6, 1/6], [1/3, 0, 1/3], [3/8, 0, 3/8, 1/4]],
+    b_ex=[1/2, -1/2, 1, 0],
+    b_im=[3/8, 0, 3/8, 1/4],
+))
+"""
+GIVEN = """
+function step!(cache, u)
+    a = SVector(0.0, 5 / 9, 153 / 128)
+    b = SVector(1 / 3, 15 / 16, 8 / 15)
+    c = SVector(0.0, 1 / 3, 3 / 4)
+    advance!(cache, u, a, b, c)
+end
+"""
+WRITTEN |= {
+    "two tables in one": (python.find, HALVES, 2, None),
+    "parts without their first rows": (python.find, WITHOUT_FIRST_ROWS, 2, None),
+    "arrays that another function is given": (julia.find, GIVEN, 3, None),
+}
+
+
 def only(find: object, text: str) -> tuple[FoundTable, Audited]:
     """The only table of a source, and what an audit finds of it."""
     (table,) = find(text, "x")  # type: ignore[operator]
@@ -165,6 +201,35 @@ def test_the_order_is_that_of_the_method(name: str) -> None:
     assert found.order.order == order
     assert (found.embedded_order and found.embedded_order.order) == low
     assert not found.findings
+
+
+def test_two_tables_in_one_have_its_name_and_order() -> None:
+    """They are two parts of one method, not methods; what is no number in one of them is told."""
+    table, _ = only(python.find, HALVES)
+    assert (table.name, table.order, table.colours, table.c) == ("Imex", 2, 2, (("0", "1/2"),))
+    (table,) = python.find(HALVES.replace("[0.5]),), b", "[x]),), b", 1), "x")
+    assert (table.name, table.trouble) == ("Imex", "the name x, line 3, is not known")
+
+
+def test_a_matrix_that_lacks_a_row_is_none() -> None:
+    """Of a matrix with rows like the others a row is missing: nobody knows which."""
+    table, _ = only(python.find, "A = [[0, 0, 0], [0.5, 0.5, 0]]\nb = [0.25, 0.25, 0.5]\n")
+    assert table.trouble == "2 rows for 3 stages"
+
+
+LINEAR_ALGEBRA = {
+    "an order of storage": "order = 101\nA = [[2.5, 0], [0.5, 1.5]]\nb = [0.125, 0.25]\n",
+    "complex numbers": "A = [[1, 2j], [3, 4]]\nb = [1, 2]\n",
+    "one after the other": "A = [[1, 2], [3, 4]]\nb = [5, 6]\nf(A, b)\nA = [[2, 1], [0, 1]]\n",
+    "one entry": f"Exact = {[[0] * 4] * 3 + [[0, 0, 0, 1]]}\n",
+}
+
+
+@pytest.mark.parametrize("name", LINEAR_ALGEBRA)
+def test_a_linear_system_is_no_table(name: str) -> None:
+    """It has a matrix and a vector of the same names, and neither is counted as unread."""
+    found = [x for x in python.find(LINEAR_ALGEBRA[name], "x") if not x.is_unlike]
+    assert [y for x in found if (y := audit(x))] == []
 
 
 def test_a_wrong_node_among_good_ones_is_told() -> None:

@@ -103,6 +103,7 @@ def test_pictures(arguments: list[str], tmp_path: Path) -> None:
     result = run(*arguments, "--plot", str(plot))
     assert result.exit_code == 0, result.output
     assert plot.read_text(encoding="utf-8").startswith("<?xml")
+    assert "┤" in run(*arguments, "-v").output
 
 
 def test_a_region_in_text_is_that_of_the_method() -> None:

@@ -187,6 +187,16 @@ def test_a_pole_at_a_rounding_of_zero_is_not_in_the_picture() -> None:
     assert ends
 
 
+def test_what_is_in_the_picture_is_not_said_to_be_missing() -> None:
+    region = by_name(pictures(loads("A: [[0, 0], [2, 0]]\nb: [-1/2, 3/2]\n")))["region"]
+    assert region.note == "Filled: |R(z)| ≤ 1."
+
+
+def test_coefficients_beyond_floats_are_drawn() -> None:
+    region = by_name(pictures(loads("A: [[0, 0], [1e200, 0]]\nb: [1, -1e300]\n")))["region"]
+    assert "<svg" in str(region.svg)
+
+
 @pytest.mark.parametrize("name", ["feagin-12", "feagin-14"])
 def test_a_small_region_is_seen_from_near(name: str) -> None:
     """Feagin's methods have zeros of R up to a thousand times as far as their regions, which fill
@@ -194,7 +204,7 @@ def test_a_small_region_is_seen_from_near(name: str) -> None:
     """
     found = by_name(pictures(load(name)))
     region = found["region"]
-    assert "Islands" in region.note
+    assert "What R does far away" in region.note
     nested = parsed(region).find("svg")
     assert nested is not None
     data = str(nested[0].get("d"))
@@ -235,13 +245,13 @@ def test_what_is_put_to_work_does_not_depend_on_the_file(of_coupled: dict[str, P
     found = by_name(pictures(coupled.pair))
     assert "Numerical: the pair on" in found["convergence"].note
     assert "Numerical: the pair on" in found["energy"].note
-    assert "no drift" in found["energy"].note
+    assert "bounded" in found["energy"].note
     assert "its drift" not in found["energy"].svg
 
 
 def test_a_drift_is_drawn(of_rk4: dict[str, Picture]) -> None:
     """The classical method loses energy, and the picture has the line of it."""
-    assert "it drifts" in of_rk4["energy"].note
+    assert "DRIFTS, largest error" in of_rk4["energy"].note
     assert ">its drift, −" in of_rk4["energy"].svg
 
 
