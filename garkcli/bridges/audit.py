@@ -198,13 +198,16 @@ def _noted(table: FoundTable, message: str, code: str = "unread") -> Audited:
 
 
 def _may_be_method(method: MethodFile) -> bool:
-    """Whether b has the sum 1 or A is strictly triangular, not all of them whole numbers."""
+    """Whether b has about the sum 1, exactly where A is not strictly triangular, and not all are
+    whole numbers.
+    """
     block, b = method.tableau.block(0, 0), method.tableau.colours[0].b
     numbers = (x for row in (*(block or ()), b) for x in row)
     if block is None or len(b) < 2 or all(isinstance(x, fmpq) and x.q == 1 for x in numbers):
         return False
     is_explicit = not any(any(row[i:]) for i, row in enumerate(block))
-    return sum(b, ZERO) == 1 or (is_explicit and any(block[-1]))
+    off = sum(b, ZERO) - 1
+    return not off or (is_explicit and any(block[-1]) and within(off, fmpq(1, 2)))
 
 
 def _weighed(finding: AuditFinding, subject: Subject) -> AuditFinding:

@@ -8,7 +8,7 @@ from garkcli.sources.found import MAX_TABLES, FoundTable, Row, TooLarge
 
 MAX_WRITTEN = 10_000_000
 """Most characters of the numbers of a source, its names and zeros written out."""
-FREE = 200_000
+FREE = 1_000_000
 """So many are written out of the shortest source."""
 TIMES = 20
 """And so many times as many as it has itself."""

@@ -26,7 +26,7 @@ _SHU_OSHER = (("α", "β"), ("alpha", "beta"))
 _TWO_INDICES = {*_MATRICES, *(x for pair in _SHU_OSHER for x in pair)}
 _LETTERS = {*_TWO_INDICES, *"cdewγ", "gamma", "bhat", "b̂", "bh", "bt", "btilde"}
 _DIAGONALS = ("γ", "gamma", "gam", "d")
-_EMBEDDED = ("bhat", "b̂", "bh", "ch", "bembed", "bstar", "bt", "btilde", "e")
+_EMBEDDED = ("bhat", "b̂", "bh", "ch", "bembed", "bstar", "bt", "btilde", "e", "dc")
 _SURELY = {"bhat": "embedded", "b̂": "embedded", "bembed": "embedded", "btilde": "error"}
 """Names that are no others' than those of embedded weights, and of their differences."""
 NEAR = 1e-4
@@ -102,21 +102,22 @@ def scalar_roles(values: Mapping[str, Value]) -> Scalars | None:
     note, matrix, c = fitted or ("", matrix, [])
     found.notes += [note] * bool(note)
     A = _filled(matrix, range(low, stages + low))
+    found.roles = _embedded(rows, stages, low)
+    is_told = bool(nodes) or "error" in found.roles
     if given and _is_about(given.values(), 1):
         b = [given.get(i + first, ZERO) for i in range(stages)]
-    elif not given and nodes and _is_about(A[-1], 1):
+    elif not given and is_told and _is_about(A[-1], 1):
         b = A[-1]
         found.notes.append("no weights are written out: they are the last row of A")
-    elif not given and nodes and _is_about(A[-1][:-1], 1) and not is_zero(A[-1][-1]):
+    elif not given and is_told and _is_about(A[-1][:-1], 1) and not is_zero(A[-1][-1]):
         b, A, c, stages = A[-1][:-1], [row[:-1] for row in A[:-1]], c[:-1], stages - 1
         found.notes.append("no weights are written out: they are the last row, which is no stage")
     else:
         told = len(nodes) + len(matrix)
         return _unread(Unknown("no weights with the sum 1")) if told > 4 else None
-    found.roles = {"A": Array(list(map(Array, A))), "b": Array(b)}
+    found.roles |= {"A": Array(list(map(Array, A))), "b": Array(b)}
     if c:
         found.roles["c"] = Array(c)
-    found.roles |= _embedded(rows, stages, low)
     return found
 
 

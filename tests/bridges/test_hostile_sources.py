@@ -193,4 +193,4 @@ def test_the_command_names_the_line_at_which_a_source_is_too_large() -> None:
     """Exit code 2, the line and the limit."""
     run = gark("import", "-", "--from", "python", stdin=GROWING["python"])
     assert run.code == 2
-    assert run.err.startswith("gark: <stdin>:15: no method: the source has more than 2")
+    assert run.err.startswith("gark: <stdin>:17: no method: the source has more than 1")

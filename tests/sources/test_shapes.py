@@ -176,7 +176,14 @@ function step!(cache, u)
     advance!(cache, u, a, b, c)
 end
 """
+LAST_ROW = """
+void Solver::Stepper(const double y[], double out[]) {
+    const double b21 = 0.5, b31 = 0.0, b32 = 0.75, b41 = 2.0/9.0, b42 = 1.0/3.0, b43 = 4.0/9.0,
+        dc1 = b41 - 7.0/24.0, dc2 = b42 - 0.25, dc3 = b43 - 1.0/3.0, dc4 = -0.125;
+}
+"""
 WRITTEN |= {
+    "weights that are the last row, by the error": (c.find, LAST_ROW, 3, 2),
     "two tables in one": (python.find, HALVES, 2, None),
     "parts without their first rows": (python.find, WITHOUT_FIRST_ROWS, 2, None),
     "arrays that another function is given": (julia.find, GIVEN, 3, None),
@@ -209,6 +216,13 @@ def test_two_tables_in_one_have_its_name_and_order() -> None:
     assert (table.name, table.order, table.colours, table.c) == ("Imex", 2, 2, (("0", "1/2"),))
     (table,) = python.find(HALVES.replace("[0.5]),), b", "[x]),), b", 1), "x")
     assert (table.name, table.trouble) == ("Imex", "the name x, line 3, is not known")
+
+
+def test_blocks_that_make_no_square_are_none() -> None:
+    """Two matrices below one another are no method of two colours, and no fault of gark."""
+    text = "A = [[[[0, 0], [1, 0]]], [[[0, 0], [1, 0]]]]\nb = [[0.5, 0.5], [0.5, 0.5]]\n"
+    (table,) = python.find(text, "x")
+    assert table.trouble.endswith("do not fit together: 2 rows of blocks, 1 in a row")
 
 
 def test_a_matrix_that_lacks_a_row_is_none() -> None:
