@@ -98,7 +98,8 @@ class ProblemType(click.ParamType):  # type: ignore[type-arg]
 
         if value not in PROBLEMS and not is_path(value):
             cure = did_you_mean(value, tuple(PROBLEMS))
-            self.fail(f"no problem {value!r} (a problem file ends in .yaml); {cure}", param, ctx)
+            message = f"no problem {value!r} (a problem file ends in .yaml)"
+            self.fail(f"{message}\nhelp: {cure}", param, ctx)
         note_input(value)
         return value
 
@@ -184,7 +185,7 @@ def pairs(
     for given_text in given:
         name, sign, value = given_text.partition("=")
         if not sign or not name.strip() or not value.strip():
-            message = f"{given_text!r} is not NAME=VALUE; write for instance t=1/2"
+            message = f"{given_text!r} is not NAME=VALUE\nhelp: write for instance t=1/2"
             raise click.BadParameter(message, context, parameter)
         if name.strip() in settings:
             raise click.BadParameter(f"{name.strip()!r} is given twice", context, parameter)

@@ -96,7 +96,7 @@ class RangeType(click.ParamType):  # type: ignore[type-arg]
         try:
             return read_range(value) if isinstance(value, str) else value
         except UsageProblem as error:
-            self.fail(str(error), param, ctx)
+            self.fail(f"{error.message}\nhelp: {error.help}", param, ctx)
 
 
 def _filters() -> list[click.Option]:

@@ -44,11 +44,11 @@ def no_such_command(word: str, commands: Iterable[str]) -> str:
     """The message for a word that is no command: a method is for ``gark check``."""
     message = f"no such command {printable(word)!r}"
     if word.lower() in MEANT:
-        return f"{message}; did you mean {MEANT[word.lower()]!r}?"
+        return f"{message}\nhelp: did you mean {MEANT[word.lower()]!r}?"
     cure = did_you_mean(word, commands)
     if not cure.startswith("did you mean") and _is_a_method(word):
         cure = f"for a method: gark check {printable(word)}"
-    return f"{message}; {cure}"
+    return f"{message}\nhelp: {cure}"
 
 
 def _is_a_method(word: str) -> bool:
@@ -70,11 +70,11 @@ def usage_text(error: click.ClickException) -> str:
     lines = []
     if context is not None:
         lines = [context.get_usage(), f"Try '{context.command_path} --help' for help.", ""]
-    return "\n".join([*lines, _to_the_terminal(f"Error: {message}")])
+    return "\n".join([*lines, *map(_to_the_terminal, f"Error: {message}".splitlines())])
 
 
 def _to_the_terminal(text: str) -> str:
-    """A text in lines as long as those of the terminal; one line for programs."""
+    """A line in lines as long as those of the terminal; one line for programs."""
     if sys.stderr is None or not sys.stderr.isatty():  # None where it is closed
         return text
     from shutil import get_terminal_size
@@ -92,25 +92,25 @@ def _message(error: click.ClickException, context: click.Context | None) -> str:
         return _no_such_option(error.option_name, options, context)
     if isinstance(error, click.MissingParameter):
         cures = [cure for word, cure in CURES.items() if word in message]
-        return f"{message.rstrip('.')}; {cures[0]}" if cures else message
+        return f"{message.rstrip('.')}\nhelp: {cures[0]}" if cures else message
     if (extra := _EXTRA.fullmatch(message.rstrip("."))) and ("--order" in options):
-        return f"{message.rstrip('.')}; an order is --order {extra[1]}"
+        return f"{message.rstrip('.')}\nhelp: an order is --order {extra[1]}"
     if choice := _CHOICE.search(message):
         words = re.findall(r"'([^']*)'", choice[2])
         cure = _cure_of_choice(choice[1], words)
-        return f"{message.rstrip('.')}; {cure}" if cure else message
+        return f"{message.rstrip('.')}\nhelp: {cure}" if cure else message
     return _NUMBERS.sub(_number, message)
 
 
 def _no_such_option(name: str, options: list[str], context: click.Context | None) -> str:
     message = f"no such option {printable(name)}"
     if not name.startswith("--"):
-        return f"{message}; options of several letters begin with --"
+        return f"{message}\nhelp: options of several letters begin with --"
     others = [] if nearest(name, options) else list(_commands_with(name, context))
     if others:
         more = f" and {len(others) - _SHOWN} more" if len(others) > _SHOWN else ""
-        return f"{message}; it belongs to gark {', '.join(others[:_SHOWN])}{more}"
-    return f"{message}; {did_you_mean(name, options)}"
+        return f"{message}\nhelp: it belongs to gark {', '.join(others[:_SHOWN])}{more}"
+    return f"{message}\nhelp: {did_you_mean(name, options)}"
 
 
 _SHOWN = 4

@@ -135,7 +135,9 @@ def _about(x: Shown, d: Plain) -> list[tuple[str, str]]:
     """What a tableau is like; a document takes the tableau alone."""
     if d.breadth == "page" or x.method is None:
         return []
-    ((_, rows),) = labelled(ABOUT, x, d, DETAIL)
+    # what a method of a family is depends on its parameters
+    about = Section(*ABOUT.rows[:2]) if x.tableau.has_parameters else ABOUT
+    ((_, rows),) = labelled(about, x, d, DETAIL)
     return rows
 
 
@@ -145,7 +147,7 @@ def _decimals(x: Shown, d: Plain) -> list[str]:
     numbers = [*chain(*entries.c, *entries.b, *chain(*(y for row in entries.A for y in row if y)))]
     is_told = d.breadth == "terminal" and not d.is_brief and not x.is_rounded
     has_others = any(isinstance(y, Algebraic) or (isinstance(y, fmpq) and y.q > 1) for y in numbers)
-    if not is_told or not has_others or any(isinstance(y, Parametric) for y in numbers):
+    if not is_told or not has_others or x.tableau.has_parameters:
         return []
     return d.tableau(x.tableau, entries.in_decimals(DIGITS))
 

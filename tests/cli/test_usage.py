@@ -85,9 +85,9 @@ def test_rules_name_options_of_their_commands() -> None:
 @pytest.mark.parametrize(
     ("line", "said"),
     [
-        ("check rk4 --pair", "no such option --pair; it belongs to gark report, stability,"),
-        ("check rk4 --choose", "no such option --choose; it belongs to gark design"),
-        ("audit", "Missing argument 'PATH...'; name a file or a folder"),
+        ("check rk4 --pair", "no such option --pair\nhelp: it belongs to gark report, stability,"),
+        ("check rk4 --choose", "no such option --choose\nhelp: it belongs to gark design"),
+        ("audit", "Missing argument 'PATH...'\nhelp: name a file or a folder"),
         ("stability rk4 --pair --conjugate", "--pair and --conjugate are two methods"),
         ("stability rk4 --slow 1", "--slow and --fast belong together"),
         ("stability rk4 --order-star", "--order-star is for the picture"),

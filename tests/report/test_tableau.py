@@ -140,6 +140,17 @@ def test_plain_decimals_are_read_back(p: int, twos: int, fives: int) -> None:
     assert read_decimal(text.removeprefix("-")) * (-1 if text.startswith("-") else 1) == number
 
 
+def test_a_family_has_no_verdict_of_one_method(tmp_path: Path) -> None:
+    """For g = 1/4 alone it is symplectic."""
+    file = tmp_path / "family.gark.yaml"
+    text = "parameters: {g: free}\nA: [[g, 0], [1 - 2*g, g]]\nb: [1/2, 1/2]\n"
+    file.write_text(text, encoding="utf-8")
+    told = gark("tableau", str(file), "-v").out
+    assert "weights sum  1" in told
+    assert "symplectic" not in told
+    assert "symplectic   yes" in gark("tableau", str(file), "-v", "--set", "g=1/4").out
+
+
 def test_stages_are_counted_as_the_paper_does() -> None:
     """Three stages for q and two for p, although the weights are two and three."""
     rectangular = load(str(ROOT / "methods/rectangular.gark.yaml")).tableau
