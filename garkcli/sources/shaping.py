@@ -96,7 +96,7 @@ def _padded(rows: Sequence[Row], stages: int) -> Rows:
         raise Misshapen(f"rows of {max(lengths)} for {stages} stages")
     if len(rows) == stages - 1 and (
         lengths in ([*range(1, stages)], [*range(2, stages + 1)])
-        or (set(lengths) == {stages} and _has_subdiagonal(rows))
+        or (set(lengths) < {stages, stages - 1} and _has_subdiagonal(rows))
     ):
         # from the second row on
         rows = [(), *rows]
@@ -112,8 +112,11 @@ def _has_subdiagonal(rows: Sequence[Row]) -> bool:
 
 
 def _of_flat(entries: Row, stages: int) -> Rows:
-    """All entries in one row: of the square, of a triangle with its diagonal, of one without."""
-    for lengths in ([stages] * stages, range(1, stages + 1), range(stages)):
+    """All entries in one row: of the square, of a triangle with its diagonal, of one without, of
+    the square below the first row.
+    """
+    less = stages - 1
+    for lengths in ([stages] * stages, range(1, stages + 1), range(stages), [less] * less):
         if sum(lengths) == len(entries):
             ends = list(accumulate(lengths))
             return _padded([entries[y - x : y] for x, y in zip(lengths, ends, strict=True)], stages)

@@ -17,6 +17,14 @@ inline void fill_emb(std::vector<std::vector<double>> &a, std::vector<double> &b
   b2 = {7.0 / 24.0, 0.25, 1.0 / 3.0, 0.125};
 }
 """
+SMALLER = """
+A = np.array([[0.5, 0, 0], [0, 0.5, 0], [0, 0, 1.0]])
+b = np.array([1/6, 1/3, 1/3, 1/6])
+"""
+SMALLER_IN_A_ROW = """
+const double RK4_A[9] = {0.5, 0, 0,  0, 0.5, 0,  0, 0, 1};
+const double RK4_B[4] = {1.0/6.0, 1.0/3.0, 1.0/3.0, 1.0/6.0};
+"""
 LAST_ROW = """
 inline void fill(std::vector<std::vector<double>> &a, std::vector<double> &b,
                  std::vector<double> &c) {
@@ -183,6 +191,8 @@ void Solver::Stepper(const double y[], double out[]) {
 }
 """
 WRITTEN |= {
+    "rows and columns that are not zero": (python.find, SMALLER, 4, None),
+    "these in a row": (c.find, SMALLER_IN_A_ROW, 4, None),
     "weights that are the last row, by the error": (c.find, LAST_ROW, 3, 2),
     "two tables in one": (python.find, HALVES, 2, None),
     "parts without their first rows": (python.find, WITHOUT_FIRST_ROWS, 2, None),
