@@ -366,12 +366,12 @@ class Evaluator:
         places = self._places(target, space)
         items: Sequence[Value] = [value] * len(places)
         match target:
-            case ir.Index(at=(ir.Text(text=key),)):
-                space.lines[key] = line
             case ir.Index(at=at) if isinstance(value, Array) and any(map(_is_range, at)):
                 items = value.items if len(value.items) == len(places) else list(value.flat())
-            case ir.Field(of=of, name=key) if isinstance(value, Array):
-                record = self.value(of, space)
+            case ir.Field(of=of, name=key) | ir.Index(of=of, at=(ir.Text(text=key),)):
+                if isinstance(target, ir.Index):
+                    space.lines[key] = line
+                record = self.value(of, space) if isinstance(value, Array) else NULL
                 old = record.fields.get(key, NULL) if isinstance(record, Record) else value
                 if isinstance(record, Record) and shown(old) != shown(value):
                     self.refilled(self._scopes[-1], record, key)

@@ -23,17 +23,10 @@ from garkcli.sources.assembling import (
 from garkcli.sources.evaluate import Evaluator, Space
 from garkcli.sources.found import FoundTable, troubled
 from garkcli.sources.naming import ROLES, role_of, roles_of_parts
+from garkcli.sources.overlooked import overlooked, sized
 from garkcli.sources.rklab import blocks_in
-from garkcli.sources.scalar_names import FEWEST_COEFFICIENTS, NEAR, are_coefficients, scalar_roles
-from garkcli.sources.signatures import (
-    CONSTRUCTOR,
-    DRIFT_FIRST,
-    NAMED,
-    PARTS,
-    PRINTED,
-    SIGNATURES,
-    other_kind,
-)
+from garkcli.sources.scalar_names import NEAR, scalar_roles
+from garkcli.sources.signatures import DRIFT_FIRST, NAMED, PARTS, PRINTED, SIGNATURES, other_kind
 from garkcli.sources.steps import NoStep, step_of
 from garkcli.sources.values import (
     NULL,
@@ -75,6 +68,8 @@ _MADE = frozenset({"", _TABLE, "ARKodeSPRKTable_Alloc"})
 
 
 NUMBERED = "A and b have numbers: methods of their own, or parts of one"
+ANEW = "A is assigned anew without b, or b without A"
+TOO_MUCH = "it takes too much work to read"
 UNRECOGNISED = "numbers with the names of coefficients whose roles are not recognised"
 
 
@@ -99,11 +94,13 @@ class TableFinder(Evaluator):
         self._arrays: dict[str, dict[str, tuple[Array, int]]] = {}
         self._taken: set[tuple[str, int]] = set()
         self._refilled: dict[int, Value] = {}
+        self._unfollowed: dict[tuple[str, int], str] = {}
         self._halves: set[tuple[str, int]] = set()
 
-    def tables(self) -> list[FoundTable]:
-        """All of them, each once; arrays that a call takes are found with it."""
+    def tables(self, body: ir.Body, text: str) -> list[FoundTable]:
+        """All of a source, each once; arrays that a call takes are found with it."""
         found: dict[object, FoundTable] = {}
+        used: set[str] = set()
         for meant in [*self._meant, *self._of_classes()]:
             users = self._users.get((meant.maker, meant.table.line), {})
             for order in users.values():
@@ -115,15 +112,16 @@ class TableFinder(Evaluator):
                 continue
             if table.name.startswith("_") and len(users) == 1:
                 table = replace(table, name=next(iter(users)))
+            used |= {sized(x.near) for x in _numbers_of(meant) if not table.trouble}
             key = (table.A, table.b, table.c, table.line, table.name)
             self.allowance.table(table, is_kept=key not in found)
             found.setdefault(key, table)
-        for scope in self.given_up:
-            assigned = tuple(x.target for x in ir.inside(scope.body) if isinstance(x, ir.Assign))
-            names = (x.name for x in ir.inside(assigned) if isinstance(x, ir.Name | ir.Field))
-            roles = {told[1] for told in map(role_of, names) if told}
-            if {"A", "b"} <= roles or CONSTRUCTOR.fullmatch(scope.name):
-                self._unread(scope.name, scope.line, "it takes too much work to read")
+        told = [x.line for x in (*found.values(), *self._other.values())]
+        told += [line for arrays in self._arrays.values() for _, line in arrays.values()]
+        lost = {(x.kind, x.line): TOO_MUCH for x in self.given_up} | self._unfollowed
+        for scope in overlooked(body, text, self._source, told, used, lost):
+            trouble = lost.get((scope.kind, scope.line), UNRECOGNISED)
+            self._unread(scope.title, scope.line, trouble, other_kind(scope.name))
         # behind a branch that assigns the nodes the table is without them
         with_nodes = {(x.A, x.b, x.line) for x in found.values() if any(x.c)}
         read = [x for x in found.values() if any(x.c) or (x.A, x.b, x.line) not in with_nodes]
@@ -168,12 +166,8 @@ class TableFinder(Evaluator):
             self._of_scalars(owner or scope.title, own, line)
         if self._count() > count:
             return
-        numbers = Array(list(values.values())).flat()
-        fractions = sum(isinstance(x, Number) and not x.is_whole for x in numbers)
         if looks_like_a_step:
-            self._unread(scope.title, scope.line, "a step that is not followed")
-        elif CONSTRUCTOR.fullmatch(scope.name) and fractions >= FEWEST_COEFFICIENTS:
-            self._unread(scope.title, scope.line, UNRECOGNISED, other_kind(scope.name))
+            self._unfollowed[scope.kind, scope.line] = "a step that is not followed"
         for record in made if self._count() == count else ():
             if _looks_like_a_table(record.args):
                 told = f"a matrix, its row sums and weights as arguments of {record.kind}"
@@ -206,15 +200,12 @@ class TableFinder(Evaluator):
 
     def refilled(self, scope: ir.Scope, record: Record, name: str) -> None:
         """As for arrays: a structure is a table before its matrix or its weights are new."""
-        both = [x for key, x in record.fields.items() if ROLES.get(key) in {"A", "b"}]
+        both = _matrix_and_weights(record)
         is_one = ROLES.get(name) in {"A", "b"} and name in record.fields
-        ids = {id(x): x for x in both}
-        is_new = not ids.keys() & self._refilled.keys()
-        before = copied(record)
-        is_whole = is_one and len(ids) == 2 and all(map(is_written, both))
-        if is_whole and is_new and isinstance(before, Record):
-            self._of_record(before, scope)
-            self._refilled |= ids
+        is_whole = is_one and len(both) == 2 and all(map(is_written, both.values()))
+        if is_whole and id(record.fields[name]) not in self._refilled:
+            self._of_record(record, scope)
+            self._refilled |= both
 
     def _of_classes(self) -> Iterator[Meant]:
         """Tables whose arrays are classes: a1, a2, …, b, db, c."""
@@ -242,7 +233,12 @@ class TableFinder(Evaluator):
     # records and calls
 
     def _of_record(self, record: Record, scope: ir.Scope) -> None:
-        signature, fields = SIGNATURES.get(record.kind, NAMED), record.fields
+        if len({x in self._refilled for x in _matrix_and_weights(record)}) > 1:
+            self._unread(self._name(record, scope), self.line, ANEW)
+            return
+        signature = SIGNATURES.get(record.kind, NAMED)
+        # its arrays may change after it is a table
+        fields = {name: copied(x) for name, x in record.fields.items()}
         name = self._name(record, scope)
         kind = other_kind(record.kind) if signature is NAMED else ""
         is_entry = scope.kind == "entry" and (kind or record.kind == _TABLE)
@@ -365,7 +361,7 @@ class TableFinder(Evaluator):
             if len({*taken.get(stem, {}).values()}) > 1 and "gamma1" not in roles:
                 if may_be_coefficients(roles):
                     latest = max(line for _, line in places[stem])
-                    self._unread(name, latest, "A is assigned anew without b, or b without A")
+                    self._unread(name, latest, ANEW)
                 continue
             notes = not_read(unread.get(stem, {}))
             place = self._place(name, begin, is_sure=is_sure, notes=notes)
@@ -396,9 +392,7 @@ class TableFinder(Evaluator):
     def _of_scalars(self, name: str, values: Mapping[str, Value], line: int) -> None:
         """Coefficients with names of their own: a21, b1."""
         found = scalar_roles(values)
-        if found is None and are_coefficients(values):
-            self._unread(name, line, UNRECOGNISED)
-        elif found is not None and found.kind:
+        if found is not None and found.kind:
             self._unread(name, line, kind=found.kind)
         elif found is not None:
             notes = tuple(found.notes)
@@ -428,6 +422,15 @@ def _matrices_beside_weights(values: Mapping[str, Value]) -> Mapping[str, tuple[
         and (told := _WHOLE.fullmatch(name)) is not None
         and counts.get((told["stem"] or "", "b")) == len(value.items)
     }
+
+
+def _numbers_of(meant: Meant) -> Iterator[Number]:
+    return (x for x in Array(list(meant.roles.values())).flat() if isinstance(x, Number))
+
+
+def _matrix_and_weights(record: Record) -> dict[int, Value]:
+    """A and b of a record, by what tells them from others with the same numbers."""
+    return {id(x): x for key, x in record.fields.items() if ROLES.get(key) in {"A", "b"}}
 
 
 def _is_general_linear(values: Mapping[str, Value]) -> bool:

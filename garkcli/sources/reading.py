@@ -12,7 +12,7 @@ from garkcli.sources.found import FoundTable, TooLarge
 
 HINTS = re.compile(
     r"tableau|butcher|runge.?kutta|register|embedd|order|weights|nodes"
-    r"|(?<![a-z])(?:a|b|c)(?:mat|vec|hat)?\w?(?:\[|\s*=|_|\d\d|\{)",
+    r"|(?<![a-z])(?:a|b|c)(?:mat|vec|hat)?\w?(?:\[|\s*=|_|\d\d|\{)|rock\d|rk\d",
     re.IGNORECASE,
 )
 """What a source has a table with has some of these words."""
@@ -50,6 +50,6 @@ def tables_in(
     statements = lowered(text)
     try:
         finder.module(statements)
-        return finder.tables()
+        return finder.tables(statements, text)
     except RecursionError:
         raise TooLarge("values are nested too deep", allowance.line) from None

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from garkcli.frozen import Mutable, field
 from garkcli.sources.found import MAX_STAGES
+from garkcli.sources.naming import role_of
 from garkcli.sources.values import (
     ONE,
     ZERO,
@@ -25,14 +26,13 @@ _MATRICES = ("a", "A", "aa", "b", "α")
 _SHU_OSHER = (("α", "β"), ("alpha", "beta"))
 _TWO_INDICES = {*_MATRICES, *(x for pair in _SHU_OSHER for x in pair)}
 _LETTERS = {*_TWO_INDICES, *"cdewγ", "gamma", "bhat", "b̂", "bh", "bt", "btilde"}
+_OF_ARRAYS = {"A", "A1", "b", "c", "c1", "embedded", "error", "A_q", "b_q", "delta"}
 _DIAGONALS = ("γ", "gamma", "gam", "d")
 _EMBEDDED = ("bhat", "b̂", "bh", "ch", "bembed", "bstar", "bt", "btilde", "e", "dc")
 _SURELY = {"bhat": "embedded", "b̂": "embedded", "bembed": "embedded", "btilde": "error"}
 """Names that are no others' than those of embedded weights, and of their differences."""
 NEAR = 1e-4
 """Numbers that differ by less are meant to be the same."""
-FEWEST_COEFFICIENTS = 8
-"""So many numbers with names of coefficients are reported where they make no table."""
 FEWEST_NODES = 4
 """So many nodes are the row sums where one other is not, and may be wrong."""
 _Entries = dict[tuple[int, int], Value]
@@ -121,13 +121,14 @@ def scalar_roles(values: Mapping[str, Value]) -> Scalars | None:
     return found
 
 
-def are_coefficients(values: Mapping[str, Value]) -> bool:
-    """Whether many numbers have names like those of coefficients, whatever their roles are."""
-    families = [list(of[x].values()) for of in _families(values) for x in of if x in _LETTERS]
-    numbers = [[x for x in family if isinstance(x, Number)] for family in families]
-    written = [family for family in numbers if len(family) > 1]
-    fractions = sum(not x.is_whole for family in written for x in family)
-    return len(written) > 1 and fractions >= FEWEST_COEFFICIENTS
+def family_of(name: str) -> str:
+    """The letter or the role of what has a name like those of coefficients; empty for others."""
+    plain = name.rpartition("::")[2].lstrip("_")
+    found = _NAME.fullmatch(plain)
+    if found is not None and found["stem"] in _LETTERS:
+        return found["stem"]
+    role = (role_of(plain) or ("", ""))[1]
+    return role if role in _OF_ARRAYS else ""
 
 
 def _of_shu_osher(alpha: _Entries, beta: _Entries, nodes: _Row) -> Scalars | None:

@@ -1,0 +1,145 @@
+"""Scopes with numbers like those of a method of which nothing else was said: told, never passed
+over in silence.
+"""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+from collections.abc import Collection, Iterable, Iterator
+
+from garkcli.sources import ir
+from garkcli.sources.evaluate import names_of
+from garkcli.sources.scalar_names import family_of
+from garkcli.sources.signatures import CONSTRUCTOR
+from garkcli.sources.values import Number, literal
+
+METHODS = re.compile(
+    r"runge|kutta|butcher|tableau|(?<![a-z])i?e?rk(?![a-z]{2})|rk\d|ssp(?![a-z])|dirk|dopri|dormand"
+    r"|rosenbrock|\bros\d|rodas|rock\d|ralston|heun(?![a-z])|fehlberg|merson|mclachlan|yoshida"
+    r"|low.?storage|symplectic|leapfrog|bashforth|multistep|exponential.integrator|imex|imkg"
+    r"|(?<![^\W_])a_?[23]1(?!\w)|cash.?karp|verner|gauss.?(?:legendre|radau|lobatto)|tsit5|magnus",
+    re.IGNORECASE,
+)
+"""Words for methods."""
+_STEPS = re.compile(r"step|advance|attempt", re.IGNORECASE)
+_SLOPES = re.compile(r"(?<![^\W_])(?:k_?[12]|h|dt)(?!\w)|[sS]tep")
+"""Names in steps."""
+_OTHERS = re.compile(
+    r"interp|dense|distch|plot|test|control|error|rhs|jac|size|order|init|example|demo|main$"
+    r"|(?:^|_)oc_|_obj$",
+    re.IGNORECASE,
+)
+"""Names of what has other numbers than those of a step."""
+ABOVE = 8
+"""So many lines above a scope may say what it is."""
+
+
+def overlooked(
+    body: ir.Body,
+    text: str,
+    source: str,
+    told: Iterable[int],
+    used: Collection[str],
+    lost: Collection[tuple[str, int]],
+) -> Iterator[ir.Scope]:
+    """The scopes that have several fractions: those of coefficients by their names, where words say
+    that there is a method, or those of what has the name of a method or of a step.
+
+    Args:
+        body: of the source.
+        text: the same as it is written.
+        source: what it is called.
+        told: the lines of what was found in it.
+        used: the sizes of the numbers of its tables.
+        lost: the kinds and lines of scopes that take too much work or look like steps.
+    """
+    module = ir.Scope("module", re.split(r"[/\\]", source)[-1], body, 1)
+    placed = sorted(_placed(body, (module,)), key=lambda x: x[0].line)
+    begins = [statement.line for statement, _ in placed]
+    known: set[int] = set()
+    for line in told if placed else ():
+        around = placed[max(bisect_right(begins, line), 1) - 1][1]
+        known |= {id(x) for x in around[1:] or around}
+    inside: dict[int, tuple[ir.Scope, list[ir.Statement]]] = {}
+    for statement, around in placed:
+        inside.setdefault(id(around[-1]), (around[-1], []))[1].append(statement)
+    of_classes = {id(x[-1]) for _, x in placed if any(y.kind == "class" for y in x)}
+    lines = text.split("\n")
+    for key, (scope, own) in inside.items():
+        first = max(0, scope.line - ABOVE)
+        words = text if scope is module else "\n".join(lines[first : own[-1].line + 1])
+        # what a function has that is in no class no other one can use
+        is_apart = scope.kind == "function" and key not in of_classes
+        is_other = key in known or _OTHERS.search(scope.name)
+        is_lost = (scope.kind, scope.line) in lost
+        if not is_other and _is_method(scope, own, words, () if is_apart else used, is_lost):
+            yield scope
+
+
+def _placed(
+    body: ir.Body, around: tuple[ir.Scope, ...]
+) -> Iterator[tuple[ir.Statement, tuple[ir.Scope, ...]]]:
+    """All statements with the scopes that they are in, a scope with itself."""
+    for x in body:
+        inner = (*around, x) if isinstance(x, ir.Scope) and x.kind != "entry" else around
+        yield x, inner
+        for part in x.arms if isinstance(x, ir.Branch) else (getattr(x, "body", ()),):
+            yield from _placed(part, inner)
+
+
+def _is_method(
+    scope: ir.Scope, own: Iterable[ir.Statement], words: str, used: Collection[str], is_lost: bool
+) -> bool:
+    """Whether there may be a method, by its numbers and the names, and words around them."""
+    named: dict[str, set[str]] = {}
+    numbers: list[str] = []
+    for x in own:
+        sizes = list(map(sized, _fractions(getattr(x, "value", None))))
+        numbers += sizes
+        for name in names_of(x.target) if isinstance(x, ir.Assign) and sizes else ():
+            named.setdefault(family_of(name), set()).update(y for y in sizes if y not in used)
+    named.pop("", None)
+    found = [x for x in numbers if x not in used]
+    if 2 * len(found) < len(numbers):
+        return False
+    maker = CONSTRUCTOR.fullmatch(scope.name)
+    title = maker or METHODS.search(scope.title)
+    # a module has other numbers, too
+    count, least = len({*found}), 8 if scope.kind == "module" else 4
+    are_many = count >= least or (least == 4 and count > 1 and count + len(found) > 7)
+    is_named = title or (scope.kind == "function" and _STEPS.search(scope.title))
+    has_names = len(set().union(*named.values())) > 3 and (len(named) > 1 or title)
+    if is_lost and (len(named) > 1 or _SLOPES.search(words)):
+        return True
+    is_method = is_lost or has_names or (are_many and is_named)
+    return bool(is_method and (title or METHODS.search(words)))
+
+
+def sized(x: float) -> str:
+    """A number by its size, so that those that are the same but for rounding are equal."""
+    return f"{abs(x):.9g}"
+
+
+def _fractions(expr: object) -> Iterator[float]:
+    """The numbers and roots of an expression that are not whole; that of ``h/6`` is 1/6."""
+    for x in ir.inside(expr):
+        match x:
+            case ir.Literal():
+                found = _near(x)
+            case ir.Call(ir.Name(name="sqrt"), (of,)):
+                found = abs(_near(of)) ** 0.5
+            case ir.Binary("/" | "÷", left, right) if under := _near(right):
+                found = (_near(left) or 1) / under
+            case _:
+                continue
+        if not found.is_integer():
+            yield found
+
+
+def _near(expr: ir.Expr) -> float:
+    """A number, whatever its sign and what converts it; 0 for anything else."""
+    while isinstance(expr, ir.Unary) or (isinstance(expr, ir.Call) and len(expr.args) == 1):
+        expr = expr.of if isinstance(expr, ir.Unary) else expr.args[0]
+    value = literal(expr.text, 0) if isinstance(expr, ir.Literal) else None
+    return value.near if isinstance(value, Number) else 0.0
