@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from itertools import chain
 from typing import Any, Generic, TypeAlias, TypeVar
@@ -126,7 +127,7 @@ class Report(Frozen, Generic[Whole]):
             whole: the result.
             format: one of ``FORMATS``, ``csv`` or ``ndjson``.
             paint: colour or none.
-            verbosity: 1 for everything.
+            verbosity: −1 without the stream, 1 for everything.
             signs: as in ``render``.
         """
         form = self.form(whole)
@@ -134,7 +135,8 @@ class Report(Frozen, Generic[Whole]):
         if not streams and format == "ndjson":
             yield _json_line(self.document([whole])) + "\n"
         elif not streams:
-            yield self.render([whole], format, paint, verbosity, **signs)
+            brief = self.render([whole], format, paint, verbosity, **signs)
+            yield brief or self.render([whole], format, paint, **signs)
         elif format == "json":
             yield from self._json_pieces(form, whole)
         elif format in ("csv", "ndjson"):
@@ -149,6 +151,10 @@ class Report(Frozen, Generic[Whole]):
             else:
                 yield from (_json_line(section.data(x, d)) + "\n" for x in parts)
         else:
+            if verbosity < 0:  # the stream is counted and not shown
+                for row in streams:
+                    deque(row.fact(whole).value, 0)
+                form = Section(*(row for row in form.rows if not row.kind.is_stream))
             level = Level.DETAIL if verbosity > 0 or format == "latex" else Level.USUAL
             d = self.dialect(whole, format, paint=paint, is_brief=level < Level.DETAIL, **signs)
             yield from d.page(one(form, whole, d, level))

@@ -146,3 +146,15 @@ def test_more_is_shown_where_more_is_wanted(line: str, more: str) -> None:
 def test_less_of_a_list_is_its_size() -> None:
     """-q leaves the heading."""
     assert gark("list", "families", "-q").out == f"{len(FAMILIES)} families\n"
+
+
+@pytest.mark.parametrize(
+    ("line", "left"),
+    [
+        ("conditions rk4", "8 conditions, all hold\n"),
+        ("trees 4", "4 trees\n"),
+        ("trees 20 --count", "  order 20  12826228\n"),
+    ],
+)
+def test_less_of_trees_and_conditions_is_their_number(line: str, left: str) -> None:
+    assert gark(*line.split(), "-q").out == left
