@@ -7,9 +7,10 @@ from decimal import Context, Decimal, Inexact
 
 from flint import fmpq
 
-from garkcli.bridges.rounding import Cell, nearest_float, quotient, rounded
+from garkcli.bridges.rounding import nearest_float, quotient, rounded
 from garkcli.exact.field import Algebraic
 from garkcli.frozen import Frozen
+from garkcli.tableau.pointwise import Cell
 
 FLOAT_DIGITS = 17
 """So many digits mean a binary64 number, which is written with as few as bring it back."""

@@ -11,10 +11,10 @@ from flint import fmpq
 from garkcli.bridges import names
 from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.numbers import EXACT, Style
-from garkcli.bridges.rounding import Cell, TooWide
+from garkcli.bridges.rounding import TooWide
 from garkcli.frozen import Frozen
 from garkcli.tableau.garkmethod import Derivation
-from garkcli.tableau.pointwise import Block, Row
+from garkcli.tableau.pointwise import Block, Cell, Row
 from garkcli.tableau.tableau import Tableau
 from garkcli.version import __version__
 

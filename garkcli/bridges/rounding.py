@@ -8,16 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from decimal import MAX_EMAX, MIN_EMIN, ROUND_HALF_EVEN, Context, Decimal
-from typing import TypeAlias, TypeVar
+from typing import TypeVar
 
 from flint import arb, ctx, fmpq
 
 from garkcli.exact.display import to_ball
 from garkcli.exact.enclosing import midpoint
-from garkcli.exact.field import ZERO, Number
+from garkcli.exact.field import ZERO
+from garkcli.tableau.pointwise import Cell
 
-Cell: TypeAlias = Number | arb
-"""An exact number, or an enclosure of one that is irrational."""
 T = TypeVar("T", Decimal, float)
 MOST_DIGITS = 20_000
 """Irrational numbers whose rounding is not told by so many digits are given up: 10 000 nines."""

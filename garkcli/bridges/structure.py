@@ -8,11 +8,11 @@ from typing import TypeAlias
 from flint import arb, fmpq
 
 from garkcli.bridges.payload import Payload
-from garkcli.bridges.rounding import Cell, combined
+from garkcli.bridges.rounding import combined
 from garkcli.exact.field import ONE, ZERO
 from garkcli.frozen import Frozen, Mutable, field, replace
 from garkcli.graph import solving_order
-from garkcli.tableau.pointwise import Row
+from garkcli.tableau.pointwise import Cell, Row
 
 Rows: TypeAlias = tuple[Row, ...]
 

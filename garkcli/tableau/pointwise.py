@@ -31,6 +31,7 @@ from garkcli.tableau.stages import PointSpace, StageSpace
 from garkcli.tableau.tableau import Edge, Method, Tableau
 
 Cell: TypeAlias = Number | arb
+"""An exact number, or an enclosure of one that is irrational."""
 Row: TypeAlias = tuple[Cell, ...]
 Block: TypeAlias = tuple[Row, ...] | None
 """The entries of a block; None where it does not exist."""

@@ -13,8 +13,9 @@ from pathlib import Path
 from flint import arb, fmpq
 
 from garkcli.bridges.payload import Payload
-from garkcli.bridges.rounding import Cell, ends
+from garkcli.bridges.rounding import ends
 from garkcli.exact.display import to_ball
+from garkcli.tableau.pointwise import Cell
 
 _ARRAY_OF_C = re.compile(r"static const gark_real (\w+)((?:\[\d+\])+) = ")
 _ARRAY_OF_FORTRAN = re.compile(r"real\(wp\), parameter :: (\w+)\(([\d, ]+)\)")

@@ -146,6 +146,9 @@ REFUSED = [
         "{A: [[0, 0, 0], [1, 0, 0], [1/4, 1/4, 0]], b: [1/6, 1/6, 2/3]}",
         "do not ascend",
     ),
+    # beyond floats
+    ("sundials-mri", "{A: [[0, 0], [1e400, 0]], b: [1, 0]}", "do not ascend"),
+    ("mfem", "{A: [[0, 0], [1e400/3, 0]], b: [1, 0]}", "beyond the numbers of the target"),
     ("sundials", "{ark: {A: [[[1]], [[1]]], b: [[1], [1]]}}", "both"),
     (
         "petsc",

@@ -11,12 +11,12 @@ from garkcli.bridges.numbers import Style
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.radicals import Radicals
 from garkcli.bridges.registry import DENSE, EMBEDDED, EVERYTHING, Bridge
-from garkcli.bridges.rounding import Cell
 from garkcli.bridges.structure import Table
 from garkcli.bridges.texts import Values
 from garkcli.conversion.registers import in_two_registers
 from garkcli.exact.field import Algebraic
 from garkcli.exact.nodes import Literal, Root
+from garkcli.tableau.pointwise import Cell
 
 _LARGEST = 2**63 - 1  # of Int64
 _BIG = 77  # digits of a BigFloat, which has 256 bits

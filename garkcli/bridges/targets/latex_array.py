@@ -10,10 +10,9 @@ from garkcli.bridges.comments import PERCENT, head
 from garkcli.bridges.numbers import Style
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.registry import EVERYTHING, Bridge
-from garkcli.bridges.rounding import Cell
 from garkcli.exact.display import decimal_latex, to_latex
 from garkcli.page.tableau_latex import displays
-from garkcli.tableau.pointwise import Entries
+from garkcli.tableau.pointwise import Cell, Entries
 
 DECIMALS = Style(longest=1000, point=False)
 """Of methods with rounded coefficients, and of entries without radicals."""

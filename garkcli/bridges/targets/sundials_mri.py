@@ -18,7 +18,7 @@ from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.numbers import c_style
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.registry import Bridge
-from garkcli.bridges.rounding import combined, nearest_float
+from garkcli.bridges.rounding import ball, combined
 from garkcli.bridges.structure import Rows, Table, table, vanishes, with_last_stage
 from garkcli.bridges.texts import Values
 from garkcli.exact.field import ONE, ZERO
@@ -64,7 +64,7 @@ def slow_part(payload: Payload) -> Slow:
         raise CannotExport(message, cure)
     found = table(payload)
     ends = zip(found.c, (*found.c[1:], ONE), strict=True)
-    goes_on = all(nearest_float(x) <= nearest_float(y) for x, y in ends)
+    goes_on = not any(ball(combined((1, y), (-1, x))) < 0 for x, y in ends)
     if not vanishes(found.c[0]) or not goes_on:
         raise CannotExport(
             "a multirate infinitesimal step goes from node to node, from 0 to 1, and those of "
