@@ -132,7 +132,8 @@ def _polynomials(dense: Sequence[Rows] | None) -> Mapping[str, Tree] | None:
 
 def _sums(table: FoundTable, l: int) -> Row:
     """The row sums of the diagonal block, where a source gives nodes of other colours alone."""
-    block = table.A[l][l]
+    # a row that lacks blocks is told where the file is read
+    block = table.A[l][l] if l < len(table.A[l]) else None
     if block is None:
         return ("0",) * len(table.b[l])
     return tuple(" + ".join(f"({x})" for x in row) for row in block)

@@ -173,7 +173,7 @@ class RoundedTableau(Frozen, eq=False):
     def bits(self) -> int:
         """Bits of residuals, so that no radius that is not 0 is lost among them."""
         radii = [x for rows in (*self.A.values(), self.b, self.c) for row in rows for x in row]
-        return GUARD + max([-_binary_exponent(x) for x in radii if not x.is_zero()], default=0)
+        return GUARD + max([0, *(-_binary_exponent(x) for x in radii if not x.is_zero())])
 
     @cached_property
     def enclosure(self) -> Enclosure:

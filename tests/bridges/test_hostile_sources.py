@@ -60,6 +60,31 @@ def test_nothing_is_raised(name: str) -> None:
             assert all(len(x) <= MAX_LENGTH for x in texts)
 
 
+AUDITED = {
+    "huge.json": (
+        f'{{"A": [[0, 0], [1e400, 0]], "b": [1, 0], "c": [0, "1{"0" * 330}.1234567890123456789"]}}',
+        "a table: order 1",
+    ),
+    "blocks.jl": (
+        "m = (\n    A = [\n        [[0 0; 1 0], reshape([0, 1], 2, 1)],\n"
+        "        [[1//2 1//2], reshape([1//2], 1, 1)],\n        [nothing],\n    ],\n"
+        "    b = [[1//2, 1//2], [1], [1]],\n    order = 1,\n)\n",
+        "blocks",
+    ),
+}
+"""Tables of a strange size or shape, with a word of what is said of them."""
+
+
+@pytest.mark.parametrize("name", AUDITED)
+def test_strange_tables_are_audited(name: str, tmp_path: Path) -> None:
+    """Numbers beyond floats, and rows that lack blocks: no internal fault."""
+    text, word = AUDITED[name]
+    (tmp_path / name).write_text(text, encoding="utf-8")
+    run = gark("audit", "-v", name, cwd=tmp_path)
+    assert run.code in {0, 1, 2}
+    assert word in run.out
+
+
 def _doubled(line: str, first: str, count: int = 24) -> str:
     """Lines of which each has twice the numbers of the one before."""
     return f"{first}\n" + "".join(line.format(k + 1, k) for k in range(count))
