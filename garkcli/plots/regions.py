@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from flint import fmpq, fmpq_poly
 
+from garkcli.errors import MethodError
 from garkcli.exact.display import to_float
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot
@@ -175,8 +176,11 @@ def stability_scene(
     if plane is not None:
         return Scene(title, [springs_panel(plane)])
     if not all(x.linear for _, x in methods):
-        oscillators = [(name, x.oscillator) for name, x in methods]
-        return Scene(title, [trace_panel([(name, x) for name, x in oscillators if x is not None])])
+        traces = [(name, x.oscillator) for name, x in methods if x.oscillator is not None]
+        if not traces:
+            cure = "choose a method whose stability is decided"
+            raise MethodError("there is nothing to draw", cure, code="arrays")
+        return Scene(title, [trace_panel(traces)])
     if others:
         named = [(name, x.linear[0].R) for name, x in methods]
     else:

@@ -106,6 +106,13 @@ def test_pictures(arguments: list[str], tmp_path: Path) -> None:
     assert "┤" in run(*arguments, "-v").output
 
 
+def test_nothing_to_draw(tmp_path: Path) -> None:
+    """Rounding leaves the oscillator open, and one colour has no linear test equation."""
+    result = run("yoshida-8a", "--plot", str(tmp_path / "picture.svg"))
+    assert isinstance(result.exception, GarkError)
+    assert result.exception.message == "there is nothing to draw"
+
+
 def test_a_region_in_text_is_that_of_the_method() -> None:
     """−2.79 is the end of the real axis of the classical method: the marks on the axis end there.
     It is drawn with details alone.
