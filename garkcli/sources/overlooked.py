@@ -17,8 +17,8 @@ from garkcli.sources.values import Number, literal
 METHODS = re.compile(
     r"runge|kutta|butcher|tableau|(?<![a-z])i?e?rk(?![a-z]{2})|rk\d|ssp(?![a-z])|dirk|dopri|dormand"
     r"|rosenbrock|\bros\d|rodas|rock\d|ralston|heun(?![a-z])|fehlberg|merson|mclachlan|yoshida"
-    r"|low.?storage|symplectic|leapfrog|bashforth|multistep|exponential.integrator|imex|imkg"
-    r"|(?<![^\W_])a_?[23]1(?!\w)|cash.?karp|verner|gauss.?(?:legendre|radau|lobatto)|tsit5|magnus",
+    r"|low.?storage|symplectic|leapfrog|adams|(?<![a-z])ode\d|multistep|exponential.integrator"
+    r"|(?<![^\W_])a_?[23]1(?!\w)|imex|imkg|cash.?karp|verner|gauss.?legendre|radau|lobatto|tsit5|magnus",
     re.IGNORECASE,
 )
 """Words for methods."""
@@ -64,13 +64,12 @@ def overlooked(
     inside: dict[int, tuple[ir.Scope, list[ir.Statement]]] = {}
     for statement, around in placed:
         inside.setdefault(id(around[-1]), (around[-1], []))[1].append(statement)
-    of_classes = {id(x[-1]) for _, x in placed if any(y.kind == "class" for y in x)}
     lines = text.split("\n")
     for key, (scope, own) in inside.items():
         first = max(0, scope.line - ABOVE)
         words = text if scope is module else "\n".join(lines[first : own[-1].line + 1])
-        # what a function has that is in no class no other one can use
-        is_apart = scope.kind == "function" and key not in of_classes
+        # what a function has no other one can use
+        is_apart = scope.kind == "function"
         is_other = key in known or _OTHERS.search(scope.name)
         is_lost = (scope.kind, scope.line) in lost
         if not is_other and _is_method(scope, own, words, () if is_apart else used, is_lost):

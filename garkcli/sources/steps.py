@@ -10,6 +10,7 @@ whatever does not fit makes no table.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import islice
 from typing import TypeGuard
 
 from garkcli.frozen import Frozen
@@ -277,8 +278,11 @@ class Follower(Evaluator):
         return self.unknown("an entry") if isinstance(found, Array) else found
 
     def _whole(self, expr: ir.Expr) -> ir.Expr:
-        """The array of which a loop takes one entry after the other."""
+        """The array of which a loop takes one entry after the other, or a thread its own one."""
         names = {*self._components, *self._counters}
+        if isinstance(expr, ir.Index):
+            unknown = (x for x, value in self._space.items() if isinstance(value, Unknown))
+            names.update(islice(unknown, 1))
         while isinstance(expr, ir.Index) and all(
             isinstance(x, ir.Name) and x.name in names for x in expr.at
         ):

@@ -375,3 +375,23 @@ def test_a_slope_of_fortran_that_may_have_changed(between: str) -> None:
     text += "call f(t+h/2.0_wp,x+h/2.0_wp*f1,f2)\nxf = x + h*f2\nend subroutine\n"
     assert [x.trouble for x in fortran.find(text.format(""), "x")] == [""]
     assert not any(x.b for x in fortran.find(text.format(between), "x"))
+
+
+KERNEL = """
+__global__ void advance(double *y, double t, double h, int n)
+{
+  int i = blockIdx.x*blockDim.x + threadIdx.x;
+  if (i >= n) return;
+  double k1 = f(t, y[i]);
+  double k2 = f(t + h/2, y[i] + h/2*k1);
+  y[i] += h*k2;
+}
+"""
+
+
+def test_a_thread_takes_its_own_entry() -> None:
+    """The entry of a kernel is one place; that of another thread is another."""
+    (table,) = c.find(KERNEL, "x.cu")
+    assert (table.b, table.c, table.trouble) == ((("0", "1"),), (("0", "1/2"),), "")
+    other = KERNEL.replace("if (", "int j = threadIdx.y;\n  if (").replace("t, y[i]", "t, y[j]")
+    assert not any(x.b for x in c.find(other, "x.cu"))
