@@ -141,11 +141,12 @@ def _sums(table: FoundTable, l: int) -> Row:
 
 def _prk(table: FoundTable) -> Mapping[str, Tree]:
     """The form ``prk``: the rows of q.A are the positions at which forces are evaluated."""
-    is_shared = len(table.A) == 1
-    of_q = 0 if is_shared else 1
+    sees_both = table.A[0][0] is not None and table.A[-1][1] is not None
+    is_general = len(table.A) == 1 or (sees_both and not table.structure)
+    of_q, of_p = (0, -1) if is_general else (1, 0)
     q = _colour(table, 0, table.A[of_q][0], table.c[of_q])
-    p = _colour(table, 1, table.A[0][1], table.c[0])
-    structure = "general" if is_shared else table.structure or "separable"
+    p = _colour(table, 1, table.A[of_p][1], table.c[of_p])
+    structure = "general" if is_general else table.structure or "separable"
     return {"prk": {"q": q, "p": p}, "structure": structure}
 
 

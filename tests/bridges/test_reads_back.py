@@ -8,9 +8,12 @@ from typing import Any
 
 import pytest
 
+from garkcli.bridges.preparing import prepared
 from garkcli.bridges.readers.registry import reader_named
 from garkcli.bridges.registry import bridges
 from garkcli.bridges.rounding import nearest_float
+from garkcli.bridges.subject import read
+from garkcli.methodfile.load import loads
 from tests.bridges.examples import MIDPOINTS, RALSTON, VERLET, payload_of
 
 READ_BACK = {
@@ -47,6 +50,16 @@ def test_what_is_written_is_read(target: str, method: str) -> None:
     if payload.embedded and target not in {"rungekutta-jl", "climatimesteppers"}:
         assert found.embedded
         assert near(payload.embedded[0], found.embedded[0])
+
+
+def test_a_general_pair_with_nodes_of_its_parts() -> None:
+    """Both parts see both, each at nodes of its own: all blocks come back out of JSON."""
+    q = "{A: [[0, 1/3], [-1, 1/2]], b: [1/2, 1/2], c: [1/3, -1/2]}"
+    p = "{A: [[0, 0], [0, 1/2]], b: [0, 1], c: [0, 1/2]}"
+    method = loads(f"structure: general\nprk: {{q: {q}, p: {p}}}")
+    text = bridges()["json"].written(prepared(method))
+    (found,) = reader_named("json").find(text, "x.json")
+    assert read(found).tableau == method.tableau
 
 
 def near(row: Sequence[Any], texts: Sequence[str]) -> bool:
