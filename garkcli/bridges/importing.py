@@ -132,8 +132,7 @@ def _polynomials(dense: Sequence[Rows] | None) -> Mapping[str, Tree] | None:
 
 def _sums(table: FoundTable, l: int) -> Row:
     """The row sums of the diagonal block, where a source gives nodes of other colours alone."""
-    # a row that lacks blocks is told where the file is read
-    block = table.A[l][l] if l < len(table.A[l]) else None
+    block = table.A[l][l]
     if block is None:
         return ("0",) * len(table.b[l])
     return tuple(" + ".join(f"({x})" for x in row) for row in block)
