@@ -10,7 +10,7 @@ from collections.abc import Collection, Iterable, Iterator
 
 from garkcli.sources import ir
 from garkcli.sources.evaluate import names_of
-from garkcli.sources.scalar_names import family_of
+from garkcli.sources.scalar_names import ARRAYS, family_of
 from garkcli.sources.signatures import CONSTRUCTOR
 from garkcli.sources.values import Number, literal
 
@@ -69,10 +69,10 @@ def overlooked(
         first = max(0, scope.line - ABOVE)
         words = text if scope is module else "\n".join(lines[first : own[-1].line + 1])
         # what a function has no other one can use
-        is_apart = scope.kind == "function"
-        is_other = key in known or _OTHERS.search(scope.name)
+        elsewhere = () if scope.kind == "function" else used
         is_lost = (scope.kind, scope.line) in lost
-        if not is_other and _is_method(scope, own, words, () if is_apart else used, is_lost):
+        is_other = key in known or _OTHERS.search(scope.name)
+        if not is_other and _is_method(scope, own, words, elsewhere, is_lost):
             yield scope
 
 
@@ -105,10 +105,12 @@ def _is_method(
     maker = CONSTRUCTOR.fullmatch(scope.name)
     title = maker or METHODS.search(scope.title)
     # a module has other numbers, too
-    count, least = len({*found}), 8 if scope.kind == "module" else 4
-    are_many = count >= least or (least == 4 and count > 1 and count + len(found) > 7)
+    count, least = len({*found}), 8 if scope.kind == "module" else 3 if maker else 4
+    are_many = count >= least or (least < 8 and count > 1 and count + len(found) > 6)
     is_named = title or (scope.kind == "function" and _STEPS.search(scope.title))
-    has_names = len(set().union(*named.values())) > 3 and (len(named) > 1 or title)
+    has_names = len(set().union(*named.values())) > 3 and (
+        title or len(named) > 1 or not named.keys().isdisjoint(ARRAYS.values())
+    )
     if is_lost and (len(named) > 1 or _SLOPES.search(words)):
         return True
     is_method = is_lost or has_names or (are_many and is_named)

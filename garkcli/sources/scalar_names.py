@@ -26,7 +26,10 @@ _MATRICES = ("a", "A", "aa", "b", "α")
 _SHU_OSHER = (("α", "β"), ("alpha", "beta"))
 _TWO_INDICES = {*_MATRICES, *(x for pair in _SHU_OSHER for x in pair)}
 _LETTERS = {*_TWO_INDICES, *"cdewγ", "gamma", "bhat", "b̂", "bh", "bt", "btilde"}
-_OF_ARRAYS = {"A", "A1", "b", "c", "c1", "embedded", "error", "A_q", "b_q", "delta"}
+ARRAYS = {
+    x: f"{x}[]" for x in ("A", "A1", "b", "c", "c1", "embedded", "error", "A_q", "b_q", "delta")
+}
+"""Roles of arrays of coefficients, with what tells these from single ones."""
 _DIAGONALS = ("γ", "gamma", "gam", "d")
 _EMBEDDED = ("bhat", "b̂", "bh", "ch", "bembed", "bstar", "bt", "btilde", "e", "dc")
 _SURELY = {"bhat": "embedded", "b̂": "embedded", "bembed": "embedded", "btilde": "error"}
@@ -127,8 +130,7 @@ def family_of(name: str) -> str:
     found = _NAME.fullmatch(plain)
     if found is not None and found["stem"] in _LETTERS:
         return found["stem"]
-    role = (role_of(plain) or ("", ""))[1]
-    return role if role in _OF_ARRAYS else ""
+    return ARRAYS.get((role_of(plain) or ("", ""))[1], "")
 
 
 def _of_shu_osher(alpha: _Entries, beta: _Entries, nodes: _Row) -> Scalars | None:

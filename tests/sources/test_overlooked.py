@@ -46,6 +46,10 @@ function ImKG(T)
     return kinnmark(T, (1 // 4, 1 // 6, 3 // 8), (0, -1 // 6, 2 // 3))
 end
 """
+PACKED = """
+/* a triangle of Runge-Kutta in one row */
+static const double a_packed[6] = {1.0/2, 0, 3.0/4, 2.0/9, 1.0/3, 4.0/9};
+"""
 ENTRIES = """
 subroutine dirk(i, a)
   integer :: i
@@ -63,6 +67,7 @@ end subroutine
         (c.find, STEP, "rk4_step"),
         (python.find, STRONG, "ssp43"),
         (c.find, LOW_STORAGE, "x"),
+        (c.find, PACKED, "x"),
         (c.find, ROSENBROCK, "default_rosenbrock_coefficients"),
         (julia.find, ARGUMENTS, "ImKG"),
         (fortran.find, ENTRIES, "dirk"),
