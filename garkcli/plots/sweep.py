@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from math import isfinite, log10
 
+from garkcli.errors import MethodError
 from garkcli.plots.scene import Axis, Curve, Panel, Scene
 from garkcli.sweep.plan import number
 from garkcli.sweep.ranking import kept, pareto_front
@@ -11,17 +12,21 @@ from garkcli.sweep.report import SweepReport
 from garkcli.sweep.row import Row
 
 
+def drawn(report: SweepReport) -> list[Row]:
+    """The kept methods that have finite values in the first two columns of the front."""
+    return [x for x in kept(report.done) if all(_is_finite(x, y) for y in report.plan.pareto[:2])]
+
+
 def sweep_scene(report: SweepReport) -> Scene:
-    """The kept methods in the plane of the first two columns of the front; those without finite
-    values are left out.
-    """
+    """These methods in the plane of both columns."""
     x, y = report.plan.pareto[:2]
-    rows = [row for row in kept(report.done) if _is_finite(row, x) and _is_finite(row, y)]
+    rows = drawn(report)
+    if not rows:
+        raise MethodError("there is nothing to draw", "choose other columns", code="arrays")
     front = pareto_front(rows, [x, y])
     # errors spread over powers of ten
     logarithmic = {
-        name: "error" in name and bool(rows) and min(_value(row, name) for row in rows) > 0
-        for name in (x, y)
+        name: "error" in name and min(_value(row, name) for row in rows) > 0 for name in (x, y)
     }
 
     def coordinate(row: Row, name: str) -> float:

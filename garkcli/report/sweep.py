@@ -9,7 +9,7 @@ from typing import Any
 
 from garkcli.errors import UsageProblem, counted
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
-from garkcli.plots.sweep import sweep_scene
+from garkcli.plots.sweep import drawn, sweep_scene
 from garkcli.report.search import with_root
 from garkcli.sweep.columns import Value, columns
 from garkcli.sweep.plan import Plan
@@ -119,7 +119,7 @@ def section(report: SweepReport | None = None) -> Section:
         Row(
             "plot",
             scene(sweep_scene),
-            lambda x: x if x.kept and len(x.plan.pareto) > 1 else None,
+            lambda x: x if len(x.plan.pareto) > 1 and drawn(x) else None,
             DETAIL,
         ),
         title=lambda x, d: d.prose(x.plan.name),

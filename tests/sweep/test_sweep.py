@@ -20,8 +20,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garkcli import analyse, loads
-from garkcli.errors import MethodFileError, UsageProblem
+from garkcli.errors import MethodError, MethodFileError, UsageProblem
 from garkcli.exact.apart import start_method
+from garkcli.frozen import replace
 from garkcli.plots.scene import Curve
 from garkcli.plots.sweep import sweep_scene
 from garkcli.report.schemas import report_schema
@@ -337,6 +338,8 @@ def test_the_plot(spec: Path) -> None:
     drawn = [curve.points for curve in panel.legend if isinstance(curve, Curve)]
     everything = [(x["order"], x["stages"]) for x in kept(report.done)]
     assert drawn == [everything, [(x["order"], x["stages"]) for x in report.front]]
+    with pytest.raises(MethodError, match="nothing to draw"):
+        sweep_scene(replace(report, rows={}))
     rows.unlink()
     assert gark("sweep", str(spec), "--plot", "figure.txt").code == 2
     spec.write_text(SPEC.replace("pareto: [order, stages]\n", ""), encoding="utf-8")
