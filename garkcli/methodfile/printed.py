@@ -34,6 +34,7 @@ CARELESS = 1_000
 """Units of the last place that a careless rounding may be off by."""
 FLOAT = fmpq(1, 2**53)
 """By how much of itself the float next to a number is off."""
+LARGEST = fmpq(2) ** 1023
 SHORTER = 100
 """A decimal of so many times finer units than a float never was one."""
 QUADRUPLE = fmpq(1, 2**113)
@@ -98,20 +99,30 @@ def approximant_units(printed: Printed, given: Units | None = None) -> dict[Numb
 def careless_units(printed: Printed, given: Units | None = None) -> dict[Number, fmpq]:
     """The same where decimals are rounded carelessly: ``CARELESS`` units of their last place. What
     may have been computed in floats before it was printed, fractions and decimals that are no
-    longer than floats, may be off by so many units of these; longer decimals by so many units of
-    quadruple precision.
+    longer than floats or are floats, may be off by so many units of these; longer decimals by many
+    units of quadruple precision. A decimal that is short beside others is off by one unit.
     """
     units = approximant_units(printed, given)
+    decimals = [pair for pair in printed if not _is_whole(pair[0])]
+    own = printed_units(decimals, FEWEST_DIGITS)
     fractions = {value for expression, value in printed if _is_whole(expression)}
     for value, unit in units.items():
-        of_float = rounded_up(abs(to_ball(value))) * FLOAT
+        size = rounded_up(abs(to_ball(value)))
+        of_float = size * FLOAT
         if value in fractions and unit:
             units[value] = max(10 * unit, CARELESS * of_float)
-        else:
-            is_float = unit > of_float / SHORTER
-            least = of_float if is_float else of_float / FLOAT * QUADRUPLE
-            units[value] = CARELESS * max(unit, least) if unit else unit
+        elif unit:
+            is_float = unit > of_float / SHORTER or _is_float(value, unit)
+            least = of_float if is_float else CARELESS * size * QUADRUPLE
+            units[value] = max(CARELESS * max(unit, least), own.get(value, unit))
     return units
+
+
+def _is_float(value: Number, unit: fmpq) -> bool:
+    """Whether all digits of a decimal are those of a float."""
+    if not isinstance(value, fmpq) or abs(value) > LARGEST:
+        return False
+    return abs(fmpq(*(int(value.p) / int(value.q)).as_integer_ratio()) - value) <= unit
 
 
 def _is_whole(expression: Expression) -> bool:

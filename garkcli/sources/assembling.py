@@ -219,7 +219,7 @@ def _of_blocks(roles: Roles, empty: FoundTable) -> FoundTable:
     if not 0 < max(colours, len(rows)) <= MAX_COLOURS:
         raise Unreadable(f"more than {MAX_COLOURS} vector fields" if rows else "no matrices")
     if len(rows) not in (1, colours) or any(len(row) != colours for row in rows):
-        raise Misshapen(f"{len(rows)} rows of blocks, {colours} in a row")
+        raise Unreadable(f"{len(rows)} rows of blocks, {colours} in a row")
     blocks = [[plain(_block(x)) for x in row] for row in rows]
     A = tuple(tuple(None if x is None else rows_of(x) for x in row) for row in blocks)
     b, c, embedded = (_row_each(plain(roles.get(x)), colours) for x in ("b", "c", "embedded"))

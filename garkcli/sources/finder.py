@@ -63,6 +63,7 @@ _PARTS = " "
 """The stem of the arrays of an explicit and an implicit part."""
 _COUPLED = frozenset({name for name, x in SIGNATURES.items() if x.form == "halves"})
 """Calls that make one table of two."""
+_RANKS = {word: i for i, word in enumerate(ROLES)}
 _MADE = frozenset({"", _TABLE, "ARKodeSPRKTable_Alloc"})
 """Records that are filled after they are made."""
 
@@ -323,6 +324,7 @@ class TableFinder(Evaluator):
         groups: dict[str, Roles] = {}
         taken: dict[str, dict[str, bool]] = {}
         places: dict[str, list[tuple[str, int]]] = {}
+        ranks: dict[tuple[str, str], int] = {}
         unread: dict[str, Roles] = {}
         for name, value in values.items():
             owner, _, plain = name.rpartition("::")
@@ -337,10 +339,18 @@ class TableFinder(Evaluator):
                 if told is not None and told[1] in BESIDE and isinstance(value, Unknown):
                     unread.setdefault(told[0] or owner, {})[told[1]] = value
                 continue
+            rank = _RANKS.get(plain, -1)
+            if rank > ranks.setdefault((stem, role), rank):
+                # A beside β is the matrix
+                continue
+            ranks[stem, role] = rank
             groups.setdefault(stem, {})[role] = value
             places.setdefault(stem, []).append((name, lines.get(name, scope.line)))
             if role in {"A", "b"}:
                 taken.setdefault(stem, {})[role] = places[stem][-1] in self._taken
+        records = [x for x in values.values() if isinstance(x, Record) and not x.kind]
+        fields = _roles_of(records[0].fields, ROLES) if len(records) == 1 else {}
+        orders = {x: fields[x] for x in ("order", "embedded_order") if x in fields}
         for stem, numbered_roles in groups.items():
             roles = _with_grid(numbered_roles)
             if {"A", "c", "gamma"} <= set(roles) and _is_triangle(roles["c"], roles["gamma"]):
@@ -351,6 +361,7 @@ class TableFinder(Evaluator):
                 if "A 1" in numbered_roles and abs(near(b) - 1) < NEAR:
                     self._unread(stem or scope.title, places[stem][0][1], NUMBERED)
                 continue
+            roles = orders | roles
             title = roles.pop("title", None)
             name = title.text if isinstance(title, Word) else stem.strip() or scope.title
             # with a hat it is the explicit part

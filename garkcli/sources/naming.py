@@ -15,14 +15,14 @@ _WORDS: Mapping[str, tuple[str, ...]] = {
         *("bhat", "b_hat", "bh", "bembed", "bstar", "b_star", "btilde"),
         *("b_tilde", "b_embedded", "bemb", "b_err_weights", "b_low_order"),
         *("embedded", "b2", "bhat_vec", "d", "αEEst", "alphaEEst", "b̂"),
-        *("bEEst", "α̂", "b_low", "b_lower", "beta_star"),
+        *("bEEst", "α̂", "b_low", "b_lower", "beta_star", "bt"),
     ),
     "error": ("E", "e", "evec", "b_error", "b_err", "berr", "c_error", "err"),
     "dense": ("P", "dense", "binterp", "binterpt"),
-    "order": ("order", "ORDER", "RK_ORDER", "q", "ord", "DifferenceOrder"),
+    "order": ("order", "ORDER", "RK_ORDER", "q", "ord", "DifferenceOrder", "order_b"),
     "embedded_order": (
         *("embedded_order", "error_estimator_order", "p", "adaptiveorder"),
-        *("order_embedded", "embeddedOrder", "orderhat", "EmbeddedDifferenceOrder"),
+        *("order_embedded", "embeddedOrder", "orderhat", "EmbeddedDifferenceOrder", "order_bt"),
     ),
     "lower_order": ("lowerOrder", "lower_order"),
     "higher_order": ("higherOrder", "higher_order"),
@@ -38,7 +38,7 @@ _WORDS: Mapping[str, tuple[str, ...]] = {
     "fsal": ("fsal", "FSAL", "is_fsal"),
 }
 ROLES = {word: role for role, words in _WORDS.items() for word in words}
-"""From the name of an array to what it is."""
+"""From the name of an array to what it is; where several have a role, the first name counts."""
 _PREFIX = re.compile(r"(?P<word>[AaBbCcEd]|bhat|bh|Amat|bembed|order)_(?P<stem>\w+)")
 _SUFFIX = re.compile(
     r"(?P<stem>\w+?)_(?P<word>A|a|b|B|c|C|E|bh|bhat|b_hat|bembed|b2|order"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 import shutil
+from decimal import Decimal
 from pathlib import Path
 
 import jsonschema
@@ -287,6 +288,33 @@ def test_a_short_decimal_is_exact_among_long_ones(place: int, tmp_path: Path) ->
         changed = str((int(table[at]) + 5) % 10)
         path.write_text(table[:at] + changed + table[at + 1 :], encoding="utf-8")
         assert gark("audit", str(path)).code == 1, number
+
+
+def _of_floats(*numbers: float) -> str:
+    return ", ".join(f"{Decimal(x):.25f}" for x in numbers)
+
+
+ROUNDED = {
+    "floats with 25 digits": f"A = [[0, 0, 0], [{_of_floats(0.7)}, 0, 0], "
+    f"[{_of_floats(1 / 3, 1 / 7)}, 0]]\nb = [{_of_floats(0.1, 0.7, 0.2)}]\n"
+    f"c = [0, {_of_floats(0.7, 10 / 21)}]\n",
+    "a node with 8 digits": "A = [[0, 0], [0.66666666666666666667, 0]]\nb = [0.25, 0.75]\n"
+    "c = [0, 0.66666667]\n",
+}
+
+
+@pytest.mark.parametrize("name", ROUNDED)
+def test_what_rounding_explains_is_no_error(name: str, tmp_path: Path) -> None:
+    """Decimals that are floats are as good as these, and a short node as its last digit: a note. A
+    digit changed before these is an error.
+    """
+    path = tmp_path / "m.py"
+    path.write_text(ROUNDED[name], encoding="utf-8")
+    assert gark("audit", str(path)).code == 0
+    assert "with notes alone" in gark("audit", str(path)).out
+    head, _, nodes = ROUNDED[name].rpartition("c = ")
+    path.write_text(f"{head}c = {nodes.replace('66666', '66966').replace('476', '477')}")
+    assert gark("audit", str(path)).code == 1
 
 
 UNLIKE = {

@@ -25,6 +25,22 @@ SMALLER_IN_A_ROW = """
 const double RK4_A[9] = {0.5, 0, 0,  0, 0.5, 0,  0, 0, 1};
 const double RK4_B[4] = {1.0/6.0, 1.0/3.0, 1.0/3.0, 1.0/6.0};
 """
+WITH_EIGENVALUES = """
+void radau(TABLEAU* tableau)
+{
+  tableau->nStages = 2;
+  tableau->order_b = 2*tableau->nStages - 1;
+  tableau->order_bt = 1;
+  const double c[] = {0, 2.0/3.0};
+  const double A[] = {0.25, -0.25, 0.25, 5.0/12.0};
+  const double b[] = {0.25, 0.75};
+  const double bt[] = {1, 0};
+  setButcherTableau(tableau, c, A, b, bt);
+  const double *gamma = NULL;
+  const double alpha[] = { 2.0 };
+  const double beta[] = { -1.41421356237309504880168872420969807857 };
+}
+"""
 LAST_ROW = """
 inline void fill(std::vector<std::vector<double>> &a, std::vector<double> &b,
                  std::vector<double> &c) {
@@ -191,6 +207,7 @@ void Solver::Stepper(const double y[], double out[]) {
 }
 """
 WRITTEN |= {
+    "a matrix beside another one in Greek": (c.find, WITH_EIGENVALUES, 3, 1),
     "rows and columns that are not zero": (python.find, SMALLER, 4, None),
     "these in a row": (c.find, SMALLER_IN_A_ROW, 4, None),
     "weights that are the last row, by the error": (c.find, LAST_ROW, 3, 2),
