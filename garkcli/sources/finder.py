@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from operator import sub
 from typing import Any, TypeGuard
 
@@ -20,7 +20,7 @@ from garkcli.sources.assembling import (
     not_read,
     table_of,
 )
-from garkcli.sources.evaluate import Evaluator, Space
+from garkcli.sources.evaluate import Evaluator, Space, shown
 from garkcli.sources.found import FoundTable, troubled
 from garkcli.sources.naming import ROLES, role_of, roles_of_parts
 from garkcli.sources.overlooked import overlooked, sized
@@ -64,6 +64,8 @@ _PARTS = " "
 _COUPLED = frozenset({name for name, x in SIGNATURES.items() if x.form == "halves"})
 """Calls that make one table of two."""
 _RANKS = {word: i for i, word in enumerate(ROLES)}
+_ORDERS = ("order", "embedded_order")
+"""What a structure tells of the arrays beside it."""
 _MADE = frozenset({"", _TABLE, "ARKodeSPRKTable_Alloc"})
 """Records that are filled after they are made."""
 
@@ -127,8 +129,8 @@ class TableFinder(Evaluator):
         with_nodes = {(x.A, x.b, x.line) for x in found.values() if any(x.c)}
         read = [x for x in found.values() if any(x.c) or (x.A, x.b, x.line) not in with_nodes]
         tables = [*read, *self._other.values()]
-        sure = {(x.A, x.b) for x in tables if x.is_sure and x.b}
-        kept = [x for x in tables if x.is_sure or not x.b or (x.A, x.b) not in sure]
+        sure = {(x.A, x.b, order) for x in tables if x.is_sure and x.b for order in (x.order, None)}
+        kept = [x for x in tables if x.is_sure or not x.b or (x.A, x.b, x.order) not in sure]
         lines = {x.line for x in kept if x.b}
         kept = [x for x in kept if not x.trouble or x.line not in lines]
         return sorted(kept, key=lambda x: x.line)
@@ -150,15 +152,16 @@ class TableFinder(Evaluator):
         made += [x for x in space.values() if isinstance(x, Record) and x.kind in _MADE]
         if scope.kind == "class":
             self._declared_by_class(scope, space)
-        count = self._count()
+        count, first = self._count(), len(self._meant)
         halves = (y for x in made if x.kind in _COUPLED for y in x.args if isinstance(y, Record))
         self._halves.update((x.kind, x.line) for x in halves)
         for record in made:
             if (record.kind, record.line) not in self._halves:
                 self._of_record(record, scope)
         values, lines = dict(space), space.lines
-        if self._count() == count:
-            self._of_names(values, lines, scope)
+        known = {shown(x) for meant in self._meant[first:] for x in meant.roles.values()}
+        if self._count() == count or known:
+            self._of_names(values, lines, scope, known)
         looks_like_a_step = self._count() == count and self._of_step(scope, space)
         if self._count() > count:
             return
@@ -303,8 +306,13 @@ class TableFinder(Evaluator):
     # arrays by their names
 
     def _of_names(
-        self, values: Mapping[str, Value], lines: Mapping[str, int], scope: ir.Scope
+        self,
+        values: Mapping[str, Value],
+        lines: Mapping[str, int],
+        scope: ir.Scope,
+        known: Collection[object] = (),
     ) -> None:
+        """Tables of arrays, but for those whose matrix is known from a record."""
         if _is_general_linear(values):
             self._unread(scope.title, scope.line, kind="general linear")
             return
@@ -350,12 +358,15 @@ class TableFinder(Evaluator):
                 taken.setdefault(stem, {})[role] = places[stem][-1] in self._taken
         records = [x for x in values.values() if isinstance(x, Record) and not x.kind]
         fields = _roles_of(records[0].fields, ROLES) if len(records) == 1 else {}
-        orders = {x: fields[x] for x in ("order", "embedded_order") if x in fields}
+        is_table = "A" in fields or "b" in fields
+        orders = {x: fields[x] for x in _ORDERS if x in fields and not is_table}
         for stem, numbered_roles in groups.items():
             roles = _with_grid(numbered_roles)
             if {"A", "c", "gamma"} <= set(roles) and _is_triangle(roles["c"], roles["gamma"]):
                 # α, β, γ are the matrix in one row, the weights and the nodes
                 roles |= {"A": roles["c"], "b": roles["A"], "c": roles.pop("gamma")}
+            if known and not (is_complete(roles) and shown(roles.get("A", NULL)) not in known):
+                continue
             if not is_complete(roles):
                 b = numbered_roles.get("b 1")
                 if "A 1" in numbered_roles and abs(near(b) - 1) < NEAR:
@@ -516,11 +527,13 @@ def _is_record(value: Value) -> TypeGuard[Record]:
 
 
 def _roles_of(fields: Mapping[str, Value], told: Mapping[str, str]) -> Roles:
-    """The roles of values with names; a diagonal that is apart is put into the matrix."""
+    """The roles of values with names; a first node and a diagonal that are apart are put in."""
     roles: Roles = {}
     for key, value in fields.items():
         if key in told and not isinstance(value, Null):
             roles.setdefault(told[key], value)
+    if isinstance(fields.get("c1"), Number) and "c" in roles:
+        roles["c"] = Array([fields["c1"], *items_of(roles["c"])])
     diagonal = items_of(fields.get("a_diagonal"))
     rows = [items_of(x) or [x] for x in items_of(roles.get("A"))]
     rows = [[]] * (len(rows) == len(diagonal) - 1) + rows

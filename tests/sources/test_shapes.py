@@ -206,7 +206,12 @@ void Solver::Stepper(const double y[], double out[]) {
         dc1 = b41 - 7.0/24.0, dc2 = b42 - 0.25, dc3 = b43 - 1.0/3.0, dc4 = -0.125;
 }
 """
+FIRST_NODE = """
+T = ButcherTableau(a_lower=(np.array([0.5]),), b_sol=np.array([0.5, 0.5]), c1=0.25,
+    c=np.array([0.75]), a_diagonal=np.array([0.25, 0.25]))
+"""
 WRITTEN |= {
+    "a first node that is apart": (python.find, FIRST_NODE, 2, None),
     "a matrix beside another one in Greek": (c.find, WITH_EIGENVALUES, 3, 1),
     "rows and columns that are not zero": (python.find, SMALLER, 4, None),
     "these in a row": (c.find, SMALLER_IN_A_ROW, 4, None),
@@ -250,6 +255,24 @@ def test_blocks_that_make_no_square_are_none() -> None:
     text = "A = [[[[0, 0], [1, 0]]], [[[0, 0], [1, 0]]]]\nb = [[0.5, 0.5], [0.5, 0.5]]\n"
     (table,) = python.find(text, "x")
     assert table.trouble.endswith("do not fit together: 2 rows of blocks, 1 in a row")
+
+
+BESIDE_A_RECORD = {
+    "other arrays": ("heun_A = [[0, 0], [1, 0]]\nheun_b = [0.5, 0.5]\n", 2),
+    "its own arrays": ("A = [[0, 0], [0.5, 0]]\nb = [0, 1]\n", 1),
+    "the same in a class with an order": (
+        "class C:\n    A = [[0, 0], [0.5, 0]]\n    b = [0, 1]\n    order = 3\n",
+        2,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", BESIDE_A_RECORD)
+def test_arrays_beside_a_record_are_tables_of_their_own(name: str) -> None:
+    """Unless they are those of the record, or are the same and say no more."""
+    text, count = BESIDE_A_RECORD[name]
+    record = "m = RungeKuttaMethod([[0, 0], [0.5, 0]], [0, 1])\n"
+    assert len(python.find(text + record, "x")) == count
 
 
 def test_a_matrix_that_lacks_a_row_is_none() -> None:

@@ -101,7 +101,8 @@ class FortranLowering(Lowering):
                 value = self.expr(given)
                 number = self._number(value)
                 self._numbers |= {} if is_real or number is None else {name: number}
-                if extents and isinstance(value, ir.Literal) and not float(value.text):
+                digits = value.text.partition("e")[0] if isinstance(value, ir.Literal) else "1"
+                if extents and not digits.strip("0."):
                     # zeros that procedures may change
                     value = ir.Call(ir.Name("zeros"), extents)
                 yield ir.Assign(ir.Name(name), value, line, ".", is_real=is_real)
