@@ -33,7 +33,8 @@ _OTHER_BEFORE = frozenset(
 _OTHER_AFTER = re.compile(
     r"[0-9]|ode|odes|dae|daes|pde|pdes|ivp|equation|differential|ordinary|system|problem|derivative"
     r"|dense|interpol|error|estimat|embed|hermite|polynomial|term|optimi|backward|condition"
-    r"|spline|extrapol|difference|to|in|for|if|when|stage|predict|initial|linear",
+    r"|spline|extrapol|difference|to|in|for|if|when|stage|predict|initial|linear|finite|central"
+    r"|upwind|weno|compact|spatial|flux|reconstruct|taylor|moment|tensor|filter",
     re.IGNORECASE,
 )
 _COMMENT = re.compile(r"\s*(?:#(?!\s*(?:define|include|if|else|endif|undef))|//|!|%|\*|/\*)")

@@ -78,6 +78,7 @@ def test_words_about_something_else(text: str, tmp_path: Path) -> None:
         ("5th order, or 4th order", None),
         ("of order 1.5", None),
         ("the second-order equation", None),
+        ("fifth-order WENO, 4th-order finite differences, third-order upwind fluxes", None),
         ("reorder 4 entries, in order", None),
         ("a (3-ε)-order 3rd-stage scheme", None),
         ("second-order accurate for one part and third-order\n    accurate for the other", None),
