@@ -172,7 +172,7 @@ class TableFinder(Evaluator):
             return
         if looks_like_a_step:
             self._unfollowed[scope.kind, scope.line] = "a step that is not followed"
-        for record in made if self._count() == count else ():
+        for record in made:
             if _looks_like_a_table(record.args):
                 told = f"a matrix, its row sums and weights as arguments of {record.kind}"
                 self._unread(self._name(record, scope), record.line, told)

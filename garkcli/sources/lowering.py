@@ -11,13 +11,15 @@ from tree_sitter import Language, Node, Parser
 
 from garkcli.sources import ir
 from garkcli.sources.found import FoundTable, Reader
-from garkcli.sources.naming import ROLES
+from garkcli.sources.naming import METHODS, ROLES
 from garkcli.sources.reading import tables_in
 from garkcli.sources.signatures import SIGNATURES, other_kind
 
 _NUMBER = re.compile(r"(?<![\w.])[0-9]+(?:\.[0-9]*)?")
 FEWEST_NUMBERS = 5
 SHORT = 300
+HEAD = 100
+"""Characters of a function that may name it."""
 _WORDS = re.compile(
     r"tableau|butcher|register|[abc]coefficients|\*this\)\[|(?<![A-Za-z])[^\W\d_]{1,2}_?[0-9]+(?:_?[0-9]+)?\s*(?:=|,|\))"
     r"|(?<![A-Za-z])(?:[a-z]{0,3}_)?(?:A|a|b|B|c|C|amat|rka|α|β|γ|alpha|beta|weights|nodes)\w?\w?"
@@ -191,10 +193,11 @@ class Lowering:
     def may_hold_a_table(self, node: Node) -> bool:
         """Whether the text of a function has numbers and names like those of a table."""
         text = self.text(node)
-        fewest = 1 if len(text) < SHORT else FEWEST_NUMBERS
+        is_likely = len(text) < SHORT or bool(METHODS.search(text[:HEAD]))
         numbers = _NUMBER.finditer(text)
+        fewest = 1 if is_likely else FEWEST_NUMBERS
         has_numbers = next(islice(numbers, fewest - 1, None), None) is not None
-        return has_numbers and (len(text) < SHORT or bool(_WORDS.search(text)))
+        return has_numbers and (is_likely or bool(_WORDS.search(text)))
 
     def expr(self, node: Node | None) -> ir.Expr:
         """What an expression is lowered to."""

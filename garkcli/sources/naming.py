@@ -46,6 +46,14 @@ _SUFFIX = re.compile(
 )
 _DIGIT = re.compile(r"(?P<stem>\w*[A-Za-z]\w*[0-9])(?P<word>[Aabc]|[Abc]_hat)")
 """``rk4a``, ``lsrk54b``, ``ars222A_hat``."""
+METHODS = re.compile(
+    r"runge|kutta|butcher|tableau|(?<![a-z])i?e?rk(?![a-z]{2})|rk\d|ssp(?![a-z])|dirk|dopri|dormand"
+    r"|rosenbrock|\bros\d|rodas|rock\d|ralston|heun(?![a-z])|fehlberg|merson|mclachlan|yoshida"
+    r"|low.?storage|symplectic|leapfrog|adams|(?<![a-z])ode\d|multistep|exponential.integrator"
+    r"|(?<![^\W_])a_?[23]1(?!\w)|imex|imkg|cash.?karp|verner|gauss.?legendre|radau|lobatto|tsit5|magnus",
+    re.IGNORECASE,
+)
+"""Words for methods."""
 MAX_NAME = 200
 _PART = re.compile(
     r"(?P<word>butcher|matrix|weights|nodes|[abc]|b_?hat|b_?embed)"

@@ -10,18 +10,11 @@ from collections.abc import Collection, Iterable, Iterator
 
 from garkcli.sources import ir
 from garkcli.sources.evaluate import names_of
+from garkcli.sources.naming import METHODS
 from garkcli.sources.scalar_names import ARRAYS, family_of
 from garkcli.sources.signatures import CONSTRUCTOR
 from garkcli.sources.values import Number, literal
 
-METHODS = re.compile(
-    r"runge|kutta|butcher|tableau|(?<![a-z])i?e?rk(?![a-z]{2})|rk\d|ssp(?![a-z])|dirk|dopri|dormand"
-    r"|rosenbrock|\bros\d|rodas|rock\d|ralston|heun(?![a-z])|fehlberg|merson|mclachlan|yoshida"
-    r"|low.?storage|symplectic|leapfrog|adams|(?<![a-z])ode\d|multistep|exponential.integrator"
-    r"|(?<![^\W_])a_?[23]1(?!\w)|imex|imkg|cash.?karp|verner|gauss.?legendre|radau|lobatto|tsit5|magnus",
-    re.IGNORECASE,
-)
-"""Words for methods."""
 _STEPS = re.compile(r"step|advance|attempt", re.IGNORECASE)
 _SLOPES = re.compile(r"(?<![^\W_])(?:k_?[12]|h|dt)(?!\w)|[sS]tep")
 """Names in steps."""

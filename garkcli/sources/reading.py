@@ -9,10 +9,11 @@ from garkcli.sources import ir
 from garkcli.sources.allowance import Allowance
 from garkcli.sources.finder import TableFinder
 from garkcli.sources.found import FoundTable, TooLarge
+from garkcli.sources.naming import METHODS
 
 HINTS = re.compile(
     r"tableau|butcher|runge.?kutta|register|embedd|order|weights|nodes"
-    r"|(?<![a-z])(?:a|b|c)(?:mat|vec|hat)?\w?(?:\[|\s*=|_|\d\d|\{)|rock\d|rk\d",
+    r"|(?<![a-z])(?:a|b|c)(?:mat|vec|hat)?\w?(?:\[|\s*=|_|\d\d|\{)",
     re.IGNORECASE,
 )
 """What a source has a table with has some of these words."""
@@ -43,7 +44,7 @@ def tables_in(
     Raises:
         TooLarge: the source says too much.
     """
-    if len(text) > SHORT and not HINTS.search(text):
+    if len(text) > SHORT and not (HINTS.search(text) or METHODS.search(text)):
         return []
     allowance = Allowance(len(text))
     finder = TableFinder(source, format, base, allowance, is_growing, has_whole_quotients)

@@ -158,7 +158,7 @@ class CLowering(Lowering):
         given = (x for x in self.children(part(head, "parameters")) if part(x, "declarator"))
         made = self.block(x for x in self.children(node) if x.type == "field_initializer_list")
         body = part(node, "body")
-        made += self.block([body]) if body and self.may_hold_a_table(body) else ()
+        made += self.block([body]) if body and self.may_hold_a_table(node) else ()
         parameters = tuple(self._declared(x)[0] for x in given)
         name, types = self._declared(declarator)[0], self._types(node)
         return ir.Scope("function", name, made, line_of(node), parameters, types)

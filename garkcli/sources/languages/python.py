@@ -87,7 +87,7 @@ class PythonLowering(Lowering):
     def _function(self, node: Node) -> ir.Scope:
         name, body = self.text(part(node, "name")), part(node, "body")
         given = map(self.first_name, self.children(part(node, "parameters")))
-        made = self.block([body]) if body and self.may_hold_a_table(body) else ()
+        made = self.block([body]) if body and self.may_hold_a_table(node) else ()
         parameters, types = tuple(filter(None, given)), frozenset({"dtype"})
         return ir.Scope("function", name, made, line_of(node), parameters, types)
 
