@@ -13,8 +13,9 @@ from functools import lru_cache
 from itertools import pairwise
 from typing import Any, TypeAlias
 
-from flint import arb, ctx, fmpq, fmpz_poly
+from flint import arb, ctx, fmpq, fmpq_poly, fmpz, fmpz_poly
 
+from garkcli.deadline import check_time
 from garkcli.exact.nodes import AlgebraicRoot, Chain, Expression, Literal, Power, Root
 
 
@@ -22,17 +23,81 @@ from garkcli.exact.nodes import AlgebraicRoot, Chain, Expression, Literal, Power
 def isolated(coefficients: tuple[int, ...], bits: int) -> tuple[arb, ...]:
     """The real roots of an irreducible polynomial in ascending order, with about ``bits`` bits.
 
-    python-flint isolates all roots and gives real ones an imaginary part that is exactly zero.
+    The complex roots, which python-flint finds, may take for ever where two are near one another.
 
     Args:
         coefficients: the lowest first.
         bits: the precision.
+
+    >>> [float(x) for x in isolated((-2, 0, 1), 64)]
+    [-1.4142135623730951, 1.4142135623730951]
     """
+    if len(coefficients) == 2:
+        with ctx.workprec(bits):
+            return (arb(fmpq(-coefficients[0], coefficients[1])),)
+    p = fmpz_poly(list(coefficients))
+    return tuple(_narrowed(p, *ends, bits) for ends in _ends(coefficients))
+
+
+@lru_cache(maxsize=512)
+def _ends(coefficients: tuple[int, ...]) -> list[tuple[fmpq, fmpq]]:
+    """Rational numbers around each of the same roots, and no other."""
+    mirrored = [-a if k % 2 else a for k, a in enumerate(coefficients)]
+    negative = [(-high, -low) for low, high in reversed(_positive(mirrored))]
+    return negative + _positive(coefficients)
+
+
+def _positive(coefficients: Sequence[int]) -> list[tuple[fmpq, fmpq]]:
+    """The same for the roots that are positive: intervals are halved until Descartes' rule knows
+    what is in each.
+    """
+    degree = len(coefficients) - 1
+    *lower, leading = (abs(a).bit_length() for a in coefficients)
+    # all roots are below this (Fujiwara)
+    size = 1 + max((x - leading) // (degree - k) + 1 for k, x in enumerate(lower))
+    width = fmpq(2) ** size
+    ends = []
+    waiting = [(fmpq_poly(list(coefficients))(fmpq_poly([0, width])).numer(), fmpq(0), width)]
+    while waiting:
+        check_time()
+        p, low, width = waiting.pop()  # the polynomial over the interval as one from 0 to 1
+        turned = fmpz_poly(p.coeffs()[::-1])(_NEXT)
+        signs = [a > 0 for a in turned.coeffs() if a]
+        variations = sum(a != b for a, b in pairwise(signs))
+        if variations == 1:
+            ends.append((low, low + width))
+        elif variations:
+            half = width / 2
+            left = fmpz_poly([a << degree - k for k, a in enumerate(p.coeffs())])
+            waiting += [(left(_NEXT), low + half, half), (left, low, half)]
+    return ends
+
+
+_NEXT = fmpz_poly([1, 1])
+
+
+def _narrowed(p: fmpz_poly, low: fmpq, high: fmpq, bits: int) -> arb:
+    """The only root between two numbers, by Newton's method in balls, or halving where that is
+    too wide.
+    """
+    slopes = p.derivative().coeffs()
+    is_positive = p(low) > 0
+    while (high - low) * 2**bits > min(abs(low), abs(high)):
+        check_time()
+        width, middle = high - low, (low + high) / 2
+        with ctx.workprec(2 * bits + 64):
+            slope = value(slopes, arb(low).union(arb(high)))
+            root = arb(middle) - arb(p(middle)) / slope
+            if root.is_finite():
+                low, high = max(low, midpoint(root.lower())), min(high, midpoint(root.upper()))
+        if 2 * (high - low) > width:
+            middle = (low + high) / 2
+            if (p(middle) > 0) == is_positive:
+                low = middle
+            else:
+                high = middle
     with ctx.workprec(bits):
-        roots: list[Any] = fmpz_poly(list(coefficients)).complex_roots()
-        real = [root.real for root, _ in roots if root.imag == 0]
-        real.sort(key=lambda ball: ball.mid())
-        return tuple(real)
+        return arb(low).union(arb(high))
 
 
 OPERATIONS: Mapping[str, Callable[[Any, Any], Any]] = {
@@ -124,7 +189,7 @@ def derivative(coefficients: Sequence[arb]) -> list[arb]:
     return [k * a for k, a in enumerate(coefficients) if k]
 
 
-def value(coefficients: Sequence[arb | fmpq], x: Any) -> Any:
+def value(coefficients: Sequence[arb | fmpq | fmpz], x: Any) -> Any:
     """The value at a ball, real or complex, by Horner's rule."""
     total: Any = arb(0)
     for a in reversed(coefficients):

@@ -18,7 +18,7 @@ from flint import arb, ctx, fmpq, fmpq_mpoly
 from garkcli.deadline import check_time
 from garkcli.exact.cells import sign_of
 from garkcli.exact.enclosing import value
-from garkcli.exact.field import Algebraic, Number, NumberField
+from garkcli.exact.field import Number, NumberField, poly_of
 from garkcli.exact.polynomial import Polynomial, gcd, in_one
 from garkcli.exact.projection import at_y, coefficient_of, in_t, of_root, resultant
 from garkcli.exact.roots import FIRST_BITS, RealRoot, root_within, sign_at
@@ -101,8 +101,7 @@ class Fibre:
         key = p, y
         if key not in self._signs:
             number = p(y)
-            poly = number.poly if isinstance(number, Algebraic) else Polynomial([number]).to_flint()
-            self._signs[key] = sign_at(Polynomial.from_flint(poly), self.t)
+            self._signs[key] = sign_at(Polynomial.from_flint(poly_of(number)), self.t)
         return self._signs[key]
 
     @cached_property
@@ -236,8 +235,7 @@ class _NotFineEnough(Exception):
 
 def _ball(a: Number, t: arb) -> arb:
     """A number of ℚ(t_0) at an enclosure of t_0."""
-    poly = Polynomial.from_flint(a.poly) if isinstance(a, Algebraic) else Polynomial([a])
-    return poly.enclosed_at(t)
+    return Polynomial.from_flint(poly_of(a)).enclosed_at(t)
 
 
 def _bound(coefficients: Sequence[arb], bits: int) -> fmpq:

@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from functools import cached_property
 from math import prod
 from typing import Any, TypeAlias, cast
 
-from flint import fmpq, fmpq_mat, fmpq_poly, fmpz
+from flint import fmpq, fmpq_mat, fmpq_poly, fmpz, nmod, nmod_poly
 
 from garkcli.exact.nodes import Expression
 from garkcli.exact.pickling import register
@@ -24,8 +25,19 @@ register()  # methods are copied, and sent to other processes
 
 ZERO = fmpq(0)
 ONE = fmpq(1)
+FIRST_PRIME = 2**31 + 1
+PRIMES_WITHIN = 10_000
 Word: TypeAlias = tuple[int, ...]
 """A product of radicals, by their indices in ascending order."""
+
+
+def modulo(poly: fmpq_poly, p: int) -> nmod_poly:
+    """A polynomial modulo a prime.
+
+    Raises:
+        ZeroDivisionError: p divides a denominator.
+    """
+    return nmod_poly(poly.numer(), p) * ~nmod(int(poly.denom()), p)
 
 
 class NumberField:
@@ -53,6 +65,22 @@ class NumberField:
             and self.modulus == other.modulus
             and self.radicals == other.radicals
         )
+
+    @cached_property
+    def place(self) -> tuple[int, int] | None:
+        """A prime p and a simple root of the minimal polynomial modulo p; None where none of the
+        primes that are tried has one.
+
+        That θ is this root makes numbers without p in their denominators numbers modulo p, and
+        keeps sums and products.
+        """
+        primes = (fmpz(n) for n in range(FIRST_PRIME, FIRST_PRIME + PRIMES_WITHIN, 2))
+        for p in filter(fmpz.is_prime, primes):
+            with suppress(ZeroDivisionError):
+                for root, power in modulo(self.modulus, int(p)).roots():
+                    if power == 1:
+                        return int(p), int(root)
+        return None
 
     def element(self, poly: fmpq_poly) -> Number:
         """The class of ``poly`` modulo the minimal polynomial; a plain rational where it is one."""
@@ -260,6 +288,11 @@ class Algebraic:
 
 Number: TypeAlias = fmpq | Algebraic
 """An exact real number."""
+
+
+def poly_of(number: Number) -> fmpq_poly:
+    """A number as a polynomial in the θ of its field."""
+    return number.poly if isinstance(number, Algebraic) else fmpq_poly([number])
 
 
 def with_radicals(number: Number, radicals: Sequence[Any]) -> Any:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Any, Self
 
-from flint import arb, ctx, fmpq, fmpq_mpoly, fmpq_poly, fmpz_poly
+from flint import arb, ctx, fmpq, fmpq_mpoly, fmpq_poly, fmpz_poly, nmod_poly
 
 from garkcli.deadline import check_time
 from garkcli.exact.display import to_ball
-from garkcli.exact.field import ONE, ZERO, Algebraic, Number, NumberField
+from garkcli.exact.field import ONE, ZERO, Algebraic, Number, NumberField, modulo, poly_of
 from garkcli.exact.matrix import Matrix, characteristic_coefficients, is_rational, to_flint
 from garkcli.graph import components
 
@@ -201,9 +201,7 @@ class Polynomial:
         for point in points:
             check_time()
             # the norm of a(θ) is its resultant with the minimal polynomial of θ
-            value = self(point)
-            poly = value.poly if isinstance(value, Algebraic) else fmpq_poly([value])
-            values.append(field.modulus.resultant(poly))
+            values.append(field.modulus.resultant(poly_of(self(point))))
         return interpolated(points, values).to_flint().numer()
 
 
@@ -292,9 +290,28 @@ def gcd(a: Polynomial, b: Polynomial) -> Polynomial:
     """
     if a.is_rational and b.is_rational:
         return Polynomial.from_flint(a.to_flint().gcd(b.to_flint())).monic()
+    if a and b and _are_coprime_modulo_a_prime(a, b):
+        return Polynomial([1])
     while b:
         a, b = b, (a % b).monic()
     return a.monic()
+
+
+def _are_coprime_modulo_a_prime(a: Polynomial, b: Polynomial) -> bool:
+    """Whether that proves them coprime: a monic divisor of both would be one of degree ≥ 1 there
+    too. Euclid's algorithm over number fields takes long numbers to say so.
+    """
+    field = a.field or b.field
+    if field is None or field.place is None:
+        return False
+    p, root = field.place
+    try:
+        f, g = (
+            nmod_poly([int(modulo(poly_of(x), p)(root)) for x in q.coefficients], p) for q in (a, b)
+        )
+    except ZeroDivisionError:  # p divides a denominator
+        return False
+    return f.degree() == a.degree and f.gcd(g).degree() == 0
 
 
 def reciprocal_characteristic(W: Matrix) -> Polynomial:

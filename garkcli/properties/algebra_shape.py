@@ -16,7 +16,7 @@ from typing import TypeAlias
 
 from flint import fmpq, fmpq_poly, nmod_poly
 
-from garkcli.exact.field import Number
+from garkcli.exact.field import Number, modulo
 from garkcli.exact.matrix import Matrix
 from garkcli.exact.roots import roots_below
 from garkcli.frozen import Frozen
@@ -130,7 +130,7 @@ def _poly(coefficients: Iterable[Number]) -> fmpq_poly:
 def _has_centre(spaces: dict[int, _Space], blocks: Blocks, owners: dict[int, int], p: int) -> bool:
     """Whether, modulo p, a stage is seen to see all others and to be seen by them."""
     try:
-        left = {k: _modulo(space.left, p) for k, space in spaces.items()}
+        left = {k: modulo(space.left, p) for k, space in spaces.items()}
         centre, r = _root(left, p)
         if centre is None:
             return False
@@ -141,7 +141,7 @@ def _has_centre(spaces: dict[int, _Space], blocks: Blocks, owners: dict[int, int
             if centre not in {k, owner}:
                 continue
             rows = [_residues(row, p) for row in block]
-            M = _modulo(spaces[owner].M, p)
+            M = modulo(spaces[owner].M, p)
             if owner == centre:
                 coefficients = [int(a) for a in (M // nmod_poly([-r, 1], p)).coeffs()]
                 entries = [
@@ -164,15 +164,6 @@ def _root(left: dict[int, nmod_poly], p: int) -> tuple[int | None, int]:
         for root, _ in q.roots():
             return k, int(root) % p
     return None, 0
-
-
-def _modulo(polynomial: fmpq_poly, p: int) -> nmod_poly:
-    """A polynomial modulo p.
-
-    Raises:
-        ZeroDivisionError: p divides a denominator.
-    """
-    return nmod_poly(_residues(polynomial.coeffs(), p), p)
 
 
 def _residues(numbers: Iterable[Number], p: int) -> list[int]:

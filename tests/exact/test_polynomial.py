@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from flint import arb, fmpq
+import pytest
+from flint import arb, ctx, fmpq, fmpq_poly, fmpz_poly
 from hypothesis import given
 from hypothesis import strategies as st
 
 from garkcli.exact.cells import between, sign_of, where
 from garkcli.exact.domain import Domain
+from garkcli.exact.enclosing import isolated
 from garkcli.exact.expression import parse
-from garkcli.exact.field import Number
+from garkcli.exact.field import Number, modulo
 from garkcli.exact.polynomial import Polynomial, gcd, interpolated, subresultant
 from garkcli.exact.roots import RealRoot, multiplicity_at, real_roots, sign, sign_at
 from tests.oracles.draws import fractions
@@ -123,3 +125,46 @@ def test_a_number_between_two_roots_that_are_very_close() -> None:
     right = real_roots(Polynomial([-2 - close, 0, 1]))[1][0]
     found = between(left, right)
     assert 2 < found * found < 2 + close
+
+
+@pytest.mark.parametrize("gap", [-4, 4])
+def test_roots_that_are_very_close_are_told_apart(gap: int) -> None:
+    """Two roots near 10³⁰⁰ and 4 from one another, and two that are as near and not real: seeking
+    all complex roots would take minutes.
+    """
+    middle, x = fmpq(10**300), fmpq(10**300 + 1)
+    p = Polynomial([middle * middle + gap, -2 * middle, 1])
+    found = [root for root, _ in real_roots(p * Polynomial([x, -1]))]
+    assert len(found) == (3 if gap < 0 else 1)
+    assert [sign_at(Polynomial([x, -1]), root) for root in found] == (
+        [1, 0, -1] if gap < 0 else [0]
+    )
+
+
+def test_roots_in_balls_are_those_that_python_flint_finds() -> None:
+    """Of Legendre polynomials and others, to the digits that were asked for."""
+    cases = [fmpz_poly([1, -7, 0, 3, 5, 1]), fmpz_poly([-3, 0, 0, 0, 1])]
+    cases += [fmpq_poly.legendre_p(n).numer() for n in (2, 9, 20)]
+    for p in cases:
+        for factor, _ in p.factor()[1]:
+            with ctx.workprec(128):
+                roots = [x.real for x, _ in factor.complex_roots() if x.imag == 0]
+            found = isolated(tuple(int(a) for a in factor.coeffs()), 128)
+            assert len(found) == len(roots)
+            for mine, theirs in zip(found, sorted(roots, key=lambda x: x.mid()), strict=True):
+                assert mine.overlaps(theirs)
+                assert mine.rel_accuracy_bits() >= 120
+
+
+def test_coprime_over_a_number_field_and_not() -> None:
+    """A prime proves polynomials coprime, and never those that have a divisor."""
+    roots = [parse("sqrt(2)"), parse("cbrt(5)")]
+    a, b = map(Domain(roots).evaluate, roots)
+    p, q, r = Polynomial([a, b, 1]), Polynomial([b, a + b, a]), Polynomial([a * b, 1])
+    assert p.field is not None
+    assert p.field.place is not None
+    prime, root = p.field.place
+    assert int(modulo(p.field.modulus, prime)(root)) == 0
+    assert gcd(p, q) == Polynomial([1])
+    assert gcd(p * r, q * r) == r
+    assert gcd(p, p * r) == p
