@@ -51,6 +51,8 @@ MAX_TURNS = 4_000
 """Most turns of a loop."""
 MAX_DEPTH = 80
 """Deepest nesting of expressions."""
+PER_NAME = 10
+"""Characters that a name counts for which an arm of a branch copies."""
 MAX_INLINED = 3
 """Deepest nesting of calls of functions of one expression: the work may double each time."""
 _GROWING = frozenset({"push_back", "append", "emplace_back", "push!"})
@@ -214,6 +216,8 @@ class Evaluator:
 
     def _branch(self, branch: ir.Branch, space: Space) -> None:
         for arm in filter(_has_numbers, branch.arms):
+            known = [*space.values(), *space.calls]
+            self.allowance.spend(PER_NAME * len(known) + sum(map(size, known)))
             each = space.fork()
             self._run(arm, each)
             self.ended(replace(self._scopes[-1], kind="module", body=arm), each)

@@ -409,6 +409,7 @@ class TableFinder(Evaluator):
     def _unread(self, name: str, line: int, trouble: str = "", kind: str = "") -> None:
         """A place with a table that is of another kind, or else not read."""
         found = replace(self._place(name, line), c=(), kind=kind)
+        self.allowance.table(found, is_kept=(name, line) not in self._other)
         self._other[name, line] = found if kind else troubled(found, trouble)
 
     def _of_scalars(self, name: str, values: Mapping[str, Value], line: int) -> None:

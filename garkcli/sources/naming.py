@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from functools import lru_cache
 
 from garkcli.sources.values import Array, Value, items_of, near
 
@@ -66,6 +67,7 @@ _PAIR = {"A": "A1", "H": "A2", "c": "c"}
 """In the classes of Dedalus, where the last rows are the weights."""
 
 
+@lru_cache(maxsize=10_000)
 def role_of(name: str) -> tuple[str, str] | None:
     """The stem of a name and what the array is; None where the name tells nothing.
 

@@ -11,8 +11,8 @@ from types import FrameType
 import pytest
 
 from garkcli.bridges.readers.registry import all_readers, find_tables, reader_named, readers_for
-from garkcli.sources import allowance
-from garkcli.sources.found import MAX_LENGTH
+from garkcli.sources import allowance, lowering
+from garkcli.sources.found import FOREIGN, MAX_LENGTH
 from tests.cli.harness import gark
 
 SOURCES = sorted((Path(__file__).parent / "sources").iterdir())
@@ -108,6 +108,7 @@ GROWING = {
     "c": _doubled("double x{0}[] = {{x{1}, x{1}}};\n", "double x0[] = {1, 1};"),
     "c, entries": "".join(f"void f{k}() {{A[199][199] = 1; b[199] = 1;}}\n" for k in range(50)),
     "c, arrays": "void f() {double A[200][200] = {{1}};}\n" * 50,
+    "python, branches": "A = [" + "0.5," * 2_000 + "]\n" + "if c:\n y = 0.5\n" * 50,
     "csv": ("1," * 200 + "1\n" + "1\n" * 199 + ",1" * 200 + "\n\n") * 2,
     "json": json.dumps([{"A": [[1]] * 200, "b": [1] * 200}] * 20),
     "latex": (
@@ -180,9 +181,23 @@ def _calls(reader: str, text: str) -> int:
     return count
 
 
-def test_tables_have_a_limit() -> None:
-    """What stands behind the last table that is read is not passed over in silence."""
-    many = "def f():\n A = [[0]]\n b = [1]\n" * 1_001
+@pytest.mark.parametrize(("reader", "piece"), [("julia", "class A\n"), ("c", "/* ")])
+def test_grammars_have_a_limit_of_steps(
+    reader: str, piece: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The work on what does not belong to a language may grow as the square of its length."""
+    monkeypatch.setattr(lowering, "FREE_STEPS", 200)
+    (table,) = find_tables(piece * 100, "x", [reader_named(reader)])
+    assert table.trouble == FOREIGN
+    assert find_tables(piece * 100, "x", list(all_readers().values())) == []
+
+
+@pytest.mark.parametrize("arrays", ["A = [[0]]\n b = [1]", "A = B = U = [[0]]"])
+def test_tables_have_a_limit(arrays: str) -> None:
+    """What stands behind the last table is not passed over in silence, nor are a million tables of
+    another kind told.
+    """
+    many = f"def f():\n {arrays}\n" * 1_001
     (table,) = find_tables(many, "x.py", [reader_named("python")])
     assert table.trouble == "the source has more than 1000 tables"
 
