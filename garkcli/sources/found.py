@@ -24,7 +24,7 @@ MAX_TABLES = 1_000
 MAX_LENGTH = 4_000
 """Longest text of a coefficient, its named constants written out."""
 FOREIGN = "too much of the source does not belong to the language"
-"""What is told where a grammar would go over errors for too long."""
+"""The trouble of a source on whose errors a grammar would spend too long."""
 MAX_CHARACTERS = 4_000_000
 """Longest source that is read."""
 
