@@ -6,6 +6,7 @@ import os
 import signal
 import threading
 import time
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
@@ -68,7 +69,10 @@ class _Watcher:
     def __init__(self) -> None:
         heard, self._told = os.pipe()
         parent = os.getpid()
-        self._process = os.fork()
+        with warnings.catch_warnings():
+            # whatever other threads hold, that process does not need
+            warnings.simplefilter("ignore", DeprecationWarning)
+            self._process = os.fork()
         if self._process == 0:
             try:
                 for name in ENDING:
