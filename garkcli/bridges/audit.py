@@ -11,7 +11,7 @@ from flint import fmpq
 
 from garkcli.bridges.elsewhere import declared_orders, order_of
 from garkcli.bridges.judging import Judged, judged
-from garkcli.bridges.plausible import is_plausible
+from garkcli.bridges.plausible import are_whole, is_plausible
 from garkcli.bridges.readers.registry import find_tables, readers_for
 from garkcli.bridges.said import order_said_of
 from garkcli.bridges.sources import source_text
@@ -202,8 +202,7 @@ def _may_be_method(method: MethodFile) -> bool:
     whole numbers.
     """
     block, b = method.tableau.block(0, 0), method.tableau.colours[0].b
-    numbers = (x for row in (*(block or ()), b) for x in row)
-    if block is None or len(b) < 2 or all(isinstance(x, fmpq) and x.q == 1 for x in numbers):
+    if block is None or len(b) < 2 or are_whole((*block, b)):
         return False
     is_explicit = not any(any(row[i:]) for i, row in enumerate(block))
     off = sum(b, ZERO) - 1

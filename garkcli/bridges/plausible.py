@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
-from flint import arb
+from flint import arb, fmpq
 
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import Number
@@ -39,9 +39,15 @@ def is_plausible(table: FoundTable, method: MethodFile) -> bool:
         is_triangular = not any(any(row[i + 1 :]) for i, row in enumerate(block))
         return bool(off < NEAR) and len(block) > 1 and (is_triangular or bool(has_order_two))
     columns = tuple(zip(*block, strict=True))
-    least = (len(block) + 1) // 2
+    # whole numbers alone may be a linear system, whose zeros agree
+    least = len(block) if are_whole((*block, colour.b)) else (len(block) + 1) // 2
     agreeing = max(_agreeing(block, colour.c), _agreeing(columns, colour.c))
     return bool(off < FAR) and agreeing >= least
+
+
+def are_whole(rows: Iterable[Sequence[Number]]) -> bool:
+    """Whether there are no fractions in some rows."""
+    return all(isinstance(x, fmpq) and x.q == 1 for row in rows for x in row)
 
 
 def _sum(row: Sequence[Number]) -> arb:

@@ -187,9 +187,9 @@ class TableFinder(Evaluator):
         told = role_of(name)
         if told is None or told[1] not in {"A", "b", "c", "embedded"}:
             return
-        if any(x.kind in SIGNATURES or other_kind(x.kind) for x in space.calls):
-            # calls take the arrays of this scope
-            return
+        # calls take arrays of this scope
+        calls = [x for x in space.calls if x.kind in SIGNATURES or other_kind(x.kind)]
+        known = {shown(x) for call in calls for x in (*call.args, *call.fields.values())}
         if _is_general_linear(space):
             return
         stem = told[0]
@@ -199,7 +199,7 @@ class TableFinder(Evaluator):
         if not {"A", "b"} <= roles or (name, space.lines.get(name, 0)) in self._taken:
             return
         # entries of arrays that stay may be assigned later
-        self._of_names({x: copied(space[x]) for x in names}, space.lines, scope)
+        self._of_names({x: copied(space[x]) for x in names}, space.lines, scope, known)
         self._taken |= given
 
     def refilled(self, scope: ir.Scope, record: Record, name: str) -> None:
@@ -348,8 +348,9 @@ class TableFinder(Evaluator):
                     unread.setdefault(told[0] or owner, {})[told[1]] = value
                 continue
             rank = _RANKS.get(plain, -1)
-            if rank > ranks.setdefault((stem, role), rank):
-                # A beside β is the matrix
+            is_old = role in _ORDERS and (name, lines.get(name, scope.line)) in self._taken
+            if is_old or rank > ranks.setdefault((stem, role), rank):
+                # the order of the table before; A beside β is the matrix
                 continue
             ranks[stem, role] = rank
             groups.setdefault(stem, {})[role] = value

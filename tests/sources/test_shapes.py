@@ -257,6 +257,13 @@ def test_blocks_that_make_no_square_are_none() -> None:
     assert table.trouble.endswith("do not fit together: 2 rows of blocks, 1 in a row")
 
 
+def test_an_order_is_that_of_the_table_before_it() -> None:
+    """Matrices that are assigned anew without another order have none."""
+    first = "A = [[0, 0], [0.5, 0]]\nb = [0, 1]\norder = 2\n"
+    second = "A = [[0, 0], [1, 0]]\nb = [0.5, 0.5]\n"
+    assert [x.order for x in python.find(first + second, "x")] == [2, None]
+
+
 BESIDE_A_RECORD = {
     "other arrays": ("heun_A = [[0, 0], [1, 0]]\nheun_b = [0.5, 0.5]\n", 2),
     "its own arrays": ("A = [[0, 0], [0.5, 0]]\nb = [0, 1]\n", 1),
@@ -285,6 +292,7 @@ LINEAR_ALGEBRA = {
     "an order of storage": "order = 101\nA = [[2.5, 0], [0.5, 1.5]]\nb = [0.125, 0.25]\n",
     "complex numbers": "A = [[1, 2j], [3, 4]]\nb = [1, 2]\n",
     "one after the other": "A = [[1, 2], [3, 4]]\nb = [5, 6]\nf(A, b)\nA = [[2, 1], [0, 1]]\n",
+    "a double integrator": "A = [[0, 1], [0, 0]]\nb = [[0], [1]]\nc = [[2, 0]]\n",
     "one entry": f"Exact = {[[0] * 4] * 3 + [[0, 0, 0, 1]]}\n",
 }
 
