@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from garkcli.cli.arguments import rational
 from garkcli.cli.options import Given, Output, declared
-from garkcli.cli.signals import INTERRUPTED
-from garkcli.cli.streams import say_problem
+from garkcli.cli.streams import INTERRUPTED, say_problem
 from garkcli.cli.table import SECONDS
 from garkcli.crew.work import WorkerLost
 from garkcli.deadline import seconds_left, until, within

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NoReturn
 
 import click
 
-from garkcli.cli import signals, streams
+from garkcli.cli import streams
 from garkcli.cli.options import command_of, help_option
 from garkcli.cli.table import COMMANDS, SHOWN
 from garkcli.errors import GarkError, UsageProblem, counted
@@ -123,7 +123,7 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
 
     Exit codes: 0 all is well, 1 a claim fails, 2 usage or input, or there is no place for the
     report, 3 undecided, or our fault, 128 + n ended by signal n: 130 interrupted, 141 nobody reads
-    the report, 137 interrupted where a library in C goes on.
+    the report.
     """
     arguments = sys.argv[1:] if arguments is None else list(arguments)
     streams.prepare()
@@ -137,14 +137,14 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
 def _exit_code(arguments: list[str]) -> int:
     """Run the command line, say what went wrong, and return the exit code."""
     try:
-        with signals.ending(), noting_inputs():
+        with streams.ending(), noting_inputs():
             code = _run(arguments)
             streams.flush()
             return code
     except (KeyboardInterrupt, click.Abort):
         streams.drop(sys.stdout)
-        return signals.INTERRUPTED
-    except signals.Ended as end:
+        return streams.INTERRUPTED
+    except streams.Ended as end:
         streams.drop(sys.stdout)
         return end.exit_code
     except streams.ReaderGone:

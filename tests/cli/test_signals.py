@@ -102,33 +102,3 @@ def test_signals_that_are_ignored_stay_so(tmp_path: Path) -> None:
     finally:
         signal.signal(signal.SIGHUP, before)
     assert list(tmp_path.iterdir()) == []
-
-
-BUSY = """
-import flint
-from garkcli.cli import signals
-signals.GRACE = 0.1
-with signals.ending():
-    print("begun", flush=True)
-    flint.fmpz_poly([1 + 10**2000, -2 * 10**1000, 1]).complex_roots()
-"""
-"""One call of a library in C for very long."""
-
-
-@pytest.mark.skipif(not hasattr(os, "fork"), reason="another process hears of the signal")
-@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM"])
-def test_a_call_in_c_ends_at_a_signal(name: str) -> None:
-    """Python hears of signals between two of its own steps alone."""
-    with subprocess.Popen(
-        [sys.executable, "-c", BUSY],
-        cwd=ROOT,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        preexec_fn=_as_from_a_terminal,
-    ) as process:
-        assert process.stdout is not None
-        assert process.stdout.readline() == b"begun\n"
-        time.sleep(0.1)
-        process.send_signal(getattr(signal, name))
-        _, err = process.communicate(timeout=PATIENCE)
-    assert (process.returncode, err) == (-signal.SIGKILL, b"")
