@@ -26,6 +26,8 @@ _OTHERS = re.compile(
 """Names of what has other numbers than those of a step."""
 ABOVE = 8
 """So many lines above a scope may say what it is."""
+WIDEST = 500
+"""So much of a line: many scopes may be in one."""
 
 
 def overlooked(
@@ -57,7 +59,7 @@ def overlooked(
     inside: dict[int, tuple[ir.Scope, list[ir.Statement]]] = {}
     for statement, around in placed:
         inside.setdefault(id(around[-1]), (around[-1], []))[1].append(statement)
-    lines = text.split("\n")
+    lines = [x[:WIDEST] for x in text.split("\n")]
     for key, (scope, own) in inside.items():
         first = max(0, scope.line - ABOVE)
         words = text if scope is module else "\n".join(lines[first : own[-1].line + 1])

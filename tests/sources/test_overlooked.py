@@ -130,3 +130,10 @@ def test_a_structure_whose_matrix_alone_is_new_is_told_each_time() -> None:
     tables = python.find(ANEW, "x")
     assert [bool(x.trouble) for x in tables] == [False, True, True]
     assert "anew" in tables[1].trouble
+
+
+def test_words_count_in_the_beginning_of_a_line() -> None:
+    """All of a source in one line takes no longer than elsewhere: a scope is beside few words."""
+    scope = "void g(void) { double a[] = {0.25, 0.3, 2.0/7}, c[] = {0.6, 0.8, 0.1}; }"
+    assert c.find(f"/* Runge-Kutta */ {scope}", "x") != []
+    assert c.find(f"/* Runge-Kutta */ {scope}".rjust(600), "x") == []
