@@ -33,6 +33,7 @@ from garkcli.sources.values import (
     Word,
     described,
     first_unknown,
+    integer,
     is_written,
     items_of,
     near,
@@ -219,7 +220,7 @@ def _of_blocks(roles: Roles, empty: FoundTable) -> FoundTable:
     if not 0 < max(colours, len(rows)) <= MAX_COLOURS:
         raise Unreadable(f"more than {MAX_COLOURS} vector fields" if rows else "no matrices")
     if len(rows) not in (1, colours) or any(len(row) != colours for row in rows):
-        raise Unreadable(f"{len(rows)} rows of blocks, {colours} in a row")
+        raise Unreadable("the blocks make no square")
     blocks = [[plain(_block(x)) for x in row] for row in rows]
     A = tuple(tuple(None if x is None else rows_of(x) for x in row) for row in blocks)
     b, c, embedded = (_row_each(plain(roles.get(x)), colours) for x in ("b", "c", "embedded"))
@@ -538,7 +539,7 @@ def _two_parts(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
         if (x := roles.get(f"{role}{part}", roles.get(role))) and not isinstance(x, Null)
     }
     counts = [len(items_of(of.get(f"b{part}", of.get(f"A{part}")))) for part in "12"]
-    stages = _stages(roles) if "stages" in roles else max(counts)
+    stages = _stages({"stages": integer(max(counts)), **roles})
     if counts == [stages, stages - 1]:
         # only the explicit part has the first stage
         of["A2"] = Array([Array([]), *(Array([FILL, *items_of(x)]) for x in items_of(of["A2"]))])

@@ -61,8 +61,6 @@ _WHOLE = re.compile(
 _TABLE = "ARKodeButcherTable_Alloc"
 _PARTS = " "
 """The stem of the arrays of an explicit and an implicit part."""
-_COUPLED = frozenset({name for name, x in SIGNATURES.items() if x.form == "halves"})
-"""Calls that make one table of two."""
 _RANKS = {word: i for i, word in enumerate(ROLES)}
 _ORDERS = ("order", "embedded_order")
 """What a structure tells of the arrays beside it."""
@@ -153,8 +151,7 @@ class TableFinder(Evaluator):
         if scope.kind == "class":
             self._declared_by_class(scope, space)
         count, first = self._count(), len(self._meant)
-        halves = (y for x in made if x.kind in _COUPLED for y in x.args if isinstance(y, Record))
-        self._halves.update((x.kind, x.line) for x in halves)
+        self._halves |= {(x.kind, x.line) for each in made for x in each.args if _is_record(x)}
         for record in made:
             if (record.kind, record.line) not in self._halves:
                 self._of_record(record, scope)
@@ -185,22 +182,20 @@ class TableFinder(Evaluator):
         such a table already is not with those that were assigned since.
         """
         told = role_of(name)
-        if told is None or told[1] not in {"A", "b", "c", "embedded"}:
+        is_one = told is not None and told[1] in {"A", "b", "c", "embedded"}
+        is_taken = (name, space.lines.get(name, 0)) in self._taken
+        if told is None or not is_one or is_taken or _is_general_linear(space):
+            return
+        self.allowance.spend(len(space))
+        roles = {x: each[1] for x in space if (each := role_of(x)) and each[0] == told[0]}
+        if not {"A", "b"} <= set(roles.values()):
             return
         # calls take arrays of this scope
         calls = [x for x in space.calls if x.kind in SIGNATURES or other_kind(x.kind)]
         known = {shown(x) for call in calls for x in (*call.args, *call.fields.values())}
-        if _is_general_linear(space):
-            return
-        stem = told[0]
-        names = [x for x in space if (role_of(x) or ("", ""))[0] == stem and role_of(x)]
-        roles = {told[1] for told in map(role_of, names) if told}
-        given = {(x, space.lines.get(x, 0)) for x in names}
-        if not {"A", "b"} <= roles or (name, space.lines.get(name, 0)) in self._taken:
-            return
         # entries of arrays that stay may be assigned later
-        self._of_names({x: copied(space[x]) for x in names}, space.lines, scope, known)
-        self._taken |= given
+        self._of_names({x: copied(space[x]) for x in roles}, space.lines, scope, known)
+        self._taken |= {(x, space.lines.get(x, 0)) for x in roles}
 
     def refilled(self, scope: ir.Scope, record: Record, name: str) -> None:
         """As for arrays: a structure is a table before its matrix or its weights are new."""

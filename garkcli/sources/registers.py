@@ -128,8 +128,10 @@ def written(x: Number | int, ball: arb | int, units: dict[str, fmpq]) -> str:
     """A number with the digits that rounding leaves of it; ``units`` has by how much it is off."""
     if not isinstance(ball, arb) or not isinstance(x, fmpq) or not x or ball.rad() < 1e-200:
         return str(x)
-    radius = float(ball.rad())
-    first, last = (math.floor(math.log10(size)) for size in (abs(float(ball.mid())), radius))
+    sizes = abs(float(ball.mid())), float(ball.rad())
+    if not all(0 < size < math.inf for size in sizes):
+        raise Unreadable("a number that is no float")
+    first, last = (math.floor(math.log10(size)) for size in sizes)
     text = to_decimal(x, max(1, 1 + first - last))
     unit = rounded_up(arb(ball.rad()) + arb(10) ** min(last, first))
     units[text] = max(unit, units.get(text, unit))

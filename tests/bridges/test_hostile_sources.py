@@ -71,13 +71,25 @@ AUDITED = {
         "    b = [[1//2, 1//2], [1], [1]],\n    order = 1,\n)\n",
         "blocks",
     ),
+    "registers.jl": (
+        "LowStorageRK2NConstantCache([1.2345678e400, 0.5], 0.3, [0.4, 0.2], [0.3, 0.7])\n",
+        "a number that is no float",
+    ),
+    "parts.py": ("IMEXTableau([], [], [], [], [], [])\n", "number of stages"),
+    "many_names.py": (
+        "".join(f"v{i} = 1.5\n" for i in range(5_000))
+        + "".join(f"A = [[0, 0], [{i}.5, 0]]\nb = [0, {i}]\n" for i in range(990)),
+        "characters of numbers",
+    ),
 }
 """Tables of a strange size or shape, with a word of what is said of them."""
 
 
 @pytest.mark.parametrize("name", AUDITED)
 def test_strange_tables_are_audited(name: str, tmp_path: Path) -> None:
-    """Numbers beyond floats, and rows that lack blocks: no internal fault."""
+    """Numbers beyond floats, rows that lack blocks, arrays anew among many names: no internal
+    fault, and no long work.
+    """
     text, word = AUDITED[name]
     (tmp_path / name).write_text(text, encoding="utf-8")
     run = gark("audit", "-v", name, cwd=tmp_path)

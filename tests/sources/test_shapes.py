@@ -254,7 +254,7 @@ def test_blocks_that_make_no_square_are_none() -> None:
     """Two matrices below one another are no method of two colours, and no fault of gark."""
     text = "A = [[[[0, 0], [1, 0]]], [[[0, 0], [1, 0]]]]\nb = [[0.5, 0.5], [0.5, 0.5]]\n"
     (table,) = python.find(text, "x")
-    assert table.trouble.endswith("do not fit together: 2 rows of blocks, 1 in a row")
+    assert table.trouble.endswith("do not fit together: the blocks make no square")
 
 
 def test_an_order_is_that_of_the_table_before_it() -> None:
