@@ -172,38 +172,25 @@ class Bridge(Frozen):
     def _pair(self, payload: Payload, tables: Sequence[Table]) -> Sequence[int]:
         """The vector field that has an explicit table, and the other one."""
         is_other = payload.tableau.is_partitioned and payload.kind != "prk"
+        explicit = [m for m, x in enumerate(tables) if x.is_explicit]
+        why = f"pairs an explicit with an implicit method, and both of {payload.name} are implicit"
         if len(tables) != 2 or is_other:
-            message = (
-                f"{self.name} adds two vector fields, an explicit and an implicit one;"
+            why = (
+                "adds two vector fields, an explicit and an implicit one;"
                 f" {payload.name} is for {problem_class(payload)}"
             )
-            raise CannotExport(message, _others(payload, "any"))
-        if tables[0].is_explicit:
-            return 0, 1
-        if tables[1].is_explicit:
-            return 1, 0
-        message = (
-            f"{self.name} pairs an explicit with an implicit method, and both of {payload.name} are"
-            " implicit"
-        )
-        raise CannotExport(message, _others(payload, "any"))
+        elif explicit:
+            return explicit[0], 1 - explicit[0]
+        raise CannotExport(f"{self.name} {why}", _others(payload, "any"))
 
     def _fitting(self, payload: Payload, found: Table) -> Table:
         """A table whose stages the target computes, with the last stage that it wants."""
-        is_lower = found.is_diagonally_implicit
-        if self.stages == "explicit" and not found.is_explicit:
-            cure = _others(payload, "any", *(("lower",) if is_lower else ()))
-            message = (
-                f"{self.name} has explicit methods only; a stage of {payload.name} sees itself or a"
-                " later one"
-            )
-            raise CannotExport(message, cure)
-        if self.stages == "lower" and not is_lower:
-            message = (
-                f"{self.name} solves one stage after the other; a stage of {payload.name} sees a"
-                " later one"
-            )
-            raise CannotExport(message, _others(payload, "any"))
+        holds = {"lower": found.is_diagonally_implicit, "explicit": found.is_explicit, "any": True}
+        computed = [x for x in holds if holds[x]]
+        if self.stages not in computed:
+            rule, cause = _RULES[self.stages]
+            message = f"{self.name} {rule}; a stage of {payload.name} sees {cause}"
+            raise CannotExport(message, _others(payload, *computed))
         wants_end = self.ends and payload.kind == "rk" and found.is_explicit
         return with_last_stage(found) if wants_end and not found.is_first_same_as_last else found
 
@@ -219,13 +206,20 @@ _KINDS = {
 }
 
 
+_RULES = {
+    "explicit": ("has explicit methods only", "itself or a later one"),
+    "lower": ("solves one stage after the other", "a later one"),
+}
+"""What targets compute, and what keeps a method from it."""
+
+
 def _left_out(payload: Payload, lacks: Sequence[str]) -> list[str]:
     """What a method has that its file has no place for."""
     has = {EMBEDDED: payload.embedded is not None, DENSE: payload.dense is not None}
     return [x for x in lacks if has[x]]
 
 
-def _others(payload: Payload, *stages: Stages) -> str:
+def _others(payload: Payload, *stages: str) -> str:
     """The targets that have methods of this form; those alone that compute such stages."""
     known = [x for x in bridges().values() if payload.kind in x.kinds]
     names = [x.name for x in known if x.stages in stages or not stages]

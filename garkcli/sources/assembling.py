@@ -34,6 +34,7 @@ from garkcli.sources.values import (
     described,
     first_unknown,
     integer,
+    is_matrix,
     is_written,
     items_of,
     near,
@@ -179,14 +180,10 @@ def is_complete(roles: Roles) -> bool:
     """Whether these values may be all of a table."""
     if any(x <= set(roles) for x in _WHOLE) or len(roles.keys() & {"A", "A1", "A2"}) > 1:
         return True
-    return "b" not in roles and all(_is_matrix(roles.get(x)) for x in ("A", "c"))
+    return "b" not in roles and all(is_matrix(roles.get(x)) for x in ("A", "c"))
 
 
 _WHOLE = ({"A", "b"}, {"drifts"}, {"A_q", "b_q", "b"}, {"A", "delta", "gamma1", "gamma2"})
-
-
-def _is_matrix(value: Value | None) -> bool:
-    return isinstance(value, Array) and value.is_matrix
 
 
 def _built(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
@@ -386,15 +383,15 @@ def _of_registers(meant: Meant, roles: Roles) -> tuple[str, Converted] | None:
         rows = [_given(roles, x) or () for x in _THREE_REGISTERS]
         rows[2] = rows[2] or (ZERO,) * len(rows[-1])
         return "3S*", converted("3S*", *rows)
-    if b is None and _is_matrix(c) and _is_matrix(A):
+    if b is None and is_matrix(c) and is_matrix(A):
         return "Shu–Osher", converted("Shu–Osher", rows_of(plain(c)), rows_of(plain(A)))
     if form != "rk":
         diagonals = [_row(roles, x) for x in roles if x in _DIAGONALS]
         return form, converted(form, *diagonals, _row(roles, "b"))
-    if _is_matrix(A) and len(items_of(A)) == 1 and c is None:
+    if is_matrix(A) and len(items_of(A)) == 1 and c is None:
         # {{a2, a3, …}}
         A = items_of(A)[0]
-    if not isinstance(A, Array) or _is_matrix(A) or not isinstance(b, Array):
+    if not isinstance(A, Array) or is_matrix(A) or not isinstance(b, Array):
         return None
     row, b_row = plain(A), weights(plain(b))
     if not is_row(row) or not _is_pair_of_rows(row_of(row), len(b_row)):

@@ -34,6 +34,7 @@ from garkcli.sources.values import (
     copied,
     described,
     integer,
+    is_matrix,
     is_written,
     items_of,
     literal,
@@ -116,7 +117,7 @@ class Evaluator:
         has_whole_quotients: whether ``1/2`` is 0.
 
     Attributes:
-        given_up: the scopes that take too many steps.
+        lost: why scopes are not read, by their kinds and lines.
     """
 
     def ended(self, scope: ir.Scope, space: Space) -> None:
@@ -138,7 +139,7 @@ class Evaluator:
         self.base = base
         self.allowance = allowance
         self.line = 1
-        self.given_up: list[ir.Scope] = []
+        self.lost: dict[tuple[str, int], str] = {}
         self._scopes: list[ir.Scope] = [ir.Scope("module", "", (), 1)]
         self._is_growing = is_growing
         self.has_whole_quotients = has_whole_quotients
@@ -167,7 +168,7 @@ class Evaluator:
             self._run(scope.body, space)
             self.ended(scope, space)
         except OutOfSteps:
-            self.given_up.append(scope)
+            self.lost[scope.kind, scope.line] = "it takes too much work to read"
         finally:
             self._scopes.pop()
 
@@ -524,7 +525,7 @@ class Evaluator:
             return self.array(y for (x,) in values for y in items_of(x) or [x])
         joined: list[Value] = []
         for row in values:
-            height = max(len(x.items) if _is_matrix(x) else 1 for x in row)
+            height = max(len(x.items) if is_matrix(x) else 1 for x in row)
             blocks = [_lines(x, height) for x in row]
             if any(len(x) != height for x in blocks):
                 return self.unknown("blocks that do not fit together")
@@ -789,10 +790,6 @@ def shown(value: Value) -> object:
         case Word(text=text):
             return text
     return type(value).__name__
-
-
-def _is_matrix(value: Value) -> TypeGuard[Array]:
-    return isinstance(value, Array) and value.is_matrix
 
 
 def _lines(value: Value, height: int) -> list[list[Value]]:

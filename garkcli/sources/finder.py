@@ -40,6 +40,7 @@ from garkcli.sources.values import (
     Word,
     copied,
     first_unknown,
+    is_matrix,
     is_written,
     items_of,
     near,
@@ -70,7 +71,6 @@ _MADE = frozenset({"", _TABLE, "ARKodeSPRKTable_Alloc"})
 
 NUMBERED = "A and b have numbers: methods of their own, or parts of one"
 ANEW = "A is assigned anew without b, or b without A"
-TOO_MUCH = "it takes too much work to read"
 UNRECOGNISED = "numbers with the names of coefficients whose roles are not recognised"
 
 
@@ -95,7 +95,6 @@ class TableFinder(Evaluator):
         self._arrays: dict[str, dict[str, tuple[Array, int]]] = {}
         self._taken: set[tuple[str, int]] = set()
         self._refilled: dict[int, Value] = {}
-        self._unfollowed: dict[tuple[str, int], str] = {}
         self._halves: set[tuple[str, int]] = set()
 
     def tables(self, body: ir.Body, text: str) -> list[FoundTable]:
@@ -113,15 +112,15 @@ class TableFinder(Evaluator):
                 continue
             if table.name.startswith("_") and len(users) == 1:
                 table = replace(table, name=next(iter(users)))
-            used |= {sized(x.near) for x in _numbers_of(meant) if not table.trouble}
+            numbers = () if table.trouble else Array(list(meant.roles.values())).flat()
+            used |= {sized(x.near) for x in numbers if isinstance(x, Number)}
             key = (table.A, table.b, table.c, table.line, table.name)
             self.allowance.table(table, is_kept=key not in found)
             found.setdefault(key, table)
         told = [x.line for x in (*found.values(), *self._other.values())]
         told += [line for arrays in self._arrays.values() for _, line in arrays.values()]
-        lost = {(x.kind, x.line): TOO_MUCH for x in self.given_up} | self._unfollowed
-        for scope in overlooked(body, text, self._source, told, used, lost):
-            trouble = lost.get((scope.kind, scope.line), UNRECOGNISED)
+        for scope in overlooked(body, text, self._source, told, used, self.lost):
+            trouble = self.lost.get((scope.kind, scope.line), UNRECOGNISED)
             self._unread(scope.title, scope.line, trouble, other_kind(scope.name))
         # behind a branch that assigns the nodes the table is without them
         with_nodes = {(x.A, x.b, x.line) for x in found.values() if any(x.c)}
@@ -168,7 +167,7 @@ class TableFinder(Evaluator):
         if self._count() > count:
             return
         if looks_like_a_step:
-            self._unfollowed[scope.kind, scope.line] = "a step that is not followed"
+            self.lost[scope.kind, scope.line] = "a step that is not followed"
         for record in made:
             if _looks_like_a_table(record.args):
                 told = f"a matrix, its row sums and weights as arguments of {record.kind}"
@@ -436,15 +435,10 @@ def _matrices_beside_weights(values: Mapping[str, Value]) -> Mapping[str, tuple[
     return {
         name: (told["stem"] or "", "A")
         for name, value in values.items()
-        if isinstance(value, Array)
-        and value.is_matrix
+        if is_matrix(value)
         and (told := _WHOLE.fullmatch(name)) is not None
         and counts.get((told["stem"] or "", "b")) == len(value.items)
     }
-
-
-def _numbers_of(meant: Meant) -> Iterator[Number]:
-    return (x for x in Array(list(meant.roles.values())).flat() if isinstance(x, Number))
 
 
 def _matrix_and_weights(record: Record) -> dict[int, Value]:
@@ -455,13 +449,13 @@ def _matrix_and_weights(record: Record) -> dict[int, Value]:
 def _is_general_linear(values: Mapping[str, Value]) -> bool:
     """Whether there are matrices A, B and U."""
     cases = [[values.get(x) for x in case] for case in ("ABU", "abu")]
-    return any(all(isinstance(x, Array) and x.is_matrix for x in case) for case in cases)
+    return any(all(map(is_matrix, case)) for case in cases)
 
 
 def _looks_like_a_table(values: Sequence[Value]) -> bool:
     """Whether there are a matrix, its row sums and a row of numbers with the sum 1."""
     for A in values:
-        if isinstance(A, Array) and A.is_matrix and first_unknown(A) is None:
+        if is_matrix(A) and first_unknown(A) is None:
             sums = [near(row) for row in A.items]
             given = [[near(x) for x in items_of(row)] for row in values if row is not A]
             rows = [row for row in given if len(row) == len(sums) > 1]

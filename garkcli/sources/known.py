@@ -141,7 +141,7 @@ CONVERSIONS = frozenset(_TYPES.split())
 def _converted(call: Call, *args: Value) -> Value | None:
     values = [x for x in args if not isinstance(x, Type)]
     if any(x == ir.Name("undef") for x in call.expr.args):
-        return _empty(call, *args)
+        return _made(call, *args)
     if not values:
         return None
     if len(values) == 2 and call.name in {"Rational", "Fraction", "mpq", "fmpq", "QQ"}:
@@ -204,19 +204,16 @@ def _filled(call: Call, fill: Value, args: Iterable[Value]) -> Value:
     return call.filled(fill, *sizes)
 
 
-@_known("zeros zeros_like Zero")
-def _zeros(call: Call, *args: Value) -> Value | None:
-    return _filled(call, FILL, args)
+_FILLS = {
+    **dict.fromkeys(("zeros", "zeros_like", "Zero"), FILL),
+    **dict.fromkeys(("ones", "Ones"), real(ONE)),
+}
+"""What arrays are made of; those that others make are empty."""
 
 
-@_known("ones Ones")
-def _ones(call: Call, *args: Value) -> Value | None:
-    return _filled(call, real(ONE), args)
-
-
-@_known("empty similar")
-def _empty(call: Call, *args: Value) -> Value | None:
-    return _filled(call, call.unknown("never assigned"), args)
+@_known(" ".join([*_FILLS, "empty", "similar"]))
+def _made(call: Call, *args: Value) -> Value | None:
+    return _filled(call, _FILLS.get(call.name, call.unknown("never assigned")), args)
 
 
 @_known("fill")
@@ -224,14 +221,9 @@ def _fill(call: Call, value: Value, *sizes: Value) -> Value | None:
     return _filled(call, value, sizes) if sizes else None
 
 
-@_known("zero")
-def _zero(_call: Call, *_: Value) -> Value | None:
-    return ZERO
-
-
-@_known("one")
-def _one(_call: Call, *_: Value) -> Value | None:
-    return real(ONE)
+@_known("zero one")
+def _unit(call: Call, *_: Value) -> Value | None:
+    return ZERO if call.name == "zero" else real(ONE)
 
 
 @_known("sum")

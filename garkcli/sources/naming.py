@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping
 from functools import lru_cache
 
-from garkcli.sources.values import Array, Value, items_of, near
+from garkcli.sources.values import Value, is_matrix, items_of, near
 
 _WORDS: Mapping[str, tuple[str, ...]] = {
     "A": ("A", "a", "Amat", "amat", "beta", "β", "a_lower", "A_matrix", "aCoefficients"),
@@ -112,5 +112,5 @@ def roles_of_parts(values: Mapping[str, Value]) -> Mapping[str, str]:
     elif "b" not in values and near(*items_of(values.get("c"))[-1:]) == 1:
         found = {name: role for name, role in _PAIR.items() if name in values}
     matrices = [values[name] for name, role in found.items() if role[0] == "A"]
-    are_two = len(matrices) > 1 and all(isinstance(x, Array) and x.is_matrix for x in matrices)
+    are_two = len(matrices) > 1 and all(map(is_matrix, matrices))
     return found if are_two else {}

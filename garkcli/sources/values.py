@@ -9,7 +9,7 @@ import operator
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from itertools import repeat
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeGuard
 
 from flint import fmpq
 
@@ -354,6 +354,11 @@ def transposed(value: Value, line: int) -> Value:
 def items_of(value: Value | None) -> list[Value]:
     """What is in an array; nothing in other values."""
     return value.items if isinstance(value, Array) else []
+
+
+def is_matrix(value: Value | None) -> TypeGuard[Array]:
+    """Whether it is an array of arrays."""
+    return isinstance(value, Array) and value.is_matrix
 
 
 def near(*values: Value | None) -> float:

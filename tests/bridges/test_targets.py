@@ -15,7 +15,7 @@ from garkcli.bridges.importing import fmpq_of
 from garkcli.bridges.readers.registry import find_tables, reader_named
 from garkcli.bridges.registry import bridges
 from garkcli.bridges.structure import table, with_first_stage, with_last_stage
-from garkcli.bridges.targets import torchdiffeq
+from garkcli.bridges.targets import python_solvers
 from garkcli.methodfile.load import loads
 from garkcli.order.certificate import find_order
 from tests.bridges.examples import (
@@ -213,7 +213,7 @@ def test_the_middle_makes_the_quartic_the_cubic() -> None:
     """Torchdiffeq's quartic, by its own formula, has no fourth power: 16 y(1/2) = …"""
     payload = payload_of(RALSTON)
     found = with_last_stage(table(payload))
-    mid = torchdiffeq.middle(payload, found)
+    mid = python_solvers.middle(payload, found)
     ends = [fmpq(0)] * found.stages
     ends[0], ends[-1] = fmpq(-2), fmpq(2)
     # 2 dt (f1 − f0) − 8 (y1 + y0) + 16 y_mid, the y0 of which cancel
@@ -227,7 +227,7 @@ def test_the_middle_is_that_of_dense_output() -> None:
     payload = payload_of(RALSTON + dense)
     found = with_last_stage(table(payload))
     assert payload.dense is not None
-    middle = torchdiffeq.middle(payload, found)
+    middle = python_solvers.middle(payload, found)
     assert middle == (fmpq(5, 16), fmpq(3, 16), 0)
 
 

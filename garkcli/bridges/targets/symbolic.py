@@ -1,4 +1,4 @@
-"""Mathematica: exact lists of any method, and what ``NDSolve`` takes of an explicit one."""
+"""Programs that compute with exact roots: Mathematica, and nodepy with SymPy."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from garkcli.bridges.numbers import Style
 from garkcli.bridges.radicals import Radicals
 from garkcli.bridges.registry import EVERYTHING, Bridge
 from garkcli.exact.nodes import AlgebraicRoot
+from garkcli.frozen import replace
 
 
 class _Surds(Radicals):
@@ -38,6 +39,33 @@ MATHEMATICA = Style(
 """Exact, so that N makes as many digits of them as it is requested."""
 
 
+class _Rationals(Radicals):
+    """Roots as SymPy has them."""
+
+    POWER = "**"
+
+    def rational(self, x: fmpq) -> str:
+        return f"Rational({x.p}, {x.q})"
+
+    def root(self, radicand: str, index: int) -> str:
+        # the principal root of a negative number is no real one
+        return f"sqrt({radicand})" if index == 2 else f"real_root({radicand}, {index})"
+
+    def algebraic(self, root: AlgebraicRoot) -> str:
+        """Real roots come first there, in ascending order."""
+        terms = [f"{a}*x**{k}" for k, a in enumerate(root.coefficients) if a]
+        return f"rootof({' + '.join(terms)}, {root.number})"
+
+
+SYMPY = replace(
+    MATHEMATICA,
+    decimal='Rational("{x}")',
+    fraction="Rational({p}, {q})",
+    irrational=_Rationals().text,
+    exponent="e",
+)
+
+
 BRIDGES = (
     Bridge(
         name="mathematica",
@@ -46,5 +74,11 @@ BRIDGES = (
         suffix=".wl",
         style=MATHEMATICA,
         reads_back=True,
+    ),
+    Bridge(
+        name="nodepy",
+        summary="nodepy: a module with exact numbers of SymPy",
+        suffix=".py",
+        style=SYMPY,
     ),
 )

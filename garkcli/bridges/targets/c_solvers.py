@@ -1,7 +1,4 @@
-"""SUNDIALS ARKODE in C: ERK, DIRK, an ARK pair, SPRK.
-
-It takes f at t for the first stage where that is explicit, whatever its node is.
-"""
+"""Integrators in C: ARKODE of SUNDIALS, TS of PETSc."""
 
 from __future__ import annotations
 
@@ -13,10 +10,10 @@ from garkcli.bridges.registry import EVERYTHING, Bridge
 from garkcli.bridges.structure import Table
 from garkcli.bridges.texts import Values
 from garkcli.bridges.trials import WORDS
-from garkcli.exact.field import ONE
+from garkcli.exact.field import ONE, ZERO
 
 
-def values(_: Payload, tables: Sequence[Table]) -> Values:
+def _of_arkode(_: Payload, tables: Sequence[Table]) -> Values:
     """The integrator of a table alone, or of a pair."""
     first, *others = tables
     if others:
@@ -28,7 +25,18 @@ def values(_: Payload, tables: Sequence[Table]) -> Values:
     return {"form": "erk" if first.is_fsal or first.c[-1] != ONE else "explicit"}
 
 
+def _of_ts(_: Payload, tables: Sequence[Table]) -> Values:
+    """An implicit method is the implicit half of a pair; its explicit half is never used."""
+    found = tables[0]
+    if len(tables) > 1 or found.is_explicit:
+        return {}
+    zeros = (ZERO,) * found.stages
+    nothing = Table((zeros,) * found.stages, zeros, found.c, found.embedded and zeros)
+    return {"tables": [nothing, found]}
+
+
 BRIDGES = (
+    # it takes f at t for the first stage where that is explicit, whatever its node is
     Bridge(
         name="sundials",
         summary="C for ARKODE: ERK, DIRK, ARK pairs, SPRK",
@@ -39,7 +47,21 @@ BRIDGES = (
         several="pair",
         is_split=True,
         starts=True,
-        values=values,
+        values=_of_arkode,
+        words=WORDS,
+        reads_back=True,
+    ),
+    Bridge(
+        name="petsc",
+        summary="C for PETSc TS: RK, ARKIMEX, basic symplectic",
+        kinds=EVERYTHING,
+        suffix=".c",
+        style=c_style("PetscRealConstant"),
+        stages="lower",
+        several="pair",
+        is_split=True,
+        lacks=(),
+        values=_of_ts,
         words=WORDS,
         reads_back=True,
     ),

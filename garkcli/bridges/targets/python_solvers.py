@@ -1,0 +1,124 @@
+"""Solvers in Python: ``solve_ivp`` of SciPy, torchdiffeq, Dedalus."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from flint import fmpq
+
+from garkcli.bridges.numbers import PYTHON
+from garkcli.bridges.payload import Payload
+from garkcli.bridges.registry import DENSE, EMBEDDED, Bridge
+from garkcli.bridges.rounding import combined
+from garkcli.bridges.structure import Table, vanishes, with_first_stage, with_last_stage
+from garkcli.bridges.texts import Values
+from garkcli.bridges.trials import WORDS
+from garkcli.exact.field import ONE, ZERO
+from garkcli.tableau.pointwise import Row
+
+HERMITE = ((0, 3, -2), (1, -2, 1), (0, -1, 1))
+"""The cubic that has the values and slopes of both ends: what b_i, the first and the last slope
+are multiplied by, as coefficients of θ, θ² and θ³.
+"""
+
+
+def _of_scipy(_: Payload, tables: Sequence[Table]) -> Values:
+    """What the class has; without the last stage where that is f at the new value. The program
+    takes fixed steps.
+
+    The errors are the differences b̂ − b, the sign that the classes of SciPy have.
+    """
+    (found,) = tables
+    kept = found.stages - found.is_fsal
+    last = () if found.is_fsal else (ZERO,)
+    return {
+        "kept": kept,
+        "errors": (*(combined((-1, x)) for x in found.error), *last),
+        "between": _dense(found, kept),
+    }
+
+
+def _dense(found: Table, kept: int) -> Sequence[Row]:
+    """The coefficients of θ, θ², … for the stages, and for f at the new value."""
+    if found.dense is not None:
+        nothing = (ZERO,) * len(found.dense[0])
+        return found.dense if found.is_fsal else (*found.dense, nothing)
+    of_value, of_first, of_last = HERMITE
+    rows = [tuple(b * k for k in of_value) for b in found.b[:kept]]
+    rows[0] = tuple(x + k for x, k in zip(rows[0], of_first, strict=True))
+    last: Row = tuple(map(fmpq, of_last))
+    return [*rows, last]
+
+
+def _of_torchdiffeq(payload: Payload, tables: Sequence[Table]) -> Values:
+    """The weights of the middle.
+
+    Its steps take the last stage for f(t + h, y at the end), and begin with it: a method without
+    such a stage gets one, whose weight is 0, at no cost. Between steps it has a polynomial of
+    degree 4 through both ends, their slopes and the middle, whose weights are ours to give. The
+    program has tolerances that accept every step, and steps bounded by h.
+    """
+    return {"middle": middle(payload, tables[0])}
+
+
+def middle(payload: Payload, found: Table) -> Row:
+    """The weights of y(t + h/2): by dense output, or those that make the quartic the cubic."""
+    if payload.dense is None:
+        eighths = (ONE, *(ZERO,) * (found.stages - 2), -ONE)
+        pairs = zip(found.b, eighths, strict=True)
+        return tuple(combined((fmpq(1, 2), x), (fmpq(1, 8), y)) for x, y in pairs)
+    # the values at 1/2 of the polynomials with coefficients of θ, θ², …
+    powers = [fmpq(1, 2**k) for k in range(1, len(payload.dense[0][0]) + 1)]
+    weights = [combined(*zip(powers, row, strict=True)) for row in payload.dense[0]]
+    return (*weights, *(ZERO,) * (found.stages - len(weights)))
+
+
+def _of_dedalus(_: Payload, tables: Sequence[Table]) -> Values:
+    """The tables with the stages that they need: H is the implicit method, A the explicit one.
+
+    The last rows of its matrices are the weights, so both methods have to end with a stage at the
+    new value, and its first stage is explicit: a missing one is put in, with the weight 0.
+    """
+    if not all(vanishes(x) for found in tables for x in found.A[0]):
+        tables = [*map(with_first_stage, tables)]
+    # a single stage is the first too
+    ends = all(x.stages > 1 and x.A[-1] == x.b and x.c[-1] == ONE for x in tables)
+    return {"tables": tables if ends else [*map(with_last_stage, tables)], "is_put_in": not ends}
+
+
+BRIDGES = (
+    Bridge(
+        name="scipy",
+        summary="a method of scipy.integrate.solve_ivp, explicit",
+        suffix=".py",
+        style=PYTHON,
+        stages="explicit",
+        starts=True,
+        lacks=(),
+        values=_of_scipy,
+        words=WORDS,
+    ),
+    Bridge(
+        name="torchdiffeq",
+        summary="torchdiffeq: a module that registers a solver, explicit methods",
+        suffix=".py",
+        style=PYTHON,
+        stages="explicit",
+        starts=True,
+        ends=True,
+        lacks=(),
+        values=_of_torchdiffeq,
+        words={**WORDS, "sin": "torch.sin", "cos": "torch.cos"},
+    ),
+    Bridge(
+        name="dedalus",
+        summary="Dedalus 3: a class, IMEX methods",
+        kinds=("ark", "prk", "gark"),
+        suffix=".py",
+        style=PYTHON,
+        stages="lower",
+        several="pair",
+        lacks=(EMBEDDED, DENSE),
+        values=_of_dedalus,
+    ),
+)
