@@ -343,7 +343,9 @@ class TableFinder(Evaluator):
                 continue
             rank = _RANKS.get(plain, -1)
             is_old = role in _ORDERS and (name, lines.get(name, scope.line)) in self._taken
-            if is_old or rank > ranks.setdefault((stem, role), rank):
+            # q and p are the orders of structures, and elsewhere anything
+            is_other = role in _ORDERS and len(plain) == 1
+            if is_old or is_other or rank > ranks.setdefault((stem, role), rank):
                 # the order of the table before; A beside β is the matrix
                 continue
             ranks[stem, role] = rank

@@ -264,6 +264,12 @@ def test_an_order_is_that_of_the_table_before_it() -> None:
     assert [x.order for x in python.find(first + second, "x")] == [2, None]
 
 
+def test_q_and_p_beside_arrays_are_no_orders() -> None:
+    """They are those of structures alone."""
+    (table,) = python.find("q = 3\np = 2\nA = [[0, 0], [1, 0]]\nb = [0.5, 0.5]\n", "x")
+    assert (table.order, table.embedded_order) == (None, None)
+
+
 BESIDE_A_RECORD = {
     "other arrays": ("heun_A = [[0, 0], [1, 0]]\nheun_b = [0.5, 0.5]\n", 2),
     "its own arrays": ("A = [[0, 0], [0.5, 0]]\nb = [0, 1]\n", 1),
