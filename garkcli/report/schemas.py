@@ -35,7 +35,7 @@ REPORTS = {
     "converge": "garkcli.report.comparison:schema",
     "energy": "garkcli.report.energy:REPORT",
     "certificate": "garkcli.report.certificate:REPORT",
-    "export": "garkcli.bridges.targets.json_data:export_schema",
+    "export": "garkcli.bridges.targets.exact_texts:export_schema",
     "list": "garkcli.report.listing:REPORT",
     "list-methods": "garkcli.report.list_methods:REPORT",
     "show": "garkcli.report.show:REPORT",

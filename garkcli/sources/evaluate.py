@@ -593,7 +593,8 @@ class Evaluator:
         """An operation, entry by entry on arrays."""
         if isinstance(x, Array) or isinstance(y, Array):
             return self._each(sign, x, y)
-        if sign == "/" and self.has_whole_quotients and _are_whole(x, y):
+        are_whole = all(isinstance(v, Number) and v.is_whole for v in (x, y))
+        if sign == "/" and self.has_whole_quotients and are_whole:
             return truncated(x, y, self.line)
         return computed(sign, x, y, self.line)
 
@@ -735,10 +736,6 @@ def _may_make_a_table(name: str, args: Sequence[Value], named: Mapping[str, Valu
 def _is_an_argument(value: Value | None, name: str) -> bool:
     """Whether a function is one that is given: ``T(0.5)`` converts."""
     return isinstance(value, Unknown) and value.reason == f"the argument {name}"
-
-
-def _are_whole(x: Value, y: Value) -> bool:
-    return all(isinstance(v, Number) and v.is_whole for v in (x, y))
 
 
 def _has_numbers(body: ir.Body) -> bool:

@@ -130,7 +130,8 @@ _TYPES = """
     int Integer SUN_RCONST RCONST PetscRealConstant sunrealtype realtype real_t
     PetscReal PetscScalar real Real dble identity parse vec fraction static_cast
     Number vector make_array sym vpa mp str2sym full num2cell cell2mat as_double
-    deepcopy copy freeze array_from rational float128 cpp_bin_float String
+    const_cast reinterpret_cast
+    deepcopy copy freeze array_from rational float128 cpp_bin_float String as
     LinearAlgebra string value_type RC REAL N SA SA_F64 SA_F32 SetPrecision SetAccuracy Rationalize
 """
 CONVERSIONS = frozenset(_TYPES.split())

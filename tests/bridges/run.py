@@ -87,7 +87,7 @@ def tried(runner: Runner, ready: Ready, kind: str, name: str) -> Outcome:
     try:
         stem = _written(runner, payload, folder)
     except CannotExport as refusal:
-        return Outcome(code, kind, name, note=f"refused: {refusal.reason}")
+        return Outcome(code, kind, name, note=f"refused: {refusal.message}")
     program = Program(folder, stem)
     try:
         found = program.errors(ready.commands(stem))

@@ -95,7 +95,7 @@ def attempt(target: str, payload: Payload) -> str:
     try:
         return bridges()[target].written(payload)
     except CannotExport as refusal:
-        return refusal.reason
+        return refusal.message
 
 
 def test_a_tolerance_is_named() -> None:

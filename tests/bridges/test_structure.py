@@ -163,8 +163,8 @@ def test_refusals_have_reason_and_cure(name: str, text: str, reason: str) -> Non
     """What a target cannot hold is refused in one line each."""
     with pytest.raises(CannotExport) as refusal:
         bridges()[name].written(payload_of(text))
-    assert reason in refusal.value.reason
-    assert refusal.value.cure
+    assert reason in refusal.value.message
+    assert refusal.value.help
 
 
 def test_a_file_is_named_without_its_folder(tmp_path: Path) -> None:

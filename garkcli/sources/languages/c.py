@@ -29,7 +29,6 @@ _NAMES = frozenset(
 _WHOLE_TYPES = re.compile(r"\b(?:int|long|short|unsigned|size_t|auto|bool|PetscInt|u?int\d+_t)\b")
 _NUMBER = re.compile(r"(?P<digits>[0-9']*\.?[0-9']*(?:[eE][-+]?[0-9]+)?)(?P<suffix>[a-zA-Z_]\w*)?")
 _DECLARED = frozenset({"array_declarator", "identifier", "field_identifier"})
-_CASTS = frozenset({"static_cast", "reinterpret_cast", "const_cast", "as"})
 _DEVICE = re.compile(rb"__(?:constant|device|shared|host|global)__")
 """Where CUDA keeps what is declared: no part of the grammar."""
 
@@ -286,10 +285,7 @@ class CLowering(Lowering):
                 # T x(args)
                 return ir.Call(ir.Name("constructor"), self.exprs(inside))
             case "call_expression" if inside:
-                callee, args = inside[0], self.exprs(inside[-1].named_children)
-                is_cast = callee.type == "template_function" and self.name(callee) in _CASTS
-                is_cast = is_cast and len(args) == 1
-                return ir.Call(ir.Name("double") if is_cast else self.expr(callee), args)
+                return ir.Call(self.expr(inside[0]), self.exprs(inside[-1].named_children))
         return unmeant(node)
 
     def number(self, text: str) -> ir.Expr:

@@ -1,13 +1,14 @@
-"""JSON: every number as exact text, nothing lost."""
+"""JSON and CSV: every number as exact text, nothing lost."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
-from garkcli.bridges.comments import problem_class
+from garkcli.bridges.comments import HASH, head, problem_class
 from garkcli.bridges.numbers import EXACT, Style
 from garkcli.bridges.payload import Payload
+from garkcli.bridges.readers.rows import COLUMNS
 from garkcli.bridges.registry import EVERYTHING, Bridge
 from garkcli.exact.display import decimal
 from garkcli.frozen import replace
@@ -35,7 +36,7 @@ _PRINTED = replace(_EXACT, is_fraction_first=False)
 """Of methods with rounded coefficients: decimals stay decimals."""
 
 
-def write(payload: Payload) -> str:
+def _json(payload: Payload) -> str:
     """The method as one object."""
     return _REPORT.text(payload)
 
@@ -102,13 +103,41 @@ _REPORT: Record[Payload] = Record(
     Field("embedded", _ONE_ROW, _array("embedded"), is_optional=True),
     Field("dense", one_of(_MATRIX, array(_MATRIX)), _array("dense"), is_optional=True),
 )
+
+
+def _csv(payload: Payload) -> str:
+    """A row an entry, below a head of comments; colours and stages count from 1, of ``dense`` j is
+    the power of theta.
+    """
+    return "\n".join([*HASH.lines(head(payload)), ",".join(COLUMNS), *_lines(payload)]) + "\n"
+
+
+def _lines(payload: Payload) -> Iterator[str]:
+    for part in ("A", "b", "c", "embedded", "dense"):
+        for l, m, rows in payload.parts[part]:
+            for i, row in enumerate(rows, start=1):
+                for j, text in enumerate(payload.numbers(row, style_of(payload)), start=1):
+                    place = f"{i},{j}" if part in {"A", "dense"} else f"{j},"
+                    # the comma of root(x, n)
+                    value = f'"{text}"' if "," in text else text
+                    yield f"{part},{l},{m},{place},{value}"
+
+
 BRIDGES = (
     Bridge(
         name="json",
         summary="JSON, every number as exact text",
         kinds=EVERYTHING,
         suffix=".json",
-        write=write,
+        write=_json,
+        reads_back=True,
+    ),
+    Bridge(
+        name="csv",
+        summary="CSV, a row an entry, every number as exact text",
+        kinds=EVERYTHING,
+        suffix=".csv",
+        write=_csv,
         reads_back=True,
     ),
 )
