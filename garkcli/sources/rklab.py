@@ -53,10 +53,8 @@ def _block_roles(value: Array, name: str) -> Mapping[str, Value] | None:
             return None
         # a triangle, or all of it
         row += [ZERO] * (columns - len(row))
-    numbers = [x for row in rows[:stages] for x in row] + [
-        x for row in rows[stages:] for x in row[1:]
-    ]
-    if not all(isinstance(x, Number) for x in numbers):
+    numbers = [*rows[:stages], *(row[1:] for row in rows[stages:])]
+    if not all(isinstance(x, Number) for row in numbers for x in row):
         return None
     near = [[x.near if isinstance(x, Number) else 0.0 for x in row] for row in rows]
     agreeing = sum(abs(sum(row[1:]) - row[0]) < NEAR for row in near[:stages])
@@ -81,10 +79,8 @@ def _block_roles(value: Array, name: str) -> Mapping[str, Value] | None:
     }
     if order and (name == "b" or order > 1):
         roles["order"] = corners[0]
-    if len(rows) == stages + 2:
-        is_empty = not whole(corners[1]) and not any(near[-1][1:])
-        if not is_empty:
-            roles["embedded"] = Array(rows[-1][1:])
-            if "order" in roles and whole(corners[1]) not in (0, None if name == "b" else order):
-                roles["embedded_order"] = corners[1]
+    if len(rows) == stages + 2 and (whole(corners[1]) or any(near[-1][1:])):
+        roles["embedded"] = Array(rows[-1][1:])
+        if "order" in roles and whole(corners[1]) not in (0, None if name == "b" else order):
+            roles["embedded_order"] = corners[1]
     return roles
