@@ -63,6 +63,8 @@ _TABLE = "ARKodeButcherTable_Alloc"
 _PARTS = " "
 """The stem of the arrays of an explicit and an implicit part."""
 _RANKS = {word: i for i, word in enumerate(ROLES)}
+_OBJECT = re.compile("the call [A-Z][a-z]")
+"""What makes an object of a class, which is no array of nodes or weights."""
 _ORDERS = ("order", "embedded_order")
 """What a structure tells of the arrays beside it."""
 _MADE = frozenset({"", _TABLE, "ARKodeSPRKTable_Alloc"})
@@ -338,7 +340,8 @@ class TableFinder(Evaluator):
                 # RK6Solver::a belongs to its class
                 stem, role = told[0] or owner, told[1]
             else:
-                if told is not None and told[1] in BESIDE and isinstance(value, Unknown):
+                is_array = isinstance(value, Unknown) and not _OBJECT.match(value.reason)
+                if told is not None and told[1] in BESIDE and is_array:
                     unread.setdefault(told[0] or owner, {})[told[1]] = value
                 continue
             rank = _RANKS.get(plain, -1)

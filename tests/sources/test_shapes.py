@@ -264,6 +264,13 @@ def test_an_order_is_that_of_the_table_before_it() -> None:
     assert [x.order for x in python.find(first + second, "x")] == [2, None]
 
 
+def test_an_object_is_no_array_that_is_not_read() -> None:
+    """Nodes that a function computes are told, a tableau of another method is not."""
+    text = "A = [[0, 0], [1, 0]]\nb = [0.5, 0.5]\nbt = {}\nc = {}\n"
+    (table,) = python.find(text.format("GaussLegendre(2)", "nodes(A)"), "x")
+    assert table.notes == ("nodes are not read: the call nodes",)
+
+
 def test_q_and_p_beside_arrays_are_no_orders() -> None:
     """They are those of structures alone."""
     (table,) = python.find("q = 3\np = 2\nA = [[0, 0], [1, 0]]\nb = [0.5, 0.5]\n", "x")
