@@ -39,6 +39,7 @@ from garkcli.sources.values import (
     Value,
     Word,
     copied,
+    described,
     first_unknown,
     is_matrix,
     is_written,
@@ -340,7 +341,8 @@ class TableFinder(Evaluator):
                 # RK6Solver::a belongs to its class
                 stem, role = told[0] or owner, told[1]
             else:
-                is_array = isinstance(value, Unknown) and not _OBJECT.match(value.reason)
+                is_made = isinstance(value, Unknown) or (isinstance(value, Record) and value.kind)
+                is_array = is_made and not _OBJECT.match(described(value))
                 if told is not None and told[1] in BESIDE and is_array:
                     unread.setdefault(told[0] or owner, {})[told[1]] = value
                 continue

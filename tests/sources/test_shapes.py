@@ -267,8 +267,9 @@ def test_an_order_is_that_of_the_table_before_it() -> None:
 def test_an_object_is_no_array_that_is_not_read() -> None:
     """Nodes that a function computes are told, a tableau of another method is not."""
     text = "A = [[0, 0], [1, 0]]\nb = [0.5, 0.5]\nbt = {}\nc = {}\n"
-    (table,) = python.find(text.format("GaussLegendre(2)", "nodes()"), "x")
-    assert table.notes == ("nodes are not read: the call nodes",)
+    for call in ("nodes()", "nodes(A)"):
+        (table,) = python.find(text.format("GaussLegendre(2)", call), "x")
+        assert table.notes == ("nodes are not read: the call nodes",)
 
 
 def test_q_and_p_beside_arrays_are_no_orders() -> None:
