@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from operator import sub
-from typing import Any, TypeGuard
+from typing import Any
 
 from garkcli.frozen import replace
 from garkcli.sources import ir
@@ -153,7 +153,8 @@ class TableFinder(Evaluator):
         if scope.kind == "class":
             self._declared_by_class(scope, space)
         count, first = self._count(), len(self._meant)
-        self._halves |= {(x.kind, x.line) for each in made for x in each.args if _is_record(x)}
+        halves = (x for each in made for x in _halves_of(each.args))
+        self._halves |= {(x.kind, x.line) for x in halves}
         for record in made:
             if (record.kind, record.line) not in self._halves:
                 self._of_record(record, scope)
@@ -257,7 +258,10 @@ class TableFinder(Evaluator):
         roles: Roles = dict(zip(signature.roles, values, strict=False))
         roles.pop("-", None)
         if signature.form == "halves":
-            for part, half in zip("12", filter(_is_record, values), strict=False):
+            halves = _halves_of(values)
+            if not halves and not any(map(_is_given, values)):
+                self._unread(name, line, f"{record.kind} takes two tables that are written out")
+            for part, half in zip("12", halves, strict=False):
                 own = _roles_of(half.fields, ROLES)
                 roles |= {f"{role}{part}": x for role, x in own.items()}
             signature = PARTS
@@ -520,8 +524,10 @@ def _is_triangle(entries: Value, row: Value) -> bool:
     return n > 0 and 2 * m == n * (n - 1) and not any(isinstance(x, Array) for x in items_of(row))
 
 
-def _is_record(value: Value) -> TypeGuard[Record]:
-    return isinstance(value, Record)
+def _halves_of(values: Sequence[Value]) -> Sequence[Record]:
+    """The two tables that a call makes one of; none where it is given anything else."""
+    found = [x for x in values if isinstance(x, Record)]
+    return found if len(found) == len(values) == 2 else ()
 
 
 def _roles_of(fields: Mapping[str, Value], told: Mapping[str, str]) -> Roles:

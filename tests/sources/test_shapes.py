@@ -250,6 +250,15 @@ def test_two_tables_in_one_have_its_name_and_order() -> None:
     assert (table.name, table.trouble) == ("Imex", "the name x, line 3, is not known")
 
 
+@pytest.mark.parametrize("more", ["f(x)", "h, h"])
+def test_what_is_no_pair_of_tables_is_told(more: str) -> None:
+    """The table in it is read for itself."""
+    text = f"h = dict(A=[[0, 0], [1, 0]], b=[0.5, 0.5], c=[0, 1])\nMultiButcherTableau(h, {more})\n"
+    half, whole = python.find(text, "x")
+    assert (half.line, half.b) == (1, (("1/2", "1/2"),))
+    assert whole.trouble == "MultiButcherTableau takes two tables that are written out"
+
+
 def test_blocks_that_make_no_square_are_none() -> None:
     """Two matrices below one another are no method of two colours, and no fault of gark."""
     text = "A = [[[[0, 0], [1, 0]]], [[[0, 0], [1, 0]]]]\nb = [[0.5, 0.5], [0.5, 0.5]]\n"
