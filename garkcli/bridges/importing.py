@@ -126,7 +126,7 @@ def _polynomials(dense: Sequence[Rows] | None) -> Mapping[str, Tree] | None:
     """Dense output, a block for each of several colours."""
     if dense is None:
         return None
-    degree = max(len(row) for rows in dense for row in rows)
+    degree = max((len(row) for rows in dense for row in rows), default=0)
     return {"degree": str(degree), "weights": dense if len(dense) > 1 else dense[0]}
 
 

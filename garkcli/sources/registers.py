@@ -130,7 +130,7 @@ def written(x: Number | int, ball: arb | int, units: dict[str, fmpq]) -> str:
         return str(x)
     sizes = abs(float(ball.mid())), float(ball.rad())
     if not all(0 < size < math.inf for size in sizes):
-        raise Unreadable("a number that is no float")
+        raise Unreadable("a number beyond those of floats")
     first, last = (math.floor(math.log10(size)) for size in sizes)
     text = to_decimal(x, max(1, 1 + first - last))
     unit = rounded_up(arb(ball.rad()) + arb(10) ** min(last, first))

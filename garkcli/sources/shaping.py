@@ -83,6 +83,8 @@ def square(value: Texts, stages: int) -> Rows:
     >>> square([["1"], ["1", "1"]], 3)
     (('0', '0', '0'), ('1', '0', '0'), ('1', '1', '0'))
     """
+    if not stages:
+        raise Unreadable("there are no weights")
     if is_row(value):
         return _of_flat(row_of(value), stages) if stages > 1 else (weights(value, 1),)
     if isinstance(value, list) and len(value) > stages:

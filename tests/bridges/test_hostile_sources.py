@@ -73,7 +73,12 @@ AUDITED = {
     ),
     "registers.jl": (
         "LowStorageRK2NConstantCache([1.2345678e400, 0.5], 0.3, [0.4, 0.2], [0.3, 0.7])\n",
-        "a number that is no float",
+        "a number beyond those of floats",
+    ),
+    "empty.json": ('{"A": [], "b": [[]], "c": [], "embedded": []}', "there are no weights"),
+    "dense.json": (
+        '{"A": [[["1"]]], "b": [["1"]], "c": [["1"]], "dense": [[]]}',
+        "degree: a whole number",
     ),
     "parts.py": ("IMEXTableau([], [], [], [], [], [])\n", "number of stages"),
     "many_names.py": (
