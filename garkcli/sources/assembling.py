@@ -253,6 +253,8 @@ def _row_each(value: Texts, colours: int) -> Rows | None:
         return None
     is_each = all(isinstance(x, list) for x in value)
     rows = tuple(map(weights, value)) if is_each else (weights(value),)
+    if len(rows) not in (1, colours):
+        raise Unreadable(f"{len(rows)} rows of numbers for {colours} vector fields")
     return rows * colours if len(rows) == 1 else rows
 
 
@@ -415,6 +417,8 @@ def _nystrom(roles: Roles, empty: FoundTable) -> FoundTable:
     """Ā, b̄, b and c as the pair (q, p) with linear velocities."""
     b_q, b = _row(roles, "b_q"), _row(roles, "b")
     stages = len(b)
+    if len(b_q) != stages:
+        raise Misshapen(f"{len(b_q)} weights of positions, {stages} of velocities")
     A = _square(roles, "A_q", stages)
     c = _nodes(roles, A)
     if c is None:

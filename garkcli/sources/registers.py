@@ -78,8 +78,8 @@ def converted(form: str, *printed: Nested) -> Converted:
         Unreadable: they make no method, or none whose stages begin at the value before the step.
     """
     texts = list(_flat(printed))
-    expressions = [parse(x) for x in texts]
     try:
+        expressions = [parse(x) for x in texts]
         domain = Domain(expressions)
         values = [domain.evaluate(x) for x in expressions]
     except ExpressionError as error:

@@ -80,6 +80,18 @@ AUDITED = {
         '{"A": [[["1"]]], "b": [["1"]], "c": [["1"]], "dense": [[]]}',
         "degree: a whole number",
     ),
+    "nodes.json": (
+        '{"A": [[[[1]], null], [null, [[1]]]], "b": [[1], [1]], "c": [[1], [1], [1]]}',
+        "3 rows of numbers for 2 vector fields",
+    ),
+    "nystrom.jl": (
+        "NystromVITableau([0 0; 1//2 0], [0], [1//2, 1//2], [0, 0], [0, 0], [0, 1])\n",
+        "1 weights of positions, 2 of velocities",
+    ),
+    "powers.jl": (
+        "LowStorageRK2NConstantCache([sqrt(2)^90, 0.5], 0.3, [0.4, 0.2], [0.3, 0.7])\n",
+        "exponent is larger",
+    ),
     "parts.py": ("IMEXTableau([], [], [], [], [], [])\n", "number of stages"),
     "many_names.py": (
         "".join(f"v{i} = 1.5\n" for i in range(5_000))
