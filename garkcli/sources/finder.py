@@ -272,10 +272,6 @@ class TableFinder(Evaluator):
             return
         told = {x: x for x in fields} if record.kind == PRINTED else {**ROLES, **signature.named}
         roles = _roles_of({} if parts else fields, told) | roles
-        if record.kind == _TABLE and not is_written(fields.get("d")):
-            roles.pop("embedded", None)
-        if not isinstance(roles.get("title"), Word):
-            roles.pop("title", None)
         if not (is_complete(roles) or signature.has_default_weights):
             if signature is NAMED:
                 self._of_scalars(name, fields, record.line)
