@@ -105,7 +105,6 @@ _CLASSES = {
     "prk": "q' = f(q, p), p' = g(q, p)",
     "gark": "y' = {terms}, each at stages of its own",
 }
-_TERMS = "f1(t, y) + ... + fN(t, y)"
 
 
 def problem_class(payload: Payload) -> str:
@@ -115,7 +114,7 @@ def problem_class(payload: Payload) -> str:
     if payload.tableau.is_partitioned and payload.kind != "prk":
         return "Hamiltonian problems that are split, a pair (q, p) a term"
     names = [f"f{l}(t, y)" for l in range(1, payload.size + 1)]
-    terms = " + ".join(names) if len(names) < 4 else _TERMS
+    terms = " + ".join(names) if len(names) < 4 else "f1(t, y) + ... + fN(t, y)"
     return _CLASSES[payload.kind].format(terms=terms)
 
 

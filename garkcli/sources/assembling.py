@@ -129,17 +129,13 @@ def table_of(meant: Meant) -> FoundTable:
 def _refuse_uses(roles: Roles) -> None:
     """Refuse arrays that other code has made: nothing of them is written here."""
     matrix = roles.get("A", roles.get("A_q"))
-    others = [x for x in _COEFFICIENTS if isinstance(roles.get(x), Array)]
+    others = [x for x in ("b", "c", "delta") if isinstance(roles.get(x), Array)]
     entries = list(matrix.flat()) if isinstance(matrix, Array) else []
     unknown = [x.was_written for x in entries if isinstance(x, Unknown)]
     given = [x.is_given for x in entries if isinstance(x, Number)]
     is_only_made = not any(unknown + given) and (unknown or len(items_of(matrix)) > 1)
     if not isinstance(matrix, Array) or not others or is_only_made:
         raise NoTable
-
-
-_COEFFICIENTS = ("b", "c", "delta")
-"""Arrays that a matrix, or what stands for it, has beside it."""
 
 
 def _is_unread(roles: Roles) -> bool:
@@ -382,13 +378,13 @@ def _of_registers(meant: Meant, roles: Roles) -> tuple[str, Converted] | None:
     form = meant.signature.form
     A, b, c = map(roles.get, "Abc")
     if "gamma1" in roles:
-        rows = [_given(roles, x) or () for x in _THREE_REGISTERS]
+        rows = [_given(roles, x) or () for x in ("gamma1", "gamma2", "gamma3", "delta", "A")]
         rows[2] = rows[2] or (ZERO,) * len(rows[-1])
         return "3S*", converted("3S*", *rows)
     if b is None and is_matrix(c) and is_matrix(A):
         return "Shu–Osher", converted("Shu–Osher", rows_of(plain(c)), rows_of(plain(A)))
     if form != "rk":
-        diagonals = [_row(roles, x) for x in roles if x in _DIAGONALS]
+        diagonals = [_row(roles, x) for x in roles if x in {"A", "A_2", "A_3", "A_4"}]
         return form, converted(form, *diagonals, _row(roles, "b"))
     if is_matrix(A) and len(items_of(A)) == 1 and c is None:
         # {{a2, a3, …}}
@@ -400,10 +396,6 @@ def _of_registers(meant: Meant, roles: Roles) -> tuple[str, Converted] | None:
         return None
     nodes = None if c is None else [near(x) for x in Array([c]).flat()]
     return recognised(row_of(row), b_row, nodes)
-
-
-_THREE_REGISTERS = ("gamma1", "gamma2", "gamma3", "delta", "A")
-_DIAGONALS = ("A", "A_2", "A_3", "A_4")
 
 
 def _is_pair_of_rows(row: Row, stages: int) -> bool:

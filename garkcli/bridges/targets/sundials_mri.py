@@ -86,7 +86,8 @@ def _coupled(payload: Payload, coupling: Coupling) -> Slow:
     nothing = (ZERO,) * len(coupling.nodes)
     found: dict[str, list[Rows]] = {}
     for powers in coupling.matrices:
-        is_implicit = any(_looks_ahead(matrix) for matrix in powers)
+        # row i leads from stage i to the next
+        is_implicit = any(any(row[i + 1 :]) for rows in powers for i, row in enumerate(rows))
         letter = "G" if is_implicit else "W"
         if letter in found:
             message = f"both slow parts of {payload.name} are {'im' if is_implicit else 'ex'}plicit"
@@ -94,11 +95,6 @@ def _coupled(payload: Payload, coupling: Coupling) -> Slow:
         found[letter] = [(nothing, *matrix) for matrix in powers]
     matrices = {letter: found[letter] for letter in "WG" if letter in found}
     return Slow(coupling.nodes, matrices, payload.orders.effective)
-
-
-def _looks_ahead(matrix: Rows) -> bool:
-    """Whether a row, which leads from stage i to the next, has entries beyond column i."""
-    return any(any(row[i + 1 :]) for i, row in enumerate(matrix))
 
 
 def _with_value(found: Table) -> Table:
