@@ -173,23 +173,33 @@ class Bridge(Frozen):
         """The vector field that has an explicit table, and the other one."""
         is_other = payload.tableau.is_partitioned and payload.kind != "prk"
         explicit = [m for m, x in enumerate(tables) if x.is_explicit]
-        why = f"pairs an explicit with an implicit method, and both of {payload.name} are implicit"
+        message = (
+            f"{self.name} pairs an explicit with an implicit method, and both of {payload.name} are"
+            " implicit"
+        )
         if len(tables) != 2 or is_other:
-            why = (
-                "adds two vector fields, an explicit and an implicit one;"
+            message = (
+                f"{self.name} adds two vector fields, an explicit and an implicit one;"
                 f" {payload.name} is for {problem_class(payload)}"
             )
         elif explicit:
             return explicit[0], 1 - explicit[0]
-        raise CannotExport(f"{self.name} {why}", _others(payload, "any"))
+        raise CannotExport(message, _others(payload, "any"))
 
     def _fitting(self, payload: Payload, found: Table) -> Table:
         """A table whose stages the target computes, with the last stage that it wants."""
         holds = {"lower": found.is_diagonally_implicit, "explicit": found.is_explicit, "any": True}
         computed = [x for x in holds if holds[x]]
         if self.stages not in computed:
-            rule, cause = _RULES[self.stages]
-            message = f"{self.name} {rule}; a stage of {payload.name} sees {cause}"
+            message = (
+                f"{self.name} has explicit methods only; a stage of {payload.name} sees itself or a"
+                " later one"
+            )
+            if self.stages == "lower":
+                message = (
+                    f"{self.name} solves one stage after the other; a stage of {payload.name} sees"
+                    " a later one"
+                )
             raise CannotExport(message, _others(payload, *computed))
         wants_end = self.ends and payload.kind == "rk" and found.is_explicit
         return with_last_stage(found) if wants_end and not found.is_first_same_as_last else found
@@ -204,13 +214,6 @@ _KINDS = {
     "prk": "methods for a pair (q, p)",
     "gark": "methods whose vector fields have stages of their own",
 }
-
-
-_RULES = {
-    "explicit": ("has explicit methods only", "itself or a later one"),
-    "lower": ("solves one stage after the other", "a later one"),
-}
-"""What targets compute, and what keeps a method from it."""
 
 
 def _left_out(payload: Payload, lacks: Sequence[str]) -> list[str]:

@@ -61,17 +61,20 @@ JULIA = _Exact(digits=_BIG, decimal='big"{x}"')
 def low_storage(payload: Payload, tables: Sequence[Table]) -> Values:
     """A, B and c of the 2N form."""
     (found,) = tables
-    why = f"which {payload.name} has exactly or not at all; its numbers are of several fields"
+    message = (
+        f"climatimesteppers has methods in Williamson's 2N form, which {payload.name} has"
+        " exactly or not at all; its numbers are of several fields"
+    )
     if payload.is_exact:
         form = in_two_registers(found.A, found.b, payload.tolerance or 0)
         if not isinstance(form, int):
             A, B = form
             return {"rows": [tuple(fmpq(x) if x == 0 else x for x in A), tuple(B), found.c]}
-        why = (
-            f"and {payload.name} has none: from one stage to the next the slopes of stages {form}"
-            f" and {form + 1} do not enter in one ratio"
+        message = (
+            f"climatimesteppers has methods in Williamson's 2N form; {payload.name} has none: from"
+            f" one stage to the next the slopes of stages {form} and {form + 1} do not enter in one"
+            " ratio"
         )
-    message = f"climatimesteppers has methods in Williamson's 2N form, {why}"
     raise CannotExport(message, "julia and ordinarydiffeq have all explicit methods")
 
 
