@@ -23,8 +23,6 @@ MAX_TABLES = 1_000
 """Most tables that are read from one source."""
 MAX_LENGTH = 4_000
 """Longest text of a coefficient, its named constants written out."""
-FOREIGN = "too much of the source does not belong to the language"
-"""The trouble of a source on whose errors a grammar would spend too long."""
 MAX_CHARACTERS = 4_000_000
 """Longest source that is read."""
 

@@ -10,7 +10,7 @@ from typing import ClassVar
 from tree_sitter import Language, Node, Parser
 
 from garkcli.sources import ir
-from garkcli.sources.found import FOREIGN, FoundTable, Reader, TooLarge
+from garkcli.sources.found import FoundTable, Reader
 from garkcli.sources.naming import METHODS, ROLES
 from garkcli.sources.reading import tables_in
 from garkcli.sources.signatures import SIGNATURES, other_kind
@@ -26,12 +26,6 @@ _WORDS = re.compile(
     r"(?:_\w+)?\s*(?::\s*[\w.]+(?:\[[\w., ]*\])?\s*=|\[|\(|=|\{|\.=)",
     re.IGNORECASE,
 )
-CHUNK = 1_024
-"""Bytes that the grammar is given at once."""
-FREE_STEPS = 20_000
-"""So many times it may ask for some, or say how far it is, whatever the source."""
-BYTES_PER_STEP = 10
-"""And once more for so many bytes: ten times as often as for what people write."""
 MAX_NESTING = 60
 """Deepest nesting of what is lowered."""
 _KINDS = {
@@ -55,11 +49,8 @@ class Lowering:
     Attributes:
         grammar: of the language.
         kinds: what its nodes are, see ``kinds``.
-        is_slow_on_errors: whether the work on errors grows as the square of their number. Then it
-            is counted, which leaves what is read in memory.
     """
 
-    is_slow_on_errors: ClassVar[bool] = False
     grammar: ClassVar[Language]
     kinds: ClassVar[Mapping[str, str]]
 
@@ -74,32 +65,8 @@ class Lowering:
         return self.block(self.parse(self._data).named_children)
 
     def parse(self, data: bytes) -> Node:
-        """The syntax tree; what does not belong to the language is in nodes of its own.
-
-        Raises:
-            TooLarge: so much does not belong to it that the work would grow as the square.
-        """
-        has_open_comment = data.rfind(b"/*") > data.rfind(b"*/")
-        if not (self.is_slow_on_errors or has_open_comment):
-            return Parser(self._language).parse(data).root_node
-        steps, most = 0, FREE_STEPS + len(data) // BYTES_PER_STEP
-
-        def read(at: int, _: object) -> bytes:
-            nonlocal steps
-            steps += 1
-            return data[at : at + CHUNK]
-
-        def check(at: int, _: object) -> bool:
-            nonlocal steps
-            steps += 1
-            if steps > most:
-                raise TooLarge(FOREIGN, 1 + data.count(b"\n", 0, at))
-            return False
-
-        try:
-            return Parser(self._language).parse(read, progress_callback=check).root_node
-        except SystemError as error:  # a signal while tree-sitter reads
-            raise (error.__cause__ or error) from None
+        """The syntax tree; what does not belong to the language is in nodes of its own."""
+        return Parser(self._language).parse(data).root_node
 
     def text(self, node: Node | None) -> str:
         """What a node is in the source."""

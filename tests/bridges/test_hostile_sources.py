@@ -11,8 +11,8 @@ from types import FrameType
 import pytest
 
 from garkcli.bridges.readers.registry import all_readers, find_tables, reader_named, readers_for
-from garkcli.sources import allowance, lowering
-from garkcli.sources.found import FOREIGN, MAX_LENGTH
+from garkcli.sources import allowance
+from garkcli.sources.found import MAX_LENGTH
 from tests.cli.harness import gark
 
 SOURCES = sorted((Path(__file__).parent / "sources").iterdir())
@@ -208,17 +208,6 @@ def _calls(reader: str, text: str) -> int:
     finally:
         sys.setprofile(None)
     return count
-
-
-@pytest.mark.parametrize(("reader", "piece"), [("julia", "class A\n"), ("c", "/* ")])
-def test_grammars_have_a_limit_of_steps(
-    reader: str, piece: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """The work on what does not belong to a language may grow as the square of its length."""
-    monkeypatch.setattr(lowering, "FREE_STEPS", 200)
-    (table,) = find_tables(piece * 100, "x", [reader_named(reader)])
-    assert table.trouble == FOREIGN
-    assert find_tables(piece * 100, "x", list(all_readers().values())) == []
 
 
 @pytest.mark.parametrize("arrays", ["A = [[0]]\n b = [1]", "A = B = U = [[0]]"])

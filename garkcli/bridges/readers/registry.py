@@ -11,7 +11,7 @@ from pathlib import PurePath
 from garkcli.bridges import readers
 from garkcli.errors import UsageProblem, did_you_mean
 from garkcli.sources import languages
-from garkcli.sources.found import FOREIGN, MAX_CHARACTERS, FoundTable, Reader, TooLarge, troubled
+from garkcli.sources.found import MAX_CHARACTERS, FoundTable, Reader, TooLarge, troubled
 
 
 @lru_cache(maxsize=1)
@@ -81,7 +81,7 @@ def _by_the_best(text: str, source: str, chosen: Sequence[Reader]) -> list[Found
     best: list[FoundTable] = []
     no_tables: list[FoundTable] = []
     for reader in chosen:
-        found = [x for x in _read(reader, text, source) if x.trouble != FOREIGN]
+        found = _read(reader, text, source)
         no_tables += [x for x in found if x.trouble]
         if _worth(found) > _worth(best):
             best = found

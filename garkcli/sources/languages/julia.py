@@ -64,7 +64,6 @@ class JuliaLowering(Lowering):
     """Functions, assignments, matrices and records of Julia."""
 
     grammar = Language(tree_sitter_julia.language())
-    is_slow_on_errors = True
     kinds = kinds(
         comment="line_comment block_comment",
         block="source_file module_definition begin_block compound_statement block let_statement"

@@ -19,7 +19,6 @@ class MatlabLowering(Lowering):
     """Functions, matrices, cells and structures of MATLAB."""
 
     grammar = Language(tree_sitter_matlab.language())
-    is_slow_on_errors = True
     kinds = kinds(
         comment="line_continuation",
         block="source_file block ERROR",
