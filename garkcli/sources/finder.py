@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
+from collections import defaultdict
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from operator import sub
 from typing import Any
 
-from garkcli.frozen import replace
+from garkcli.frozen import Mutable, field, replace
 from garkcli.sources import ir
 from garkcli.sources.allowance import Allowance
 from garkcli.sources.assembling import (
@@ -75,6 +76,24 @@ _MADE = frozenset({"", _TABLE, "ARKodeSPRKTable_Alloc"})
 NUMBERED = "A and b have numbers: methods of their own, or parts of one"
 ANEW = "A is assigned anew without b, or b without A"
 UNRECOGNISED = "numbers with the names of coefficients whose roles are not recognised"
+
+
+class _Group(Mutable):
+    """Values whose names belong together.
+
+    Attributes:
+        roles: the values by their roles.
+        ranks: which of several names has each role; the least counts.
+        places: their names, with lines.
+        taken: whether A and b are in a table already.
+        unread: what is not known of nodes and embedded weights.
+    """
+
+    roles: Roles = field(default_factory=dict)
+    ranks: dict[str, int] = field(default_factory=dict)
+    places: list[tuple[str, int]] = field(default_factory=list)
+    taken: dict[str, bool] = field(default_factory=dict)
+    unread: Roles = field(default_factory=dict)
 
 
 class TableFinder(Evaluator):
@@ -325,12 +344,50 @@ class TableFinder(Evaluator):
             self._meant.append(Meant(self._place(own, line), dict(block), maker="B"))
         if tableaus:
             return
+        records = [x for x in values.values() if isinstance(x, Record) and not x.kind]
+        fields = _roles_of(records[0].fields, ROLES) if len(records) == 1 else {}
+        is_table = "A" in fields or "b" in fields
+        orders = {x: fields[x] for x in _ORDERS if x in fields and not is_table}
+        for stem, group in self._groups(values, lines, scope, beside).items():
+            roles = _with_grid(group.roles)
+            if {"A", "c", "gamma"} <= set(roles) and _is_triangle(roles["c"], roles["gamma"]):
+                # α, β, γ are the matrix in one row, the weights and the nodes
+                roles |= {"A": roles["c"], "b": roles["A"], "c": roles.pop("gamma")}
+            if known and not (is_complete(roles) and shown(roles.get("A", NULL)) not in known):
+                continue
+            if not is_complete(roles):
+                b = group.roles.get("b 1")
+                if "A 1" in group.roles and abs(near(b) - 1) < NEAR:
+                    self._unread(stem or scope.title, group.places[0][1], NUMBERED)
+                continue
+            roles = orders | roles
+            title = roles.pop("title", None)
+            name = title.text if isinstance(title, Word) else stem.strip() or scope.title
+            # with a hat it is the explicit part
+            are_parts = stem == _PARTS or {"A", "b", "A1", "embedded"} <= set(roles)
+            bases = scope.bases if scope.kind == "class" else ()
+            is_sure = "RungeKutta" in {x.rpartition(".")[2] for x in bases}
+            begin = scope.line if is_sure else min(line for _, line in group.places)
+            if len({*group.taken.values()}) > 1 and "gamma1" not in roles:
+                if may_be_coefficients(roles):
+                    self._unread(name, max(line for _, line in group.places), ANEW)
+                continue
+            notes = not_read(group.unread)
+            place = self._place(name, begin, is_sure=is_sure, notes=notes)
+            self._meant.append(Meant(place, roles, PARTS if are_parts else NAMED, bases=bases))
+
+    def _groups(
+        self,
+        values: Mapping[str, Value],
+        lines: Mapping[str, int],
+        scope: ir.Scope,
+        beside: Mapping[str, tuple[str, str]],
+    ) -> Mapping[str, _Group]:
+        """The values whose names tell their roles, by what these names have in common; ``beside``
+        has roles that names alone do not tell.
+        """
         parts = {x: (_PARTS, role) for x, role in roles_of_parts(values).items()}
-        groups: dict[str, Roles] = {}
-        taken: dict[str, dict[str, bool]] = {}
-        places: dict[str, list[tuple[str, int]]] = {}
-        ranks: dict[tuple[str, str], int] = {}
-        unread: dict[str, Roles] = {}
+        groups: dict[str, _Group] = defaultdict(_Group)
         for name, value in values.items():
             owner, _, plain = name.rpartition("::")
             numbered = _NUMBERED.fullmatch(plain) if isinstance(value, Array) else None
@@ -344,52 +401,22 @@ class TableFinder(Evaluator):
                 is_made = isinstance(value, Unknown) or (isinstance(value, Record) and value.kind)
                 is_array = is_made and not _OBJECT.match(described(value))
                 if told is not None and told[1] in BESIDE and is_array:
-                    unread.setdefault(told[0] or owner, {})[told[1]] = value
+                    groups[told[0] or owner].unread[told[1]] = value
                 continue
+            group, place = groups[stem], (name, lines.get(name, scope.line))
             rank = _RANKS.get(plain, -1)
-            is_old = role in _ORDERS and (name, lines.get(name, scope.line)) in self._taken
+            is_old = role in _ORDERS and place in self._taken
             # q and p are the orders of structures, and elsewhere anything
             is_other = role in _ORDERS and len(plain) == 1
-            if is_old or is_other or rank > ranks.setdefault((stem, role), rank):
+            if is_old or is_other or rank > group.ranks.setdefault(role, rank):
                 # the order of the table before; A beside β is the matrix
                 continue
-            ranks[stem, role] = rank
-            groups.setdefault(stem, {})[role] = value
-            places.setdefault(stem, []).append((name, lines.get(name, scope.line)))
+            group.ranks[role] = rank
+            group.roles[role] = value
+            group.places.append(place)
             if role in {"A", "b"}:
-                taken.setdefault(stem, {})[role] = places[stem][-1] in self._taken
-        records = [x for x in values.values() if isinstance(x, Record) and not x.kind]
-        fields = _roles_of(records[0].fields, ROLES) if len(records) == 1 else {}
-        is_table = "A" in fields or "b" in fields
-        orders = {x: fields[x] for x in _ORDERS if x in fields and not is_table}
-        for stem, numbered_roles in groups.items():
-            roles = _with_grid(numbered_roles)
-            if {"A", "c", "gamma"} <= set(roles) and _is_triangle(roles["c"], roles["gamma"]):
-                # α, β, γ are the matrix in one row, the weights and the nodes
-                roles |= {"A": roles["c"], "b": roles["A"], "c": roles.pop("gamma")}
-            if known and not (is_complete(roles) and shown(roles.get("A", NULL)) not in known):
-                continue
-            if not is_complete(roles):
-                b = numbered_roles.get("b 1")
-                if "A 1" in numbered_roles and abs(near(b) - 1) < NEAR:
-                    self._unread(stem or scope.title, places[stem][0][1], NUMBERED)
-                continue
-            roles = orders | roles
-            title = roles.pop("title", None)
-            name = title.text if isinstance(title, Word) else stem.strip() or scope.title
-            # with a hat it is the explicit part
-            are_parts = stem == _PARTS or {"A", "b", "A1", "embedded"} <= set(roles)
-            bases = scope.bases if scope.kind == "class" else ()
-            is_sure = "RungeKutta" in {x.rpartition(".")[2] for x in bases}
-            begin = scope.line if is_sure else min(line for _, line in places[stem])
-            if len({*taken.get(stem, {}).values()}) > 1 and "gamma1" not in roles:
-                if may_be_coefficients(roles):
-                    latest = max(line for _, line in places[stem])
-                    self._unread(name, latest, ANEW)
-                continue
-            notes = not_read(unread.get(stem, {}))
-            place = self._place(name, begin, is_sure=is_sure, notes=notes)
-            self._meant.append(Meant(place, roles, PARTS if are_parts else NAMED, bases=bases))
+                group.taken[role] = place in self._taken
+        return groups
 
     def _of_step(self, scope: ir.Scope, space: Space) -> bool:
         """The method of a function that is a step; whether another one looks like a step."""
