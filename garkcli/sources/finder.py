@@ -86,7 +86,7 @@ class _Group(Mutable):
         ranks: which of several names has each role; the least counts.
         places: their names, with lines.
         taken: whether A and b are in a table already.
-        unread: what is not known of nodes and embedded weights.
+        unread: nodes and embedded weights with unknown entries.
     """
 
     roles: Roles = field(default_factory=dict)
