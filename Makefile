@@ -63,6 +63,7 @@ fuzz: $(READY) ## some minutes of fuzzing, see docs/contributing/fuzzing.md
 pairs: $(READY) ## the theorems of docs/pair-order.md against the certificate, on thousands of random pairs
 	$(BIN)/python -m tests.order.random_pairs --cases 10000 --rules 1000 --spaces 200
 	$(BIN)/python -m tests.order.own_pairs --cases 10000 --trees 300 --seed 1
+	$(BIN)/python -m tests.order.linear_pairs --cases 3000 --seed 1
 
 readback: $(READY) ## every method of the catalogue exported and imported again, in every format, its claims and its certificate judged
 	GARK_WHOLE_CATALOGUE=1 $(BIN)/python -m pytest -n 0 tests/bridges/test_round_trip.py tests/catalogue/test_claims.py tests/integration/test_referee.py tests/methodfile/test_written_again.py
