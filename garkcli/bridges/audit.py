@@ -5,17 +5,18 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
-from typing import Literal, TypeAlias
+from typing import TypeAlias
 
 from flint import fmpq
 
-from garkcli.bridges.elsewhere import declared_orders, order_of
-from garkcli.bridges.judging import Judged, judged
+from garkcli.bridges.elsewhere import declared_orders, with_declared
+from garkcli.bridges.estimates import with_orders
+from garkcli.bridges.finding import AuditFinding
+from garkcli.bridges.judging import Judged, at_least, judged
 from garkcli.bridges.plausible import are_whole, is_plausible
 from garkcli.bridges.readers.registry import find_tables, readers_for
-from garkcli.bridges.said import order_said_of
 from garkcli.bridges.sources import source_text
-from garkcli.bridges.subject import HIGH, Subject, orders_of, read, sum_text, with_orders
+from garkcli.bridges.subject import HIGH, Subject, orders_of, read, sum_text
 from garkcli.check.findings import repair_text, witness_text
 from garkcli.crew.hiring import hired
 from garkcli.crew.work import WorkerLost, in_order
@@ -32,45 +33,13 @@ from garkcli.sources.found import FoundTable
 from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.tableau import Tableau
 
-Level: TypeAlias = Literal["error", "warning", "note"]
-"""Errors fail an audit; warnings and notes are reported."""
 CARELESS = "careless rounding explains it"
+ONE = at_least(1)
+"""The order that the sum 1 of weights is."""
+ROW_SUMS = {"stage-order": at_least(1)}
+"""What nodes are that are row sums, as a method file claims it."""
 MAX_BLAMED = 12
 """Most stages of a table whose wrong entry is sought."""
-
-
-class AuditFinding(Frozen):
-    """What is wrong with a table.
-
-    Attributes:
-        code: a key of ``CODES``.
-        message: what is wrong.
-        help: which entry may be the culprit; empty where none is known.
-        level: how bad it is.
-    """
-
-    code: str
-    message: str
-    help: str = ""
-    level: Level = "error"
-
-
-CODES = {
-    "order": "the order is lower than the source declares",
-    "transposed": "the matrix is transposed",
-    "embedded-order": "the embedded order is lower than the source declares",
-    "nodes": "nodes are not the row sums",
-    "weights": "the weights have another sum than 1",
-    "embedded-weights": "the embedded weights have another sum than 1",
-    "fsal": "the last stage is not the first of the next step",
-    "shape": "arrays of a table do not fit together",
-    "order-higher": "the order is higher than the source declares",
-    "embedded-order-higher": "the embedded order is higher than declared",
-    "open": "the digits leave open whether the order is as declared",
-    "unread": "coefficients are not written out",
-    "other-kind": "the table is not one of a Runge–Kutta method",
-}
-"""Every kind of finding."""
 
 
 class Audited(Frozen, eq=False):
@@ -142,16 +111,12 @@ def audited(
 
 def _done(path: str, orders: Mapping[str, int]) -> list[Audited] | Exception:
     """The tables of one source, or what kept it from being read: both travel between processes."""
-    found = []
+    found: list[Audited | None] = []
     try:
         with doing(path):
             text, source = source_text(path)
-            lines = text.split("\n")
-            for table in find_tables(text, source, readers_for(path)):
-                if not (table.order or table.kind):
-                    said = order_said_of(lines, table.line)
-                    table = replace(table, order=order_of(table, orders), said_order=said)
-                found.append(audit(table))
+            tables = find_tables(text, source, readers_for(path))
+            found += [audit(table) for table in with_declared(tables, text, orders)]
     except Exception as error:
         return error
     return [x for x in found if x is not None]
@@ -180,7 +145,7 @@ def audit(table: FoundTable) -> Audited | None:
         return _noted(table, message) if may_be else None
     is_high = not table.order or table.order >= HIGH
     subject = with_orders(table, method, HIGH if is_high else None)
-    if table.is_assembled and subject.order.order < 2 and not subject.is_slightly_off:
+    if is_unrecognised(subject):
         return _noted(subject.table, UNRECOGNISED)
     return Audited(
         subject.table,
@@ -188,8 +153,19 @@ def audit(table: FoundTable) -> Audited | None:
         subject.order,
         subject.embedded_order,
         subject.nonautonomous,
-        tuple(_weighed(x, subject) for check in CHECKS for x in check(subject)),
+        findings_of(subject),
     )
+
+
+def findings_of(subject: Subject) -> tuple[AuditFinding, ...]:
+    """What is wrong with a table."""
+    return tuple(_weighed(x, subject) for check in CHECKS for x in check(subject))
+
+
+def is_unrecognised(subject: Subject) -> bool:
+    """Whether single numbers that were put together are no method, by what it does."""
+    is_far_off = subject.order.order < 2 and not subject.is_slightly_off
+    return subject.table.is_assembled and is_far_off
 
 
 def _noted(table: FoundTable, message: str, code: str = "unread") -> Audited:
@@ -250,10 +226,11 @@ def _order(subject: Subject) -> Iterator[AuditFinding]:
         yield finding
     elif _is_transposed(subject):
         message = f"with the matrix transposed the order is {declared}"
-        yield AuditFinding("transposed", f"order {found}, declared {declared}: {message}")
+        message = f"order {found}, declared {declared}: {message}"
+        yield AuditFinding("transposed", message, claims=finding.claims)
     elif _is_of_nystrom(subject, declared):
         message = f"order {declared} where q' = p, and else {found}"
-        yield replace(finding, message=message, level="warning")
+        yield replace(finding, message=message, level="warning", claims={})
     else:
         yield replace(finding, help=_culprit(subject, declared))
 
@@ -268,7 +245,8 @@ def _held(
     if found.order > declared:
         return AuditFinding(f"{code}-higher", message, level="warning")
     if not found.is_open:
-        return AuditFinding(code, message + _witness(found, tableau))
+        claims = {code: str(declared)}
+        return AuditFinding(code, message + _witness(found, tableau), claims=claims)
     known = f"{what} {declared} is declared, {found.order} is proved"
     why = f"rounding may be why the conditions of {found.order + 1} fail"
     return AuditFinding("open", f"{known}: {why}", level="note")
@@ -342,11 +320,19 @@ def _embedded(subject: Subject) -> Iterator[AuditFinding]:
     is_known = is_known or declared == subject.order.order < found.order
     if not found.order and not found.is_open:
         total = " and ".join(map(sum_text, embedded))
-        yield AuditFinding("embedded-weights", f"the embedded weights have the sum {total}")
+        claims = {"embedded-order": ONE if declared is None else str(declared)}
+        message = f"the embedded weights have the sum {total}"
+        yield AuditFinding("embedded-weights", message, claims=claims)
     elif not is_known:
         tableau = with_weights(subject.tableau, embedded)
         finding = _held(found, declared, "embedded order", tableau)
         yield from [] if finding is None else [finding]
+
+
+def _sign(subject: Subject) -> Iterator[AuditFinding]:
+    """An error estimate that may be b − b̂ or b̂ − b."""
+    if subject.is_sign_open:
+        yield AuditFinding("sign", subject.sign, level="note")
 
 
 def _weights(subject: Subject) -> Iterator[AuditFinding]:
@@ -354,7 +340,8 @@ def _weights(subject: Subject) -> Iterator[AuditFinding]:
     found = subject.order
     if not (found.order or found.is_open) and subject.table.order is None:
         total = " and ".join(sum_text(colour.b) for colour in subject.tableau.colours)
-        yield AuditFinding("weights", f"the weights have the sum {total}")
+        message = f"the weights have the sum {total}"
+        yield AuditFinding("weights", message, claims={"order": ONE})
 
 
 def _nodes(subject: Subject) -> Iterator[AuditFinding]:
@@ -372,13 +359,15 @@ def _nodes(subject: Subject) -> Iterator[AuditFinding]:
     loses = timed is not None and timed.order < min(wanted, subject.order.order)
     is_upper = not any(any(row[: i + 1]) for i, row in enumerate(subject.block))
     if (loses or declared is None or is_upper) and _is_turned(subject):
-        yield AuditFinding("transposed", "the columns have the nodes for sums")
+        yield AuditFinding("transposed", "the columns have the nodes for sums", claims=ROW_SUMS)
     elif loses and timed is not None:
-        message = f"order {timed.order} where f depends on t, and else {wanted}"
-        yield AuditFinding("nodes", f"{message}: {_listed(rows)}")
+        message = f"order {timed.order} where f depends on t, and else {wanted}: {_listed(rows)}"
+        claims = {"nonautonomous-order": at_least(min(wanted, subject.order.order))}
+        yield AuditFinding("nodes", message, claims=claims)
+    elif declared is None or subject.is_misprinted:
+        yield AuditFinding("nodes", _listed(rows), claims=ROW_SUMS)
     else:
-        is_error = declared is None or subject.is_misprinted
-        yield AuditFinding("nodes", _listed(rows), level="error" if is_error else "note")
+        yield AuditFinding("nodes", _listed(rows), level="note")
 
 
 def _listed(rows: Sequence[str]) -> str:
@@ -401,7 +390,8 @@ def _flags(subject: Subject) -> Iterator[AuditFinding]:
     tolerance = 2 * subject.rounded.tolerance
     pairs = zip(subject.block[-1], subject.tableau.colours[0].b, strict=True)
     if not all(within(x - y, tolerance) for x, y in pairs):
-        yield AuditFinding("fsal", "declared first same as last, and the last row is not b")
+        message = "declared first same as last, and the last row is not b"
+        yield AuditFinding("fsal", message, claims={"fsal": "true"})
 
 
 def _unread(subject: Subject) -> Iterator[AuditFinding]:
@@ -411,5 +401,5 @@ def _unread(subject: Subject) -> Iterator[AuditFinding]:
 
 
 _Check: TypeAlias = Callable[[Subject], Iterator[AuditFinding]]
-CHECKS: tuple[_Check, ...] = (_order, _said, _weights, _nodes, _embedded, _flags, _unread)
+CHECKS: tuple[_Check, ...] = (_order, _said, _weights, _nodes, _embedded, _sign, _flags, _unread)
 """What is examined, in the order in which it is reported."""

@@ -45,14 +45,20 @@ def export(method: AnyMethod, target: str, digits: Whole | None = None) -> str:
 
 
 def import_methods(
-    *paths: AnyPath, format: str | None = None, is_recognising: bool = False
+    *paths: AnyPath,
+    format: str | None = None,
+    is_recognising: bool = False,
+    is_as_found: bool = False,
 ) -> list[MethodFile]:
     """The methods that ``gark import`` finds in files and folders; nothing in them is executed.
+
+    Each claims what its source declares, true or not: ``claims_of`` has what is true.
 
     Args:
         paths: of the sources.
         format: what they are; by default what their names end with says it.
         is_recognising: whether to look for the exact forms of decimals.
+        is_as_found: whether they claim what is true instead of what their sources declare.
 
     Raises:
         UsageProblem: a source cannot be read, or there is no such format.
@@ -60,7 +66,7 @@ def import_methods(
     >>> import_methods("tests/bridges/sources/kutta.csv")
     [<MethodFile kutta: 1 colour, stages 3>]
     """
-    results = collected(_files(paths), format, is_recognising)
+    results = collected(_files(paths), format, is_recognising, is_as_found)
     return [result.method.method for result in results if result.method is not None]
 
 

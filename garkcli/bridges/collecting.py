@@ -3,23 +3,31 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import chain, count
 from pathlib import PurePath
 
+from garkcli.bridges.audit import is_unrecognised
+from garkcli.bridges.claiming import imported
+from garkcli.bridges.elsewhere import declared_orders, with_declared
+from garkcli.bridges.finding import AuditFinding
 from garkcli.bridges.plausible import is_plausible
 from garkcli.bridges.readers.registry import find_tables, reader_named, readers_for
 from garkcli.bridges.recognising import Recognised, recognised
 from garkcli.bridges.sources import STDIN_NAME, source_text
-from garkcli.bridges.subject import Subject, imported
+from garkcli.bridges.subject import Subject
+from garkcli.doing import counting
 from garkcli.errors import MethodFileError
 from garkcli.exact.display import decimal
 from garkcli.frozen import Frozen, replace
 from garkcli.methodfile.reading import no_one
 from garkcli.page.plaintext import plain_line
+from garkcli.sources.finder import UNRECOGNISED
 from garkcli.sources.found import FoundTable
 
 SUFFIX = ".gark.yaml"
+_SAID = {"unread", "sign"}
+"""Findings that are notes already."""
 _SMALL = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
 
 
@@ -41,12 +49,18 @@ class Result(Frozen, eq=False):
     trouble: str = ""
 
     @property
+    def errors(self) -> Sequence[AuditFinding]:
+        """What its source declares and is not true, or cannot be."""
+        findings = () if self.method is None else self.method.findings
+        return [x for x in findings if x.level == "error" or x.claims]
+
+    @property
     def file_name(self) -> str:
         """The name of the method file."""
         return f"{self.stem}{SUFFIX}"
 
     def notes(self) -> Iterator[str]:
-        """What people should know, a sentence each."""
+        """What else people should know, a sentence each."""
         yield from self.table.notes
         if self.trouble:
             yield self.trouble
@@ -55,12 +69,12 @@ class Result(Frozen, eq=False):
         tolerance = self.method.tolerance
         if tolerance:
             yield f"coefficients are rounded: tolerance {decimal(tolerance)}"
-        found = self.method.order.order
-        declared = self.table.order
-        if declared is not None and declared != found:
-            yield f"the source declares order {declared}, found is {found}"
-        if self.method.order.is_open:
-            yield f"its digits do not decide whether it has order {found + 1}"
+        told = [x for x in self.method.findings if x not in self.errors and x.code not in _SAID]
+        yield from (x.message for x in told)
+        if self.method.sign:
+            yield self.method.sign
+        if self.method.order.is_open and not any(x.code == "open" for x in told):
+            yield f"its digits do not decide whether it has order {self.method.order.order + 1}"
         if self.recognised is not None:
             yield from self.recognised.notes()
 
@@ -69,6 +83,7 @@ def collected(
     paths: Iterable[str],
     format: str | None = None,
     is_recognising: bool = False,
+    is_as_found: bool = False,
     left_out: Callable[[FoundTable], None] = no_one,
 ) -> Iterator[Result]:
     """The tables of all sources, in order.
@@ -77,6 +92,7 @@ def collected(
         paths: files, ``-`` for standard input.
         format: what they are; None for what the endings of their names say.
         is_recognising: whether exact forms of decimals are sought.
+        is_as_found: whether the files claim what is true instead of what their sources declare.
         left_out: who hears of tables that are left out, as they may be no methods.
 
     Raises:
@@ -84,13 +100,16 @@ def collected(
     """
     chosen = None if format is None else [reader_named(format)]
     used: set[str] = set()
-    for path in paths:
+    given = list(paths)
+    orders = declared_orders(given)
+    for path in counting("sources", given, len(given)):
         text, source = source_text(path)
-        for table in find_tables(text, source, chosen or readers_for(path)):
+        found = find_tables(text, source, chosen or readers_for(path))
+        for table in with_declared(found, text, orders):
             if table.is_unlike:
                 continue
             name = plain_line(table.name) or default_name(source)
-            result = _result(table, name, is_recognising)
+            result = _result(table, name, is_recognising, is_as_found)
             method = result.method
             is_other = method is not None and not is_plausible(table, method.method)
             # who names the format means the arrays that are there
@@ -100,18 +119,20 @@ def collected(
             yield replace(result, stem=_unique(stem_of(name), used))
 
 
-def _result(table: FoundTable, name: str, is_recognising: bool) -> Result:
+def _result(table: FoundTable, name: str, is_recognising: bool, is_as_found: bool) -> Result:
     if table.kind:
         return Result(table, trouble=f"a {table.kind} table is none of a Runge–Kutta method")
     if table.trouble:
         return Result(table, trouble=table.trouble)
     try:
-        method = imported(table, name)
+        method = imported(table, name, is_as_found)
     except MethodFileError as error:
         return Result(table, trouble=error.faults[0].message)
+    if table.order and is_unrecognised(method):
+        return Result(table, trouble=UNRECOGNISED)
     if not is_recognising:
         return Result(table, method=method)
-    found = recognised(method, name)
+    found = recognised(method, name, is_as_found)
     return Result(table, method=found.method, recognised=found)
 
 

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from textwrap import dedent
 
+from garkcli.bridges.said import order_said_of
 from garkcli.bridges.sources import source_text
 from garkcli.errors import UsageProblem
+from garkcli.frozen import replace
 from garkcli.sources.found import FoundTable
 
 _OF_ALGORITHM = re.compile(
@@ -60,6 +62,25 @@ def orders_in(text: str) -> list[tuple[str, int]]:
             names = [match["name"], *(x["name"] for x in _USED.finditer(body))]
             found += [(name, int(order["n"])) for name in names]
     return found
+
+
+def with_declared(
+    tables: Iterable[FoundTable], text: str, orders: Mapping[str, int]
+) -> Iterator[FoundTable]:
+    """Tables with the order that their source tree declares for them, and the one that words say.
+
+    Args:
+        tables: as they were found.
+        text: of their source.
+        orders: those that the source tree declares, by names.
+    """
+    lines = text.split("\n")
+    for table in tables:
+        if table.order or table.kind:
+            yield table
+        else:
+            said = order_said_of(lines, table.line)
+            yield replace(table, order=order_of(table, orders), said_order=said)
 
 
 def order_of(table: FoundTable, orders: Mapping[str, int]) -> int | None:

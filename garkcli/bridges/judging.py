@@ -47,7 +47,12 @@ class Judged(Frozen, eq=False):
     @property
     def claim(self) -> str:
         """The order as a method file claims it."""
-        return f'">= {self.order}"' if self.is_limited else str(self.order)
+        return at_least(self.order) if self.is_limited else str(self.order)
+
+
+def at_least(order: int) -> str:
+    """An order and all higher ones, as a method file claims them."""
+    return f'">= {order}"'
 
 
 class Digits(Frozen):

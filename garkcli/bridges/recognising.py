@@ -10,8 +10,9 @@ from typing import Any
 
 from flint import arb, ctx, fmpq, fmpq_poly
 
+from garkcli.bridges.claiming import imported
 from garkcli.bridges.importing import numbers_of
-from garkcli.bridges.subject import Subject, imported
+from garkcli.bridges.subject import Subject
 from garkcli.design.search.recognise import minimal_polynomial, rational
 from garkcli.errors import MethodFileError
 from garkcli.exact.display import decimal
@@ -76,12 +77,13 @@ class Recognised(Frozen):
         yield from (f"{text} stays a decimal" for text in self.left)
 
 
-def recognised(before: Subject, name: str) -> Recognised:
+def recognised(before: Subject, name: str, is_as_found: bool = False) -> Recognised:
     """The method with exact numbers, as many as the certificate of the order bears out.
 
     Args:
         before: as it was imported.
         name: what its file calls it.
+        is_as_found: whether the file claims what is true instead of what the source declares.
     """
     texts = dict.fromkeys(numbers_of(before.table))
     decimals = [x for x in texts if _digits(x) >= FEWEST_DIGITS]
@@ -91,7 +93,7 @@ def recognised(before: Subject, name: str) -> Recognised:
     kept = sorted(filter(None, found.values()), key=lambda x: len(x.exact))
     refused: list[Proposal] = []
     while kept:
-        after = _with(before.table, {x.printed: x.exact for x in kept}, name)
+        after = _with(before.table, {x.printed: x.exact for x in kept}, name, is_as_found)
         if after is not None and all(map(ge, _orders(after), _orders(before))):
             return Recognised(after, tuple(kept), tuple(refused), left)
         refused.append(kept.pop())
@@ -102,7 +104,9 @@ def _orders(found: Subject) -> list[int]:
     return [x.order for x in (found.order, found.embedded_order) if x is not None]
 
 
-def _with(table: FoundTable, exact: Mapping[str, str], name: str) -> Subject | None:
+def _with(
+    table: FoundTable, exact: Mapping[str, str], name: str, is_as_found: bool
+) -> Subject | None:
     """The method with other texts; what the source says of its rounding goes."""
 
     def changed(value: Any) -> Any:
@@ -110,7 +114,7 @@ def _with(table: FoundTable, exact: Mapping[str, str], name: str) -> Subject | N
 
     numbers = {key: changed(getattr(table, key)) for key in ("A", "b", "c", "embedded")}
     try:
-        return imported(replace(table, **numbers, tolerance=""), name)
+        return imported(replace(table, **numbers, tolerance=""), name, is_as_found)
     except MethodFileError:
         return None
 

@@ -1,5 +1,5 @@
-"""From a table that was found to a method: its orders, its rounding, its file, and what several
-checks of an audit need once.
+"""From a table that was found to a method: its orders, its rounding, and what several checks of an
+audit need once.
 """
 
 from __future__ import annotations
@@ -9,13 +9,14 @@ from functools import cached_property
 
 from flint import fmpq
 
+from garkcli.bridges.finding import AuditFinding
 from garkcli.bridges.importing import fmpq_of, fraction_of, numbers_of, place_of, written
 from garkcli.bridges.judging import Digits, Judged, judged
 from garkcli.exact.display import to_ball, to_decimal, to_text
 from garkcli.exact.expression import parse
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Matrix
-from garkcli.frozen import Frozen, replace
+from garkcli.frozen import Frozen
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.load import loads
 from garkcli.methodfile.printed import FEWEST_DIGITS
@@ -43,6 +44,10 @@ class Subject(Frozen, eq=False):
         order: of the method, exactly or within the rounding of its digits.
         embedded_order: the same with the embedded weights; None without them.
         text: of the method file, where there is one.
+        sign: which sign an error estimate is read with, and why; empty where there is none, or the
+            source fixes it.
+        is_sign_open: whether nothing decides it.
+        findings: what is wrong with it, where that is examined.
     """
 
     table: FoundTable
@@ -50,6 +55,9 @@ class Subject(Frozen, eq=False):
     order: Judged
     embedded_order: Judged | None
     text: str = ""
+    sign: str = ""
+    is_sign_open: bool = False
+    findings: tuple[AuditFinding, ...] = ()
 
     @property
     def tolerance(self) -> fmpq | None:
@@ -148,27 +156,6 @@ class Subject(Frozen, eq=False):
         return bool(rounded.tolerance) and find_order_within(rounded, wanted).order >= wanted
 
 
-def imported(table: FoundTable, name: str) -> Subject:
-    """The method of a table, with the claims that hold.
-
-    Args:
-        table: as it was found.
-        name: what the method file calls it.
-
-    Raises:
-        MethodFileError: its numbers make no method.
-    """
-    found = with_orders(table, read(table, name))
-    claims, tolerances = {}, [fmpq_of(table.tolerance)] if table.tolerance else []
-    for key, order in (("order", found.order), ("embedded-order", found.embedded_order)):
-        if order is not None and order.order:
-            claims[key] = order.claim
-        if order is not None and order.tolerance is not None:
-            tolerances.append(order.tolerance)
-    text = written(found.table, name, max(tolerances, default=None), claims)
-    return replace(found, method=loads(text, place_of(table)), text=text)
-
-
 def read(table: FoundTable, name: str = "") -> MethodFile:
     """The method of a table as it is, with no tolerance.
 
@@ -176,29 +163,6 @@ def read(table: FoundTable, name: str = "") -> MethodFile:
         MethodFileError: its numbers make no method.
     """
     return loads(written(table, name, None, {}), place_of(table))
-
-
-def with_orders(table: FoundTable, method: MethodFile, limit: int | None = None) -> Subject:
-    """A table and its method with their orders, up to ``limit``.
-
-    An error estimate E means the embedded weights b − E or b + E: those of the declared order, else
-    those of the higher order. Both have the same order where it is lower than that of b, as E then
-    misses a condition, but for sums of weights that rounding spoils in one of them.
-
-    Raises:
-        MethodFileError: the numbers of the other sign make no method.
-    """
-    found = Subject(table, method, *orders_of(method, table, limit))
-    embedded, declared = found.embedded_order, table.embedded_order
-    if table.turned is None or embedded is None:
-        return found
-    if 0 < embedded.order < found.order.order and declared in (None, embedded.order):
-        return found
-    turned = replace(table, embedded=table.turned, turned=None)
-    other = read(turned, method.name)
-    _, low = orders_of(other, turned, limit)
-    fits = [(x.order == declared, x.order) for x in (low, embedded) if x is not None]
-    return found if fits[0] <= fits[-1] else Subject(turned, other, found.order, low)
 
 
 def orders_of(

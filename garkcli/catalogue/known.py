@@ -84,9 +84,14 @@ def find_known(analysis: Analysis, text: str) -> Known | None:
         analysis: what was found of it.
         text: of its file; a file of the catalogue is not told that it is itself.
     """
+    return known_of(_of_analysis(analysis), text)
+
+
+def known_of(method: GarkMethod, text: str = "") -> Known | None:
+    """The same for a method and its embedded weights, wherever they are from."""
     from garkcli.methodfile.shelves import package
 
-    tableau = analysis.tableau
+    tableau = method.tableau
     if sum(space.stages for space in tableau.spaces) > MOST_STAGES:
         return None
     number, shelf = fingerprint(tableau), package()
@@ -95,7 +100,7 @@ def find_known(analysis: Analysis, text: str) -> Known | None:
     texts = {name: shelf.methods[name][0].read() for _, name in near}
     if not texts or text in texts.values():
         return None
-    return _first_same(_of_analysis(analysis), texts)
+    return _first_same(method, texts)
 
 
 def _of_analysis(analysis: Analysis) -> GarkMethod:

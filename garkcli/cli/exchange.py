@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from garkcli.cli.options import Given, Output, declared
-from garkcli.doing import counting
+from garkcli.cli.streams import say
 from garkcli.errors import UsageProblem, counted, printable
 from garkcli.tell.report import FORMATS
 
@@ -40,14 +40,17 @@ def export(given: Given, output: Output) -> None:
 
 
 @declared("import", (*FORMATS, "yaml"))
-def import_(given: Given, output: Output) -> None:
+def import_(given: Given, output: Output) -> int:
     """Methods out of other people's sources: C, Python, MATLAB, Julia, LaTeX, JSON and others.
 
     SOURCE is a file, a folder (all files in it of the formats that gark reads), or - for standard
-    input; gark executes nothing in it. Each table becomes a method file that claims its order.
-    Decimals of many digits count as rounded, and the file says within which tolerance.
+    input; gark executes nothing in it. Each table becomes a method file that claims the orders
+    which its source declares, true or not, and without a declaration those that it has. --as-found
+    claims what is true. Decimals of many digits count as rounded, and the file says within which
+    tolerance.
 
-    Exit code: 0 methods were found, 2 there is none.
+    Exit code: 0 methods were found, 1 one is not what its source declares, so that gark check
+    fails its file (not with --as-found), 2 there is none.
     """
     from garkcli.bridges.collecting import collected
     from garkcli.bridges.sources import source_files
@@ -59,8 +62,7 @@ def import_(given: Given, output: Output) -> None:
         make_folder(given.folder)
     paths = list(source_files(given.sources, output.note))
     left_out: list[FoundTable] = []
-    read = counting("sources", paths, len(paths))
-    results = list(collected(read, **given.of("import_methods"), left_out=left_out.append))
+    results = list(collected(paths, **given.of("import_methods"), left_out=left_out.append))
     if not any(result.method is not None for result in results):
         raise _nothing(given.sources, len(paths), results, left_out)
     for table in left_out:
@@ -75,6 +77,26 @@ def import_(given: Given, output: Output) -> None:
     else:
         output.tell(REPORT, all_found(results, files))
     _tell_unread([x for x in results if x.method is None], output)
+    wrong = [x for x in results if x.errors]
+    if output.format == "yaml":
+        _tell_wrong(wrong)
+    if not wrong or given.as_found:
+        return 0
+    verb = "is" if len(wrong) == 1 else "are"
+    message = f"{counted(len(wrong), 'method')} {verb} not what the source declares"
+    output.note(f"{message}: gark check fails there, --as-found claims what is true")
+    return 1
+
+
+def _tell_wrong(results: Sequence[Result]) -> None:
+    """What sources declare and is not true, beside method files: each table, and the cure."""
+    for result in results:
+        table = result.table
+        place = f"{printable(table.source)}:{table.line} {printable(table.name)}".rstrip()
+        for finding in result.errors:
+            say(f"{place}: {finding.message}")
+            if finding.help:
+                say(f"help: {finding.help}")
 
 
 def _tell_unread(unread: Sequence[Result], output: Output) -> None:

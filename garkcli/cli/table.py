@@ -256,6 +256,8 @@ export --digits N 1..1000 = export.digits
     | The format of SOURCE; by default gark goes by its name or content.
 --recognise = import_methods.is_recognising
     | Replace decimals by exact numbers if the order does not fall.
+--as-found = import_methods.is_as_found
+    | Claim what is true, not what SOURCE declares.
 audit -j --jobs N 0..60 jobs = audit.jobs
     | The number of processes; 0 is one per processor.
 audit --strict | Fail if gark could not read a possible table.
@@ -346,7 +348,7 @@ designing: sweep SPEC | many methods compared: which are best?
 [Exchange and CI]
 exchange: import SOURCE... | methods from C, Python, MATLAB, Julia, LaTeX, JSON and others
     = import_methods
-    --from --recognise --output-dir
+    --from --recognise --as-found --output-dir
 exchange: export FILE | a method for SciPy, SUNDIALS, PETSc, C, JSON and others
     = export
     --conjugate --pair --to --digits --test --set

@@ -7,7 +7,8 @@ from functools import partial
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from garkcli.bridges.audit import CODES, Audited, AuditFinding
+from garkcli.bridges.audit import Audited
+from garkcli.bridges.finding import CODES, AuditFinding
 from garkcli.check.findings import Finding, fingerprint
 from garkcli.errors import counted
 from garkcli.page.paint import Paint
@@ -20,6 +21,7 @@ from garkcli.tell.report import Report
 
 if TYPE_CHECKING:
     from garkcli.bridges.judging import Judged
+    from garkcli.bridges.subject import Subject
     from garkcli.tell.dialect import Plain
 
 HEADLINE, USUAL, DETAIL, DATA = Level
@@ -48,7 +50,7 @@ def _is_doubtful(found: Audited) -> bool:
     return any(x.level != "note" for x in found.findings)
 
 
-def _title(found: Audited, d: Plain) -> str:
+def place_and_orders(found: Audited | Subject, d: Plain) -> str:
     """Where a table is, and its orders."""
     words = [] if found.order is None else [f"order {_least(found.order)}"]
     if words and found.embedded_order is not None:
@@ -134,10 +136,11 @@ TABLE = Section(
     _count("nonautonomous_order", lambda x: _number(x.nonautonomous_order)),
     Row("findings", parts(FINDING), level=DATA),
     Row("findings_in_words", rows_of(_finding_rows), "findings", DETAIL),
-    title=_title,
+    title=place_and_orders,
 )
 WRONG = Section(
-    Row("findings_in_words", rows_of(_finding_rows), "1"), title=lambda x, d: _title(x[0], d)
+    Row("findings_in_words", rows_of(_finding_rows), "1"),
+    title=lambda x, d: place_and_orders(x[0], d),
 )
 SUMMARY = Section(
     Row("tables", COUNT, len), Row("wrong", COUNT, _errors), Row("unread", COUNT, _unread)

@@ -6,8 +6,11 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from garkcli.bridges.collecting import Result
+from garkcli.bridges.finding import AuditFinding
+from garkcli.bridges.subject import Subject
 from garkcli.errors import counted
 from garkcli.frozen import replace
+from garkcli.report.audited import FINDING, MOST, WRONG
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Answer, Level, Row, Section, Status, maybe
 from garkcli.tell.kinds import COUNT, POSITION, TEXT, TEXTS
@@ -48,6 +51,19 @@ def _notes(found: Sequence[Found]) -> list[tuple[str, str]]:
     return [(x.name, note) for x in found for note in x.result.notes()]
 
 
+def _wrong(found: Sequence[Found]) -> list[tuple[Subject, Sequence[AuditFinding]]]:
+    """The methods that are not what their sources declare."""
+    results = (x.result for x in found)
+    return [(x.method, x.errors) for x in results if x.method is not None and x.errors]
+
+
+def _title(found: Sequence[Found], _: Plain) -> str:
+    """How many methods there are, and how many are wrong."""
+    told = counted(sum(x.result.method is not None for x in found), "method")
+    wrong = len(_wrong(found))
+    return f"{told}, {wrong} wrong" if wrong else told
+
+
 def _texts(found: Sequence[Found], _: Plain) -> list[str]:
     """The method files."""
     return [line for x in found if x.result.method for line in x.result.method.text.splitlines()]
@@ -67,6 +83,7 @@ METHOD = Section(
     maybe("file", TEXT),
     *SIZES,
     Row("notes", TEXTS, lambda x: [*x.result.notes()]),
+    Row("findings", parts(FINDING), "result.errors"),
 )
 LINE = Section(
     Row("name", TEXT, label=""),
@@ -82,8 +99,9 @@ REPORT: Report[Sequence[Found]] = Report.only(
         Row("methods", parts(METHOD), ".", DATA),
         Row("name", shown(LINE, 0), "."),
         Row("name", shown(NOTE, 0), _notes),
+        Row("wrong_methods", shown(WRONG, MOST), _wrong, is_short=True),
         Row("texts", picture(_texts), ".", DETAIL),
-        title=lambda x, _: counted(sum(y.result.method is not None for y in x), "method"),
+        title=_title,
     ),
 )
 

@@ -513,6 +513,9 @@ def _with_embedded(table: FoundTable, roles: Roles, meant: Meant) -> FoundTable:
     if any("RungeKutta" in x for x in meant.bases):
         # E is b̂ − b in the classes of SciPy
         return replace(table, embedded=(high,))
+    if "error" in meant.signature.roles:
+        # and b − b̂ in NDSolve and torchdiffeq
+        return replace(table, embedded=(low,))
     return replace(table, embedded=(low,), turned=(high,))
 
 

@@ -7,8 +7,8 @@ from decimal import Decimal
 import pytest
 from flint import arb, fmpq
 
+from garkcli.bridges.claiming import imported
 from garkcli.bridges.recognising import proposed, recognised
-from garkcli.bridges.subject import imported
 from garkcli.exact.display import to_decimal
 from garkcli.families.registry import diagonal_method
 from garkcli.sources.found import FoundTable

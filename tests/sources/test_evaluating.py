@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from garkcli.bridges.audit import audit
-from garkcli.bridges.subject import imported
+from garkcli.bridges.claiming import imported
 from garkcli.exact.display import to_text
 from garkcli.sources.found import FoundTable
 from garkcli.sources.languages import c, fortran, julia, matlab, python

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from garkcli.bridges.subject import imported
+from garkcli.bridges.claiming import imported
 from garkcli.sources.languages import julia, python
 
 HEUN = "A=[[0, 0], [1, 0]], b=[0.5, 0.5], c=[0, 1]"

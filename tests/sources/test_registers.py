@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from garkcli.bridges.audit import audit
-from garkcli.bridges.subject import imported
+from garkcli.bridges.claiming import imported
 from garkcli.frozen import replace
 from garkcli.methodfile.load import load
 from garkcli.sources.found import FoundTable

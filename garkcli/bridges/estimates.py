@@ -1,0 +1,74 @@
+"""Error estimates E of which a source does not say whether they are b − b̂ or b̂ − b."""
+
+from __future__ import annotations
+
+from garkcli.bridges.subject import Subject, orders_of, read
+from garkcli.frozen import replace
+from garkcli.methodfile.build import MethodFile
+from garkcli.sources.found import FoundTable
+
+
+def with_orders(table: FoundTable, method: MethodFile, limit: int | None = None) -> Subject:
+    """A table and its method with their orders, up to ``limit``.
+
+    An estimate E means the embedded weights b − E or b + E: those of the declared order, else those
+    of the higher order, else those of a published pair. Conditions are linear in the weights: where
+    E misses one that b meets, b − E and b + E miss it both. So their orders differ only where that
+    of b̂ is the higher one, or where rounding spoils one of them.
+
+    Raises:
+        MethodFileError: the numbers of the other sign make no method.
+    """
+    minus = Subject(table, method, *orders_of(method, table, limit))
+    if table.turned is None or minus.embedded_order is None:
+        return minus
+    plus = _turned(minus, limit)
+    signs = {minus: "b - E", plus: "b + E"}
+    fits = {each: _fit(each) for each in signs}
+    if fits[minus] != fits[plus]:
+        worse, better = sorted(signs, key=fits.__getitem__)
+        sign = f"{_order(better)} with the embedded weights {signs[better]}, as they are read"
+        return replace(better, sign=f"{sign}, and {_order(worse)} with {signs[worse]}")
+    name, chosen = _published(plus), plus
+    if not name:
+        name, chosen = _published(minus), minus
+    other = plus if chosen is minus else minus
+    sign = f"the embedded weights are read as {signs[chosen]}"
+    sign += f", as in {name} of the catalogue" if name else ", as no sign is known"
+    sign += f"; {signs[other]} has the same order, and the estimate the same size"
+    return replace(chosen, sign=sign, is_sign_open=not name)
+
+
+def _turned(minus: Subject, limit: int | None) -> Subject:
+    """The other sign of an estimate."""
+    table = replace(minus.table, embedded=minus.table.turned, turned=None)
+    plus = Subject(table, read(table, minus.method.name), minus.order, minus.embedded_order)
+    found, declared = minus.embedded_order, table.embedded_order
+    assert found is not None
+    if 0 < found.order < minus.order.order and declared in (None, found.order):
+        return plus
+    return replace(plus, embedded_order=orders_of(plus.method, table, limit)[1])
+
+
+def _fit(found: Subject) -> tuple[bool, int]:
+    """How well an estimate fits: whether it has the declared order, and its order."""
+    order = _number(found)
+    return order == found.table.embedded_order, order
+
+
+def _number(found: Subject) -> int:
+    return 0 if found.embedded_order is None else found.embedded_order.order
+
+
+def _order(found: Subject) -> str:
+    return f"order {_number(found)}"
+
+
+def _published(found: Subject) -> str:
+    """The name of the published pair that a method is with its embedded weights; empty where it is
+    none.
+    """
+    from garkcli.catalogue.known import known_of
+
+    known = known_of(found.method)
+    return "" if known is None or known.step_only else known.method

@@ -1,0 +1,82 @@
+"""Error estimates that may be b − b̂ or b̂ − b: which is read, and what decides it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from garkcli.bridges.audit import audited
+from garkcli.bridges.collecting import Result, collected
+from tests.cli.harness import gark
+
+SHAMPINE = """
+class BS23:
+    order = 3
+    C = [0, 1/2, 3/4]
+    A = [[0, 0, 0], [1/2, 0, 0], [0, 3/4, 0]]
+    B = [2/9, 1/3, 4/9]
+    E = [{}]
+"""
+E = "5/72, -1/12, -1/9, 1/8"
+MINUS_E = "-5/72, 1/12, 1/9, -1/8"
+LOW = ("7/24", "1/4", "1/3", "1/8")
+"""The embedded weights that Bogacki and Shampine published."""
+
+
+def imported(text: str, tmp_path: Path) -> Result:
+    """The only method of a source in Python."""
+    path = tmp_path / "solver.py"
+    path.write_text(text, encoding="utf-8")
+    (found,) = collected([str(path)])
+    return found
+
+
+def weights(found: Result) -> tuple[str, ...]:
+    """The embedded weights that were read."""
+    assert found.method is not None
+    (row,) = found.method.method.embedded or ()
+    return tuple(map(str, row))
+
+
+def test_a_published_pair_decides(tmp_path: Path) -> None:
+    """Either sign of E gives the pair as it is published, and the report says which was read."""
+    for text, sign in ((E, "b + E"), (MINUS_E, "b - E")):
+        found = imported(SHAMPINE.format(text), tmp_path)
+        assert weights(found) == LOW
+        (note,) = found.notes()
+        assert note.startswith(f"the embedded weights are read as {sign}, as in bogacki-shampine-3")
+
+
+def test_nothing_decides(tmp_path: Path) -> None:
+    """Half the estimate is no published pair: b − E is written, and import and audit say so."""
+    found = imported(SHAMPINE.format("5/144, -1/24, -1/18, 1/16"), tmp_path)
+    (note,) = found.notes()
+    assert "read as b - E, as no sign is known; b + E has the same order" in note
+    (read,) = audited([str(tmp_path / "solver.py")])
+    assert [(x.code, x.level, x.message) for x in read.findings] == [("sign", "note", note)]
+    assert "as no sign is known" in " ".join(gark("import", "solver.py", cwd=tmp_path).out.split())
+
+
+def test_the_orders_decide(tmp_path: Path) -> None:
+    """The midpoint rule beside Euler's, with weights of the higher order for b̂: one sign has order
+    2, the other one order 1, which is proved by the conditions of order 2.
+    """
+    text = "A = [[0, 0], [1/2, 0]]\nb = [1, 0]\nc = [0, 1/2]\nerr = [{}]\norder = 1\n"
+    for error, sign, other in (("1, -1", "b - E", "b + E"), ("-1, 1", "b + E", "b - E")):
+        found = imported(text.format(error), tmp_path)
+        assert weights(found) == ("0", "1")
+        assert [*found.notes()] == [
+            f"order 2 with the embedded weights {sign}, as they are read, and order 1 with {other}"
+        ]
+        (read,) = audited([str(tmp_path / "solver.py")])
+        assert read.findings == ()
+
+
+def test_a_library_fixes_the_sign(tmp_path: Path) -> None:
+    """Nothing is left to say: SciPy has b̂ − b, torchdiffeq b − b̂."""
+    scipy = SHAMPINE.format(E).replace("BS23", "BS23(RungeKutta)")
+    found = imported(scipy, tmp_path)
+    assert (weights(found), [*found.notes()]) == (LOW, [])
+    call = "_ButcherTableau(alpha=[1/2, 3/4, 1], beta=[[1/2], [0, 3/4], [2/9, 1/3, 4/9]], {}"
+    torch = call.format(f"c_sol=[2/9, 1/3, 4/9, 0], c_error=[{MINUS_E}])")
+    found = imported(f"bs23 = {torch}\n", tmp_path)
+    assert (weights(found), [*found.notes()]) == (LOW, [])
