@@ -11,6 +11,7 @@ import click
 
 from garkcli.check.check_file import check_file
 from garkcli.check.outcome import Outcome
+from garkcli.cli.endings import settled
 from garkcli.cli.options import Given, Output, declared
 from garkcli.cli.project import Project, find_project
 from garkcli.crew.hiring import hired
@@ -49,9 +50,12 @@ def check(given: Given, output: Output) -> int:
     # what the project says in place of options that are not given
     source = click.get_current_context().get_parameter_source
     for name, value in project.defaults.items():
-        if source(name) is click.core.ParameterSource.DEFAULT:
+        is_said = name == "format" and output.is_by_ending
+        if source(name) is click.core.ParameterSource.DEFAULT and not is_said:
             setattr(output if name == "format" else given, name, value)
     if given.baseline is not None:
+        if output.path is not None:
+            settled(output.path, ["text"])
         return _compare(project, given, output)
     outcomes = _outcomes(project, given, output)
     output.suit()
@@ -71,7 +75,7 @@ def _explain(key: str, output: Output) -> int:
     from garkcli.tell.report import FORMATS as TOLD
 
     if output.format not in TOLD:
-        output.format = "text"
+        output.format = (output.path and settled(output.path, TOLD)) or "text"
     output.tell(REPORT, *told(key, [claim_meaning(key)]))
     return 0
 

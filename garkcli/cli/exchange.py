@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from garkcli.cli.endings import CURES, ENDINGS, ending_of
 from garkcli.cli.options import Given, Output, declared
 from garkcli.cli.streams import say
 from garkcli.errors import UsageProblem, counted, printable
@@ -13,6 +14,7 @@ from garkcli.tell.report import FORMATS
 
 if TYPE_CHECKING:
     from garkcli.bridges.collecting import Result
+    from garkcli.bridges.registry import Bridge
     from garkcli.sources.found import FoundTable
 
 
@@ -27,6 +29,8 @@ def export(given: Given, output: Output) -> None:
     from garkcli.bridges.registry import bridge_named
 
     bridge = bridge_named(given.to)
+    if output.path is not None:
+        _refuse_other_ending(output.path, bridge)
     if given.test and bridge.words is None:
         message = f"{bridge.name} is data, not a program"
         raise UsageProblem(message, "leave out --test", code="cannot-export")
@@ -37,6 +41,27 @@ def export(given: Given, output: Output) -> None:
     output.write(table, bridge.name)
     for ending, text in beside.items():
         Output(path=str(path.with_name(path.stem + ending))).write(text)
+
+
+def _refuse_other_ending(path: str, bridge: Bridge) -> None:
+    """Refuse a file whose ending is that of another target.
+
+    Raises:
+        UsageProblem: it is.
+    """
+    ending, held = ending_of(path), ENDINGS.get(bridge.suffix.lower(), ())
+    if not ending or {*held} & {*ENDINGS[ending]}:
+        return
+    from garkcli.bridges.registry import bridges
+
+    others = [x.name for x in bridges().values() if x.suffix.lower() == ending]
+    cures = [f"choose the ending {bridge.suffix}"]
+    if others:
+        cures.append(f"--to {' or '.join(others)} writes {ending} files")
+    elif ENDINGS[ending] == ("yaml",):
+        cures.append(CURES["yaml"])
+    message = f"-o {path}: {bridge.name} is not for a {ending} file"
+    raise UsageProblem(message, "; ".join(cures), code="wrong-ending")
 
 
 @declared("import", (*FORMATS, "yaml"))
@@ -65,6 +90,8 @@ def import_(given: Given, output: Output) -> int:
     results = list(collected(paths, **given.of("import_methods"), left_out=left_out.append))
     if not any(result.method is not None for result in results):
         raise _nothing(given.sources, len(paths), results, left_out)
+    if output.path is not None and output.format == "yaml":
+        _refuse_several(results, output.path)
     for table in left_out:
         # of a folder one expects other arrays of such names
         if table.source in given.sources:
@@ -97,6 +124,21 @@ def _tell_wrong(results: Sequence[Result]) -> None:
             say(f"{place}: {finding.message}")
             if finding.help:
                 say(f"help: {finding.help}")
+
+
+def _refuse_several(results: Sequence[Result], path: str) -> None:
+    """Refuse to write several methods into one method file.
+
+    Raises:
+        UsageProblem: there are several.
+    """
+    names = [x.table.name or x.stem for x in results if x.method is not None]
+    if len(names) > 1 and ending_of(path):
+        more = f" and {len(names) - 8} more" if len(names) > 8 else ""
+        listed = ", ".join(map(printable, names[:8])) + more
+        message = f"-o {path} is one method file, and {len(names)} methods are found: {listed}"
+        cure = "--output-dir DIR writes a file for each"
+        raise UsageProblem(message, cure, code="wrong-ending")
 
 
 def _tell_unread(unread: Sequence[Result], output: Output) -> None:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from garkcli.cli.endings import settled
 from garkcli.cli.options import Given, Output, declared
 from garkcli.cli.streams import is_terminal
 from garkcli.doing import hush
@@ -31,6 +32,8 @@ def new(given: Given, output: Output) -> None:
     from garkcli.methodfile.template import of_families
 
     place: str | None = output.path if given.file is None else given.file
+    if given.file is not None:
+        settled(given.file, ["yaml"], option="FILE")
     output.check_place(place)
     if place is not None and os.path.exists(place) and not given.force:
         message = f"{place} is there already"

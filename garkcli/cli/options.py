@@ -17,6 +17,7 @@ import click
 
 from garkcli.cli import arguments
 from garkcli.cli.arguments import INPUT, PATH, completed, named, read_by
+from garkcli.cli.endings import AUTO, settled
 from garkcli.cli.streams import complain, put, safe_pieces, say, wants_colour
 from garkcli.cli.table import COMMANDS, HIDDEN, Option, Rule, option_of, options_of, rules_of
 from garkcli.doing import hush
@@ -203,7 +204,7 @@ def _made(
     rules = rules_of(name)
 
     def run(**values: Any) -> Any:
-        output = Output.of(values)
+        output = Output.of(values, formats)
         if rules:
             told = {"format": output.format, "output": output.path}
             _check(rules, name, {**values, **told, "verbose": output.verbosity > 0})
@@ -279,6 +280,8 @@ def _option(row: Option, formats: Sequence[str]) -> click.Option:
             settings["default"] = value or None
         elif key == "value":
             settings["flag_value"] = value
+        elif key == "holds":
+            settings["callback"] = partial(_held, value)
         elif key == "alone":
             flag_value = int(value) if value.isdigit() else value
             settings |= {"is_flag": False, "flag_value": flag_value, "default": None}
@@ -289,6 +292,15 @@ def _option(row: Option, formats: Sequence[str]) -> click.Option:
     settings["show_default"] = is_of_argument or settings.get("default") is not None
     flags = [*row.flags, row.name]
     return _Argument(flags, row.of, **settings) if row.of else click.Option(flags, **settings)
+
+
+def _held(
+    format: str, _: click.Context, parameter: click.Parameter, path: str | None
+) -> str | None:
+    """A file to be written whose ending says nothing else than what it holds."""
+    if path is not None:
+        settled(path, [format], option=max(parameter.opts, key=len))
+    return path
 
 
 class Given(SimpleNamespace):
@@ -367,6 +379,7 @@ class Output:
         path: the file of ``-o``, or None.
         verbosity: −1, 0 or 1.
         is_streamed: whether ``-o -`` asks for standard output.
+        is_by_ending: whether the ending of the file says the format.
 
     Raises:
         UsageProblem: the report will have no place; said before any work is done.
@@ -383,6 +396,7 @@ class Output:
         self.path = path
         self.verbosity = verbosity
         self.is_streamed = False
+        self.is_by_ending = False
         is_wanted = color == "auto" and path is None and wants_colour(sys.stdout)
         self._has_colour = color == "always" or is_wanted
         if verbosity < 0:
@@ -390,15 +404,26 @@ class Output:
         self.check_place()
 
     @classmethod
-    def of(cls, values: dict[str, Any]) -> Output:
+    def of(cls, values: dict[str, Any], formats: Sequence[str] = ()) -> Output:
         """What ``--format``, ``-o``, ``-q``, ``-v`` and ``--color`` say, taken out of the values of
         options.
+
+        Args:
+            values: by their names.
+            formats: that the command writes; empty where the ending of the file is its own matter.
+
+        Raises:
+            UsageProblem: the ending of the file is that of something else.
         """
         verbosity = values.pop("verbose", False) - values.pop("quiet", False)
         format, path = values.pop("format", "text"), values.pop("output", None)
         is_streamed = path == STDIN
         path = None if is_streamed else path
-        output = cls(format, path, verbosity, values.pop("color", "never"))
+        named = None
+        if path is not None and formats:
+            named = settled(path, formats, _chosen(format))
+        output = cls(named or format, path, verbosity, values.pop("color", "never"))
+        output.is_by_ending = named is not None
         output.is_streamed = is_streamed
         for note in arguments.notes():
             output.note(note)
@@ -508,6 +533,13 @@ class Output:
         if self.format in ("json", "csv"):
             self.tell(report, Failure(name, faults_of(error)))
         return failure_code(error)
+
+
+def _chosen(format: str) -> str | None:
+    """The format, where the command line says one."""
+    source = click.get_current_context().get_parameter_source("format")
+    is_said = source is not click.core.ParameterSource.DEFAULT
+    return format if is_said and format != AUTO else None
 
 
 def faults_of(error: GarkError) -> tuple[Fault, ...]:

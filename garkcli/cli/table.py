@@ -103,8 +103,9 @@ _OPTIONS = f"""
 --format formats
 import --format formats | The report, or the method files themselves.
 cite --format formats = cite.format
--o --output FILE written | Write the result to FILE; - is standard output.
-export -o --output FILE written | Write to FILE.
+-o --output FILE written
+    | Write the result to FILE, in the format that its ending names; - is standard output.
+export -o --output FILE written | Write to FILE, whose ending is that of TARGET.
 --output-dir DIR written name=folder | Write a method file for each method into DIR.
 report -o --output FILE written
     | Write the page to FILE; by default to METHOD.html, of several methods to report.html.
@@ -156,7 +157,7 @@ trees --order -n n 1..10000 = trees.order
 --count | Count without generating, for any order.
 --yes | List the trees even if there are millions.
 --tree TEXT = parse_tree.text | One tree, such as [[]_2,[]_1]_1, instead of an order.
---svg FILE written | Draw a sheet of all the trees into FILE.
+--svg FILE written holds=svg | Draw a sheet of all the trees into FILE.
 --symplectic | Independent conditions of symplectic methods: free trees.
 --kind words=kinds | With --symplectic: which methods, the pair (A, Â) unless given.
 --members | With --symplectic: all rooted trees of each free tree.
@@ -216,7 +217,7 @@ design --digits N 1..1000 default=12 | Digits of numbers without simple radicals
 --seconds T seconds = find_parameters.seconds
     | Seconds after which the rest stays undecided, or a search ends; {SECONDS:.0f} by default, of
       a search none.
---emit FILE written | Write the first method into a file, with its claim.
+--emit FILE written holds=yaml | Write the first method into a file, with its claim.
 --minimise WHAT words=objectives = minimise.objective
 --p-stable value=p-stable name=stability = stable_values.wanted
     | The exact set of values of the parameters for which the method is P-stable.
@@ -237,13 +238,13 @@ design --scheduler ADDRESS
     | With --search: work on the Dask cluster there; needs garkcli[cluster].
 --choose pairs | Like --set, and show the values that remain; repeatable.
 
---rows FILE written = run_sweep.rows
+--rows FILE written holds=jsonl = run_sweep.rows
     | The file of rows, a line of JSON each; by default SPEC with .jsonl.
 --resume = run_sweep.is_resumed | Continue: add the missing rows.
 sweep -j --jobs N 0..60 jobs = run_sweep.jobs
     | The number of processes; 0 is one per processor.
 --top N 1.. default=10 | Show the N best; CSV and JSON lines have all.
---parquet FILE written
+--parquet FILE written holds=parquet
     | Write the kept methods as Parquet too; needs garkcli[parquet].
 
 export --to TARGET target = export.target

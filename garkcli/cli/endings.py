@@ -1,0 +1,107 @@
+"""What the ending of a file says of what is in it: one rule for every option that names a file to
+write.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import PurePath
+
+from garkcli.errors import UsageProblem
+
+AUTO = "auto"
+"""The format that suits where a command runs."""
+PLAIN = ".txt"
+"""The ending of any text."""
+ENDINGS: Mapping[str, tuple[str, ...]] = {
+    ".json": ("json", "sarif"),
+    ".jsonl": ("jsonl", "ndjson"),
+    ".ndjson": ("ndjson", "jsonl"),
+    ".sarif": ("sarif",),
+    ".csv": ("csv",),
+    ".tsv": ("tsv",),
+    ".md": ("markdown",),
+    ".markdown": ("markdown",),
+    ".tex": ("latex",),
+    ".html": ("html",),
+    ".htm": ("html",),
+    ".yaml": ("yaml",),
+    ".yml": ("yaml",),
+    ".bib": ("bibtex",),
+    ".xml": ("junit", "xml"),
+    ".v": ("coq",),
+    ".png": ("png",),
+    ".svg": ("svg",),
+    ".pdf": ("pdf",),
+    ".parquet": ("parquet",),
+    **dict.fromkeys((".c", ".h", ".cc", ".cpp", ".cxx", ".hpp", ".hh"), ("c",)),
+    **dict.fromkeys((".f", ".f90", ".f95", ".f03", ".f08"), ("fortran",)),
+    ".inputs": ("inputs",),
+    ".ipynb": ("notebook",),
+    ".jl": ("julia",),
+    ".m": ("matlab", "mathematica"),
+    **dict.fromkeys((".wl", ".wls"), ("mathematica",)),
+    ".py": ("python",),
+    ".r": ("r",),
+    ".rs": ("rust",),
+}
+"""What a file holds, by its ending: the first that a command writes. Others say nothing."""
+CURES = {
+    "yaml": "gark convert, design --emit and claims --write write method files",
+    **dict.fromkeys(("png", "svg", "pdf"), "--plot FILE draws, where a command can"),
+    "html": "gark report writes pages",
+    **dict.fromkeys(
+        ("c", "fortran", "inputs", "julia", "matlab", "mathematica", "python", "r", "tsv"),
+        "gark export writes tables for programs",
+    ),
+}
+"""What writes the files that a command does not."""
+
+
+def ending_of(path: str) -> str:
+    """The ending of a file, in small letters; empty where it says nothing."""
+    ending = PurePath(path).suffix.lower()
+    return ending if ending in ENDINGS else ""
+
+
+def settled(
+    path: str, formats: Sequence[str], chosen: str | None = None, option: str = "-o"
+) -> str | None:
+    """The format that a file gets: that of its ending, else the one that is chosen; None where
+    neither says one.
+
+    Args:
+        path: of the file.
+        formats: those that can be written.
+        chosen: what ``--format`` says.
+        option: that names the file.
+
+    Raises:
+        UsageProblem: its ending is that of something else.
+    """
+    ending = ending_of(path)
+    if not ending:
+        is_plain = PurePath(path).suffix.lower() == PLAIN and "text" in formats
+        return chosen or ("text" if is_plain else None)
+    held = ENDINGS[ending]
+    if chosen is not None:
+        if chosen in held:
+            return chosen
+        message = f"{option} {path}: {chosen} does not go into a {ending} file"
+        cure = f"leave out --format, or choose another ending: {_listed(formats)}"
+    else:
+        fitting = next((x for x in held if x in formats), None)
+        if fitting is not None:
+            return fitting
+        message = f"{option} {path}: no {ending} file can be written here"
+        cure = f"choose another ending: {_listed(formats)}"
+    further = [CURES[x] for x in held[:1] if x in CURES and x not in formats]
+    raise UsageProblem(message, "; ".join([cure, *further]), code="wrong-ending")
+
+
+def _listed(formats: Sequence[str]) -> str:
+    """The endings of some formats, one each."""
+    found = [PLAIN] if "text" in formats else []
+    for format in formats:
+        found += [x for x, held in ENDINGS.items() if format == held[0]][:1]
+    return ", ".join(found) or "none"
