@@ -37,13 +37,11 @@ ENDINGS: Mapping[str, tuple[str, ...]] = {
     **dict.fromkeys((".c", ".h", ".cc", ".cpp", ".cxx", ".hpp", ".hh"), ("c",)),
     **dict.fromkeys((".f", ".f90", ".f95", ".f03", ".f08"), ("fortran",)),
     ".inputs": ("inputs",),
-    ".ipynb": ("notebook",),
     ".jl": ("julia",),
     ".m": ("matlab", "mathematica"),
     **dict.fromkeys((".wl", ".wls"), ("mathematica",)),
     ".py": ("python",),
     ".r": ("r",),
-    ".rs": ("rust",),
 }
 """What a file holds, by its ending: the first that a command writes. Others say nothing."""
 CURES = {

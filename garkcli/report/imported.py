@@ -99,7 +99,7 @@ REPORT: Report[Sequence[Found]] = Report.only(
         Row("methods", parts(METHOD), ".", DATA),
         Row("name", shown(LINE, 0), "."),
         Row("name", shown(NOTE, 0), _notes),
-        Row("wrong_methods", shown(WRONG, MOST), _wrong, is_short=True),
+        Row("wrong_methods", shown(WRONG, MOST), _wrong, label="methods", is_short=True),
         Row("texts", picture(_texts), ".", DETAIL),
         title=_title,
     ),

@@ -105,8 +105,8 @@ def test_files_that_cannot_be_read_stop_no_audit(tmp_path: Path) -> None:
     (tmp_path / "d.c").write_text(CALLED, encoding="utf-8")
     for command in ("audit", "import"):
         run = gark(command, ".", cwd=tmp_path)
-        assert run.code == int(command == "audit")
-        told = run.err.splitlines()
+        assert run.code == 1
+        told = run.err.splitlines()[:3]
         assert [line.partition(" ")[0] for line in told] == ["./a.c", "./b.c", "./c.json"]
     assert gark("audit", "c.json", cwd=tmp_path).code == 2
 

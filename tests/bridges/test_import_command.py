@@ -40,10 +40,11 @@ def test_standard_input() -> None:
 
 
 def test_what_the_source_declares_and_is_not_so() -> None:
-    """A declared order that the method has not is told, and the true one is claimed."""
+    """A declared order that the method has not is told with its witness."""
     text = KUTTA + "order = 4\n"
     run = gark("import", "-", "--from", "python", stdin=text)
-    assert "the source declares order 4, found is 3" in run.out
+    assert run.code == 1
+    assert "order 3, declared 4; fails at order 4: [[[[]]]]" in run.out
 
 
 def test_a_folder_for_the_files_that_cannot_be(tmp_path: Path) -> None:

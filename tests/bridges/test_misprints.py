@@ -7,7 +7,8 @@ from collections.abc import Sequence
 import pytest
 
 from garkcli import catalogue
-from garkcli.bridges.audit import AuditFinding, audit
+from garkcli.bridges.audit import audit
+from garkcli.bridges.finding import AuditFinding
 from garkcli.bridges.readers.registry import find_tables, readers_for
 from garkcli.bridges.rounding import rounded
 from garkcli.exact.field import Number

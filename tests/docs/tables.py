@@ -331,7 +331,7 @@ def _one_of(schema: Any, text: str) -> str:
     return "" if is_told or not 1 < len(named) <= _MOST_WORDS else ", ".join(named)
 
 
-_MOST_WORDS = 13
+_MOST_WORDS = 14
 
 
 def cell(text: str) -> str:

@@ -5,12 +5,13 @@ from __future__ import annotations
 import os
 import re
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import click
 from click.testing import CliRunner
 
+from garkcli.cli.endings import ENDINGS
 from garkcli.cli.main import gark
 from garkcli.cli.table import SHOWN
 from tests.docs.tables import cell, table
@@ -102,6 +103,39 @@ def test_reference_is_the_help() -> None:
         PAGE.write_text(head + mark + wanted, encoding="utf-8")
         return
     assert found == wanted
+
+
+def endings() -> str:
+    """What files hold, by their endings; those of programs and pictures in one row each."""
+    rows: dict[str, list[str]] = {}
+    for ending, held in ENDINGS.items():
+        rows.setdefault(_holds(held), []).append(f"`{ending}`")
+    return table(("ending", "holds"), [(", ".join(x), held) for held, x in rows.items()])
+
+
+def _holds(formats: Sequence[str]) -> str:
+    if formats[0] in {"png", "svg", "pdf"}:
+        return "pictures"
+    commands = (gark.get_command(click.Context(gark), x) for x in SHOWN)
+    params = (x for found in commands if found for x in found.params if x.name == "format")
+    known = {
+        x for param in params if isinstance(param.type, click.Choice) for x in param.type.choices
+    }
+    told = [x for x in formats if x in known]
+    if not told:
+        return "Parquet" if formats[0] == "parquet" else "a table of `gark export`"
+    return " or ".join(told)
+
+
+def test_the_endings_of_files() -> None:
+    """The page has what the program goes by."""
+    page = PAGE.read_text(encoding="utf-8")
+    head, mark, rest = page.partition("<!-- endings -->\n\n")
+    found, end, rest = rest.partition("<!-- end of endings -->")
+    if os.environ.get("GARK_UPDATE_SNAPSHOTS"):
+        PAGE.write_text(head + mark + endings() + end + rest, encoding="utf-8")
+    else:
+        assert found == endings()
 
 
 def test_every_command_is_in_the_table() -> None:

@@ -7,7 +7,7 @@ import re
 
 import pytest
 
-from garkcli.bridges.audit import CODES
+from garkcli.bridges.finding import CODES
 from garkcli.check.findings import KINDS
 from garkcli.check.meanings import explain
 from garkcli.glossary.faults import findings_of
