@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from typing import TypeAlias
@@ -11,19 +10,15 @@ from flint import fmpq
 
 from garkcli.bridges.elsewhere import declared_orders, with_declared
 from garkcli.bridges.estimates import with_orders
-from garkcli.bridges.finding import AuditFinding
+from garkcli.bridges.finding import AuditFinding, Level
 from garkcli.bridges.judging import Judged, at_least, judged
+from garkcli.bridges.limited import read_within_limits
 from garkcli.bridges.plausible import are_whole, is_plausible
 from garkcli.bridges.readers.registry import find_tables, readers_for
-from garkcli.bridges.sources import source_text
 from garkcli.bridges.subject import HIGH, Subject, orders_of, read, sum_text
 from garkcli.check.findings import repair_text, witness_text
-from garkcli.crew.hiring import hired
-from garkcli.crew.work import WorkerLost, in_order
-from garkcli.doing import counting, doing
 from garkcli.errors import MethodFileError, counted
 from garkcli.exact.field import ZERO
-from garkcli.files import STDIN
 from garkcli.frozen import Frozen, replace
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.reading import no_one
@@ -97,33 +92,24 @@ def audited(
         UsageProblem: a source cannot be read.
     """
     given = list(paths)
-    jobs = 1 if STDIN in given else min(jobs or os.cpu_count() or 1, len(given))
-    with hired(partial(_done, orders=declared_orders(given)), _lost, jobs) as workers:
-        for found in counting("files", in_order(workers, given), len(given)):
-            if isinstance(found, Exception):
-                raise found
-            for each in found:
-                if each.table.is_unlike:
-                    told(f"{each.table.source}:{each.table.line}: {each.table.trouble}")
-                else:
-                    yield each
+    work = partial(_tables, orders=declared_orders(given))
+    for found in read_within_limits(given, work, _late, jobs):
+        for each in found:
+            if each.table.is_unlike:
+                told(f"{each.table.source}:{each.table.line}: {each.table.trouble}")
+            else:
+                yield each
 
 
-def _done(path: str, orders: Mapping[str, int]) -> list[Audited] | Exception:
-    """The tables of one source, or what kept it from being read: both travel between processes."""
-    found: list[Audited | None] = []
-    try:
-        with doing(path):
-            text, source = source_text(path)
-            tables = find_tables(text, source, readers_for(path))
-            found += [audit(table) for table in with_declared(tables, text, orders)]
-    except Exception as error:
-        return error
+def _tables(text: str, source: str, orders: Mapping[str, int]) -> list[Audited]:
+    """The tables of one source."""
+    tables = find_tables(text, source, readers_for(source))
+    found = [audit(table) for table in with_declared(tables, text, orders)]
     return [x for x in found if x is not None]
 
 
-def _lost(path: str, why: str) -> list[Audited] | Exception:
-    return WorkerLost(f"the audit of {path} was ended {why}", "use fewer --jobs")
+def _late(table: FoundTable) -> Audited:
+    return _noted(table, table.trouble, level="warning")
 
 
 def audit(table: FoundTable) -> Audited | None:
@@ -168,9 +154,9 @@ def is_unrecognised(subject: Subject) -> bool:
     return subject.table.is_assembled and is_far_off
 
 
-def _noted(table: FoundTable, message: str, code: str = "unread") -> Audited:
+def _noted(table: FoundTable, message: str, code: str = "unread", level: Level = "note") -> Audited:
     """A table that is not judged, and why."""
-    return Audited(table, findings=(AuditFinding(code, message, level="note"),))
+    return Audited(table, findings=(AuditFinding(code, message, level=level),))
 
 
 def _may_be_method(method: MethodFile) -> bool:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import partial
 from itertools import chain, count
 from pathlib import PurePath
 
@@ -11,12 +12,12 @@ from garkcli.bridges.audit import is_unrecognised
 from garkcli.bridges.claiming import imported
 from garkcli.bridges.elsewhere import declared_orders, with_declared
 from garkcli.bridges.finding import AuditFinding
+from garkcli.bridges.limited import read_within_limits
 from garkcli.bridges.plausible import is_plausible
 from garkcli.bridges.readers.registry import find_tables, reader_named, readers_for
 from garkcli.bridges.recognising import Recognised, recognised
-from garkcli.bridges.sources import STDIN_NAME, source_text
+from garkcli.bridges.sources import STDIN_NAME
 from garkcli.bridges.subject import Subject
-from garkcli.doing import counting
 from garkcli.errors import MethodFileError
 from garkcli.exact.display import decimal
 from garkcli.frozen import Frozen, replace
@@ -98,25 +99,30 @@ def collected(
     Raises:
         UsageProblem: a source cannot be read, or there is no such format.
     """
-    chosen = None if format is None else [reader_named(format)]
+    if format is not None:
+        reader_named(format)
     used: set[str] = set()
     given = list(paths)
-    orders = declared_orders(given)
-    for path in counting("sources", given, len(given)):
-        text, source = source_text(path)
-        found = find_tables(text, source, chosen or readers_for(path))
-        for table in with_declared(found, text, orders):
-            if table.is_unlike:
-                continue
-            name = plain_line(table.name) or default_name(source)
-            result = _result(table, name, is_recognising, is_as_found)
-            method = result.method
-            is_other = method is not None and not is_plausible(table, method.method)
-            # who names the format means the arrays that are there
-            if is_other and not chosen:
-                left_out(table)
-                continue
-            yield replace(result, stem=_unique(stem_of(name), used))
+    work = partial(_tables, format=format, orders=declared_orders(given))
+    for table in chain.from_iterable(read_within_limits(given, work, lambda table: table)):
+        if table.is_unlike:
+            continue
+        name = plain_line(table.name) or default_name(table.source)
+        result = _result(table, name, is_recognising, is_as_found)
+        method = result.method
+        is_other = method is not None and not is_plausible(table, method.method)
+        # who names the format means the arrays that are there
+        if is_other and format is None:
+            left_out(table)
+            continue
+        yield replace(result, stem=_unique(stem_of(name), used))
+
+
+def _tables(
+    text: str, source: str, format: str | None, orders: Mapping[str, int]
+) -> list[FoundTable]:
+    chosen = readers_for(source) if format is None else [reader_named(format)]
+    return list(with_declared(find_tables(text, source, chosen), text, orders))
 
 
 def _result(table: FoundTable, name: str, is_recognising: bool, is_as_found: bool) -> Result:

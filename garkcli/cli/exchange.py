@@ -142,7 +142,13 @@ def _refuse_several(results: Sequence[Result], path: str) -> None:
 
 
 def _tell_unread(unread: Sequence[Result], output: Output) -> None:
-    """What looks like a table and was not read: how many, or with -v each with the reason."""
+    """What looks like a table and was not read: how many, or with -v each with the reason; sources
+    that were not read in any case.
+    """
+    for result in unread:
+        if result.table.is_source:
+            output.note(f"{printable(result.table.source)} {result.trouble}")
+    unread = [x for x in unread if not x.table.is_source]
     if output.verbosity > 0:
         for result in unread:
             place = f"{printable(result.table.source)}:{result.table.line}"
@@ -170,6 +176,9 @@ def _nothing(
     for result in results:
         place, name = f"{result.table.source}:{result.table.line}", result.table.name
         message = f"{place}: no method: {result.trouble}"
+        if result.table.is_source:
+            message = f"{result.table.source} {result.trouble}"
+            return UsageProblem(message, "give the part with the tables", code="cannot-import")
         if name:
             message = f"{place}: {name} is no method: {result.trouble}"
         return UsageProblem(message, "see docs/import.md for what is read", code="cannot-import")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-from garkcli.crew.work import Alone, Item, Outcome, Workers
+from garkcli.crew.work import Alone, Item, Limit, Outcome, Workers
 
 
 @contextmanager
@@ -14,6 +14,7 @@ def hired(
     crashed: Callable[[Item, str], Outcome],
     jobs: int = 1,
     scheduler: str = "",
+    limit: Limit[Item, Outcome] | None = None,
 ) -> Iterator[Workers[Item, Outcome]]:
     """Workers for as long as there is work; none is left behind.
 
@@ -22,6 +23,7 @@ def hired(
         crashed: the outcome of an item that ended its worker, and how.
         jobs: processes of this machine.
         scheduler: the address of a Dask scheduler, to work there instead.
+        limit: how long an item may take a worker of this machine; there is one, then.
 
     Raises:
         UsageProblem: there is no cluster.
@@ -31,10 +33,10 @@ def hired(
 
         with Cluster(work, scheduler, crashed) as cluster:
             yield cluster
-    elif jobs < 2:
+    elif jobs < 2 and limit is None:
         yield Alone(work)
     else:
         from garkcli.crew.processes import MOST_WORKERS, Crew
 
-        with Crew(work, min(jobs, MOST_WORKERS), crashed) as crew:
+        with Crew(work, min(jobs, MOST_WORKERS), crashed, limit) as crew:
             yield crew

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import threading
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import suppress
+from contextlib import nullcontext, suppress
+from time import monotonic
 from typing import TYPE_CHECKING, Generic, cast
 
-from garkcli.crew.work import Item, Outcome
-from garkcli.deadline import seconds_left
+from garkcli.crew.work import Item, Limit, Outcome
+from garkcli.deadline import FOR_EVER, check_time, seconds_left
 from garkcli.doing import telling
-from garkcli.errors import NotDecided
-from garkcli.exact.apart import begin, start_method, without_handlers
+from garkcli.exact.apart import begin, start_method, without_handlers, without_program
 from garkcli.exact.pickling import register
 
 if TYPE_CHECKING:  # slow to import, and of no use to work that is not shared
@@ -26,12 +27,22 @@ BATCH = 8
 
 
 class _Worker(Generic[Item, Outcome]):
-    """A process that does the items it is sent, one after the other."""
+    """A process that does the items it is sent, one after the other.
+
+    Attributes:
+        items: their numbers, first the one that it is at.
+        due: the reading of ``time.monotonic`` at which it is late with that one.
+    """
 
     def __init__(
-        self, context: BaseContext, work: Callable[[Item], Outcome], others: Sequence[Connection]
+        self,
+        context: BaseContext,
+        work: Callable[[Item], Outcome],
+        others: Sequence[Connection],
+        is_own: bool,
     ) -> None:
         self.items: deque[int] = deque()
+        self.due = FOR_EVER
         self.connection, other = context.Pipe()
         # a forked worker has the ends of this process too; while it holds them nobody hears that
         # this process has ended
@@ -40,7 +51,8 @@ class _Worker(Generic[Item, Outcome]):
         self.process: BaseProcess = context.Process(  # type: ignore[attr-defined]
             target=_serve, args=(other, work, not_its_own), daemon=True
         )
-        begin(self.process)
+        with without_program() if is_own else nullcontext():
+            begin(self.process)
         other.close()
 
     def send(self, number: int, item: Item) -> None:
@@ -63,18 +75,26 @@ class Crew(Generic[Item, Outcome]):
         work: from an item to its outcome; both travel between processes.
         size: how many workers at most; as many begin as there is work for.
         crashed: the outcome of an item that ended its worker, and how.
+        limit: how long an item may take; the work is gark's own, then, none of the program's.
     """
 
     def __init__(
-        self, work: Callable[[Item], Outcome], size: int, crashed: Callable[[Item, str], Outcome]
+        self,
+        work: Callable[[Item], Outcome],
+        size: int,
+        crashed: Callable[[Item, str], Outcome],
+        limit: Limit[Item, Outcome] | None = None,
     ) -> None:
         from multiprocessing import get_context
 
         register()
-        self.context: BaseContext = get_context(start_method())
+        # a source may be read in a program that has threads, whose locks a fork would copy
+        is_threaded = limit is not None and threading.active_count() > 1
+        self.context: BaseContext = get_context("spawn" if is_threaded else start_method())
         self.work = work
         self.items: Sequence[Item] = ()
         self.crashed = crashed
+        self.limit = limit
         self.waiting: deque[int] = deque()
         self.size = size
         self.workers: list[_Worker[Item, Outcome]] = []
@@ -107,9 +127,9 @@ class Crew(Generic[Item, Outcome]):
         self._hire()
         while any(worker.items for worker in self.workers):
             by_connection = {worker.connection: worker for worker in self.workers}
-            ready = wait(list(by_connection), seconds_left())
+            ready = wait(list(by_connection), self._seconds_left())
             if not ready:
-                raise NotDecided(is_late=True)
+                yield from self._end_late()
             for found in ready:
                 # of a type of its own on Windows
                 connection = cast("Connection", found)
@@ -121,6 +141,7 @@ class Crew(Generic[Item, Outcome]):
                     yield from self._bury(worker)
                     continue
                 worker.items.popleft()
+                self._begin(worker)
                 self._supply(worker)
                 yield number, outcome
 
@@ -128,7 +149,8 @@ class Crew(Generic[Item, Outcome]):
         """As many workers as there is work for."""
         while len(self.workers) < self.size and self.waiting:
             others = [worker.connection for worker in self.workers]
-            worker: _Worker[Item, Outcome] = _Worker(self.context, self.work, others)
+            is_own = self.limit is not None
+            worker: _Worker[Item, Outcome] = _Worker(self.context, self.work, others, is_own)
             self.workers.append(worker)
             self._supply(worker)
 
@@ -138,15 +160,48 @@ class Crew(Generic[Item, Outcome]):
         while self.waiting and len(worker.items) < most:
             number = self.waiting.popleft()
             worker.send(number, self.items[number])
+            if len(worker.items) == 1:
+                self._begin(worker)
 
-    def _bury(self, worker: _Worker[Item, Outcome]) -> Iterator[tuple[int, Outcome]]:
-        """A worker that died: the item it was at is to blame, the others go back."""
+    def _begin(self, worker: _Worker[Item, Outcome]) -> None:
+        """The time of the item that a worker is at begins, at the earliest that this process knows:
+        an outcome that is there when it looks is never late.
+        """
+        if self.limit is not None and worker.items:
+            worker.due = monotonic() + self.limit.seconds(self.items[worker.items[0]])
+
+    def _seconds_left(self) -> float | None:
+        """Until the time is over, or a worker is late; None for no limit."""
+        left = seconds_left()
+        if self.limit is None:
+            return left
+        until_due = max(0.0, min(x.due for x in self.workers if x.items) - monotonic())
+        return until_due if left is None else min(left, until_due)
+
+    def _end_late(self) -> Iterator[tuple[int, Outcome]]:
+        """Workers that are late are ended, the others go on.
+
+        Raises:
+            NotDecided: the time around all of it is over.
+        """
+        check_time()
+        for worker in [x for x in self.workers if x.items and x.due <= monotonic()]:
+            yield from self._bury(worker, is_late=True)
+
+    def _bury(
+        self, worker: _Worker[Item, Outcome], is_late: bool = False
+    ) -> Iterator[tuple[int, Outcome]]:
+        """A worker that died or is late: the item it was at is to blame, the others go back."""
         worker.end()
         self.workers.remove(worker)
         items = list(worker.items)
         self.waiting.extendleft(reversed(items[1:]))
         if items:
-            yield items[0], self.crashed(self.items[items[0]], _cause(worker.process.exitcode))
+            item = self.items[items[0]]
+            if is_late and self.limit is not None:
+                yield items[0], self.limit.late(item)
+            else:
+                yield items[0], self.crashed(item, _cause(worker.process.exitcode))
         self._hire()
 
 

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Generic, Protocol, TypeVar
 
 from garkcli.errors import UsageProblem
+from garkcli.frozen import Frozen
 
 Item = TypeVar("Item")
 Outcome = TypeVar("Outcome")
@@ -17,6 +18,18 @@ class WorkerLost(UsageProblem):
     """A process or machine that worked was ended from outside."""
 
     code = "worker-lost"
+
+
+class Limit(Frozen, Generic[Item, Outcome]):
+    """How long an item may take a process of its own, which is ended in the middle of a call in C.
+
+    Attributes:
+        seconds: of an item.
+        late: the outcome of an item that took longer.
+    """
+
+    seconds: Callable[[Item], float]
+    late: Callable[[Item], Outcome]
 
 
 class Workers(Protocol[Given, Made]):

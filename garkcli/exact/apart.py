@@ -8,6 +8,7 @@ import threading
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
+from types import ModuleType
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar, cast
 
 from garkcli.deadline import check_time, forget, is_only_small, seconds_left
@@ -139,6 +140,19 @@ def begin(process: BaseProcess) -> None:
         message = "This process .* is multi-threaded"
         warnings.filterwarnings("ignore", message, DeprecationWarning)
         process.start()
+
+
+@contextmanager
+def without_program() -> Iterator[None]:
+    """Hide the program that calls gark from processes that begin without a fork: they would run it
+    again, where it does not ask for its name.
+    """
+    program = sys.modules["__main__"]
+    sys.modules["__main__"] = ModuleType("__main__")
+    try:
+        yield
+    finally:
+        sys.modules["__main__"] = program
 
 
 @contextmanager

@@ -55,6 +55,8 @@ def place_and_orders(found: Audited | Subject, d: Plain) -> str:
     words = [] if found.order is None else [f"order {_least(found.order)}"]
     if words and found.embedded_order is not None:
         words.append(f"embedded order {_least(found.embedded_order)}")
+    if found.table.is_source:
+        return d.prose(found.table.source)
     name = ": ".join(filter(None, [found.table.name or "a table", ", ".join(words)]))
     return d.prose(f"{found.table.source}:{found.table.line} {name}")
 
@@ -74,7 +76,8 @@ def _finding_rows(findings: Sequence[AuditFinding], d: Plain) -> list[tuple[str,
 
 def _answer(x: Audit, _: Plain) -> str:
     """How many tables are wrong."""
-    wrong, unread = _errors(x.tables), _unread(x.tables)
+    late = sum(found.table.is_source for found in x.tables)
+    wrong, unread = _errors(x.tables), _unread(x.tables) - late
     others = sum(bool(found.table.kind) for found in x.tables)
     judged = [found for found in x.tables if found.is_read or found.has_errors]
     sources = {found.table.source for found in judged}
@@ -90,11 +93,13 @@ def _answer(x: Audit, _: Plain) -> str:
     if others:
         verb = "is" if others == 1 else "are"
         texts.append(f"{others} of other methods {verb} not judged")
+    if late:
+        texts.append(f"{counted(late, 'source')} {'was' if late == 1 else 'were'} not read")
     if unread:
         verbs = "looks like a table and was" if unread == 1 else "look like tables and were"
         more = f"{unread} more" if judged else str(unread)
         texts.append(f"{more} {verbs} not read: -v lists them, --strict fails on them")
-    elif noted or others:
+    elif (noted or others) and not late:
         texts[-1] += ": -v lists them"
     return "; ".join(texts)
 

@@ -74,6 +74,7 @@ class FoundTable(Frozen):
         is_sure: whether the source says that this is a method; otherwise names alone do.
         notes: what people should know of how it was read.
         trouble: what is wrong with the table itself; then it has no coefficients to judge.
+        is_source: whether it stands for a source that was not read.
         is_misshapen: whether the trouble is that it has too many or too few numbers.
         kind: of another method, such as Rosenbrock; empty for Runge–Kutta.
         is_assembled: whether it was put together from single numbers, by their names.
@@ -102,6 +103,7 @@ class FoundTable(Frozen):
     notes: tuple[str, ...] = ()
     trouble: str = ""
     is_misshapen: bool = False
+    is_source: bool = False
     kind: str = ""
     is_assembled: bool = False
     units: Units = ()
@@ -146,6 +148,12 @@ class Reader(Frozen):
     summary: str
     suffixes: tuple[str, ...]
     find: Find
+
+
+def unread(source: str, format: str, why: str) -> FoundTable:
+    """What stands for a source that was not read."""
+    trouble = f"was not read: {why}"
+    return FoundTable(source, 1, format, "the source", (), (), (), trouble=trouble, is_source=True)
 
 
 def troubled(table: FoundTable, trouble: str, is_misshapen: bool = False) -> FoundTable:

@@ -7,6 +7,7 @@ import multiprocessing
 import os
 import signal
 import sys
+import time
 from collections.abc import Callable
 from multiprocessing.connection import Connection, Pipe
 from typing import Any
@@ -15,6 +16,7 @@ import pytest
 
 from garkcli.crew import processes
 from garkcli.crew.processes import Crew
+from garkcli.crew.work import Limit
 from garkcli.exact.apart import start_method
 from tests.had import needs_fork
 
@@ -91,3 +93,20 @@ def test_pipes_of_another_type(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(type(forked), "Pipe", piped)
     with Crew(doubled, 1, lost) as crew:
         assert dict(crew.as_they_come([1, 2])) == {0: "2", 1: "4"}
+
+
+def late_from_two(number: int) -> int:
+    """Work that ends for small numbers alone."""
+    while number > 1:
+        time.sleep(1)
+    return number
+
+
+@pytest.mark.parametrize("size", [1, 2])
+def test_an_item_has_a_limit(size: int) -> None:
+    """The worker of an item that takes too long is ended, and others do the rest."""
+    limit = Limit[int, int | str](lambda x: 0.1 if x > 1 else 60.0, lambda x: f"{x} is late")
+    with Crew[int, int | str](late_from_two, size, lost, limit) as crew:
+        found = dict(crew.as_they_come([0, 2, 1, 3, 1]))
+        assert dict(crew.as_they_come([1])) == {0: 1}
+    assert found == {0: 0, 1: "2 is late", 2: 1, 3: "3 is late", 4: 1}

@@ -31,6 +31,10 @@ _NUMBER = re.compile(r"(?P<digits>[0-9']*\.?[0-9']*(?:[eE][-+]?[0-9]+)?)(?P<suff
 _DECLARED = frozenset({"array_declarator", "identifier", "field_identifier"})
 _DEVICE = re.compile(rb"__(?:constant|device|shared|host|global)__")
 """Where CUDA keeps what is declared: no part of the grammar."""
+_ASIDE = re.compile(
+    rb"""//[^\n]*|"(?:[^"\\\n]|\\.)*"|'(?:[^'\\\n]|\\.)*'|/\*(?P<closed>.*?\*/)?""", re.DOTALL
+)
+"""Comments and texts, one after the other."""
 
 
 class CLowering(Lowering):
@@ -59,7 +63,7 @@ class CLowering(Lowering):
 
     def __init__(self, text: str, language: Language) -> None:
         super().__init__(text, language)
-        self._data = _DEVICE.sub(lambda x: b" " * len(x[0]), self._data)
+        self._data = _without_open_comment(_DEVICE.sub(lambda x: b" " * len(x[0]), self._data))
 
     def own(self, node: Node, inside: list[Node], line: int) -> Iterator[ir.Statement]:
         match node.type:
@@ -297,6 +301,16 @@ class CLowering(Lowering):
         digits = found["digits"].replace("'", "")
         is_whole = digits.isdigit() and (found["suffix"] or "").lower() not in {"f", "q"}
         return ir.Literal(digits, is_whole)
+
+
+def _without_open_comment(data: bytes) -> bytes:
+    """A source up to the comment that never ends: its rest takes the grammar time like the cube of
+    its length.
+    """
+    for found in _ASIDE.finditer(data):
+        if found[0].startswith(b"/*") and found["closed"] is None:
+            return data[: found.start()]
+    return data
 
 
 def _target(expr: ir.Expr) -> ir.Expr:

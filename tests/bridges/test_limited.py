@@ -1,0 +1,131 @@
+"""Sources are read by a process that a limit of time ends, as grammars in C hear of nothing."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from garkcli import audit, import_methods
+from garkcli.bridges import limited
+from garkcli.crew import processes
+from garkcli.report.audited import FORMATS
+from garkcli.sources.languages import c
+from garkcli.sources.lowering import Lowering
+from tests.cli.harness import ROOT, gark
+
+KUTTA = "A = [[], [0.5], [-1, 2]]\nb = [1/6, 2/3, 1/6]\nc = [0, 0.5, 1]\n"
+LONG = "A = [1 ...\n" * 20_000
+"""MATLAB that its grammar takes some ten seconds for, whatever the machine."""
+WHY = "was not read: the parser took longer than 0 s"
+
+
+@pytest.fixture
+def sources(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """A source that takes long between two that do not, which have some time all the same."""
+    texts = {"a.py": KUTTA, "long.m": LONG, "z.py": KUTTA}
+    for name, text in texts.items():
+        (tmp_path / name).write_text(text)
+    monkeypatch.setattr(limited, "_seconds", lambda x: 0.3 if x.size > 1000 else 60)
+    return [str(tmp_path / name) for name in texts]
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_an_audit_goes_on_behind_a_source_that_takes_too_long(
+    jobs: int, sources: list[str]
+) -> None:
+    """The process that read it is ended, another one reads the rest; the source is a warning."""
+    found = list(audit(sources, jobs=jobs))
+    assert [x.table.source for x in found] == sources
+    assert [x.is_read for x in found] == [True, False, True]
+    assert [x.findings for x in found if x.is_read] == [(), ()]
+    (finding,) = found[1].findings
+    assert (finding.code, finding.level, finding.message) == ("unread", "warning", WHY)
+
+
+def test_it_is_told_in_every_format(sources: list[str]) -> None:
+    """It is no error, but ``--strict`` fails on it; a source of its own is none that can be read."""
+    text = gark("audit", *sources)
+    assert (text.code, text.err) == (0, "")
+    assert text.out.split("\n")[0] == "2 tables in 2 files, none wrong; 1 source was not read"
+    assert f"long.m\n    warning  {WHY}\n" in text.out
+    for format in FORMATS.keys() - {"auto"}:
+        run = gark("audit", *sources, "--strict", "--format", format)
+        assert (run.code, WHY in run.out, "long.m" in run.out) == (1, True, True), format
+    assert gark("audit", sources[1]).code == 2
+
+
+def test_an_import_goes_on(sources: list[str]) -> None:
+    """Its methods are those of the other sources; the report and the notes have the reason."""
+    assert [str(method.name) for method in import_methods(*sources)] == ["a", "z"]
+    run = gark("import", *sources, "--format", "json")
+    assert (run.code, run.err) == (0, f"{sources[1]} {WHY}\n")
+    notes = {x["source"]: x["notes"] for x in json.loads(run.out)["methods"]}
+    assert notes[sources[1]] == [WHY]
+    run = gark("import", "-", stdin=LONG)
+    assert run.code == 2
+    assert run.err.startswith(f"gark: <stdin> {WHY}\nhelp: ")
+
+
+def test_the_same_is_found_apart(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Another process, forked or not, finds what this one finds, of streams too."""
+    path = tmp_path / "kutta.py"
+    path.write_text(KUTTA)
+    here, stream = gark("import", str(path)), gark("audit", "-", stdin=KUTTA)
+    monkeypatch.setattr(limited, "SMALL", 0)
+    assert gark("import", str(path)) == here
+    assert gark("audit", "-", stdin=KUTTA) == stream
+    monkeypatch.setattr(processes, "start_method", lambda: "spawn")
+    assert gark("import", str(path)) == here
+
+
+def test_a_program_is_not_run_again(tmp_path: Path) -> None:
+    """A process that is not forked would run the program that calls gark, where it does not ask for
+    its name.
+    """
+    (tmp_path / "kutta.py").write_text(KUTTA)
+    program = tmp_path / "program.py"
+    program.write_text(
+        "from garkcli import import_methods\nfrom garkcli.bridges import limited\n"
+        "from garkcli.crew import processes\nlimited.SMALL = 0\n"
+        "processes.start_method = lambda: 'spawn'\nprint(import_methods('kutta.py'))\n"
+    )
+    run = subprocess.run(
+        [sys.executable, str(program)],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (run.stdout, run.stderr) == ("[<MethodFile kutta: 1 colour, stages 3>]\n", "")
+
+
+def test_limits_grow_with_sources() -> None:
+    """A megabyte has more time than a kilobyte, and both have some."""
+    seconds = [limited._seconds(limited.Source("x", size)) for size in (0, 1000, 10**6, 4 * 10**6)]
+    assert seconds == [20, 20, 40, 100]
+
+
+@pytest.mark.parametrize(
+    ("text", "length"),
+    [
+        ("double b = 1; /* " * 9, 14),
+        ("/* a */ x; /* b", 11),
+        ("/*/ x", 0),
+        ("s = \"/*\"; // /*\nt = '\"'; /* a */ y = '/*';", 42),
+    ],
+)
+def test_a_comment_that_never_ends_is_left_out(
+    text: str, length: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Its grammar takes time like the cube of what is in it; texts and other comments stay."""
+    given: list[bytes] = []
+    parse = Lowering.parse
+    monkeypatch.setattr(Lowering, "parse", lambda self, x: given.append(x) or parse(self, x))
+    c.CLowering(text, c.CPP).module()
+    assert [len(x) for x in given] == [length]
