@@ -16,6 +16,7 @@ from garkcli.cli.table import SECONDS
 from garkcli.crew.work import WorkerLost
 from garkcli.deadline import seconds_left, until, within
 from garkcli.doing import doing
+from garkcli.ending import undone
 from garkcli.errors import MethodError, NotDecided, UsageProblem, counted, did_you_mean
 from garkcli.files import STDIN
 from garkcli.frozen import replace
@@ -376,7 +377,8 @@ def _searched(asked: FileSearch, given: Given) -> tuple[Result, int | None]:
 
     starts = given.search
     result, ended = Result(), None
-    with doing("starts", starts) as work:
+    # an interrupt leaves what was found
+    with doing("starts", starts) as work, undone():
         try:
             place = given.jobs or 1, given.scheduler or ""
             with until(given.moment), hired(asked.do, _lost, *place) as workers:

@@ -15,6 +15,7 @@ import click
 from garkcli.cli import streams
 from garkcli.cli.options import command_of, help_option
 from garkcli.cli.table import COMMANDS, SHOWN
+from garkcli.ending import Ended, at_once
 from garkcli.errors import GarkError, UsageProblem, counted
 from garkcli.files import noting_inputs
 from garkcli.page.progress import watching
@@ -137,14 +138,14 @@ def main(arguments: Sequence[str] | None = None) -> NoReturn:
 def _exit_code(arguments: list[str]) -> int:
     """Run the command line, say what went wrong, and return the exit code."""
     try:
-        with streams.ending(), noting_inputs():
+        with at_once(), noting_inputs():
             code = _run(arguments)
             streams.flush()
             return code
     except (KeyboardInterrupt, click.Abort):
         streams.drop(sys.stdout)
         return streams.INTERRUPTED
-    except streams.Ended as end:
+    except Ended as end:
         streams.drop(sys.stdout)
         return end.exit_code
     except streams.ReaderGone:

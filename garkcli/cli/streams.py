@@ -9,11 +9,8 @@ import io
 import os
 import signal
 import sys
-import threading
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
-from types import FrameType
-from typing import TYPE_CHECKING, NoReturn
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
 from garkcli.doing import hush
 from garkcli.errors import GarkError, MethodFileError, printable
@@ -27,8 +24,6 @@ HANDLER = "garkcli.plaintext"
 """The name of the error handler of streams."""
 TERMINAL = 80
 """Columns that texts for people fit, in the longer forms of ASCII too."""
-ENDING = ("SIGTERM", "SIGHUP")
-"""Sent by whoever ends jobs, and by a terminal that closes; not every system has both."""
 READER_GONE = 128 + 13
 """The exit code where nobody reads the report: that of a program that SIGPIPE ends."""
 INTERRUPTED = 128 + signal.SIGINT
@@ -204,36 +199,3 @@ def wants_colour(stream: object) -> bool:
         return False
     forced = os.environ.get("FORCE_COLOR", "")
     return forced != "0" if forced else is_terminal(stream) and os.environ.get("TERM") != "dumb"
-
-
-class Ended(BaseException):
-    """A signal asks the program to end, and nothing is said; no ``except Exception`` keeps it."""
-
-    def __init__(self, number: int) -> None:
-        super().__init__(number)
-        self.exit_code = 128 + number
-
-
-@contextmanager
-def ending() -> Iterator[None]:
-    """Raise ``Ended`` on the signals that would end the program without a word.
-
-    A signal that is ignored (``nohup``) or handled already stays so.
-    """
-    changed = []
-    if threading.current_thread() is threading.main_thread():
-        known = [getattr(signal, name) for name in ENDING if hasattr(signal, name)]
-        changed = [number for number in known if signal.getsignal(number) is signal.SIG_DFL]
-    for number in changed:
-        signal.signal(number, _end)
-    try:
-        yield
-    finally:
-        for number in changed:
-            signal.signal(number, signal.SIG_DFL)
-
-
-def _end(number: int, _frame: FrameType | None) -> NoReturn:
-    # once is enough: the next one would stop the cleaning up
-    signal.signal(number, signal.SIG_IGN)
-    raise Ended(number)

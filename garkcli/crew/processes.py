@@ -5,14 +5,15 @@ from __future__ import annotations
 import threading
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import nullcontext, suppress
+from contextlib import ExitStack, nullcontext, suppress
 from time import monotonic
 from typing import TYPE_CHECKING, Generic, cast
 
 from garkcli.crew.work import Item, Limit, Outcome
 from garkcli.deadline import FOR_EVER, check_time, seconds_left
 from garkcli.doing import telling
-from garkcli.exact.apart import begin, start_method, without_handlers, without_program
+from garkcli.ending import undone
+from garkcli.exact.apart import begin, end, start_method, without_handlers, without_program
 from garkcli.exact.pickling import register
 
 if TYPE_CHECKING:  # slow to import, and of no use to work that is not shared
@@ -51,9 +52,13 @@ class _Worker(Generic[Item, Outcome]):
         self.process: BaseProcess = context.Process(  # type: ignore[attr-defined]
             target=_serve, args=(other, work, not_its_own), daemon=True
         )
-        with without_program() if is_own else nullcontext():
+        self._is_own, self._other = is_own, other
+
+    def begin(self) -> None:
+        """Start the process."""
+        with without_program() if self._is_own else nullcontext():
             begin(self.process)
-        other.close()
+        self._other.close()
 
     def send(self, number: int, item: Item) -> None:
         """One more item; a worker that has died is found out when it does not answer."""
@@ -64,8 +69,7 @@ class _Worker(Generic[Item, Outcome]):
     def end(self) -> None:
         """End the process, whatever it is at."""
         self.connection.close()
-        self.process.kill()
-        self.process.join()
+        end(self.process)
 
 
 class Crew(Generic[Item, Outcome]):
@@ -98,11 +102,17 @@ class Crew(Generic[Item, Outcome]):
         self.waiting: deque[int] = deque()
         self.size = size
         self.workers: list[_Worker[Item, Outcome]] = []
+        self._stack = ExitStack()
 
     def __enter__(self) -> Crew[Item, Outcome]:
+        self._stack.enter_context(undone())
+        self._stack.callback(self._end)
         return self
 
     def __exit__(self, *_: object) -> None:
+        self._stack.close()
+
+    def _end(self) -> None:
         for worker in self.workers:
             worker.end()
 
@@ -152,6 +162,7 @@ class Crew(Generic[Item, Outcome]):
             is_own = self.limit is not None
             worker: _Worker[Item, Outcome] = _Worker(self.context, self.work, others, is_own)
             self.workers.append(worker)
+            worker.begin()
             self._supply(worker)
 
     def _supply(self, worker: _Worker[Item, Outcome]) -> None:

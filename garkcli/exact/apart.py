@@ -12,6 +12,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar, cast
 
 from garkcli.deadline import check_time, forget, is_only_small, seconds_left
+from garkcli.ending import ENDING, undone
 from garkcli.errors import NotDecided
 from garkcli.exact.pickling import register
 
@@ -59,7 +60,7 @@ def first_of(*tasks: Task[T]) -> T:
     from multiprocessing.connection import wait
 
     register()
-    with ExitStack() as stack:
+    with undone(), ExitStack() as stack:
         running = [stack.enter_context(_started(task)) for task in tasks]
         while running:
             ready = wait(running, seconds_left())
@@ -88,13 +89,12 @@ def _started(task: Task[Any]) -> Iterator[Connection]:
     worker = processes.Process(
         target=_serve, args=(there, work, arguments, seconds_left()), daemon=True
     )
-    begin(worker)
-    there.close()
     try:
+        begin(worker)
+        there.close()
         yield here
     finally:
-        worker.kill()
-        worker.join()
+        end(worker)
         here.close()
 
 
@@ -115,6 +115,8 @@ def without_handlers() -> None:
     process that has the terminal, which ends the others, at its deadline too.
     """
     forget()
+    if hasattr(signal, "pthread_sigmask"):  # those that ``begin`` held back
+        signal.pthread_sigmask(signal.SIG_SETMASK, ())
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     for name in ("SIGTERM", "SIGHUP", "SIGALRM"):
         if hasattr(signal, name):
@@ -134,8 +136,10 @@ def start_method() -> str:
 
 
 def begin(process: BaseProcess) -> None:
-    """Start a process that no interrupt reaches: one that is not ready yet would say so."""
-    with _without_interrupts(), warnings.catch_warnings():
+    """Start a process that no interrupt reaches: one that is not ready yet would say so. Where this
+    one is ended meanwhile, it knows of the other.
+    """
+    with _without_signals(), warnings.catch_warnings():
         # the threads are those of numpy's BLAS, which stops them before a fork
         message = "This process .* is multi-threaded"
         warnings.filterwarnings("ignore", message, DeprecationWarning)
@@ -155,14 +159,21 @@ def without_program() -> Iterator[None]:
         sys.modules["__main__"] = program
 
 
+def end(process: BaseProcess) -> None:
+    """End a process, whatever it is at, if it has begun."""
+    if process.pid is not None:
+        process.kill()
+        process.join()
+
+
 @contextmanager
-def _without_interrupts() -> Iterator[None]:
-    """Hold interrupts back, where the system can; they arrive at the end."""
+def _without_signals() -> Iterator[None]:
+    """Hold signals that end the run back, where the system can; they arrive at the end."""
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
-    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, [getattr(signal, x) for x in ENDING])
     try:
         yield
     finally:
-        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)

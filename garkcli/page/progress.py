@@ -231,6 +231,7 @@ def _draw_for(parent: int, commands: int, answers: int) -> NoReturn:
                     text = "" if message == _ASIDE else message.decode()
             if text:
                 pen.draw(text)
+        pen.end()  # the parent was ended, and has left the line
     finally:
         # whatever has happened, the rest of the program is for the parent
         os._exit(0)

@@ -10,6 +10,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import BinaryIO
 
+from garkcli.ending import undone
 from garkcli.errors import UsageProblem
 from garkcli.files import is_input, note_input, own_stream
 
@@ -35,7 +36,7 @@ def write_whole(path: str, pieces: Iterable[str | bytes], is_renewed: bool = Fal
     Raises:
         UsageProblem: the file cannot be written, or is an input; nothing is left behind.
     """
-    with _told(path):
+    with _told(path), undone():
         target = _without_links(path)
         stream = own_stream(str(target))
         before = None if stream is not None else _status(target)

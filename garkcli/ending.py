@@ -1,0 +1,99 @@
+"""How signals end a run: at once, or after what is begun is undone.
+
+Python hears of a signal between two of its own steps. A call in C, of python-flint say, may go on
+for minutes, so the system ends the run, and Python handles signals only where there is something to
+undo: a file that is half written, processes that work for this one.
+"""
+
+from __future__ import annotations
+
+import signal
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from types import FrameType
+from typing import NoReturn
+
+from garkcli.frozen import Mutable
+
+ENDING = ("SIGINT", "SIGTERM", "SIGHUP")
+"""Sent by a person, by whoever ends jobs, and by a terminal that closes."""
+
+
+class Ended(BaseException):
+    """A signal asks the program to end, and nothing is said; no ``except Exception`` keeps it."""
+
+    def __init__(self, number: int) -> None:
+        super().__init__(number)
+        self.exit_code = 128 + number
+
+
+class _Run(Mutable, eq=False):
+    """A run of the command line.
+
+    Attributes:
+        signals: those that end it.
+        undoing: how many things are begun that have to be undone.
+    """
+
+    signals: list[int]
+    undoing: int = 0
+
+
+_run: ContextVar[_Run | None] = ContextVar("run", default=None)
+"""None in other programs: their signals are their own."""
+
+
+@contextmanager
+def at_once() -> Iterator[None]:
+    """Let signals end the process by themselves inside, but where ``undone`` is around.
+
+    One that is ignored (``nohup``) or handled already stays so. Windows has an exit code of its own
+    for a process that an interrupt ends, so that Python handles it.
+    """
+    usual = (signal.SIG_DFL, signal.default_int_handler)
+    before = {}
+    if threading.current_thread() is threading.main_thread() and hasattr(signal, "SIGHUP"):
+        known = [getattr(signal, name) for name in ENDING]
+        before = {x: handler for x in known if (handler := signal.getsignal(x)) in usual}
+    token = _run.set(_Run([*before]))
+    for number in before:
+        signal.signal(number, signal.SIG_DFL)
+    try:
+        yield
+    finally:
+        _run.reset(token)
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+@contextmanager
+def undone() -> Iterator[None]:
+    """Raise ``KeyboardInterrupt`` or ``Ended`` at a signal inside: what is begun can be undone.
+
+    Calls in C inside should be short: nothing ends the process while they go on.
+    """
+    run = _run.get()
+    if run is None or threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    run.undoing += 1
+    try:
+        # generators may end in another order than they began: the last one puts the signals back
+        if run.undoing == 1:
+            for number in run.signals:
+                is_interrupt = number == signal.SIGINT
+                signal.signal(number, signal.default_int_handler if is_interrupt else _end)
+        yield
+    finally:
+        run.undoing -= 1
+        if not run.undoing:
+            for number in run.signals:
+                signal.signal(number, signal.SIG_DFL)
+
+
+def _end(number: int, _frame: FrameType | None) -> NoReturn:
+    # once is enough: the next one would stop the cleaning up
+    signal.signal(number, signal.SIG_IGN)
+    raise Ended(number)
