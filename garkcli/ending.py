@@ -1,4 +1,4 @@
-"""How signals end a run: at once, or after what is begun is undone.
+"""How signals end a run: at once, or after it has cleaned up.
 
 Python hears of a signal between two of its own steps. A call in C, of python-flint say, may go on
 for minutes, so the system ends the run, and Python handles signals only where there is something to
@@ -70,7 +70,7 @@ def at_once() -> Iterator[None]:
 
 @contextmanager
 def undone() -> Iterator[None]:
-    """Raise ``KeyboardInterrupt`` or ``Ended`` at a signal inside: what is begun can be undone.
+    """Raise ``KeyboardInterrupt`` or ``Ended`` at a signal inside: the code can clean up.
 
     Calls in C inside should be short: nothing ends the process while they go on.
     """
