@@ -30,9 +30,9 @@ from garkcli.tableau.tableau import Tableau
 
 CARELESS = "careless rounding explains it"
 ONE = at_least(1)
-"""The order that the sum 1 of weights is."""
+"""The order of every method whose weights have the sum 1."""
 ROW_SUMS = {"stage-order": at_least(1)}
-"""What nodes are that are row sums, as a method file claims it."""
+"""The claim of a method file whose nodes are row sums."""
 MAX_BLAMED = 12
 """Most stages of a table whose wrong entry is sought."""
 
