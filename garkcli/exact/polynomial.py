@@ -8,6 +8,7 @@ from typing import Any, Self
 from flint import arb, ctx, fmpq, fmpq_mpoly, fmpq_poly, fmpz_poly, nmod_poly
 
 from garkcli.deadline import check_time
+from garkcli.exact.conjugates import norm_in_balls, over_integers
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import ONE, ZERO, Algebraic, Number, NumberField, modulo, poly_of
 from garkcli.exact.matrix import Matrix, characteristic_coefficients, is_rational, to_flint
@@ -25,13 +26,14 @@ class Polynomial:
     Polynomial([-1])
     """
 
-    __slots__ = ("coefficients",)
+    __slots__ = ("_norm", "coefficients")
 
     def __init__(self, coefficients: Iterable[Number | int]) -> None:
         kept = [fmpq(a) if isinstance(a, int) else a for a in coefficients]
         while kept and not kept[-1]:
             kept.pop()
         self.coefficients: tuple[Number, ...] = tuple(kept)
+        self._norm: fmpz_poly | None = None
 
     @classmethod
     def from_flint(cls, poly: fmpq_poly | fmpz_poly) -> Self:
@@ -186,14 +188,22 @@ class Polynomial:
         return (self // gcd(self, self.derivative())).monic()
 
     def norm(self) -> fmpz_poly:
-        """A polynomial over ℤ that has all roots of this one, and those of its conjugates.
-
-        The norm of p ∈ K[x] is the determinant of multiplication by p on K[x] over ℚ[x]; it is
-        found from its values at integers.
+        """A polynomial over ℤ that has all roots of this one, and those of its conjugates: the
+        determinant of multiplication by p on K[x] over ℚ[x], or a multiple.
         """
-        field = self.field
+        if self._norm is None:
+            self._norm = self._norm_of(self.field)
+        return self._norm
+
+    def _norm_of(self, field: NumberField | None) -> fmpz_poly:
+        """The norm over ℚ, or from a number field."""
         if field is None:
             return self.to_flint().numer()
+        found = norm_in_balls(over_integers([poly_of(a) for a in self.coefficients]), field)
+        return self._norm_by_resultants(field) if found is None else found
+
+    def _norm_by_resultants(self, field: NumberField) -> fmpz_poly:
+        """The same from values at integers: where conjugates of θ are very near one another."""
         degree = field.degree * self.degree
         first = -(degree // 2)
         points = [fmpq(first + k) for k in range(degree + 1)]

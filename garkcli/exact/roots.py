@@ -12,10 +12,11 @@ from itertools import pairwise
 from flint import arb, ctx, fmpq, fmpq_poly, fmpz_poly
 
 from garkcli.deadline import check_time
+from garkcli.exact.conjugates import images, over_integers
 from garkcli.exact.display import to_ball
 from garkcli.exact.domain import Domain
 from garkcli.exact.enclosing import isolated
-from garkcli.exact.field import ZERO, Algebraic, Number
+from garkcli.exact.field import ZERO, Algebraic, Number, poly_of
 from garkcli.exact.nodes import AlgebraicRoot
 from garkcli.exact.polynomial import Polynomial, gcd
 from garkcli.frozen import Frozen
@@ -130,8 +131,42 @@ def is_nonnegative(p: Polynomial) -> bool:
 
 def multiplicity_at(p: Polynomial, root: RealRoot) -> int:
     """How often ``root`` is a root of p ≠ 0, decided exactly."""
+    together = _multiplicity(p.norm(), root.polynomial)
+    field = p.field
+    if field is None or not together:
+        return together
+    integral = over_integers([poly_of(a) for a in p.coefficients])
+    bits = FIRST_BITS
+    while True:
+        check_time()
+        found = images(integral, field, bits)
+        if found is None:
+            return _multiplicity_by_gcds(p, root)
+        with ctx.workprec(bits):
+            x = root.ball(bits)
+            own = found[0].multiplicity(x)
+            # all images have it as a root so often together, and none more often than that
+            if not own or together == sum(f.weight * f.multiplicity(x) for f in found):
+                return own
+        bits *= 2
+
+
+def _multiplicity(p: fmpz_poly, factor: fmpz_poly) -> int:
+    """How often a polynomial over ℚ has an irreducible factor."""
+    rest, divisor = fmpq_poly(p), fmpq_poly(factor)
+    count = 0
+    while True:
+        check_time()
+        rest, remainder = divmod(rest, divisor)
+        if remainder:
+            return count
+        count += 1
+
+
+def _multiplicity_by_gcds(p: Polynomial, root: RealRoot) -> int:
+    """The same by common divisors over the number field."""
     multiplicity = 0
-    while p and sign_at(p, root) == 0:
+    while p and _is_root(p, root):
         multiplicity += 1
         p = p.derivative()
     return multiplicity
@@ -161,7 +196,12 @@ def sign_at(p: Polynomial, root: RealRoot) -> int:
 
 
 def vanishes_at(p: Polynomial, root: RealRoot) -> bool:
-    """Whether p is zero at a real algebraic number.
+    """Whether p is zero at a real algebraic number."""
+    return not p or multiplicity_at(p, root) > 0
+
+
+def _is_root(p: Polynomial, root: RealRoot) -> bool:
+    """The same by a common divisor.
 
     With q the minimal polynomial and g = gcd(p, q), q = g · (q/g) has no multiple root, so that
     the number is a root of exactly one of the two factors; an enclosure shows of which it is none.

@@ -1,0 +1,147 @@
+"""A number field in ℂ, once for every root of its minimal polynomial.
+
+The norm of p ∈ K[x] is the product of the images of p under all embeddings of K in ℂ. Over ℤ its
+coefficients are integers, and balls that hold one integer each are these. And a real number x is
+a root of the norm as often as of all images together: where balls show that it is a root of each
+image at most m_σ times, and Σ m_σ is its multiplicity in the norm, it is exactly that often one of
+each. So nothing is divided in K, where numbers get long.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import lru_cache
+
+from flint import acb, acb_mat, acb_poly, arb, arb_poly, ctx, fmpq_poly, fmpz, fmpz_poly
+
+from garkcli.deadline import check_time
+from garkcli.exact.display import to_ball
+from garkcli.exact.field import NumberField
+from garkcli.frozen import Frozen
+
+SPARE = 64
+"""Bits behind those that a coefficient has."""
+MOST_BITS_APART = 1024
+"""Roots that are not told apart with so many are too near one another to be sought."""
+
+
+class Image(Frozen):
+    """The image u + iv of a polynomial under an embedding.
+
+    Attributes:
+        real: u.
+        imaginary: v; None for an embedding in ℝ. Another one stands for its conjugate too, under
+            which the image is u − iv.
+    """
+
+    real: arb_poly
+    imaginary: arb_poly | None
+
+    @property
+    def weight(self) -> int:
+        """How many embeddings it stands for."""
+        return 1 if self.imaginary is None else 2
+
+    @property
+    def norm(self) -> arb_poly:
+        """The product of the images under these."""
+        if self.imaginary is None:
+            return self.real
+        return self.real * self.real + self.imaginary * self.imaginary
+
+    def multiplicity(self, x: arb) -> int:
+        """A number of times that x is a root at most."""
+        parts = [self.real] if self.imaginary is None else [self.real, self.imaginary]
+        count = 0
+        while any(len(p) for p in parts) and all(p(x).contains(0) for p in parts):
+            count += 1
+            parts = [p.derivative() for p in parts]
+        return count
+
+
+@lru_cache(maxsize=64)
+def conjugates(field: NumberField, bits: int) -> tuple[acb, ...] | None:
+    """The roots of the minimal polynomial without a negative imaginary part, with about ``bits``
+    bits; θ itself first, where the field has the radicals that tell it.
+
+    None where some are very near one another: to tell them apart might take for ever.
+    """
+    check_time()
+    modulus = field.modulus.numer()
+    try:
+        acb_poly(modulus).roots(maxprec=MOST_BITS_APART)
+    except ValueError:
+        return None
+    with ctx.workprec(bits):
+        found = (z for z, _ in modulus.complex_roots())
+        roots = [z for z in found if z.imag.is_zero() or z.imag > 0]
+    if not field.radicals:
+        return tuple(roots)
+    theta = field.element(fmpq_poly([0, 1]))
+    nearest = [z for z in roots if z.imag.is_zero()]
+    digits = bits
+    while len(nearest) > 1:
+        check_time()
+        ball = to_ball(theta, digits)
+        nearest = [z for z in nearest if z.real.overlaps(ball)]
+        digits *= 2
+    return (*nearest, *(z for z in roots if z is not nearest[0]))
+
+
+def images(p: Sequence[fmpz_poly], field: NumberField, bits: int) -> list[Image] | None:
+    """The images of Σ p_k(θ) x^k, that under the identity first where the field has radicals; None
+    where conjugates of θ are very near one another.
+
+    Args:
+        p: the p_k.
+        field: ℚ(θ).
+        bits: the precision of the conjugates.
+    """
+    roots = conjugates(field, bits)
+    if roots is None:
+        return None
+    length = max(map(len, p))
+    with ctx.workprec(bits):
+        powers = acb_mat([[z**j for j in range(length)] for z in roots])
+        rows = (powers * acb_mat([[a[j] for a in p] for j in range(length)])).tolist()
+        return [
+            Image(
+                arb_poly([a.real for a in row]),
+                None if z.imag.is_zero() else arb_poly([a.imag for a in row]),
+            )
+            for z, row in zip(roots, rows, strict=True)
+        ]
+
+
+def over_integers(p: Sequence[fmpq_poly]) -> list[fmpz_poly]:
+    """A multiple of Σ p_k(θ) x^k by a positive integer."""
+    denominator = fmpz(1)
+    for a in p:
+        denominator = denominator.lcm(a.denom())
+    return [a.numer() * (denominator // a.denom()) for a in p]
+
+
+def norm_in_balls(p: Sequence[fmpz_poly], field: NumberField) -> fmpz_poly | None:
+    """A multiple of the norm of Σ p_k(θ) x^k by an integer; None as for ``images``.
+
+    Args:
+        p: the p_k; not all are zero.
+        field: ℚ(θ).
+    """
+    # a product over the roots of c θ^d + … of polynomials of degree n in θ becomes integral by c^n
+    leading = abs(field.modulus.numer().leading_coefficient())
+    scale = leading ** (max(map(len, p)) - 1)
+    bits = SPARE + max(int(a.height_bits()) for a in p)
+    while True:
+        found = images(p, field, bits)
+        if found is None:
+            return None
+        with ctx.workprec(bits):
+            product = arb_poly([scale])
+            for image in found:
+                check_time()
+                product *= image.norm
+            integral = product.unique_fmpz_poly()
+            if integral is not None:
+                return integral
+        bits *= 2
