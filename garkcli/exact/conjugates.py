@@ -21,6 +21,10 @@ from garkcli.frozen import Frozen
 
 SPARE = 64
 """Bits behind those that a coefficient has."""
+FIRST_BITS = 128
+"""The precision of roots from which Newton's method goes on."""
+DIGITS = 20
+"""Digits of θ that tell it from its conjugates most often; they double where they do not."""
 MOST_BITS_APART = 1024
 """Roots that are not told apart with so many are too near one another to be sought."""
 
@@ -68,24 +72,40 @@ def conjugates(field: NumberField, bits: int) -> tuple[acb, ...] | None:
     """
     check_time()
     modulus = field.modulus.numer()
+    if bits <= FIRST_BITS:
+        return _first_conjugates(field, modulus)
+    wider = conjugates(field, bits // 2 + 8)
+    return wider and tuple(_narrowed(modulus, z, bits) for z in wider)
+
+
+def _first_conjugates(field: NumberField, modulus: fmpz_poly) -> tuple[acb, ...] | None:
     try:
         acb_poly(modulus).roots(maxprec=MOST_BITS_APART)
     except ValueError:
         return None
-    with ctx.workprec(bits):
+    with ctx.workprec(FIRST_BITS):
         found = (z for z, _ in modulus.complex_roots())
         roots = [z for z in found if z.imag.is_zero() or z.imag > 0]
     if not field.radicals:
         return tuple(roots)
     theta = field.element(fmpq_poly([0, 1]))
     nearest = [z for z in roots if z.imag.is_zero()]
-    digits = bits
+    digits = DIGITS
     while len(nearest) > 1:
         check_time()
         ball = to_ball(theta, digits)
         nearest = [z for z in nearest if z.real.overlaps(ball)]
         digits *= 2
     return (*nearest, *(z for z in roots if z is not nearest[0]))
+
+
+def _narrowed(modulus: fmpz_poly, ball: acb, bits: int) -> acb:
+    """A root that is known to half of so many bits, by a step of Newton's method in balls."""
+    check_time()
+    with ctx.workprec(bits + 32):
+        middle = acb(ball.real.mid(), ball.imag.mid())
+        p = acb_poly(modulus)
+        return middle - p(middle) / p.derivative()(ball)
 
 
 def images(p: Sequence[fmpz_poly], field: NumberField, bits: int) -> list[Image] | None:
@@ -142,6 +162,14 @@ def norm_in_balls(p: Sequence[fmpz_poly], field: NumberField) -> fmpz_poly | Non
                 check_time()
                 product *= image.norm
             integral = product.unique_fmpz_poly()
-            if integral is not None:
-                return integral
-        bits *= 2
+        if integral is not None:
+            return integral
+        bits += max(16, *(_exponent(a.rad()) for a in product.coeffs()))
+
+
+def _exponent(x: arb) -> int:
+    """k with x ≤ 2^k."""
+    if not x.is_finite():
+        return FIRST_BITS
+    mantissa, exponent = x.abs_upper().man_exp()
+    return int(exponent) + int(mantissa).bit_length()

@@ -184,24 +184,25 @@ def stable_set(
     """
     N, D = trace.numerator, trace.denominator
     P, Q = determinant.numerator, determinant.denominator
-    # each condition is multiplied by D² Q² > 0
-    scale = D * Q
-    area = (Q - P) * D * scale
-    right = ((Q + P) * D - N * Q) * scale
-    left = ((Q + P) * D + N * Q) * scale
+    area = Q - P
+    right = (Q + P) * D - N * Q
+    left = (Q + P) * D + N * Q
     defect = gcd(*off_diagonal)
 
     def is_stable(x: Point) -> bool:
-        if sign_of(scale, x) == 0 or sign_of(poles, x) == 0:
+        sign_d, sign_q = sign_of(D, x), sign_of(Q, x)
+        if sign_d == 0 or sign_q == 0 or sign_of(poles, x) == 0:
             return False
-        signs = [sign_of(p, x) for p in (area, right, left)]
+        # the conditions are quotients by Q and by D Q
+        signs = [sign_of(area, x) * sign_q]
+        signs += [sign_of(p, x) * sign_d * sign_q for p in (right, left)]
         if min(signs) < 0:
             return False
         # det M = 1 and tr M = ±2: the eigenvalues are both 1, or both −1
         is_double = signs[0] == 0 and 0 in signs[1:]
         return not is_double or sign_of(defect, x) == 0
 
-    return where(is_stable, [scale, area, right, left, defect, poles], start=ZERO)
+    return where(is_stable, [D, Q, area, right, left, defect, poles], start=ZERO)
 
 
 def phase_error(trace: Ratio, determinant: Ratio) -> PhaseError:
