@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import lru_cache
+from typing import Any
 
 from flint import acb, acb_mat, acb_poly, arb, arb_poly, ctx, fmpq_poly, fmpz, fmpz_poly
 
@@ -84,8 +85,8 @@ def _first_conjugates(field: NumberField, modulus: fmpz_poly) -> tuple[acb, ...]
     except ValueError:
         return None
     with ctx.workprec(FIRST_BITS):
-        found = (z for z, _ in modulus.complex_roots())
-        roots = [z for z in found if z.imag.is_zero() or z.imag > 0]
+        found: list[Any] = modulus.complex_roots()
+        roots = [z for z, _ in found if z.imag.is_zero() or z.imag > 0]
     if not field.radicals:
         return tuple(roots)
     theta = field.element(fmpq_poly([0, 1]))
@@ -168,7 +169,7 @@ def norm_in_balls(p: Sequence[fmpz_poly], field: NumberField) -> fmpz_poly | Non
 
 
 def _exponent(x: arb) -> int:
-    """k with x ≤ 2^k."""
+    """A k with x ≤ 2^k."""
     if not x.is_finite():
         return FIRST_BITS
     mantissa, exponent = x.abs_upper().man_exp()
