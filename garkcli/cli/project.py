@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from garkcli.errors import UsageProblem, printable
-from garkcli.files import is_elsewhere, is_inside, read_bytes
+from garkcli.files import STDIN, is_elsewhere, is_inside, read_bytes
 from garkcli.frozen import Frozen, field, replace
 
 if TYPE_CHECKING:
@@ -92,8 +92,15 @@ def _text(path: str, name: str) -> str | None:
     raise UsageProblem(message, "split it", code="file-too-large")
 
 
-_TOOL = rb"tool[\"'\s]*\.[\"'\s]*gark|^\s*\[\s*[\"']?tool[\"']?\s*\]|^\s*[\"']?tool[\"']?\s*="
+_TOOL = (
+    rb"tool[\"' \t]*\.[\"' \t]*gark"
+    rb"|^[ \t]*\[[ \t]*[\"']?tool[\"']?[ \t]*\]|^[ \t]*[\"']?tool[\"']?[ \t]*="
+)
 """What begins a table of gark, or one of tools that may have it."""
+
+
+_DEEP = r"(?<![\w\"'-])(?:[\w\"'-]++[ \t]*+\.[ \t]*+){100}"
+"""A key of a hundred names with dots between: tomllib takes the square of their number."""
 
 
 def _not_toml(path: str, error: Exception) -> UsageProblem:
@@ -110,7 +117,11 @@ def _table(path: str, name: str, text: str) -> dict[str, Any] | None:
     import tomllib
 
     try:
+        if re.search(_DEEP, text) is not None:
+            raise RecursionError
         whole = tomllib.loads(text)
+    except RecursionError:
+        raise _not_toml(path, ValueError("nested too deeply")) from None
     except ValueError as error:
         raise _not_toml(path, error) from None
     if name == OWN:
@@ -139,8 +150,9 @@ def _project(path: str, folder: str, text: str, table: dict[str, Any]) -> Projec
     # no line of a file elsewhere is shown
     source = Source(file, "" if is_elsewhere(path) else text)
     found = read_settings(source, table, _kind(), where)
-    paths = [os.path.join(folder, given) for given in found.get("paths", ())]
-    for place, given in zip(paths, found.get("paths", ()), strict=True):
+    # what is tested is what is read: dots take back the name before them, a pattern too
+    paths = {os.path.normpath(os.path.join(folder, x)): x for x in found.get("paths", ())}
+    for place, given in paths.items():
         if not is_inside(fixed_part(place), folder):
             message = f"paths: {printable(given)} leads out of the project"
             cure = "name files and folders of the project"
@@ -158,11 +170,16 @@ def _project(path: str, folder: str, text: str, table: dict[str, Any]) -> Projec
 
 
 def _from_here(path: str) -> str:
-    """The path from the folder we are in, where there is one: on Windows not to another drive."""
+    """The path from the folder we are in, where there is one: on Windows not to another drive.
+
+    It is never taken for a name of the catalogue, or for standard input.
+    """
     try:
-        return os.path.relpath(path)
+        here = os.path.relpath(path)
     except ValueError:
         return path
+    is_there = here != STDIN and os.path.lexists(here)
+    return here if is_there or os.path.dirname(here) else os.path.join(os.curdir, here)
 
 
 def _kind() -> Kind:

@@ -9,7 +9,7 @@ import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from fnmatch import fnmatchcase
 
-from garkcli.files import STDIN
+from garkcli.files import STDIN, leads_away
 from garkcli.methodfile.naming import PREFIX, expanded, is_both
 from garkcli.methodfile.reading import files_below, no_one, within
 
@@ -51,14 +51,17 @@ def _matching(pattern: str, told: Callable[[str], None]) -> list[str]:
 
     path = Path(pattern)
     start = path.anchor
-    parts = path.parts[1:] if start else path.parts
+    whole = path.parts[1:] if start else path.parts
+    # in a row they say no more than one
+    parts = [x for x, then in zip(whole, (*whole[1:], ""), strict=True) if not x == then == "**"]
     found: set[str] = set()
-    for match in _expanded(start, parts):
-        if os.path.isdir(match):
+    root = fixed_part(pattern)
+    for match in _expanded(start, parts, root):
+        if os.path.isdir(match) and not leads_away(match, root):
             found.update(files_below(match, told))
         else:
             found.add(match)
-    return within(sorted(found), fixed_part(pattern), told)
+    return within(sorted(found), root, told)
 
 
 def fixed_part(pattern: str) -> str:
@@ -73,23 +76,24 @@ def fixed_part(pattern: str) -> str:
     return fixed
 
 
-def _expanded(place: str, parts: Sequence[str]) -> Iterator[str]:
-    if not parts:
+def _expanded(place: str, parts: Sequence[str], root: str) -> Iterator[str]:
+    """What matches below a place; a link out of ``root`` is a match itself: nobody looks there."""
+    if not parts or (os.path.islink(place) and leads_away(place, root)):
         if os.path.lexists(place):
             yield place
         return
     part, rest = parts[0], parts[1:]
     if part == "**":
         for folder in _folders(place):
-            yield from _expanded(folder, rest or ("*",))
+            yield from _expanded(folder, rest or ("*",), root)
     elif _MAGIC & set(part):
         for name in _names(place):
             # a hidden one has to be requested
             is_shown = part.startswith(".") or not name.startswith(".")
             if is_shown and fnmatchcase(name, part):
-                yield from _expanded(os.path.join(place, name), rest)
+                yield from _expanded(os.path.join(place, name), rest, root)
     else:
-        yield from _expanded(os.path.join(place, part), rest)
+        yield from _expanded(os.path.join(place, part), rest, root)
 
 
 def _folders(place: str) -> Iterator[str]:

@@ -12,13 +12,17 @@ from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
 from garkcli.methodfile import grammar as g
 from garkcli.methodfile.expectations import CLAIMS
+from garkcli.methodfile.nodes import shortened
 from garkcli.methodfile.source import Source
 
-HEAD = re.compile(r"^\s*\[\s*tool\s*\.\s*gark\s*\]", re.MULTILINE)
-BEFORE = r"(?:tool\s*\.\s*)?gark\s*\.\s*"
+HEAD = re.compile(r"^[ \t]*\[[ \t]*tool[ \t]*\.[ \t]*gark[ \t]*\]", re.MULTILINE)
+BEFORE = r"(?:tool[ \t]*\.[ \t]*)?gark[ \t]*\.[ \t]*"
 """Before a key where no line begins its table."""
 TAG = "tag:yaml.org,2002:"
 QUOTED = f"{TAG}str"
+MOST_PATHS = 1_000
+DEEPEST = 2
+"""Lists and tables inside one another, below the keys, that some kind reads or refuses."""
 
 
 def _written(kind: g.Kind, is_quoted: bool) -> g.Kind:
@@ -39,6 +43,16 @@ def _written(kind: g.Kind, is_quoted: bool) -> g.Kind:
     return g.Kind(kind.schema, read)
 
 
+def _path(at: Any, node: Node, where: str) -> str | None:
+    """A path or a pattern; NUL is in the name of no file."""
+    text: str | None = g.TEXT.read(at, node, where)
+    if text is None or "\0" not in text:
+        return text
+    message = f"{where}: {shortened(text)} is the name of no file"
+    at.source.fault(node, message, "leave out what is no text", code="wrong-value")
+    return None
+
+
 def file_of(formats: Iterable[str]) -> g.Kind:
     """What the file has.
 
@@ -49,8 +63,9 @@ def file_of(formats: Iterable[str]) -> g.Kind:
         g.Key(
             'paths: ["methods"]',
             g.list_of(
-                _written(g.Kind(lambda: {"type": "string"}, g.TEXT.read), is_quoted=True),
+                _written(g.Kind(lambda: {"type": "string"}, _path), is_quoted=True),
                 "paths",
+                MOST_PATHS,
                 each="paths",
                 form='write ["methods"]',
             ),
@@ -98,25 +113,40 @@ def read_settings(source: Source, table: dict[str, Any], kind: g.Kind, where: st
     start = head.end() if head else 0
     before = "" if head or is_whole else BEFORE
 
-    def node(value: Any, mark: yaml.Mark) -> Node:
+    places = _places(source.text, before, start)
+    top = yaml.Mark("", 0, 0, 0, None, 0)
+
+    def node(value: Any, mark: yaml.Mark, depth: int = 0) -> Node:
         if isinstance(value, dict):
-            marks = {key: _mark(source.text, before + re.escape(key), start) for key in value}
-            pairs = [(node(key, marks[key]), node(x, marks[key])) for key, x in value.items()]
+            inside = value if depth <= DEEPEST else {}
+            marks = {key: places.get(key, top) for key in inside}
+            pairs = [
+                (node(key, marks[key]), node(x, marks[key], depth + 1)) for key, x in inside.items()
+            ]
             return MappingNode("", pairs, mark, mark)
         if isinstance(value, list):
-            return SequenceNode("", [node(x, mark) for x in value], mark, mark)
+            items = value if depth <= DEEPEST else []
+            return SequenceNode("", [node(x, mark, depth + 1) for x in items], mark, mark)
         shown = str(value).lower() if isinstance(value, bool) else str(value)
         return ScalarNode(f"{TAG}{type(value).__name__}", shown, mark, mark)
 
-    root = node(table, yaml.Mark("", 0, 0, 0, None, 0))
-    found: g.Found = kind.read(SimpleNamespace(source=source), root, where)
+    found: g.Found = kind.read(SimpleNamespace(source=source), node(table, top), where)
     return found
 
 
-def _mark(text: str, key: str, start: int) -> yaml.Mark:
-    """The place of the pattern of a key in a file, after what begins its table; the start where it
-    is not seen.
+def _places(text: str, before: str, start: int) -> dict[str, yaml.Mark]:
+    """The place of the first line with each key, after what begins its table.
+
+    Args:
+        text: of the file.
+        before: the pattern of what is before each key.
+        start: where the table begins.
     """
-    found = re.compile(rf"^[ \t]*[\"']?{key}[\"']?[ \t]*=", re.MULTILINE).search(text, start)
-    index = 0 if found is None else found.start()
-    return yaml.Mark("", index, text.count("\n", 0, index), 0, None, 0)
+    places: dict[str, yaml.Mark] = {}
+    line, seen = 0, 0
+    pattern = re.compile(rf"^[ \t]*[\"']?{before}([^\n=\"']*+)[\"']?[ \t]*=", re.MULTILINE)
+    for found in pattern.finditer(text, start):
+        line += text.count("\n", seen, found.start())
+        seen = found.start()
+        places.setdefault(found[1].rstrip(), yaml.Mark("", seen, line, 0, None, 0))
+    return places

@@ -5,12 +5,15 @@ from __future__ import annotations
 import json
 import os
 from pathlib import Path
+from time import process_time
 
 import pytest
 
 from garkcli.cli.project import find_project
 from tests.cli.harness import gark
 
+PATIENCE = 10.0
+"""Seconds of processor time that hostile settings may take on a slow machine."""
 METHOD = "A: [[0, 0], [1/2, 0]]\nb: [0, 1]\n"
 
 
@@ -128,6 +131,137 @@ def test_what_is_not_ours(project: Path) -> None:
     (inner / ".git").mkdir(parents=True)
     put(project, ".gark.toml", 'paths = ["tables"]\n')
     assert "Missing argument" in gark("check", cwd=inner).err
+
+
+OUT = (
+    *(
+        "../outside",
+        "../outside/*",
+        "*/../../outside/*",
+        "**/../../outside/*",
+        "tables/../../outside",
+    ),
+    *("./*/.././../outside/*", "tables/*/../../../outside/hidden.gark.yaml", "[!.]*/../../outside"),
+    *(
+        "[.][.]/outside/*",
+        ".*/outside/*",
+        ".*/*/*",
+        "{here}/../outside",
+        "{here}/*/../../outside/*",
+    ),
+    *(
+        "folder/*",
+        "*/*",
+        "**/*.yaml",
+        "*/hidden*",
+        "f*/hidden.gark.yaml",
+        "folder/hidden.gark.yaml",
+    ),
+    *(
+        "one.gark.yaml",
+        "one*",
+        "*",
+        "folder",
+        "f*",
+        "folder/..",
+        "tables/back/*",
+        "*/back/outside/*",
+    ),
+)
+"""Paths of which some lead out of a project, by dots, links, patterns or from the root."""
+
+
+@pytest.mark.parametrize("given", OUT)
+@pytest.mark.parametrize(
+    ("name", "head"), [(".gark.toml", ""), ("pyproject.toml", "[tool.gark]\n")]
+)
+def test_nothing_outside_is_read(project: Path, given: str, name: str, head: str) -> None:
+    """Whatever the paths of a project are, and from whatever folder of it gark runs: no file
+    outside is quoted or so much as named, and none but links of the project are spoken of.
+    """
+    here, outside = project / "here", project / "outside"
+    here.mkdir()
+    outside.mkdir()
+    (project / ".git").rename(here / ".git")
+    tables = (project / "tables").rename(here / "tables")
+    secret = "A: [[0, 0], [1/2, 0]]\nb: [0, TOPSECRET]\n"
+    (outside / "hidden.gark.yaml").write_text(secret, encoding="utf-8")
+    (here / "folder").symlink_to(outside, target_is_directory=True)
+    (tables / "back").symlink_to(project, target_is_directory=True)
+    (here / "one.gark.yaml").symlink_to(outside / "hidden.gark.yaml")
+    (here / ".hidden").symlink_to(outside, target_is_directory=True)
+    path = given.format(here=here.as_posix())
+    put(here, name, f"{head}paths = [{json.dumps(path)}]\n")
+    for place in (here, tables):
+        run = gark("check", cwd=place)
+        said = (run.out + run.err).replace(given, "")
+        said = said.replace("folder/hidden.gark.yaml: error[no-such-file]", "")
+        assert run.code in {0, 1, 2}
+        assert "TOPSECRET" not in said
+        assert "hidden.gark" not in said
+
+
+def test_links_inside_are_followed(project: Path) -> None:
+    """A pattern finds what is in the project, also by links and dots that stay in it."""
+    (project / "again").symlink_to(project / "tables", target_is_directory=True)
+    for given in ("tables/../*/with.*", "**/**/with.*", "t*/../tables/with.gark.yaml"):
+        put(project, ".gark.toml", f"paths = [{json.dumps(given)}]\n")
+        run = gark("check", cwd=project / "tables")
+        assert run.code == 0
+        assert "with.gark.yaml: order 2" in run.out
+
+
+def test_a_path_is_no_name(project: Path) -> None:
+    """The paths of a project are files: neither methods of the catalogue nor standard input."""
+    for given in ("rk4", "-", "catalogue:", "gauss-2"):
+        put(project, ".gark.toml", f"paths = [{json.dumps(given)}]\n")
+        run = gark("check", cwd=project, stdin=METHOD)
+        assert (run.code, "no such file" in run.out) == (2, True)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ('paths = ["a\\u0000b"]', "paths: 'a\\x00b' is the name of no file"),
+        ("paths = [" + '"x", ' * 1001 + "]", "1001 paths (limit 1000)"),
+        ("a = " + "[" * 5000 + "]" * 5000, "nested too deeply"),
+        ("a = " + "{a = " * 5000 + "1" + "}" * 5000, "nested too deeply"),
+        ("a." * 200_000 + "a = 1", "nested too deeply"),
+        ("a." * 90 + "a = 1", "unknown key 'a'"),
+        ("[" + "paths." * 90 + "a]", "a list is expected here"),
+        ("paths = " + "[" * 50 + "]" * 50, "a single value is expected here"),
+        ("\n".join(f"a{n} = 1" for n in range(20_000)), " | a200 = 1"),
+        ("\n" * 500_000 + "a = 1", "unknown key 'a'"),
+        ("#" + " " * 500_000 + "\na = 1", "unknown key 'a'"),
+    ],
+    ids=[
+        "nul",
+        "many",
+        "lists",
+        "tables",
+        "dots",
+        "names",
+        "head",
+        "inside",
+        "keys",
+        "lines",
+        "blank",
+    ],
+)
+@pytest.mark.parametrize(
+    ("name", "head"), [(".gark.toml", ""), ("pyproject.toml", "[tool.gark]\n")]
+)
+def test_hostile_settings(project: Path, text: str, said: str, name: str, head: str) -> None:
+    """Settings of any depth, number and length are refused with place and cure, soon."""
+    if head and text.startswith("["):
+        head, text = "", text.replace("[", "[tool.gark.")
+    put(project, name, head + text + "\n")
+    start = process_time()
+    run = gark("check", cwd=project)
+    assert process_time() - start < PATIENCE
+    assert run.code == 2
+    assert said in run.err
+    assert "help: " in run.err
 
 
 def test_paths_on_another_drive_stay_whole(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
