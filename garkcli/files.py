@@ -50,7 +50,8 @@ def is_stream(path: str) -> bool:
 def read_bytes(path: str, most: int) -> bytes:
     """What a file holds, or a stream of this process; of more than ``most`` bytes one more.
 
-    What is no regular file else is not opened: it may never end, or never begin.
+    What is no regular file else is not opened: it may never end, or never begin. Nor is one waited
+    for that calls itself a file.
 
     Raises:
         NotAFile: it is none.
@@ -64,18 +65,49 @@ def read_bytes(path: str, most: int) -> bytes:
         if sys.stdin.isatty():
             hush()  # somebody types
         return sys.stdin.buffer.read(most + 1)
-    status = os.stat(path)
-    is_file = stat.S_ISREG(status.st_mode)
-    if not is_file and own_stream(path) is None:
+    return begin_of(path, most + 1)
+
+
+def begin_of(path: str, most: int) -> bytes:
+    """The first bytes of a file or a stream of this process, which does not become an input.
+
+    Raises:
+        NotAFile: it is neither.
+        OSError: it cannot be read.
+        ValueError: no file has such a name.
+    """
+    is_named = own_stream(path) is not None
+    if not is_named and not stat.S_ISREG(os.stat(path).st_mode):
         raise NotAFile
-    with open(path, "rb") as stream:
+    descriptor = os.open(path, os.O_RDONLY | _BINARY | (0 if is_named else _AT_ONCE))
+    try:
+        status = os.fstat(descriptor)  # another one may have come since
+        if not is_named and not stat.S_ISREG(status.st_mode):
+            raise NotAFile
         # no more than there is: to clear a megabyte takes longer than to read most files
-        size = min(status.st_size, most) if is_file else most
-        data = stream.read(size + 1)
+        size = min(status.st_size, most) if stat.S_ISREG(status.st_mode) else most
+        data = _read(descriptor, min(size + 1, most))
         # it may have grown, or be one whose size no system knows
-        if len(data) > size:
-            data += stream.read(most - size)
-    return data
+        return data + _read(descriptor, most - len(data)) if len(data) > size else data
+    except BlockingIOError:  # such as /proc/kmsg, which passes for a file
+        raise NotAFile from None
+    finally:
+        os.close(descriptor)
+
+
+_BINARY = getattr(os, "O_BINARY", 0)
+_AT_ONCE = getattr(os, "O_NONBLOCK", 0)
+"""A file that has nothing to give yet says so; without the flag there are no such files."""
+_BLOCK = 2**20
+
+
+def _read(descriptor: int, most: int) -> bytes:
+    """What comes from a descriptor until its end, ``most`` bytes of it."""
+    blocks = []
+    while block := os.read(descriptor, min(most, _BLOCK)):
+        blocks.append(block)
+        most -= len(block)
+    return b"".join(blocks)
 
 
 @contextmanager

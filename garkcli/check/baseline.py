@@ -5,12 +5,13 @@ worse.
 from __future__ import annotations
 
 import json
-import stat
+import os
 from collections.abc import Mapping
-from pathlib import Path, PurePath
+from pathlib import PurePath
 from typing import Any, TypeAlias
 
 from garkcli.errors import UsageProblem
+from garkcli.files import read_bytes
 from garkcli.frozen import Frozen
 
 File: TypeAlias = Mapping[str, Any]
@@ -68,17 +69,15 @@ def _path_of(file: File) -> str:
 
 
 def _text(path: str) -> str:
-    """What is in the file; pipes, devices and large files are not read at all."""
+    """What is in the file; devices, named pipes and large files are not read at all."""
     try:
-        file = Path(path)
-        status = file.stat()
-        if not stat.S_ISREG(status.st_mode):
-            raise _refused(path, "not a regular file")
-        if status.st_size > MAX_BYTES:
-            raise _refused(path, f"more than {MAX_BYTES} bytes")
-        return file.read_text(encoding="utf-8")
+        is_large = os.path.exists(path) and os.path.getsize(path) > MAX_BYTES
+        data = b"" if is_large else read_bytes(path, MAX_BYTES)
     except OSError as error:
         raise _refused(path, error.strerror or "cannot be read") from None
+    if is_large or len(data) > MAX_BYTES:
+        raise _refused(path, f"more than {MAX_BYTES} bytes")
+    return data.decode("utf-8")
 
 
 def _refused(path: str, why: str) -> UsageProblem:

@@ -7,7 +7,6 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Callable, Mapping
-from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -18,7 +17,7 @@ from garkcli.cli.options import Given, Output, declared
 from garkcli.cli.streams import say_faults
 from garkcli.doing import counting
 from garkcli.errors import HasFreeParameters, MethodFileError, UsageProblem, did_you_mean
-from garkcli.files import is_stream
+from garkcli.files import NotAFile, begin_of, is_stream
 from garkcli.tell.report import FORMATS
 
 if TYPE_CHECKING:
@@ -243,10 +242,9 @@ def report(given: Given, output: Output) -> int:
         output.path = _page_name(paths, given.which)
         output.check_place()
         # a page that has its name from its method is written over pages alone
-        with suppress(OSError), open(output.path, "rb") as stream:
-            if b"gark report" not in stream.read(20_000).lower():
-                message = f"{output.path} is there already, and is no page"
-                raise UsageProblem(message, f"-o {output.path} writes over it", code="cannot-write")
+        if _is_no_page(output.path):
+            message = f"{output.path} is there already, and is no page"
+            raise UsageProblem(message, f"-o {output.path} writes over it", code="cannot-write")
     asked = given.order, given.pictures is not False, given.settings
     found = (reported(_meant(path, given), *asked) for path in paths)
     methods = list(counting("methods", found, len(paths)))
@@ -255,6 +253,16 @@ def report(given: Given, output: Output) -> int:
         if not method.outcome.is_read:
             say_faults(method.outcome)
     return max(method.outcome.exit_code for method in methods)
+
+
+def _is_no_page(path: str) -> bool:
+    """Whether there is something that gark did not write as a page."""
+    try:
+        return b"gark report" not in begin_of(path, 20_000).lower()
+    except NotAFile:
+        return True
+    except OSError:
+        return False
 
 
 def _page_name(paths: list[str], which: str | None) -> str:

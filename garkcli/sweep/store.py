@@ -38,7 +38,7 @@ class RowStore:
         self.path = path
         self.rows: dict[str, Row] = {}
         try:
-            self._file = os.open(path, os.O_RDWR | os.O_CREAT | _BINARY, 0o666)
+            self._file = os.open(path, os.O_RDWR | os.O_CREAT | _FLAGS, 0o666)
         except OSError as error:
             message = f"{path} cannot be written: {error.strerror}"
             raise UsageProblem(message, "choose another --rows", code="cannot-write") from None
@@ -47,6 +47,9 @@ class RowStore:
             if self._is_file():
                 self._lock()
                 self._read(is_resumed)
+        except BlockingIOError:
+            os.close(self._file)
+            raise self._no_file() from None
         except BaseException:
             os.close(self._file)
             raise
@@ -70,8 +73,11 @@ class RowStore:
         with suppress(OSError):
             if os.path.samestat(status, os.stat(os.devnull)):
                 return False
+        raise self._no_file()
+
+    def _no_file(self) -> UsageProblem:
         message = f"{self.path} is not a regular file"
-        raise UsageProblem(message, "choose another --rows", code="cannot-read")
+        return UsageProblem(message, "choose another --rows", code="cannot-read")
 
     def _lock(self) -> None:
         with suppress(ImportError):
@@ -123,4 +129,5 @@ class RowStore:
         self.rows[key] = row
 
 
-_BINARY = getattr(os, "O_BINARY", 0)
+_FLAGS = getattr(os, "O_BINARY", 0) | getattr(os, "O_NONBLOCK", 0)
+"""Bytes as they are, and no wait for a file that has nothing to give."""

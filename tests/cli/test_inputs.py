@@ -63,6 +63,45 @@ def test_a_device_is_refused(command: str, folder: Path) -> None:
     refused(gark(*command.replace("F", "/dev/zero").split(), cwd=folder), "not a regular file")
 
 
+WAITING = """
+import os, sys, stat
+from garkcli.cli import main
+os.mkfifo(sys.argv[1])
+held = os.open(sys.argv[1], os.O_RDWR)
+stat.S_ISREG = lambda mode: True
+main(sys.argv[2:])
+"""
+"""Run gark beside a pipe that passes for a file, as /proc/kmsg does, and has nothing to give."""
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")
+@pytest.mark.parametrize("command", [*READERS, "sweep spec.yaml --rows F"])
+def test_what_passes_for_a_file_is_not_waited_for(command: str, folder: Path) -> None:
+    """The system calls it a regular file, and yet it has nothing to give: a word, and no wait."""
+    done = subprocess.run(
+        [sys.executable, "-c", WAITING, "pipe.yaml", *command.replace("F", "pipe.yaml").split()],
+        cwd=folder,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    assert done.returncode == 2
+    assert "not a regular file" in done.stdout + done.stderr
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")
+def test_a_pipe_is_no_page(folder: Path) -> None:
+    """What has the name of the page is looked into only if it is a file."""
+    os.mkfifo(folder / "rk4.html")
+    held = os.open(folder / "rk4.html", os.O_RDWR | os.O_NONBLOCK)
+    try:
+        refused(gark("report", "rk4", cwd=folder), "rk4.html is there already, and is no page")
+    finally:
+        os.close(held)
+
+
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")
 @pytest.mark.parametrize("command", ["import", "audit"])
 def test_a_pipe_in_a_folder_is_named_and_left_out(command: str, folder: Path) -> None:
