@@ -6,8 +6,6 @@ Help has each of them: help(garkcli.find_order); docs/python.md has examples. Th
 when they are first used, so importing the package costs nothing.
 """
 
-from importlib import import_module
-
 from garkcli import upward
 from garkcli.version import __version__ as __version__
 
@@ -111,6 +109,8 @@ _ANSWERING = {
 
 
 def _answering(kind, question):
+    from importlib import import_module  # the command imports it when ^C is taken care of
+
     room, function = _ANSWERING.get(f"{kind}.{question}", ("", ""))
     return getattr(import_module(f"garkcli.{room}"), function) if room else None
 
@@ -138,6 +138,8 @@ __doc__ = (__doc__ or "").replace("{names}", _told())
 def __getattr__(name):
     if name not in HOMES:
         raise AttributeError(f"module 'garkcli' has no attribute {name!r}")
+    from importlib import import_module
+
     room = import_module(f"garkcli.{HOMES[name]}")
     value = room if name == HOMES[name] else getattr(room, name)
     globals()[name] = value  # the next use finds it at once

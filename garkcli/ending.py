@@ -16,6 +16,7 @@ from types import FrameType
 from typing import NoReturn
 
 from garkcli.frozen import Mutable
+from garkcli.leaving import leave
 
 ENDING = ("SIGINT", "SIGTERM", "SIGHUP")
 """Sent by a person, by whoever ends jobs, and by a terminal that closes."""
@@ -50,16 +51,18 @@ def at_once() -> Iterator[None]:
     """Let signals end the process by themselves inside, but where ``undone`` is around.
 
     One that is ignored (``nohup``) or handled already stays so. Windows has an exit code of its own
-    for a process that an interrupt ends, so that Python handles it.
+    for a process that an interrupt ends, so that Python handles it there.
     """
-    usual = (signal.SIG_DFL, signal.default_int_handler)
+    by_system = hasattr(signal, "SIGHUP")
+    inside = signal.SIG_DFL if by_system else signal.default_int_handler
     before = {}
-    if threading.current_thread() is threading.main_thread() and hasattr(signal, "SIGHUP"):
-        known = [getattr(signal, name) for name in ENDING]
+    if threading.current_thread() is threading.main_thread():
+        known = [getattr(signal, name) for name in (ENDING if by_system else ENDING[:1])]
+        usual = (signal.SIG_DFL, signal.default_int_handler, leave)
         before = {x: handler for x in known if (handler := signal.getsignal(x)) in usual}
-    token = _run.set(_Run([*before]))
+    token = _run.set(_Run([*before] if by_system else []))
     for number in before:
-        signal.signal(number, signal.SIG_DFL)
+        signal.signal(number, inside)
     try:
         yield
     finally:

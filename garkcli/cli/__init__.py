@@ -1,4 +1,4 @@
-"""The command line: ``main`` is the entry point of ``gark``."""
+"""The command line: ``main`` is what ``gark`` runs."""
 
 import gc
 

@@ -181,6 +181,9 @@ def _run(arguments: list[str]) -> int:
             message = f"gark help is for one command, not for {counted(len(names), 'word')}"
             raise UsageProblem(message, f"gark help {names[0]}", code="wrong-value")
         arguments = [*arguments[1:], "--help"]
+    if any("\0" in x for x in arguments):
+        message = "an argument has the character NUL in it, which no name has"
+        raise UsageProblem(message, "leave it out", code="option-value")
     try:
         with gark.make_context("gark", list(arguments)) as context:
             result = gark.invoke(context)

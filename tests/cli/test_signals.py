@@ -102,3 +102,60 @@ def test_signals_that_are_ignored_stay_so(tmp_path: Path) -> None:
     finally:
         signal.signal(signal.SIGHUP, before)
     assert list(tmp_path.iterdir()) == []
+
+
+INTERRUPTED = """
+import os, signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)
+module = sys.argv[1]
+class Interrupting:
+    def find_spec(self, name, path=None, target=None):
+        if name == module:
+            os.kill(os.getpid(), signal.SIGINT)
+sys.meta_path.insert(0, Interrupting())
+sys.argv = ["gark", *sys.argv[2:]]
+from garkcli.__main__ import main
+main()
+"""
+"""Run gark, and interrupt it where it begins to import a module."""
+EARLY = ("garkcli.cli", "garkcli.cli.main", "click", "garkcli.cli.table", "garkcli.page.progress")
+LATER = ("garkcli.cli.checking", "flint", "garkcli.report.check_text")
+
+
+@pytest.mark.parametrize("module", EARLY + LATER)
+def test_an_interrupt_while_it_starts_says_nothing(module: str) -> None:
+    """From the first import of the command on ^C ends it without a word, by the signal."""
+    done = subprocess.run(
+        [sys.executable, "-c", INTERRUPTED, module, "check", "methods/rectangular.gark.yaml"],
+        cwd=ROOT,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        timeout=PATIENCE,
+        check=False,
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (-signal.SIGINT, b"", b"")
+
+
+def test_the_library_leaves_interrupts_alone() -> None:
+    """Whoever imports gark, its command line included, keeps the handler of signals, also after a
+    command ran.
+    """
+    script = (
+        "import signal\n"
+        "import garkcli\n"
+        "garkcli.project_schema()\n"
+        "from garkcli.cli import main\n"
+        "try:\n"
+        "    main(['--version'])\n"
+        "except SystemExit:\n"
+        "    print(signal.getsignal(signal.SIGINT) is signal.default_int_handler)\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", script],
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        timeout=PATIENCE,
+        preexec_fn=_as_from_a_terminal,
+    )
+    assert done.stdout.splitlines()[-1] == "True"

@@ -158,3 +158,13 @@ def test_less_of_a_list_is_its_size() -> None:
 )
 def test_less_of_trees_and_conditions_is_their_number(line: str, left: str) -> None:
     assert gark(*line.split(), "-q").out == left
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [("check", "a\0b"), ("check", "rk4", "-o", "a\0b"), ("converge", "rk4", "--plot", "a\0.png")],
+)
+def test_no_argument_has_nul(arguments: tuple[str, ...]) -> None:
+    """No shell can give it, but a program that calls ``main`` can: bad input, not our fault."""
+    run = gark(*arguments)
+    assert (run.code, "the character NUL" in run.err) == (2, True)
