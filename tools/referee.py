@@ -19,7 +19,8 @@ whose sign changes on a list of points show that the nodes are real and distinct
 is ℚ(0). Everything is written over ℚ: a number of K is the list of its coordinates in 1, θ, θ², …,
 a vector the list of all coordinates of its numbers, a map the matrix that acts on such lists.
 
-Exit code 0: every order is proved. 1: something is not. 2: no such file, or no proof in it.
+Exit code 0: every order is proved. 1: something is not. 2: no such file, no proof in it, or one
+beyond the limits below, which keep a small file from filling the memory.
 """
 
 import json
@@ -29,6 +30,10 @@ from fractions import Fraction
 from itertools import chain, pairwise
 from math import prod
 
+MOST_BYTES, MOST_COLOURS, MOST_DEGREE = 50_000_000, 100, 60
+MOST_VALUES = 10_000  # rational numbers of a stage value, in all spaces together
+MOST_NUMBERS = 4_000_000  # rational numbers of all matrices of a tableau
+
 
 class NotProved(Exception):
     """What does not hold."""
@@ -37,6 +42,11 @@ class NotProved(Exception):
 def demand(holds, what):
     if not holds:
         raise NotProved(what)
+
+
+def limit(count, most, what):
+    if not 0 < count <= most:
+        raise ValueError(f"{count} {what} (limit {most})")
 
 
 def rational(text):
@@ -75,6 +85,7 @@ class Field:
     def __init__(self, data):
         self.modulus = [rational(a) for a in data["modulus"]]
         self.degree = len(self.modulus) - 1
+        limit(self.degree, MOST_DEGREE, "as degree of the field")
         self.low, self.high = map(rational, data["theta_between"])
         slope = [k * a for k, a in enumerate(self.modulus)][1:]
         ends = [bounds(self.modulus, x, x)[0] for x in (self.low, self.high)]
@@ -102,15 +113,15 @@ class Space:
 
     def __init__(self, field, data):
         self.field, self.stages = field, data["stages"]
-        demand(0 < self.stages <= 10_000, "an impossible number of stages")
+        limit(self.stages, MOST_VALUES, "stages")
         self.size = self.stages * field.degree
         self.modulus = [rational(a) for a in data.get("modulus", [])]
         self.places = range(0, self.size, field.degree)
         self.one = self.unit(self.places[:1] if self.modulus else self.places)
         if self.modulus:
             points = [rational(x) for x in data["between_nodes"]]
-            values = [bounds(self.modulus, x, x)[0] for x in points]
-            changes = sum(a * b < 0 for a, b in pairwise(values))
+            values = (bounds(self.modulus, x, x)[0] for x in points)
+            changes = sum(a * b < 0 for a, b in pairwise((x > 0) - (x < 0) for x in values))
             demand(points == sorted(points) and self.modulus[-1] == 1, "nodes without an order")
             demand(changes == self.stages == len(self.modulus) - 1, "nodes not real and distinct")
 
@@ -269,7 +280,12 @@ class Tableau:
 
 
 def read_tableau(field, data):
-    colours, spaces = data["colours"], [Space(field, x) for x in data["spaces"]]
+    colours, spaces, degree = data["colours"], data["spaces"], field.degree
+    limit(len(colours), MOST_COLOURS, "colours")
+    limit(sum(x["stages"] for x in spaces) * degree, MOST_VALUES, "numbers of a stage value")
+    matrices = chain.from_iterable(x["A"] for x in data["blocks"]), (c["b"] for c in colours)
+    limit(sum(map(len, chain(*matrices))) * degree**2, MOST_NUMBERS, "numbers of matrices")
+    spaces = [Space(field, x) for x in spaces]
     drives, linear = [c["drives"] for c in colours], [bool(c["linear"]) for c in colours]
     places = [c["space"] - 1 for c in colours]
     demand(set(drives) in ({"y"}, {"q", "p"}), "colours drive nothing")
@@ -325,7 +341,9 @@ def pair_of(method, conjugate):
 
 def referee(path):
     with open(path, encoding="utf-8") as file:
-        data = json.load(file)
+        text = file.read(MOST_BYTES + 1)
+    limit(len(text), MOST_BYTES, "bytes")
+    data = json.loads(text)
     demand(data["schema"] == "gark/certificate/1", "another kind of file")
     field = Field(data["field"] or {"modulus": ["0", "1"], "theta_between": ["-1", "1"]})
     print(f"{path}: {''.join(c if c.isprintable() else '?' for c in data['name'])}")

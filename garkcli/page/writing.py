@@ -21,9 +21,9 @@ _MOST_LINKS = 40
 def write_whole(path: str, pieces: Iterable[str | bytes], is_renewed: bool = False) -> bool:
     """Write a file beside its place, then rename it into place.
 
-    A link stays a link, and what it leads to is written; a file that exists keeps its permissions.
-    What is no ordinary file (a device, a pipe, a stream of this process) or has several names is
-    written through.
+    A link stays a link, and what it leads to is written; a file that exists keeps its permissions,
+    its owner and its group. What is no ordinary file (a device, a pipe, a stream of this process),
+    has several names or belongs to somebody else is written through.
 
     Args:
         path: where to.
@@ -48,7 +48,7 @@ def write_whole(path: str, pieces: Iterable[str | bytes], is_renewed: bool = Fal
                 opened.writelines(_encoded(pieces))
         elif before is None:
             _replace(target, _encoded(pieces), 0o666 & ~_umask())
-        elif stat.S_ISREG(before.st_mode) and before.st_nlink == 1:
+        elif stat.S_ISREG(before.st_mode) and before.st_nlink == 1 and _can_replace(target, before):
             _refuse_protected(target)
             _replace(target, _encoded(pieces), stat.S_IMODE(before.st_mode))
         else:
@@ -127,6 +127,16 @@ def _refuse_protected(target: Path) -> None:
         raise PermissionError(0, "the file is protected")
 
 
+def _can_replace(target: Path, before: os.stat_result) -> bool:
+    """Whether a file that is made beside it has the owner and the group of one that is there."""
+    if not hasattr(os, "geteuid"):
+        return True
+    folder = target.parent.stat()
+    # in such a folder a new file has the group of the folder
+    group = folder.st_gid if folder.st_mode & stat.S_ISGID else os.getegid()
+    return (before.st_uid, before.st_gid) == (os.geteuid(), group)
+
+
 def _umask() -> int:
     umask = os.umask(0)
     os.umask(umask)
@@ -143,7 +153,9 @@ def _write_through(target: Path, pieces: Iterable[str | bytes], is_file: bool) -
     data = _encoded(pieces)
     if is_file:
         data = iter([b"".join(data)])
-    with target.open("wb") as opened:
+    # nothing is made: systems refuse that, in folders that all may write to, beside files of others
+    flags = os.O_WRONLY | os.O_TRUNC | getattr(os, "O_BINARY", 0)
+    with os.fdopen(os.open(target, flags), "wb") as opened:
         opened.writelines(data)
 
 

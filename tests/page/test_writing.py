@@ -79,6 +79,50 @@ def test_a_file_of_two_names_keeps_both(tmp_path: Path) -> None:
     assert (tmp_path / "one").samefile(tmp_path / "two")
 
 
+needs_root = pytest.mark.skipif(
+    not hasattr(os, "geteuid") or os.geteuid() != 0, reason="only root gives files away"
+)
+
+
+@needs_root
+@pytest.mark.parametrize(("owner", "group"), [(12345, 12346), (12345, 0), (0, 12346)])
+@pytest.mark.parametrize("place", ["file", "link", "name"])
+def test_owner_and_group_stay(owner: int, group: int, place: str, tmp_path: Path) -> None:
+    """A file of somebody else, or of another group, is still theirs, by whatever name it is
+    written, in a folder with a sticky bit too; nothing else is left there.
+    """
+    tmp_path.chmod(0o1777)
+    file = tmp_path / "file"
+    file.write_text("old and longer")
+    file.chmod(0o640)
+    os.chown(file, owner, group)
+    (tmp_path / "link").symlink_to("file")
+    (tmp_path / "name").hardlink_to(file)
+    if place != "name":
+        (tmp_path / "name").unlink()
+    names = {x.name for x in tmp_path.iterdir()}
+    write_whole(str(tmp_path / place), ["new"])
+    status = file.stat()
+    assert (status.st_uid, status.st_gid, mode(file)) == (owner, group, 0o640)
+    assert file.read_text() == "new"
+    assert {x.name for x in tmp_path.iterdir()} == names
+
+
+@needs_root
+def test_a_folder_gives_its_group(tmp_path: Path) -> None:
+    """In a folder whose files have its group, a file with that group or another keeps it."""
+    os.chown(tmp_path, 0, 12346)
+    tmp_path.chmod(0o2775)
+    for group in (12346, 12347, 0):
+        (tmp_path / "file").write_text("old")
+        os.chown(tmp_path / "file", 0, group)
+        write_whole(str(tmp_path / "file"), ["new"])
+        assert ((tmp_path / "file").stat().st_gid, (tmp_path / "file").read_text()) == (
+            group,
+            "new",
+        )
+
+
 @needs_fifos
 def test_a_pipe_is_written_through(tmp_path: Path) -> None:
     """A FIFO gets the report and stays one."""
