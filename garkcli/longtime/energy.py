@@ -216,8 +216,8 @@ def _errors(R: Matrix, omega: fmpq, energy: float, count: int) -> _Errors:
 
 
 def _verdict(errors: _Errors, fate: Stability, line: Line, excused: float) -> Verdict:
-    """What the step map and the errors say. A drift that is seen, and is no more than the
-    ``excused`` that rounded coefficients can cause, is undecided.
+    """What the step map and the errors say. A drift that is seen, and less its uncertainty is no
+    more than the ``excused`` that rounded coefficients can cause, is undecided.
     """
     if errors.is_exact:
         return "exact"
@@ -225,7 +225,8 @@ def _verdict(errors: _Errors, fate: Stability, line: Line, excused: float) -> Ve
         return "unstable"
     if fate.fate == "elliptic":
         return "bounded"
-    if abs(line.slope) * (len(errors.values) - 1) > excused or not excused:
+    certain = abs(line.slope) - line.uncertainty
+    if not excused or certain * (len(errors.values) - 1) > excused:
         return "drifts"
     return "undecided" if abs(line.slope) > line.uncertainty else "bounded"
 

@@ -246,7 +246,7 @@ class _Judge(Frozen):
             return "bounded", "none", None
         if not self._drifts(k, trend):
             return _undecided("modulation" if trend.shape == "line" else "level", trend.shape)
-        if excused and not self._drifts(k, record.trends.of(k, noise + excused)):
+        if excused and not trend.exceeds(excused, record.count):
             return _undecided("rounding", trend.shape)
         if self.is_symplectic and record.largest[k] < _LARGE * self._size(k):
             return _undecided("symplectic", trend.shape)

@@ -102,6 +102,7 @@ class Trend(Frozen):
         shape: of the trend; "none" where there is none to be distinguished from oscillation and
             noise.
         move: the size of what is undecided, where that is no line.
+        net: how far apart the levels at the start and at the end of the run are.
     """
 
     slope: float
@@ -109,6 +110,15 @@ class Trend(Frozen):
     finding: Finding
     shape: Shape
     move: float = 0.0
+    net: float = 0.0
+
+    def exceeds(self, bound: float, count: int) -> bool:
+        """Whether the trend over ``count`` steps is more than ``bound`` can explain: a line, less
+        its uncertainty; of another shape, the change of level.
+        """
+        if self.shape == "line":
+            return (abs(self.slope) - self.uncertainty) * count > bound
+        return max(self.move, self.net) > bound
 
 
 class Trends:
@@ -242,7 +252,9 @@ class Trends:
         elif (move := _net(found, least)) > 0.0:
             finding, shape = "undecided", "curve"
         count = self.count
-        return Trend(slope / count, uncertainty / count, finding, shape, move)
+        levels = found.levels[OF_EIGHTHS]
+        net = abs(float(levels[-1] - levels[0]))
+        return Trend(slope / count, uncertainty / count, finding, shape, move, net)
 
     def _move(self, signal: int, found: Windows, least: float) -> float:
         """How far the first or last eighth lies apart, or one half of the run leaves the range of

@@ -272,6 +272,36 @@ def test_a_tolerance_makes_no_drift_bounded(source: str, digits: int) -> None:
     assert shown.count("undecided: drifts; rounding of the coefficients may be the cause") == 2
 
 
+RADAU_5 = """
+A: [[0.41667, -0.08333], [0.75, 0.25]]
+b: [0.75, 0.25]
+"""
+ROTOR = """
+variables: [x, y]
+hamiltonian:
+  - (px**2 + py**2)/2
+  - 1 - cos(x) + (1 - cos(y))/4000 + x**2*(1 - cos(y))/50
+initial: {x: 1, y: 0, px: 0, py: 1/50}
+"""
+
+
+@pytest.mark.parametrize(("unit", "verdict"), [(1, "drifts"), (3, "undecided")])
+def test_rounding_excuses_no_drift_above_its_bound(unit: int, verdict: str) -> None:
+    """The drift of Radau IIA is twice the bound within 1e-5, and below it within 3e-5: the
+    verdict is that of the comparison.
+    """
+    problem = loads_problem(ROTOR)
+    tolerance = fmpq(unit, 10**5)
+    energy = long_run(
+        tableau_of(RADAU_5), problem, fmpq(100), fmpq(1, 10), tolerance=tolerance
+    ).energy
+    assert energy.drift is not None
+    assert energy.uncertainty is not None
+    is_above = (abs(energy.drift) - energy.uncertainty) * 100 > energy.coefficients
+    assert is_above is (verdict == "drifts")
+    assert energy.verdict == verdict
+
+
 SLOW = """
 variables: [x, y]
 hamiltonian: (px**2 + py**2 + x**2)/2 + {y}*y**2 + x**2*y/{coupling}

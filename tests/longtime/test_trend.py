@@ -189,3 +189,24 @@ def test_shortest_runs(count: int) -> None:
     found = trend_of(0.5 * np.arange(count + 1))
     assert found.slope == pytest.approx(0.5)
     assert found.shape == "line"
+
+
+@pytest.mark.parametrize("errors", [S, S**4])
+def test_what_a_bound_explains(errors: Floats) -> None:
+    """A line from 0 to 1, and a curve from 0 to 1, are explained by more than that and not by half
+    of it.
+    """
+    found = trend_of(errors)
+    assert found.finding == "drift"
+    assert not found.exceeds(1.01, N)
+    assert found.exceeds(0.5, N)
+
+
+def test_a_bound_is_held_against_a_line_less_its_uncertainty() -> None:
+    """Noise of a known size leaves the slope open by as much: a bound within that is not
+    exceeded.
+    """
+    found = trend_of(S, noise=0.05)
+    assert (found.finding, found.shape) == ("drift", "line")
+    assert not found.exceeds(0.97, N)
+    assert found.exceeds(0.93, N)
