@@ -60,7 +60,7 @@ def note_changing(problem: Problem, output: Output) -> None:
 
 @declared("converge", [*FORMATS, "csv"])
 def converge(given: Given, output: Output) -> int:
-    """The convergence test: errors over step sizes, observed against predicted order, energy error.
+    """The convergence test: errors over step sizes, observed against visible order, energy error.
 
     gark steps with as many digits as the errors need, so that a method of order 12 shows slope 12,
     and takes the step map of the oscillator exactly. Without --problem the problem is generic, or

@@ -122,7 +122,7 @@ class Convergence(Shown, Frozen):
             fitted.
         observed_order: extrapolated from the last rows before the plateau to h = 0; None for a
             single row.
-        predicted_order: of the tableau, by the certificate.
+        predicted_order: of the tableau for every problem, by the certificate.
         visible: what the problem can see; its order is at least the predicted one.
         short_time: the time of the observation with tiny steps; None where there was no need for
             it, and for rounded coefficients, whose errors are then all rounding.

@@ -163,7 +163,7 @@ def _convergence(method: GarkMethod) -> tuple[Panel, str]:
     name = result.problem.name
     note = (
         f"Numerical: the {word_for(result.method)} on the problem {name} to t = {result.t_end}. "
-        f"Observed order {observed}, proved order {result.predicted_order}: "
+        f"Observed order {observed}, visible order {result.visible_order}: "
         f"{verdict_words(result.verdict, Plain())}."
     )
     if result.plateau:

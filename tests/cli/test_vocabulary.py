@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
@@ -9,6 +10,8 @@ import pytest
 from garkcli import diagonal_method, load
 from garkcli.cli.table import COMMANDS, HIDDEN, SHOWN
 from garkcli.exact.expression import parse
+from garkcli.glossary.fields import field_text
+from garkcli.glossary.term import by_word
 from tests.cli.harness import gark
 
 
@@ -108,3 +111,23 @@ def test_what_people_write_in_files() -> None:
     for wrong in ("√", "2√3", "√√", "√-3"):
         assert gark("check", "-", stdin=f"{{A: [['{wrong}']], b: [1]}}").code == 2
     assert gark("check", "-", stdin="{A: [['" + "√" * 10000 + "2']], b: [1]}").code == 2
+
+
+def test_the_order_that_observations_are_held_against() -> None:
+    """Where a problem hides what fails, the observed order agrees with the visible one, in the
+    output as in the glossary and the fields of JSON; the predicted one is that of every problem.
+    """
+    hiding = "{A: [[], [1/3], [0, 1/2]], b: [0, 0, 1]}"
+    asked = ("converge", "-", "--problem", "oscillator")
+    shown = " ".join(gark(*asked, stdin=hiding).out.split())
+    assert "order 3.00 observed, 3 visible: they agree" in shown
+    assert "predicted order 2" in shown
+    found = json.loads(gark(*asked, "--format", "json", stdin=hiding).out)
+    assert (found["visible_order"], found["predicted_order"], found["agrees"]) == (3, 2, True)
+    words = by_word()
+    assert words["visible order"] is not words["predicted order"]
+    assert "for every problem" in words["predicted order"].text
+    assert "that the problem can show" in words["visible order"].text
+    for told in (words["agree"].text, field_text(("converge", "agrees"))):
+        assert "visible" in told
+        assert "predicted" not in told

@@ -230,7 +230,7 @@ def test_dots_of_the_convergence_picture_have_the_slope(of_rk4: dict[str, Pictur
     decades = (low - high) / (up / 2)
     assert decades / np.log10(2) == pytest.approx(4, abs=0.05)
     assert half > 0
-    assert "Observed order 4.00, proved order 4" in of_rk4["convergence"].note
+    assert "Observed order 4.00, visible order 4" in of_rk4["convergence"].note
 
 
 def test_what_is_put_to_work_does_not_depend_on_the_file(of_coupled: dict[str, Picture]) -> None:
