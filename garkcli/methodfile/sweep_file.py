@@ -165,7 +165,7 @@ _OWN = {
     "pair-error": "The 2-norm of the error coefficients of the symplectic pair.",
     "pair-p-stable": "Whether the symplectic pair is P-stable.",
     "phase-order": "The order of the phase lag on the harmonic oscillator.",
-    "phase-constant": "The constant of the phase lag on the harmonic oscillator.",
+    "phase-constant": "The size of the constant of the phase lag on the harmonic oscillator.",
     "stages": "The stages of all colours together.",
     "colours": "How many colours the method has.",
 }

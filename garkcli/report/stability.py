@@ -297,13 +297,14 @@ ROOT_ALONE = Kind(ALGEBRAIC, words=lambda x, d: d.root(x))
 
 
 def phase(o: Any) -> Answer:
-    """The order of the phase lag."""
+    """The order of the phase lag, and its sign."""
     if o.phase.order is None:
         return Answer(None, reason=Reason("none: the frequency is exact"))
     if o.phase.constant is None:
         return Answer(o.phase.order, reason=Reason("the frequency is wrong for small step sizes"))
     lag = kinds.term("z", o.phase.order + 1)
-    return Answer(o.phase.order, reason=Reason("{}", lag(o.phase.constant)))
+    where = "behind" if o.phase.constant > 0 else "ahead"
+    return Answer(o.phase.order, reason=Reason(f"{{}}, z = hω: {where}", lag(o.phase.constant)))
 
 
 PHASE = Kind(S.COUNT, words=lambda n, _: f"of order {n}")

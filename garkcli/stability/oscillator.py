@@ -56,7 +56,12 @@ class Ratio(Frozen):
 
 
 class PhaseError(Frozen):
-    """The leading term of arccos(tr M / (2 √det M)) − z = constant · z^(order+1) + ….
+    """The phase lag z − θ with z = hω and cos θ = tr M / (2 √det M): constant · z^(order+1) + ….
+
+    It is positive where the numerical solution turns by less than the exact one, and lags. Of a
+    Runge–Kutta method θ is arg R(iz).
+
+    Source: van der Houwen and Sommeijer, SIAM J. Numer. Anal. 24 (1987), 595–617.
 
     Attributes:
         order: the phase-lag order; None where the frequency is exact.
@@ -206,9 +211,9 @@ def stable_set(
 
 
 def phase_error(trace: Ratio, determinant: Ratio) -> PhaseError:
-    """The leading error of the frequency, by power series in x.
+    """The leading term of the phase lag z − θ, by power series in x.
 
-    With cos θ = tr M / (2 √det M), cos² θ − cos² z = −2 sin z cos z (θ − z) + …, and the left-hand
+    With cos θ = tr M / (2 √det M), cos² θ − cos² z = 2 sin z cos z (z − θ) + …, and the left-hand
     side is a series with exact coefficients: no root is taken.
     """
     N, D = trace.numerator, trace.denominator
@@ -225,11 +230,11 @@ def phase_error(trace: Ratio, determinant: Ratio) -> PhaseError:
         known = difference.coefficients[:terms]
         leading = next((k for k, a in enumerate(known) if a), None)
         if leading is not None:
-            if leading == 1:  # θ − z is no small part of z
+            if leading == 1:  # z − θ is no small part of z
                 return PhaseError(0, None)
-            # −2 z · c z^(order+1) is the leading term over that of under
+            # 2 z · c z^(order+1) is the leading term over that of under
             order = 2 * leading - 2
-            constant = known[leading] / (under[0] * -2)
+            constant = known[leading] / (under[0] * 2)
             return PhaseError(order, constant)
         terms *= 2
     return PhaseError(None, ZERO)

@@ -94,7 +94,7 @@ class Judged(Frozen):
 
     @cached_property
     def phase(self) -> PhaseError | None:
-        """The phase error on the oscillator; None where it has no split for that."""
+        """The phase lag on the oscillator; None where it has no split for that."""
         problem = Oscillator.default(terms_of(self.tableau), fmpq(1))
         try:
             return oscillator_stability(self.tableau, problem).phase
@@ -238,8 +238,8 @@ _PLAIN = (
         lambda m: None if m.pair is None else _property("p-stable", Judged(m.pair)),
         "whether the pair is P-stable",
     ),
-    Column("phase-order", _phase_order, "the order of the phase error on the oscillator"),
-    Column("phase-constant", _phase_constant, "the constant of it", False),
+    Column("phase-order", _phase_order, "the order of the phase lag on the oscillator"),
+    Column("phase-constant", _phase_constant, "the size of its constant", False),
     Column(
         "stages",
         lambda m: sum(space.stages for space in m.tableau.spaces),

@@ -6,7 +6,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from flint import fmpq
+from flint import arb, ctx, fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -27,6 +27,7 @@ from garkcli.stability.two_frequencies import springs, two_frequencies
 from garkcli.stepping.linear import linear_step
 from garkcli.tableau.forms import gark
 from garkcli.tableau.tableau import Tableau
+from tests.cli.harness import gark as gark_command
 
 METHODS = sorted(Path("methods").glob("*.gark.yaml"))
 STEPS = st.fractions(min_value="1/40", max_value=8, max_denominator=40).map(
@@ -81,7 +82,7 @@ def test_the_rectangular_method() -> None:
     assert ends == [(0, 8), (12, 24)]
     assert [(i.has_start, i.has_end) for i in found.stable] == [(True, False), (False, False)]
     assert not found.is_p_stable
-    assert (found.phase.order, found.phase.constant) == (4, fmpq(1, 2880))
+    assert (found.phase.order, found.phase.constant) == (4, fmpq(-1, 2880))
 
 
 @pytest.mark.parametrize("path", METHODS, ids=lambda path: path.name)
@@ -118,7 +119,7 @@ def test_stoermer_verlet_is_unstable_at_its_end() -> None:
     assert interval.end is not None
     assert interval.end.exact == 4
     assert not interval.has_end
-    assert (found.phase.order, found.phase.constant) == (2, fmpq(1, 24))
+    assert (found.phase.order, found.phase.constant) == (2, fmpq(-1, 24))
 
 
 def test_half_interpolation_half_collocation() -> None:
@@ -175,6 +176,40 @@ def test_where_an_entry_has_a_pole_there_is_no_step() -> None:
     assert before.end is not None
     assert before.end.exact == 1
     assert (before.has_end, after.has_start) == (False, False)
+
+
+@pytest.mark.parametrize(
+    ("name", "order", "constant"),
+    [
+        ("forward-euler", 2, fmpq(1, 3)),  # z − arctan z
+        ("backward-euler", 2, fmpq(1, 3)),
+        ("implicit-midpoint", 2, fmpq(1, 12)),  # z − 2 arctan(z/2)
+        ("rk4", 4, fmpq(1, 120)),
+        ("stoermer-verlet", 2, fmpq(-1, 24)),  # z − 2 arcsin(z/2): known to be ahead
+    ],
+)
+def test_the_sign_of_the_phase_lag(name: str, order: int, constant: fmpq) -> None:
+    """A step of Euler's method turns by arctan z < z and lags: the lag is positive; that of
+    leapfrog is negative. A single step that is taken turns by as much less than z.
+    """
+    source = "methods/stoermer-verlet.gark.yaml" if name == "stoermer-verlet" else name
+    tableau = load(source).tableau
+    problem = Oscillator.default(terms_of(tableau), ONE)
+    phase = oscillator_stability(tableau, problem).phase
+    assert (phase.order, phase.constant) == (order, constant)
+    z = fmpq(1, 50)
+    (a, b), (c, d) = linear_step(tableau, problem).at(z)
+    with ctx.workprec(200):
+        cosine = arb(a + d) / (2 * arb(a * d - b * c).sqrt())
+        lag = arb(z) - cosine.acos()
+        leading = arb(constant) * arb(z) ** (order + 1)
+    assert abs(float(lag / leading) - 1) < 1e-2
+
+
+def test_the_phase_lag_says_who_is_ahead() -> None:
+    """The report says what z is, and on which side the numerical solution is."""
+    for name, told in (("backward-euler", "1/3*z^3, z = hω: behind"), ("verlet", ": ahead")):
+        assert told in gark_command("stability", name).out
 
 
 def test_a_method_that_does_nothing_has_order_zero() -> None:
