@@ -41,7 +41,7 @@ HEADS = {
     "numerical": "numerical, nothing is proved",
 }
 """What is known of methods that a search finds."""
-STABILITIES: tuple[Wanted, ...] = ("a-stable", "l-stable", "p-stable")
+STABILITIES: tuple[Wanted, ...] = ("a-stable", "l-stable", "p-stable", "i-stable")
 
 
 def family_of(given: AnyFamily, is_free: bool = True) -> Family:
@@ -180,9 +180,9 @@ def stable_values(
     Args:
         family: as ``find_parameters`` takes it; with one free parameter, or several through one
             linear combination of which the step depends on them; for A-stability with two.
-        wanted: ``"a-stable"``, ``"l-stable"`` or ``"p-stable"``.
+        wanted: ``"a-stable"``, ``"l-stable"``, ``"p-stable"`` or ``"i-stable"``.
         whose: as in ``find_parameters``.
-        slow: of P-stability on two springs, (hω_s)²; None for the oscillator.
+        slow: of P- or I-stability on two springs, (hω_s)²; None for the oscillator.
         fast: the colour of the fast spring, counted from 1.
         up_to: a bound on (hω_f)²; None for none.
         colour: of A- and L-stability, the colour that is meant alone, counted from 1; None for all

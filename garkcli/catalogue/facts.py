@@ -44,7 +44,7 @@ MOST_STAGES = 8
 """Most stages of a method whose sizes (`_SIZES`) are found for the index."""
 LONGEST = 24
 """Longest coefficient of such a method, as text: of others the sizes take minutes."""
-_SIZES = ("p-stable", "real-stability", "imaginary-stability")
+_SIZES = ("p-stable", "i-stable", "real-stability", "imaginary-stability")
 """Properties that need the roots of polynomials of high degree."""
 _DIGITS = 4
 

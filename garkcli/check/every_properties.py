@@ -41,7 +41,12 @@ COMPARING = (
     "weak-stage-order",
 )
 """Those that ask which coefficients are zero or equal."""
-STABLE: dict[str, Wanted] = {"a-stable": "a-stable", "l-stable": "l-stable", "p-stable": "p-stable"}
+STABLE: dict[str, Wanted] = {
+    "a-stable": "a-stable",
+    "l-stable": "l-stable",
+    "p-stable": "p-stable",
+    "i-stable": "i-stable",
+}
 """Those whose values are found by a decomposition of the plane."""
 
 

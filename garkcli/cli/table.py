@@ -221,12 +221,13 @@ design --digits N 1..1000 default=12 | Digits of numbers without simple radicals
 --minimise WHAT words=objectives = minimise.objective
 --p-stable value=p-stable name=stability = stable_values.wanted
     | The exact set of values of the parameters for which the method is P-stable.
+--i-stable value=i-stable name=stability = stable_values.wanted | The same for I-stability.
 --a-stable value=a-stable name=stability = stable_values.wanted | The same for A-stability.
 --l-stable value=l-stable name=stability = stable_values.wanted | The same for L-stability.
 --colour N 1.. = stable_values.colour
     | With --a-stable or --l-stable: for colour N alone, instead of one λ for all.
 design --slow A square = stable_values.slow
-    | With --p-stable: a slow and a fast spring, the slow one of (hω)² = A.
+    | With --p-stable or --i-stable: a slow and a fast spring, the slow one of (hω)² = A.
 --up-to X square = stable_values.up_to | With --slow: fast springs of (hω)² up to X only.
 --search N 1..10000000 default= = search_methods.starts
     | Search from N random starts instead, and prove the finds.
@@ -340,8 +341,8 @@ tableaux: diff FIRST SECOND | how two methods differ, or that they are the same
 [Search]
 designing: design FILE | the parameter values that give a method an order
     = load_family find_parameters minimise search_methods found_methods stable_values
-    --order --conjugate --pair --seconds --digits --emit --minimise --p-stable --a-stable
-    --l-stable --colour --slow --fast --up-to --search --seed --most --jobs --scheduler
+    --order --conjugate --pair --seconds --digits --emit --minimise --p-stable --i-stable
+    --a-stable --l-stable --colour --slow --fast --up-to --search --seed --most --jobs --scheduler
     --output-dir --plot --set --choose
 designing: sweep SPEC | many methods compared: which are best?
     = run_sweep
@@ -410,7 +411,8 @@ stability design: --slow without --fast | --slow and --fast belong together | gi
 stability design: --fast without --slow | --slow and --fast belong together | give both
 design: --up-to without --slow
     | --up-to is a bound for the fast one of two springs | give --slow and --fast too
-design: --slow without --p-stable | --slow and --fast say on which springs | add --p-stable
+design: --slow without --p-stable --i-stable
+    | --slow and --fast say on which springs | add --p-stable
 design: --slow with --order
     | two springs give a set of values, --order does not | ask for one
 design: --colour without --a-stable --l-stable

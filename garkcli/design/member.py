@@ -23,7 +23,7 @@ from garkcli.frozen import replace
 from garkcli.stability.linear import is_a_stable, is_l_stable, stability_function
 from garkcli.stability.oscillator import usual_oscillator
 from garkcli.tableau.conjugate import conjugate
-from garkcli.tableau.family import Family, Stability
+from garkcli.tableau.family import OSCILLATING, Family, Stability
 from garkcli.tableau.forms import pair
 from garkcli.tableau.stages import PointSpace, StageSpace
 from garkcli.tableau.tableau import Tableau
@@ -205,9 +205,11 @@ def is_as_stable(family: Family, whose: Whose, solution: Solution, root: RealRoo
 
 def is_stable(wanted: Stability, tableau: Tableau) -> bool:
     """Whether a method has a kind of stability; not where it has no meaning for it."""
-    if wanted.kind == "p-stable":
+    if wanted.kind in OSCILLATING:
         oscillator = usual_oscillator(tableau)
-        return oscillator is not None and oscillator.is_p_stable
+        if oscillator is None:
+            return False
+        return oscillator.is_p_stable if wanted.kind == "p-stable" else oscillator.is_i_stable
     R = stability_function(tableau, shares_of(tableau, wanted.colour))
     return is_l_stable(R) if wanted.kind == "l-stable" else is_a_stable(R)
 

@@ -1,7 +1,8 @@
 """Kinds of stability of a family of one parameter t: what decides, and what one value has.
 
 A-stability depends on E(x, t) = |Q(iy)|² − |P(iy)|² with x = y² and on where the roots of Q are,
-P-stability on the signs of D and of 1 − det M and 1 + det M ± tr M, as polynomials in x = z² and t.
+I-stability on the signs of D and of 1 − det M and 1 + det M ± tr M, as polynomials in x = z² and t;
+of P-stability 1 − det M is zero.
 """
 
 from __future__ import annotations
@@ -32,7 +33,7 @@ from garkcli.stability.two_frequencies import (
     two_frequencies,
     unknowns_of,
 )
-from garkcli.tableau.family import Family
+from garkcli.tableau.family import OSCILLATING, Family
 from garkcli.tableau.tableau import Tableau
 
 _RIGHT = "the linear test equation has no meaning for it: some stages do not see every vector field"
@@ -88,7 +89,7 @@ def driven(tableau: Tableau, wanted: str, colour: int | None = None) -> list[Mat
     Raises:
         UsageProblem: it has no meaning for the method.
     """
-    if wanted == "p-stable":
+    if wanted in OSCILLATING:
         problem = Oscillator.default(terms_of(tableau), fmpq(1))
         check_structure(tableau, problem)
         return [problem.matrix(colour) for colour in tableau.colours]
@@ -98,7 +99,7 @@ def driven(tableau: Tableau, wanted: str, colour: int | None = None) -> list[Mat
         colours, spaces = [colour], [tableau.colours[colour].space]
     is_complete = all((k, m) in tableau.blocks for k in spaces for m in colours)
     if tableau.is_partitioned or not is_complete:
-        raise UsageProblem(_RIGHT, "ask for --p-stable", code="wanted-without-meaning")
+        raise UsageProblem(_RIGHT, "ask for --i-stable", code="wanted-without-meaning")
     return [((share,),) for share in shares_of(tableau, colour)]
 
 
@@ -140,13 +141,13 @@ class AStability:
         return _degree_at(self.P, t) < _degree_at(self.Q, t)
 
 
-class PStability:
+class IStability:
     """All powers of the step matrix on the oscillator are bounded for every step size."""
 
     def __init__(self, members: Members, tableau: Tableau) -> None:
         self.members = members
         self.problem = Oscillator.default(terms_of(tableau), fmpq(1))
-        self.plane = members.plane(tableau, driven(tableau, "p-stable"))
+        self.plane = members.plane(tableau, driven(tableau, "i-stable"))
         self.signs, others = oscillator_curves(self.plane)
         poles = in_square(self.plane.denominator)
         self.essential = projection.projected(factors([poles, *self.signs]), [ZERO])
@@ -158,7 +159,7 @@ class PStability:
 
     def decide(self, value: Number) -> bool:
         found = self._at(value)
-        return found is not None and found.is_p_stable
+        return found is not None and found.is_i_stable
 
     def witness(self, value: fmpq) -> fmpq | None:
         found = self._at(value)

@@ -187,7 +187,7 @@ def stable_set(
         family: of methods.
         wanted: which stability.
         whose: of the method, its symplectic conjugate, or its symplectic pair.
-        two_springs: P-stability is meant on them.
+        two_springs: P- or I-stability is meant on them.
         colour: A- or L-stability of this colour alone, counted from 0.
 
     Raises:

@@ -1,4 +1,4 @@
-"""For which values of its parameter a family is P-stable, A-stable or L-stable: the exact set.
+"""For which values of its parameter a family is P-, I-, A- or L-stable: the exact set.
 
 What decides are signs of polynomials in the parameter t and in x, the square of hω or of the
 imaginary part y. Between the critical t of ``garkcli.exact.projection`` nothing changes, so that
@@ -8,11 +8,12 @@ one rational t decides by the ordinary engine. A critical t is decided by itself
 * A-stability at the end of an interval of it: |P| ≤ |Q| on the imaginary axis and poles that are
   not in the left half plane are kept in the limit, and a pole that moves onto the axis would
   contradict the first unless it cancels;
-* P-stability at the end of an interval of it where the zeros of D and of the three conditions on
+* I-stability at the end of an interval of it where the zeros of D and of the three conditions on
   the eigenvalues stay as they are: no pole and no double eigenvalue appears;
 * otherwise by the ordinary engine over ℚ(t).
 
-P-stability often holds at isolated points, which no sampling finds.
+Of the I-stable values those are P-stable for which the coefficients of 1 − det M in x are zero.
+Both often hold at isolated points, which no sampling finds.
 """
 
 from __future__ import annotations
@@ -26,21 +27,22 @@ from garkcli.design.fewer import Form
 from garkcli.design.member import TABLEAUS, Whose
 from garkcli.design.stability_kinds import (
     AStability,
+    IStability,
     Kind,
     Members,
-    PStability,
     SpringStability,
     TwoSprings,
 )
 from garkcli.errors import UsageProblem, counted
+from garkcli.exact import projection
 from garkcli.exact.cells import Interval, Point, ends_of, has, sign_of, where
 from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.roots import RealRoot, number_of, sign_at
 from garkcli.frozen import Frozen
-from garkcli.tableau.family import Family
+from garkcli.tableau.family import OSCILLATING, Family
 from garkcli.upward import Shown
 
-Wanted: TypeAlias = Literal["p-stable", "a-stable", "l-stable"]
+Wanted: TypeAlias = Literal["p-stable", "i-stable", "a-stable", "l-stable"]
 
 MOST_DEGREE = 6
 """Critical values of a larger degree are not decided over their number field."""
@@ -55,7 +57,7 @@ class StableValues(Shown, Frozen):
         wanted: which stability.
         found: the set, in ascending order, without the values of ``undecided``.
         undecided: single values that are undecided.
-        two_springs: what P-stability is meant on; None for the oscillator.
+        two_springs: what P- or I-stability is meant on; None for the oscillator.
         colour: which colour alone is driven, counted from 0; None for all of them alike.
         form: the one number, linear in several parameters, that the step depends on, and whose
             values are meant; None for a parameter itself.
@@ -119,10 +121,10 @@ def stable_values(
 
     Args:
         family: of methods, with one free parameter and rational coefficients otherwise.
-        wanted: P-stability on the oscillator that is split as usual, A-stability or L-stability
-            with all vector fields equal.
+        wanted: P-stability or I-stability on the oscillator that is split as usual, A-stability or
+            L-stability with all vector fields equal.
         whose: of the method, its symplectic conjugate, or its symplectic pair.
-        two_springs: P-stability is meant on them.
+        two_springs: P- or I-stability is meant on them.
         colour: A- or L-stability of this colour alone, counted from 0.
         members: its methods, where there are more than those of the family.
 
@@ -138,13 +140,16 @@ def stable_values(
     tableau = TABLEAUS[whose](family.tableau)
     members = members or Members(family, whose)
     (ends,) = family.ranges.values()
-    if wanted == "p-stable":
-        oscillating: Kind
+    if wanted in OSCILLATING:
+        oscillating: IStability | SpringStability
         if two_springs is None:
-            oscillating = PStability(members, tableau)
+            oscillating = IStability(members, tableau)
         else:
             oscillating = SpringStability(members, tableau, two_springs)
-        found, undecided = _wanted(family, *decided(oscillating, ends))
+        found, undecided = decided(oscillating, ends)
+        if wanted == "p-stable":
+            found, undecided = _conservative(oscillating, found, undecided)
+        found, undecided = _wanted(family, found, undecided)
         return StableValues(family, whose, wanted, found, undecided, two_springs)
     kind = AStability(members, tableau, colour)
     found, undecided = decided(kind, ends)
@@ -165,6 +170,20 @@ def decided(
     found = decision.run()
     undecided = tuple(decision.undecided)
     return _without(found, undecided), undecided
+
+
+def _conservative(
+    kind: IStability | SpringStability, found: tuple[Interval, ...], undecided: tuple[RealRoot, ...]
+) -> tuple[tuple[Interval, ...], tuple[RealRoot, ...]]:
+    """The values of a set for which a step has the determinant 1, and the undecided ones."""
+    damping = projection.coefficients(kind.signs[0])  # of 1 − det M, times D²
+
+    def is_conservative(t: Point) -> bool:
+        return all(sign_of(p, t) == 0 for p in damping)
+
+    critical = [*ends_of(found), *(p for p in damping if p.degree > 0)]
+    kept = where(lambda t: is_conservative(t) and has(found, t), critical)
+    return kept, tuple(t for t in undecided if is_conservative(t))
 
 
 def _without(found: Sequence[Interval], undecided: Sequence[RealRoot]) -> tuple[Interval, ...]:
@@ -215,7 +234,7 @@ def refuse_radicals(family: Family, wanted: Wanted, whose: Whose) -> None:
         name = family.parameters[0]
         message = f"there are roots among the coefficients, beside {name}"
         cure = "write the method as a family by name, whose nodes are not needed"
-        if (wanted, whose) == ("p-stable", "pair"):
+        if wanted in OSCILLATING and whose == "pair":
             cure = "add --order P, which takes roots"
         raise UsageProblem(message, cure, code="no-radicals")
 

@@ -208,12 +208,12 @@ def _nodes_in_unit_interval(asked: Asked) -> Meaning:
     return Meaning(not_negative=(*nodes, *(1 - x for x in nodes)))
 
 
-def _p_stable(asked: Asked) -> Meaning:
+def _oscillating(kind: str, asked: Asked) -> Meaning:
     """Decided at each solution, in its number field."""
     if len(asked.colours) < asked.tableau.size:
-        message = "design: p-stable is meant of the whole method"
-        raise MethodError(message, "write p-stable: true", code="wanted-without-meaning")
-    return Meaning(stable=(Stability("p-stable"),))
+        message = f"design: {kind} is meant of the whole method"
+        raise MethodError(message, f"write {kind}: true", code="wanted-without-meaning")
+    return Meaning(stable=(Stability(kind),))
 
 
 WANTS = {
@@ -250,7 +250,18 @@ WANTS = {
             "a-stable", "flag", "|R(z)| ≤ 1 in the left half plane", partial(stability, "a-stable")
         ),
         Want("l-stable", "flag", "A-stable with R(∞) = 0", partial(stability, "l-stable")),
-        Want("p-stable", "flag", "bounded on the oscillator for every step size", _p_stable),
+        Want(
+            "p-stable",
+            "flag",
+            "neither growth nor decay on the oscillator, for every step size",
+            partial(_oscillating, "p-stable"),
+        ),
+        Want(
+            "i-stable",
+            "flag",
+            "bounded on the oscillator for every step size",
+            partial(_oscillating, "i-stable"),
+        ),
     )
 }
 """Every one of them by its key, in the order of the documentation."""

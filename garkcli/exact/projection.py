@@ -109,6 +109,11 @@ def coefficient_of(p: fmpq_mpoly, power: int, variable: int = 0) -> fmpq_mpoly:
     return p.context().from_dict(terms)
 
 
+def coefficients(p: fmpq_mpoly) -> list[Polynomial]:
+    """Those of the powers of y, from the lowest, as polynomials in t."""
+    return [in_t(coefficient_of(p, k)) for k in range(p.degrees()[0] + 1)]
+
+
 def in_t(p: fmpq_mpoly) -> Polynomial:
     """A polynomial in t alone."""
     return in_one(p, 1)
@@ -200,4 +205,4 @@ def is_nowhere_negative(p: fmpq_mpoly, within: Sequence[Interval] | None = None)
 
 def on_line(p: fmpq_mpoly, t: Number) -> Polynomial:
     """p(y, t) for one t."""
-    return Polynomial([in_t(coefficient_of(p, k))(t) for k in range(p.degrees()[0] + 1)])
+    return Polynomial([a(t) for a in coefficients(p)])

@@ -13,6 +13,7 @@ LABELS = {
     "a_stable": "A-stable",
     "l_stable": "L-stable",
     "p_stable": "P-stable",
+    "i_stable": "I-stable",
     "conserved": "conserved form",
     "degenerate": "in floats with no method near",
     "unstable": "not shown to be stable",

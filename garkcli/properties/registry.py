@@ -14,7 +14,7 @@ _FILES = (
         "stiffly-accurate fsal symmetric reducible stage-order weak-stage-order "
         "nodes-in-unit-interval positive-weights",
     ),
-    ("stability", "a-stable l-stable p-stable"),
+    ("stability", "a-stable l-stable p-stable i-stable"),
     ("stages", "algebraically-stable"),
     ("stability", "ssp-coefficient real-stability imaginary-stability"),
 )

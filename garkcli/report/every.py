@@ -226,7 +226,7 @@ EVERY = Section(
 
 # stability
 
-STABILITIES = ("a-stable", "l-stable", "p-stable", "algebraically-stable")
+STABILITIES = ("a-stable", "l-stable", "p-stable", "i-stable", "algebraically-stable")
 """What is decided, of one parameter."""
 LIMIT = 60
 

@@ -18,7 +18,7 @@ from garkcli.exact.polynomial_text import (
     multivariate_text,
     polynomial_text,
 )
-from garkcli.exact.roots import RealRoot
+from garkcli.exact.roots import RealRoot, sign
 from garkcli.frozen import Frozen, replace
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ALGEBRAIC, ROOT_OF, root_data
@@ -283,8 +283,15 @@ def conserved(o: Any) -> Answer:
 
 
 def p_stable(o: Any) -> Answer:
+    """Neither growth nor decay on the oscillator for any step size, and where that ends."""
+    if o.is_i_stable and not o.is_p_stable:
+        return kinds.truth(False, "solutions decay")
+    return i_stable(o)
+
+
+def i_stable(o: Any) -> Answer:
     """Stability for every step size on the oscillator, and where it ends."""
-    if o.is_p_stable:
+    if o.is_i_stable:
         return kinds.truth(True)
     first = o.stable[0] if o.stable else None
     if first is None or not first.has_start or first.is_point:
@@ -303,7 +310,7 @@ def phase(o: Any) -> Answer:
     if o.phase.constant is None:
         return Answer(o.phase.order, reason=Reason("the frequency is wrong for small step sizes"))
     lag = kinds.term("z", o.phase.order + 1)
-    where = "behind" if o.phase.constant > 0 else "ahead"
+    where = "behind" if sign(o.phase.constant) > 0 else "ahead"
     return Answer(o.phase.order, reason=Reason(f"{{}}, z = hω: {where}", lag(o.phase.constant)))
 
 
@@ -334,6 +341,7 @@ OSCILLATOR = [
     Row("discriminant", kinds.polynomial("x"), discriminant, DETAIL),
     Row("stable", STABLE, label="oscillator stable, x = (hω)²"),
     maybe("p_stable", kinds.TRUTH, p_stable),
+    maybe("i_stable", kinds.TRUTH, i_stable),
     maybe("phase_order", PHASE, phase),
     maybe("phase_constant", kinds.EXACT, "phase.constant", DATA),
     maybe("conserved", CONSERVED, conserved, DETAIL),

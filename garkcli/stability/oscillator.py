@@ -93,9 +93,16 @@ class OscillatorStability(Frozen):
     phase: PhaseError
 
     @property
-    def is_p_stable(self) -> bool:
+    def is_i_stable(self) -> bool:
         """Whether no step size is unstable."""
         return is_half_line(self.stable)
+
+    @property
+    def is_p_stable(self) -> bool:
+        """Whether solutions neither grow nor decay, for every step size: bounded powers of M with
+        det M = 1 have eigenvalues of modulus 1.
+        """
+        return self.determinant.is_one and self.is_i_stable
 
     @property
     def conserved(self) -> tuple[Polynomial, Polynomial, Polynomial] | None:

@@ -40,11 +40,15 @@ class Radical(Frozen):
     latex: str = ""
 
 
+OSCILLATING = ("p-stable", "i-stable")
+"""The kinds of stability that are about the harmonic oscillator."""
+
+
 class Stability(Frozen):
     """A kind of stability that is wanted.
 
     Attributes:
-        kind: ``a-stable``, ``l-stable`` or ``p-stable``.
+        kind: ``a-stable``, ``l-stable``, ``p-stable`` or ``i-stable``.
         colour: of which diagonal method, counted from 0; None for the whole.
     """
 
@@ -58,7 +62,7 @@ class Stability(Frozen):
 
     def in_words(self, tableau: Tableau) -> str:
         """The same, and which vector fields are meant where a method has several colours."""
-        if tableau.size == 1 or self.kind == "p-stable":
+        if tableau.size == 1 or self.kind in OSCILLATING:
             return str(self)
         fields = "all colours with one λ" if self.colour is None else "the others with λ = 0"
         return f"{self} ({fields})"

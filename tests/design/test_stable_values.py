@@ -19,6 +19,7 @@ from garkcli.methodfile.family import loads_family
 from garkcli.problems.oscillator import Oscillator, terms_of
 from garkcli.stability.linear import is_a_stable, is_l_stable, stability_function
 from garkcli.stability.oscillator import oscillator_stability
+from garkcli.tableau.family import OSCILLATING
 from garkcli.tableau.tableau import Tableau
 from tests.cli.harness import gark
 
@@ -125,9 +126,10 @@ def test_combinations_that_are_p_stable(families: tuple[object, ...], wanted: li
 
 def decided(tableau: Tableau, wanted: Wanted) -> bool:
     """One method by the ordinary engine."""
-    if wanted == "p-stable":
+    if wanted in OSCILLATING:
         problem = Oscillator.default(terms_of(tableau), fmpq(1))
-        return oscillator_stability(tableau, problem).is_p_stable
+        found = oscillator_stability(tableau, problem)
+        return found.is_p_stable if wanted == "p-stable" else found.is_i_stable
     R = stability_function(tableau)
     return is_a_stable(R) if wanted == "a-stable" else is_l_stable(R)
 
@@ -143,7 +145,7 @@ def contains(values: StableValues, t: fmpq) -> bool:
     return False
 
 
-@pytest.mark.parametrize("wanted", ["a-stable", "l-stable", "p-stable"])
+@pytest.mark.parametrize("wanted", ["a-stable", "l-stable", "p-stable", "i-stable"])
 @pytest.mark.parametrize(
     "families",
     [
@@ -183,9 +185,18 @@ def test_random_families(entries: list[tuple[int, int]], wanted: Wanted) -> None
 @settings(max_examples=12)
 @given(st.lists(_ENTRY, min_size=2, max_size=2), st.sampled_from([0, 1, 2]))
 def test_random_families_on_the_oscillator(entries: list[tuple[int, int]], b: int) -> None:
-    """The same of P-stability, with two entries that are linear in t."""
+    """The same of P- and I-stability, with two entries that are linear in t."""
     a, c = (f"({p} + {q}*t)/2" for p, q in entries)
-    compare(f"A: [[{a}, 0], [{c}, {a}]]\nb: [{b}/2, 1 - {b}/2]\n", "p-stable")
+    for wanted in ("p-stable", "i-stable"):
+        compare(f"A: [[{a}, 0], [{c}, {a}]]\nb: [{b}/2, 1 - {b}/2]\n", wanted)
+
+
+def test_what_damps_is_not_p_stable() -> None:
+    """The θ-method has |R(iy)| ≤ 1 for θ ≥ 1/2, and = 1 for θ = 1/2 alone: R(iy) is
+    (1 + (1 − θ) iy)/(1 − θ iy). In the file and as wanted of solutions likewise.
+    """
+    assert texts(found(THETA, "p-stable")) == [("1/2", "1/2", True, True)]
+    assert texts(found(THETA, "i-stable")) == [("1/2", None, True, False)]
 
 
 def compare(body: str, wanted: Wanted) -> None:

@@ -65,9 +65,10 @@ KNOWN = {
     "{A: [[1]], b: [1]}": (
         *("sdirk: true", "gamma: 1", "ssp-coefficient: infinity", "l-stable: true"),
         *("stiffly-accurate: true", "fsal: false", "algebraically-stable: true"),
+        *("p-stable: false", "i-stable: true"),
     ),
     "{A: [[1/2]], b: [1]}": (
-        *("ssp-coefficient: 2", "symmetric: true", "p-stable: true"),
+        *("ssp-coefficient: 2", "symmetric: true", "p-stable: true", "i-stable: true"),
         "algebraically-stable: true",
     ),
     "{A: [[0, 0], [1/2, 1/2]], b: [1/2, 1/2]}": (
@@ -182,6 +183,12 @@ def test_what_is_known_of_classical_methods(text: str) -> None:
             "p-stable: true",
             "false",
             "powers of the step matrix are not bounded for 0 < (hω)²",
+        ),
+        (
+            "{A: [[1]], b: [1]}",  # meant as the other property: what to write is said
+            "p-stable: true",
+            "false",
+            "solutions decay; i-stable claims that they are bounded",
         ),
         (
             "{A: [[], [1], [1, 0]], b: [1/2, 1/4, 1/4]}",

@@ -10,6 +10,7 @@ from flint import arb, ctx, fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from garkcli.exact.display import to_float
 from garkcli.exact.field import ONE
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot
@@ -176,6 +177,35 @@ def test_where_an_entry_has_a_pole_there_is_no_step() -> None:
     assert before.end is not None
     assert before.end.exact == 1
     assert (before.has_end, after.has_start) == (False, False)
+
+
+@pytest.mark.parametrize(
+    ("name", "i_stable", "p_stable"),
+    [
+        ("backward-euler", True, False),
+        ("sdirk-23", True, False),
+        ("radau-iia-2", True, False),
+        ("lobatto-iiic-2", True, False),
+        ("implicit-midpoint", True, True),
+        ("lobatto-iiib-2", True, True),
+        ("forward-euler", False, False),
+        ("rk4", False, False),
+    ],
+)
+def test_p_stability_wants_that_nothing_decays(name: str, i_stable: bool, p_stable: bool) -> None:
+    """Bounded for every step size is I-stable; P-stable with det M = |R(iy)|² = 1, as single steps
+    have it.
+    """
+    tableau = load(name).tableau
+    problem = Oscillator.default(1, ONE)
+    found = oscillator_stability(tableau, problem)
+    assert (found.is_i_stable, found.is_p_stable) == (i_stable, p_stable)
+    areas = set()
+    for z in (fmpq(1, 3), fmpq(2), fmpq(7)):
+        (a, b), (c, d) = linear_step(tableau, problem).at(z)
+        areas.add(a * d - b * c)
+    assert (areas == {1}) is p_stable
+    assert (max(map(to_float, areas)) <= 1) is i_stable
 
 
 @pytest.mark.parametrize(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from flint import acb, acb_poly, arb, ctx, fmpq
 
@@ -24,6 +25,9 @@ from garkcli.properties.subject import MISSING_BLOCKS, Subject
 from garkcli.reason import NO_REASON, Formula, Reason
 from garkcli.stability.linear import StabilityFunction, e_polynomial, imaginary_set, poles_are_right
 from garkcli.tableau.tableau import Tableau
+
+if TYPE_CHECKING:
+    from garkcli.stability.oscillator import OscillatorStability
 
 _BITS = 128
 _DIGITS = 6
@@ -156,10 +160,39 @@ def l_stable(subject: Subject) -> Verdict:
     is_cheap=False,
 )
 def p_stable(subject: Subject) -> Verdict:
-    """On the harmonic oscillator q̈ = −ω²q all numerical solutions stay bounded for every step
-    size: the powers of the step matrix M(hω) are bounded. With several terms the kinetic energy is
-    the first, the potential one is divided equally among the others.
+    """On the harmonic oscillator q̈ = −ω²q no numerical solution grows or decays, whatever the step
+    size: the step matrix M(hω) has the determinant 1, and its powers are bounded; |R(iy)| = 1 for
+    all y of a Runge–Kutta method. With several terms the kinetic energy is the first, the
+    potential one is divided equally among the others.
     """
+    found = _on_oscillator(subject)
+    if isinstance(found, Verdict):
+        return found
+    if found.is_p_stable:
+        return Verdict(True)
+    if found.is_i_stable:
+        return Verdict(False, Reason("solutions decay; i-stable claims that they are bounded"))
+    return _growing(found)
+
+
+@claimed(
+    "E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, section IV.3",
+    meaning="methods whose vector fields can carry the split oscillator",
+    is_cheap=False,
+)
+def i_stable(subject: Subject) -> Verdict:
+    """On the harmonic oscillator q̈ = −ω²q all numerical solutions stay bounded for every step
+    size: the powers of the step matrix M(hω) are bounded; |R(iy)| ≤ 1 for all y of a Runge–Kutta
+    method. The oscillator is split as for p-stable.
+    """
+    found = _on_oscillator(subject)
+    if isinstance(found, Verdict):
+        return found
+    return Verdict(True) if found.is_i_stable else _growing(found)
+
+
+def _on_oscillator(subject: Subject) -> OscillatorStability | Verdict:
+    """What is found on the oscillator; a verdict where nothing is."""
     from garkcli.errors import UsageProblem
     from garkcli.problems.oscillator import Oscillator, terms_of
     from garkcli.stability.oscillator import oscillator_stability
@@ -169,11 +202,12 @@ def p_stable(subject: Subject) -> Verdict:
     tableau = subject.tableau
     problem = Oscillator.default(terms_of(tableau), fmpq(1))
     try:
-        found = oscillator_stability(tableau, problem)
+        return oscillator_stability(tableau, problem)
     except UsageProblem as error:
         return Verdict.meaningless(Reason(error.message))
-    if found.is_p_stable:
-        return Verdict(True)
+
+
+def _growing(found: OscillatorStability) -> Verdict:
     gap = first_gap(found.stable)
     assert gap is not None
     where = inequality(gap, "(hω)²")
