@@ -144,12 +144,23 @@ def is_constant(x: Expr) -> bool:
     if _degree(x) is not None:
         return not sympy.expand(x).free_symbols
     # what has one value wherever it was tried is left to sympy, unless that would take long
-    if x.count_ops() >= _SIMPLE:
-        return False
-    return not sympy.simplify(x).free_symbols
+    return _is_simple(x) and not sympy.simplify(x).free_symbols
+
+
+def _is_simple(x: Expr) -> bool:
+    """Whether sympy simplifies an expression soon: it writes out powers, and sin(2a) as 2 sin(a)
+    cos(a), as long as a has a factor 2.
+    """
+    import sympy
+
+    numbers = x.atoms(sympy.Rational)
+    return x.count_ops() < _SIMPLE and all(max(abs(n.p), n.q) <= _SMALL for n in numbers)
 
 
 _SIMPLE = 200  # operations
+_SMALL = 8  # of the numbers that multiples of angles and exponents may be
+_BITS = (200, 3200)  # to begin with, and at most: sin(10^64 x) loses 213 of them
+_GOOD = 2.0**-100  # radius of a ball that has the digits to tell two numbers apart
 _TRIES = 8  # random places where two values are sought
 
 
@@ -157,9 +168,21 @@ def _differs(x: Expr, names: Exprs) -> bool:
     """Whether two values of an expression lie in balls that do not overlap, which proves that it is
     no constant.
     """
+    bits = _BITS[0]
+    while bits <= _BITS[1]:
+        found = _differs_at(x, names, bits)
+        if found is not None:
+            return found
+        bits *= 4
+    return False
+
+
+def _differs_at(x: Expr, names: Exprs, bits: int) -> bool | None:
+    """The same at one precision; None where that is too low to tell."""
     draw = Draw(1)
     first: arb | None = None
-    with ctx.workprec(200):
+    is_good = True
+    with ctx.workprec(bits):
         value = function((x,), names, True)
         for _ in range(_TRIES):
             numerators = [draw.between(1, 999) for _ in names]
@@ -170,11 +193,12 @@ def _differs(x: Expr, names: Exprs) -> bool:
                 continue
             if not ball.is_finite():
                 continue
+            is_good = is_good and ball.rad() < _GOOD
             if first is None:
                 first = ball
             elif not ball.overlaps(first):
                 return True
-    return False
+    return False if is_good else None
 
 
 def _degree(x: Expr) -> int | None:
