@@ -185,21 +185,23 @@ def merged(tableau: Tableau) -> Tableau:
         spaces.append(PointSpace(_chosen(space.nodes, stages)))
     colours = []
     for colour in tableau.colours:
-        b = _summed(colour.b, classes[colour.space])
+        b = sums_over(colour.b, classes[colour.space])
         colours.append(replace(colour, b=b, c=_chosen(colour.c, firsts[colour.space])))
     blocks = {}
     for (k, m), block in tableau.blocks.items():
         columns = classes[tableau.colours[m].space]
-        blocks[k, m] = tuple(_summed(block[i], columns) for i in firsts[k])
+        blocks[k, m] = tuple(sums_over(block[i], columns) for i in firsts[k])
     return Tableau(tuple(spaces), tuple(colours), blocks)
 
 
-def _summed(row: Vector, classes: Sequence[Sequence[int]]) -> Vector:
+def sums_over(row: Vector, classes: Sequence[Sequence[int]]) -> Vector:
+    """The sum of the entries of a row over each class of stages."""
     sums: list[Number] = []
     for members in classes:
         total: Number = ZERO
         for j in members:
-            total = total + row[j]
+            if row[j]:  # most are zero
+                total = total + row[j] if total else row[j]
         sums.append(total)
     return tuple(sums)
 
@@ -220,11 +222,14 @@ def _split(tableau: Tableau, k: int, classes: list[list[list[int]]]) -> list[lis
     found: list[list[int]] = []
     blocks = [(tableau.blocks.get((k, m)), x.space) for m, x in enumerate(tableau.colours)]
     for members in classes[k]:
+        if len(members) == 1:
+            found.append(members)
+            continue
         by_sight: list[tuple[list[object], list[int]]] = []
         for i in members:
             # what the stage sees: its node, and the sums of its entries over each class
             sight: list[object] = [tableau.spaces[k].nodes[i]]
-            sight += [_summed(A[i], classes[space]) for A, space in blocks if A is not None]
+            sight += [sums_over(A[i], classes[space]) for A, space in blocks if A is not None]
             # compared, not hashed: that of a fraction is slow to be had first
             alike = next((x for seen, x in by_sight if seen == sight), None)
             if alike is None:

@@ -4,38 +4,37 @@ The adjoint, the inverse of the step with −h, has the blocks 𝟙 b_mᵀ − A
 (E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, section V.2). A method is
 symmetric when a renumbering of the stages of each space, the same for all blocks, turns one into
 the other. In the stage algebra of a family it is the reflection x → 1 − x of the nodes.
+
+A stage can only become one that sees of the adjoint what it sees of the method: stages are divided
+by what they see until no class divides any more, as in the refinement of colours of graphs by B.
+Weisfeiler and A. Lehman. In a method that is not reducible every stage then has one image at most.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from itertools import islice, product
-from math import prod
+import operator
+from collections.abc import Iterator, Mapping
+from itertools import chain, repeat
+from typing import TypeAlias
 
 from flint import fmpq, fmpq_poly
 
-from garkcli.exact.field import ZERO, Number
-from garkcli.exact.matrix import Matrix, Vector, add, apply_left, identity, multiply, outer
+from garkcli.deadline import check_time
+from garkcli.exact.field import ZERO
+from garkcli.exact.matrix import Matrix, Vector, add, apply_left, multiply, outer
 from garkcli.frozen import Frozen
 from garkcli.order.tolerance import within
+from garkcli.properties.pattern import Vertex
+from garkcli.properties.reduction import sums_over
 from garkcli.tableau.polynomial_space import PolynomialSpace
-from garkcli.tableau.stages import PointSpace, StageSpace
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.stages import PointSpace
+from garkcli.tableau.tableau import Edge, Tableau
 
-MOST_RENUMBERINGS = 2000
-"""Renumberings that are tried where nodes coincide."""
+MOST_TRIALS = 2000
+"""Images of stages that are tried in vain before the search ends."""
 
-
-class Reflection(Frozen):
-    """A map of one stage space that is its own inverse.
-
-    Attributes:
-        matrix: the map of coordinates.
-        images: for each stage the one that it becomes; None for x → 1 − x in a stage algebra.
-    """
-
-    matrix: Matrix
-    images: tuple[int, ...] | None
+_Images: TypeAlias = dict[Vertex, list[int]]
+"""For each stage those of its space that it may become."""
 
 
 class Symmetry(Frozen):
@@ -44,12 +43,12 @@ class Symmetry(Frozen):
     Attributes:
         holds: None where too many renumberings would have to be tried, or where rounding leaves it
             open.
-        reflections: the renumbering of each stage space that shows it; empty where it does not
-            hold.
+        images: for each stage space the stage that each of its stages becomes, None for x → 1 − x
+            in a stage algebra; empty where it does not hold.
     """
 
     holds: bool | None
-    reflections: tuple[Reflection, ...] = ()
+    images: tuple[tuple[int, ...] | None, ...] = ()
 
 
 def symmetry(tableau: Tableau, tolerance: fmpq = ZERO) -> Symmetry:
@@ -61,121 +60,295 @@ def symmetry(tableau: Tableau, tolerance: fmpq = ZERO) -> Symmetry:
             three times that.
 
     >>> from garkcli.methodfile.load import loads
-    >>> found = symmetry(loads("{A: [[0, 0], [1/2, 1/2]], b: [1/2, 1/2]}").tableau)
-    >>> found.holds, found.reflections[0].images
-    (True, (1, 0))
+    >>> symmetry(loads("{A: [[0, 0], [1/2, 1/2]], b: [1/2, 1/2]}").tableau)
+    Symmetry(holds=True, images=((1, 0),))
     """
-    choices = []
-    for k in range(len(tableau.spaces)):
-        possible = _reflections(tableau, k, tolerance)
-        choices.append(list(islice(possible, MOST_RENUMBERINGS + 1)))
-    if prod(map(len, choices)) > MOST_RENUMBERINGS:
+    reflections: dict[int, Matrix] = {}
+    for k, space in enumerate(tableau.spaces):
+        if isinstance(space, PolynomialSpace):
+            reflection = _reflection(space)
+            if reflection is None:
+                return Symmetry(None if tolerance else False)
+            reflections[k] = reflection
+    no = Symmetry(None if tolerance and reflections else False)
+    search = _Search(tableau, reflections, tolerance)
+    possible = _by_sums(tableau, tolerance) if tolerance else _by_sight(tableau)
+    if possible is None or not search.algebras_are_turned():
+        return no
+    try:
+        images = search.renumbering(possible)
+    except _TooManyError:
         return Symmetry(None)
-    for chosen in product(*choices):
-        if _turns_into_adjoint(tableau, chosen, tolerance):
-            return Symmetry(True, chosen)
-    has_algebra = any(isinstance(x, PolynomialSpace) for x in tableau.spaces)
-    return Symmetry(None if tolerance and has_algebra else False)
+    if images is None:
+        return no
+    spaces = range(len(tableau.spaces))
+    return Symmetry(True, tuple(None if k in reflections else _in_order(images[k]) for k in spaces))
 
 
-def _turns_into_adjoint(tableau: Tableau, chosen: Sequence[Reflection], tolerance: fmpq) -> bool:
-    """Whether S A^{k,m} S_m + A^{k,m} = 𝟙 b_mᵀ and b_m S_m = b_m for reflections S = S⁻¹."""
-    for colour in tableau.colours:
-        weights = apply_left(colour.b, chosen[colour.space].matrix)
-        if not _are_close((weights,), (colour.b,), 2 * tolerance):
-            return False
-    for (k, m), block in tableau.blocks.items():
-        colour = tableau.colours[m]
-        onto = chosen[colour.space].matrix
-        turned = multiply(chosen[k].matrix, multiply(block, onto))
-        wanted = outer(tableau.spaces[k].one, colour.b)
-        if not _are_close(add(turned, block), wanted, 3 * tolerance):
-            return False
-    return True
+def _in_order(images: Mapping[int, int]) -> tuple[int, ...]:
+    return tuple(images[i] for i in range(len(images)))
 
 
-def _are_close(rows: Matrix, others: Matrix, allowed: fmpq) -> bool:
-    """Whether matrices of entries are equal, or nearly so within a tolerance."""
-    if rows == others or not allowed:
-        return rows == others
-    return all(
-        within(x - y, allowed)
-        for row, other in zip(rows, others, strict=True)
-        for x, y in zip(row, other, strict=True)
-    )
-
-
-def _reflections(tableau: Tableau, k: int, tolerance: fmpq) -> Iterator[Reflection]:
-    """The maps of one stage space that may do it."""
-    space = tableau.spaces[k]
-    if isinstance(space, PolynomialSpace):
-        yield from _reflected_polynomials(space)
-    elif isinstance(space, PointSpace):
-        keys = _keys(tableau, k, space)
-        allowed = (3 * len(keys) + 3) * tolerance  # sums are as long as stages
-        yield from _involutions(
-            [[_are_close((image,), (other,), allowed) for other, _ in keys] for _, image in keys]
-        )
-
-
-def _reflected_polynomials(space: PolynomialSpace) -> Iterator[Reflection]:
+def _reflection(space: PolynomialSpace) -> Matrix | None:
     """X → 1 − x on ℚ[x]/(M), where M has nodes that lie symmetric to 1/2."""
     reflected = space.modulus(fmpq_poly([1, -1]))
     if reflected * reflected[space.stages] != space.modulus:
-        return
+        return None
     columns = []
     power = fmpq_poly([1])
     for _ in range(space.stages):
         columns.append([power[i] for i in range(space.stages)])
         power = power * fmpq_poly([1, -1]) % space.modulus
-    yield Reflection(tuple(zip(*columns, strict=True)), None)
+    return tuple(zip(*columns, strict=True))
 
 
-def _keys(tableau: Tableau, k: int, space: StageSpace) -> list[tuple[Vector, Vector]]:
-    """What a stage has, and what its image must have: row sums, then weights.
+def _by_sums(tableau: Tableau, tolerance: fmpq) -> _Images:
+    """The stages that a stage may become, by row sums within a tolerance.
 
     Row sums r of A turn into (sum of weights) − r, and weights stay.
     """
-    keys: list[tuple[Vector, Vector]] = []
-    for i in range(space.stages):
-        sums: list[Number] = []
-        turned: list[Number] = []
+    possible: _Images = {}
+    for k, space in enumerate(tableau.spaces):
+        if not isinstance(space, PointSpace):
+            continue
+        rows: list[Vector] = []
+        turned: list[Vector] = []
         for m, colour in enumerate(tableau.colours):
-            block = tableau.blocks.get((k, m))
-            if block is None:
-                continue
-            row = sum(block[i], ZERO)
-            total = sum(colour.b, ZERO)
-            sums.append(row)
-            turned.append(total - row)
-        colours = [x for x in tableau.colours if x.space == k]
-        weights = [colour.b[i] for colour in colours]
-        own = (*sums, *weights)
-        keys.append((own, (*turned, *weights)))
-    return keys
+            if (k, m) in tableau.blocks:
+                total = sum(colour.b, ZERO)
+                rows.append(tuple(sum(row, ZERO) for row in tableau.blocks[k, m]))
+                turned.append(tuple(total - x for x in rows[-1]))
+        allowed = (3 * space.stages + 3) * tolerance  # sums are as long as stages
+        for i in range(space.stages):
+            possible[k, i] = [
+                j
+                for j in range(space.stages)
+                if all(within(x[i] - y[j], allowed) for x, y in zip(rows, turned, strict=True))
+            ]
+    return possible
 
 
-def _involutions(fits: list[list[bool]]) -> Iterator[Reflection]:
-    """Permutations that are their own inverse and take each stage to one that fits.
+class _Class(Frozen):
+    """Stages of a space, and those that they may become."""
+
+    stages: list[int]
+    images: list[int]
+
+
+_Classes: TypeAlias = dict[int, list[_Class]]
+"""Those of each space at points."""
+
+
+def _by_sight(tableau: Tableau) -> _Images | None:
+    """The stages that a stage may become, by the sums of what it sees of each class; None where a
+    class has more stages than images.
+    """
+    classes: _Classes = {}
+    for k, space in enumerate(tableau.spaces):
+        if isinstance(space, PointSpace):
+            every = list(range(space.stages))
+            classes[k] = [_Class(every, every)]
+    while True:
+        check_time()
+        finer = {k: _divided(tableau, k, classes) for k in classes}
+        if any(len(x.stages) != len(x.images) for x in chain(*finer.values())):
+            return None
+        if all(len(finer[k]) == len(classes[k]) for k in classes):
+            return {(k, i): x.images for k in finer for x in finer[k] for i in x.stages}
+        classes = finer
+
+
+def _divided(tableau: Tableau, k: int, classes: _Classes) -> list[_Class]:
+    """The classes of a space, divided by what its stages see."""
+    finer = []
+    for whole in classes[k]:
+        if len(whole.stages) == 1:
+            finer.append(whole)
+            continue
+        # compared, not hashed: that of a fraction is slow to be had first
+        found: list[tuple[Vector, _Class]] = []
+        for i in whole.stages:
+            _place(_sight(tableau, (k, i), classes), found).stages.append(i)
+        for j in whole.images:
+            _place(_sight_in_adjoint(tableau, (k, j), classes), found).images.append(j)
+        finer += [part for _, part in found]
+    return finer
+
+
+def _place(sight: Vector, found: list[tuple[Vector, _Class]]) -> _Class:
+    """The class of a sight, a new one where it is the first."""
+    for seen, part in found:
+        if seen == sight:
+            return part
+    found.append((sight, _Class([], [])))
+    return found[-1][1]
+
+
+def _sight(tableau: Tableau, stage: Vertex, classes: _Classes) -> Vector:
+    """The weights of a stage, and the sum of its entries over each class."""
+    k, i = stage
+    seen = _own_weights(tableau, stage)
+    for m, colour in enumerate(tableau.colours):
+        if (k, m) in tableau.blocks and colour.space in classes:
+            seen += sums_over(tableau.blocks[k, m][i], [x.stages for x in classes[colour.space]])
+    return seen
+
+
+def _sight_in_adjoint(tableau: Tableau, stage: Vertex, classes: _Classes) -> Vector:
+    """The same in the adjoint, over the images of each class."""
+    k, j = stage
+    seen = _own_weights(tableau, stage)
+    for m, colour in enumerate(tableau.colours):
+        if (k, m) in tableau.blocks and colour.space in classes:
+            images = [x.images for x in classes[colour.space]]
+            sums = sums_over(tableau.blocks[k, m][j], images)
+            wanted = sums_over(colour.b, images)
+            seen += tuple(x - y for x, y in zip(wanted, sums, strict=True))
+    return seen
+
+
+def _own_weights(tableau: Tableau, stage: Vertex) -> Vector:
+    k, i = stage
+    return tuple(colour.b[i] for colour in tableau.colours if colour.space == k)
+
+
+class _TooManyError(Exception):
+    """More than ``MOST_TRIALS`` images were tried in vain."""
+
+
+class _Search:
+    """The involution of stages that turns a method into its adjoint, the most certain stages first.
 
     Args:
-        fits: for each pair of stages whether one may turn into the other.
+        tableau: the method.
+        reflections: x → 1 − x in each stage algebra.
+        tolerance: the rounding of its coefficients.
     """
-    size = len(fits)
-    images: list[int | None] = [None] * size
 
-    def extended(i: int) -> Iterator[Reflection]:
-        while i < size and images[i] is not None:
-            i += 1
-        if i == size:
-            unit = identity(size)
-            found = tuple(j for j in images if j is not None)
-            yield Reflection(tuple(unit[j] for j in found), found)
-            return
-        for j in reversed(range(i, size)):
-            if images[j] is None and fits[i][j] and fits[j][i]:
-                images[i], images[j] = j, i
-                yield from extended(i + 1)
-                images[i] = images[j] = None
+    def __init__(
+        self, tableau: Tableau, reflections: Mapping[int, Matrix], tolerance: fmpq
+    ) -> None:
+        self._tableau = tableau
+        self._reflections = reflections
+        self._tolerance = tolerance
+        self._images: dict[int, dict[int, int]] = {k: {} for k in range(len(tableau.spaces))}
+        self._turned = {edge: self._turn(edge) for edge in tableau.blocks}
 
-    yield from extended(0)
+    def _turn(self, edge: Edge) -> Matrix:
+        """S A S_m, with the reflections of stage algebras alone."""
+        k, m = edge
+        block = self._tableau.blocks[edge]
+        onto, before = (
+            self._reflections.get(self._tableau.colours[m].space),
+            self._reflections.get(k),
+        )
+        if onto is not None:
+            block = multiply(block, onto)
+        return block if before is None else multiply(before, block)
+
+    def algebras_are_turned(self) -> bool:
+        """Whether S A^{k,m} S_m + A^{k,m} = 𝟙 b_mᵀ and b_m S_m = b_m in stage algebras."""
+        for colour in self._tableau.colours:
+            S = self._reflections.get(colour.space)
+            if S is not None and not self._are_close(apply_left(colour.b, S), colour.b, 2):
+                return False
+        for (k, m), block in self._tableau.blocks.items():
+            colour = self._tableau.colours[m]
+            if k in self._reflections and colour.space in self._reflections:
+                wanted = outer(self._tableau.spaces[k].one, colour.b)
+                found = add(self._turned[k, m], block)
+                if not all(map(self._are_close, found, wanted, repeat(3))):
+                    return False
+        return True
+
+    def renumbering(self, possible: _Images) -> dict[int, dict[int, int]] | None:
+        """The image of each stage at a point, space by space; None where there is none.
+
+        Raises:
+            _TooManyError: too many would have to be tried.
+        """
+        waiting = sorted(possible, key=lambda x: (len(possible[x]), x))
+        path: list[tuple[Vertex, Iterator[int]]] = []
+        in_vain = 0
+        while True:
+            free = next(((k, i) for k, i in waiting if i not in self._images[k]), None)
+            if free is None:
+                return self._images
+            path.append((free, iter(sorted(possible[free], reverse=True))))
+            while not self._is_placed(*path[-1], possible):
+                check_time()
+                path.pop()
+                in_vain += 1
+                if in_vain > MOST_TRIALS:
+                    raise _TooManyError
+                if not path:
+                    return None
+                k, i = path[-1][0]
+                self._images[k].pop(self._images[k].pop(i), None)
+
+    def _is_placed(self, stage: Vertex, images: Iterator[int], possible: _Images) -> bool:
+        """Whether a stage and the next of its images that fits are placed."""
+        k, i = stage
+        of_space = self._images[k]
+        for j in images:
+            if j in of_space or i not in possible[k, j] or not self._has_image(k, i, j):
+                continue
+            of_space[i], of_space[j] = j, i
+            if self._sees(k, i, j) and self._is_seen(k, i, j):
+                return True
+            for x in {i, j}:
+                del of_space[x]
+        return False
+
+    def _has_image(self, k: int, i: int, j: int) -> bool:
+        """Whether the weights of two stages are equal, and what they see and show of algebras fits
+        together.
+        """
+        tableau = self._tableau
+        for colour in tableau.colours:
+            if colour.space == k and not self._are_close(
+                colour.b[i : i + 1], colour.b[j : j + 1], 2
+            ):
+                return False
+        for (x, m), block in tableau.blocks.items():
+            colour, turned = tableau.colours[m], self._turned[x, m]
+            if x == k and colour.space in self._reflections:
+                found, wanted = (turned[j], block[i]), colour.b
+            elif x in self._reflections and colour.space == k:
+                found = tuple(row[j] for row in turned), tuple(row[i] for row in block)
+                wanted = tuple(colour.b[i] * x for x in tableau.spaces[x].one)
+            else:
+                continue
+            if not self._are_close(tuple(map(operator.add, *found)), wanted, 3):
+                return False
+        return True
+
+    def _sees(self, k: int, i: int, j: int) -> bool:
+        """Whether a stage and its image see what was placed as a method and its adjoint do."""
+        for m, colour in enumerate(self._tableau.colours):
+            if (k, m) in self._tableau.blocks:
+                row, image, b = (
+                    self._tableau.blocks[k, m][i],
+                    self._tableau.blocks[k, m][j],
+                    colour.b,
+                )
+                for x, y in self._images[colour.space].items():
+                    if not within(image[y] + row[x] - b[x], 3 * self._tolerance):
+                        return False
+        return True
+
+    def _is_seen(self, k: int, i: int, j: int) -> bool:
+        """The same of what sees the stage."""
+        for (x_space, m), block in self._tableau.blocks.items():
+            colour = self._tableau.colours[m]
+            if colour.space == k:
+                b = colour.b[i]
+                for x, y in self._images[x_space].items():
+                    if not within(block[y][j] + block[x][i] - b, 3 * self._tolerance):
+                        return False
+        return True
+
+    def _are_close(self, row: Vector, other: Vector, times: int) -> bool:
+        """Whether entries are equal within a multiple of the tolerance."""
+        allowed = times * self._tolerance
+        return all(within(x - y, allowed) for x, y in zip(row, other, strict=True))

@@ -358,9 +358,9 @@ def renumbering(a: Any) -> list[Any] | None:
     return [
         {
             "colours": _names(a.tableau, space),
-            "stages": "1 - x" if r.images is None else [i + 1 for i in r.images],
+            "stages": "1 - x" if images is None else [i + 1 for i in images],
         }
-        for space, r in enumerate(a.subject.symmetry.reflections or ())
+        for space, images in enumerate(a.subject.symmetry.images)
     ] or None
 
 

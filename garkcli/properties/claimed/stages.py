@@ -21,7 +21,7 @@ from garkcli.properties.pattern import spaces_that_matter
 from garkcli.properties.property import SEES_ALL, Verdict, claimed
 from garkcli.properties.reduction import is_plainly_irreducible, reduced, sizes
 from garkcli.properties.subject import MISSING_BLOCKS, Subject
-from garkcli.properties.symmetry import MOST_RENUMBERINGS, symmetry
+from garkcli.properties.symmetry import MOST_TRIALS, symmetry
 from garkcli.reason import NO_REASON, Reason
 from garkcli.stability.algebraic import algebraic_within, contractivity, negative_pivot
 from garkcli.tableau.meant import meant
@@ -127,34 +127,35 @@ def symmetric(subject: Subject) -> Verdict:
     weights. In the stage algebra of a family the renumbering is x → 1 − x. Of a reducible method
     it is asked of the smaller one that does the same.
     """
-    found = subject.symmetry
-    if found.holds is None and subject.tolerance:
-        return Verdict.undecided("rounding leaves the nodes open")
-    if found.holds is None:
-        return Verdict.undecided(f"there are more than {MOST_RENUMBERINGS} renumberings")
-    if found.holds:
+    holds = subject.symmetry.holds
+    if holds:
         return Verdict(True)
-    return _reduced_verdict(subject)
+    has_algebra = not all(isinstance(space, PointSpace) for space in subject.tableau.spaces)
+    if holds is None and subject.tolerance and has_algebra:
+        return Verdict.undecided("rounding leaves the nodes open")
+    return _reduced_verdict(subject, holds)
 
 
-def _reduced_verdict(subject: Subject) -> Verdict:
-    """Where no renumbering does: stages that do nothing, and equal ones, may be in its way."""
-    differs = Verdict(False, Reason("no renumbering of the stages gives the adjoint method"))
+def _reduced_verdict(subject: Subject, holds: bool | None) -> Verdict:
+    """Where no renumbering does: stages that do nothing, and equal ones, may be in its way.
+
+    Args:
+        subject: the method.
+        holds: what is known of it as it is: False, or None.
+    """
     tableau = subject.tableau
-    if is_plainly_irreducible(tableau, subject.tolerance):
-        return differs
-    smaller = reduced(tableau)
-    if smaller is None:
-        return Verdict.undecided("stages at irrational nodes are not compared")
-    settled = _with_idle_stages_in_the_middle(smaller)
-    if settled is tableau:
-        return differs
-    holds = symmetry(settled, subject.tolerance).holds
+    if not is_plainly_irreducible(tableau, subject.tolerance):
+        smaller = reduced(tableau)
+        if smaller is None:
+            return Verdict.undecided("stages at irrational nodes are not compared")
+        settled = _with_idle_stages_in_the_middle(smaller)
+        if settled is not tableau:
+            holds = symmetry(settled, subject.tolerance).holds
     if holds is None:
-        return Verdict.undecided("there are too many renumberings once it is reduced")
+        return Verdict.undecided(f"more than {MOST_TRIALS} images of stages were tried")
     if holds:
         return Verdict(True, Reason("once it is reduced"))
-    return differs
+    return Verdict(False, Reason("no renumbering of the stages gives the adjoint method"))
 
 
 def _with_idle_stages_in_the_middle(tableau: Tableau) -> Tableau:
