@@ -260,7 +260,9 @@ def find_property(method: AnyMethod, key: str, tolerance: Number | None = None) 
     near = tolerance_of(known_as)
     order = find_order(method, tolerance=None if is_own else near or 0).order
     assumed = conditions.simplifying(known_as)
-    return Subject(method.tableau, order, assumed, DEFAULT_LIMIT, near or ZERO).verdict(key)
+    near = near or ZERO
+    subject = Subject(method.tableau, order, assumed, DEFAULT_LIMIT, near, method.further)
+    return subject.verdict(key)
 
 
 def reduced(method: AnyMethod) -> GarkMethod | None:

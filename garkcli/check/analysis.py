@@ -15,6 +15,7 @@ from garkcli.order.certificate import DEFAULT_LIMIT, Proof, prove
 from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.simplifying import Simplifying, consistent_blocks
 from garkcli.reason import NO_REASON, Reason
+from garkcli.tableau.embedded import NOTHING, Further
 from garkcli.tableau.forms import with_time
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.meant import derived, printed
@@ -66,6 +67,7 @@ class Analysis(Shown, Frozen):
             them.
         embedded: the truth about its embedded weights; None where it has none.
         dense: the truth about its dense output; likewise.
+        further: these weights.
     """
 
     tableau: Tableau
@@ -91,6 +93,7 @@ class Analysis(Shown, Frozen):
     misprint: Misprint | None = None
     embedded: EmbeddedFacts | None = None
     dense: DenseFacts | None = None
+    further: Further = NOTHING
 
     @cached_property
     def subject(self) -> Subject:
@@ -98,7 +101,8 @@ class Analysis(Shown, Frozen):
         from garkcli.properties.subject import Subject
 
         tolerance = ZERO if self.tolerance is None else self.tolerance
-        return Subject(self.tableau, self.order.order, self.simplifying, self.limit, tolerance)
+        order = self.order.order
+        return Subject(self.tableau, order, self.simplifying, self.limit, tolerance, self.further)
 
     def __repr__(self) -> str:
         orders = [f"order {self.order.order}"]

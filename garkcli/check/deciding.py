@@ -111,7 +111,7 @@ def analyse(
     from garkcli.check.further import further_facts  # few files have them
 
     embedded, dense = further_facts(method, further, order, inconsistent, limit, spans)
-    return replace(found, embedded=embedded, dense=dense)
+    return replace(found, embedded=embedded, dense=dense, further=further)
 
 
 def _capped(

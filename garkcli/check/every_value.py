@@ -25,7 +25,7 @@ from garkcli.order.simplifying import is_symplectic, simplifying
 from garkcli.properties.registry import KEYS
 from garkcli.reason import NO_REASON, Reason
 from garkcli.tableau.conjugate import symplectic_defects
-from garkcli.tableau.embedded import with_weights
+from garkcli.tableau.embedded import as_colours, with_weights
 from garkcli.tableau.forms import pair, with_time
 from garkcli.tableau.tableau import Tableau
 
@@ -102,10 +102,19 @@ class EveryValue(Frozen):
             return None if timed is None else order
         return _order_with(self.file, timed, self.limit)
 
+    @cached_property
+    def _with_further(self) -> EveryFamily:
+        """The family with a colour more for each row of embedded or dense weights."""
+        if not self.file.further:
+            return self.family
+        whole = as_colours(self.file.tableau, self.file.further)
+        return every_family(replace(self.file, tableau=whole))
+
     def verdict(self, key: str) -> Fact:
         """What is true of a property; each is decided once."""
         if key not in self._known:
-            self._known[key] = find_property(self.family, key, self.limit)
+            family = self._with_further if key == "reducible" else self.family
+            self._known[key] = find_property(family, key, self.limit)
         return self._known[key]
 
     def pair_simplifying(self) -> Fact:

@@ -11,7 +11,7 @@ from flint import fmpq
 
 from garkcli.exact.matrix import Matrix, apply, dot, is_singular, multiply
 from garkcli.frozen import Frozen
-from garkcli.order.pair_order import Condition, added, pair_criterion
+from garkcli.order.pair_order import Condition, added, missing_of_block, pair_criterion
 from garkcli.order.simplifying import simplifying
 from garkcli.tableau.forms import gark
 from garkcli.tableau.meant import derived, meant
@@ -175,26 +175,37 @@ def rule_reasons(found: Analysis, rules: Sequence[BlockRule]) -> Iterator[str]:
     for x in rules:
         found_fit = fit(x, methods, p)
         if found_fit is not None:
-            words = _WORDS[found_fit.keeps].format(p)
-            places = by_text.setdefault((x.rule, f"{found_fit.numbers}, {words}"), [])
-            places.append(f"({x.l + 1},{x.m + 1})")
+            if found_fit.keeps is None:
+                found_fit = _by_block(found_fit, missing_of_block(tableau, (x.l, x.m), p))
+            words = "keeps" if found_fit.keeps else "loses"
+            text = f"{found_fit.numbers}, {words} pair order {p}"
+            by_text.setdefault((x.rule, text), []).append(f"({x.l + 1},{x.m + 1})")
     for (rule, text), places in by_text.items():
         yield f"{rule} on {', '.join(places)}: {text}"
-
-
-_WORDS = {True: "keeps pair order {}", False: "loses pair order {}", None: "may lose pair order {}"}
 
 
 class Fit(Frozen):
     """Whether a block by a rule keeps the least pair order of the diagonal methods.
 
     Attributes:
-        keeps: whether it does; None where the theorem does not say.
+        keeps: whether it does; None where the numbers leave it to the entries.
         numbers: that decide it.
     """
 
     keeps: bool | None
     numbers: str
+
+
+def _by_block(by_numbers: Fit, missing: Sequence[Condition]) -> Fit:
+    """What the conditions of the block decide, where the numbers do not."""
+    names = [
+        "the even condition" if x.letter == "even" else f"{x.letter}({x.number})" for x in missing
+    ]
+    if not names:
+        return Fit(True, f"{by_numbers.numbers}, but its conditions hold")
+    *others, last = names
+    said = f"{', '.join(others)} and {last} fail" if others else f"{last} fails"
+    return Fit(False, f"{by_numbers.numbers}, {said}")
 
 
 def fit(x: BlockRule, methods: Sequence[Method], p: int) -> Fit | None:

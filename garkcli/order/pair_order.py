@@ -13,6 +13,7 @@ from garkcli.order.simplifying import Defects, defects_of
 
 if TYPE_CHECKING:
     from garkcli.tableau.meant import AnyTableau
+    from garkcli.tableau.tableau import Tableau
 
 
 class Condition(Frozen):
@@ -80,6 +81,18 @@ def pair_criterion(method: AnyTableau, limit: int = DEFAULT_LIMIT) -> PairCriter
         if missing:
             return PairCriterion(order - 1, missing)
     return PairCriterion(limit, ())
+
+
+def missing_of_block(tableau: Tableau, edge: tuple[int, int], order: int) -> list[Condition]:
+    """The conditions of a block that do not hold, and that an order of the pair needs."""
+    defects, (l, m) = defects_of(tableau), edge
+    needed = [
+        Condition(letter, number, l, m)
+        for lower in range(1, order + 1)
+        for letter, number in added(lower)
+        if letter != "B"
+    ]
+    return [x for x in needed if not defects.vanish(defects.of(x.letter, l, m, x.number))]
 
 
 def _missing(defects: Defects, order: int) -> Iterator[Condition]:

@@ -75,7 +75,9 @@ def spaces_that_matter(tableau: Tableau) -> set[int]:
 def stage_graph(
     tableau: Tableau, colours: Iterable[int] | None = None, tolerance: fmpq = ZERO
 ) -> StageGraph:
-    """The graph of all stages that matter, or that of some colours alone.
+    """The graph of all stages, or that of some colours alone.
+
+    Of all it leaves out those of stage spaces that no step depends on, unless all are such.
 
     Args:
         tableau: the method.
@@ -83,7 +85,7 @@ def stage_graph(
         tolerance: the rounding of its coefficients; those that are 0 in the file are 0.
     """
     chosen = list(range(tableau.size) if colours is None else colours)
-    matters = spaces_that_matter(tableau)
+    matters = spaces_that_matter(tableau) or set(range(len(tableau.spaces)))
     blocks: Mapping[Vertex, Block] = tableau.blocks
     if not all(isinstance(space, PointSpace) for space in tableau.spaces):
         from garkcli.tableau.pointwise import entries  # for stages of families

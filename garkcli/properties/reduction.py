@@ -57,7 +57,11 @@ def at_points(tableau: Tableau) -> Tableau | None:
 
 
 def _once(tableau: Tableau) -> Tableau:
-    smaller = _without(tableau, _that_matter(tableau))
+    matters = stages_that_matter(tableau)
+    kept = []
+    for k, space in enumerate(tableau.spaces):
+        kept.append([i for i in range(space.stages) if (k, i) in matters] or [0])
+    smaller = _without(tableau, kept)
     return merged(_with_idle_stages_zero(smaller))
 
 
@@ -126,8 +130,8 @@ def _tells_apart(tableau: Tableau, k: int, tolerance: fmpq) -> bool:
     return False
 
 
-def _that_matter(tableau: Tableau) -> list[list[int]]:
-    """For each space the stages that have an influence on the step."""
+def stages_that_matter(tableau: Tableau) -> set[Vertex]:
+    """The stages that have an influence on the step."""
     reached: set[Vertex] = set()
     for colour in tableau.colours:
         reached |= _with_entries(colour.space, colour.b)
@@ -141,10 +145,7 @@ def _that_matter(tableau: Tableau) -> list[list[int]]:
             seen = _with_entries(colour.space, block[i])
             waiting += seen - reached
             reached |= seen
-    kept = []
-    for k, space in enumerate(tableau.spaces):
-        kept.append([i for i in range(space.stages) if (k, i) in reached] or [0])
-    return kept
+    return reached
 
 
 def _with_entries(space: int, row: Vector) -> set[Vertex]:
@@ -255,14 +256,12 @@ def smallest(tableau: Tableau, further: Further = NOTHING) -> tuple[Tableau, Fur
     >>> smallest(method.tableau)[0].spaces[0].stages
     1
     """
-    if is_plainly_irreducible(tableau):
+    whole = as_colours(tableau, further)
+    if is_plainly_irreducible(whole):
         return tableau, further
-    whole = as_colours(tableau, further) if further else tableau
     smaller = reduced(whole)
     if smaller is None:
         return None
     if smaller is whole:
         return tableau, further
-    if not further:
-        return smaller, further
     return from_colours(smaller, further)

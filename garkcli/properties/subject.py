@@ -13,10 +13,11 @@ from garkcli.exact.field import ONE, ZERO
 from garkcli.frozen import Frozen
 from garkcli.order.simplifying import Simplifying
 from garkcli.properties.pattern import Shape, StageGraph, shape_of, stage_graph
-from garkcli.properties.reduction import at_points
+from garkcli.properties.reduction import at_points, reduced
 from garkcli.properties.registry import find
 from garkcli.properties.symmetry import Symmetry, symmetry
 from garkcli.reason import Reason
+from garkcli.tableau.embedded import NOTHING, Further
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
@@ -37,6 +38,7 @@ class Subject(Frozen):
         simplifying: its B, C and D.
         limit: where the search for these stopped.
         tolerance: the rounding of its coefficients; 0 where they are meant exactly.
+        further: its embedded weights and its dense output.
     """
 
     tableau: Tableau
@@ -44,6 +46,7 @@ class Subject(Frozen):
     simplifying: Simplifying
     limit: int
     tolerance: fmpq = ZERO
+    further: Further = NOTHING
 
     def verdict(self, key: str) -> Verdict:
         """What is true of a property; each is decided once."""
@@ -104,6 +107,11 @@ class Subject(Frozen):
     def points(self) -> Tableau | None:
         """The method with one coordinate a stage; None where nodes have no simple radicals."""
         return at_points(self.tableau)
+
+    @cached_property
+    def reduced(self) -> Tableau | None:
+        """The smallest method of the same step; None where nodes have no simple radicals."""
+        return reduced(self.tableau)
 
     @cached_property
     def symmetry(self) -> Symmetry:

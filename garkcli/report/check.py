@@ -319,10 +319,6 @@ def truth(key: str) -> Row:
     def get(a: Any) -> Answer:
         answer = verdict_answer(a, key)
         is_told = worthy is not None and (answer.value is worthy or bool(answer.status.open))
-        if key == "reducible" and (a.embedded is not None or a.dense is not None):
-            answer = replace(
-                answer, reason=Reason("as far as b goes") if answer.value else NO_REASON
-            )
         return replace(answer, level=USUAL if is_told else DETAIL)
 
     return maybe(find(key).field, replace(kinds.TRUTH, phrase=phrase), get)
@@ -843,9 +839,9 @@ OK = (
 
 
 def transfer(outcome: Any) -> Any:
-    """Which rules keep the order of the pair; told where the file takes a degree that may not."""
+    """Which rules keep the order of the pair; told where the file takes a degree that does not."""
     found = [*rule_reasons(outcome.analysis, outcome.rules)]
-    is_told = any("may lose" in x for x in found)
+    is_told = any(x.startswith("legendre") and " loses " in x for x in found)
     return Answer(found, level=USUAL if is_told else DETAIL) if found else None
 
 

@@ -146,6 +146,8 @@ def as_colours(tableau: Tableau, further: Further) -> Tableau:
 
     What becomes of stages, such as that equal ones are made one, then becomes of these rows too.
     """
+    if not further:
+        return tableau
     colours = list(tableau.colours)
     for weights in further.rows:
         for colour, row in zip(tableau.colours, weights, strict=True):
@@ -160,6 +162,8 @@ def from_colours(tableau: Tableau, further: Further) -> tuple[Tableau, Further]:
         tableau: with colours for them.
         further: the weights as they were, for their kinds.
     """
+    if not further:
+        return tableau, further
     size = tableau.size // (len(further.rows) + 1)
     rows = [
         tuple(colour.b for colour in tableau.colours[start : start + size])

@@ -215,7 +215,7 @@ def test_rules_that_keep_and_lose_the_order() -> None:
         "legendre on (1,2), (2,1): k = 1 ≤ K = 2 ≤ r − k = 3, keeps pair order 4"
     ]
     assert said((LOBATTO, THREE_EIGHTHS), "{rule: legendre, degree: 4}") == [
-        "legendre on (1,2), (2,1): K = 4 > r − k = 3, may lose pair order 4"
+        "legendre on (1,2), (2,1): K = 4 > r − k = 3, C(1) and D(1) fail, loses pair order 4"
     ]
     assert said((LOBATTO, QUARTERS), "collocation") == [
         "collocation on (1,2): s = 4 = r − k + 1 and k E_l + s E_m = 0, keeps pair order 4",
@@ -228,6 +228,28 @@ def test_rules_that_keep_and_lose_the_order() -> None:
     assert said(both, "{collocation: 1/2, interpolation: 1/2}") == []
 
 
+@pytest.mark.parametrize(
+    "methods", [(LOBATTO, THREE_EIGHTHS), (gauss(2), LOBATTO), (gauss(3), THREE_EIGHTHS)]
+)
+@pytest.mark.parametrize(
+    "transfer", [*(f"{{rule: legendre, degree: {K}}}" for K in range(5)), "interpolation"]
+)
+def test_every_rule_keeps_or_loses_what_the_trees_say(
+    methods: tuple[str, ...], transfer: str
+) -> None:
+    """What numbers leave open the blocks decide: all rules keep pair order p exactly where the
+    pair has it by the conditions of all trees.
+    """
+    method = of_file(methods, transfer)
+    found = analysis(method)
+    said = list(rule_reasons(found, method.rules))
+    assert said
+    assert all(re.search(r" (keeps|loses) pair order \d$", x) for x in said)
+    p = int(said[0][-1])
+    assert found.pair is not None
+    assert all(" keeps " in x for x in said) == (find_order(found.pair, p).order == p)
+
+
 def test_weights_of_the_pair_that_are_rounded() -> None:
     """Within a tolerance the criterion is that of the methods that the file may mean."""
     b = "[0.166666666666667, 0.666666666666667, 0.166666666666667]"
@@ -238,11 +260,13 @@ def test_weights_of_the_pair_that_are_rounded() -> None:
     assert sum(exact.tableau.colours[0].b, fmpq(0)) != 1
 
 
-def test_a_degree_that_may_fail_is_told_without_being_asked_for() -> None:
+def test_a_degree_that_loses_the_order_is_told_without_being_asked_for() -> None:
     """Legendre with K > r − k, in the usual report; what keeps the order is told with -v."""
     methods = (LOBATTO, THREE_EIGHTHS)
     text = render_check(of_file(methods, "{rule: legendre, degree: 4}"))
-    assert "legendre on (1,2), (2,1): K = 4 > r − k = 3, may lose" in " ".join(text.split())
+    assert "legendre on (1,2), (2,1): K = 4 > r − k = 3, C(1) and D(1) fail, loses" in " ".join(
+        text.split()
+    )
     assert "legendre on" not in render_check(of_file(methods, "{rule: legendre, degree: 3}"))
 
 

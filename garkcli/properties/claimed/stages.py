@@ -19,11 +19,12 @@ from garkcli.properties.last_stage import (
 from garkcli.properties.naming import entry, entry_is, number_words, place, stages_name
 from garkcli.properties.pattern import spaces_that_matter
 from garkcli.properties.property import SEES_ALL, Verdict, claimed
-from garkcli.properties.reduction import is_plainly_irreducible, reduced, sizes
+from garkcli.properties.reduction import is_plainly_irreducible, reduced, sizes, stages_that_matter
 from garkcli.properties.subject import MISSING_BLOCKS, Subject
 from garkcli.properties.symmetry import MOST_TRIALS, symmetry
 from garkcli.reason import NO_REASON, Reason
 from garkcli.stability.algebraic import algebraic_within, contractivity, negative_pivot
+from garkcli.tableau.embedded import Further, as_colours
 from garkcli.tableau.meant import meant
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
@@ -145,7 +146,7 @@ def _reduced_verdict(subject: Subject, holds: bool | None) -> Verdict:
     """
     tableau = subject.tableau
     if not is_plainly_irreducible(tableau, subject.tolerance):
-        smaller = reduced(tableau)
+        smaller = subject.reduced
         if smaller is None:
             return Verdict.undecided("stages at irrational nodes are not compared")
         settled = _with_idle_stages_in_the_middle(smaller)
@@ -179,14 +180,16 @@ def _with_idle_stages_in_the_middle(tableau: Tableau) -> Tableau:
     "BIT 21 (1981)"
 )
 def reducible(subject: Subject) -> Verdict:
-    """Fewer stages do the same. A stage that no weight and no stage that matters looks at can be
-    left out (DJ-reducible), the last one of an FSAL method too. Stages that are equal on every
-    problem can be one. `gark convert --to reduced` writes the smaller method.
+    """Fewer stages do the same: the same step, the same embedded weights and dense output. A stage
+    that no weight and no stage that matters looks at can be left out (DJ-reducible), such as the
+    last one of an FSAL method without embedded weights. Stages that are equal on every problem can
+    be one. `gark convert --to reduced` writes the smaller method.
     """
-    tableau = subject.tableau
-    if is_plainly_irreducible(tableau, subject.tolerance):
+    tableau, further = subject.tableau, subject.further
+    whole = as_colours(tableau, further)
+    if is_plainly_irreducible(whole, subject.tolerance):
         return Verdict(False, Reason("every stage has a weight, and no two have the same row sums"))
-    smaller = reduced(tableau)
+    smaller = reduced(whole) if further else subject.reduced
     if smaller is None:
         return Verdict.undecided("stages at irrational nodes are not compared")
     if sizes(smaller) != sizes(tableau):
@@ -194,7 +197,19 @@ def reducible(subject: Subject) -> Verdict:
         return Verdict(True, Reason("{} stages do the same", stages))
     if subject.tolerance:
         return Verdict.undecided("rounding may hide equal stages")
+    if further and subject.reduced is not None and sizes(subject.reduced) != sizes(tableau):
+        return Verdict(False, Reason("{} need stages that b does without", _names(further)))
+    matters = stages_that_matter(smaller)
+    idle = [(k, 0) for k, x in enumerate(smaller.spaces) if x.stages == 1 and (k, 0) not in matters]
+    if idle:
+        stage = stages_name(tableau, idle)
+        return Verdict(False, Reason("no step depends on {}, but a method keeps one stage", stage))
     return Verdict(False, Reason("every stage matters, and no two are equal"))
+
+
+def _names(further: Further) -> str:
+    names = [] if further.embedded is None else ["embedded weights"]
+    return " and ".join(names if further.dense is None else [*names, "weights of dense output"])
 
 
 @claimed("E. Hairer, G. Wanner, Solving ODEs II, section IV.15", kind="count")
