@@ -7,8 +7,8 @@ one parameter between the zeros of the polynomials whose signs matter; A-, L- an
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from itertools import pairwise
+from collections.abc import Callable, Iterator
+from itertools import chain, pairwise
 from typing import Any
 
 from garkcli.check.every_facts import UNDECIDED, Fact, Question, answer, by_samples, find
@@ -16,9 +16,9 @@ from garkcli.check.every_family import EveryFamily, exact_value
 from garkcli.design.stable_values import Wanted, stable_values
 from garkcli.errors import GarkError
 from garkcli.exact.cells import Interval, Point, roots_of, where
-from garkcli.exact.field import ONE
+from garkcli.exact.field import ONE, Number
 from garkcli.exact.matrix import characteristic_coefficients, identity
-from garkcli.exact.parametric import fraction
+from garkcli.exact.parametric import Parametric, fraction
 from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.roots import RealRoot
 from garkcli.order.simplifying import Simplifying, simplifying
@@ -70,8 +70,8 @@ def find_property(family: EveryFamily, key: str, limit: int) -> Fact:
     """
 
     def ask(tableau: Tableau) -> Any:
-        # the order is requested with rounded coefficients only, B, C and D for one property
-        known = simplifying(tableau, limit) if key == "stage-order" else _NOTHING
+        # the order is requested with rounded coefficients only, B and C for one property
+        known = simplifying(tableau, limit, "BC") if key == "stage-order" else _NOTHING
         verdict = Subject(tableau, 1, known, limit).verdict(key)
         value = verdict.value
         if verdict.is_undecided:
@@ -92,6 +92,8 @@ def find_property(family: EveryFamily, key: str, limit: int) -> Fact:
         if key == "algebraically-stable" and not _is_complete(family.tableau):
             return Fact(None)
         return _by_signs(family, ask, SIGNS[key](family.tableau))
+    if key in ROWS and not any(isinstance(x, Parametric) for x in ROWS[key](family.tableau)):
+        return find(family, ask)  # nothing with a parameter is asked
     return by_samples(family, ask)
 
 
@@ -180,3 +182,8 @@ SIGNS: dict[str, Callable[[Tableau], list[object]]] = {
     "algebraically-stable": _algebraic,
 }
 """Those that depend on signs: of which numbers."""
+ROWS: dict[str, Callable[[Tableau], Iterator[Number]]] = {
+    "positive-weights": lambda tableau: chain.from_iterable(x.b for x in tableau.colours),
+    "nodes-in-unit-interval": lambda tableau: chain.from_iterable(x.c for x in tableau.colours),
+}
+"""Those that depend on a part of the tableau: on which entries."""

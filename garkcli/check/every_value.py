@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import cached_property
-from operator import attrgetter
+from typing import Any
 
 from garkcli.check.analysis import inconsistent_blocks
 from garkcli.check.claims import agrees, capped, claim_of, claimed_text
@@ -44,7 +44,6 @@ class EveryValue(Frozen):
         conjugate_order: that of its symplectic conjugate; None where a weight is zero.
         pair_order: that of the symplectic pair; None likewise.
         obstacle: why there is no conjugate; empty where there is one.
-        simplifying: B, C and D.
         inconsistent: the blocks with A^{l,m} 𝟙 ≠ c^{l}, as (l, m) counted from 0.
         symplectic: whether it is its own conjugate.
         embedded_order: the order with the embedded weights in place of b; None for none.
@@ -57,7 +56,6 @@ class EveryValue(Frozen):
     conjugate_order: EveryOrder | None
     pair_order: EveryOrder | None
     obstacle: Reason
-    simplifying: Fact
     inconsistent: Fact
     symplectic: Fact
     embedded_order: EveryOrder | None = None
@@ -117,10 +115,21 @@ class EveryValue(Frozen):
             self._known[key] = find_property(family, key, self.limit)
         return self._known[key]
 
-    def pair_simplifying(self) -> Fact:
-        """B, C and D of the pair."""
-        limit = self.limit
-        return find(self.family, lambda x: simplifying(pair(x), limit))
+    def simplifying(self, key: str) -> Fact:
+        """B, C, D or a bound by them; ``pair-`` before it asks for that of the pair.
+
+        Each is a question of its own: B asks nothing of blocks.
+        """
+        if key not in self._known:
+            limit, name = self.limit, key.removeprefix("pair-")
+            letters = name if name in "BCD" else "BCD"
+
+            def ask(tableau: Tableau) -> Any:
+                of = tableau if name == key else pair(tableau)
+                return getattr(simplifying(of, limit, letters), name.replace("-", "_"))
+
+            self._known[key] = find(self.family, ask)
+        return self._known[key]
 
     @property
     def holding(self) -> list[str]:
@@ -158,7 +167,6 @@ def every_value(file: FamilyFile, limit: int) -> EveryValue:
         conjugate_order=conjugate,
         pair_order=both,
         obstacle=obstacle,
-        simplifying=find(family, lambda x: simplifying(x, limit)),
         inconsistent=find(family, inconsistent_blocks),
         symplectic=_symplectic(family),
         embedded_order=embedded,
@@ -261,8 +269,7 @@ def _fact(key: str, found: EveryValue) -> Fact:
     if key in KEYS:
         return found.verdict(key)
     if key in ("B", "C", "D") or key.endswith("bound"):
-        tables = found.pair_simplifying() if key.startswith("pair-") else found.simplifying
-        return tables.of(attrgetter(key.removeprefix("pair-").replace("-", "_")))
+        return found.simplifying(key)
     value: EveryOrder | Fact | None = getattr(found, key.replace("-", "_"))
     return value.fact if isinstance(value, EveryOrder) else value or Fact(None)
 

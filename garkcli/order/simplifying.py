@@ -259,10 +259,18 @@ def _existing(table: Table) -> list[int]:
 
 
 @doing("B, C and D")
-def simplifying(method: AnyTableau, limit: int = DEFAULT_LIMIT) -> Simplifying:
+def simplifying(
+    method: AnyTableau, limit: int = DEFAULT_LIMIT, letters: str = "BCD"
+) -> Simplifying:
     """B, C and D of a tableau; each search stops at ``limit``.
 
     Of a rounded tableau a condition is met where rounding explains every entry of its defect.
+
+    Args:
+        method: the tableau.
+        limit: where the searches stop.
+        letters: which of the three are needed; the others are empty, and nothing is compared for
+            them.
     """
     defects = defects_of(method)
     tableau = defects.tableau
@@ -275,8 +283,10 @@ def simplifying(method: AnyTableau, limit: int = DEFAULT_LIMIT) -> Simplifying:
         vanishing = (defects.vanish(defect(*block, k)) for k in range(1, limit + 1))
         return next((k for k, vanishes in enumerate(vanishing) if not vanishes), limit)
 
-    def of_blocks(defect: Callable[..., Any], first: Sequence[int]) -> Table:
+    def of_blocks(letter: str, defect: Callable[..., Any], first: Sequence[int]) -> Table:
         """For each block that exists, the rows of ``first`` once."""
+        if letter not in letters:
+            return ()
         return tuple(
             tuple(
                 None if tableau.block(l, m) is None else largest(defect, first[l], m)
@@ -285,9 +295,9 @@ def simplifying(method: AnyTableau, limit: int = DEFAULT_LIMIT) -> Simplifying:
             for l in colours
         )
 
-    B = tuple(largest(defects.B, l) for l in alike.weights)
-    C = of_blocks(defects.C, alike.nodes)
-    return Simplifying(B, C, of_blocks(defects.D, alike.weights), limit)
+    B = tuple(largest(defects.B, l) for l in alike.weights) if "B" in letters else ()
+    C = of_blocks("C", defects.C, alike.nodes)
+    return Simplifying(B, C, of_blocks("D", defects.D, alike.weights), limit)
 
 
 class _Alike(Frozen):

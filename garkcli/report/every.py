@@ -145,13 +145,13 @@ BLOCK_LISTS = Kind(
 
 
 def of(name: str) -> Callable[[Any], Fact]:
-    """A part of B, C and D."""
+    """B, C or D as a table, or a bound by them."""
 
-    def pick(s: Any) -> Any:
-        value = getattr(s, name)
-        return kinds.Table(value, s.limit) if name in "BCD" else value
+    def get(e: Any) -> Fact:
+        fact: Fact = e.simplifying(name)
+        return fact.of(lambda x: kinds.Table(x, e.limit)) if name in "BCD" else fact
 
-    return lambda e: e.simplifying.of(pick)
+    return get
 
 
 def of_several(key: str) -> Row:
@@ -193,7 +193,7 @@ FAMILY = [
     Row("C", lifted(kinds.TABLE), of("C")),
     Row("D", lifted(kinds.TABLE), of("D")),
     Row("bound", lifted(kinds.COUNT), of("bound"), DETAIL),
-    Row("sharp_bound", lifted(kinds.COUNT), of("sharp_bound"), DETAIL),
+    Row("sharp_bound", lifted(kinds.COUNT), of("sharp-bound"), DETAIL),
     Row("inconsistent_blocks", lifted(BLOCK_LISTS), "inconsistent", label="consistent"),
     Row("symplectic", lifted(kinds.TRUTH)),
     Row("holding", replace(kinds.TEXTS, is_data=False), label="properties"),

@@ -99,7 +99,8 @@ def test_every_value_agrees_with_each(found: tuple[str, EveryValue], value: str)
     assert at(every.conjugate_order.fact, root) == expected
     expected = None if pair is None else pair.order
     assert at(every.pair_order.fact, root) == expected
-    assert at(every.simplifying, root) == ordinary.simplifying
+    for name in ("B", "C", "D", "bound"):
+        assert at(every.simplifying(name), root) == getattr(ordinary.simplifying, name)
     assert at(every.symplectic, root) == ordinary.symplectic
     for key in (*COMPARING, *STABLE, *SIGNS):
         fact = every.verdict(key)
@@ -121,12 +122,14 @@ EQUAL = f"[{', '.join(['g'] * 9)}]"
         ),
         (
             f"A: [{', '.join([EQUAL] * 9)}]\nb: [{', '.join(['1/9'] * 9)}]",
-            *("symmetric", "no; not decided where g = 1/18"),
+            *("symmetric", "no; yes where g = 1/18"),
         ),
     ],
 )
 def test_bounds_no_meaning_and_open_answers_are_told_apart(text: str, key: str, said: str) -> None:
-    """A search that stopped, a question without meaning, and one that is not decided."""
+    """A search that stopped, a question without meaning, and nine equal stages, which have too
+    many renumberings to try them all.
+    """
     family = every_family(loads_family(f"parameters: {{g: free}}\n{text}\n", is_design=False))
     assert str(fact_reason(find_property(family, key, LIMIT), "g")) == said
 
@@ -202,7 +205,7 @@ b: [w, 1/2 - w, 1/2]
     every = checked(tmp_path, text).every
     assert every is not None
     assert every.order.order == 3
-    assert every.simplifying.value.B == (4,)
+    assert every.simplifying("B").value == (4,)
 
 
 def test_roots_of_parameters_are_refused(tmp_path: object) -> None:
@@ -253,6 +256,28 @@ def test_patterns_of_several_parameters_are_decided(tmp_path: object) -> None:
     assert every.verdict("explicit").is_everywhere
     assert ("c2", True) in every.verdict("reducible").elsewhere
     assert every.verdict("positive-weights").differs
+
+
+MIXED = """parameters: {t1: free, t2: free, t3: free}
+methods: [gauss-2, lobatto-iiia-3]
+transfer: {interpolation: t1, collocation: t2, conjugate-interpolation: t3,
+           conjugate-collocation: 1 - t1 - t2 - t3}
+"""
+
+
+def test_what_depends_on_no_parameter_is_decided(tmp_path: object) -> None:
+    """Weights and nodes have no parameters: B, and whether weights are positive and nodes within
+    the step, are decided for every value, as they are for a single one, while C is not.
+    """
+    every = checked(tmp_path, MIXED).every
+    assert every is not None
+    ordinary = analyse(loads(MIXED, settings={"t1": "1/3", "t2": "1/5", "t3": "2"}).tableau, LIMIT)
+    assert every.simplifying("B").is_everywhere
+    assert every.simplifying("B").value == ordinary.simplifying.B == (4, 4)
+    for key in ("positive-weights", "nodes-in-unit-interval"):
+        assert every.verdict(key).is_everywhere
+        assert every.verdict(key).value is ordinary.subject.verdict(key).value is True
+    assert not every.simplifying("C").is_everywhere
 
 
 def test_every_value_is_one_where_there_is_a_method() -> None:
