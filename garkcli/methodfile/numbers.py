@@ -283,7 +283,8 @@ class Numbers(Mutable):
             else self.row(item, f"{where}, row {i}")
             for i, item in enumerate(items, start=1)
         )
-        if any(rows):
+        # [[]] is the triangle of one stage
+        if any(rows) or len(rows) == 1:
             return rows
         if not self.source.faults:
             self.source.fault(node, f"{where} is empty", "every method has a stage", code="empty")
@@ -336,11 +337,18 @@ class Numbers(Mutable):
         self._uneven(lengths, node, where, columns)
         return rows
 
-    def rectangular(self, rows: Rows, node: Node, where: str) -> None:
-        """Note a matrix whose rows are not equally long, where no shape is known yet."""
+    def rectangular(
+        self, rows: Rows, node: Node, where: str, shape: tuple[int, int] | None = None
+    ) -> Rows:
+        """A matrix whose rows are equally long, or a triangle where its shape is square; note
+        another one. That it has the shape is not looked at.
+        """
         lengths = [len(row) for row in rows]
+        if shape == (len(rows), len(rows)) and spellings.is_triangle(lengths):
+            return self._completed(rows, node, where)
         if len(set(lengths)) > 1:
             self._uneven(lengths, node, where, lengths[0])
+        return rows
 
     def _uneven(self, lengths: Sequence[int], node: Node, where: str, columns: int) -> None:
         """Note rows of different lengths: one fault, at the first of another length."""

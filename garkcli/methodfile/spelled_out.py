@@ -208,6 +208,12 @@ def _holds_a_number(node: Node) -> bool:
     return not is_null(node)
 
 
+def _has_an_empty_row(node: Node) -> bool:
+    return isinstance(node, SequenceNode) and any(
+        isinstance(row, SequenceNode) and not row.value for row in node.value
+    )
+
+
 def colours_in(at: Reading, node: Node, name: str) -> list[Node] | None:
     """What a list has, one per colour; None, with a fault noted, where these are too many."""
     items = at.source.items(node, name)
@@ -278,8 +284,8 @@ def tableau_of(at: Reading, entries: Entries, linear: Node | None) -> d.TableauT
     """A, b and c of one colour or of several, told apart by how deep A is nested."""
     A, b = entries["A"], entries["b"]
     depth, is_one_row = depth_of_lists(A), depth_of_lists(b) < 2
-    # [[null]] may be a row of blocks as well
-    is_one_matrix = depth <= 2 and _holds_a_number(A)
+    # [[null]] may be a row of blocks as well; [[]] is the short form of [[0]]
+    is_one_matrix = depth <= 2 and (_holds_a_number(A) or (is_one_row and _has_an_empty_row(A)))
     if is_one_matrix and is_one_row:
         found = _method(at, entries, ("A", "b", "c"))
         if found is None:

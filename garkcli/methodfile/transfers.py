@@ -150,19 +150,21 @@ def _blocks(at: Reading, node: Node, stages: Sequence[int]) -> d.BlockTexts:
         if (l, m) in blocks:
             message = f"transfer, blocks: {where} is given twice"
             at.source.fault(keys[key], message, "keep one of them", code="doubled")
-        is_unknown = _is_unknown(value)
-        block = _unknown(at, value, (l, m), stages) if is_unknown else _block(at, value, where)
+        if _is_unknown(value):
+            block: d.BlockText | None = _unknown(at, value, (l, m), stages)
+        else:
+            block = _block(at, value, where, (stages[l], stages[m]))
         if block is not None:
             blocks[l, m] = block
     return blocks
 
 
-def _block(at: Reading, node: Node, where: str) -> d.BlockText | None:
+def _block(at: Reading, node: Node, where: str, shape: tuple[int, int]) -> d.BlockText | None:
     """A block as a matrix or as a rule."""
     if not isinstance(node, SequenceNode):
         return _rule(at, node, where)
     rows = at.numbers.matrix(node, where)
-    at.numbers.rectangular(rows, node, where)
+    rows = at.numbers.rectangular(rows, node, where, shape)
     return d.MatrixText(node, rows) if rows else None
 
 

@@ -37,9 +37,15 @@ HEADLINE, USUAL, DETAIL, DATA = Level
 
 
 def stages_text(tableau: Any) -> str:
-    """``4 stages``; ``2 colours, 2 + 3 stages``; of many colours their sum."""
+    """``4 stages``; ``2 colours, 2 + 3 stages``; of many colours their sum.
+
+    The stages of a colour are those at which its vector field is evaluated: those of q drive q.
+    """
     if tableau.is_partitioned:
-        parts_of = (" + ".join(map(str, tableau.stages_of(x))) for x in "qp")
+        parts_of = [
+            " + ".join(str(len(colour.b)) for colour in tableau.colours if colour.part == part)
+            for part in "qp"
+        ]
         return "{} colours, stages q: {}, p: {}".format(tableau.size, *parts_of)
     counts = [tableau.space(l).stages for l in range(tableau.size)]
     shown = counts if len(counts) <= 8 else [sum(counts)]

@@ -120,19 +120,6 @@ class Tableau(Frozen):
                 if self.block(l, m) is not None:
                     yield l, m
 
-    def stages_of(self, part: Part) -> tuple[int, ...]:
-        """The numbers of stages at which a part of the unknowns is computed, one per stage space.
-
-        These are the rows of the paper's tableaus Q and P: in eq. (rectangular) three stages for q
-        and two for p, although two velocities and three forces are evaluated.
-        """
-        drivers = [m for m, colour in enumerate(self.colours) if colour.part == part]
-        stages = []
-        for k, space in enumerate(self.spaces):
-            if any((k, m) in self.blocks for m in drivers):
-                stages.append(space.stages)
-        return tuple(stages)
-
     @property
     def is_partitioned(self) -> bool:
         """Whether the colours drive positions or momenta, as in the symplectic pair."""

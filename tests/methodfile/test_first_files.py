@@ -7,10 +7,12 @@ from __future__ import annotations
 from time import process_time
 
 import pytest
+from flint import fmpq
 
 from garkcli.errors import Fault, MethodFileError
 from garkcli.methodfile.file_keys import KEYS, elsewhere
 from garkcli.methodfile.load import loads
+from garkcli.order.certificate import find_order
 from garkcli.tableau.tableau import Tableau
 from tests.fuzz.hostile import hostile_files
 
@@ -67,6 +69,37 @@ def test_triangles_are_completed_wherever_matrices_are_square() -> None:
     short = "tableau: {A: [[[[], [1]], null], [null, [[1]]]], b: [[1/2, 1/2], [1]]}"
     whole = "tableau: {A: [[[[0, 0], [1, 0]], null], [null, [[1]]]], b: [[1/2, 1/2], [1]]}"
     assert tableau(short) == tableau(whole)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "A: [[]]\nb: [1]",
+        "tableau: {A: [[]], b: [1]}",
+        "methods: [{A: [[]], b: [1]}]",
+        "tableau: {A: [[[[]]]], b: [[1]]}",
+        "tableau: {A: [[[[]], [[1]]], [[[1/2]], [[]]]], b: [[1], [1]]}",
+        "ark: {A: [[[]], [[1]]], b: [1]}",
+        "prk: {q: {A: [[]], b: [1]}, p: {A: [[1]], b: [1]}}",
+        "prk: {q: {A: [[]], b: [1]}, p: {A: [[1]], b: [1]}}\nstructure: separable",
+        "compose: {of: {A: [[]], b: [1]}, steps: [1/2, 1/2]}",
+        "methods: [rk4, rk4]\ntransfer: {blocks: {'1,2': [[]], '2,1': [[]]}}".replace(
+            "rk4", "{A: [[1/2]], b: [1]}"
+        ),
+        "methods: [{A: [[1]], b: [1]}, {A: [[]], b: [1]}]\ntransfer: collocation",
+    ],
+)
+def test_a_single_stage_has_the_short_form_too(text: str) -> None:
+    """``[[]]`` is the strictly lower triangle of one stage, ``[[0]]``, wherever a matrix may be."""
+    assert tableau(text) == tableau(text.replace("[[]]", "[[0]]").replace("[[[]]", "[[[0]]"))
+
+
+def test_forward_euler_in_short() -> None:
+    """Order 1, and 2 fails at [[]]: b·c = 0."""
+    found = find_order(tableau("A: [[]]\nb: [1]"))
+    assert (found.order, found.is_lower_bound) == (1, False)
+    assert found.witness is not None
+    assert found.witness.residual == fmpq(-1, 2)
 
 
 def test_a_linear_colour_goes_with_a_plain_tableau() -> None:

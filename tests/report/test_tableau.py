@@ -151,15 +151,19 @@ def test_a_family_has_no_verdict_of_one_method(tmp_path: Path) -> None:
     assert "symplectic   yes" in gark("tableau", str(file), "-v", "--set", "g=1/4").out
 
 
-def test_stages_are_counted_as_the_paper_does() -> None:
-    """Three stages for q and two for p, although the weights are two and three."""
-    rectangular = load(str(ROOT / "methods/rectangular.gark.yaml")).tableau
-    assert (rectangular.stages_of("q"), rectangular.stages_of("p")) == ((3,), (2,))
-    semi = load(str(ROOT / "methods/semi-separable.gark.yaml")).tableau
-    assert (semi.stages_of("q"), semi.stages_of("p")) == ((2, 3), (2,))
-    assert semi.stages_of("y") == ()
-    text = gark("check", "methods/rectangular.gark.yaml", "-v").out
-    assert "stages q: 3, p: 2" in text
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [("rectangular", "stages q: 2, p: 3"), ("semi-separable", "stages q: 2, p: 2 + 3")],
+)
+def test_every_command_counts_the_evaluations_of_a_colour(name: str, said: str) -> None:
+    """The stages of a colour are as many as its weights, in words, in JSON and in ``gark show``."""
+    file = f"methods/{name}.gark.yaml"
+    tableau = load(str(ROOT / file)).tableau
+    counts = [len(colour.b) for colour in tableau.colours]
+    assert said in " ".join(gark("check", file, "-v").out.split())
+    colours = json.loads(gark("check", file, "--format", "json").out)["files"][0]["colours"]
+    assert [x["stages"] for x in colours] == counts
+    assert f"stages {', '.join(map(str, counts))}" in gark("show", file).out
 
 
 def test_long_nodes_and_weights_go_on_in_the_next_line() -> None:
