@@ -57,6 +57,32 @@ class PairConditions:
         found = (self.defects.of(letter, l, m, number) for l, m in edges)
         return self.zeros(chain.from_iterable(found))
 
+    def obstacle(self, order: int) -> str:
+        """The first condition up to an order that numbers without unknowns fail, with where it
+        does; empty where there is none.
+
+        >>> from garkcli.methodfile.family import loads_family
+        >>> text = "{methods: [{A: [[1/2]], b: [1]}, {A: [[1/3]], b: [1]}], transfer: '?'}"
+        >>> pair_conditions(loads_family(text)).obstacle(4)
+        'B(2) fails on colour 2'
+        """
+        tableau, count = self.family.tableau, len(self.family.parameters)
+        for lower in range(1, order + 1):
+            for letter, number in added(lower):
+                is_of_colours = letter == "B"
+                edges = [(l, l) for l in range(tableau.size)] if is_of_colours else tableau.edges()
+                for l, m in edges:
+                    fixed = [
+                        p for p in self.on([(l, m)], letter, number) if not any(p.degrees()[:count])
+                    ]
+                    if not fixed or not self.start.with_zeros(fixed).is_everything:
+                        continue
+                    what = "the even condition" if letter == "even" else f"{letter}({number})"
+                    names = tableau.colours[l].name, tableau.colours[m].name
+                    place = f"colour {names[0]}" if is_of_colours else f"block ({','.join(names)})"
+                    return f"{what} fails on {place}"
+        return ""
+
     def zeros(self, defects: Iterable[Number]) -> list[fmpq_mpoly]:
         """The numerators that are not identically zero."""
         ring = self.family.ring

@@ -79,6 +79,7 @@ class Meaning(Frozen):
         stable: the kinds of stability of the accepted solutions.
         unsettled: keys of wishes whose meaning was not worked out in time.
         real: keys of wishes of which ``zeros`` have what real values satisfy, not complex ones.
+        impossible: what is wanted and no value makes true, with the reason.
     """
 
     zeros: tuple[object, ...] = ()
@@ -88,6 +89,7 @@ class Meaning(Frozen):
     stable: tuple[Stability, ...] = ()
     unsettled: tuple[str, ...] = ()
     real: tuple[str, ...] = ()
+    impossible: tuple[str, ...] = ()
 
 
 class Want(Frozen):

@@ -54,9 +54,11 @@ def _pair_order(asked: Asked) -> Meaning:
         return _order(pair(asked.tableau), asked)
     one = asked.ring.constant(fmpq(1))
     zeros = chain.from_iterable(criterion.of_order(k) for k in range(1, order + 1))
-    is_of_real = order > 2
+    why = criterion.obstacle(order)
     return Meaning(
-        tuple(asked.ring.quotient(p, one) for p in zeros), real=("pair-order",) * is_of_real
+        tuple(asked.ring.quotient(p, one) for p in zeros),
+        real=("pair-order",) if order > 2 else (),
+        impossible=(f"no value has pair order {order}: {why}",) if why else (),
     )
 
 

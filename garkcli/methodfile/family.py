@@ -181,6 +181,7 @@ def _family(
         stable=meaning.stable,
         unsettled=meaning.unsettled,
         real=meaning.real,
+        impossible=meaning.impossible,
         wanted_at=reader.place_of("design"),
         parameters_at=reader.place_of("parameters"),
         settings=settings,

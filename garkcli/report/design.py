@@ -200,8 +200,12 @@ def _values(found: Order, d: Plain, is_whole: bool) -> Iterator[str]:
     match step.kind:
         case "none":
             which = "no real value" if step.is_of_real_values else "no value"
+            if found.design.family.impossible:
+                yield d.prose(found.design.family.impossible[0])
+                return
             if step.criterion is not None:
-                yield f"{which}, by {CRITERION}"
+                why = step.criterion.obstacle(step.order)
+                yield d.prose(f"{which}: {why}") if why else f"{which}, by {CRITERION}"
                 return
             wish, how = "what is wanted besides", f", by {CRITERION}"
             if step.witness is not None:
@@ -328,7 +332,9 @@ def _answer(x: DesignReport, d: Plain) -> str:
         none = "for no real value" if last.is_of_real_values else "for no value"
         no = {"undecided": "is not decided", "none": none}
         text = f"order {last.order}{'' if best else whose}"
-        texts.append(f"{text} {no.get(last.kind, 'for no method of the file')}")
+        text = f"{text} {no.get(last.kind, 'for no method of the file')}"
+        is_impossible = last.kind == "none" and design.family.impossible
+        texts.append(d.prose(design.family.impossible[0]) if is_impossible else text)
     texts += [f"{'' if best else whose}{stability(values, d)}" for values in x.sets]
     if best is not None and best.of_stable is not None:
         which = "every value of it"

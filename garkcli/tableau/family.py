@@ -87,6 +87,7 @@ class Family(Frozen, kw_only=True):
         unsettled: what is wanted of them and was not worked out in time, by its keys.
         real: the keys of which ``relations`` have what real values satisfy, not complex ones.
         further: its embedded weights and its dense output.
+        impossible: what is wanted and no value makes true, with the reason.
     """
 
     name: str
@@ -104,6 +105,7 @@ class Family(Frozen, kw_only=True):
     unsettled: tuple[str, ...] = ()
     real: tuple[str, ...] = ()
     further: Further = NOTHING
+    impossible: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         return f"<Family {self.name}: {', '.join(self.parameters)}>"

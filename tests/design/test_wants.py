@@ -190,7 +190,28 @@ def test_what_cannot_be_met(tmp_path: object) -> None:
     pair = "methods: [gauss-1, lobatto-iiia-2]\ntransfer: '?'\n"
     fixed = ("--set", "a12_11=1/2", "--set", "a12_12=1")
     run = gark("design", "-", "--pair", "--order", "2", *fixed, stdin=pair)
-    assert "no value, by B, C, D and the even condition" in " ".join(run.out.split())
+    assert "no value: the even condition fails on block (1,2)" in " ".join(run.out.split())
+
+
+@pytest.mark.parametrize(
+    ("last", "order", "why"),
+    [
+        ("radau-iia-2", 4, "B(4) fails on colour 2"),
+        ("lobatto-iiia-2", 3, "B(3) fails on colour 2"),
+        ("{A: [[], [1], [1/4, 1/4]], b: [1/6, 1/6, 2/3]}", 3, "D(1) fails on block (2,2)"),
+    ],
+)
+def test_a_diagonal_method_that_excludes_the_pair_order_is_named(
+    last: str, order: int, why: str
+) -> None:
+    """Its colour and its condition; by the trees its pair alone has an order less."""
+    text = f"methods: [gauss-2, {last}]\ntransfer: '?'\n"
+    run = gark("design", "-", stdin=f"{text}design: {{pair-order: {order}}}\n")
+    assert f"no value has pair order {order}: {why}" in " ".join(run.out.split())
+    asked = gark("design", "-", "--pair", "--order", str(order), stdin=text)
+    assert f"no real value: {why}" in " ".join(asked.out.split())
+    assert (run.code, asked.code) == (1, 1)
+    assert find_order(pair(loads(f"methods: [{last}]"))).order == order - 1
 
 
 def test_every_want_has_a_file() -> None:

@@ -10,12 +10,15 @@ from flint import fmpq
 from hypothesis import given
 from hypothesis import strategies as st
 
+from garkcli import find_property, reduced
 from garkcli.check.claims import verify
 from garkcli.check.deciding import analyse
+from garkcli.check.every_value import every_value
 from garkcli.check.outcome import Claim
 from garkcli.errors import MethodFileError, UsageProblem
 from garkcli.exact.field import ZERO
 from garkcli.methodfile.expectations import CLAIMS
+from garkcli.methodfile.family import loads_family
 from garkcli.methodfile.load import load, loads
 from garkcli.order.simplifying import simplifying
 from garkcli.properties import claimed
@@ -405,7 +408,7 @@ def test_published_methods_are_what_they_are_called(name: str) -> None:
         assert subject.verdict("stage-order").value == 2
     if "DORMAND_PRINCE" in name or "BOGACKI" in name or "TSITOURAS" in name:
         assert subject.verdict("fsal").value is True
-        assert subject.verdict("reducible").value is True  # without embedded weights
+        assert subject.verdict("reducible").value is True  # this subject has no embedded weights
 
 
 @pytest.mark.parametrize(
@@ -454,6 +457,51 @@ def test_a_colour_that_no_step_depends_on_is_no_part_of_the_shape(row: str, own:
     assert found.shape.implicit_stages == 1
     assert found.shape.gamma == fmpq(1, 2)
     assert found.verdict("reducible").value is False
+
+
+@pytest.mark.parametrize(
+    ("further", "expected"),
+    [
+        ("", True),
+        ("embedded: [7/24, 1/4, 1/3, 1/8]", False),
+        ("embedded: [1/4, 1/2, 1/4, 0]", True),
+        ("dense: {degree: 1, weights: [[2/9], [1/3], [1/3], [1/9]]}", False),
+    ],
+)
+def test_reducible_is_what_convert_reduces(further: str, expected: bool) -> None:
+    """The last stage of Bogacki and Shampine's FSAL pair can be left out unless embedded weights or
+    dense output use it: ``gark check``, ``find_property``, ``gark convert --to reduced`` and a file
+    with a free parameter agree.
+    """
+    text = f"""A: [[], [1/2], [0, 3/4], [2/9, 1/3, 4/9]]
+b: [2/9, 1/3, 4/9, 0]
+{further}
+"""
+    method = loads(text)
+    checked = analyse(method.tableau, further=method.further).subject.verdict("reducible")
+    assert checked.value is find_property(method, "reducible").value is expected
+    smaller = reduced(method)
+    assert smaller is not None
+    assert (smaller.stages < method.stages) is expected
+    family = f"parameters: {{g: free}}\n{text}".replace("[0, 3/4]", "[g, 3/4 - g]")
+    every = every_value(loads_family(family, is_design=False), 4)
+    assert every.verdict("reducible").value is expected
+
+
+@pytest.mark.parametrize("A", ["[[1/4]]", "[[1/4, 1], [0, 1/3]]", "[[0, 1], [1, 0]]"])
+def test_stages_that_no_step_depends_on_are_implicit_all_the_same(A: str) -> None:
+    """Without weights no stage matters, and what a program solves for is solved for still; a single
+    such stage stays as every method has one.
+    """
+    stages = A.count("[") - 1
+    method = loads(f"{{A: {A}, b: {[0] * stages}}}")
+    found = analyse(method.tableau).subject
+    assert found.verdict("explicit").value is False
+    assert found.verdict("implicit-stages").value == stages
+    reducible = found.verdict("reducible")
+    assert reducible.value is (stages > 1)
+    if stages == 1:
+        assert reducible.why == "no step depends on stage 1, but a method keeps one stage"
 
 
 def test_stage_order_is_that_of_b_and_c() -> None:

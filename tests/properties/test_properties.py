@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from itertools import permutations
 
 import pytest
 from flint import fmpq, fmpq_poly
@@ -285,6 +286,92 @@ def test_what_is_plainly_irreducible_is_not_reduced(method: tuple[Rows, list[Fra
     tableau = tableau_of(*method)
     if is_plainly_irreducible(tableau):
         assert reduced(tableau) is tableau
+
+
+@st.composite
+def renumbered_into_their_adjoint(draw: st.DrawFn) -> tuple[Rows, list[Fraction]]:
+    """A method of few different entries, so that many of its stages look alike; half of the time
+    some involution makes it its own adjoint, and once in a while one entry is off.
+    """
+    s = draw(st.integers(2, 4))
+    few = st.sampled_from([Fraction(0), Fraction(1), Fraction(1, 2)])
+    order = draw(st.permutations(range(s)))
+    images = list(range(s))
+    for i, j in zip(order[::2], order[1::2], strict=False):
+        if draw(st.booleans()):
+            images[i], images[j] = j, i
+    b = [Fraction(0)] * s
+    for i in range(s):
+        b[i] = b[images[i]] if images[i] < i else draw(few)
+    A = [[draw(few) for _ in range(s)] for _ in range(s)]
+    if draw(st.booleans()):
+        for i in range(s):
+            for j in range(s):
+                A[images[i]][images[j]] = b[j] - A[i][j]
+                if (images[i], images[j]) == (i, j):
+                    A[i][j] = b[j] / 2
+        if draw(st.integers(0, 3)) == 0:
+            A[0][s - 1] += 1
+    return A, b
+
+
+def is_symmetric_by_force(A: Rows, b: list[Fraction]) -> bool:
+    """Whether one of all renumberings turns A into 𝟙 bᵀ − A and keeps b."""
+    stages = range(len(b))
+    return any(
+        all(A[p[i]][p[j]] == b[j] - A[i][j] and b[p[j]] == b[j] for i in stages for j in stages)
+        for p in permutations(stages)
+    )
+
+
+@given(renumbered_into_their_adjoint())
+@settings(max_examples=60)
+def test_all_renumberings_say_the_same(method: tuple[Rows, list[Fraction]]) -> None:
+    """By brute force, also within a tolerance that no entry makes use of: an involution is found
+    exactly where one of all permutations does it, unless equal stages are in its way.
+    """
+    A, b = method
+    tableau = tableau_of(A, b)
+    by_force = is_symmetric_by_force(A, b)
+    found = symmetry(tableau)
+    assert symmetry(tableau, fmpq(1, 10**9)).holds == found.holds
+    if found.holds:
+        (images,) = found.images
+        assert images is not None
+        assert all(images[images[i]] == i for i in range(len(b)))
+        assert by_force
+    if by_force:
+        assert symmetric_verdict(tableau) is True
+    smaller = reduced(tableau)
+    assert smaller is not None
+    if smaller is tableau:
+        assert found.holds == by_force
+
+
+def test_many_equal_stages_are_compared_once_each(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Small steps of a multirate method have pairs of stages that look alike: 2¹⁰ renumberings.
+    The search tries no image in vain, and multiplies no matrices.
+    """
+    method = loads("multirate: {slow: kutta, fast: kutta, steps: 20}")
+    monkeypatch.setattr("garkcli.properties.symmetry.MOST_TRIALS", 0)
+    monkeypatch.setattr("garkcli.properties.symmetry.multiply", None)
+    assert symmetric_verdict(method.tableau) is False
+    both = loads("compose: {of: {multirate: {slow: kutta, fast: kutta, steps: 6}}, steps: [1/2]}")
+    assert symmetric_verdict(both.tableau) is False
+    steps = loads(f"compose: {{of: gauss-2, steps: {['1/40'] * 40}}}".replace("'", ""))
+    assert symmetric_verdict(steps.tableau) is True
+
+
+def test_a_search_that_ends_is_not_decided(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Six stages alike in their sums within a tolerance, and no involution does it: that takes an
+    image in vain at least, and nothing is said where these are too many.
+    """
+    row = [Fraction(k * k % 7 + k % 3) for k in range(6)]
+    A = [row[-i:] + row[:-i] for i in range(6)]
+    tableau = tableau_of(A, [2 * sum(row) / 6] * 6)
+    assert symmetry(tableau, fmpq(1, 10**9)).holds is False
+    monkeypatch.setattr("garkcli.properties.symmetry.MOST_TRIALS", 0)
+    assert symmetry(tableau, fmpq(1, 10**9)).holds is None
 
 
 def test_the_renumbering_of_a_symmetric_method() -> None:
