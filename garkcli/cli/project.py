@@ -150,7 +150,7 @@ def _project(path: str, folder: str, text: str, table: dict[str, Any]) -> Projec
     # no line of a file elsewhere is shown
     source = Source(file, "" if is_elsewhere(path) else text)
     found = read_settings(source, table, _kind(), where)
-    # what is tested is what is read: dots take back the name before them, a pattern too
+    # dots take back the name before them, a pattern too: test the path that gark reads
     paths = {os.path.normpath(os.path.join(folder, x)): x for x in found.get("paths", ())}
     for place, given in paths.items():
         if not is_inside(fixed_part(place), folder):

@@ -7,9 +7,10 @@ from __future__ import annotations
 
 import os
 import re
+import sys
 import unicodedata
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from functools import cache, cached_property
+from functools import cache, cached_property, lru_cache
 from itertools import chain
 from typing import TYPE_CHECKING, Any
 
@@ -22,6 +23,7 @@ from garkcli.methodfile.reading import SUFFIX, decoded, files_below, read_text
 from garkcli.methodfile.source import METHOD_FILE
 
 if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
     from importlib.resources.abc import Traversable
 
 PATH_VARIABLE = "GARK_PATH"
@@ -36,6 +38,7 @@ _DASHES = dict.fromkeys([*range(0x2010, 0x2016), 0x2212], "-")
 _NO_LETTERS = r"[\W_]+"
 
 
+@lru_cache(4_096)
 def key_of(name: str) -> str:
     """A name as it is compared: in lower case, with hyphens between its words.
 
@@ -239,17 +242,26 @@ def own_folders() -> list[Shelf]:
     return [OwnFolder(x) for x in folders if os.path.isdir(x)]
 
 
+@cache
+def _points(_: tuple[str, ...]) -> list[EntryPoint]:
+    """The entry points of the group on a search path: to look for them takes longer than a check,
+    and many names that mean nothing ask for them.
+    """
+    from importlib.metadata import entry_points
+
+    return sorted(entry_points(group=GROUP), key=lambda x: x.name)
+
+
 def others() -> list[Shelf]:
     """The packages that are installed with an entry point of the group, by its name.
 
     Raises:
         MethodFileError: one of them cannot be imported.
     """
-    from importlib.metadata import entry_points
     from importlib.resources import files
 
     shelves: list[Shelf] = []
-    for point in sorted(entry_points(group=GROUP), key=lambda x: x.name):
+    for point in _points(tuple(sys.path)):
         try:
             root = files(point.value)
         except Exception as error:  # whatever the import of their package does

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import difflib
 import os
 import sys
+from collections.abc import Collection
+from importlib import metadata
 from pathlib import Path
 
 import pytest
 
 from garkcli import catalogue
-from garkcli.errors import Fault, MethodFileError
+from garkcli.errors import Fault, MethodFileError, nearest
 from garkcli.methodfile.finding import find_files
 from garkcli.methodfile.load import load
 from garkcli.methodfile.naming import expanded, find_named, hidden_by, look_up
@@ -234,3 +237,28 @@ def test_names_from_python() -> None:
     assert catalogue["Stoermer_Verlet"].source == "stoermer-verlet"
     assert catalogue["catalogue:rk4"].source == "rk4"
     assert set(catalogue) >= {"rk4", "collocation", "imex6-order4"}
+
+
+def test_many_missing_names_cost_little(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Packages are looked for once, and a misspelt word among many is compared letter by letter
+    with few of them; the nearest is still found.
+    """
+    asked: list[str] = []
+    monkeypatch.setattr(metadata, "entry_points", lambda group: asked.append(group) or [])
+    monkeypatch.syspath_prepend("/a/path/of/this/test")
+    for number in range(20):
+        assert "no such file" in fault(f"nothing-{number}").message
+    assert len(asked) == 1
+
+    compared: list[int] = []
+    search = difflib.get_close_matches
+
+    def counting(word: str, known: Collection[str], n: int = 3) -> list[str]:
+        compared.append(len(known))
+        return search(word, known, n)
+
+    monkeypatch.setattr(difflib, "get_close_matches", counting)
+    words = ["metod", *(f"method-{number}.yaml" for number in range(1000))]
+    assert nearest("metodx", words) == "metod"
+    assert nearest("method-12x.yaml", words).startswith("method-12")
+    assert max(compared) <= 20
