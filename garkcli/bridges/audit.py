@@ -15,8 +15,8 @@ from garkcli.bridges.judging import Judged, at_least, judged
 from garkcli.bridges.limited import read_within_limits
 from garkcli.bridges.plausible import are_whole, is_plausible
 from garkcli.bridges.readers.registry import find_tables, readers_for
-from garkcli.bridges.subject import HIGH, Subject, orders_of, read, sum_text
-from garkcli.check.findings import repair_text, witness_text
+from garkcli.bridges.subject import HIGH, Subject, orders_of, read
+from garkcli.check.findings import repair_text, total_text, witness_text
 from garkcli.errors import MethodFileError, counted
 from garkcli.exact.field import ZERO
 from garkcli.frozen import Frozen, replace
@@ -305,7 +305,7 @@ def _embedded(subject: Subject) -> Iterator[AuditFinding]:
     is_known = subject.misses_order and 0 < found.order < (declared or 0)
     is_known = is_known or declared == subject.order.order < found.order
     if not found.order and not found.is_open:
-        total = " and ".join(map(sum_text, embedded))
+        total = " and ".join(str(total_text(sum(b, ZERO))) for b in embedded)
         claims = {"embedded-order": ONE if declared is None else str(declared)}
         message = f"the embedded weights have the sum {total}"
         yield AuditFinding("embedded-weights", message, claims=claims)
@@ -325,8 +325,8 @@ def _weights(subject: Subject) -> Iterator[AuditFinding]:
     """Weights whose sum is not 1, where no declared order tells."""
     found = subject.order
     if not (found.order or found.is_open) and subject.table.order is None:
-        total = " and ".join(sum_text(colour.b) for colour in subject.tableau.colours)
-        message = f"the weights have the sum {total}"
+        sums = (sum(colour.b, ZERO) for colour in subject.tableau.colours)
+        message = f"the weights have the sum {' and '.join(str(total_text(x)) for x in sums)}"
         yield AuditFinding("weights", message, claims={"order": ONE})
 
 

@@ -4,7 +4,7 @@ audit need once.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from functools import cached_property
 
 from flint import fmpq
@@ -12,9 +12,10 @@ from flint import fmpq
 from garkcli.bridges.finding import AuditFinding
 from garkcli.bridges.importing import fmpq_of, fraction_of, numbers_of, place_of, written
 from garkcli.bridges.judging import Digits, Judged, judged
-from garkcli.exact.display import to_ball, to_decimal, to_text
+from garkcli.check.findings import NEAR, sum_text
+from garkcli.exact.display import to_ball
 from garkcli.exact.expression import parse
-from garkcli.exact.field import ZERO, Number
+from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix
 from garkcli.frozen import Frozen
 from garkcli.methodfile.build import MethodFile
@@ -23,6 +24,7 @@ from garkcli.methodfile.printed import FEWEST_DIGITS
 from garkcli.order.certificate import StageSpans
 from garkcli.order.rounded import find_order_within
 from garkcli.order.simplifying import RoundedDefects
+from garkcli.order.sums import wrong_rows
 from garkcli.sources.found import FoundTable
 from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.forms import with_time
@@ -31,8 +33,6 @@ from garkcli.tableau.tableau import Tableau
 
 HIGH = 10
 """Higher orders are not tried: a wrong digit costs a lower one."""
-NEAR = 1e-3
-"""Row sums and nodes that differ by less are meant to be the same."""
 
 
 class Subject(Frozen, eq=False):
@@ -117,20 +117,12 @@ class Subject(Frozen, eq=False):
 
     def _off(self, rounded: RoundedTableau) -> dict[str, Number]:
         """The nodes that are no row sums within a rounding, in words, with by how much."""
-        defects = RoundedDefects(rounded)
-        found: dict[str, Number] = {}
         # parts of shared stages with times of their own: each has its own row sums for nodes
         has_own_times = len(self.table.A) > 1 and len(set(self.table.A)) == 1
-        for l, m in self.tableau.edges():
-            if has_own_times and l != m:
-                continue
-            block = self.tableau.block(l, m) or ()
-            rows = zip(block, self.tableau.colours[l].c, defects.C(l, m, 1), strict=True)
-            for i, (row, node, defect) in enumerate(rows, start=1):
-                if not defects.vanish([defect]):
-                    total = sum(row, ZERO)
-                    found[_row_text(i, total, node)] = total - node
-        return found
+        edges = [(l, m) for l, m in self.tableau.edges() if not has_own_times or l == m]
+        rows = wrong_rows(RoundedDefects(rounded), edges)
+        names = [colour.name for colour in self.tableau.colours]
+        return {str(sum_text(row, names)): row.off for row in rows}
 
     @cached_property
     def nonautonomous(self) -> Judged | None:
@@ -188,28 +180,3 @@ def digits_of(method: MethodFile, table: FoundTable) -> Digits:
     short = [(parse(x), fmpq_of(x)) for x in sorted(texts) if fraction_of(x)]
     units: dict[Number, fmpq] = {fmpq_of(text): unit for text, unit in table.units}
     return Digits((*method.printed, *short), units)
-
-
-def _row_text(i: int, total: Number, node: Number) -> str:
-    sums, given, off = short(total), short(node), total - node
-    if sums == given:
-        return f"row {i} has the sum {sums}, off its node by {to_decimal(off, 2)}"
-    text = f"row {i} has the sum {sums}, its node is {given}"
-    return f"{text}, off by {to_decimal(off, 2)}" if abs(to_ball(off)) < NEAR else text
-
-
-def sum_text(weights: Iterable[Number]) -> str:
-    """The sum of weights as people read it: its distance from 1 where it is next to it."""
-    total = sum(weights, ZERO)
-    off = to_decimal(total - 1, 2)
-    if total == 1 or abs(to_ball(total - 1)) >= NEAR:
-        return short(total)
-    return f"1 - {off[1:]}" if off.startswith("-") else f"1 + {off}"
-
-
-def short(number: Number) -> str:
-    """A number as people read it: exactly where that is short."""
-    text = to_text(number)
-    if len(text) <= 24:
-        return text
-    return to_decimal(number, 12)

@@ -13,12 +13,12 @@ from garkcli.exact.field import ZERO
 from garkcli.frozen import Frozen
 from garkcli.order.certificate import DEFAULT_LIMIT, Proof, prove
 from garkcli.order.deciding import AnyOrder, order_of
-from garkcli.order.simplifying import Simplifying, consistent_blocks
+from garkcli.order.simplifying import Simplifying, consistent_blocks, defects_of
 from garkcli.reason import NO_REASON, Reason
 from garkcli.tableau.embedded import NOTHING, Further
 from garkcli.tableau.forms import with_time
 from garkcli.tableau.garkmethod import GarkMethod
-from garkcli.tableau.meant import derived, printed
+from garkcli.tableau.meant import derived, meant, printed
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
 
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from garkcli.check.further import DenseFacts, EmbeddedFacts
     from garkcli.exact.field import Number
     from garkcli.order.suggestion import Misprint, Suggestion
+    from garkcli.order.sums import WrongSum
     from garkcli.properties.subject import Subject
     from garkcli.tableau.meant import AnyTableau
 
@@ -103,6 +104,32 @@ class Analysis(Shown, Frozen):
         tolerance = ZERO if self.tolerance is None else self.tolerance
         order = self.order.order
         return Subject(self.tableau, order, self.simplifying, self.limit, tolerance, self.further)
+
+    @cached_property
+    def wrong_rows(self) -> tuple[WrongSum, ...]:
+        """The rows whose sums are not the nodes, beyond what rounding explains."""
+        if not self.inconsistent:
+            return ()
+        from garkcli.order.sums import wrong_rows
+
+        defects = defects_of(meant(self.tableau, self.tolerance))
+        return tuple(wrong_rows(defects, self.inconsistent))
+
+    @cached_property
+    def wrong_weights(self) -> tuple[WrongSum, ...]:
+        """The weights, embedded ones after them, whose sum is not 1, in the same way."""
+        found: list[WrongSum] = []
+        asked = [(self.tableau, self.order, False)]
+        if self.embedded is not None:
+            asked.append((self.embedded.tableau, self.embedded.order, True))
+        for tableau, order, is_embedded in asked:
+            if order.order or order.witness is None:
+                continue
+            from garkcli.order.sums import wrong_weights
+
+            defects = defects_of(meant(tableau, self.tolerance))
+            found += wrong_weights(defects, is_embedded)
+        return tuple(found)
 
     def __repr__(self) -> str:
         orders = [f"order {self.order.order}"]

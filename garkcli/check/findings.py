@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from flint import fmpq
 
 from garkcli.check.outcome import Claim, Outcome
-from garkcli.exact.display import shortest, to_decimal, to_text
+from garkcli.exact.display import shortest, to_ball, to_decimal, to_text
 from garkcli.exact.field import Number
 from garkcli.frozen import Frozen
 from garkcli.ntrees.notation import format_tree
@@ -23,12 +23,15 @@ if TYPE_CHECKING:
     from garkcli.order.deciding import AnyOrder
     from garkcli.order.dense import DenseWitness
     from garkcli.order.simplifying import Simplifying
+    from garkcli.order.sums import WrongSum
     from garkcli.tableau.tableau import Tableau
 
 BOUND = "min{r, 2η+2, ξ+1, η+ζ+1}"
 """The bound of ``Simplifying.bound``."""
 SHARP_BOUND = "min{r, 2η+2, ξ+1, χ+2, η+ζ+3}"
 """The bound of ``Simplifying.sharp_bound``."""
+NEAR = 1e-3
+"""Row sums and nodes that differ by less are meant to be the same."""
 _SHORT = 20
 """Characters beyond which an exact entry is shown in decimals."""
 _LONG = 60
@@ -128,6 +131,8 @@ def claim_hint(outcome: Outcome, claim: str) -> Reason:
     if blame is not None and claim in blame.restores:
         first = repair_text(blame.repairs[0], names)
         return Reason(f"it fails with {blame.of}, and would hold with {{}}", first)
+    if claim in {"consistent", "nonautonomous-order"} and analysis.wrong_rows:
+        return sum_text(analysis.wrong_rows[0], names)
     if claim not in {"order", "conjugate-order", "pair-order", "embedded-order"}:
         return NO_REASON
     found = analysis.suggestion
@@ -139,7 +144,8 @@ def claim_hint(outcome: Outcome, claim: str) -> Reason:
     if blame is not None and blame.of == claim and blame.repairs:
         first = repair_text(blame.repairs[0], names)
         return Reason("the claimed order would hold with {}", first)
-    return NO_REASON
+    wrong = [x for x in analysis.wrong_weights if x.is_embedded is (claim == "embedded-order")]
+    return sum_text(wrong[0], names) if wrong else NO_REASON
 
 
 def repair_text(repair: Repair, names: Sequence[str]) -> Reason:
@@ -156,6 +162,42 @@ def repair_text(repair: Repair, names: Sequence[str]) -> Reason:
     kind = "embedded " if repair.is_embedded and letter == "b" else ""
     new, old = value_text(repair.new), value_text(repair.old)
     return Reason(f"{kind}{{}} = {{}} instead of {{}}", place, new, old)
+
+
+def sum_text(found: WrongSum, names: Sequence[str]) -> Reason:
+    """A sum, as it is and as it should be.
+
+    Args:
+        found: that of weights or of a row.
+        names: of the colours.
+    """
+    if found.m is None or found.i is None:
+        kind = "embedded weights" if found.is_embedded else "weights"
+        whose = [Place("b", names_of([found.l], names))] if len(names) > 1 else []
+        place = Reason(" ".join([f"the {kind}", *("{}" for _ in whose)]), *whose)
+        return Reason("{} have the sum {}", place, total_text(found.total))
+    place = Reason(f"row {found.i + 1}")
+    if len(names) > 1:
+        place = Reason("{} of {}", place, Place("A", names_of([found.l, found.m], names)))
+    total, node, off = _short(found.total), _short(found.wanted), to_decimal(found.off, 2)
+    if str(total) == str(node):
+        return Reason("{} has the sum {}, off its node by {}", place, total, off)
+    text = Reason("{} has the sum {}, its node is {}", place, total, node)
+    return Reason("{}, off by {}", text, off) if abs(to_ball(found.off)) < NEAR else text
+
+
+def total_text(total: Number) -> Formula | str:
+    """The sum of weights as people read it: its distance from 1 where it is next to it."""
+    if total == 1 or abs(to_ball(total - 1)) >= NEAR:
+        return _short(total)
+    off = to_decimal(total - 1, 2)
+    return f"1 - {off[1:]}" if off.startswith("-") else f"1 + {off}"
+
+
+def _short(number: Number) -> Formula | str:
+    """A sum as people read it: exactly where that is short."""
+    text = to_text(number)
+    return Formula(text) if len(text) <= _SHORT else to_decimal(number, 12)
 
 
 def names_of(colours: Sequence[int], names: Sequence[str]) -> tuple[str, ...]:

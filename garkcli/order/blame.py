@@ -14,11 +14,12 @@ from garkcli.doing import doing
 from garkcli.errors import ZeroWeight
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import ONE, ZERO, Number
-from garkcli.exact.matrix import Vector
+from garkcli.exact.matrix import Matrix, Vector
 from garkcli.frozen import Frozen, replace
 from garkcli.ntrees.tree import Tree
 from garkcli.order.conditions import Condition, all_conditions, conditions, count_conditions
-from garkcli.order.deciding import order_of
+from garkcli.order.deciding import AnyOrder, order_of
+from garkcli.order.tolerance import within
 from garkcli.tableau.meant import AnyTableau, derived, meant, printed
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Edge, Tableau
@@ -33,6 +34,18 @@ FEW_CHECKED = 20
 """So many failing conditions are examined before the order is found."""
 NEWTON_STEPS = 3
 """Steps of the simplified Newton's method; each squares a small misprint, nearly."""
+GAIN = 2
+"""Of a method that claims no order an entry is named that restores so many. Of published methods
+many are one entry away from the next order, and none of the catalogue from the next but one.
+"""
+HIGHEST_LOW = 4
+"""A wrong entry leaves no more than this order: beyond it none is sought without a claim."""
+FEW_ENTRIES = 400
+"""Most entries that are tried without a claim, of exact coefficients."""
+FEW_ROUNDED = 150
+"""The same of decimals that are judged as if they were rounded."""
+FEW_CONDITIONS_UNASKED = 2_000
+"""Most conditions that are evaluated without a claim."""
 
 
 class Entry(Frozen):
@@ -94,6 +107,8 @@ class Missed(Frozen):
         near: the rounding with which they are restored: more than ``tolerance`` where coefficients
             are rounded, as the entry that is changed carries the rounding of all others.
         is_embedded: whether it is claimed of embedded weights: only one of these may be wrong.
+        keeps_shape: whether an entry outside the pattern of its block, such as one on the diagonal
+            of an explicit method, is right as it is.
     """
 
     order: int
@@ -103,6 +118,7 @@ class Missed(Frozen):
     tolerance: fmpq = ZERO
     near: fmpq = ZERO
     is_embedded: bool = False
+    keeps_shape: bool = False
 
     def judged(self, method: Tableau) -> AnyTableau:
         """What the order is claimed of, as its conditions fail.
@@ -134,7 +150,7 @@ def repairs(method: Tableau, missed: Missed, failing: list[Condition]) -> Iterat
         solved = sorted(failing, key=lambda x: _size(x.residual), reverse=True)[:FEW_CONDITIONS]
     if not solved:
         return
-    for tried, entry in enumerate(_entries(method, missed.is_embedded)):
+    for tried, entry in enumerate(_entries(method, missed.is_embedded, missed.keeps_shape)):
         if tried >= MAX_ENTRIES:
             return
         new = _solution(method, missed, entry, solved)
@@ -167,19 +183,36 @@ def _size(number: Number) -> float:
     return float(abs(to_ball(number, 20)))
 
 
-def _entries(method: Tableau, only_weights: bool) -> Iterator[Entry]:
+def count_entries(method: Tableau, missed: Missed) -> int:
+    """How many entries may be wrong."""
+    return sum(1 for _ in _entries(method, missed.is_embedded, missed.keeps_shape))
+
+
+def _entries(method: Tableau, only_weights: bool, keeps_shape: bool) -> Iterator[Entry]:
     """The entries that are entries of stages: those of stage spaces of points."""
     for l, m in [] if only_weights else named_blocks(method):
         if not (_has_points(method, l) and _has_points(method, m)):
             continue
-        for i, row in enumerate(method.blocks[method.colours[l].space, m]):
-            for j, old in enumerate(row):
+        block = method.blocks[method.colours[l].space, m]
+        reach = _reach(block) if keeps_shape else len(block[0])
+        for i, row in enumerate(block):
+            for j, old in enumerate(row[: max(i + reach, 0)]):
                 yield Entry(l, m, i, j, old)
     for l, colour in enumerate(method.colours):
         if not _has_points(method, l):
             continue
         for j, old in enumerate(colour.b):
             yield Entry(l, None, None, j, old)
+
+
+def _reach(block: Matrix) -> int:
+    """How many entries of its first row a block has for its shape, row i then i − 1 more: 0 of a
+    strictly lower triangular one, 1 of a lower triangular one, all of a full one.
+    """
+    for reach in (0, 1):
+        if not any(any(row[i + reach :]) for i, row in enumerate(block)):
+            return reach
+    return len(block[0])
 
 
 def _has_points(method: Tableau, l: int) -> bool:
@@ -261,6 +294,7 @@ class Blame(Frozen):
         tolerance: what coefficients are rounded by; 0 where they are exact.
         restores: other claims that fail, and hold with the first of ``repairs``: consequences of
             the same fault.
+        restored: the order with each of the repairs where none is claimed; None where one is.
     """
 
     order: int
@@ -275,15 +309,19 @@ class Blame(Frozen):
     names: tuple[str, ...] = ()
     tolerance: fmpq = ZERO
     restores: tuple[str, ...] = ()
+    restored: int | None = None
 
 
 @doing("what is to blame")
-def blame_of(method: Tableau, missed: Missed) -> Blame | None:
+def blame_of(
+    method: Tableau, missed: Missed, known: tuple[Repair, ...] | None = None
+) -> Blame | None:
     """Look at all conditions of the first failing order of a method, its conjugate or their pair.
 
     Args:
         method: the tableau whose entries may be wrong.
         missed: what it was meant to have.
+        known: its repairs, where they are known.
 
     Returns:
         None where there are more than ``MAX_CONDITIONS`` conditions.
@@ -319,11 +357,65 @@ def blame_of(method: Tableau, missed: Missed) -> Blame | None:
         in_none=tuple(in_none),
         culprit=culprit,
         only_coupling=all(condition.is_coupling for condition in failing),
-        repairs=tuple(repairs(method, missed, failing)),
+        repairs=tuple(repairs(method, missed, failing)) if known is None else known,
         of=missed.of,
         names=tuple(colour.name for colour in tableau.colours),
         tolerance=missed.tolerance,
     )
+
+
+@doing("which entry is wrong")
+def slip_of(method: Tableau, missed: Missed, found: AnyOrder) -> Blame | None:
+    """Which single entry costs a method of which no order is claimed several orders.
+
+    One entry has one value, so that it satisfies a condition by chance, but hardly all of two
+    orders. Where the nodes are printed, one order is enough for an entry whose row then sums to its
+    node.
+
+    Args:
+        method: the tableau whose entries may be wrong.
+        missed: how conditions are judged; its orders are not looked at.
+        found: the order of the method, judged so.
+
+    Returns:
+        None where there is no such entry, or where looking takes long.
+    """
+    order = found.order
+    missed = replace(missed, order=order + 1, claimed=order + 1, keeps_shape=True)
+    most = FEW_ROUNDED if missed.near else FEW_ENTRIES
+    if found.witness is None or order > HIGHEST_LOW or count_entries(method, missed) > most:
+        return None
+    if count_conditions(method, order + 1) > FEW_CONDITIONS_UNASKED:
+        return None
+    # of exact coefficients one condition is enough, and most methods have no such entry
+    judged = missed.judged(method)
+    if missed.near:
+        failing = [x for x in all_conditions(judged, order + 1) if not x.holds]
+    else:
+        failing = [*conditions(judged, [found.witness.tree])]
+    reached: dict[Repair, int] = {}
+    for repair in repairs(method, missed, failing):
+        changed = missed.restored(repair.carried_out(method))
+        assert changed is not None  # as it is a repair
+        restored = order_of(changed).order
+        if restored >= order + (1 if _fits_node(method, missed, repair) else GAIN):
+            reached[repair] = restored
+    if not reached:
+        return None
+    restored = max(reached.values())
+    best = tuple(repair for repair in reached if reached[repair] == restored)
+    blame = blame_of(method, missed, best)
+    return blame and replace(blame, restored=restored)
+
+
+def _fits_node(method: Tableau, missed: Missed, repair: Repair) -> bool:
+    """Whether the row of an entry sums to its node when it is changed, and does not as it is."""
+    if repair.m is None or repair.i is None:
+        return False
+    row = method.blocks[method.colours[repair.l].space, repair.m][repair.i]
+    off = sum(row, ZERO) - method.colours[repair.l].c[repair.i]
+    near = missed.near
+    return not within(off, near) and within(off + repair.new - repair.old, near)
 
 
 def _blocks_in(tableau: Tableau, tree: Tree) -> Counter[Edge]:

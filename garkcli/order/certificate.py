@@ -23,11 +23,14 @@ from garkcli.exact.span import AffineSpan
 from garkcli.frozen import Frozen
 from garkcli.ntrees.tree import Tree
 from garkcli.order.recursion import Forest, Forests, Spans
+from garkcli.order.tolerance import within
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
 
 DEFAULT_LIMIT = 60
 """The order at which the search stops when nothing has failed."""
+SMALL = fmpq(1, 1000)
+"""A condition b_lᵀ ψ(u) = 1/ρ(u) that fails by less may fail by rounding."""
 
 
 class Witness(Shown, Frozen):
@@ -97,11 +100,34 @@ def find_order(
     """
     spans = spans or StageSpans(tableau)
     for order in range(1, limit + 1):
-        for l, forest in spans.members(order):
-            value = dot(tableau.colours[l].b, forest.vector)
-            if value != fmpq(1, order):
-                return Order(order - 1, witness_of(Tree(l, forest.branches), value))
+        witness = _failing(spans, order)
+        if witness is not None:
+            return Order(order - 1, witness)
     return Order(limit, None)
+
+
+def _failing(spans: StageSpans, order: int) -> Witness | None:
+    """The first condition of an order that fails; where that may be rounding, the one that fails by
+    most: all residuals of an order are combinations of those of the spanning trees.
+    """
+    largest: Witness | None = None
+    for l, forest in spans.members(order):
+        value = dot(spans.tableau.colours[l].b, forest.vector)
+        if value == fmpq(1, order):
+            continue
+        witness = witness_of(Tree(l, forest.branches), value)
+        if largest is None and not within(value - fmpq(1, order), SMALL):
+            return witness
+        if largest is None or _size(witness) > _size(largest):
+            largest = witness
+    return largest
+
+
+def _size(witness: Witness) -> float:
+    """|residual|, to compare by."""
+    from garkcli.exact.display import to_ball  # few residuals are small
+
+    return float(abs(to_ball(witness.residual)))
 
 
 def witness_of(tree: Tree, normalised: Number, share: int = 1) -> Witness:

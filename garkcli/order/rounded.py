@@ -145,6 +145,8 @@ FEW_TREES = 50_000
 """Up to so many trees an order is decided by listing them; beyond, spans are tried first."""
 MOST_TREES = 500_000
 """Beyond so many trees of an order they are not listed at all."""
+FEW_WITNESSES = 2_000
+"""Up to so many trees the one that fails by most is sought, after one that fails."""
 FEW_DOUBTS = 200
 """So many residuals are held against what rounding can do one by one."""
 
@@ -218,7 +220,8 @@ def find_order_within(
         return _outcome(rounded, verdicts, rounded.obstacle)
     search = Conditions(rounded)
     if search.fails(exact.witness):
-        return _outcome(rounded, [*verdicts, Verdict(arb(0), "exact", exact.witness)])
+        witness = search.largest(exact.witness)
+        return _outcome(rounded, [*verdicts, Verdict(arb(0), "exact", witness)])
     while len(verdicts) < limit:
         verdict = search.of(len(verdicts) + 1)
         if verdict is None:
@@ -288,6 +291,16 @@ class Conditions:
     def fails(self, witness: Witness) -> bool:
         """Whether rounding does not explain the residual of a tree."""
         return not within(witness.residual, self.effects.bound(witness.tree))
+
+    def largest(self, witness: Witness) -> Witness:
+        """The condition that fails by most of the order of one that fails; this one where they are
+        many.
+        """
+        order = witness.tree.order
+        if sum(counts_upto(self.admissible, order)[-1]) > FEW_WITNESSES:
+            return witness
+        found = self._by_trees(order, 1).witness
+        return found or witness
 
     def of(self, order: int, share: int = 1) -> Verdict | None:
         """All conditions of an order; None where there are too many trees to decide."""

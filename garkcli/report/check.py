@@ -5,7 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from garkcli.check.findings import BOUND, SHARP_BOUND, bound_numbers, dense_witness_text, order_of
+from garkcli.check.findings import (
+    BOUND,
+    SHARP_BOUND,
+    bound_numbers,
+    dense_witness_text,
+    order_of,
+    sum_text,
+)
 from garkcli.check.findings import CLAIM as CLAIM_CURE
 from garkcli.check.pair_reasons import pair_reason, rule_reasons
 from garkcli.errors import counted
@@ -18,7 +25,7 @@ from garkcli.page.exactly import ROOT_OF, root_data
 from garkcli.page.paint import folded
 from garkcli.properties.property import Size
 from garkcli.properties.registry import KEYS, find
-from garkcli.reason import NO_REASON, Reason
+from garkcli.reason import NO_REASON, Reason, joined
 from garkcli.report.failure import FAULT
 from garkcli.tell import kinds
 from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, maybe, optional, via
@@ -245,6 +252,10 @@ SIMPLIFYING = Section(
 # properties
 
 
+MOST_ROWS = 3
+"""More that do not sum to their nodes are counted."""
+
+
 def wrong(found: Sequence[Any], letter: str, within: Any) -> Answer:
     """Whether the nodes are the row sums."""
 
@@ -262,9 +273,13 @@ def wrong(found: Sequence[Any], letter: str, within: Any) -> Answer:
 
 def consistent(a: Any) -> Answer:
     """The same of the method, told where they are not."""
-    return replace(
-        wrong(a.inconsistent, "A", a.tolerance), level=USUAL if a.inconsistent else DETAIL
-    )
+    answer = wrong(a.inconsistent, "A", a.tolerance)
+    if rows := a.wrong_rows:
+        names = [colour.name for colour in a.tableau.colours]
+        more = f"; and {len(rows) - MOST_ROWS} more" if len(rows) > MOST_ROWS else ""
+        told = joined("; ", [sum_text(x, names) for x in rows[:MOST_ROWS]])
+        answer = replace(answer, reason=Reason(f"{{}}: {{}}{more}", answer.reason, told))
+    return replace(answer, level=USUAL if a.inconsistent else DETAIL)
 
 
 def conjugate_consistent(a: Any) -> Any:
@@ -533,6 +548,15 @@ BLAME = Section(
     Row("in_none", kinds.BLOCKS),
     Row("repairs", parts(REPAIR)),
     Row("restores", kinds.TEXTS),
+    maybe("restored", kinds.POSITION),
+)
+WRONG_SUM = Section(
+    optional("b", PLACED, lambda x: _block(x.l) if x.m is None and not x.is_embedded else None),
+    optional("embedded", PLACED, lambda x: _block(x.l) if x.is_embedded else None),
+    optional("A", PLACED, lambda x: None if x.m is None else _block(x.l, x.m)),
+    maybe("row", kinds.POSITION, lambda x: None if x.i is None else x.i + 1),
+    Row("sum", kinds.EXACT, "total"),
+    Row("required", kinds.EXACT, "wanted"),
 )
 MISPRINT = Section(
     Row("order", kinds.COUNT),
@@ -551,15 +575,18 @@ SUGGESTION = Section(
 def hints(o: Any) -> list[Reason]:
     """What failing conditions tell, a sentence or two each."""
     a = o.analysis
-    if a.suggestion is None and a.misprint is None and o.blame is None:
+    sums = a.wrong_weights
+    if a.suggestion is None and a.misprint is None and o.blame is None and not sums:
         return []
     from garkcli.report.hints import blame_text, misprint_text, suggestion_text  # few files
 
     names = [colour.name for colour in a.tableau.colours]
+    blame = NO_REASON if o.blame is None else blame_text(o.blame, names)
     return [
+        *(sum_text(x, names) for x in sums),
         *([] if a.suggestion is None else [suggestion_text(a.suggestion, a.tolerance)]),
         *([] if a.misprint is None else [misprint_text(a.misprint, names)]),
-        *([] if o.blame is None else [blame_text(o.blame, names)]),
+        *([blame] if blame else []),
     ]
 
 
@@ -710,6 +737,7 @@ ANALYSIS = [
     ),
     Row("consistent", kinds.TRUTH, consistent),
     Row("inconsistent_blocks", kinds.BLOCKS, "inconsistent", DATA),
+    Row("wrong_sums", parts(WRONG_SUM), lambda a: [*a.wrong_weights, *a.wrong_rows], DATA),
     Row(
         "bound_in_brief",
         told(lambda x, d: str(x)),

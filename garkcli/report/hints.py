@@ -10,7 +10,7 @@ from garkcli.check.findings import names_of, repair_text
 from garkcli.exact.display import decimal
 from garkcli.order.blame import Blame, Repair
 from garkcli.order.suggestion import Misprint, Suggestion
-from garkcli.reason import Place, Reason, joined
+from garkcli.reason import NO_REASON, Place, Reason, joined
 
 MOST_REPAIRS = 3
 
@@ -21,6 +21,21 @@ def blame_text(blame: Blame, own: Sequence[str]) -> Reason:
     Args:
         blame: what was found.
         own: names of the colours of the method in the file.
+    """
+    texts = [] if blame.order == 1 or blame.restored is not None else _conditions(blame, own)
+    if blame.repairs:
+        also = f", and so would {', '.join(blame.restores)}" if blame.restores else ""
+        order = "the claimed order"
+        if blame.restored is not None:
+            order = f"{blame.of.replace('-', ' ')} {blame.restored}"
+        mended = _repairs(blame.repairs, own)
+        texts.append(Reason(f"{order} would hold with {{}}{also}", mended))
+    return joined("; ", texts) if texts else NO_REASON
+
+
+def _conditions(blame: Blame, own: Sequence[str]) -> list[Reason]:
+    """Which conditions fail, and the blocks that take part; of the sum of weights there is no more
+    to say.
     """
     names = blame.names or own
     letter = "Â" if blame.of == "conjugate-order" else "A"
@@ -39,11 +54,7 @@ def blame_text(blame: Blame, own: Sequence[str]) -> Reason:
         texts.append(_take_part(letter, blame.in_every, names, "all"))
     if blame.in_none:
         texts.append(_take_part(letter, blame.in_none, names, "none"))
-    if blame.repairs:
-        also = f", and so would {', '.join(blame.restores)}" if blame.restores else ""
-        mended = _repairs(blame.repairs, own)
-        texts.append(Reason(f"the claimed order would hold with {{}}{also}", mended))
-    return joined("; ", texts)
+    return texts
 
 
 def _take_part(

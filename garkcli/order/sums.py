@@ -1,0 +1,65 @@
+"""Sums that are not what they should be: of weights 1, of the rows of a block the nodes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from garkcli.exact.field import ONE, ZERO, Number
+from garkcli.frozen import Frozen
+from garkcli.order.simplifying import Defects
+from garkcli.tableau.stages import PointSpace
+from garkcli.tableau.tableau import Edge
+
+
+class WrongSum(Frozen):
+    """The sum of weights or of a row.
+
+    ``l, m`` are the block's colours and ``i`` its row; of the weights b^{l} both ``m`` and ``i``
+    are None. All count from 0.
+
+    Attributes:
+        total: the sum.
+        wanted: what it should be, 1 or the node.
+        is_embedded: whether the weights are embedded ones.
+    """
+
+    l: int
+    m: int | None
+    i: int | None
+    total: Number
+    wanted: Number
+    is_embedded: bool = False
+
+    @property
+    def off(self) -> Number:
+        """By how much it is off."""
+        return self.total - self.wanted
+
+
+def wrong_rows(defects: Defects, edges: Iterable[Edge]) -> Iterator[WrongSum]:
+    """The rows of some blocks that do not sum to their nodes, beyond what rounding explains; of
+    stages that are entries alone.
+    """
+    tableau = defects.tableau
+    for l, m in edges:
+        block = tableau.block(l, m)
+        if block is None or not all(isinstance(tableau.space(x), PointSpace) for x in (l, m)):
+            continue
+        rows = zip(block, tableau.colours[l].c, defects.C(l, m, 1), strict=True)
+        for i, (row, node, defect) in enumerate(rows):
+            if not defects.vanish([defect]):
+                yield WrongSum(l, m, i, sum(row, ZERO), node)
+
+
+def wrong_weights(defects: Defects, is_embedded: bool = False) -> Iterator[WrongSum]:
+    """The weights that do not sum to 1, in the same way; those of colours that share stages and
+    weights once.
+    """
+    seen = []
+    for l, colour in enumerate(defects.tableau.colours):
+        is_of_points = isinstance(defects.tableau.space(l), PointSpace)
+        if (colour.space, colour.b) in seen or not is_of_points:
+            continue
+        seen.append((colour.space, colour.b))
+        if not defects.vanish(defects.B(l, 1)):
+            yield WrongSum(l, None, None, sum(colour.b, ZERO), ONE, is_embedded)
