@@ -27,6 +27,7 @@ from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
+    from garkcli.methodfile.build import MethodFile
     from garkcli.order.suggestion import Misprint, Suggestion
 
 
@@ -112,6 +113,20 @@ def analyse(
 
     embedded, dense = further_facts(method, further, order, inconsistent, limit, spans)
     return replace(found, embedded=embedded, dense=dense, further=further)
+
+
+def looks_rounded(method: MethodFile) -> Suggestion | None:
+    """The tolerance that a file lacks; None where it has one, or is exact, or has a misprint."""
+    if method.tolerance is not None:
+        return None
+    from garkcli.methodfile.printed import printed_units  # every check may do without
+
+    units = printed_units(method.printed)
+    if not any(units.values()):
+        return None
+    order = order_of(method.tableau)
+    found = _suggestion(method.tableau, order, DEFAULT_LIMIT)
+    return None if _misprint(method.tableau, order, found, lambda: units) else found
 
 
 def _capped(

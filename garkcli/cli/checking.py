@@ -27,9 +27,8 @@ from garkcli.report.check_formats import FORMATS
 def check(given: Given, output: Output) -> int:
     """Order and properties of each method, and whether its claims hold.
 
-    FILE is a method file, a directory (all *.gark.yaml below it), a pattern (in quotes, ** for any
-    directories), or - for standard input. Without FILE the paths of .gark.toml, or of [tool.gark]
-    in pyproject.toml, are checked with the options there.
+    Without FILE the paths of .gark.toml, or of [tool.gark] in pyproject.toml, are checked with the
+    options there.
 
     The exact order of the tableau, of its symplectic conjugate and of their pair, each with a tree
     whose condition fails next; B, C and D of every block with the bounds they give; consistency and

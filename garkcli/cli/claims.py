@@ -18,7 +18,6 @@ def claims(given: Given, output: Output) -> None:
 
     For a file with claims: these, corrected. Otherwise the orders, whether it is symplectic, its
     stage order, and the properties that it has. What has no meaning or is not decided is left out.
-    FILE as for gark check.
 
     --write puts the claims into the files, so that gark check fails once the method changes.
     """

@@ -203,9 +203,9 @@ def show(given: Given, output: Output) -> None:
 def cite(given: Given, output: Output) -> None:
     """Where methods were published, each publication as one entry of a bibliography.
 
-    FILE is a method file, a name of the catalogue or a family, as for gark check; catalogue: means
-    all of it, gark this program. A file without `reference` is cited by its families and rules. A
-    `reference` that is plain text becomes a note; gark names files without any.
+    The word catalogue: means all of the catalogue, gark this program. A file without `reference` is
+    cited by its families and rules. A `reference` that is plain text becomes a note; gark names
+    files without any.
     """
     from garkcli.report.calls import references
     from garkcli.report.citation import REPORT, bibliography
@@ -225,11 +225,11 @@ def cite(given: Given, output: Output) -> None:
 def report(given: Given, output: Output) -> int:
     """All about methods as one HTML page, to look at, print and pass on.
 
-    FILE as for gark check. gark report rk4 writes rk4.html; -o FILE writes elsewhere, -o - to
-    standard output. The page needs no network: tableau, conjugate and pair typeset, orders with
-    their witness trees, B, C and D, order conditions with filters, pictures, properties, claims,
-    references; a table compares several methods. Claims of a file are about its method: with
-    --pair or --conjugate the page has none.
+    gark report rk4 writes rk4.html; -o FILE writes elsewhere, -o - to standard output. The page
+    needs no network: tableau, conjugate and pair typeset, orders with their witness trees, B, C and
+    D, order conditions with filters, pictures, properties, claims, references; a table compares
+    several methods. Claims of a file are about its method: with --pair or --conjugate the page has
+    none.
 
     Exit code: 0 every claim holds, 1 a claim fails, 2 a file cannot be read as a method, 3 a claim
     is undecided; the page is written in each case, and says so.

@@ -25,6 +25,7 @@ from garkcli.errors import Fault, GarkError, MethodFileError, UsageProblem
 from garkcli.files import STDIN, note_input
 
 if TYPE_CHECKING:
+    from garkcli.methodfile.build import MethodFile
     from garkcli.page.paint import Paint
     from garkcli.plots.scene import Scene
     from garkcli.tableau.garkmethod import GarkMethod
@@ -48,6 +49,16 @@ ARGUMENTS: dict[str, dict[str, Any]] = {
     "PATH": {"type": INPUT},
 }
 """What commands take, by the words of their usage; the command gives the others."""
+METHOD = (
+    "a method file, a name of the catalogue such as rk4, a family with its stages such as gauss-3, "
+    "or - for standard input"
+)
+"""What stands for a method."""
+SEVERAL = (
+    "a directory stands for all *.gark.yaml below it, a pattern (in quotes, ** for any "
+    "directories) for the files that match"
+)
+"""What stands for several."""
 KINDS: dict[str, dict[str, Any]] = {
     "written": {"type": PATH},
     "picture": {"type": PATH, "callback": arguments.picture},
@@ -197,7 +208,7 @@ def _made(
 ) -> click.Command:
     row = COMMANDS[name]
     own, shared = row.options.split(), row.common.split()
-    if "FILE" in row.arguments or "FIRST" in row.arguments:
+    if takes_methods(row.arguments):
         shared = ["--catalogue", *shared]
     further = more["options"]() if "options" in more else ()
     calls = {option.name: option.of for option in options_of(name) if option.of}
@@ -208,7 +219,14 @@ def _made(
         if rules:
             told = {"format": output.format, "output": output.path}
             _check(rules, name, {**values, **told, "verbose": output.verbosity > 0})
-        return function(Given(values, calls), output)
+        if name == "check" or not takes_methods(row.arguments):
+            return function(Given(values, calls), output)
+        from garkcli.methodfile.load import noting
+
+        with noting() as read:
+            code = function(Given(values, calls), output)
+        hint_rounding(read, output)
+        return code
 
     return click.Command(
         name,
@@ -220,10 +238,48 @@ def _made(
             *(_option(option_of(name, flag), formats) for flag in shared if flag != "--help"),
             help_option(),
         ],
-        help=inspect.getdoc(function),
+        help=_help(inspect.getdoc(function) or "", row.arguments),
         context_settings=CONTEXT,
         hidden=row.group == HIDDEN,
     )
+
+
+def takes_methods(arguments: str) -> list[str]:
+    """The arguments of a command that stand for methods."""
+    return [x for x in arguments.split() if ARGUMENTS.get(x.strip("[].")) is _FILE]
+
+
+def hint_rounding(methods: Iterable[MethodFile], output: Output) -> None:
+    """Say of which methods the coefficients look rounded, with the line that is missing; check has
+    it in its report.
+    """
+    from garkcli.check.deciding import looks_rounded
+
+    several = len({method.source for method in methods}) > 1
+    said = []
+    for method in methods:
+        found = looks_rounded(method)
+        if found is not None:
+            where = f"{method.source}: " if several else ""
+            said.append(
+                f"{where}hint: the coefficients look rounded; with the line  {found.line}  "
+                f"the order is {found.order}"
+            )
+    for text in dict.fromkeys(said):
+        output.note(text)
+
+
+def _help(text: str, arguments: str) -> str:
+    """The help of a command; a paragraph of it says what stands for a method."""
+    words = takes_methods(arguments)
+    if not words:
+        return text
+    names = " and ".join(x.strip("[].") for x in words)
+    meant = f"{names} {'is' if len(words) == 1 else 'are each'} {METHOD}"
+    if "..." in arguments:
+        meant += f"; {SEVERAL}"
+    first, *rest = text.split("\n\n")
+    return "\n\n".join([first, f"{meant}.", *rest])
 
 
 def _check(rules: Iterable[Rule], command: str, values: Mapping[str, Any]) -> None:

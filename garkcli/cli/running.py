@@ -104,7 +104,6 @@ def _one(path: str, given: Given, output: Output) -> int:
     except GarkError as error:
         return output.tell_failure(error, name, REPORT)
     output.tell(REPORT, ConvergenceReport(result, name, given.work, given.against))
-    hint_rounding(method, result, output)
     if given.plot is not None:
         from garkcli.plots.convergence import errors_scene
 
@@ -133,9 +132,6 @@ def _several(paths: Sequence[str], given: Given, output: Output) -> int:
         for file, found in zip(files, methods, strict=True):
             entries.append(found if isinstance(found, Entry) else _entry(file, found, problems))
             work.reach(work.done + 1)
-    for file, found, entry in zip(files, methods, entries, strict=True):
-        if not isinstance(found, Entry) and entry.result is not None:
-            hint_rounding(found, entry.result, output, f"{file}: ")
     output.tell(REPORT, Compared(entries, given.work, given.against))
     results = [(x.name, x.result) for x in entries if x.result is not None]
     if given.plot is not None and results:
@@ -251,24 +247,6 @@ class Problems:
         given = self._given
         problem = self.of(method.tableau)
         return converge(method, problem, given.t_end, given.steps, is_timed=given.work)
-
-
-def hint_rounding(method: GarkMethod, result: Convergence, output: Output, where: str = "") -> None:
-    """Where the exact order shows late or not at all because coefficients look rounded: the line
-    that is missing.
-    """
-    is_late = result.verdict == "disagree" or result.short_time is not None
-    if not is_late or method.tolerance is not None:
-        return
-    from garkcli.order.certificate import find_order
-    from garkcli.order.suggestion import suggest_tolerance
-
-    found = suggest_tolerance(method.tableau, find_order(method.tableau))
-    if found is not None:
-        output.note(
-            f"{where}hint: the coefficients look rounded; with the line  {found.line}  "
-            f"the order is {found.order}"
-        )
 
 
 @declared("energy", [*FORMATS, "csv"])

@@ -53,7 +53,7 @@ class Command(Frozen):
     Attributes:
         group: the heading that the help lists it under; ``HIDDEN`` for a name that is not listed.
         file: of this room that has it.
-        arguments: what it takes; FILE is a method file or a name of the catalogue.
+        arguments: what it takes; FILE is what ``options.METHOD`` says.
         summary: its line in the help.
         calls: the names of the package that do the same.
         options: its own, in the order of the help; ``OPTIONS`` has them, first by the name of the

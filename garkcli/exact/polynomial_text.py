@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from flint import arb, fmpq, fmpz
+from flint import arb, ctx, fmpq, fmpz
 
 from garkcli.exact.domain import square_free
 from garkcli.exact.field import Number
@@ -13,6 +13,8 @@ from garkcli.exact.parametric import Parametric
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot
 
+LONG_COEFFICIENT = 24
+"""Characters beyond which nobody reads a rational number."""
 BITS_A_DIGIT = 3.33
 """Bits of a decimal digit, log2(10) rounded up."""
 
@@ -53,6 +55,28 @@ def polynomial_text(p: Polynomial, variable: str) -> str:
     return sum_text([(a, power_text(variable, k)) for k, a in enumerate(p.coefficients)][::-1])
 
 
+def polynomial_decimals(p: Polynomial, variable: str, digits: int = 8) -> str:
+    """The same with rational coefficients in decimals; zeros at their ends are left out.
+
+    >>> polynomial_decimals(Polynomial([fmpq(1), fmpq(10**30 + 1, 7 * 10**30)]), "z")
+    '0.14285714*z + 1'
+    """
+    terms: list[tuple[Number | str, str]] = []
+    with ctx.workprec(int(digits * BITS_A_DIGIT) + 64):
+        for k, a in reversed([*enumerate(p.coefficients)]):
+            number: Number | str = a
+            if isinstance(a, fmpq) and a:
+                number = ball_decimal(arb(a), digits)
+            terms.append((number, power_text(variable, k)))
+    return sum_text(terms)
+
+
+def has_long_coefficients(*polynomials: Polynomial) -> bool:
+    """Whether a rational coefficient has more than ``LONG_COEFFICIENT`` characters."""
+    numbers = (a for p in polynomials for a in p.coefficients)
+    return any(isinstance(a, fmpq) and len(str(a)) > LONG_COEFFICIENT for a in numbers)
+
+
 def multivariate_text(p: Multivariate, variables: Sequence[str]) -> str:
     """A polynomial in several variables, highest total degree first.
 
@@ -66,7 +90,7 @@ def multivariate_text(p: Multivariate, variables: Sequence[str]) -> str:
     return sum_text(terms)
 
 
-def sum_text(terms: Iterable[tuple[Number | Parametric, str]]) -> str:
+def sum_text(terms: Iterable[tuple[Number | Parametric | str, str]]) -> str:
     """Coefficients with what they are multiplied by; zeros are left out."""
     text = ""
     for a, power in terms:

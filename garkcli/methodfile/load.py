@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
 
 from garkcli.doing import doing
 from garkcli.errors import Fault, HasFreeParameters, MethodFileError
@@ -23,6 +25,18 @@ from garkcli.methodfile.values import Values
 from garkcli.reference import Work
 
 NO_SETTINGS: Mapping[str, str] = {}
+_READ: ContextVar[list[MethodFile] | None] = ContextVar("read", default=None)
+
+
+@contextmanager
+def noting() -> Iterator[list[MethodFile]]:
+    """The methods that are read inside, in order, as they are read."""
+    found: list[MethodFile] = []
+    token = _READ.set(found)
+    try:
+        yield found
+    finally:
+        _READ.reset(token)
 
 
 def load(path: str, settings: Mapping[str, str] = NO_SETTINGS) -> MethodFile:
@@ -36,7 +50,10 @@ def load(path: str, settings: Mapping[str, str] = NO_SETTINGS) -> MethodFile:
         MethodFileError: every fault of the file, with positions.
     """
     with doing(f"reading {path}"):
-        return loads(*read_method_text(path), settings)
+        method = loads(*read_method_text(path), settings)
+    if (noted := _READ.get()) is not None:
+        noted.append(method)
+    return method
 
 
 def read_method_text(path: str) -> tuple[str, str]:

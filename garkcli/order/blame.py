@@ -41,9 +41,9 @@ many are one entry away from the next order, and none of the catalogue from the 
 HIGHEST_LOW = 4
 """A wrong entry leaves no more than this order: beyond it none is sought without a claim."""
 FEW_ENTRIES = 400
-"""Most entries that are tried without a claim, of exact coefficients."""
-FEW_ROUNDED = 150
-"""The same of decimals that are judged as if they were rounded."""
+"""Most entries that are tried without a claim."""
+FEW_ROUNDED = 200
+"""The same of rounded coefficients."""
 FEW_CONDITIONS_UNASKED = 2_000
 """Most conditions that are evaluated without a claim."""
 
@@ -383,7 +383,8 @@ def slip_of(method: Tableau, missed: Missed, found: AnyOrder) -> Blame | None:
     order = found.order
     missed = replace(missed, order=order + 1, claimed=order + 1, keeps_shape=True)
     most = FEW_ROUNDED if missed.near else FEW_ENTRIES
-    if found.witness is None or order > HIGHEST_LOW or count_entries(method, missed) > most:
+    is_much = count_entries(method, missed) > most
+    if found.witness is None or order > HIGHEST_LOW or is_much:
         return None
     if count_conditions(method, order + 1) > FEW_CONDITIONS_UNASKED:
         return None

@@ -100,19 +100,19 @@ def find_order(
     """
     spans = spans or StageSpans(tableau)
     for order in range(1, limit + 1):
-        witness = _failing(spans, order)
+        witness = _failing(tableau, spans, order)
         if witness is not None:
             return Order(order - 1, witness)
     return Order(limit, None)
 
 
-def _failing(spans: StageSpans, order: int) -> Witness | None:
+def _failing(tableau: Tableau, spans: StageSpans, order: int) -> Witness | None:
     """The first condition of an order that fails; where that may be rounding, the one that fails by
     most: all residuals of an order are combinations of those of the spanning trees.
     """
     largest: Witness | None = None
     for l, forest in spans.members(order):
-        value = dot(spans.tableau.colours[l].b, forest.vector)
+        value = dot(tableau.colours[l].b, forest.vector)
         if value == fmpq(1, order):
             continue
         witness = witness_of(Tree(l, forest.branches), value)

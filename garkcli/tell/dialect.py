@@ -17,8 +17,11 @@ from garkcli.errors import printable
 from garkcli.exact.display import decimal, shortest, to_decimal, to_text
 from garkcli.exact.field import Algebraic
 from garkcli.exact.polynomial_text import (
+    LONG_COEFFICIENT,
+    has_long_coefficients,
     integral,
     multivariate_text,
+    polynomial_decimals,
     polynomial_text,
     root_decimal,
     root_text,
@@ -216,6 +219,8 @@ class Plain(Mutable):
         """A real algebraic number."""
         simple = root_text(root) if root.exact is None else shortest(root.exact)
         decimals = root_decimal(root, self.digits)
+        if self.is_brief and root.exact is not None and len(simple or "") > LONG_COEFFICIENT:
+            simple = None
         if simple is None:
             if self.is_brief:
                 return f"{decimals}…"
@@ -230,8 +235,10 @@ class Plain(Mutable):
         return self.polynomial(Polynomial.from_flint(root.polynomial), "x")
 
     def polynomial(self, p: Polynomial, variable: str) -> str:
-        """A polynomial; a long one is described."""
+        """A polynomial; a long one is described, one with long coefficients has decimals."""
         text = polynomial_text(p, variable)
+        if self.is_brief and has_long_coefficients(p):
+            text = f"about {polynomial_decimals(p, variable)}"
         if len(text) > (LONG_POLYNOMIAL // 2 if self.is_brief else LONG_POLYNOMIAL):
             return f"a polynomial of degree {p.degree}, in --format json"
         return self.expression(text)
@@ -243,7 +250,9 @@ class Plain(Mutable):
         return f"({top}) / ({bottom})" if " " in bottom else f"({top}) / {bottom}"
 
     def quotient(self, p: Polynomial, q: Polynomial, variable: str) -> str:
-        """A rational function with whole coefficients."""
+        """A rational function with whole coefficients, in decimals where these are long."""
+        if self.is_brief and has_long_coefficients(*integral([p, q])):
+            return f"about {self.over(*(polynomial_decimals(x, variable) for x in (p, q)))}"
         return self.over(*(self.polynomial(x, variable) for x in integral([p, q])))
 
     def fraction(self, p: Multivariate, q: Multivariate) -> str:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from garkcli.errors import printable
 from garkcli.exact.display import shortest, to_latex
-from garkcli.exact.polynomial_text import polynomial_text
+from garkcli.exact.polynomial_text import has_long_coefficients, integral, polynomial_text
 from garkcli.page.exactly import polynomial_latex, quotient_latex
 from garkcli.tell.dialect import LONG, LONG_POLYNOMIAL, WHOLE, Cells, Layout, Plain
 from garkcli.tell.latex import expression_latex
@@ -54,11 +54,13 @@ class Html(Plain):
 
     def polynomial(self, p: Polynomial, variable: str) -> str:
         text = polynomial_text(p, variable)
-        if len(text) > LONG_POLYNOMIAL:
+        if len(text) > LONG_POLYNOMIAL or has_long_coefficients(p):
             return super().polynomial(p, variable)
         return self.formula(polynomial_latex(p, variable), text)
 
     def quotient(self, p: Polynomial, q: Polynomial, variable: str) -> str:
+        if has_long_coefficients(*integral([p, q])):
+            return super().quotient(p, q, variable)
         return self.formula(quotient_latex(p, q, variable), Plain().quotient(p, q, variable))
 
     def interval(self, x: Interval, variable: str) -> str:

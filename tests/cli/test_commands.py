@@ -592,3 +592,15 @@ def test_digits_of_a_check() -> None:
     assert ": about 0.006944 instead of about 0.008333\n" in run.out
     assert "1/144" not in run.out
     assert "-1/720" not in run.out
+
+
+@pytest.mark.parametrize("name", sorted(COMMANDS))
+def test_help_says_what_stands_for_a_method(name: str) -> None:
+    """Every command that reads methods says that names and families stand for one, and the commands
+    that take several say what directories and patterns mean.
+    """
+    words = COMMANDS[name].arguments.split()
+    takes = [x for x in words if x.strip("[].") in {"FILE", "FIRST", "SECOND"}]
+    text = " ".join(gark(name, "--help").stdout.split())
+    assert ("a name of the catalogue such as rk4" in text) is bool(takes)
+    assert ("a directory stands for all *.gark.yaml" in text) is any("..." in x for x in takes)

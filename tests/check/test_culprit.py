@@ -1,0 +1,135 @@
+"""Which entry or which sum is wrong in a file that claims nothing, and in one that does."""
+
+from __future__ import annotations
+
+import pytest
+from flint import fmpq
+
+from garkcli.check.check_file import check_method
+from garkcli.check.outcome import Outcome
+from garkcli.exact.display import to_float
+from garkcli.frozen import replace
+from garkcli.methodfile.load import load, loads
+from garkcli.order.blame import Repair
+from garkcli.order.certificate import find_order
+from garkcli.order.conditions import all_conditions
+from garkcli.report.check import hints
+from garkcli.report.checked import REPORT
+
+RK4 = "A: [[], [1/2], [0, {a32}], [0, 0, 1]]\nb: [1/6, 1/3, 1/3, {b4}]\n"
+NODES = "c: [0, 1/2, 1/2, 1]\n"
+
+
+def checked(text: str) -> Outcome:
+    """The outcome of a text."""
+    return check_method(loads(text))
+
+
+def told(outcome: Outcome) -> str:
+    """Its report, in one line."""
+    return " ".join(REPORT.render([outcome], width=400).split())
+
+
+@pytest.mark.parametrize("claims", ["", "expect: {order: 4}\n", "expect: {symplectic: false}\n"])
+@pytest.mark.parametrize("nodes", ["", NODES])
+def test_an_entry_is_named_whatever_is_claimed(claims: str, nodes: str) -> None:
+    """The one wrong entry of the method of Kutta is named with its value, with and without a claim
+    and nodes; carried out, it gives order 4 and no more.
+    """
+    outcome = checked(RK4.format(a32="1/3", b4="1/6") + nodes + claims)
+    assert outcome.blame is not None
+    (repair,) = outcome.blame.repairs
+    assert repair == Repair(0, 0, 2, 1, fmpq(1, 3), fmpq(1, 2))
+    assert outcome.analysis is not None
+    assert find_order(repair.carried_out(outcome.analysis.tableau)).order == 4
+    assert "would hold with a[3,2] = 1/2 instead of 1/3" in told(outcome)
+    assert ("row 3 has the sum 1/3, its node is 1/2" in told(outcome)) is bool(nodes)
+
+
+def test_a_claim_that_holds_is_believed() -> None:
+    """Who claims order 1 of the same table knows of it."""
+    assert checked(RK4.format(a32="1/3", b4="1/6") + "expect: {order: 1}\n").blame is None
+
+
+@pytest.mark.parametrize("claims", ["", "expect: {order: 4}\n"])
+def test_a_wrong_sum_of_weights_is_told(claims: str) -> None:
+    """The weights of the method with two slips sum to 7/6, and no single entry mends it; programs
+    read the sum too.
+    """
+    outcome = checked(RK4.format(a32="1/3", b4="1/3") + claims)
+    assert [str(x) for x in hints(outcome)] == ["the weights have the sum 7/6"]
+    (found,) = REPORT.data(outcome)["wrong_sums"]
+    assert (found["b"], found["sum"], found["required"]) == ([1], "7/6", "1")
+
+
+def test_a_wrong_weight_is_named() -> None:
+    """Each weight alone could mend the sum; one of them mends order 4."""
+    said = [str(x) for x in hints(checked(RK4.format(a32="1/2", b4="1/3")))]
+    entry = "order 4 would hold with b[4] = 1/6 instead of 1/3"
+    assert said == ["the weights have the sum 7/6", entry]
+
+
+def test_an_embedded_weight_is_named() -> None:
+    """The embedded weights of Bogacki and Shampine with 1/8 for 1/4: their sum and the entry."""
+    text = (
+        "A: [[], [1/2], [0, 3/4], [2/9, 1/3, 4/9]]\nb: [2/9, 1/3, 4/9, 0]\n"
+        "embedded: [7/24, 1/8, 1/3, 1/8]\n"
+    )
+    said = [str(x) for x in hints(checked(text))]
+    assert said == [
+        "the embedded weights have the sum 7/8",
+        "embedded order 2 would hold with embedded b[2] = 1/4 instead of 1/8",
+    ]
+
+
+def test_decimals_are_mended_within_their_rounding() -> None:
+    """A digit of the matrix of the method of Alexander in decimals, without tolerance and claims:
+    the entry is named, with the digits that it had.
+    """
+    entries = ("0.4358665215", "0.2820667392", "0.4358665215", "1.2084966492", "-0.6443631707")
+    g, a21, _, b1, b2 = entries
+    text = f"A: [[{g}], [{a21}, {g}], [{b1}, {b2}, {g}]]\nb: [{b1}, {b2}, {g}]\n"
+    assert not any("would hold" in str(x) for x in hints(checked(text)))
+    wrong = checked(text.replace("[0.28", "[0.38")).blame
+    assert wrong is not None
+    assert wrong.restored == 3
+    (repair,) = (x for x in wrong.repairs if x.i == 1 and x.j == 0)
+    assert abs(repair.new - fmpq(2820667392, 10**10)) < fmpq(1, 10**8)
+
+
+NAMES = ["forward-euler", "midpoint", "heun", "kutta", "rk4", "imex-ssp2-222", "theta-23"]
+PUBLISHED = [*NAMES, "backward-euler", "bogacki-shampine-3", "ars-343", "lobatto-iiia-iiib-2"]
+
+
+@pytest.mark.parametrize("name", PUBLISHED)
+def test_right_methods_have_no_slip(name: str) -> None:
+    """No entry of a published method is called wrong when its claims are left out, though some are
+    one entry away from the next order.
+    """
+    assert check_method(replace(load(name), claims=())).blame is None
+
+
+def test_a_rounded_method_fails_by_its_largest_residual() -> None:
+    """ARS(3,4,3) misses order 4 by rounding in some conditions; the one that is shown is of the size
+    of the largest of all.
+    """
+    tableau = load("ars-343").tableau
+    witness = find_order(tableau).witness
+    assert witness is not None
+    largest = max(abs(to_float(x.residual)) for x in all_conditions(tableau, 4))
+    assert abs(to_float(witness.residual)) > largest / 2 > 1e-2
+
+
+def test_within_a_tolerance_the_largest_residual_is_shown() -> None:
+    """Of the conditions that fail within a tolerance the tree with the largest residual is shown,
+    not the first one: there the first fails by 0.0101.
+    """
+    text = "A: [[], [0.51]]\nb: [0.01, 0.99]\nc: [0, 0.51]\ntolerance: 1e-9\n"
+    outcome = checked(text)
+    assert outcome.analysis is not None
+    order = outcome.analysis.order
+    assert order.witness is not None
+    found = [
+        abs(to_float(x.residual)) for x in all_conditions(outcome.analysis.tableau, order.order + 1)
+    ]
+    assert abs(to_float(order.witness.residual)) == max(found)
