@@ -601,6 +601,49 @@ def test_help_says_what_stands_for_a_method(name: str) -> None:
     """
     words = COMMANDS[name].arguments.split()
     takes = [x for x in words if x.strip("[].") in {"FILE", "FIRST", "SECOND"}]
-    text = " ".join(gark(name, "--help").stdout.split())
+    text = " ".join(gark(name, "--help").out.split())
     assert ("a name of the catalogue such as rk4" in text) is bool(takes)
     assert ("a directory stands for all *.gark.yaml" in text) is any("..." in x for x in takes)
+
+
+OF_DECIMALS = [
+    *("stability", "show", "tableau", "conjugate", "modified", "convert", "claims", "certificate"),
+    *("conditions", "cite", "export --to json", "energy --step 1/2 --t-end 10"),
+]
+
+
+@pytest.mark.parametrize("command", OF_DECIMALS)
+def test_every_command_says_that_coefficients_look_rounded(command: str, tmp_path: Path) -> None:
+    """A method in decimals without tolerance is pointed out by every command that reads it, once; with
+    the line, or quietly, there is nothing to say.
+    """
+    text = (
+        "A: [[0.2928932188134524, 0], [0.7071067811865476, 0.2928932188134524]]\n"
+        "b: [0.7071067811865476, 0.2928932188134524]\n"
+    )
+    place, exact = tmp_path / "sdirk.gark.yaml", tmp_path / "within.gark.yaml"
+    place.write_text(text, encoding="utf-8")
+    exact.write_text(f"{text}tolerance: 1e-15\n", encoding="utf-8")
+    name, *options = command.split()
+    hint = "hint: the coefficients look rounded; with the line  tolerance: 1e-15  the order is 2"
+    assert gark(name, str(place), *options).err.count(hint) == 1
+    assert "look rounded" not in gark(name, str(exact), *options).err
+
+
+def test_long_fractions_are_decimals_in_text_alone(tmp_path: Path) -> None:
+    """Numbers with dozens of digits have decimals in the report; with ``-v`` and for programs they
+    are exact.
+    """
+    place = tmp_path / "sdirk.gark.yaml"
+    place.write_text(
+        "A: [[0.2928932188134524, 0], [0.7071067811865476, 0.2928932188134524]]\n"
+        "b: [0.7071067811865476, 0.2928932188134524]\n",
+        encoding="utf-8",
+    )
+    usual, verbose, data = (
+        gark("stability", str(place), *x).out for x in ((), ("-v",), ("--format", "json"))
+    )
+    assert not re.search(r"[0-9]{20}", usual)
+    assert "about (0.41421356*z + 1) / (0.085786438*z^2" in " ".join(usual.split())
+    for text in (verbose, data):
+        assert re.search(r"2588834764831845000000000000000\*z", text)
