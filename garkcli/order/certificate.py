@@ -23,14 +23,13 @@ from garkcli.exact.span import AffineSpan
 from garkcli.frozen import Frozen
 from garkcli.ntrees.tree import Tree
 from garkcli.order.recursion import Forest, Forests, Spans
-from garkcli.order.tolerance import within
+from garkcli.order.tolerance import unnatural, within
+from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
 
 DEFAULT_LIMIT = 60
 """The order at which the search stops when nothing has failed."""
-SMALL = fmpq(1, 1000)
-"""A condition b_lᵀ ψ(u) = 1/ρ(u) that fails by less may fail by rounding."""
 
 
 class Witness(Shown, Frozen):
@@ -111,12 +110,16 @@ def _failing(tableau: Tableau, spans: StageSpans, order: int) -> Witness | None:
     most: all residuals of an order are combinations of those of the spanning trees.
     """
     largest: Witness | None = None
+    # the blocks of a family have no coefficients that could be rounded, nor has a root that a
+    # design stands for by its polynomial alone
+    is_symbol = tableau.field is not None and not tableau.field.radicals
+    can_be_rounded = not is_symbol and any(isinstance(x, PointSpace) for x in tableau.spaces)
     for l, forest in spans.members(order):
         value = dot(tableau.colours[l].b, forest.vector)
         if value == fmpq(1, order):
             continue
         witness = witness_of(Tree(l, forest.branches), value)
-        if largest is None and not within(value - fmpq(1, order), SMALL):
+        if largest is None and not (can_be_rounded and within(witness.residual, unnatural(order))):
             return witness
         if largest is None or _size(witness) > _size(largest):
             largest = witness

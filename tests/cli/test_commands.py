@@ -608,7 +608,7 @@ def test_help_says_what_stands_for_a_method(name: str) -> None:
 
 OF_DECIMALS = [
     *("stability", "show", "tableau", "conjugate", "modified", "convert", "claims", "certificate"),
-    *("conditions", "cite", "export --to json", "energy --step 1/2 --t-end 10"),
+    *("conditions", "export --to json", "energy --step 1/2 --t-end 10"),
 ]
 
 

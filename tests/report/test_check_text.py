@@ -110,7 +110,7 @@ def test_inconsistent_blocks_are_named() -> None:
     place.
     """
     found = report("tableau: {c: [[1/3]], A: [[[[1/2]]]], b: [[1]]}")
-    assert "consistent            no: A𝟙 differs from c\n" in found
+    assert "consistent            no: A𝟙 differs from c: row" in found
     both = (
         "tableau: {c: [[1/2], [1/3]], A: [[[[1/2]], [[1/2]]], [[[1/2]], [[1/3]]]], b: [[1], [1]]}"
     )

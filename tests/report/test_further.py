@@ -135,7 +135,7 @@ def test_a_wrong_node_shows_in_both_orders_with_time(tmp_path: Path) -> None:
     text = words(render([outcome], Paint()))
     assert " non-autonomous order 1, proved; order 2 fails at " in text
     assert " embedded non-autonomous order 1, proved; order 2 fails " in text
-    assert " consistent no: A𝟙 differs from c " in text
+    assert " consistent no: A𝟙 differs from c: row" in text
 
 
 def test_what_may_be_claimed_is_claimed_truly() -> None:
