@@ -5,7 +5,7 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help run test lint types layers pytest portable bridges proofs bench fuzz pairs readback catalogue figures docs paper browser links man walk floors format clean
+.PHONY: help run test lint types layers pytest portable bridges proofs bench fuzz pairs readback mutants catalogue figures docs paper browser links man walk floors format clean
 
 help: ## this list
 	@grep -E '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 12
@@ -68,6 +68,10 @@ pairs: $(READY) ## the theorems of docs/pair-order.md against the certificate, o
 readback: $(READY) ## every method of the catalogue exported and imported again, in every format, its claims and its certificate judged
 	GARK_WHOLE_CATALOGUE=1 $(BIN)/python -m pytest -n 0 tests/bridges/test_round_trip.py tests/catalogue/test_claims.py tests/integration/test_referee.py tests/methodfile/test_written_again.py
 
+mutants: $(READY) ## small changes in the mathematical rooms, and which of them no test sees, see docs/contributing/mutants.md; COUNT=300 SEED=1
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[mutants]"
+	$(BIN)/python -m tests.mutants.run --count $(or $(COUNT),300) --seed $(or $(SEED),1)
+
 catalogue: $(READY) ## make the index of the catalogue anew, and the copies in methods/
 	$(BIN)/python -m garkcli.catalogue
 
@@ -109,4 +113,4 @@ format: $(READY) ## put the code into its one format
 	$(BIN)/ruff format .
 
 clean: ## remove everything that was made
-	rm -rf $(VENV) .portable .bridges .proofs build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache
+	rm -rf $(VENV) .portable .bridges .proofs .mutants build dist *.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache

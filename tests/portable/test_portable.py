@@ -39,7 +39,7 @@ def test_every_dependency_has_a_floor() -> None:
 def test_every_extra_of_users_is_tried() -> None:
     """In one circumstance at least: what a page or an error names is installed by pip."""
     declared = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    ours = {"bench", "browser", "dev", "docs", "fuzz", "test"}
+    ours = {"bench", "browser", "dev", "docs", "fuzz", "mutants", "test"}
     assert {*declared["optional-dependencies"]} - ours == {*EXTRAS, MSOLVE}
 
 

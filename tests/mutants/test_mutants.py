@@ -1,0 +1,123 @@
+"""What `make mutants` leaves out, which tests it takes, and its list of known survivors."""
+
+from __future__ import annotations
+
+import ast
+
+import pytest
+
+from tests.mutants.places import (
+    ROOMS,
+    ROOT,
+    Mutation,
+    known,
+    lines_of_statement,
+    source,
+    span,
+    without_meaning,
+)
+from tests.mutants.run import Record, stages
+
+TEXT = '''\
+"""A file."""
+MOST = 3
+Pair: TypeAlias = int | None
+
+
+@lru_cache(maxsize=16)
+def f(x: int | None, γ: int = 2) -> int | None:
+    """What it does."""
+    assert x is not None
+    α = {"µ": 1} if x > 5 else γ  # γ
+    for a, b in zip(
+        x,
+        α, strict=True
+    ):
+        if a > 4:
+            raise ValueError(f"{a + 1} of 4")
+        match b:
+            case 7:
+                return 8
+    return cast("int | None", x + 9)
+'''
+
+
+def test_what_has_no_meaning_is_left_alone() -> None:
+    """Types, decorators, assertions and texts of errors; numbers and conditions remain."""
+    spared = [span(node, TEXT) for node in without_meaning(ast.parse(TEXT))]
+    left = set()
+    for node in ast.walk(ast.parse(TEXT)):
+        if isinstance(node, ast.Constant) and not isinstance(node.value, str):
+            start, _ = span(node, TEXT)
+            if not any(first <= start < last for first, last in spared):
+                left.add(node.value)
+    assert left == {3, 2, 1, 5, 4, 7, 8, 9}
+
+
+def test_columns_are_those_of_characters() -> None:
+    """Not of bytes, which letters like γ have two of."""
+    node = next(
+        x for x in ast.walk(ast.parse(TEXT)) if isinstance(x, ast.Compare) and x.lineno == 10
+    )
+    assert span(node, TEXT) == ((10, 20), (10, 25))
+
+
+@pytest.mark.parametrize(
+    ("line", "lines"),
+    [
+        (2, None),
+        (6, None),
+        (10, [10]),
+        (12, [11, 12, 13, 14]),
+        (15, [15]),
+        (17, [17]),
+        (18, [18]),
+        (19, [19]),
+    ],
+)
+def test_a_place_belongs_to_a_statement(line: int, lines: list[int] | None) -> None:
+    """A loop is its head, and what an import does belongs to no test."""
+    found = lines_of_statement(TEXT, line)
+    assert (found and [*found]) == lines
+
+
+def test_tests_of_the_room_come_first_and_fast_ones_before_slow_ones() -> None:
+    """Those that run the line, and no others."""
+    path = "garkcli/stability/damping.py"
+    line = source(path).splitlines().index("            if turns >= 2:") + 1
+    record = Record(
+        code="",
+        files={},
+        seconds={"tests/check/x::a": 1, "tests/stability/x::b": 9, "tests/stability/x::c": 2},
+        lines={
+            path: {
+                "tests/check/x::a": [line],
+                "tests/stability/x::b": [line - 1, line],
+                "tests/stability/x::c": [line],
+                "tests/stability/x::d": [line - 1],
+                "tests/stability/x::failing": [line],
+            }
+        },
+    )
+    mutation = Mutation(path, (line, 15), "ReplaceComparisonOperator_GtE_Gt", 0)
+    (own, _), (others, files) = stages(mutation, record)
+    assert own == ["tests/stability/x::c", "tests/stability/x::b"]
+    assert others == ["tests/check/x::a"]
+    assert files == []
+
+
+def test_every_room_exists() -> None:
+    """A room that moves is not left out in silence."""
+    assert all((ROOT / "garkcli" / room).is_dir() for room in ROOMS)
+
+
+def test_known_survivors_are_still_there() -> None:
+    """Each entry has a reason, and text of its file that becomes another text."""
+    entries = known()
+    keys = [(x["file"], x["was"], x.get("becomes", "")) for x in entries]
+    assert len(keys) == len({*keys})
+    for entry in entries:
+        lines = [line.strip() for line in source(entry["file"]).splitlines()]
+        assert {*entry["was"].splitlines()} <= {*lines}, entry
+        assert entry["was"] != entry.get("becomes")
+        assert len(entry["why"]) > 10
