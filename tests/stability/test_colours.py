@@ -175,31 +175,122 @@ def test_imex_euler() -> None:
     assert ends == [fmpq(1), None, fmpq(1)]
 
 
-def largest_modulus(R: Fraction, pair: ImexPair, z: complex) -> float:
-    """The largest |R(z, iy)| over many y, in floats."""
-    y = np.concatenate([-np.geomspace(1e3, 1e-3, 400), [0], np.geomspace(1e-3, 1e3, 400)])
-    w = 1j * y
+IMAGINARY = np.concatenate([-np.geomspace(1e3, 1e-3, 400), [0], np.geomspace(1e-3, 1e3, 400)])
+"""Many y; z_I = iy."""
 
-    def at(p: Multivariate) -> np.ndarray:
-        total = np.zeros_like(w)
-        for e, a in p.terms:
-            total = total + to_float(a) * z ** e[pair.explicit] * w ** e[pair.implicit]
-        return total
 
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return float(np.max(np.abs(at(R.numerator) / at(R.denominator))))
+def largest_modulus(tableau: Tableau, pair: ImexPair, z: complex) -> float:
+    """The largest |R(z, iy)| over many y, by a step of y' = λ_E y + λ_I y in floats for each."""
+    numbers = np.empty((tableau.size, len(IMAGINARY)), complex)
+    numbers[pair.explicit] = z
+    numbers[pair.implicit] = 1j * IMAGINARY
+    return float(np.max(np.abs(steps(tableau, numbers))))
+
+
+def steps(tableau: Tableau, z: np.ndarray) -> np.ndarray:
+    """R at many points, colours × points, by the linear equations of the stages in floats."""
+    sizes = [space.stages for space in tableau.spaces]
+    starts = np.cumsum([0, *sizes])
+    whole = np.zeros((z.shape[1], starts[-1], starts[-1]), complex)
+    weights = np.zeros((z.shape[1], starts[-1]), complex)
+    for m, colour in enumerate(tableau.colours):
+        columns = slice(starts[colour.space], starts[colour.space + 1])
+        weights[:, columns] += np.outer(z[m], [to_float(x) for x in colour.b])
+        for k in range(len(sizes)):
+            block = np.array([[to_float(x) for x in row] for row in tableau.blocks[k, m]])
+            whole[:, starts[k] : starts[k + 1], columns] += z[m][:, None, None] * block
+    right = np.ones((z.shape[1], starts[-1], 1))
+    stages = np.linalg.solve(np.eye(starts[-1]) - whole, right)[:, :, 0]
+    return 1 + (weights * stages).sum(axis=1)
+
+
+Complex = tuple[Number, Number]
+"""The real and the imaginary part, exactly."""
+
+
+def product(z: Complex, w: Complex) -> Complex:
+    """Two complex numbers multiplied as at school."""
+    return z[0] * w[0] - z[1] * w[1], z[0] * w[1] + z[1] * w[0]
+
+
+def value_at(p: Multivariate, points: list[Complex]) -> Complex:
+    """A polynomial in complex numbers, power by power."""
+    real, imaginary = ZERO, ZERO
+    for exponents, coefficient in p.terms:
+        term: Complex = (coefficient, ZERO)
+        for z, e in zip(points, exponents, strict=True):
+            for _ in range(e):
+                term = product(term, z)
+        real, imaginary = real + term[0], imaginary + term[1]
+    return real, imaginary
+
+
+THIRDS = fractions(-3, 3, 3).map(lambda x: fmpq(x.numerator, x.denominator))
+
+
+@settings(max_examples=60)
+@given(pairs(), THIRDS, THIRDS, THIRDS)
+def test_parts_are_those_of_complex_numbers(tableau: Tableau, a: fmpq, b: fmpq, y: fmpq) -> None:
+    """P(a + ib, iy) and Q by complex arithmetic, exactly; E is the difference of their squares."""
+    assert_parts(tableau, a, b, y)
+
+
+@pytest.mark.parametrize("name", ["ars-233", "ars-343", "imex-ssp3-332"])
+def test_parts_of_known_pairs(name: str) -> None:
+    """The same where z_I and z_E occur in powers up to the third one."""
+    assert_parts(load(name).tableau, fmpq(-2, 3), fmpq(5, 4), fmpq(-7, 5))
+
+
+def assert_parts(tableau: Tableau, a: fmpq, b: fmpq, y: fmpq) -> None:
+    """The parts of a pair at one point."""
+    pair = imex_pair(tableau, stability_fraction(tableau))
+    assert pair is not None
+    points: list[Complex] = [(ZERO, y), (ZERO, y)]
+    points[pair.explicit] = (a, b)
+    P = value_at(pair.R.numerator, points)
+    Q = value_at(pair.R.denominator, points)
+    (p, q), (u, v) = pair.parts
+    assert (p((a, b, y)), q((a, b, y))) == P
+    assert (u((a, b, y)), v((a, b, y))) == Q
+    assert pair.margin((a, b, y)) == Q[0] ** 2 + Q[1] ** 2 - P[0] ** 2 - P[1] ** 2
+
+
+@pytest.mark.parametrize(
+    ("name", "real", "imaginary"),
+    [
+        ("ars-121", 1, 1),
+        ("ars-222", 2, 0),
+        ("ars-233", 2.318307693735, 0),
+        ("ars-232", 1.060660171780, 0),
+        ("imex-ssp2-322", 1.859150765998, 0),
+        ("imex-ssp3-332", 2.512745326618, 0),
+    ],
+)
+def test_rays_of_known_pairs_by_steps(name: str, real: float, imaginary: float) -> None:
+    """Up to the end of each ray steps in floats are damped, and just beyond some are not."""
+    tableau = load(name).tableau
+    pair = imex_pair(tableau, stability_fraction(tableau))
+    assert pair is not None
+    rays = [(pair.real_ray(), real, -1), (pair.imaginary_ray(), imaginary, 1j)]
+    for ray, length, direction in rays:
+        assert ray is not None
+        assert ray.end is not None
+        assert abs(float(ray.end.ball(64)) - length) < 1e-11
+        for share in (0.1, 0.5, 0.9, 1 - 1e-6):
+            assert largest_modulus(tableau, pair, direction * length * share) <= 1 + 1e-12
+        assert largest_modulus(tableau, pair, direction * (length + 0.1)) > 1 + 1e-6
+        if length:
+            assert largest_modulus(tableau, pair, direction * (length + 1e-3)) > 1 + 1e-4
 
 
 @settings(max_examples=25)
 @given(pairs(), st.integers(-12, 4), st.integers(0, 8))
 def test_damped_points_against_many_samples(tableau: Tableau, a: int, b: int) -> None:
     """A γ > 0 has its poles to the right: the imaginary axis decides, and a grid on it agrees."""
-    R = stability_fraction(tableau)
-    pair = imex_pair(tableau, R)
-    assert R is not None
+    pair = imex_pair(tableau, stability_fraction(tableau))
     assert pair is not None
     point = fmpq(a, 4), fmpq(b, 4)
-    largest = largest_modulus(R, pair, complex(a / 4, b / 4))
+    largest = largest_modulus(tableau, pair, complex(a / 4, b / 4))
     assume(abs(largest - 1) > 1e-6)
     assert pair.is_damped(*point) == (largest < 1)
 
@@ -220,7 +311,7 @@ def test_poles_that_move() -> None:
 @settings(max_examples=8)
 @given(pairs())
 def test_rays_end_where_points_end(tableau: Tableau) -> None:
-    """Points inside are damped, and points a little beyond the end are not, on both axes."""
+    """Points inside are damped, also by steps in floats; a little beyond the end they are not."""
     pair = imex_pair(tableau, stability_fraction(tableau))
     assert pair is not None
     rays = [(pair.real_ray(), -1, 0), (pair.imaginary_ray(), 0, 1)]
@@ -236,6 +327,8 @@ def test_rays_end_where_points_end(tableau: Tableau) -> None:
             inside = end * fmpq(k, 8)
             if inside > fmpq(1, 10**9):
                 assert pair.is_damped(u * inside, v * inside)
+                z = complex(u * float(inside), v * float(inside))
+                assert largest_modulus(tableau, pair, z) <= 1 + 1e-9
 
 
 def test_an_explicit_and_an_implicit_colour_are_told_apart() -> None:
