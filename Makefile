@@ -53,6 +53,7 @@ bench: $(READY) ## benchmarks, as ratios within one run
 fuzz: $(READY) ## some minutes of fuzzing, see docs/contributing/fuzzing.md
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[fuzz]"
 	GARK_RANDOM_EXAMPLES=1 GARK_FUZZ_EXAMPLES=3000 $(BIN)/python -m pytest tests/fuzz
+	for run in 1 2 3 4; do GARK_RANDOM_EXAMPLES=1 $(BIN)/python -m pytest -m hypothesis --ignore tests/fuzz || exit 1; done
 	-$(BIN)/python tests/fuzz/long_run.py --hostile
 	$(BIN)/python tests/fuzz/long_run.py --hostile --problems
 	$(BIN)/python tests/fuzz/long_run.py --cases 100000

@@ -22,7 +22,9 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 # the same examples every time: what passes here passes there; see docs/contributing/fuzzing.md
 IS_RANDOM = os.environ.get("GARK_RANDOM_EXAMPLES") == "1"
-settings.register_profile("gark", deadline=None, max_examples=25, derandomize=not IS_RANDOM)
+settings.register_profile(
+    "gark", deadline=None, max_examples=25, derandomize=not IS_RANDOM, print_blob=IS_RANDOM
+)
 settings.load_profile("gark")
 
 # Thousands of runs read a few hundred files: the nodes of a text, which nothing changes, are kept.
