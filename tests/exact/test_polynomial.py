@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from itertools import combinations
+
 import pytest
-from flint import arb, ctx, fmpq, fmpq_poly, fmpz_poly
+from flint import arb, ctx, fmpq, fmpq_mat, fmpq_poly, fmpz_poly
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -109,6 +111,17 @@ def test_a_number_between_two_others(a: fmpq, b: fmpq) -> None:
         assert (low * q).floor() + 1 >= (high * q)
 
 
+def test_the_simplest_number_between_all_small_fractions() -> None:
+    """For each pair of fractions the one between has the least denominator, by trying them all."""
+    ends = sorted({fmpq(p, q) for q in range(1, 6) for p in range(-q, 2 * q + 1)})
+    roots = [RealRoot.rational(x) for x in ends]
+    for i, j in combinations(range(len(ends)), 2):
+        found = between(roots[i], roots[j])
+        assert ends[i] < found < ends[j]
+        for q in range(1, int(found.q)):
+            assert not any(ends[i] < fmpq(p, q) < ends[j] for p in range(-q, 2 * q + 1))
+
+
 def test_enclosures_hold_the_root() -> None:
     """A ball of the golden ratio of 200 bits."""
     golden = real_roots(Polynomial([-1, -1, 1]))[1][0]
@@ -168,3 +181,22 @@ def test_coprime_over_a_number_field_and_not() -> None:
     assert gcd(p, q) == Polynomial([1])
     assert gcd(p * r, q * r) == r
     assert gcd(p, p * r) == p
+    # modulo the prime this divisor is the number 1, and the rest is coprime
+    vanishing = Polynomial([1, prime])
+    one, other = vanishing * Polynomial([a, 1]), vanishing * Polynomial([a + 1, 1])
+    assert gcd(one, other) == vanishing.monic()
+
+
+@given(
+    st.lists(SMALL, min_size=2, max_size=6).filter(lambda x: bool(x[-1])),
+    st.lists(SMALL, min_size=2, max_size=6).filter(lambda x: bool(x[-1])),
+)
+def test_subresultants_are_minors_of_sylvester(a: list[fmpq], b: list[fmpq]) -> None:
+    """Determinants of rows of coefficients, with their signs."""
+    a, b = sorted((a, b), key=len, reverse=True)
+    m, n = len(a) - 1, len(b) - 1
+    for k in range(n):
+        size = m + n - 2 * k
+        rows = [[*[0] * i, *a[::-1], *[0] * size][:size] for i in range(n - k)]
+        rows += [[*[0] * i, *b[::-1], *[0] * size][:size] for i in range(m - k)]
+        assert subresultant(Polynomial(a), Polynomial(b), k) == fmpq_mat(rows).det()
