@@ -224,6 +224,16 @@ def test_even_roots_of_negative_numbers_are_refused(text: str) -> None:
         evaluate(text)
 
 
+def test_radicands_that_are_nearly_zero() -> None:
+    """Zero is found to be zero, and 9.7e-30 positive, whose root is 3.1e-15; below it is refused."""
+    assert evaluate("sqrt(sqrt(8) - 2*sqrt(2))") == 0
+    digits = "1.4142135623730950488016887242"
+    found = evaluate(f"sqrt(sqrt(2) - {digits}0)")
+    assert 3.114e-15 < to_float(found) < 3.115e-15
+    with pytest.raises(UndefinedValue, match="even root of a negative number"):
+        evaluate(f"sqrt(sqrt(2) - {digits}1)")
+
+
 @pytest.mark.parametrize(
     "text",
     [
