@@ -113,6 +113,39 @@ KNOWN = {
 """Textbook methods with what the textbooks say of them."""
 
 
+USUAL = {"nodes-in-unit-interval", "positive-weights"}
+DIRK = USUAL | {"diagonally-implicit", "a-stable"}
+FULL = USUAL | {"fully-implicit", "a-stable", "algebraically-stable"}
+TRUTHS = {
+    "{methods: {family: rk4}}": USUAL | {"explicit"},
+    "{A: [[1]], b: [1]}": DIRK | {"sdirk", "stiffly-accurate", "l-stable", "algebraically-stable"},
+    "{A: [[1/2]], b: [1]}": DIRK | {"sdirk", "symmetric", "algebraically-stable"},
+    "{A: [[0, 0], [1/2, 1/2]], b: [1/2, 1/2]}": DIRK
+    | {"esdirk", "stiffly-accurate", "fsal", "symmetric"},
+    "{methods: {family: gauss, stages: 2}}": FULL | {"symmetric"},
+    "{methods: {family: radau-iia, stages: 2}}": FULL | {"stiffly-accurate", "l-stable"},
+    "{parameters: {g: 1 - sqrt(2)/2}, A: [[g, 0], [1 - g, g]], b: [1 - g, g]}": DIRK
+    | {"sdirk", "stiffly-accurate", "l-stable"},
+    "{A: [[1/3, 0], [1/2, 1/4]], b: [1/2, 1/2]}": DIRK | {"algebraically-stable"},
+    "{A: [[], [1], [1, 0]], b: [1/2, 1/4, 1/4]}": USUAL | {"explicit", "reducible"},
+    "{A: [[], [-1]], b: [3/2, -1/2]}": {"explicit"},
+}
+"""Methods with all properties that they have, P-stability left out, which textbooks define in two
+ways: Hairer, Wanner, sections IV.3, IV.6, IV.12. M of the method with γ = 1/3 and 1/4 is diag(1/12, 0).
+"""
+
+
+@pytest.mark.parametrize("text", TRUTHS)
+def test_a_method_has_its_properties_and_no_others(text: str) -> None:
+    """Each property is claimed of each method."""
+    keys = [x.key for x in every_property() if x.kind == "truth" and x.key != "p-stable"]
+    found = held(with_claims(text, tuple(f"{key}: true" for key in keys)))
+    assert {key for key, claim in zip(keys, found, strict=True) if claim.holds} == TRUTHS[text]
+    assert {claim.found for claim in found} <= {"true", "false"}
+    for key in keys:
+        assert {key in truths for truths in TRUTHS.values()} == {True, False}
+
+
 def held(text: str, tolerance: str = "") -> list[Claim]:
     """The claims of a file held against the truth."""
     method = loads(f"{text}\n{tolerance}")
@@ -320,6 +353,22 @@ def test_rounded_coefficients() -> None:
     found = held(f"{SDIRK_ROUNDED}expect: {open_ones}")
     assert {claim.found for claim in found} == {"not decided"}
     assert not any(claim.holds for claim in found)
+
+
+@pytest.mark.parametrize(
+    ("entry", "holds"),
+    [
+        ("0.70710678139", True),
+        ("0.70710678099", True),
+        ("0.70710678140", False),
+        ("-0.70710678119", False),
+    ],
+)
+def test_a_last_row_that_is_rounded_otherwise(entry: str, holds: bool) -> None:
+    """Two roundings by 10⁻¹⁰ of one number differ by 2·10⁻¹⁰ and no more, and have one sign."""
+    text = SDIRK_ROUNDED.replace("[0.70710678119, 0.29289321881]]", f"[{entry}, 0.29289321881]]")
+    (found,) = held(f"{text}expect: {{stiffly-accurate: true}}")
+    assert found.holds is holds
 
 
 def test_a_weight_near_zero_is_not_decided() -> None:
