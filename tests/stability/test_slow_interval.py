@@ -79,6 +79,9 @@ def test_the_resonance_of_an_interval_is_that_of_its_ends() -> None:
     assert ends == [(0, fmpq(15, 2)), (11, 36)]
     assert found.is_stable_for_all is False
     assert not found.open_points
+    later = slow_interval(tableau, springs(tableau, 1), fmpq(13, 2), fmpq(21, 2)).stable
+    ends = [(i.start.exact, i.end.exact) for i in later if i.start and i.end]
+    assert ends == [(0, fmpq(9, 8)), (fmpq(11, 2), 36)]
 
 
 def test_interpolation_has_no_resonance() -> None:
