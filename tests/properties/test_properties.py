@@ -19,10 +19,12 @@ from garkcli.families.registry import diagonal_method
 from garkcli.frozen import replace
 from garkcli.methodfile.load import load, loads
 from garkcli.order.certificate import find_order
+from garkcli.order.simplifying import simplifying
 from garkcli.properties.algebra_shape import shape_of_families
 from garkcli.properties.last_stage import first_same_as_last, is_stiffly_accurate
 from garkcli.properties.pattern import Shape, shape_of, stage_graph
 from garkcli.properties.reduction import is_plainly_irreducible, reduced
+from garkcli.properties.subject import Subject
 from garkcli.properties.symmetry import symmetry
 from garkcli.stability.algebraic import negative_pivot
 from garkcli.stability.linear import stability_function
@@ -165,6 +167,31 @@ def test_a_stage_written_twice_is_found(
     assert stability_function(smaller) == stability_function(tableau_of(A, b))
 
 
+@pytest.mark.parametrize(
+    ("A", "b"),
+    [
+        ([[0, 0], ["1/2", 0]], [0, 1]),
+        ([[0, 0, 0], ["1/3", 0, 0], [0, "2/3", 0]], ["1/4", 0, "3/4"]),
+        ([[0, 0, 0], ["1/2", 0, 0], [0, "1/3", 0]], [0, 0, 1]),
+        ([["1/2", 0, 0], ["1/3", "1/4", 0], [0, "1/5", "1/6"]], [0, 0, 1]),
+    ],
+)
+def test_stages_matter_through_others(A: list[list[object]], b: list[object]) -> None:
+    """A stage without a weight stays if a stage with one sees it, directly or not; a stage that
+    sees these and is not seen goes.
+    """
+
+    def method(rows: list[list[object]], weights: list[object]) -> Tableau:
+        return loads(f"methods: [{{A: {rows}, b: {weights}}}]".replace("'", "")).tableau
+
+    alone = method(A, b)
+    assert reduced(alone) is alone
+    watching = method([[*row, 0] for row in A] + [[1] * (len(b) + 1)], [*b, 0])
+    fewer = reduced(watching)
+    assert fewer is not None
+    assert fewer.block(0, 0) == alone.block(0, 0)
+
+
 @pytest.mark.parametrize("name", ["rk4", "kutta", "heun", "explicit-euler", "explicit-midpoint"])
 def test_explicit_methods(name: str) -> None:
     """No stage is solved for; the matrix is nilpotent."""
@@ -196,6 +223,21 @@ def test_diagonally_implicit_methods() -> None:
     assert (trapezoidal.name, trapezoidal.gamma) == ("ESDIRK", fmpq(1, 2))
     other = shape(loads("methods: [{A: [[1/3, 0], [1/2, 1/4]], b: [1/2, 1/2]}]").tableau)
     assert (other.name, other.gamma) == ("diagonally implicit", None)
+    # a second explicit stage, and a first stage that sees the second one: no ESDIRK methods
+    for rows in ("[0, 0, 0], [1, 0, 0], [1/4, 1/4, 1/2]", "[0, 1, 0], [0, 1/2, 0], [0, 1/4, 1/2]"):
+        single = shape(loads(f"methods: [{{A: [{rows}], b: [0, 0, 1]}}]").tableau)
+        assert (single.name, single.gamma) == ("diagonally implicit", fmpq(1, 2))
+
+
+def test_a_colour_that_does_not_see_itself_has_no_shape() -> None:
+    """The next one has."""
+    text = "tableau: {A: [[null, [[1/2]]], [[[1]], [[1/3]]]], b: [[1], [1]]}"
+    tableau = loads(text).tableau
+    subject = Subject(tableau, 1, simplifying(tableau, 2), 2, fmpq(0))
+    first, second = subject.shapes
+    assert first is None
+    assert second is not None
+    assert (second.name, second.gamma) == ("SDIRK", fmpq(1, 3))
 
 
 def test_an_imex_pair_by_colour_and_as_a_whole() -> None:

@@ -242,6 +242,17 @@ def test_the_phase_lag_says_who_is_ahead() -> None:
         assert told in gark_command("stability", name).out
 
 
+def test_between_poles_denominators_are_negative() -> None:
+    """Tr M = x/(1 − x) and det M = 1: |tr M| < 2 for x < 2/3 and, where 1 − x < 0, for x > 2."""
+    one = Polynomial([1])
+    trace = Ratio(Polynomial([0, 1]), Polynomial([1, -1]))
+    before, behind = stable_set(trace, Ratio(one, one), (one, -one), Polynomial([1, -1]))
+    assert before.end is not None
+    assert behind.start is not None
+    assert (before.end.exact, behind.start.exact, behind.end) == (fmpq(2, 3), 2, None)
+    assert (before.has_start, before.has_end, behind.has_start) == (True, False, False)
+
+
 def test_a_method_that_does_nothing_has_order_zero() -> None:
     """With weights 0 the step is the identity, and no constant is made up."""
     tableau = loads("methods: [{A: [[0]], b: [0]}]").tableau
