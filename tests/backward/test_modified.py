@@ -20,6 +20,7 @@ from garkcli.backward.series import (
     bracket,
     elementary_weights,
     logarithm,
+    possible_order,
     product,
     transported,
 )
@@ -252,6 +253,12 @@ def test_too_many_trees() -> None:
     with pytest.raises(UsageProblem, match="limit 40000") as caught:
         modified_equation(load("methods/three-colours.gark.yaml").tableau, 9)
     assert "--order" in caught.value.help
+    # 20299 rooted trees have up to 13 vertices, 53272 up to 14: sums of OEIS A000081
+    tableau = load("rk4").tableau
+    assert [possible_order(tableau, n) for n in (12, 13, 14, 20)] == [12, 13, 13, 13]
+    with pytest.raises(UsageProblem, match="53272 trees of order up to 14") as caught:
+        modified_equation(tableau, 20)
+    assert caught.value.help == "ask for --order 13 at most"
 
 
 def test_trees_that_are_not_there() -> None:
