@@ -16,7 +16,12 @@ from garkcli.exact.multivariate import Multivariate
 from garkcli.exact.polynomial import Polynomial, gcd, subresultant
 from garkcli.exact.roots import real_roots
 from garkcli.methodfile.load import load, loads
-from garkcli.stability.damping import ImexPair, imex_pair
+from garkcli.stability.damping import (
+    ImexPair,
+    ball_roots_are_right,
+    exact_roots_are_right,
+    imex_pair,
+)
 from garkcli.stability.fraction import Fraction, stability_fraction
 from garkcli.stability.ssp import additive_radius, ssp_coefficient
 from garkcli.stability.summary import several_colours
@@ -303,6 +308,22 @@ def test_damped_points_against_many_samples(tableau: Tableau, a: int, b: int) ->
     largest = largest_modulus(tableau, pair, complex(a / 4, b / 4))
     assume(abs(largest - 1) > 1e-6)
     assert pair.is_damped(*point) == (largest < 1)
+
+
+@settings(max_examples=60)
+@given(st.lists(st.tuples(st.integers(-2, 4), st.integers(-3, 3)), max_size=4))
+def test_roots_to_the_right_against_what_was_multiplied_out(roots: list[tuple[int, int]]) -> None:
+    """Q = Π (z − a − ib), along z = iy with complex coefficients: to the right exactly when all
+    a > 0; balls say the same or nothing.
+    """
+    u, v = Polynomial([1]), Polynomial([])
+    for a, b in roots:
+        line = Polynomial([-b, 1])
+        u, v = -(u * a) - v * line, u * line - v * a
+    is_right = all(a > 0 for a, _ in roots)
+    assert exact_roots_are_right(u, v) == is_right
+    balls = [[to_ball(x, 40) for x in p.coefficients] for p in (u, v)]
+    assert ball_roots_are_right(*balls) in {None, is_right}
 
 
 def test_poles_that_move() -> None:
