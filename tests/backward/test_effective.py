@@ -73,6 +73,20 @@ def test_a_change_of_coordinates_changes_nothing(seed: int) -> None:
     assert effective_order(other) == EffectiveOrder(4, True)
 
 
+@pytest.mark.parametrize("seed", range(2))
+def test_several_changes_follow_each_other(seed: int) -> None:
+    """Gauss 3 in random other coordinates: the orders 3 to 6 are reached one after the other, each
+    in the coordinates of those before.
+    """
+    dice = Random(seed)
+    equation = modified_equation(loads("methods: [{family: gauss, stages: 3}]").tableau, 6)
+    change = [fmpq(dice.randint(-3, 3), 2) for _ in equation.forest.trees]
+    moved = transported(equation.forest, equation.coefficients, change, 1)
+    other = replace(equation, coefficients=tuple(moved))
+    assert other.order < 4
+    assert effective_order(other) == EffectiveOrder(6, False)
+
+
 def test_a_change_of_coordinates_with_radicals() -> None:
     """Linear systems with a right-hand side in a number field are solved there: the rectangular
     method in other coordinates, with √3 in them.

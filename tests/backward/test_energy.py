@@ -9,13 +9,14 @@ from itertools import pairwise
 from typing import Any
 
 import pytest
-from flint import fmpq
+from flint import arb, fmpq
 from jsonschema import Draft7Validator
 
 from garkcli import hamiltonian, load, loads
 from garkcli.backward import energy
 from garkcli.backward.energy import ModifiedRun, modified_run
 from garkcli.backward.formulas import ModifiedFormula, PowerTerm, modified_formula
+from garkcli.convergence.result import Row, slope_between
 from garkcli.errors import UsageProblem
 from garkcli.frozen import replace
 from garkcli.report.modified_energy import REPORT
@@ -111,6 +112,27 @@ def test_what_has_no_modified_hamiltonian() -> None:
         modified_run(half, pendulum, 3)
     with pytest.raises(UsageProblem, match="steps"):
         modified_run(_verlet(), hamiltonian("pendulum", 2), 3, longest=fmpq(1, 10_000))
+
+
+def test_slopes_settle_above_rounding_alone() -> None:
+    """Errors 2^-4k show order 4; too few, with rounding as large as they are, or without an order
+    they show nothing.
+    """
+
+    def table(errors: list[arb]) -> list[Row]:
+        rows: list[Row] = []
+        for k, error in enumerate(errors):
+            slope = slope_between(rows[-1] if rows else None, fmpq(1, 2**k), error)
+            rows.append(Row(fmpq(1, 2**k), error, slope, error, digits=30))
+        return rows
+
+    errors = [arb(2) ** (-4 * k) for k in range(energy.ROWS)]
+    assert energy.slopes_have_settled(table(errors))
+    assert not energy.slopes_have_settled(table(errors[:-1]))
+    rounded = [*errors[:-1], arb(errors[-1].mid(), 2 * errors[-1].mid())]
+    assert not energy.slopes_have_settled(table(rounded))
+    erratic = [x * (k % 2 + 1) for k, x in enumerate(errors)]
+    assert not energy.slopes_have_settled(table(erratic))
 
 
 def test_the_command() -> None:

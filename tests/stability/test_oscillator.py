@@ -24,6 +24,7 @@ from garkcli.stability.oscillator import (
     oscillator_stability,
     stable_set,
 )
+from garkcli.stability.springs_plane import springs_plane
 from garkcli.stability.two_frequencies import springs, two_frequencies
 from garkcli.stepping.linear import linear_step
 from garkcli.tableau.forms import gark
@@ -151,6 +152,19 @@ def test_a_fast_spring_against_steps_at_single_strengths() -> None:
         M = oscillator_stability(tableau, whole)
         left = M.trace.numerator(total) * found.trace.denominator(x)
         assert left == found.trace.numerator(x) * M.trace.denominator(total)
+
+
+def test_the_plane_of_springs_has_the_exact_traces() -> None:
+    """|tr M|/2 in floats at points of a grid, by the exact trace for each slow frequency."""
+    tableau = load("methods/three-colours.gark.yaml").tableau
+    split = springs(tableau, 1)
+    plane = springs_plane(tableau, split, 3.0, 6.0, points=4)
+    assert (plane.slow.tolist(), plane.fast.tolist()) == ([0, 1, 2, 3], [0, 2, 4, 6])
+    for i, slow in enumerate((0, 1, 2, 3)):
+        trace = two_frequencies(tableau, split, fmpq(slow**2)).trace
+        for j, fast in enumerate((0, 2, 4, 6)):
+            value = trace.numerator(fmpq(fast**2)) / trace.denominator(fmpq(fast**2))
+            assert plane.half_trace[i, j] == pytest.approx(abs(float(value)) / 2, rel=1e-12)
 
 
 def test_one_spring_is_two_without_the_slow_one() -> None:
