@@ -10,13 +10,14 @@ import pytest
 from flint import fmpq
 
 from garkcli import loads
+from garkcli.design.fewer import step_polynomials
 from garkcli.design.stable_plane import StablePlane, stable_set
 from garkcli.exact.cells import has
 from garkcli.exact.roots import RealRoot
 from garkcli.methodfile.family import loads_family
 from garkcli.plots.scene import Area
 from garkcli.plots.stable_plane import stable_plane_scene
-from garkcli.stability.linear import is_a_stable, stability_function
+from garkcli.stability.linear import is_a_stable, real_and_imaginary, stability_function
 from tests.cli.harness import gark
 
 FREE = "parameters: {g: free, d: free}\n"
@@ -47,6 +48,27 @@ def is_stable(text: str, g: fmpq, d: fmpq) -> bool:
     """One method by the ordinary engine."""
     method = loads(text, settings={"g": str(g), "d": str(d)})
     return is_a_stable(stability_function(method.tableau))
+
+
+@pytest.mark.parametrize("text", [DIRK, STIFF, SDIRK, FULL])
+def test_the_step_of_a_family_is_that_of_its_members(text: str) -> None:
+    """On ẏ = y it is R(z) of the single method; on (q, p)˙ = (p, −q), entry by entry, the complex
+    number R(iz) = (Pr + iPi)/(Qr + iQi) as a matrix.
+    """
+    family = loads_family(text)
+    for z, g, d in ((fmpq(2, 3), fmpq(1, 5), fmpq(3, 4)), (fmpq(-3), fmpq(2), fmpq(-1, 2))):
+        R = stability_function(loads(text, settings={"g": str(g), "d": str(d)}).tableau)
+        D, [N] = step_polynomials(family.tableau, family.ring, [((fmpq(1),),)])
+        assert N(z, g, d) * R.denominator(z) == R.numerator(z) * D(z, g, d)
+        turn = ((fmpq(0), fmpq(1)), (fmpq(-1), fmpq(0)))
+        D, numerators = step_polynomials(family.tableau, family.ring, [turn])
+        (pr, pi), (qr, qi) = (
+            [part(z) for part in real_and_imaginary(p)] for p in (R.numerator, R.denominator)
+        )
+        real, imaginary = pr * qr + pi * qi, pi * qr - pr * qi
+        wanted = [real, imaginary, -imaginary, real]
+        found = [entry(z, g, d) * (qr * qr + qi * qi) for entry in numerators]
+        assert found == [x * D(z, g, d) for x in wanted]
 
 
 @pytest.mark.parametrize("text", [DIRK, STIFF, SDIRK, FULL])
