@@ -233,7 +233,7 @@ def last_line(node: ast.AST) -> int:
 
 
 def known() -> list[dict[str, str]]:
-    """Survivors with a reason: file, was, becomes (where it matters), why."""
+    """Survivors with a reason: file, was, why, and where it matters becomes and after."""
     survivors: list[dict[str, str]] = tomllib.loads(KNOWN.read_text("utf-8"))["survivor"]
     return survivors
 
@@ -241,8 +241,11 @@ def known() -> list[dict[str, str]]:
 def reason(mutation: Mutation) -> str | None:
     """Why a mutation need not be killed."""
     was, becomes = mutation.difference
+    line, _ = mutation.at
+    before = [x.strip() for x in source(mutation.path).splitlines()[: line - 1]]
     for entry in known():
-        change = mutation.path, was, becomes
-        if (entry["file"], entry["was"], entry.get("becomes", becomes)) == change:
+        change = mutation.path, was, becomes, before[-1:]
+        after = [entry["after"]] if "after" in entry else before[-1:]
+        if (entry["file"], entry["was"], entry.get("becomes", becomes), after) == change:
             return entry["why"]
     return None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from itertools import pairwise
 
 import pytest
 
@@ -114,10 +115,14 @@ def test_every_room_exists() -> None:
 def test_known_survivors_are_still_there() -> None:
     """Each entry has a reason, and text of its file that becomes another text."""
     entries = known()
-    keys = [(x["file"], x["was"], x.get("becomes", "")) for x in entries]
+    keys = [(x["file"], x["was"], x.get("becomes", ""), x.get("after", "")) for x in entries]
     assert len(keys) == len({*keys})
     for entry in entries:
         lines = [line.strip() for line in source(entry["file"]).splitlines()]
-        assert {*entry["was"].splitlines()} <= {*lines}, entry
+        first, *_ = was = entry["was"].splitlines()
+        assert {*was} <= {*lines}, entry
+        assert ("after" in entry) == (lines.count(first) > 1), entry
+        if "after" in entry:
+            assert (entry["after"], first) in pairwise(lines), entry
         assert entry["was"] != entry.get("becomes")
         assert len(entry["why"]) > 10
