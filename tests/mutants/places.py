@@ -9,7 +9,7 @@ import tomllib
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property, lru_cache
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -59,14 +59,9 @@ class Mutation:
     @property
     def text(self) -> str:
         """The file with the change."""
-        # as a slow import, and for a machine that lists known survivors alone
-        from cosmic_ray.mutating import mutate_code
-        from cosmic_ray.plugins import get_operator
+        return changed(self)
 
-        operator = get_operator(f"core/{self.operator}")()
-        return str(mutate_code(source(self.path), operator, self.occurrence))
-
-    @property
+    @cached_property
     def difference(self) -> tuple[str, str]:
         """The lines that change, as they are and as they become, without indentation."""
         lines = difflib.ndiff(source(self.path).splitlines(), self.text.splitlines())
@@ -77,6 +72,17 @@ class Mutation:
             elif line.startswith("+ "):
                 becomes.append(line[2:].strip())
         return "\n".join(was), "\n".join(becomes)
+
+
+@lru_cache(maxsize=8)
+def changed(mutation: Mutation) -> str:
+    """The file with a change."""
+    # the tests of this room do without cosmic-ray
+    from cosmic_ray.mutating import mutate_code
+    from cosmic_ray.plugins import get_operator
+
+    operator = get_operator(f"core/{mutation.operator}")()
+    return str(mutate_code(source(mutation.path), operator, mutation.occurrence))
 
 
 @cache

@@ -68,7 +68,8 @@ class Record:
         """Those that run the statement, or any line of the file where an import runs it."""
         by_test = self.lines.get(mutation.path, {})
         wanted = lines_of_statement(source(mutation.path), mutation.at[0])
-        found = [x for x, lines in by_test.items() if wanted is None or {*wanted} & {*lines}]
+        seen = {*(wanted or ())}
+        found = [x for x, lines in by_test.items() if wanted is None or not seen.isdisjoint(lines)]
         return sorted((x for x in found if x in self.seconds), key=self.seconds.__getitem__)
 
     def changed_files(self) -> list[str]:
@@ -93,13 +94,18 @@ class Outcome:
     seconds: float
 
     def __str__(self) -> str:
-        was, becomes = self.mutation.difference
         ran = f"{self.tests} tests run it" if self.tests else "no test runs it"
-        lines = [f"{self.mutation.path}:{self.mutation.at[0]}: {self.fate}; {ran}"]
-        lines += [f"  - {line}" for line in was.splitlines()]
-        lines += [f"  + {line}" for line in becomes.splitlines()]
-        why = reason(self.mutation)
-        return "\n".join([*lines, *([f"  {why}"] if why else [])])
+        return told(self.mutation, f": {self.fate}; {ran}")
+
+
+def told(mutation: Mutation, said: str = "") -> str:
+    """Where a change is, its lines, and why it need not be killed where that is known."""
+    was, becomes = mutation.difference
+    lines = [f"{mutation.path}:{mutation.at[0]}{said}"]
+    lines += [f"  - {line}" for line in was.splitlines()]
+    lines += [f"  + {line}" for line in becomes.splitlines()]
+    why = reason(mutation)
+    return "\n".join([*lines, *([f"  {why}"] if why else [])])
 
 
 def digests() -> dict[str, str]:
@@ -321,7 +327,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         mutations = sample(options.count, options.seed, options.rooms.split(","))
     if options.list:
         for mutation in mutations:
-            print(Outcome(mutation, "drawn", 0, 0.0))
+            print(told(mutation))
         return 0
     CACHE.mkdir(exist_ok=True)
     outcomes = judged(mutations, recorded(options.anew))
