@@ -114,6 +114,19 @@ def test_what_has_no_modified_hamiltonian() -> None:
         modified_run(_verlet(), hamiltonian("pendulum", 2), 3, longest=fmpq(1, 10_000))
 
 
+@pytest.mark.parametrize(("places", "digits"), [(20, 39), (40, 60), (50, 69), (130, 200)])
+def test_digits_are_as_many_as_the_smallest_error_needs(places: int, digits: int) -> None:
+    """Doubled until an error is seen, then enough for six halvings of h at order 2: 3.6 places."""
+
+    class Seen(energy.Meter):
+        def errors(self, count: int) -> list[arb]:  # noqa: ARG002
+            return [arb(10) ** -places + arb(0, arb(10) ** (2 - self.digits))]
+
+    meter = Seen(bound=None, formulas=(), powers=(0,), t_end=fmpq(1))  # type: ignore[arg-type]
+    meter.choose_digits(4, 2)
+    assert abs(meter.digits - digits) <= 1
+
+
 def test_slopes_settle_above_rounding_alone() -> None:
     """Errors 2^-4k show order 4; too few, with rounding as large as they are, or without an order
     they show nothing.

@@ -7,6 +7,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import cast
 
+import numpy as np
 import pytest
 from flint import ctx, fmpq, fmpq_mpoly
 
@@ -523,6 +524,26 @@ def test_critical_numbers_of_a_large_degree(allowed: str, is_reached: bool) -> N
         assert candidate.found.solution.degree == 7
     else:
         assert best.value < eight
+
+
+@pytest.mark.parametrize(("objective", "direction"), [("-real", -1), ("-imaginary", 1j)])
+def test_signs_of_intervals_are_those_of_steps(objective: str, direction: complex) -> None:
+    """For an implicit family and many y: 1 − |R| by a step in floats has the sign of the polynomial
+    that decides the interval; of the imaginary one in y².
+    """
+    text = "parameters: {g: free}\nA: [[g, 0], [1/3, 2*g - 1]]\nb: [1/4, 3/4]\n"
+    family = loads_family(text)
+    level = OBJECTIVES[f"{objective}-interval"]
+    assert isinstance(level, Level)
+    (sign,) = level.signs(family.tableau, family.ring).polynomials
+    for g in (fmpq(1, 5), fmpq(2, 3), fmpq(-1, 2), fmpq(3)):
+        A = np.array([[float(g), 0], [1 / 3, 2 * float(g) - 1]])
+        for k in range(1, 30):
+            y = fmpq(k, 3) + fmpq(1, 97)
+            z = direction * (float(y) if objective == "-real" else float(y) ** 0.5)
+            R = 1 + z * np.array([0.25, 0.75]) @ np.linalg.solve(np.eye(2) - z * A, np.ones(2))
+            if abs(abs(R) - 1) > 1e-9:
+                assert (sign(y, g) > 0) == (abs(R) < 1), (g, y)
 
 
 FOUR = "parameters: {a: free}\nA: [[0, 0, 0, 0], [1/4, 0, 0, 0], [0, a, 0, 0], [0, 0, 1/2, 0]]\nb: [0, 0, 0, 1]\n"

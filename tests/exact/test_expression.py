@@ -273,6 +273,8 @@ def test_names_need_values() -> None:
 def test_latex() -> None:
     """Numbers in LaTeX, rational and with radicals."""
     assert to_latex(evaluate("-1/2")) == r"-\frac{1}{2}"
+    for number in (fmpq(-1, 2), fmpq(1, 2), fmpq(-3)):
+        assert format_expression(Literal(number), latex=True) == to_latex(number)
     assert to_latex(evaluate("1/2 - sqrt(3)/6")) == r"\frac{1}{2}-\frac{\sqrt{3}}{6}"
     assert to_latex(evaluate("4*sqrt(3)/27")) == r"\frac{4\sqrt{3}}{27}"
     assert to_latex(evaluate("cbrt(2)**2")) == r"\sqrt[3]{2}^{2}"

@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 from flint import fmpq
 
-from garkcli import Tableau, Tree, conditions, find_order, load
+from garkcli import Tableau, Tree, conditions, find_order, load, loads, trees
 from garkcli.families.registry import diagonal_method
 from garkcli.order import constants
-from garkcli.order.conditions import all_conditions
+from garkcli.order.conditions import all_conditions, is_admissible
 from garkcli.order.constants import error_constants
 from garkcli.tableau.forms import gark, pair
 from tests.oracles.brute import Plain, Trees
@@ -79,6 +79,18 @@ def test_twin_roots_mix_colours_each_for_itself(monkeypatch: pytest.MonkeyPatch)
         if len(x.tree.colours) > 1
     ]
     assert exact.coupling.two_squared == sum(by_hand, start=fmpq(0))
+
+
+def test_admissible_trees_are_those_of_the_graph() -> None:
+    """Of all trees of two colours: where one sees itself alone, and where one is linear too."""
+    for linear, count in (("", 8), ("linear: [2]\n", 7)):
+        blocks = "A: [[[[1/2]], [[1/3]]], [null, [[1/4]]]]\nb: [[1], [1]]\n"
+        tableau = loads(blocks + linear).tableau
+        for n in (1, 2, 3):
+            wanted = {engine_tree(u) for u in Trees(tableau).of_order(n)}
+            found = {u for u in trees(n, 2) if is_admissible(tableau, u)}
+            assert found == wanted
+        assert len(wanted) == count
 
 
 def test_classical_method() -> None:

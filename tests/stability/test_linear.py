@@ -27,6 +27,7 @@ from garkcli.stability.linear import (
     stability_function,
 )
 from garkcli.stability.sector import largest_sector
+from garkcli.stability.summary import stability, stability_of_rounded
 from garkcli.tableau.forms import gark
 from garkcli.tableau.tableau import Tableau
 from tests.oracles.draws import fractions
@@ -208,6 +209,21 @@ def test_sectors_against_rays(gamma: fmpq, stages: int, order: int) -> None:
     assert largest(alpha - 0.01) <= 1 + 1e-12
     if alpha < np.pi / 2:
         assert largest(alpha + 0.01) > 1
+
+
+def test_in_short() -> None:
+    """What is said of a method in one line; L-stability of A-stable ones alone."""
+    told = {
+        ("rk4", None): "not A-stable",
+        ("gauss", 2): "A-stable, not L-stable",
+        ("radau-iia", 2): "A-stable, L-stable",
+    }
+    for (name, stages), words in told.items():
+        tableau = gark([diagonal_method(name, stages)], {})
+        (found,) = stability(tableau).linear
+        assert found.words == words
+    rounded = stability_of_rounded(family("gauss", 1), fmpq(1, 10**6))
+    assert rounded.linear[0].words == "A-stable not decided"
 
 
 def test_the_sdirk_methods_of_crouzeix() -> None:
