@@ -36,7 +36,8 @@ TESTS = (
     *(f"tests/{room}" for room in ROOMS),
     *(f"garkcli/{room}" for room in ROOMS),
     *("tests/oracles", "tests/paper", "tests/families", "tests/transfer", "tests/constructions"),
-    *("tests/check", "tests/catalogue", "tests/comparison", "tests/conversion", "tests/cli"),
+    *("tests/check", "tests/catalogue", "tests/comparison", "tests/conversion", "tests/api"),
+    "tests/cli",
 )
 """What is recorded: other tests read files and write texts, which says little of a number."""
 PROCESSES = 2

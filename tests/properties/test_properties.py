@@ -6,7 +6,7 @@ from fractions import Fraction
 from itertools import permutations
 
 import pytest
-from flint import fmpq, fmpq_poly
+from flint import fmpq, fmpq_mat, fmpq_poly
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -476,6 +476,26 @@ def test_a_zero_between_irrational_nodes_is_no_proof() -> None:
     block = tuple(zip(*columns, strict=True))
     diagonal = replace(tableau, blocks={(0, 0): block})
     assert shape_of_families(diagonal, [0]) is None
+
+
+@pytest.mark.parametrize("is_lower", [True, False])
+def test_one_way_between_rational_nodes_is_no_system(is_lower: bool) -> None:
+    """Lobatto nodes 0, 1/2, 1, and each stage sees those before it, or behind: one sees all and one
+    is seen by all, and none are solved together.
+    """
+    tableau = family("lobatto-iiia", 3)
+    V = fmpq_mat([[fmpq(c) ** j for j in range(3)] for c in (fmpq(0), fmpq(1, 2), fmpq(1))])
+    entries = [
+        [fmpq(1 + 2 * i + j) * ((i >= j) if is_lower else (i <= j)) for j in range(3)]
+        for i in range(3)
+    ]
+    rows = (V.inv() * fmpq_mat(entries) * V).tolist()
+    one_way = replace(tableau, blocks={(0, 0): tuple(map(tuple, rows))})
+    points = in_points(one_way)
+    assert points is not None
+    assert [list(row) for row in points.block(0, 0) or ()] == entries
+    assert shape_of_families(one_way, [0]) is None
+    assert shape(one_way).kind == "diagonally implicit"
 
 
 @given(st.lists(ENTRY, min_size=1, max_size=5, unique=True), ENTRY)
