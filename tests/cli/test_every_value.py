@@ -95,10 +95,17 @@ def test_conditions_have_their_polynomials(tmp_path: Path) -> None:
     assert text.endswith("4 conditions, 2 do not hold for every value\n")
 
 
-@pytest.mark.parametrize("text", [SDIRK, TAU])
+@pytest.mark.parametrize(
+    "text",
+    [
+        *(SDIRK, TAU),
+        "parameters: {g: free}\nA: [[g]]\nb: [g]\n",
+        "parameters: {g: free}\nA: [[0, 0], [g, 0]]\nb: [1/2, 1/2]\n",
+    ],
+)
 def test_stability_functions_are_those_of_each_value(text: str) -> None:
-    """R and E with a value for the parameter are those of the method with the value, found by the
-    power series of the step.
+    """R, E and R(∞) with a value for the parameter are those of the method with the value, found by
+    the power series of the step; R(∞) is a number, 0, or unbounded.
     """
     family = every_family(loads_family(text))
     [name] = family.family.parameters
@@ -119,6 +126,8 @@ def test_stability_functions_are_those_of_each_value(text: str) -> None:
         assert at(found.denominator) == list(R.denominator.coefficients)
         E = list(e_polynomial(R).coefficients)
         assert at(found.e_polynomial)[: len(E)] == E
+        limit = found.at_infinity
+        assert R.at_infinity() == (None if limit is None else at((limit,))[0])
 
 
 def test_stability_as_a_command(tmp_path: Path) -> None:
