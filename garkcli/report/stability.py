@@ -23,7 +23,7 @@ from garkcli.frozen import Frozen, replace
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ALGEBRAIC, ROOT_OF, root_data
 from garkcli.plots.regions import stability_scene
-from garkcli.reason import NO_REASON, Reason
+from garkcli.reason import NO_REASON, Formula, Reason
 from garkcli.stability.ball_polynomials import Bounds
 from garkcli.stability.fraction import MOST_LINES, Fraction
 from garkcli.stability.linear import poles_are_right
@@ -309,9 +309,10 @@ def phase(o: Any) -> Answer:
         return Answer(None, reason=Reason("none: the frequency is exact"))
     if o.phase.constant is None:
         return Answer(o.phase.order, reason=Reason("the frequency is wrong for small step sizes"))
-    lag = kinds.term("z", o.phase.order + 1)
     where = "behind" if sign(o.phase.constant) > 0 else "ahead"
-    return Answer(o.phase.order, reason=Reason(f"{{}}, z = hω: {where}", lag(o.phase.constant)))
+    lag, z = kinds.term("z", o.phase.order + 1), Formula("z = hω", r"z = h\omega")
+    reason = Reason(f"{{}}, {{}}: {where}", lag(o.phase.constant), z)
+    return Answer(o.phase.order, reason=reason)
 
 
 PHASE = Kind(S.COUNT, words=lambda n, _: f"of order {n}")

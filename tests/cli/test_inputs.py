@@ -78,8 +78,9 @@ main(sys.argv[2:])
 @pytest.mark.parametrize("command", [*READERS, "sweep spec.yaml --rows F"])
 def test_what_passes_for_a_file_is_not_waited_for(command: str, folder: Path) -> None:
     """The system calls it a regular file, and yet it has nothing to give: a word, and no wait."""
+    pipe = "pipe.jsonl" if "--rows" in command else "pipe.yaml"
     done = subprocess.run(
-        [sys.executable, "-c", WAITING, "pipe.yaml", *command.replace("F", "pipe.yaml").split()],
+        [sys.executable, "-c", WAITING, pipe, *command.replace("F", pipe).split()],
         cwd=folder,
         env={**os.environ, "PYTHONPATH": str(ROOT)},
         capture_output=True,
@@ -175,13 +176,17 @@ WRITES_NO_INPUT = {
 @pytest.mark.parametrize("command", OVER_INPUTS)
 def test_no_input_is_written_over(command: str, folder: Path) -> None:
     """Neither the file of the argument, nor one in a folder, of a pattern, of a spec, of a
-    catalogue.
+    catalogue; nor by a link whose ending says nothing of what it holds.
     """
+    *words, target = command.split()
     before = {path.name: path.read_bytes() for path in folder.iterdir()}
-    run = gark(*command.split(), cwd=folder)
+    assert gark(*words, target, cwd=folder).code == 2
+    (folder / "out").symlink_to(target)
+    run = gark(*words, "out", cwd=folder)
     if "--baseline" not in command:  # which is none, and refused as such
         refused(run, "cannot write", "the command reads it")
     assert run.code == 2
+    (folder / "out").unlink()
     after = {path.name: path.read_bytes() for path in folder.iterdir()}
     after.pop("rows.jsonl", None)
     assert after == before
@@ -199,15 +204,15 @@ def test_an_input_by_another_name(place: str, folder: Path) -> None:
     os.link(folder / "m.gark.yaml", folder / "hard.yaml")
     place = str(folder / "m.gark.yaml") if place == "absolute" else place
     for one, other in (("m.gark.yaml", place), (place, "m.gark.yaml")):
-        refused(gark("check", one, "-o", other, cwd=folder), "the command reads it")
+        refused(gark("tableau", one, "-o", other, cwd=folder), "the command reads it")
     assert (folder / "m.gark.yaml").read_text() == METHOD
 
 
 def test_standard_input_that_is_a_file(folder: Path) -> None:
-    """``gark check - -o m.yaml < m.yaml``."""
+    """``gark tableau - -o m.yaml < m.yaml``."""
     with (folder / "m.gark.yaml").open() as stream:
         done = subprocess.run(
-            [sys.executable, "-m", "garkcli", "check", "-", "-o", "m.gark.yaml"],
+            [sys.executable, "-m", "garkcli", "tableau", "-", "-o", "m.gark.yaml"],
             cwd=folder,
             env={**os.environ, "PYTHONPATH": str(ROOT)},
             stdin=stream,

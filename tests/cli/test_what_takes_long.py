@@ -31,7 +31,7 @@ TOLD = {
     "converge": (["rk4", "--problem", "pendulum"], "h = 1/16"),
     "energy": (["rk4", "--problem", "pendulum", "--t-end", "1"], "steps"),
     "export": (["rk4", "--to", "csv"], "numbers and orders"),
-    "import": (["tests/bridges/sources/kutta.csv"], "sources"),
+    "import": (["tests/bridges/sources/kutta.csv"], "files"),
     "audit": (["tests/bridges/sources/kutta.csv"], "files"),
     "certificate": (["rk4"], "proof"),
     "show": (["rk4"], "reading rk4"),
