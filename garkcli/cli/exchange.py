@@ -106,6 +106,7 @@ def import_(given: Given, output: Output) -> int:
     _tell_unread([x for x in results if x.method is None], output)
     wrong = [x for x in results if x.errors]
     if output.format == "yaml":
+        _tell_signs(results, output)
         _tell_wrong(wrong)
     if not wrong or given.as_found:
         return 0
@@ -115,13 +116,25 @@ def import_(given: Given, output: Output) -> int:
     return 1
 
 
+def _tell_signs(results: Sequence[Result], output: Output) -> None:
+    """How error estimates are read of which a source does not say what they are; a report has this
+    among its notes.
+    """
+    for result in results:
+        if result.method is not None and result.method.sign:
+            output.note(f"{_place(result)}: {result.method.sign}")
+
+
+def _place(result: Result) -> str:
+    table = result.table
+    return f"{printable(table.source)}:{table.line} {printable(table.name)}".rstrip()
+
+
 def _tell_wrong(results: Sequence[Result]) -> None:
     """What sources declare and is not true, beside method files: each table, and the cure."""
     for result in results:
-        table = result.table
-        place = f"{printable(table.source)}:{table.line} {printable(table.name)}".rstrip()
         for finding in result.errors:
-            say(f"{place}: {finding.message}")
+            say(f"{_place(result)}: {finding.message}")
             if finding.help:
                 say(f"help: {finding.help}")
 

@@ -10,7 +10,7 @@ from flint import fmpq
 from garkcli.exact.display import decimal, decimal_latex, plain_decimal, to_decimal, to_text
 from garkcli.exact.field import Number
 from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.polynomial_text import integral, polynomial_text
+from garkcli.exact.polynomial_text import has_long_coefficients, integral, polynomial_text
 from garkcli.frozen import Frozen
 from garkcli.ntrees.notation import format_tree
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
@@ -267,12 +267,13 @@ def term(variable: str, power: int) -> Kind:
 
 
 def polynomial(variable: str) -> Kind:
-    """A polynomial, told with whole coefficients."""
-    return Kind(
-        S.TEXT,
-        lambda p, _: polynomial_text(integral([p])[0], variable),
-        lambda p, d: d.polynomial(integral([p])[0], variable),
-    )
+    """A polynomial, told with whole coefficients; in decimals, where these are long, as it is."""
+
+    def words(p: Polynomial, d: Plain) -> str:
+        (whole,) = integral([p])
+        return d.polynomial(p if d.is_brief and has_long_coefficients(whole) else whole, variable)
+
+    return Kind(S.TEXT, lambda p, _: polynomial_text(integral([p])[0], variable), words)
 
 
 def expression(text: Callable[[Any], str] = str, latex: Callable[[Any], str] | None = None) -> Kind:

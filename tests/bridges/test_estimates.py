@@ -44,6 +44,8 @@ def test_a_published_pair_decides(tmp_path: Path) -> None:
         assert weights(found) == LOW
         (note,) = found.notes()
         assert note.startswith(f"the embedded weights are read as {sign}, as in bogacki-shampine-3")
+        run = gark("import", "solver.py", "-o", "m.gark.yaml", cwd=tmp_path)
+        assert f"solver.py:3 BS23: the embedded weights are read as {sign}" in run.err
 
 
 def test_nothing_decides(tmp_path: Path) -> None:
