@@ -3,10 +3,14 @@
 Whoever limits work writes ``with within(seconds):`` around it. Loops that may take long call
 ``check_time``, which raises ``NotDecided`` once the time is over. A call of a library in C cannot
 be interrupted; ``garkcli.exact.apart`` does large ones in a process of their own.
+
+What one waits for is limited by the clock. A limit that holds without being asked for is one of
+processor time: a machine with much to do decides no less.
 """
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -14,10 +18,14 @@ from time import monotonic
 
 from garkcli.errors import NotDecided
 
+SECONDS = 10.0
+"""Processor time after which stability is not decided, where nobody says how much."""
 FOR_EVER = 1e9
 """Seconds after which no system waits any longer, about thirty years."""
 _moment: ContextVar[float | None] = ContextVar("moment", default=None)
 """The reading of ``time.monotonic`` at which the work is given up; None for never."""
+_spent: ContextVar[float | None] = ContextVar("spent", default=None)
+"""The reading of ``processor_time`` at which the work is given up; None for never."""
 _is_small: ContextVar[bool] = ContextVar("is_small", default=False)
 """Whether only work that is small is done."""
 
@@ -40,12 +48,30 @@ parameters values
 @contextmanager
 def until(moment: float | None) -> Iterator[None]:
     """The same by the reading of ``time.monotonic`` at which it ends."""
-    moments = [x for x in (moment, _moment.get()) if x is not None and x < FOR_EVER]
-    token = _moment.set(min(moments, default=None))
+    with _earliest(_moment, moment):
+        yield
+
+
+@contextmanager
+def spending(seconds: float | None) -> Iterator[None]:
+    """Limit the processor time of what is done inside in the same way."""
+    with _earliest(_spent, None if seconds is None else processor_time() + seconds):
+        yield
+
+
+@contextmanager
+def _earliest(limit: ContextVar[float | None], reading: float | None) -> Iterator[None]:
+    readings = [x for x in (reading, limit.get()) if x is not None and x < FOR_EVER]
+    token = limit.set(min(readings, default=None))
     try:
         yield
     finally:
-        _moment.reset(token)
+        limit.reset(token)
+
+
+def processor_time() -> float:
+    """Seconds that this process and those that it has waited for have worked."""
+    return sum(os.times()[:4])
 
 
 @contextmanager
@@ -61,6 +87,7 @@ def only_small() -> Iterator[None]:
 def forget() -> None:
     """Set no limit from now on: in a process that another one ends."""
     _moment.set(None)
+    _spent.set(None)
 
 
 def is_only_small() -> bool:
@@ -70,8 +97,11 @@ def is_only_small() -> bool:
 
 def seconds_left() -> float | None:
     """How much of the time is left, 0 where it is over; None where there is no limit."""
-    moment = _moment.get()
-    return None if moment is None else max(0.0, moment - monotonic())
+    moment, spent = _moment.get(), _spent.get()
+    left = [] if moment is None else [moment - monotonic()]
+    if spent is not None:
+        left.append(spent - processor_time())
+    return max(0.0, min(left)) if left else None
 
 
 def check_time() -> None:
@@ -80,6 +110,5 @@ def check_time() -> None:
     Raises:
         NotDecided: it is.
     """
-    moment = _moment.get()
-    if moment is not None and monotonic() >= moment:
+    if seconds_left() == 0:
         raise NotDecided(is_late=True)

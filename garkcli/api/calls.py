@@ -12,6 +12,7 @@ from garkcli.api.numbers import Number, Whole, colour_of, rational, rationals, w
 from garkcli.check import analysis
 from garkcli.check.analysis import MethodProof
 from garkcli.check.true_claims import TrueClaims, true_claims, usual_keys
+from garkcli.deadline import SECONDS
 from garkcli.errors import MethodError, UsageProblem, did_you_mean
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.carried import write_claims
@@ -98,7 +99,10 @@ def with_claims(method: AnyMethod, keys: str | Iterable[str] = ()) -> str:
 
 
 def find_stability(
-    method: AnyMethod, tolerance: Number | None = None, ratios: Sequence[Number] = ()
+    method: AnyMethod,
+    tolerance: Number | None = None,
+    ratios: Sequence[Number] = (),
+    seconds: float | None = SECONDS,
 ) -> Stability:
     """Everything that ``gark stability`` decides of a method.
 
@@ -108,10 +112,12 @@ def find_stability(
             none.
         ratios: the ratios r_2/r_1 of further additive SSP radii of a method of two colours with
             exact coefficients.
+        seconds: of processor time, after which the rest stays undecided; None for no limit.
 
     Raises:
         MethodError: there are ratios for another method, or one is not positive; or it is the
             conjugate or the pair of rounded coefficients.
+        NotDecided: the time is not enough for R.
 
     >>> found = find_stability("gauss-3")
     >>> found, found.linear[0].a_stable
@@ -126,7 +132,7 @@ def find_stability(
     if any(ratio <= 0 for ratio in further):
         raise MethodError("ratios are positive", "the axes are always there", code="option-value")
     if near is None:
-        return stability(method.tableau, ratios=further)
+        return stability(method.tableau, further, seconds)
     return stability_of_rounded(method.tableau, near)
 
 

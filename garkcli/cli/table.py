@@ -177,6 +177,8 @@ convert --to words=forms = convert.to | The form of the result.
     | The slow one of two springs: its (hω)², or A..B for all of them; with --fast.
 --fast COLOUR default= = two_springs.fast | With --slow: the colour of the fast spring.
 --ratio Q many ratios = find_stability.ratios
+stability --seconds T seconds = find_stability.seconds
+    | Seconds of processor time after which the rest is not decided; 10 by default.
 stability --digits N 1..1000 default=12 | Digits of numbers that have no simple radicals.
 --order-star = plot.is_order_star | In the picture |R(z)| > |exp z| instead.
 
@@ -301,7 +303,7 @@ looking_up: cite FILE... | the publication of a method, as BibTeX
 [Analyse]
 stability: stability FILE... | A-, L-, P-stability, intervals, SSP coefficient, exactly
     = find_stability two_springs
-    --conjugate --pair --slow --fast --ratio --digits --plot --order-star --set
+    --conjugate --pair --slow --fast --ratio --seconds --digits --plot --order-star --set
 trees: conditions [FILE] | the order conditions, in general or of one method
     = all_conditions conditions elementary_weight
     --colours --order --only --coloured --conjugate --pair --failing --sort --digits --document

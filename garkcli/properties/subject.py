@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 
 from flint import fmpq
 
+from garkcli.deadline import SECONDS, check_time, processor_time, spending
 from garkcli.doing import doing
+from garkcli.errors import NotDecided
 from garkcli.exact.field import ONE, ZERO
 from garkcli.frozen import Frozen
 from garkcli.order.simplifying import Simplifying
@@ -49,11 +51,31 @@ class Subject(Frozen):
     further: Further = NOTHING
 
     def verdict(self, key: str) -> Verdict:
-        """What is true of a property; each is decided once."""
+        """What is true of a property; each is decided once, or is not in the time for all."""
         if key not in self._verdicts:
             with doing(key.replace("-", " ")):
-                self._verdicts[key] = find(key).decide(self)
+                self._verdicts[key] = self._decided(key)
         return self._verdicts[key]
+
+    def _decided(self, key: str) -> Verdict:
+        from garkcli.properties.property import Verdict
+
+        before = processor_time()
+        try:
+            with spending(SECONDS - sum(self._spent)):
+                return find(key).decide(self)
+        except NotDecided as error:
+            if not error.is_late:
+                raise
+            check_time()  # the time around all of it may be over
+            return Verdict.undecided(f"it takes longer than {SECONDS:.0f} s of processor time")
+        finally:
+            self._spent.append(processor_time() - before)
+
+    @cached_property
+    def _spent(self) -> list[float]:
+        """The processor time that properties took so far."""
+        return []
 
     @cached_property
     def _verdicts(self) -> dict[str, Verdict]:

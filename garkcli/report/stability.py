@@ -192,13 +192,19 @@ SQUARE = Kind(S.EXACT, lambda x, _: str(x), lambda x, d: f"a = (hω_slow)² = {d
 
 # what is found
 
-ROUNDED = "coefficients are rounded"
+ROUNDED = Reason("coefficients are rounded")
+LATE = Reason("it takes longer than --seconds")
+
+
+def _open(x: Any, name: str) -> Answer | None:
+    """The answer where the time was not enough for an attribute; None where it was."""
+    return Answer(None, Status(open=LATE)) if name in x.late else None
 
 
 def a_stable(x: Any) -> Answer:
     """Whether |R| ≤ 1 in the left half plane, and why not."""
-    if x.a_stable is not False or x.real is None:
-        return kinds.truth(x.a_stable, open_because=ROUNDED)
+    if x.a_stable is not False or x.within is not None:
+        return _open(x, "a_stable") or kinds.truth(x.a_stable, open_because=ROUNDED)
     if x.R.at_infinity() is None:
         return kinds.truth(False, "R is unbounded")
     if not poles_are_right(x.R.denominator):
@@ -212,13 +218,15 @@ def sector(x: Any) -> Any:
     if x.within is not None:
         return None
     if x.sector is None:
-        return Answer(None, Status(open=Reason("too many stages")))
+        return _open(x, "sector") or Answer(None, Status(open=Reason("too many stages")))
     return Answer(None, reason=Reason("no")) if x.sector.cosine is None else x.sector
 
 
 def _less_than_all(answer: Answer) -> Level:
     """A sector is reported where it is not the left half plane, which A-stable says."""
-    return USUAL if answer.value is not None and answer.value.cosine.exact != 0 else DETAIL
+    if answer.value is None:
+        return USUAL if answer.status.open else DETAIL
+    return USUAL if answer.value.cosine.exact != 0 else DETAIL
 
 
 PRINTED = Reason("of the digits as printed, not of all methods within the tolerance")
@@ -236,13 +244,14 @@ def limit(x: Any) -> Answer:
 
 def either(exact: str) -> Callable[[Any], Any]:
     """Of exact coefficients, or of rounded ones."""
-    return lambda x: getattr(x if x.within is None else x.within, exact)
+    return lambda x: _open(x, exact) or getattr(x if x.within is None else x.within, exact)
 
 
 def ssp(x: Any) -> Any:
     """The SSP coefficient."""
     found = x.ssp if x.within is None else x.within.ssp
-    return found or Answer(None, Status(open=Reason("the nodes have no simple radicals")))
+    without_nodes = Answer(None, Status(open=Reason("the nodes have no simple radicals")))
+    return found or _open(x, "ssp") or without_nodes
 
 
 LINEAR = [
@@ -258,7 +267,7 @@ LINEAR = [
     maybe(
         "l_stable",
         kinds.TRUTH,
-        lambda x: kinds.truth(x.l_stable, open_because=ROUNDED),
+        lambda x: kinds.truth(x.l_stable, open_because=LATE if x.late else ROUNDED),
         lambda a: HEADLINE if a.value else DETAIL,
     ),
     maybe("A_alpha", SECTOR, sector, _less_than_all),
@@ -336,11 +345,12 @@ def discriminant(o: Any) -> Answer:
     return Answer(o.discriminant, reason=Reason(meaning))
 
 
+OF_WAVES = "oscillator stable, x = (hω)²"
 OSCILLATOR = [
     Row("trace", kinds.ratio("x"), level=DETAIL),
     Row("determinant", kinds.ratio("x"), level=DETAIL),
     Row("discriminant", kinds.polynomial("x"), discriminant, DETAIL),
-    Row("stable", STABLE, label="oscillator stable, x = (hω)²"),
+    Row("stable", STABLE, label=OF_WAVES),
     maybe("p_stable", kinds.TRUTH, p_stable),
     maybe("i_stable", kinds.TRUTH, i_stable),
     maybe("phase_order", PHASE, phase),
@@ -353,6 +363,9 @@ def algebraic(x: Any) -> Answer:
     """Algebraic stability, and why not."""
     found = x.found
     if found.algebraic is None:
+        late = _open(found, "algebraic")
+        if late is not None:
+            return late
         if found.tolerance is None:
             return Answer(None, reason=Reason("has no meaning: colours do not see one another"))
         return kinds.truth(found.algebraic_within, open_because=ROUNDED)
@@ -409,8 +422,8 @@ def _ray(sign: str) -> Kind:
 IMEX = Section(
     Row("explicit", kinds.TEXT, lambda c: c.names[c.pair.explicit], DATA),
     Row("implicit", kinds.TEXT, lambda c: c.names[c.pair.implicit], DATA),
-    maybe("real_interval", _ray("−z"), "real"),
-    maybe("imaginary_interval", _ray("|z|"), "imaginary"),
+    maybe("real_interval", _ray("−z"), lambda c: _open(c, "real") or c.real),
+    maybe("imaginary_interval", _ray("|z|"), lambda c: _open(c, "imaginary") or c.imaginary),
     title=lambda c, d: d.prose(
         f"implicit-explicit pair, z{c.pair.explicit + 1} with |R| ≤ 1 for every"
         f" z{c.pair.implicit + 1} with Re ≤ 0"
@@ -428,6 +441,9 @@ def fraction(x: Any) -> Any:
     """R of all colours."""
     found = x.found.colours
     if found.R is None:
+        late = _open(found, "R")
+        if late is not None:
+            return late
         reason = Reason(f"too large: {found.lines} lines determine it (limit {MOST_LINES})")
         return Answer(None, reason=reason)
     return found.R
@@ -440,21 +456,29 @@ SEVERAL = [
     *ALIKE[1:],
     ALONE,
     Row("R_alike", kinds.ratio("z"), "found.linear.0.R", DETAIL),
-    Row("ssp_radii", parts(RADII, _radii_words), "found.colours.radii"),
+    maybe(
+        "ssp_radii",
+        parts(RADII, _radii_words),
+        lambda x: _open(x.found.colours, "radii") or x.found.colours.radii,
+    ),
     maybe("pair", part(IMEX), lambda x: x.found.colours if x.found.colours.pair else None),
 ]
 
 
-def _waves(linear: str, has_waves: bool) -> list[Row]:
+def _waves(linear: str, waves: str) -> list[Row]:
     """The rows of the oscillator; first where there is no other test equation."""
-    if not has_waves:
-        return []
+    rows = WAVES[waves]
     if linear != "none":
-        return WAVES
-    return [replace(row, level=HEADLINE) if row.key == "stable" else row for row in WAVES]
+        return rows
+    return [replace(row, level=HEADLINE) if row.key == "stable" else row for row in rows]
 
 
-WAVES = via(lambda x: x.found.oscillator, OSCILLATOR)
+WAVES = {
+    "none": [],
+    "late": [maybe("stable", STABLE, lambda x: _open(x.found, "oscillator"), label=OF_WAVES)],
+    "known": via(lambda x: x.found.oscillator, OSCILLATOR),
+}
+"""By what is known of the oscillator."""
 TAIL = [maybe("algebraically_stable", kinds.TRUTH, algebraic), PLOT]
 LINEARS = {
     "none": [*head("oscillator")],
@@ -465,7 +489,7 @@ LINEARS = {
 COLUMNS = ("file", "a_stable", "l_stable", "real_interval", "imaginary_interval", "ssp")
 FORMS = {
     (linear, waves): Section(*rows, *_waves(linear, waves), *TAIL, title=title, columns=COLUMNS)
-    for (linear, rows), waves in product(LINEARS.items(), (False, True))
+    for (linear, rows), waves in product(LINEARS.items(), WAVES)
 }
 
 
@@ -532,7 +556,8 @@ def form(x: StabilityReport) -> Section:
     if x.springs is not None:
         return SPRINGS
     linear = "none" if not x.found.linear else "alike" if x.found.colours is None else "several"
-    return FORMS[linear, x.found.oscillator is not None]
+    late = "late" if "oscillator" in x.found.late else "none"
+    return FORMS[linear, late if x.found.oscillator is None else "known"]
 
 
 REPORT: Report[StabilityReport] = Report(

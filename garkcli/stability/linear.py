@@ -12,6 +12,7 @@ Both are decided from signs of polynomials at exact numbers; no grid is laid any
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 from itertools import pairwise
 
 from garkcli.exact.cells import Interval, Point, is_half_line, sign_of, where
@@ -156,6 +157,7 @@ def e_polynomial(R: StabilityFunction) -> Polynomial:
     return squared_modulus(R.denominator) - squared_modulus(R.numerator)
 
 
+@lru_cache(maxsize=16)
 def imaginary_set(R: StabilityFunction) -> tuple[Interval, ...]:
     """The x = y² ≥ 0 with |R(iy)| ≤ 1, as intervals in x."""
     E = e_polynomial(R)
@@ -184,6 +186,7 @@ def is_i_stable(R: StabilityFunction) -> bool:
     return is_half_line(imaginary_set(R))
 
 
+@lru_cache(maxsize=16)
 def poles_are_right(Q: Polynomial) -> bool:
     """Whether all roots of Q have a positive real part, by the theorem of Hermite and Biehler.
 

@@ -1,18 +1,23 @@
-"""Everything about the stability of one method, as one value: what ``gark stability`` reports."""
+"""Everything about the stability of one method, as one value: what ``gark stability`` reports.
+
+In number fields of a high degree some of it may take for ever. What the time is not enough for is
+undecided, the rest is not; what takes longest comes last.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from functools import partial
-from itertools import starmap
+from collections.abc import Callable, Sequence
+from typing import Any
 
 from flint import fmpq
 
+from garkcli.deadline import SECONDS, spending
 from garkcli.doing import doing
+from garkcli.errors import NotDecided
 from garkcli.exact.cells import Interval
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.polynomial import Polynomial
-from garkcli.frozen import Frozen
+from garkcli.frozen import Frozen, replace
 from garkcli.order.deciding import order_of
 from garkcli.stability.algebraic import AlgebraicStability, algebraic_stability, algebraic_within
 from garkcli.stability.damping import ImexPair, Ray, imex_pair
@@ -22,7 +27,6 @@ from garkcli.stability.linear import (
     e_polynomial,
     imaginary_set,
     is_a_stable,
-    is_l_stable,
     real_set,
     stability_function,
 )
@@ -40,13 +44,14 @@ class Colours(Frozen):
 
     Attributes:
         names: of the colours.
-        R: R(z_1, …, z_N); None where it is too large.
+        R: R(z_1, …, z_N); None where it is too large, or late.
         lines: the lines that determine it.
-        radii: points on the boundary of the region of absolute monotonicity.
-        pair: the method as an implicit-explicit pair; None where it is none.
+        radii: points on the boundary of the region of absolute monotonicity; empty where late.
+        pair: the method as an implicit-explicit pair; None where it is none, or R is late.
         explicit_alone: R of the explicit colour alone, of the first one where there is no pair.
         real: the z_E ≤ 0 with every z_I damped; None where there is no pair, or not decided.
         imaginary: the same for z_E on the imaginary axis.
+        late: the attributes for which the time was not enough.
     """
 
     names: tuple[str, ...]
@@ -57,6 +62,7 @@ class Colours(Frozen):
     explicit_alone: StabilityFunction
     real: Ray | None
     imaginary: Ray | None
+    late: frozenset[str] = frozenset()
 
     @property
     def size(self) -> int:
@@ -71,24 +77,39 @@ def several_colours(tableau: Tableau, ratios: Sequence[fmpq] = ()) -> Colours:
         tableau: the method, of two colours at least.
         ratios: r_2/r_1 for which the additive radius is wanted beside the usual ones.
     """
-    R = stability_fraction(tableau)
-    pair = imex_pair(tableau, R)
-    explicit = 0 if pair is None else pair.explicit
+    late: set[str] = set()
     size = tableau.size
+    alone = [stability_function(tableau, _unit(size, l)) for l in range(size)]
     directions: list[list[Number]] = [_unit(size, l) for l in range(size)]
     directions.append([ONE] * size)
     directions += [[ONE, ratio] for ratio in ratios]
-    radii = tuple(additive_radius(tableau, direction) for direction in directions)
+    radii = _in_time(late, "radii", lambda: [additive_radius(tableau, x) for x in directions])
+    R = _in_time(late, "R", lambda: stability_fraction(tableau))
+    pair = imex_pair(tableau, R)
+    real = imaginary = None
+    if pair is not None:
+        real = _in_time(late, "real", pair.real_ray)
+        imaginary = _in_time(late, "imaginary", pair.imaginary_ray)
     return Colours(
         names=tuple(colour.name for colour in tableau.colours),
         R=R,
         lines=lines_needed(tableau),
-        radii=radii,
+        radii=tuple(radii or ()),
         pair=pair,
-        explicit_alone=stability_function(tableau, _unit(tableau.size, explicit)),
-        real=None if pair is None else pair.real_ray(),
-        imaginary=None if pair is None else pair.imaginary_ray(),
+        explicit_alone=alone[0 if pair is None else pair.explicit],
+        real=real,
+        imaginary=imaginary,
+        late=frozenset(late),
     )
+
+
+def _in_time(late: set[str], name: str, work: Callable[[], Any]) -> Any:
+    """What work returns; None where the time is not enough for it, with its name among the late."""
+    try:
+        return work()
+    except NotDecided:
+        late.add(name)
+        return None
 
 
 def _unit(size: int, l: int) -> list[Number]:
@@ -103,7 +124,8 @@ def _word(word: str, is_so: bool | None) -> str:
 
 
 class LinearStability(Frozen):
-    """What a stability function R(z) tells; None where rounded coefficients leave it open.
+    """What a stability function R(z) tells; None where rounded coefficients leave it open, or the
+    time is not enough.
 
     Attributes:
         name: which colours are driven: ``all``, or the name of one with the others at 0.
@@ -117,6 +139,7 @@ class LinearStability(Frozen):
         within: what is known of rounded coefficients; None for exact ones.
         ssp: the SSP coefficient, the vector fields of the others being 0; None where it is not
             decided.
+        late: the attributes for which the time was not enough.
     """
 
     name: str
@@ -129,6 +152,7 @@ class LinearStability(Frozen):
     imaginary: tuple[Interval, ...] | None
     ssp: SspCoefficient | None
     within: StabilityWithin | None = None
+    late: frozenset[str] = frozenset()
 
     @property
     def words(self) -> str:
@@ -153,6 +177,7 @@ class Stability(Shown, Frozen):
         colours: the colours, each with a z of its own; None for one colour or rounded ones.
         algebraic_within: algebraic stability of all methods within the tolerance; None where that
             is not decided.
+        late: the attributes for which the time was not enough; they are None.
     """
 
     tableau: Tableau
@@ -162,6 +187,7 @@ class Stability(Shown, Frozen):
     tolerance: fmpq | None = None
     colours: Colours | None = None
     algebraic_within: bool | None = None
+    late: frozenset[str] = frozenset()
 
     def __repr__(self) -> str:
         if not self.linear:
@@ -170,26 +196,40 @@ class Stability(Shown, Frozen):
 
 
 @doing("stability")
-def stability(tableau: Tableau, ratios: Sequence[fmpq] = ()) -> Stability:
+def stability(
+    tableau: Tableau, ratios: Sequence[fmpq] = (), seconds: float | None = SECONDS
+) -> Stability:
     """Decide everything that ``gark stability`` reports.
 
     Args:
         tableau: the method, with coefficients that are meant exactly.
         ratios: r_2/r_1 of further additive SSP radii of methods of two colours.
+        seconds: of processor time, after which the rest stays undecided; None for no limit.
+
+    Raises:
+        NotDecided: the time is not enough for R.
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.tableau.forms import gark
     >>> stability(gark([diagonal_method("radau-iia", 2)], {})).linear[0].l_stable
     True
     """
-    linear = tuple(starmap(partial(linear_stability, tableau), directions(tableau)))
-    oscillator = usual_oscillator(tableau)
-    algebraic = algebraic_stability(tableau)
-    colours = None
-    if linear and tableau.size > 1:
-        colours = several_colours(tableau, ratios)
+    late: set[str] = set()
+    with spending(seconds):
+        linear = [linear_stability(tableau, *direction) for direction in directions(tableau)]
+        algebraic = _in_time(late, "algebraic", lambda: algebraic_stability(tableau))
+        oscillator = _in_time(late, "oscillator", lambda: usual_oscillator(tableau))
+        colours = None
+        if linear and tableau.size > 1:
+            colours = several_colours(tableau, ratios)
+        linear = [_with_sector(x) for x in linear]
     return Stability(
-        tableau=tableau, linear=linear, oscillator=oscillator, algebraic=algebraic, colours=colours
+        tableau=tableau,
+        linear=tuple(linear),
+        oscillator=oscillator,
+        algebraic=algebraic,
+        colours=colours,
+        late=frozenset(late),
     )
 
 
@@ -234,16 +274,26 @@ def directions(tableau: Tableau) -> list[tuple[str, list[Number]]]:
 
 
 def linear_stability(tableau: Tableau, name: str, shares: Sequence[Number]) -> LinearStability:
-    """What the stability function in one direction of (λ_1, …, λ_N) tells."""
+    """What the stability function in one direction of (λ_1, …, λ_N) tells, but for the sector."""
     R = stability_function(tableau, shares)
+    late: set[str] = set()
+    a_stable = _in_time(late, "a_stable", lambda: is_a_stable(R))
+    l_stable = R.at_infinity() == 0 and a_stable
     return LinearStability(
         name=name,
         R=R,
         e_polynomial=e_polynomial(R),
-        a_stable=is_a_stable(R),
-        l_stable=is_l_stable(R),
-        sector=largest_sector(R),
-        real=real_set(R),
-        imaginary=imaginary_set(R),
-        ssp=ssp_coefficient(tableau, shares),
+        a_stable=a_stable,
+        l_stable=l_stable,
+        sector=None,
+        real=_in_time(late, "real", lambda: real_set(R)),
+        imaginary=_in_time(late, "imaginary", lambda: imaginary_set(R)),
+        ssp=_in_time(late, "ssp", lambda: ssp_coefficient(tableau, shares)),
+        late=frozenset(late),
     )
+
+
+def _with_sector(x: LinearStability) -> LinearStability:
+    late = set(x.late)
+    sector = _in_time(late, "sector", lambda: largest_sector(x.R))
+    return replace(x, sector=sector, late=frozenset(late))
