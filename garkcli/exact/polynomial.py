@@ -8,6 +8,7 @@ from typing import Any, Self
 from flint import arb, ctx, fmpq, fmpq_mpoly, fmpq_poly, fmpz_poly, nmod_poly
 
 from garkcli.deadline import check_time
+from garkcli.exact.common_divisors import candidates
 from garkcli.exact.conjugates import norm_in_balls, over_integers
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import ONE, ZERO, Algebraic, Number, NumberField, modulo, poly_of
@@ -300,11 +301,15 @@ def gcd(a: Polynomial, b: Polynomial) -> Polynomial:
     """
     if a.is_rational and b.is_rational:
         return Polynomial.from_flint(a.to_flint().gcd(b.to_flint())).monic()
-    if a and b and _are_coprime_modulo_a_prime(a, b):
+    if not a or not b:
+        return (a or b).monic()
+    if _are_coprime_modulo_a_prime(a, b):
         return Polynomial([1])
-    while b:
-        a, b = b, (a % b).monic()
-    return a.monic()
+    field = a.field or b.field
+    assert field is not None
+    over, under = ([poly_of(x) for x in p.coefficients] for p in (a, b))
+    found = (Polynomial(map(field.element, g)) for g in candidates(over, under, field))
+    return next(g for g in found if not a % g and not b % g)
 
 
 def _are_coprime_modulo_a_prime(a: Polynomial, b: Polynomial) -> bool:

@@ -1,0 +1,127 @@
+"""Common divisors of polynomials over a number field K = ℚ(θ), modulo primes.
+
+Euclid's algorithm over K has fractions that grow with each step. Modulo a prime p it has none, over
+F_p[y]/(f) for the minimal polynomial f of θ: where each leading coefficient that it divides by is a
+unit there, and that of one of the polynomials, its result has at least the degree of the common
+divisor over K, and where it has just that, it is that one modulo p. Numbers with small fractions
+are known from their values modulo enough primes; what divides both polynomials is the divisor.
+(J. von zur Gathen, J. Gerhard, *Modern Computer Algebra*, chapter 6.)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from math import isqrt
+from typing import TypeAlias
+
+from flint import fmpq, fmpq_poly, fmpz, nmod_poly
+
+from garkcli.deadline import check_time
+from garkcli.exact.field import NumberField, modulo
+
+FIRST = 2**62 + 1
+"""Where primes are tried from; python-flint computes with them in one word."""
+_Residues: TypeAlias = list[nmod_poly]
+"""A polynomial over F_p[y]/(f), the coefficient of 1 first and the leading one not zero."""
+
+
+def candidates(
+    a: Sequence[fmpq_poly], b: Sequence[fmpq_poly], field: NumberField
+) -> Iterator[list[fmpq_poly]]:
+    """Monic polynomials over K, of which each could be the greatest common divisor of two, and one
+    is: the first that divides both.
+
+    Args:
+        a: the coefficients in θ, that of 1 first and the leading one not zero.
+        b: likewise.
+        field: K.
+    """
+    number = FIRST
+    modulus, known, length = 1, [], None
+    wanted, primes = 1, 0
+    while True:
+        number += 2
+        if not fmpz(number).is_prime():
+            continue
+        check_time()
+        found = _modulo_prime(a, b, field, number)
+        if found is None or (length is not None and len(found) > length):
+            continue
+        values = [int(x[k]) for x in found[:-1] for k in range(field.degree)]
+        if length is None or len(found) < length:
+            modulus, known, length, primes = 1, [0] * len(values), len(found), 0
+        inverse = pow(modulus, -1, number)
+        known = [
+            x + modulus * ((v - x) * inverse % number) for x, v in zip(known, values, strict=True)
+        ]
+        modulus *= number
+        primes += 1
+        if primes >= wanted:
+            wanted = 1 + primes * 3 // 2
+            fractions = _fractions(known, modulus)
+            if fractions is not None:
+                n = field.degree
+                rows = [fractions[k : k + n] for k in range(0, len(fractions), n)]
+                yield [*map(fmpq_poly, rows), fmpq_poly([1])]
+
+
+def _modulo_prime(
+    a: Sequence[fmpq_poly], b: Sequence[fmpq_poly], field: NumberField, p: int
+) -> _Residues | None:
+    """The monic common divisor over F_p[y]/(f); None where p tells nothing."""
+    try:
+        f = modulo(field.modulus, p)
+        u, v = ([modulo(x, p) % f for x in q] for q in (a, b))
+    except ZeroDivisionError:  # p divides a denominator
+        return None
+    if f.degree() < field.degree or f.gcd(f.derivative()).degree():
+        return None
+    if not u[-1] or not v[-1]:
+        return None
+    while v:
+        inverse = _inverse(v[-1], f)
+        if inverse is None:
+            return None
+        v = [x * inverse % f for x in v]
+        u, v = v, _remainder(u, v, f)
+    return u
+
+
+def _inverse(x: nmod_poly, f: nmod_poly) -> nmod_poly | None:
+    common, cofactor, _ = x.xgcd(f)
+    return cofactor if common.degree() == 0 else None
+
+
+def _remainder(u: _Residues, v: _Residues, f: nmod_poly) -> _Residues:
+    """The remainder of u by a monic v."""
+    rest = list(u)
+    while len(rest) >= len(v):
+        leading = rest.pop()
+        if leading:
+            for k, x in enumerate(v[:-1], start=len(rest) + 1 - len(v)):
+                rest[k] = (rest[k] - leading * x) % f
+    while rest and not rest[-1]:
+        rest.pop()
+    return rest
+
+
+def _fractions(values: Sequence[int], modulus: int) -> list[fmpq] | None:
+    """Numbers with a small numerator and denominator from their values; None where one has none."""
+    bound = isqrt(modulus // 2)
+    denominator = 1
+    found = []
+    for value in values:
+        # most often the denominator of those before is one of this one too
+        before, rest = modulus, value * denominator % modulus
+        if modulus - rest <= bound:
+            rest -= modulus
+        former, factor = 0, 1
+        while abs(rest) > bound:
+            quotient = before // rest
+            before, rest = rest, before - quotient * rest
+            former, factor = factor, former - quotient * factor
+        denominator *= abs(factor)
+        if denominator > bound:
+            return None
+        found.append(fmpq(rest if factor > 0 else -rest, denominator))
+    return found
