@@ -13,7 +13,7 @@ from functools import lru_cache
 from itertools import pairwise
 from typing import Any, TypeAlias
 
-from flint import arb, ctx, fmpq, fmpq_poly, fmpz, fmpz_poly
+from flint import arb, arb_poly, ctx, fmpq, fmpq_poly, fmpz, fmpz_poly
 
 from garkcli.deadline import check_time
 from garkcli.exact.nodes import AlgebraicRoot, Chain, Expression, Literal, Power, Root
@@ -80,24 +80,32 @@ def _narrowed(p: fmpz_poly, low: fmpq, high: fmpq, bits: int) -> arb:
     """The only root between two numbers, by Newton's method in balls, or halving where that is
     too wide.
     """
-    slopes = p.derivative().coeffs()
+    slopes = p.derivative()
     is_positive = p(low) > 0
     while (high - low) * 2**bits > min(abs(low), abs(high)):
         check_time()
         width, middle = high - low, (low + high) / 2
         with ctx.workprec(2 * bits + 64):
-            slope = value(slopes, arb(low).union(arb(high)))
-            root = arb(middle) - arb(p(middle)) / slope
+            slope = arb_poly(slopes)(arb(low).union(arb(high)))
+            root = arb(middle) - _value(p, middle) / slope
             if root.is_finite():
                 low, high = max(low, midpoint(root.lower())), min(high, midpoint(root.upper()))
-        if 2 * (high - low) > width:
-            middle = (low + high) / 2
-            if (p(middle) > 0) == is_positive:
-                low = middle
-            else:
-                high = middle
+            if 2 * (high - low) > width:
+                middle = (low + high) / 2
+                if (_value(p, middle) > 0) == is_positive:
+                    low = middle
+                else:
+                    high = middle
     with ctx.workprec(bits):
         return arb(low).union(arb(high))
+
+
+def _value(p: fmpz_poly, x: fmpq) -> arb:
+    """The value at a number, which is no root; the exact one where balls are too wide to tell its
+    sign.
+    """
+    ball = arb_poly(p)(arb(x))
+    return arb(p(x)) if ball.contains(0) else ball
 
 
 OPERATIONS: Mapping[str, Callable[[Any, Any], Any]] = {

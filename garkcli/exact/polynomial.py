@@ -9,7 +9,7 @@ from flint import arb, ctx, fmpq, fmpq_mpoly, fmpq_poly, fmpz_poly, nmod_poly
 
 from garkcli.deadline import check_time
 from garkcli.exact.common_divisors import candidates
-from garkcli.exact.conjugates import norm_in_balls, over_integers
+from garkcli.exact.conjugates import Image, images, norm_in_balls, over_integers
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import ONE, ZERO, Algebraic, Number, NumberField, modulo, poly_of
 from garkcli.exact.matrix import Matrix, characteristic_coefficients, is_rational, to_flint
@@ -27,7 +27,7 @@ class Polynomial:
     Polynomial([-1])
     """
 
-    __slots__ = ("_norm", "coefficients")
+    __slots__ = ("_images", "_norm", "coefficients")
 
     def __init__(self, coefficients: Iterable[Number | int]) -> None:
         kept = [fmpq(a) if isinstance(a, int) else a for a in coefficients]
@@ -35,6 +35,7 @@ class Polynomial:
             kept.pop()
         self.coefficients: tuple[Number, ...] = tuple(kept)
         self._norm: fmpz_poly | None = None
+        self._images: dict[int, list[Image] | None] = {}
 
     @classmethod
     def from_flint(cls, poly: fmpq_poly | fmpz_poly) -> Self:
@@ -202,6 +203,15 @@ class Polynomial:
             return self.to_flint().numer()
         found = norm_in_balls(over_integers([poly_of(a) for a in self.coefficients]), field)
         return self._norm_by_resultants(field) if found is None else found
+
+    def images(self, field: NumberField, bits: int) -> list[Image] | None:
+        """A multiple of this polynomial under all embeddings of its number field, as ``images``
+        has them.
+        """
+        if bits not in self._images:
+            integral = over_integers([poly_of(a) for a in self.coefficients])
+            self._images[bits] = images(integral, field, bits)
+        return self._images[bits]
 
     def _norm_by_resultants(self, field: NumberField) -> fmpz_poly:
         """The same from values at integers: where conjugates of θ are very near one another."""

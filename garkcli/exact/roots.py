@@ -12,11 +12,10 @@ from itertools import pairwise
 from flint import arb, ctx, fmpq, fmpq_poly, fmpz_poly
 
 from garkcli.deadline import check_time
-from garkcli.exact.conjugates import images, over_integers
 from garkcli.exact.display import to_ball
 from garkcli.exact.domain import Domain
 from garkcli.exact.enclosing import isolated
-from garkcli.exact.field import ZERO, Algebraic, Number, poly_of
+from garkcli.exact.field import ZERO, Algebraic, Number
 from garkcli.exact.nodes import AlgebraicRoot
 from garkcli.exact.polynomial import Polynomial, gcd
 from garkcli.frozen import Frozen
@@ -109,7 +108,7 @@ def real_roots(p: Polynomial) -> list[tuple[RealRoot, int]]:
             root = RealRoot(primitive, number)
             multiplicity = power
             if not p.is_rational:
-                multiplicity = multiplicity_at(p, root)
+                multiplicity = multiplicity_at(p, root, power)
             if multiplicity:
                 roots.append((root, multiplicity))
     return sorted(roots, key=lambda pair: pair[0])
@@ -129,17 +128,23 @@ def is_nonnegative(p: Polynomial) -> bool:
     return not any(power % 2 for _, power in real_roots(p))
 
 
-def multiplicity_at(p: Polynomial, root: RealRoot) -> int:
-    """How often ``root`` is a root of p ≠ 0, decided exactly."""
-    together = _multiplicity(p.norm(), root.polynomial)
+def multiplicity_at(p: Polynomial, root: RealRoot, together: int | None = None) -> int:
+    """How often ``root`` is a root of p ≠ 0, decided exactly.
+
+    Args:
+        p: the polynomial.
+        root: the number.
+        together: how often it is one of the norm; None to count.
+    """
+    if together is None:
+        together = _multiplicity(p.norm(), root.polynomial)
     field = p.field
     if field is None or not together:
         return together
-    integral = over_integers([poly_of(a) for a in p.coefficients])
     bits = FIRST_BITS
     while True:
         check_time()
-        found = images(integral, field, bits)
+        found = p.images(field, bits)
         if found is None:
             return _multiplicity_by_gcds(p, root)
         with ctx.workprec(bits):
