@@ -95,13 +95,21 @@ def is_only_small() -> bool:
     return _is_small.get()
 
 
+def clock_left() -> float | None:
+    """How much of the time of the clock is left, 0 where it is over; None where it has no limit."""
+    moment = _moment.get()
+    return None if moment is None else max(0.0, moment - monotonic())
+
+
+def work_left() -> float | None:
+    """The same of processor time."""
+    spent = _spent.get()
+    return None if spent is None else max(0.0, spent - processor_time())
+
+
 def seconds_left() -> float | None:
-    """How much of the time is left, 0 where it is over; None where there is no limit."""
-    moment, spent = _moment.get(), _spent.get()
-    left = [] if moment is None else [moment - monotonic()]
-    if spent is not None:
-        left.append(spent - processor_time())
-    return max(0.0, min(left)) if left else None
+    """The smaller one of both; None where there is no limit."""
+    return min((x for x in (clock_left(), work_left()) if x is not None), default=None)
 
 
 def check_time() -> None:

@@ -11,7 +11,7 @@ from contextlib import ExitStack, contextmanager, suppress
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar, cast
 
-from garkcli.deadline import check_time, forget, is_only_small, seconds_left
+from garkcli.deadline import check_time, clock_left, forget, is_only_small, seconds_left, work_left
 from garkcli.ending import ENDING, undone
 from garkcli.errors import NotDecided
 from garkcli.exact.pickling import register
@@ -24,6 +24,11 @@ T = TypeVar("T")
 SPARE = 1.0
 """Seconds behind the deadline after which a process ends by itself."""
 
+
+LEAST = 0.001
+"""Seconds of a timer that ends a process at once; 0 is for never."""
+_CAN_COUNT = hasattr(signal, "setitimer")
+"""Whether a process can limit its own time, that of the processor too."""
 
 Task: TypeAlias = tuple[Callable[..., T], tuple[Any, ...]]
 """A function of a module and its arguments, which travel to another process."""
@@ -63,7 +68,7 @@ def first_of(*tasks: Task[T]) -> T:
     with undone(), ExitStack() as stack:
         running = [stack.enter_context(_started(task)) for task in tasks]
         while running:
-            ready = wait(running, seconds_left())
+            ready = wait(running, clock_left() if _CAN_COUNT else seconds_left())
             if not ready:
                 raise NotDecided(is_late=True)
             for pipe in cast("list[Connection]", ready):
@@ -73,7 +78,8 @@ def first_of(*tasks: Task[T]) -> T:
                     running.remove(pipe)
                 else:
                     return result
-    raise NotDecided
+    # most often the processor time was over
+    raise NotDecided(is_late=work_left() is not None)
 
 
 @contextmanager
@@ -87,7 +93,7 @@ def _started(task: Task[Any]) -> Iterator[Connection]:
     here, there = processes.Pipe(duplex=False)
     work, arguments = task
     worker = processes.Process(
-        target=_serve, args=(there, work, arguments, seconds_left()), daemon=True
+        target=_serve, args=(there, work, arguments, clock_left(), work_left()), daemon=True
     )
     try:
         begin(worker)
@@ -99,12 +105,19 @@ def _started(task: Task[Any]) -> Iterator[Connection]:
 
 
 def _serve(
-    pipe: Connection, work: Callable[..., object], arguments: tuple[Any, ...], left: float | None
+    pipe: Connection,
+    work: Callable[..., object],
+    arguments: tuple[Any, ...],
+    clock: float | None,
+    effort: float | None,
 ) -> None:
     """What the process does; it ends at the deadline even where nobody is left to end it."""
     without_handlers()
-    if left is not None and hasattr(signal, "setitimer"):
-        signal.setitimer(signal.ITIMER_REAL, left + SPARE)
+    if _CAN_COUNT:
+        if clock is not None:
+            signal.setitimer(signal.ITIMER_REAL, clock + SPARE)
+        if effort is not None:
+            signal.setitimer(signal.ITIMER_PROF, max(effort, LEAST))
     register()
     with suppress(NotDecided, MemoryError):
         pipe.send(work(*arguments))
@@ -118,7 +131,7 @@ def without_handlers() -> None:
     if hasattr(signal, "pthread_sigmask"):  # those that ``begin`` held back
         signal.pthread_sigmask(signal.SIG_SETMASK, ())
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    for name in ("SIGTERM", "SIGHUP", "SIGALRM"):
+    for name in ("SIGTERM", "SIGHUP", "SIGALRM", "SIGPROF"):
         if hasattr(signal, name):
             signal.signal(getattr(signal, name), signal.SIG_DFL)
 

@@ -15,6 +15,7 @@ from typing import Any, TypeAlias, cast
 
 from flint import fmpq, fmpq_mat, fmpq_poly, fmpz, nmod, nmod_poly
 
+from garkcli.exact.apart import apart
 from garkcli.exact.nodes import Expression
 from garkcli.exact.pickling import register
 from garkcli.exact.rewriting import format_expression
@@ -27,8 +28,15 @@ ZERO = fmpq(0)
 ONE = fmpq(1)
 FIRST_PRIME = 2**31 + 1
 PRIMES_WITHIN = 10_000
+LONG = 50_000
+"""Bits of all coefficients of a number with which its inverse takes tenths of a second."""
 Word: TypeAlias = tuple[int, ...]
 """A product of radicals, by their indices in ascending order."""
+
+
+def _inverse(x: fmpq_poly, modulus: fmpq_poly) -> fmpq_poly:
+    gcd, cofactor, _ = x.xgcd(modulus)
+    return cofactor / gcd[0]
 
 
 def modulo(poly: fmpq_poly, p: int) -> nmod_poly:
@@ -204,8 +212,11 @@ class Algebraic:
 
     def inverse(self) -> Number:
         """1/self, by the extended Euclidean algorithm."""
-        gcd, cofactor, _ = self.poly.xgcd(self.field.modulus)
-        return self.field.element(cofactor / gcd[0])
+        modulus = self.field.modulus
+        bits = max(int(self.poly.numer().height_bits()), int(modulus.numer().height_bits()))
+        is_long = self.field.degree * bits > LONG
+        found = apart(_inverse, self.poly, modulus) if is_long else _inverse(self.poly, modulus)
+        return self.field.element(found)
 
     def __truediv__(self, other: object) -> Number:
         if isinstance(other, Algebraic):

@@ -12,6 +12,7 @@ from itertools import pairwise
 from flint import arb, ctx, fmpq, fmpq_poly, fmpz_poly
 
 from garkcli.deadline import check_time
+from garkcli.exact.apart import apart
 from garkcli.exact.display import to_ball
 from garkcli.exact.domain import Domain
 from garkcli.exact.enclosing import isolated
@@ -20,6 +21,9 @@ from garkcli.exact.nodes import AlgebraicRoot
 from garkcli.exact.polynomial import Polynomial, gcd
 from garkcli.frozen import Frozen
 from garkcli.upward import answered
+
+LARGE = 100_000
+"""Bits of all coefficients of a polynomial whose factors may take tenths of a second."""
 
 
 class RealRoot(Frozen):
@@ -100,8 +104,7 @@ def real_roots(p: Polynomial) -> list[tuple[RealRoot, int]]:
     if not p:
         raise ValueError("every number is a root of the zero polynomial")
     roots: list[tuple[RealRoot, int]] = []
-    _, factors = p.norm().factor()
-    for factor, power in factors:
+    for factor, power in factors_of(p.norm()):
         check_time()
         primitive = factor if factor[factor.degree()] > 0 else -factor
         for number in range(len(isolated(_integers(primitive), FIRST_BITS))):
@@ -112,6 +115,16 @@ def real_roots(p: Polynomial) -> list[tuple[RealRoot, int]]:
             if multiplicity:
                 roots.append((root, multiplicity))
     return sorted(roots, key=lambda pair: pair[0])
+
+
+def factors_of(p: fmpz_poly) -> list[tuple[fmpz_poly, int]]:
+    """The irreducible factors over ℤ that are no numbers, with their multiplicities."""
+    is_large = p.degree() * int(p.height_bits()) > LARGE
+    return apart(_factors, p) if is_large else _factors(p)
+
+
+def _factors(p: fmpz_poly) -> list[tuple[fmpz_poly, int]]:
+    return [(factor, int(power)) for factor, power in p.factor()[1]]
 
 
 def is_nonnegative(p: Polynomial) -> bool:
