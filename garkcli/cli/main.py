@@ -16,7 +16,7 @@ from garkcli.cli import streams
 from garkcli.cli.options import command_of, help_option
 from garkcli.cli.table import COMMANDS, SHOWN
 from garkcli.ending import Ended, at_once
-from garkcli.errors import GarkError, UsageProblem, counted
+from garkcli.errors import GarkError, NotDecided, UsageProblem, counted
 from garkcli.files import noting_inputs
 from garkcli.page.progress import watching
 from garkcli.version import __version__
@@ -161,7 +161,7 @@ def _exit_code(arguments: list[str]) -> int:
         return 2
     except GarkError as error:
         streams.complain(error)
-        return 2
+        return 3 if isinstance(error, NotDecided) else 2
     except OSError as error:
         streams.say(f"gark: the report cannot be written: {error.strerror or error}")
         streams.drop(sys.stdout)

@@ -111,6 +111,8 @@ MAX_RADICALS = 32
 """Most different radicals of one file."""
 MAX_DEGREE = 48
 """Largest degree of the number field of one file."""
+MAX_EFFORT = 400_000
+"""Bits times degree² of a field: to adjoin a radical takes a time like that, here a second."""
 MAX_PRECISION = 8192
 """Bits to which a nested radicand is evaluated before its sign is decided exactly."""
 
@@ -280,6 +282,12 @@ class Domain:
                 message = f"radicals of degree {degree} together (limit {MAX_DEGREE})"
                 cure = "write the coefficients in fewer or simpler radicals"
                 raise LimitExceeded(message, cure, root.start, root.end)
+            bits = max(map(_length, [tower.modulus, *relation]))
+            if tower.degree > 1 and bits * degree**2 > MAX_EFFORT:
+                most = MAX_EFFORT // degree**2
+                message = f"radicals of degree {degree} from numbers of {bits} bits (limit {most})"
+                cure = "write the coefficients in fewer radicals, or in those of shorter numbers"
+                raise LimitExceeded(message, cure, root.start, root.end)
             kept.append(root)
             tower = tower.adjoin(relation, lambda: [*map(enclose, kept)])
         elements = list(zip(kept, tower.elements, strict=True))
@@ -332,6 +340,11 @@ def _bits(number: Number) -> int:
     if isinstance(number, Algebraic):
         return max(int(x.height_bits()) for x in number.poly.coeffs())
     return int(number.height_bits())
+
+
+def _length(p: fmpq_poly) -> int:
+    """The bits of the longest integer in a polynomial."""
+    return max(int(p.numer().height_bits()), p.denom().bit_length())
 
 
 def too_many_bits(at: Expression) -> LimitExceeded:

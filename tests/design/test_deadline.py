@@ -10,7 +10,7 @@ import pytest
 from flint import Ordering, arb, fmpq, fmpq_mat, fmpz_mpoly_ctx
 
 from garkcli import deadline, load, loads, search_methods
-from garkcli.deadline import check_time, only_small, until, within
+from garkcli.deadline import check_time, only_small, spending, until, within
 from garkcli.design.choices import walk_down
 from garkcli.design.conditions import FamilyConditions
 from garkcli.design.design import Design, find_parameters
@@ -253,3 +253,20 @@ def test_a_process_that_fails_leaves_it_open() -> None:
 
 def _fails() -> list[int]:
     raise MemoryError
+
+
+def test_processor_time_ends_a_process(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A process counts its own; work that waits has no deadline by the clock."""
+    with spending(0.05), pytest.raises(NotDecided) as raised:
+        apart(_count_for_ever)
+    assert raised.value.is_late
+    with spending(3600):
+        assert apart(divmod, 7, 2) == (3, 1)
+        monkeypatch.setattr(deadline, "processor_time", lambda: 1e8)
+        with pytest.raises(NotDecided):
+            check_time()
+
+
+def _count_for_ever() -> None:
+    for _ in count():
+        pass

@@ -4,11 +4,13 @@ divisors over the field.
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 from flint import fmpq, fmpq_poly
 
 from garkcli import loads
-from garkcli.exact.conjugates import conjugates
+from garkcli.exact.conjugates import Image, conjugates, images
 from garkcli.exact.display import to_ball
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
@@ -118,3 +120,20 @@ def test_conjugates_that_are_near_are_not_sought() -> None:
     ((root, power),) = real_roots((x - theta) * (x - theta))
     assert power == 2
     assert root.polynomial.degree() == 5
+
+
+def test_the_norm_is_divided_by_no_factor_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    """How often a root is one of the norm is known from its factors, and one image serves all."""
+    f, g, *_ = polynomials(FIELDS[-1])
+    divided, made = [], []
+    monkeypatch.setattr("garkcli.exact.roots._multiplicity", divided.append)
+
+    def counted(*arguments: Any) -> list[Image] | None:
+        made.append(arguments)
+        return images(*arguments)
+
+    monkeypatch.setattr("garkcli.exact.polynomial.images", counted)
+    found = real_roots(f * f * g)
+    assert len(found) > 1
+    assert not divided
+    assert len(made) == len({bits for _, _, bits in made})

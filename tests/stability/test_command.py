@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import json
+from itertools import count
 from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
+from jsonschema import Draft7Validator
 
-from garkcli.cli.main import gark
-from garkcli.errors import GarkError
+from garkcli import report_schema
+from garkcli.cli.main import gark, main
+from garkcli.errors import GarkError, NotDecided
 
 METHODS = sorted(str(path) for path in Path("methods").glob("*.gark.yaml"))
 
@@ -125,3 +128,71 @@ def test_a_region_in_text_is_that_of_the_method() -> None:
     low, *_, high = (int(x.replace("−", "-")) for x in lines[below + 1].split())
     step = (high - low) / (last - first)
     assert abs(low + step * (axis.index("█") - first) + 2.785) < 1.5 * step
+
+
+LATE = "not decided: it takes longer than --seconds"
+
+
+def late(*_: object) -> None:
+    """Work that the time is not enough for."""
+    raise NotDecided(is_late=True)
+
+
+def test_the_rest_is_decided_where_one_part_is_late(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A(α) of a method that is not A-stable; all other fields are the same."""
+    path = "rk4"
+    (before,) = json.loads(run(path, "--format", "json").output)["files"]
+    monkeypatch.setattr("garkcli.stability.summary.largest_sector", late)
+    (after,) = json.loads(run(path, "--format", "json").output)["files"]
+    assert before | {"A_alpha": None} == after
+    assert f"A(α)-stable                   {LATE}" in run(path).output
+
+
+@pytest.mark.parametrize(
+    ("part", "method", "label"),
+    [
+        ("usual_oscillator", "rk4", "oscillator stable, x = (hω)²"),
+        ("algebraic_stability", "rk4", "algebraically stable"),
+        ("is_a_stable", "gauss-2", "A-stable"),
+        ("real_set", "rk4", "real axis"),
+        ("ssp_coefficient", "rk4", "SSP coefficient"),
+        ("stability_fraction", "methods/ark-ars222.gark.yaml", "R(z1, z2, …)"),
+        ("additive_radius", "methods/ark-ars222.gark.yaml", "additive SSP radii"),
+    ],
+)
+def test_what_is_late_is_not_decided(
+    part: str, method: str, label: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each part by itself, in text and in JSON that keeps its schema."""
+    monkeypatch.setattr(f"garkcli.stability.summary.{part}", late)
+    text = " ".join(run(method).output.split())
+    assert f"{label} {LATE}" in text
+    data = json.loads(run(method, "--format", "json").output)
+    assert not [*Draft7Validator(report_schema("stability")).iter_errors(data)]
+
+
+def test_without_time_for_r_nothing_is_said(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """All else is about R: the exit code is that of what is not decided."""
+    monkeypatch.setattr("garkcli.stability.summary.stability_function", late)
+    monkeypatch.setattr("sys.argv", ["gark", "stability", "gauss-2"])
+    with pytest.raises(SystemExit) as ended:
+        main()
+    assert ended.value.code == 3
+    assert "not decided in the time there is" in capsys.readouterr().err
+
+
+def test_claims_that_are_late_are_not_decided(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """A clock on which every reading is 100 s later than the one before."""
+    readings = count(step=100)
+    monkeypatch.setattr("garkcli.deadline.os.times", lambda: (next(readings), 0, 0, 0, 0))
+    path = tmp_path / "claims.gark.yaml"
+    path.write_text("A: [[1]]\nb: [1]\nexpect: {a-stable: true, l-stable: true}\n")
+    result = CliRunner().invoke(gark, ["check", str(path)])
+    text = " ".join(result.output.split())
+    reason = "found not decided; it takes longer than 10 s of processor time"
+    for name in ("a-stable", "l-stable"):
+        assert f"claim undecided {name}: expected true, {reason}" in text
