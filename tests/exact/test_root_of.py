@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
-from flint import arb, fmpq
+from flint import arb, fmpq, fmpz_poly
 from hypothesis import given
 from hypothesis import strategies as st
 
 from garkcli.errors import ExpressionError, GarkError, LimitExceeded, UndefinedValue
 from garkcli.exact.display import to_ball, to_latex, to_text
 from garkcli.exact.domain import Domain
-from garkcli.exact.enclosing import enclose
+from garkcli.exact.enclosing import _narrowed, enclose, midpoint
 from garkcli.exact.expression import parse
 from garkcli.exact.field import Number
 from garkcli.exact.formula import parse_formula
@@ -186,3 +188,20 @@ def test_a_method_with_the_cosine_of_ten_degrees() -> None:
     assert linear.ssp is not None
     assert linear.ssp.value is not None
     assert linear.ssp.value.exact == 0
+
+
+def test_roots_are_narrowed_by_values_in_balls() -> None:
+    """Exact values at numbers of thousands of bits are many times as long."""
+    exact = []
+
+    class Counted(fmpz_poly):
+        def __call__(self, x: Any) -> Any:
+            exact.append(x)
+            return fmpz_poly.__call__(self, x)
+
+    p = Counted([-1, 9, -18, 6, 0, 0, 1])
+    ball = _narrowed(p, fmpq(0), fmpq(1, 3), 2000)
+    assert len(exact) == 1  # the sign at the end
+    assert ball.rad() < fmpq(1, 2**1990)
+    low, high = (midpoint(x) for x in (ball.lower(), ball.upper()))
+    assert p(low) < 0 < p(high)
