@@ -178,7 +178,7 @@ convert --to words=forms = convert.to | The form of the result.
 --fast COLOUR default= = two_springs.fast | With --slow: the colour of the fast spring.
 --ratio Q many ratios = find_stability.ratios
 stability --seconds T seconds = find_stability.seconds
-    | Seconds of processor time after which the rest is not decided; 10 by default.
+    | Seconds of processor time after which the rest is not decided.
 stability --digits N 1..1000 default=12 | Digits of numbers that have no simple radicals.
 --order-star = plot.is_order_star | In the picture |R(z)| > |exp z| instead.
 
