@@ -128,12 +128,13 @@ def without_handlers() -> None:
     process that has the terminal, which ends the others, at its deadline too.
     """
     forget()
-    if hasattr(signal, "pthread_sigmask"):  # those that ``begin`` held back
-        signal.pthread_sigmask(signal.SIG_SETMASK, ())
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     for name in ("SIGTERM", "SIGHUP", "SIGALRM", "SIGPROF"):
         if hasattr(signal, name):
             signal.signal(getattr(signal, name), signal.SIG_DFL)
+    # last: an interrupt that ``begin`` held back would still be raised
+    if hasattr(signal, "pthread_sigmask"):
+        signal.pthread_sigmask(signal.SIG_SETMASK, ())
 
 
 def start_method() -> str:

@@ -40,7 +40,7 @@ LONG = {
     "trees": ["trees -N 2 -n 12 --yes"],
     "modified": ["modified gauss-12 -n 12"],
     "converge": ["converge gauss-40"],
-    "energy": ["energy gauss-4 --t-end 1000000 --digits 30"],
+    "energy": ["energy gauss-4 --problem pendulum --t-end 1000000 --digits 30"],
     "new": ["new x.gark.yaml --family gauss-200 --family gauss-199"],
     "tableau": ["tableau gauss-200"],
     "conjugate": ["conjugate gauss-200"],

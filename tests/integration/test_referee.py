@@ -422,14 +422,16 @@ def test_a_small_file_does_not_fill_the_memory(
 
 
 def test_matrices_do_not_fill_the_memory(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """An entry of a matrix is as many numbers as the square of the degree."""
+    assert REFEREE.MOST_NUMBERS == 4_000_000
+    monkeypatch.setattr(REFEREE, "MOST_NUMBERS", 4 * 60**2)
     data = _large(degree=60)
-    for count, code in ((1_110, 1), (1_111, 2)):
+    for count, code in ((3, 1), (4, 2)):
         data["method"]["blocks"] = [{"space": 1, "colour": 1, "A": [["0"]] * count}]
         assert judged(data, tmp_path) == code
-    assert "numbers of matrices (limit 4000000)" in capsys.readouterr().out
+    assert "numbers of matrices (limit 14400)" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("stages", [0, -1, 10**12])
