@@ -5,7 +5,7 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help run test lint types layers pytest portable bridges proofs bench fuzz pairs readback mutants catalogue figures docs paper browser links man walk floors format clean
+.PHONY: help run test lint types layers pytest portable bridges proofs bench fuzz pairs readback mutants catalogue figures docs paper browser links man walk floors format clean known
 
 help: ## this list
 	@grep -E '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 12
@@ -75,6 +75,9 @@ mutants: $(READY) ## small changes in the mathematical rooms, and which of them 
 
 catalogue: $(READY) ## make the index of the catalogue anew, and the copies in methods/
 	$(BIN)/python -m garkcli.catalogue
+
+known: $(READY) ## make what is known of built-in problems without sympy anew
+	$(BIN)/python -m garkcli.problems
 
 figures: $(READY) ## draw the figures of the documentation anew
 	mkdir -p build

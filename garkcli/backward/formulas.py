@@ -123,7 +123,7 @@ class VisibleTrees(Frozen):
 
 def visible(bound: Binding) -> VisibleTrees:
     """What a problem sees of a method: the fewest trees for which roots can move still."""
-    energies = bound.problem.terms
+    energies = tuple(bound.problem.terms)
     roots = range(bound.tableau.size)
     is_consistent = all(elementary_weight(bound.tableau, Tree(l)) == 1 for l in roots)
     if bound.fields and is_consistent:

@@ -308,13 +308,14 @@ def _followed(tableau: Tableau, given: Given, output: Output) -> Oscillator | Pr
     from garkcli.problems.builtin import is_path
     from garkcli.problems.hamiltonian import Hamiltonian
     from garkcli.problems.oscillator import Oscillator
+    from garkcli.problems.problem import conserved_names
 
     problem = problem_for(
         given.problem, tableau, given.seed, given.stiffness, given.omega, given.split
     )
     if isinstance(problem, Oscillator):
         return problem
-    if not problem.quantities:
+    if not conserved_names(problem):
         message = f"{problem.name} has no energy and no invariants to follow"
         cure = "give invariants in a problem file, or choose a Hamiltonian problem"
         raise UsageProblem(message, cure, code="other-problem")

@@ -20,7 +20,7 @@ from garkcli.convergence.solver import MAX_DIGITS, REACHED, cost_of, work_of
 from garkcli.exact.display import to_float
 from garkcli.frozen import Mutable, field, replace
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
-from garkcli.problems.problem import Problem, quantities_function
+from garkcli.problems.problem import Problem, conserved_names, quantities_function
 from garkcli.problems.righthandside import steepness
 from garkcli.stepping.integrator import FLOAT_PRECISION, Binding, Integrator
 from garkcli.stepping.linear import whole_steps
@@ -230,7 +230,7 @@ class SteppedSolver(Mutable):
         """|I(y) − I(y_0)| of the energy, where there is one, and of the other invariants, for all
         states that round-off leaves possible.
         """
-        if not self.problem.quantities:
+        if not conserved_names(self.problem):
             return None, []
         round_off = self._round_off(digits, h)
         with ctx.workprec(self._integrator(digits).bits + _GUARD):

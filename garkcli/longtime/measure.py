@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from functools import cached_property
 from math import ceil, inf, isfinite, nan
 from typing import TYPE_CHECKING, Any
 
@@ -11,7 +12,14 @@ from flint import arb, ctx
 from garkcli.errors import UsageProblem
 from garkcli.exact.display import to_float
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
-from garkcli.problems.problem import Problem, quantities_function, unknowns
+from garkcli.problems.problem import (
+    Problem,
+    conserved,
+    conserved_names,
+    quantities_function,
+    summands,
+    unknowns,
+)
 from garkcli.problems.straightline import function
 
 if TYPE_CHECKING:
@@ -38,7 +46,7 @@ class Measure:
     """
 
     def __init__(self, problem: Problem, digits: int) -> None:
-        self.names = tuple(name for name, _ in problem.quantities)
+        self.names = conserved_names(problem)
         self.digits = digits
         self.has_energy = isinstance(problem, Hamiltonian)
         self._bits = 0 if digits <= FLOAT_DIGITS else ceil(3.33 * digits) + 48
@@ -51,14 +59,13 @@ class Measure:
             return [number(x) for x in problem.initial]
 
         start: list[Any] = self._precisely(initial_state)
+        self._problem = problem
         arguments = unknowns(problem)
-        expressions = [expression for _, expression in problem.quantities]
-        # each for itself, for states at which one of them has no value
-        self._alone = self._precisely(
-            lambda: [function((x,), arguments, bool(self._bits)) for x in expressions]
-        )
-        self._summands = [function(_summands(x), arguments, False) for x in expressions]
-        terms_of = function(_first_terms(problem), arguments, False)
+        parts = [summands(problem, k) for k in range(len(self.names))]
+        self._summands = [function(own, arguments, False) for own in parts]
+        terms_of = self._summands[0]
+        if isinstance(problem, Hamiltonian):
+            terms_of = function(problem.terms, arguments, False)
         try:
             self._first = self._precisely(lambda: self._function(*start))
             terms = terms_of(*map(to_float, problem.initial))
@@ -95,6 +102,12 @@ class Measure:
         at = [float(x) for x in y]
         return np.array([sum(map(abs, _values_of(own, at))) for own in self._summands])
 
+    @cached_property
+    def _alone(self) -> list[Callable[..., list[Any]]]:
+        """Each for itself, for states at which one of them has no value."""
+        arguments = unknowns(self._problem)
+        return [function((x,), arguments, bool(self._bits)) for x in conserved(self._problem)]
+
     @staticmethod
     def _no_value(problem: Problem) -> UsageProblem:
         return UsageProblem(
@@ -124,18 +137,3 @@ def _values_of(expressions: Callable[..., list[Any]], y: Sequence[Any]) -> list[
         return [inf]
     except (ArithmeticError, ValueError):
         return [nan]
-
-
-def _first_terms(problem: Problem) -> tuple[Any, ...]:
-    """The parts of the first quantity: H^{l}, or the summands of an invariant."""
-    if isinstance(problem, Hamiltonian):
-        return tuple(problem.terms)
-    _, first = problem.quantities[0]
-    return _summands(first)
-
-
-def _summands(expression: Any) -> tuple[Any, ...]:
-    """What a sympy expression is the sum of."""
-    import sympy
-
-    return tuple(sympy.Add.make_args(expression))

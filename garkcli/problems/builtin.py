@@ -218,7 +218,7 @@ _ENTRIES = (
             # at the pericentre, with eccentricity 3/5 and period 2π
             numbers("2/5 0 0 2"),
             fmpq(2),
-            invariants=angular_momentum,
+            invariants=(("angular momentum", angular_momentum),),
             long_run=(fmpq(1, 50), fmpq(1000)),
         ),
     ),

@@ -22,7 +22,7 @@ Place: TypeAlias = Mapping[Expr, arb]
 """Values of symbols, enclosed."""
 Substitution: TypeAlias = Mapping[Expr, Expr]
 """What stands for symbols."""
-Invariants: TypeAlias = tuple[tuple[str, Expr], ...]
+Invariants: TypeAlias = Sequence[tuple[str, Expr]]
 """Names of first integrals, and what they are."""
 
 

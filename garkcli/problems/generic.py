@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from flint import fmpq
 
+from garkcli.frozen import Frozen
+from garkcli.problems.deferred import Deferred
 from garkcli.problems.draw import Draw
-from garkcli.problems.expr import Expr, Exprs, Vector, dot
+from garkcli.problems.expr import Expr, Exprs, Vector, dot, rational
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.righthandside import RightHandSide
 from garkcli.problems.vectorfield import symbols
@@ -30,29 +34,29 @@ def generic(terms: int, seed: int) -> Hamiltonian:
     The terms stay small, so that all solutions from the start exist to the final time.
     """
     draw = Draw(seed)
-    y = (*_positions(), *_momenta())
-    return _problem("generic", [polynomial(draw, y, terms) for _ in range(terms)], draw)
+    split = [_polynomial(draw, "qp", terms) for _ in range(terms)]
+    return _problem("generic", seed, split, draw)
 
 
 def semi_separable(terms: int, seed: int) -> Hamiltonian:
     """H^{1}(q, p) + Σ_l U^{l}(q), for methods that give forces to all terms but the first."""
     draw = Draw(seed)
-    q, p = _positions(), _momenta()
-    split = [polynomial(draw, (*q, *p), terms)]
+    split = [_polynomial(draw, "qp", terms)]
     while len(split) < terms:
-        split.append(polynomial(draw, q, terms))
-    return _problem("generic-semi-separable", split, draw)
+        split.append(_polynomial(draw, "q", terms))
+    return _problem("generic-semi-separable", seed, split, draw)
 
 
 def separable(terms: int, seed: int) -> Hamiltonian:
     """T(p) + Σ_l U^{l}(q): velocities and forces alternate, and nothing else is missing."""
     draw = Draw(seed)
-    return _separated("generic-separable", polynomial(draw, _momenta(), terms), terms, draw)
+    kinetic = _polynomial(draw, "p", terms)
+    return _separated("generic-separable", seed, kinetic, terms, draw)
 
 
 def nystrom(terms: int, seed: int) -> Hamiltonian:
     """½|p|² + Σ_l U^{l}(q): velocities are linear, so that they do not branch."""
-    return _separated("generic-nystrom", sum(p**2 for p in _momenta()) / 2, terms, Draw(seed))
+    return _separated("generic-nystrom", seed, _half_square, terms, Draw(seed))
 
 
 def generic_rhs(terms: int, seed: int, linear: frozenset[int] = frozenset()) -> RightHandSide:
@@ -66,15 +70,20 @@ def generic_rhs(terms: int, seed: int, linear: frozenset[int] = frozenset()) -> 
             to be.
     """
     draw = Draw(seed)
-    y = symbols(UNKNOWNS, "y")
-    split = [
-        _right_hand_side(draw, y, terms, 1 if term in linear else DEGREE - 1)
-        for term in range(terms)
-    ]
+    split = [_forms(draw, len(UNKNOWNS), len(UNKNOWNS), 100 * terms) for _ in range(terms)]
+    name = f"generic-rhs seed={seed} terms={terms}"
+    if linear:
+        name += f" linear={','.join(str(term + 1) for term in sorted(linear))}"
+
+    def make() -> list[Exprs]:
+        y = symbols(UNKNOWNS, "y")
+        degrees = [1 if term in linear else DEGREE - 1 for term in range(terms)]
+        return [_sums(forms, y, n) for forms, n in zip(split, degrees, strict=True)]
+
     return RightHandSide(
         "generic-rhs",
         UNKNOWNS,
-        tuple(split),
+        Deferred(name, make, terms),
         _near_zero(draw, len(UNKNOWNS)),
         fmpq(1),
         is_generic=True,
@@ -82,62 +91,74 @@ def generic_rhs(terms: int, seed: int, linear: frozenset[int] = frozenset()) -> 
     )
 
 
-def _right_hand_side(draw: Draw, y: Vector, terms: int, degree: int) -> Exprs:
-    """Σ_k v_k (1 + a_k·y)^degree, as many expressions as there are unknowns."""
-    import sympy
+class _Form(Frozen):
+    """1 + a·y, and the factors that its power has in each of some sums."""
 
-    total = [sympy.Integer(0) for _ in y]
+    slopes: tuple[fmpq, ...]
+    factors: tuple[fmpq, ...]
+
+    def power(self, y: Vector, degree: int) -> Expr:
+        """(1 + a·y)^degree."""
+        return (1 + dot([rational(a) for a in self.slopes], y)) ** degree
+
+
+def _forms(draw: Draw, variables: int, sums: int, divisor: int) -> list[_Form]:
+    """Random forms in so many variables, for so many sums."""
+    found = []
     for _ in range(_FORMS):
-        power = _form(draw, y) ** degree
-        for i in range(len(y)):
-            total[i] += sympy.Rational(draw.sign() * draw.between(5, 20), 100 * terms) * power
-    return tuple(total)
+        slopes = [fmpq(draw.sign() * draw.between(3, 12), 20) for _ in range(variables)]
+        factors = [fmpq(draw.sign() * draw.between(5, 20), divisor) for _ in range(sums)]
+        found.append(_Form(tuple(slopes), tuple(factors)))
+    return found
 
 
-def _form(draw: Draw, variables: Vector) -> Expr:
-    """1 + a·y with random a."""
-    import sympy
-
-    slopes = [sympy.Rational(draw.sign() * draw.between(3, 12), 20) for _ in variables]
-    return 1 + dot(slopes, variables)
-
-
-def _separated(name: str, kinetic: Expr, terms: int, draw: Draw) -> Hamiltonian:
-    """T + Σ U, in one term where there is no other."""
-    q = _positions()
-    if terms == 1:
-        return _problem(name, [kinetic + polynomial(draw, q, terms)], draw)
-    potentials = [polynomial(draw, q, terms) for _ in range(terms - 1)]
-    return _problem(name, [kinetic, *potentials], draw)
+def _sums(forms: list[_Form], y: Vector, degree: int) -> Exprs:
+    """Σ_k v_k (1 + a_k·y)^degree, as many expressions as there are factors."""
+    powers = [form.power(y, degree) for form in forms]
+    rows = zip(*(form.factors for form in forms), strict=True)
+    return tuple(dot([rational(v) for v in row], powers) for row in rows)
 
 
-def _problem(name: str, split: Vector, draw: Draw) -> Hamiltonian:
-    return Hamiltonian(
-        name, VARIABLES, tuple(split), start(draw), fmpq(1), is_generic=True, long_run=_LONG_RUN
-    )
+_Term = Callable[[Exprs, Exprs], Expr]  # of positions and momenta
 
 
-def _positions() -> Exprs:
-    return symbols(VARIABLES, "q")
+def _half_square(_: Exprs, p: Exprs) -> Expr:
+    return sum(x**2 for x in p) / 2
 
 
-def _momenta() -> Exprs:
-    return symbols(VARIABLES, "p")
-
-
-def polynomial(draw: Draw, variables: Vector, terms: int) -> Expr:
-    """Σ_k c_k (1 + a_k·y)^8 in the symbols y, one of ``terms`` terms of a Hamiltonian.
+def _polynomial(draw: Draw, groups: str, terms: int) -> _Term:
+    """Σ_k c_k (1 + a_k·y)^8 in the groups q, p, or both, one of ``terms`` terms of a Hamiltonian.
 
     Powers of linear forms span all polynomials; three of them a term are enough for no derivative
     to vanish, and are cheap to evaluate.
     """
-    import sympy
+    forms = _forms(draw, len(groups) * len(VARIABLES), 1, 1600 * terms)
 
-    total = sympy.Integer(0)
-    for _ in range(_FORMS):
-        form = _form(draw, variables)
-        total += sympy.Rational(draw.sign() * draw.between(5, 20), 1600 * terms) * form**DEGREE
-    return total
+    def make(q: Exprs, p: Exprs) -> Expr:
+        y = (*(q if "q" in groups else ()), *(p if "p" in groups else ()))
+        return _sums(forms, y, DEGREE)[0]
+
+    return make
+
+
+def _separated(name: str, seed: int, kinetic: _Term, terms: int, draw: Draw) -> Hamiltonian:
+    """T + Σ U, in one term where there is no other."""
+    if terms == 1:
+        U = _polynomial(draw, "q", terms)
+        return _problem(name, seed, [lambda q, p: kinetic(q, p) + U(q, p)], draw)
+    potentials = [_polynomial(draw, "q", terms) for _ in range(terms - 1)]
+    return _problem(name, seed, [kinetic, *potentials], draw)
+
+
+def _problem(name: str, seed: int, split: list[_Term], draw: Draw) -> Hamiltonian:
+    def make() -> list[Expr]:
+        q, p = symbols(VARIABLES, "q"), symbols(VARIABLES, "p")
+        return [term(q, p) for term in split]
+
+    terms = Deferred(f"{name} seed={seed} terms={len(split)}", make, len(split))
+    return Hamiltonian(
+        name, VARIABLES, terms, start(draw), fmpq(1), is_generic=True, long_run=_LONG_RUN
+    )
 
 
 def start(draw: Draw) -> tuple[fmpq, ...]:

@@ -2,20 +2,29 @@
 numbers.
 
 The vector fields are V^{l} = ∂H^{l}/∂p and F^{l} = −∂H^{l}/∂q. The expressions are sympy objects
-built by ``garkcli.problems.builtin``; no text is ever evaluated. sympy is imported when the first
-field is derived.
+built by ``garkcli.problems.builtin``; no text is ever evaluated. sympy is imported when an
+expression is looked at.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cache
 
 from flint import fmpq
 
 from garkcli.errors import counted
 from garkcli.frozen import Frozen, replace
-from garkcli.problems.expr import Expr, Exprs, Invariants
-from garkcli.problems.vectorfield import GROUPS, Group, Layout, VectorField, occurring, symbols
+from garkcli.problems.deferred import Deferred
+from garkcli.problems.expr import Expr, Exprs, Invariants, Vector
+from garkcli.problems.vectorfield import (
+    GROUPS,
+    Group,
+    Layout,
+    VectorField,
+    field_of_components,
+    symbols,
+)
 
 FLOAT_DIGITS = 15
 """Up to so many digits numbers are floats; beyond, they are the midpoints of balls."""
@@ -39,7 +48,7 @@ class Hamiltonian(Frozen):
 
     name: str
     variables: tuple[str, ...]
-    terms: Exprs
+    terms: Vector
     initial: tuple[fmpq, ...]
     t_end: fmpq
     invariants: Invariants = ()
@@ -68,7 +77,7 @@ class Hamiltonian(Frozen):
 
     def unsplit(self) -> Hamiltonian:
         """The same problem in one term."""
-        return replace(self, terms=(self.energy,))
+        return replace(self, terms=summed(self.terms, lambda: self.energy))
 
     def __repr__(self) -> str:
         terms = counted(len(self.terms), "term")
@@ -76,16 +85,28 @@ class Hamiltonian(Frozen):
         return f"<Hamiltonian {self.name}: {terms}, {freedom} of freedom>"
 
 
-@cache
+def summed(terms: Vector, total: Callable[[], Expr]) -> Vector:
+    """The sum of all terms as one."""
+    if len(terms) == 1:
+        return terms
+    if isinstance(terms, Deferred):
+        return terms.derived("summed", lambda: (total(),), 1)
+    return (total(),)
+
+
 def vector_field(problem: Hamiltonian, term: int, drives: Group) -> VectorField:
     """V^{l} for ``drives`` q, F^{l} for p."""
-    import sympy
+    terms, variables = problem.terms, problem.variables
+    if not isinstance(terms, Deferred):
+        return field_of_components(_moved(terms[term], variables, drives), variables, GROUPS)
+    what = f"{'velocity' if drives == 'q' else 'force'} {term + 1}"
+    components = terms.derived(what, lambda: _moved(terms[term], variables, drives), len(variables))
+    return field_of_components(components, variables, GROUPS)
 
-    H = problem.terms[term]
-    q, p = (symbols(problem.variables, group) for group in GROUPS)
+
+@cache
+def _moved(H: Expr, variables: tuple[str, ...], drives: Group) -> Exprs:
+    """∂H/∂p or −∂H/∂q; a sum and its parts are differentiated once, whichever problem has them."""
     if drives == "q":
-        components = tuple(sympy.diff(H, x) for x in p)
-    else:
-        components = tuple(-sympy.diff(H, x) for x in q)
-    depends = occurring(components, problem.variables, GROUPS)
-    return VectorField(components, problem.variables, depends)
+        return tuple(H.diff(x) for x in symbols(variables, "p"))
+    return tuple(-H.diff(x) for x in symbols(variables, "q"))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cache
 from typing import Any, TypeAlias
 
@@ -10,6 +11,7 @@ from flint import arb, ctx, fmpq_mat
 from garkcli.errors import NoLegendreTransform
 from garkcli.frozen import Frozen
 from garkcli.graph import components
+from garkcli.problems.deferred import Deferred
 from garkcli.problems.expr import Expr, ExprMatrix, Exprs, Place, Vector, number, rational
 from garkcli.problems.straightline import function
 
@@ -162,14 +164,21 @@ class _Minors:
 
 def enclosed(expressions: Vector, at: Place) -> list[arb]:
     """The expressions, enclosed; not finite where they have no value, or kinks."""
-    import sympy
+    return enclosed_at(expressions, tuple(at), tuple(at.values()))
 
-    made = tuple(sympy.Add(x) for x in expressions)
-    if not all(map(is_smooth, made)):
-        return [arb("nan")] * len(made)
+
+def enclosed_at(expressions: Vector, names: Vector, numbers: Sequence[arb]) -> list[arb]:
+    """The same with the numbers that ``names`` stand for."""
+    made = expressions
+    if not isinstance(expressions, Deferred):
+        import sympy
+
+        made = tuple(sympy.Add(x) for x in expressions)
+        if not all(map(is_smooth, made)):
+            return [arb("nan")] * len(made)
     with ctx.workprec(BITS):
         try:
-            return [arb(x) for x in function(made, tuple(at), True)(*at.values())]
+            return [arb(x) for x in function(made, names, True)(*numbers)]
         except (ArithmeticError, ValueError):
             return [arb("nan")] * len(made)
 

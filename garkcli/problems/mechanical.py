@@ -12,6 +12,7 @@ from typing import Any, TypeAlias
 from flint import arb, fmpq
 
 from garkcli.frozen import Frozen
+from garkcli.problems.deferred import Deferred
 from garkcli.problems.expr import Expr, Exprs, Invariants
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.vectorfield import symbols
@@ -25,11 +26,6 @@ def half_square(_: Exprs, p: Exprs) -> Expr:
     return sum(x**2 for x in p) / 2
 
 
-def no_invariants(*_: Expr) -> Invariants:
-    """Nothing is known to be conserved besides H."""
-    return ()
-
-
 class Mechanical(Frozen):
     """H = T + Σ potentials(q).
 
@@ -39,7 +35,7 @@ class Mechanical(Frozen):
         initial: q(0), then p(0).
         t_end: the final time of a convergence test.
         kinetic: T of the positions and of the momenta.
-        invariants: names, and expressions in positions and momenta.
+        invariants: what is conserved besides H: names, and expressions in positions and momenta.
         long_run: a step size and a time that show the motion over a long time.
     """
 
@@ -48,27 +44,35 @@ class Mechanical(Frozen):
     initial: tuple[fmpq, ...]
     t_end: fmpq
     kinetic: Energy = half_square
-    invariants: Callable[..., Invariants] = no_invariants
+    invariants: tuple[tuple[str, Callable[..., Expr]], ...] = ()
     long_run: tuple[fmpq, fmpq] | None = None
 
     def problem(self, name: str, terms: int) -> Hamiltonian:
         """The problem in ``terms`` terms."""
-        q = symbols(self.variables, "q")
-        p = symbols(self.variables, "p")
+        split = Deferred(f"{name} terms={terms}", lambda: self._split(terms), terms)
+        invariants: Invariants = ()
+        if self.invariants:
+            names = tuple(what for what, _ in self.invariants)
+            invariants = Deferred(f"{name} invariants", self._conserved, len(names), names)
         return Hamiltonian(
             name,
             self.variables,
-            self._split(q, p, terms),
+            split,
             self.initial,
             self.t_end,
-            self.invariants(*q, *p),
+            invariants,
             long_run=self.long_run,
         )
 
-    def _split(self, q: Exprs, p: Exprs, terms: int) -> Exprs:
+    def _conserved(self) -> list[tuple[str, Expr]]:
+        q, p = symbols(self.variables, "q"), symbols(self.variables, "p")
+        return [(name, of(*q, *p)) for name, of in self.invariants]
+
+    def _split(self, terms: int) -> Exprs:
         """T, and the parts of V or equal shares of it."""
         import sympy
 
+        q, p = symbols(self.variables, "q"), symbols(self.variables, "p")
         T = self.kinetic(q, p)
         parts = self.potentials(*q)
         V = sum(parts)
@@ -123,9 +127,9 @@ def kepler_potential(x: Expr, y: Expr) -> Exprs:
     return (-1 / sympy.sqrt(x**2 + y**2),)
 
 
-def angular_momentum(x: Expr, y: Expr, px: Expr, py: Expr) -> Invariants:
+def angular_momentum(x: Expr, y: Expr, px: Expr, py: Expr) -> Expr:
     """Of a mass in the plane, about the origin."""
-    return (("angular momentum", x * py - y * px),)
+    return x * py - y * px
 
 
 def springs(*q: Expr) -> Exprs:

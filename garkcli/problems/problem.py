@@ -6,11 +6,12 @@ from collections.abc import Callable
 from typing import Any, TypeAlias
 
 from garkcli.frozen import replace
-from garkcli.problems.expr import Exprs
+from garkcli.problems.deferred import Deferred, ask, names_of
+from garkcli.problems.expr import Expr, Exprs, Vector
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian, vector_field
 from garkcli.problems.righthandside import RightHandSide, right_hand_side
 from garkcli.problems.straightline import function
-from garkcli.problems.vectorfield import TIME, Group, VectorField, symbols
+from garkcli.problems.vectorfield import TIME, Group, VectorField, arguments_in
 
 Problem: TypeAlias = Hamiltonian | RightHandSide
 """What a method steps."""
@@ -23,13 +24,59 @@ def field_of(problem: Problem, term: int, drives: Group) -> VectorField:
     return right_hand_side(problem, term)
 
 
-def unknowns(problem: Problem) -> Exprs:
+def unknowns(problem: Problem) -> Deferred:
     """The symbols of a state, time excluded."""
-    names: Exprs = ()
-    for group in problem.layout.groups:
-        if group != TIME:
-            names += symbols(problem.variables, group)
-    return names
+    groups = [group for group in problem.layout.groups if group != TIME]
+    return arguments_in(problem.variables, groups)
+
+
+def conserved(problem: Problem) -> Vector:
+    """What is conserved, the energy first where there is one."""
+    terms, invariants = problem.terms, problem.invariants
+
+    def make() -> list[Expr]:
+        return [x for _, x in problem.quantities]
+
+    count = len(conserved_names(problem))
+    if isinstance(problem, Hamiltonian):
+        if isinstance(terms, Deferred) and not invariants:
+            return terms.derived("energy", make, count)
+        if isinstance(terms, Deferred) and isinstance(invariants, Deferred):
+            return terms.derived("conserved", make, count)
+    elif isinstance(invariants, Deferred):
+        return invariants.derived("conserved", make, count)
+    return tuple(make())
+
+
+def conserved_names(problem: Problem) -> tuple[str, ...]:
+    """What that is called."""
+    own = ("energy",) if isinstance(problem, Hamiltonian) else ()
+    return (*own, *names_of(problem.invariants))
+
+
+def summands(problem: Problem, k: int) -> Vector:
+    """What conserved quantity ``k`` is the sum of."""
+    quantities = conserved(problem)
+
+    def make() -> Exprs:
+        import sympy
+
+        return tuple(sympy.Add.make_args(quantities[k]))
+
+    if isinstance(quantities, Deferred):
+        return quantities.derived(f"summands of {k + 1}", make)
+    return make()
+
+
+def texts_of(problem: Problem) -> Any:
+    """The terms as sympy writes them: a text each, or one for each component."""
+
+    def write() -> list[Any]:
+        if isinstance(problem, Hamiltonian):
+            return [str(x) for x in problem.terms]
+        return [[str(x) for x in term] for term in problem.terms]
+
+    return ask(problem.terms, "texts", write)
 
 
 def quantities_function(problem: Problem, digits: int) -> Callable[..., list[Any]]:
@@ -38,8 +85,7 @@ def quantities_function(problem: Problem, digits: int) -> Callable[..., list[Any
 
     For balls the rational constants are enclosed once, at the precision in force now.
     """
-    expressions = tuple(x for _, x in problem.quantities)
-    return function(expressions, unknowns(problem), digits > FLOAT_DIGITS)
+    return function(conserved(problem), unknowns(problem), digits > FLOAT_DIGITS)
 
 
 def merge_terms(problem: Problem, terms: int) -> Problem:
@@ -49,6 +95,8 @@ def merge_terms(problem: Problem, terms: int) -> Problem:
     >>> [str(x) for x in merge_terms(hamiltonian("pendulum", 2), 1).terms]
     ['px**2/2 - cos(x) + 1']
     """
+    if len(problem.terms) == terms:
+        return problem
     last = terms - 1
     if isinstance(problem, Hamiltonian):
         return replace(problem, terms=(*problem.terms[:last], sum(problem.terms[last:])))

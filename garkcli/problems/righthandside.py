@@ -6,13 +6,27 @@ no text is ever evaluated.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from functools import partial
+
 from flint import arb, fmpq
 
 from garkcli.errors import counted
 from garkcli.frozen import Frozen, replace
-from garkcli.problems.expr import Exprs, Invariants, rational
+from garkcli.problems.deferred import Deferred, ask
+from garkcli.problems.expr import Exprs, Invariants, Vector, rational
+from garkcli.problems.hamiltonian import summed
 from garkcli.problems.straightline import function
-from garkcli.problems.vectorfield import TIME, Group, Layout, VectorField, occurring, symbols
+from garkcli.problems.vectorfield import (
+    TIME,
+    Group,
+    Layout,
+    VectorField,
+    arguments_in,
+    field_of_components,
+    occurring,
+    symbols,
+)
 
 EXACT_DIGITS = 50
 """To so many digits an irrational start of an exact solution is certainly the rational one that is
@@ -40,11 +54,11 @@ class RightHandSide(Frozen):
 
     name: str
     variables: tuple[str, ...]
-    terms: tuple[Exprs, ...]
+    terms: Sequence[Vector]
     initial: tuple[fmpq, ...]
     t_end: fmpq
     invariants: Invariants = ()
-    exact: Exprs | None = None
+    exact: Vector | None = None
     is_generic: bool = False
     long_run: tuple[fmpq, fmpq] | None = None
     stiffness: fmpq | None = None
@@ -57,6 +71,9 @@ class RightHandSide(Frozen):
     @property
     def has_time(self) -> bool:
         """Whether a right-hand side depends on t."""
+        return ask(self.terms, "time", self._has_time)
+
+    def _has_time(self) -> bool:
         return bool(occurring([x for term in self.terms for x in term], self.variables, (TIME,)))
 
     @property
@@ -77,7 +94,7 @@ class RightHandSide(Frozen):
 
     def unsplit(self) -> RightHandSide:
         """The same problem in one term."""
-        return replace(self, terms=(self.total,))
+        return replace(self, terms=summed(self.terms, lambda: self.total))
 
     def __repr__(self) -> str:
         terms = counted(len(self.terms), "term")
@@ -87,22 +104,31 @@ class RightHandSide(Frozen):
 
 def right_hand_side(problem: RightHandSide, term: int) -> VectorField:
     """f^{l}."""
-    components = problem.terms[term]
-    depends = occurring(components, problem.variables, ("y", TIME))
-    return VectorField(components, problem.variables, depends)
+    components: Vector
+    if isinstance(problem.terms, Deferred):
+        what = f"right-hand side {term + 1}"
+        make = partial(problem.terms.__getitem__, term)
+        components = problem.terms.derived(what, make, problem.dimension)
+    else:
+        components = problem.terms[term]
+    return field_of_components(components, problem.variables, ("y", TIME))
 
 
 def clock(problem: RightHandSide) -> VectorField:
     """ṫ = 1."""
+    return VectorField(Deferred("clock rate", _one, 1), problem.variables, ())
+
+
+def _one() -> Exprs:
     import sympy
 
-    return VectorField((sympy.Integer(1),), problem.variables, ())
+    return (sympy.Integer(1),)
 
 
 def solution(problem: RightHandSide, time: arb) -> list[arb]:
     """The exact solution at one time, enclosed at the precision in force."""
     assert problem.exact is not None
-    evaluate = function(problem.exact, symbols(problem.variables, TIME), True)
+    evaluate = function(problem.exact, arguments_in(problem.variables, (TIME,)), True)
     return [arb(x) for x in evaluate(arb(time))]
 
 
@@ -119,14 +145,15 @@ def steepness(problem: RightHandSide) -> arb:
     """‖∂(Σ f)/∂y‖ at the start, the largest sum of a row's absolute values: about how stiff the
     problem is. 1 where it has no value.
     """
-    from garkcli.problems.mass import enclosed
+    from garkcli.problems.mass import enclosed_at
 
-    by = symbols(problem.variables, "y")
-    at = dict(zip(by, map(arb, problem.initial), strict=True))
-    (time,) = symbols(problem.variables, TIME)
-    at[time] = arb(0)
+    d = problem.dimension
+    field = right_hand_side(problem.unsplit(), 0)
+    slopes = field.slopes([("y", k) for k in range(d)])
+    names = arguments_in(problem.variables, ("y", TIME))
+    entries = enclosed_at(slopes, names, [*map(arb, problem.initial), arb(0)])
     norm = arb(0)
-    for component in problem.total:
-        row = enclosed([component.diff(x) for x in by], at)
+    for i in range(d):
+        row = entries[d * i : d * (i + 1)]
         norm = norm.max(sum(map(abs, row), arb(0)))
     return norm.mid() if norm.is_finite() else arb(1)

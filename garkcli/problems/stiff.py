@@ -7,11 +7,12 @@ the last part.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from flint import fmpq
 
-from garkcli.problems.expr import Exprs, rational
+from garkcli.problems.deferred import Deferred
+from garkcli.problems.expr import Exprs, Invariants, rational
 from garkcli.problems.righthandside import RightHandSide
 from garkcli.problems.vectorfield import TIME, symbols
 
@@ -24,20 +25,28 @@ def prothero_robinson(terms: int, stiffness: fmpq) -> RightHandSide:
 
     Source: Prothero and Robinson, Math. Comp. 28 (1974), 145–162.
     """
-    import sympy
-
     variables = ("y",)
-    (y,) = symbols(variables, "y")
-    (t,) = symbols(variables, TIME)
-    solution = sympy.cos(t)
-    parts = [(solution.diff(t),), (-rational(stiffness) * (y - solution),)]
+
+    def solution() -> Exprs:
+        import sympy
+
+        (t,) = symbols(variables, TIME)
+        return (sympy.cos(t),)
+
+    def parts() -> list[Exprs]:
+        (y,) = symbols(variables, "y")
+        (t,) = symbols(variables, TIME)
+        (phi,) = solution()
+        return [(phi.diff(t),), (-rational(stiffness) * (y - phi),)]
+
+    name = f"prothero-robinson stiffness={stiffness}"
     return RightHandSide(
         "prothero-robinson",
         variables,
-        shared(parts, terms),
+        shared(name, parts, terms),
         (fmpq(1),),
         fmpq(1),
-        exact=(solution,),
+        exact=Deferred(f"{name} solution", solution, 1),
         stiffness=stiffness,
     )
 
@@ -49,18 +58,20 @@ def van_der_pol(terms: int, stiffness: fmpq) -> RightHandSide:
     is the asymptotic expansion of the smooth solution at y = 2 up to ε³.
     """
     variables = ("y", "z")
-    y, z = symbols(variables, "y")
     small = 1 / stiffness
     start = fmpq(-2, 3)
     for power, coefficient in enumerate(_SMOOTH_START, start=1):
         start += coefficient * small**power
-    force = rational(stiffness) * ((1 - y**2) * z - y)
-    zero = 0 * z
-    parts = [(z, zero), (zero, force)]
+
+    def parts() -> list[Exprs]:
+        y, z = symbols(variables, "y")
+        zero = 0 * z
+        return [(z, zero), (zero, rational(stiffness) * ((1 - y**2) * z - y))]
+
     return RightHandSide(
         "van-der-pol",
         variables,
-        shared(parts, terms),
+        shared(f"van-der-pol stiffness={stiffness}", parts, terms),
         (fmpq(2), start),
         fmpq(1, 2),
         long_run=(fmpq(1, 100), fmpq(100)),
@@ -80,24 +91,25 @@ def reaction_diffusion(terms: int, stiffness: fmpq) -> RightHandSide:
     It starts near the state that fast diffusion leads to: 1/4 everywhere, and off it what balances
     the reaction, w/k with the differences of w summed up from the left.
     """
-    import sympy
-
     cells = range(CELLS)
     variables = tuple(f"u{i + 1}" for i in cells)
-    u = symbols(variables, "y")
     rates = [fmpq(CELLS + i, 2 * CELLS) for i in cells]
-    reaction = [rational(r) * x * (1 - x) for r, x in zip(rates, u, strict=True)]
-    k = rational(stiffness)
-    diffusion = []
-    for i, x in enumerate(u):
-        # the first and the last cell have one neighbour
-        neighbours = [u[j] for j in (i - 1, i + 1) if j in cells]
-        diffusion.append(k * (sympy.Add(*neighbours) - len(neighbours) * x))
-    parts = [tuple(reaction), tuple(diffusion)]
+
+    def parts() -> list[Exprs]:
+        u = symbols(variables, "y")
+        reaction = [rational(r) * x * (1 - x) for r, x in zip(rates, u, strict=True)]
+        k = rational(stiffness)
+        diffusion = []
+        for i, x in enumerate(u):
+            # the first and the last cell have one neighbour
+            neighbours = [u[j] for j in (i - 1, i + 1) if j in cells]
+            diffusion.append(k * (sum(neighbours) - len(neighbours) * x))
+        return [tuple(reaction), tuple(diffusion)]
+
     return RightHandSide(
         "reaction-diffusion",
         variables,
-        shared(parts, terms),
+        shared(f"reaction-diffusion stiffness={stiffness}", parts, terms),
         _balanced(rates, stiffness),
         fmpq(2),
         stiffness=stiffness,
@@ -127,19 +139,25 @@ def robertson(terms: int, stiffness: fmpq) -> RightHandSide:
     equation (IV.1.4).
     """
     variables = ("y1", "y2", "y3")
-    a, b, c = symbols(variables, "y")
-    k = rational(stiffness)
-    slow = rational(fmpq(1, 25)) * a
-    fast, faster = k * 10_000 * b * c, k * 30_000_000 * b**2
-    parts = [(-slow, slow, 0 * c), (fast, -fast - faster, faster)]
+
+    def parts() -> list[Exprs]:
+        a, b, c = symbols(variables, "y")
+        k = rational(stiffness)
+        slow = rational(fmpq(1, 25)) * a
+        fast, faster = k * 10_000 * b * c, k * 30_000_000 * b**2
+        return [(-slow, slow, 0 * c), (fast, -fast - faster, faster)]
+
+    def invariants() -> Invariants:
+        return (("mass", sum(symbols(variables, "y"))),)
+
     start = (fmpq(1), fmpq(0), fmpq(0))
     return RightHandSide(
         "robertson",
         variables,
-        shared(parts, terms),
+        shared(f"robertson stiffness={stiffness}", parts, terms),
         start,
         fmpq(1, 1000),
-        invariants=(("mass", a + b + c),),
+        invariants=Deferred("robertson invariants", invariants, 1, ("mass",)),
         stiffness=stiffness,
     )
 
@@ -148,10 +166,14 @@ def _mean(numbers: Sequence[fmpq]) -> fmpq:
     return sum(numbers, fmpq(0)) / len(numbers)
 
 
-def shared(parts: Sequence[Exprs], terms: int) -> tuple[Exprs, ...]:
-    """The parts in ``terms`` terms: the last one in equal shares where there are fewer parts, the
-    last ones added up where there are more.
+def shared(name: str, parts: Callable[[], Sequence[Exprs]], terms: int) -> Deferred:
+    """The parts of the problem called ``name`` in ``terms`` terms: the last one in equal shares
+    where there are fewer parts, the last ones added up where there are more.
     """
+    return Deferred(f"{name} terms={terms}", lambda: _shared(parts(), terms), terms)
+
+
+def _shared(parts: Sequence[Exprs], terms: int) -> tuple[Exprs, ...]:
     if terms <= len(parts):
         last = terms - 1
         rest = tuple(map(sum, zip(*parts[last:], strict=True)))

@@ -18,7 +18,8 @@ from flint import arb, fmpq
 
 from garkcli.exact import formula
 from garkcli.frozen import Frozen
-from garkcli.problems.expr import Expr, Exprs, Vector, number
+from garkcli.problems.deferred import Deferred, ask
+from garkcli.problems.expr import Expr, Vector, number
 
 _LONG = 300  # characters from which a part of an expression is given a name
 _WRITTEN = 3  # powers up to the third are products, which cost less than **
@@ -117,12 +118,39 @@ def constant_name(x: fmpq) -> str:
 
 
 @cache
-def code_of(expressions: Exprs, arguments: Exprs, is_for_balls: bool) -> Code:
+def code_of(expressions: Vector, arguments: Vector, is_for_balls: bool) -> Code:
     """The code of sympy expressions in the symbols ``arguments``.
 
     Raises:
         TypeError: an expression has a function that is none of ``FUNCTIONS``, or another symbol.
     """
+    if not (isinstance(expressions, Deferred) and isinstance(arguments, Deferred)):
+        return _written(expressions, arguments, is_for_balls)
+    kind = "balls" if is_for_balls else "floats"
+    made = ask(
+        expressions,
+        f"{kind} of {arguments.name}",
+        lambda: _spelled_out(_written(expressions, arguments, is_for_balls)),
+    )
+    return Code(
+        len(arguments),
+        tuple(made["temporaries"]),
+        tuple(made["results"]),
+        tuple(None if x == "pi" else fmpq(x) for x in made["constants"]),
+        is_for_balls,
+    )
+
+
+def _spelled_out(code: Code) -> dict[str, list[str]]:
+    """What JSON keeps of a code."""
+    return {
+        "temporaries": list(code.temporaries),
+        "results": list(code.results),
+        "constants": ["pi" if x is None else str(x) for x in code.constants],
+    }
+
+
+def _written(expressions: Vector, arguments: Vector, is_for_balls: bool) -> Code:
     import sympy
 
     found, reduced = sympy.cse(list(expressions), symbols=(sympy.Dummy(f"t{i}") for i in count()))
@@ -261,7 +289,9 @@ def _is_negative(exponent: Expr) -> bool:
     return bool(exponent.is_Rational and exponent.is_negative)
 
 
-def function(expressions: Exprs, arguments: Exprs, is_for_balls: bool) -> Callable[..., list[Any]]:
+def function(
+    expressions: Vector, arguments: Vector, is_for_balls: bool
+) -> Callable[..., list[Any]]:
     """The expressions as one function of numbers, one after the other, to a list of numbers.
 
     For balls the rational constants are enclosed once, at the precision in force now.

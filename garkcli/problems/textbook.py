@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from flint import fmpq
 
-from garkcli.problems.expr import rational
+from garkcli.problems.deferred import Deferred
+from garkcli.problems.expr import Exprs, Invariants, rational
 from garkcli.problems.righthandside import RightHandSide
 from garkcli.problems.stiff import shared
 from garkcli.problems.vectorfield import TIME, symbols
@@ -15,37 +16,51 @@ def dahlquist(terms: int, stiffness: fmpq) -> RightHandSide:
 
     Source: Dahlquist, BIT 3 (1963), 27–43.
     """
-    import sympy
-
     variables = ("y",)
-    (y,) = symbols(variables, "y")
-    (t,) = symbols(variables, TIME)
-    rate = -rational(stiffness)
+
+    def parts() -> list[Exprs]:
+        (y,) = symbols(variables, "y")
+        return [(-rational(stiffness) * y,)]
+
+    def solution() -> Exprs:
+        import sympy
+
+        (t,) = symbols(variables, TIME)
+        return (sympy.exp(-rational(stiffness) * t),)
+
+    name = f"dahlquist stiffness={stiffness}"
     return RightHandSide(
         "dahlquist",
         variables,
-        shared([(rate * y,)], terms),
+        shared(name, parts, terms),
         (fmpq(1),),
         fmpq(1),
-        exact=(sympy.exp(rate * t),),
+        exact=Deferred(f"{name} solution", solution, 1),
         stiffness=stiffness,
     )
 
 
 def logistic(terms: int, _: int) -> RightHandSide:
     """ẏ = y (1 − y) from 1/10: growth, and what limits it; y = 1/(1 + 9 e^{−t})."""
-    import sympy
-
     variables = ("y",)
-    (y,) = symbols(variables, "y")
-    (t,) = symbols(variables, TIME)
+
+    def parts() -> list[Exprs]:
+        (y,) = symbols(variables, "y")
+        return [(y,), (-(y**2),)]
+
+    def solution() -> Exprs:
+        import sympy
+
+        (t,) = symbols(variables, TIME)
+        return (1 / (1 + 9 * sympy.exp(-t)),)
+
     return RightHandSide(
         "logistic",
         variables,
-        shared([(y,), (-(y**2),)], terms),
+        shared("logistic", parts, terms),
         (fmpq(1, 10),),
         fmpq(2),
-        exact=(1 / (1 + 9 * sympy.exp(-t)),),
+        exact=Deferred("logistic solution", solution, 1),
     )
 
 
@@ -54,18 +69,25 @@ def lotka_volterra(terms: int, _: int) -> RightHandSide:
 
     Source: Hairer, Lubich and Wanner, Geometric Numerical Integration, section I.1.1.
     """
-    import sympy
-
     variables = ("u", "v")
-    u, v = symbols(variables, "y")
-    zero = 0 * u
-    invariant = u - sympy.log(u) + v - sympy.log(v)
+
+    def parts() -> list[Exprs]:
+        u, v = symbols(variables, "y")
+        zero = 0 * u
+        return [(u * (1 - v), zero), (zero, v * (u - 1))]
+
+    def invariants() -> Invariants:
+        import sympy
+
+        u, v = symbols(variables, "y")
+        return (("invariant", u - sympy.log(u) + v - sympy.log(v)),)
+
     return RightHandSide(
         "lotka-volterra",
         variables,
-        shared([(u * (1 - v), zero), (zero, v * (u - 1))], terms),
+        shared("lotka-volterra", parts, terms),
         (fmpq(2), fmpq(1)),
         fmpq(2),
-        invariants=(("invariant", invariant),),
+        invariants=Deferred("lotka-volterra invariants", invariants, 1, ("invariant",)),
         long_run=(fmpq(1, 10), fmpq(1000)),
     )

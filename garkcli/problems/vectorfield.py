@@ -6,15 +6,16 @@ is derived.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from functools import cache
 from typing import Any, Final, Literal, TypeAlias
 
 from flint import arb, ctx, fmpq
 
 from garkcli.frozen import Frozen
+from garkcli.problems.deferred import Deferred, ask
 from garkcli.problems.draw import Draw
-from garkcli.problems.expr import Expr, Exprs
+from garkcli.problems.expr import Expr, Exprs, Vector
 from garkcli.problems.straightline import function
 
 Group: TypeAlias = Literal["q", "p", "y", "t"]
@@ -62,10 +63,14 @@ def symbols(variables: tuple[str, ...], group: Group) -> Exprs:
     """
     import sympy
 
+    return tuple(sympy.Symbol(name, real=True) for name in _names(variables, group))
+
+
+def _names(variables: tuple[str, ...], group: Group) -> tuple[str, ...]:
     if group == TIME:
-        return (sympy.Symbol(TIME, real=True),)
+        return (TIME,)
     prefix = "p" if group == "p" else ""
-    return tuple(sympy.Symbol(prefix + name, real=True) for name in variables)
+    return tuple(prefix + name for name in variables)
 
 
 class VectorField(Frozen):
@@ -78,25 +83,36 @@ class VectorField(Frozen):
             only.
     """
 
-    components: Exprs
+    components: Vector
     variables: tuple[str, ...]
     depends: tuple[Group, ...]
 
     @property
     def is_zero(self) -> bool:
         """Whether there is no such field."""
-        return not any(self.components)
+        return ask(self.components, "zero", lambda: not any(self.components))
 
     @property
     def is_linear(self) -> bool:
         """Whether all second derivatives vanish."""
-        return all(is_constant(x) for g in self.depends for row in self.derivative(g) for x in row)
+        return all(map(self.is_linear_in, self.depends))
+
+    def is_linear_in(self, group: Group) -> bool:
+        """Whether its derivative by a group is constant."""
+        return ask(
+            self.components,
+            f"linear in {group}",
+            lambda: all(is_constant(x) for row in self.derivative(group) for x in row),
+        )
 
     @property
     def degree(self) -> int | None:
         """A bound of the degree of all components, before terms cancel; None when they are not
         polynomials.
         """
+        return ask(self.components, "degree", self._degree)
+
+    def _degree(self) -> int | None:
         largest = 0
         for component in self.components:
             degree = _degree(component)
@@ -109,10 +125,33 @@ class VectorField(Frozen):
         """The Jacobian by a group, sympy expressions, shape (d, size of the group)."""
         return _derivative(self, group)
 
+    def slopes(self, by: Sequence[tuple[Group, int]]) -> Vector:
+        """The derivatives by components of groups, row after row."""
+        rows = range(len(self.components))
+
+        def make() -> list[Expr]:
+            columns = {group: self.derivative(group) for group, _ in by}
+            return [columns[group][i][k] for i in rows for group, k in by]
+
+        if not isinstance(self.components, Deferred):
+            return tuple(make())
+        names = " ".join(f"{group}{k + 1}" for group, k in by)
+        return self.components.derived(f"by {names}", make, len(rows) * len(by))
+
     @property
-    def arguments(self) -> Exprs:
+    def arguments(self) -> Vector:
         """The symbols of what it depends on, in the order of the groups."""
-        return tuple(x for g in self.depends for x in symbols(self.variables, g))
+        return arguments_in(self.variables, self.depends)
+
+
+def arguments_in(variables: tuple[str, ...], groups: Iterable[Group]) -> Deferred:
+    """The symbols of groups, one after the other."""
+    names = [name for group in groups for name in _names(variables, group)]
+
+    def make() -> list[Expr]:
+        return [x for group in groups for x in symbols(variables, group)]
+
+    return Deferred(" ".join(names), make, len(names))
 
 
 def occurring(
@@ -124,6 +163,14 @@ def occurring(
         free |= component.free_symbols
     absent = {g for g in groups if free.isdisjoint(symbols(variables, g))}
     return tuple(g for g in groups if g not in absent)
+
+
+def field_of_components(
+    components: Vector, variables: tuple[str, ...], groups: Sequence[Group]
+) -> VectorField:
+    """The field that has these components, in what occurs in them of ``groups``."""
+    depends = ask(components, "depends", lambda: list(occurring(components, variables, groups)))
+    return VectorField(components, variables, tuple(depends))
 
 
 @cache

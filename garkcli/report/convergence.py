@@ -13,6 +13,7 @@ from garkcli.frozen import Frozen
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.figures import for_programs, order_text, rounded, scientific
 from garkcli.plots.convergence import errors_scene
+from garkcli.problems.deferred import names_of
 from garkcli.problems.oscillator import Oscillator
 from garkcli.reason import Reason
 from garkcli.report.failure import FAILURE, Failure
@@ -68,7 +69,7 @@ class StepTold(NamedTuple):
     def invariant_errors(self) -> dict[str, arb]:
         """The errors of the invariants besides the energy, by their names."""
         problem = self.test.result.problem
-        names = [] if isinstance(problem, Oscillator) else [name for name, _ in problem.invariants]
+        names = [] if isinstance(problem, Oscillator) else names_of(problem.invariants)
         return dict(zip(names, self.row.invariant_errors, strict=True))
 
     @property

@@ -8,7 +8,7 @@ from typing import Any, TypeAlias
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.oscillator import Oscillator
-from garkcli.problems.problem import Problem
+from garkcli.problems.problem import Problem, texts_of
 from garkcli.problems.righthandside import RightHandSide
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tell.facts import Kind, Level, Row, maybe
@@ -28,14 +28,14 @@ def describe(problem: Stepped) -> str:
         return f"q̈ = −ω²q, ω = {problem.omega}; {', '.join(_numbered('H', energies))}"
     name, variables = problem.name, ", ".join(problem.variables)
     if isinstance(problem, Hamiltonian):
-        texts = [_formula(term) for term in problem.terms]
+        texts = list(map(_formula, texts_of(problem)))
         if _is_short(texts):
             return f"{name}; {', '.join(_numbered('H', texts))}"
         terms = f"{len(texts)} terms" if len(texts) > 1 else "one term"
         return f"{name}, H in {terms} of {variables} and their momenta"
     if problem.stiffness is not None:
         name += f", stiffness {problem.stiffness}"
-    sides = [", ".join(map(_formula, term)) for term in problem.terms]
+    sides = [", ".join(map(_formula, term)) for term in texts_of(problem)]
     fields = _numbered("f", [f"({x})" if problem.dimension > 1 else x for x in sides])
     if _is_short(fields):
         return f"{name}; {', '.join(fields)}"
@@ -58,9 +58,9 @@ def _energy(k: object, v: object) -> str:
     return " + ".join(terms) or "0"
 
 
-def _formula(expression: object) -> str:
+def _formula(text: str) -> str:
     """An expression of sympy with powers as people write them."""
-    return str(expression).replace("**", "^")
+    return text.replace("**", "^")
 
 
 def _is_short(texts: Sequence[str]) -> bool:
@@ -71,9 +71,9 @@ _LISTS = Kind(S.array(S.array(S.TEXT)), lambda xs, _: [[str(x) for x in term] fo
 _FORMULAS = Kind(S.array(S.TEXT), lambda xs, _: [str(x) for x in xs])
 _TERMS: dict[type[Stepped], tuple[Row, ...]] = {
     Oscillator: (Row("omega", EXACT, level=Level.DATA), Row("split", _LISTS, "shares", Level.DATA)),
-    Hamiltonian: (Row("hamiltonian", _FORMULAS, "terms", Level.DATA),),
+    Hamiltonian: (Row("hamiltonian", _FORMULAS, texts_of, Level.DATA),),
     RightHandSide: (
-        Row("right_hand_sides", _LISTS, "terms", Level.DATA),
+        Row("right_hand_sides", _LISTS, texts_of, Level.DATA),
         maybe("stiffness", EXACT, level=Level.DATA),
     ),
 }

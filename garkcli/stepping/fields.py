@@ -11,7 +11,7 @@ from garkcli.frozen import replace
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.problem import Problem, field_of
 from garkcli.problems.righthandside import RightHandSide, clock
-from garkcli.problems.vectorfield import GROUPS, TIME, Group, VectorField, is_constant, symbols
+from garkcli.problems.vectorfield import GROUPS, TIME, Group, VectorField, symbols
 from garkcli.tableau.forms import with_time
 from garkcli.tableau.tableau import Colour, Part, Tableau
 
@@ -250,10 +250,8 @@ def _is_linear_but_for_time(fields: Fields) -> bool:
     for (_, group), field in fields.items():
         if group not in ("y", TIME):
             return False
-        if "y" in field.depends:
-            entries = [x for row in field.derivative("y") for x in row]
-            if not all(map(is_constant, entries)):
-                return False
+        if "y" in field.depends and not field.is_linear_in("y"):
+            return False
     return True
 
 

@@ -246,6 +246,8 @@ class JacobianWriter:
     ) -> list[list[str]]:
         """The derivatives of an evaluation by some components of its arguments, d rows."""
         stages = self._stages
+        if not by:
+            return [[] for _ in range(stages.d)]
         number = stages.number[evaluation]
         field = stages.fields[evaluation.colour, evaluation.group]
         arguments = stages.arguments(evaluation)
@@ -256,12 +258,8 @@ class JacobianWriter:
                 stages.lines.write(f"{name} = float({x})")
                 floats.append(name)
             arguments = floats
-        columns = {group: field.derivative(group) for group in field.depends}
-        flat: list[object] = []
-        for i in range(stages.d):
-            for stage, k in by:
-                flat.append(columns[stage.group][i][k])
-        code = stages.code(flat, evaluation, is_for_balls=False)
+        slopes = field.slopes([(stage.group, k) for stage, k in by])
+        code = stages.code(slopes, evaluation, is_for_balls=False)
         entries = stages.emit(code, arguments, f"j{number}_")
         width = len(by)
         rows = []

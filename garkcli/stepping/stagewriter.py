@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
 from garkcli.frozen import Frozen
+from garkcli.problems.expr import Vector
 from garkcli.problems.straightline import Code, code_of
 from garkcli.problems.vectorfield import Group, Layout
 from garkcli.stepping.dependency import DependencyGraph, FieldEvaluation, Stage, StageBlock
@@ -166,12 +167,10 @@ class StageWriter:
             self.first.append((stage, evaluation))
         return self.weights[text]
 
-    def code(
-        self, expressions: Sequence[object], evaluation: FieldEvaluation, is_for_balls: bool
-    ) -> Code:
+    def code(self, expressions: Vector, evaluation: FieldEvaluation, is_for_balls: bool) -> Code:
         """The code of expressions in what the field of an evaluation depends on."""
         arguments = self.fields[evaluation.colour, evaluation.group].arguments
-        made = code_of(tuple(expressions), arguments, is_for_balls)
+        made = code_of(expressions, arguments, is_for_balls)
         self.codes.append(made)
         return made
 

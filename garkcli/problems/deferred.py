@@ -1,0 +1,130 @@
+"""Expressions of built-in problems, made when they are looked at; what is asked of them often is
+known without them, from ``known/``.
+
+The files there are made by ``make known``. An answer that they lack is computed by sympy.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextvars import ContextVar
+from functools import cache, cached_property
+from pathlib import Path
+from typing import Any, TypeAlias, TypeVar, overload
+
+import msgspec.json
+
+from garkcli.problems.expr import Expr, Exprs, Invariants, Vector
+
+T = TypeVar("T")
+Answer: TypeAlias = Any
+"""What JSON can say."""
+Record: TypeAlias = dict["Deferred", dict[str, Answer]]
+"""Answers by expressions and by questions."""
+KNOWN = Path(__file__).resolve().parent / "known"
+"""The folder with a file a problem: answers by the names of expressions and by questions."""
+_record: ContextVar[Record | None] = ContextVar("record", default=None)
+
+
+class Deferred(Sequence[Expr]):
+    """Several sympy expressions, made when one of them is looked at.
+
+    Args:
+        name: says which they are; equal names mean equal expressions. It begins with the name of
+            the built-in problem and a blank.
+        make: makes them.
+        names: what each is called, if they are named.
+        count: how many there are, where that is known.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        make: Callable[[], Vector],
+        count: int | None = None,
+        names: tuple[str, ...] = (),
+    ) -> None:
+        self.name, self.names = name, names
+        self._make, self._count = make, count
+
+    @cached_property
+    def made(self) -> Exprs:
+        """The expressions."""
+        return tuple(self._make())
+
+    def derived(self, what: str, make: Callable[[], Vector], count: int | None = None) -> Deferred:
+        """Others that are made of these."""
+        return Deferred(f"{self.name}, {what}", make, count)
+
+    @overload
+    def __getitem__(self, index: int) -> Expr: ...
+    @overload
+    def __getitem__(self, index: slice) -> Exprs: ...
+    def __getitem__(self, index: int | slice) -> Expr:
+        return self.made[index]
+
+    def __iter__(self) -> Iterator[Expr]:
+        return iter(self.made)
+
+    def __len__(self) -> int:
+        return len(self.made) if self._count is None else self._count
+
+    def __bool__(self) -> bool:
+        return True
+
+    def __eq__(self, other: object) -> bool:
+        if isinstance(other, Deferred):
+            return self.name == other.name or self.made == other.made
+        return self.made == other if isinstance(other, tuple) else NotImplemented
+
+    # of equal expressions with different names caches keep two answers
+    def __hash__(self) -> int:
+        return hash(self.name)
+
+    def __repr__(self) -> str:
+        return repr(self.made)
+
+    def __reduce__(self) -> tuple[type, tuple[Exprs]]:
+        return tuple, (self.made,)
+
+
+def ask(of: Vector, question: str, compute: Callable[[], T]) -> T:
+    """The answer to a question about expressions: a known one, or what ``compute`` says."""
+    if not isinstance(of, Deferred):
+        return compute()
+    record = _record.get()
+    if record is not None:
+        answer = compute()
+        record.setdefault(of, {})[question] = answer
+        return answer
+    problem = of.name.split(" ", 1)[0]
+    answers = known(problem).get(of.name, {})
+    return answers[question] if question in answers else compute()
+
+
+@cache
+def known(problem: str) -> Mapping[str, Mapping[str, Answer]]:
+    """The known answers on a built-in problem, by the names of expressions and by questions."""
+    path = KNOWN / f"{problem}.json"
+    if not path.exists():
+        return {}
+    found: dict[str, dict[str, Answer]] = msgspec.json.decode(path.read_bytes())
+    return found
+
+
+def recorded(work: Callable[[], object]) -> Record:
+    """All that ``work`` asks, with answers that are computed anew."""
+    record: Record = {}
+    token = _record.set(record)
+    try:
+        work()
+    finally:
+        _record.reset(token)
+    return record
+
+
+def names_of(invariants: Invariants) -> tuple[str, ...]:
+    """What invariants are called."""
+    if isinstance(invariants, Deferred):
+        return invariants.names
+    return tuple(name for name, _ in invariants)
