@@ -178,8 +178,9 @@ class Convergence(Shown, Frozen):
         """Whether the order is the visible one, or at least that where the problem may hide some
         trees.
 
-        Undecided where there is no order to be seen, also because there are no errors, or where the
-        rounding of the coefficients comes before the slopes have settled. Reduced where the steps
+        Undecided where there is no order to be seen, also because there are no errors, or because
+        they grow as steps shrink, or where the rounding of the coefficients comes before the slopes
+        have settled. Reduced where the steps
         are too large for a stiff problem to show it, unless tiny ones show another one.
         """
         if self.observed_order is None:
@@ -192,7 +193,7 @@ class Convergence(Shown, Frozen):
             return "disagree" if self.has_settled else "undecided"
         is_shown = not self.are_given or abs(self.observed_order - self.short_order) <= CLOSE
         if is_shown and self._is_visible(self.short_order):
-            return "agree"
+            return "agree" if self.observed_order > 0 else "undecided"
         return "disagree"
 
     def _stiff_verdict(self, observed: float) -> Verdict:

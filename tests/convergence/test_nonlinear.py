@@ -174,6 +174,8 @@ def made(observed: float | None, is_sharp: bool = False, **changes: Any) -> Conv
         (made(5.0, is_sharp=True), "disagree"),
         (made(3.5, short_order=4.0), "agree"),
         (made(3.5, short_order=3.0), "disagree"),
+        (made(-1.8, short_order=4.0), "undecided"),  # errors grow as steps shrink
+        (made(-1.8, short_order=3.0), "disagree"),
         (made(3.5, short_order=4.0, are_given=True), "disagree"),
         (made(5.0, short_order=5.0, are_given=True), "agree"),
         (made(9.0, short_order=4.0, are_given=True), "disagree"),
