@@ -76,7 +76,7 @@ mutants: $(READY) ## small changes in the mathematical rooms, and which of them 
 catalogue: $(READY) ## make the index of the catalogue anew, and the copies in methods/
 	$(BIN)/python -m garkcli.catalogue
 
-known: $(READY) ## make what is known of built-in problems without sympy anew
+known: $(READY) ## make the derivatives of built-in problems anew
 	$(BIN)/python -m garkcli.problems
 
 figures: $(READY) ## draw the figures of the documentation anew

@@ -1,4 +1,4 @@
-"""``python -m garkcli.problems``: makes what is known of built-in problems anew, by sympy."""
+"""``python -m garkcli.problems``: sympy answers all questions about built-in problems anew."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ TERMS = (1, 2, 3)
 
 
 def answers(name: str, terms: int) -> Record:
-    """Answers to all that steps and reports ask of a built-in problem and of its sum, with the
+    """Answers to the questions of steps and reports about a built-in problem and its sum, with the
     usual coefficients.
     """
 
@@ -75,7 +75,7 @@ def _ask_field(field: VectorField, layout: Layout) -> None:
 
 
 def answers_of_clock() -> Record:
-    """Answers to all that is asked of ṫ = 1."""
+    """Answers to the questions about ṫ = 1."""
 
     def work() -> None:
         code_of.cache_clear()

@@ -1,7 +1,7 @@
-"""Expressions of built-in problems, made when they are looked at; what is asked of them often is
-known without them, from ``known/``.
+"""Expressions of built-in problems that sympy makes on first use; the files of ``known/`` answer
+most questions about them without sympy.
 
-The files there are made by ``make known``. An answer that they lack is computed by sympy.
+``make known`` writes these files. sympy computes an answer that they lack.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ _record: ContextVar[Record | None] = ContextVar("record", default=None)
 
 
 class Deferred(Sequence[Expr]):
-    """Several sympy expressions, made when one of them is looked at.
+    """Several sympy expressions, made on first use.
 
     Args:
         name: says which they are; equal names mean equal expressions. It begins with the name of
@@ -89,7 +89,7 @@ class Deferred(Sequence[Expr]):
 
 
 def ask(of: Vector, question: str, compute: Callable[[], T]) -> T:
-    """The answer to a question about expressions: a known one, or what ``compute`` says."""
+    """The answer to a question about expressions: the known one, or that of ``compute``."""
     if not isinstance(of, Deferred):
         return compute()
     record = _record.get()
@@ -113,7 +113,7 @@ def known(problem: str) -> Mapping[str, Mapping[str, Answer]]:
 
 
 def recorded(work: Callable[[], object]) -> Record:
-    """All that ``work`` asks, with answers that are computed anew."""
+    """All questions of ``work``, with new answers by sympy."""
     record: Record = {}
     token = _record.set(record)
     try:

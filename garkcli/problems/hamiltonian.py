@@ -2,8 +2,8 @@
 numbers.
 
 The vector fields are V^{l} = ∂H^{l}/∂p and F^{l} = −∂H^{l}/∂q. The expressions are sympy objects
-built by ``garkcli.problems.builtin``; no text is ever evaluated. sympy is imported when an
-expression is looked at.
+built by ``garkcli.problems.builtin``; no text is ever evaluated. The first use of an expression
+imports sympy.
 """
 
 from __future__ import annotations
@@ -107,6 +107,8 @@ def vector_field(problem: Hamiltonian, term: int, drives: Group) -> VectorField:
 @cache
 def _moved(H: Expr, variables: tuple[str, ...], drives: Group) -> Exprs:
     """∂H/∂p or −∂H/∂q; a sum and its parts are differentiated once, whichever problem has them."""
+    import sympy
+
     if drives == "q":
-        return tuple(H.diff(x) for x in symbols(variables, "p"))
-    return tuple(-H.diff(x) for x in symbols(variables, "q"))
+        return tuple(sympy.diff(H, x) for x in symbols(variables, "p"))
+    return tuple(-sympy.diff(H, x) for x in symbols(variables, "q"))

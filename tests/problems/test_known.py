@@ -1,4 +1,4 @@
-"""What is known of built-in problems without sympy: the same as sympy says, and enough."""
+"""The known answers about built-in problems agree with sympy, and commands need no others."""
 
 from __future__ import annotations
 
