@@ -49,7 +49,8 @@ class Mechanical(Frozen):
 
     def problem(self, name: str, terms: int) -> Hamiltonian:
         """The problem in ``terms`` terms."""
-        split = Deferred(f"{name} terms={terms}", lambda: self._split(terms), terms)
+        whole = f"{name} terms=1"
+        split = Deferred(f"{name} terms={terms}", lambda: self._split(terms), terms, total=whole)
         invariants: Invariants = ()
         if self.invariants:
             names = tuple(what for what, _ in self.invariants)
