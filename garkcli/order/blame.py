@@ -32,6 +32,8 @@ FEW_CONDITIONS = 4
 """So many failing conditions are solved for an entry of rounded coefficients; the best is kept."""
 FEW_CHECKED = 20
 """So many failing conditions are examined before the order is found."""
+FAR = 1_000_000
+"""Rounding explains no residual of so many tolerances."""
 NEWTON_STEPS = 3
 """Steps of the simplified Newton's method; each squares a small misprint, nearly."""
 GAIN = 2
@@ -159,11 +161,28 @@ def repairs(method: Tableau, missed: Missed, failing: list[Condition]) -> Iterat
         changed = missed.restored(entry.put(method, new))
         if changed is None:
             continue
-        few = [condition.tree for condition in failing[:FEW_CHECKED]]  # takes less than the order
+        # takes less than the order
+        few = [condition.tree for condition in failing[:FEW_CHECKED]]
+        few += _bushes(printed(changed), missed.claimed)
+        if _is_hopeless(printed(changed), few, FAR * missed.near):
+            continue
         if not all(condition.holds for condition in conditions(changed, few)):
             continue
         if order_of(changed, missed.claimed).order >= missed.claimed:
             yield Repair(entry.l, entry.m, entry.i, entry.j, entry.old, new, missed.is_embedded)
+
+
+def _bushes(tableau: Tableau, order: int) -> Iterator[Tree]:
+    """The trees of orders from 3 on whose branches are leaves, of one colour each."""
+    for l, colour in enumerate(tableau.colours):
+        m = next((m for m in range(tableau.size) if tableau.block(l, m) is not None), None)
+        if m is not None and not colour.is_linear:
+            yield from (Tree(l, (Tree(m),) * (k - 1)) for k in range(3, order + 1))
+
+
+def _is_hopeless(tableau: Tableau, trees: Sequence[Tree], far: fmpq) -> bool:
+    """Whether a condition is missed by more than ``far``; never where ``far`` is 0."""
+    return bool(far) and any(not within(x.residual, far) for x in conditions(tableau, trees))
 
 
 def named_block(tableau: Tableau, edge: Edge) -> Edge:
