@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any, Self
 
 from flint import arb, ctx, fmpq, fmpq_mpoly, fmpq_poly, fmpz_poly, nmod_poly
@@ -81,6 +81,9 @@ class Polynomial:
 
     def __hash__(self) -> int:
         return hash(self.coefficients)
+
+    def __reduce__(self) -> tuple[Callable[..., Polynomial], tuple[object, ...]]:
+        return type(self), (self.coefficients,)  # images are made again
 
     def __repr__(self) -> str:
         coefficients = ", ".join(map(str, self.coefficients))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import pickle
 
 from flint import arb, fmpq, fmpq_mat, fmpq_poly, fmpz_poly
@@ -10,6 +11,8 @@ from garkcli.exact.display import to_text
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.pickling import register
+from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.roots import real_roots
 
 
 def sent(value: object) -> object:
@@ -47,3 +50,14 @@ def test_numbers_of_one_field_stay_together() -> None:
     to_text(values[0])  # fills what the field keeps
     one, other = sent(values)  # type: ignore[misc]
     assert to_text(one + other) == "sqrt(2) + cbrt(5)"
+
+
+def test_polynomials_arrive_whose_roots_are_known() -> None:
+    """What was found with them in balls stays behind."""
+    p = Polynomial([Domain([parse("sqrt(2)")]).evaluate(parse("sqrt(2)")), 3, 1])
+    roots = real_roots(p)
+    assert p._images
+    arrived = sent(p)
+    assert arrived == copy.deepcopy(p) == p
+    assert isinstance(arrived, Polynomial)
+    assert real_roots(arrived) == roots
