@@ -20,7 +20,7 @@ from typing import TypeAlias
 from flint import fmpq, fmpq_poly
 
 from garkcli.deadline import check_time
-from garkcli.exact.field import ZERO
+from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector, add, apply_left, multiply, outer
 from garkcli.frozen import Frozen
 from garkcli.order.tolerance import within
@@ -105,25 +105,23 @@ def _reflection(space: PolynomialSpace) -> Matrix | None:
 def _by_sums(tableau: Tableau, tolerance: fmpq) -> _Images:
     """The stages that a stage may become, by row sums within a tolerance.
 
-    Row sums r of A turn into (sum of weights) − r, and weights stay.
+    The row sums of a stage and of its image add up to the sum of the weights: each entry and its
+    image to a weight within three times the tolerance.
     """
     possible: _Images = {}
     for k, space in enumerate(tableau.spaces):
         if not isinstance(space, PointSpace):
             continue
-        rows: list[Vector] = []
-        turned: list[Vector] = []
+        sums: list[tuple[list[Number], Number, fmpq]] = []
         for m, colour in enumerate(tableau.colours):
-            if (k, m) in tableau.blocks:
-                total = sum(colour.b, ZERO)
-                rows.append(tuple(sum(row, ZERO) for row in tableau.blocks[k, m]))
-                turned.append(tuple(total - x for x in rows[-1]))
-        allowed = (3 * space.stages + 3) * tolerance  # sums are as long as stages
+            if (k, m) in tableau.blocks and isinstance(tableau.space(m), PointSpace):
+                rows = [sum(row, ZERO) for row in tableau.blocks[k, m]]
+                sums.append((rows, sum(colour.b, ZERO), 3 * len(colour.b) * tolerance))
         for i in range(space.stages):
             possible[k, i] = [
                 j
                 for j in range(space.stages)
-                if all(within(x[i] - y[j], allowed) for x, y in zip(rows, turned, strict=True))
+                if all(within(x[i] + x[j] - total, allowed) for x, total, allowed in sums)
             ]
     return possible
 

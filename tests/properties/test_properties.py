@@ -437,6 +437,28 @@ b: [1/2, 1/2]
     assert symmetry(tableau, fmpq(1, 10**8)).holds is False
 
 
+def test_rounding_adds_up_over_what_a_stage_sees() -> None:
+    """A midpoint stage that sees eight others: each entry is rounded up by t, each weight down."""
+    t, w = fmpq(1, 10**6), fmpq(1, 8)
+
+    def texts(x: fmpq, stages: int = 8) -> list[str]:
+        return [str(x)] * stages
+
+    A = [[[["1/2"]], [texts(w / 2 + t)]], [[["1/2"]] * 8, [texts(w / 2)] * 8]]
+    tableau = loads(f"tableau: {{A: {A}, b: [['1'], {texts(w - t)}]}}").tableau
+    assert symmetry(tableau, t).holds is True
+    assert symmetry(tableau, t / 2).holds is False
+
+
+@pytest.mark.parametrize("transfer", ["collocation", "interpolation"])
+def test_symmetry_within_a_tolerance_beside_a_family(transfer: str) -> None:
+    """Rows that see the stages of a family are compared as they are, not by sums of coordinates."""
+    methods = "[{family: gauss, stages: 2}, {A: [[1/2]], b: [1]}]"
+    tableau = loads(f"{{methods: {methods}, transfer: {transfer}}}").tableau
+    assert symmetry(tableau, fmpq(1, 10**9)) == symmetry(tableau)
+    assert symmetry(tableau).holds is True
+
+
 # -- families without their nodes
 
 FAMILIES = ("gauss", "radau-ia", "radau-iia", "lobatto-iiia", "lobatto-iiib", "lobatto-iiic")
