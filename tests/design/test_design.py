@@ -23,7 +23,7 @@ from garkcli.design.conditions import FamilyConditions
 from garkcli.design.design import Design, find_parameters
 from garkcli.design.groebner import reduced
 from garkcli.design.ideal import Ideal
-from garkcli.design.parts import Changes, Pieces
+from garkcli.design.parts import Changes, Pieces, nodes_as_coordinates
 from garkcli.design.solutions import solutions, value_at
 from garkcli.errors import NotDecided
 from garkcli.methodfile.family import loads_family, with_values
@@ -407,6 +407,19 @@ def test_parts_are_all_of_a_set(text: str, order: int) -> None:
         if compared == 5:
             break
     assert compared
+
+
+def test_nodes_in_place_of_unknowns() -> None:
+    """A node that is a linear sum of several unknowns becomes one, by the name of its stage; a
+    single unknown stays, and so does a product.
+    """
+    free = ", ".join(f"{x}: free" for x in "uvwxy")
+    rows = "[[], [u], [v, w], [x*y, 1, 0]]"
+    family = loads_family(f"parameters: {{{free}}}\nA: {rows}\nb: [0, 0, 0, 1]\n")
+    changes = nodes_as_coordinates(family.tableau, family.ring)
+    assert (changes.ring.names, changes.nodes) == (("u", "c3", "w", "x", "y"), ("c3", "u"))
+    values = changes.values()
+    assert values["v"] + values["w"] == changes.ring.parameter("c3")
 
 
 def test_given_nodes_of_order_five() -> None:

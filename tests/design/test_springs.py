@@ -12,7 +12,7 @@ from flint import fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from garkcli.design.stability_kinds import TwoSprings
+from garkcli.design.stability_kinds import Members, SpringStability, TwoSprings
 from garkcli.design.stable_values import StableValues, stable_values
 from garkcli.exact.cells import Interval
 from garkcli.exact.polynomial import Polynomial
@@ -72,6 +72,33 @@ def test_against_single_values(t: Fraction, slow: fmpq, greatest: fmpq) -> None:
     single = two_frequencies(tableau, springs(tableau, 1), slow)
     is_stable = has(single.stable, fmpq(0), greatest)
     assert has(found.found, value, value) == is_stable
+
+
+LARGER = """parameters: {t: free}
+methods:
+  - {family: lobatto-iiia, stages: 3}
+  - {family: gauss, stages: 2}
+transfer: {interpolation: t, collocation: 1 - t}
+structure: semi-separable
+"""
+
+
+@pytest.mark.parametrize(
+    ("greatest", "is_stable", "witness"),
+    [("9", True, None), ("19/2", False, None), ("10", False, "10"), ("20", False, "10")],
+)
+def test_one_interval_reaches_the_bound(
+    greatest: str, is_stable: bool, witness: str | None
+) -> None:
+    """With t = 0 there are two, x < 9.48 and 11.25 < x < 54; that x = 10 is unstable tells nothing
+    of what is asked up to 19/2.
+    """
+    family = loads_family(LARGER)
+    wanted = TwoSprings(fmpq(1, 2), 1, fmpq(*map(int, greatest.split("/"))))
+    kind = SpringStability(Members(family, "method"), family.tableau, wanted)
+    assert kind.decide(fmpq(0)) is is_stable
+    found = kind.witness(fmpq(0))
+    assert (found and str(found)) == witness
 
 
 def test_one_value_has_no_resonance_at_all() -> None:

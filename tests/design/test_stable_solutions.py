@@ -12,9 +12,11 @@ from flint import fmpq, fmpq_poly, fmpz_poly
 from garkcli import minimise, render
 from garkcli.design.choices import accepted_methods
 from garkcli.design.design import Design, find_parameters, stable_sets
+from garkcli.design.ideal import Ideal
 from garkcli.design.member import Whose
 from garkcli.design.minimise.line import Within
-from garkcli.design.stable_parts import StablePart
+from garkcli.design.parts import Part
+from garkcli.design.stable_parts import StablePart, joined
 from garkcli.design.stable_plane import stable_set
 from garkcli.design.stable_values import StableValues, stable_values
 from garkcli.errors import MethodFileError
@@ -369,3 +371,21 @@ def test_several_parameters_of_which_every_value_has_the_order(
     assert isinstance(alone, StableValues)
     assert alone.found == values.found
     assert str(alone.form) == str(values.form) == form
+
+
+def test_values_of_parts_together() -> None:
+    """A value that one part leaves open is open unless another part has it, or it is out of the
+    range of the unknown.
+    """
+    family = loads_family(SDIRK.replace("free", "{free: true, range: [0, 10]}"))
+    part = Part(family.ring, {}, (), Ideal(family.ring))
+    values = (RealRoot.rational(fmpq(x)) for x in (0, 1, 3, 5, 10, 20))
+    zero, one, three, five, ten, twenty = values
+    sets = [
+        ((Interval(five, None),), (one, five, twenty)),
+        ((Interval(zero, three, has_start=True, has_end=True),), ()),
+    ]
+    kinds = [StableValues(family, "method", "a-stable", *x) for x in sets]
+    (together,) = joined(family, [StablePart(part, (x,)) for x in kinds])
+    assert together.found == (*sets[1][0], Interval(five, ten, has_end=True))
+    assert together.undecided == (five,)
