@@ -147,6 +147,26 @@ def test_what_the_digits_leave_open_is_not_claimed(tmp_path: Path) -> None:
     assert verdict(found) == 0
 
 
+def test_the_last_stage(tmp_path: Path) -> None:
+    """A true declaration that it is the first of the next step is a claim; none is none."""
+    text = "A = [[], [0.5], [0, 1]]\nb = [0, 1, 0]\nc = [0, 0.5, 1]\nfsal = True\n"
+    assert expected(text, tmp_path) == ["{order: 2, fsal: true}"]
+    assert expected(text.replace("fsal = True", ""), tmp_path) == ["{order: 2}"]
+
+
+def test_exact_forms_of_a_false_declaration(tmp_path: Path) -> None:
+    """Whether its decimals stay or become fractions, the file claims the same."""
+    path = tmp_path / "m.py"
+    path.write_text(
+        "A = [[0], [0.33333333333333333333], [0, 0.66666666666666666667]]\n"
+        "b = [0.25, 0, 0.75]\nc = [0, 0.33333333333333333333, 0.66666666666666666667]\norder = 4\n"
+    )
+    for is_as_found, order in ((False, 4), (True, 3)):
+        (method,) = garkcli.import_methods(path, is_recognising=True, is_as_found=is_as_found)
+        assert method.tolerance is None
+        assert [(x.key, x.value) for x in method.claims] == [("order", order)]
+
+
 def test_in_python(tmp_path: Path) -> None:
     """``import_methods`` claims the same, and ``claims_of`` has what is true."""
     path = tmp_path / "m.py"

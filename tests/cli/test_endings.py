@@ -80,7 +80,7 @@ HAS: Mapping[str, Callable[[str], object]] = {
     ".bib": lambda text: "\n@article{" in text,
     ".xml": lambda text: text.startswith("<?xml"),
     ".v": lambda text: "Proof." in text,
-    ".txt": lambda text: not text.startswith(("{", "<", "@", "\\")),
+    ".txt": lambda text: not text.startswith(("{", "<", "%", "@", "\\")),
 }
 """What shows that a file is what its ending says."""
 
@@ -137,6 +137,8 @@ def test_a_format_that_its_file_contradicts(tmp_path: Path) -> None:
     for name in ("x.txt", "x.JSON", "x", "x.out"):
         assert gark(*asked, name, cwd=tmp_path).code == 0
         assert json.loads((tmp_path / name).read_text(encoding="utf-8"))
+    gark("tableau", "rk4", "-o", "y.JSON", cwd=tmp_path)
+    assert json.loads((tmp_path / "y.JSON").read_text(encoding="utf-8"))
     assert gark("check", "rk4", "--format", "sarif", "-o", "s.json", cwd=tmp_path).code == 0
     assert "runs" in json.loads((tmp_path / "s.json").read_text(encoding="utf-8"))
     gark("tableau", "rk4", "-o", "y.out", cwd=tmp_path)

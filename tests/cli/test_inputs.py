@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from garkcli.cli.main import COMMANDS
+from garkcli.files import NotAFile, begin_of
 from tests.cli.harness import ROOT, Run, gark
 
 METHOD = "A: [[0, 0], [1/2, 0]]\nb: [0, 1]\n"
@@ -90,6 +91,25 @@ def test_what_passes_for_a_file_is_not_waited_for(command: str, folder: Path) ->
     )
     assert done.returncode == 2
     assert "not a regular file" in done.stdout + done.stderr
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")
+def test_a_pipe_is_not_opened(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """To open some devices has effects; what takes the place of a file since is not read."""
+    pipe, file = tmp_path / "pipe", tmp_path / "file"
+    os.mkfifo(pipe)
+    file.touch()
+    opened = []
+    with monkeypatch.context() as patched:
+        patched.setattr(os, "open", lambda *x: opened.append(x))
+        with pytest.raises(NotAFile):
+            begin_of(str(pipe), 10)
+    assert not opened
+    status = file.stat()
+    with monkeypatch.context() as patched:
+        patched.setattr(os, "stat", lambda _: status)
+        with pytest.raises(NotAFile):
+            begin_of(str(pipe), 10)
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")

@@ -10,6 +10,7 @@ from time import process_time
 import pytest
 
 from garkcli.cli.project import find_project
+from garkcli.methodfile import finding
 from tests.cli.harness import gark
 
 PATIENCE = 10.0
@@ -211,6 +212,20 @@ def test_links_inside_are_followed(project: Path) -> None:
         assert "with.gark.yaml: order 2" in run.out
 
 
+def test_stars_in_a_row_say_no_more_than_one(
+    project: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each of them would go through all folders below each match of those before it."""
+    (project / "a/b/c/d").mkdir(parents=True)
+    walks: list[str] = []
+    folders = finding._folders
+    monkeypatch.setattr(finding, "_folders", lambda x: walks.append(x) or folders(x))
+    (project / "tables/with.gark.yaml").rename(project / "a/b/c/d/deep.gark.yaml")
+    put(project, ".gark.toml", f"paths = [{json.dumps('**/' * 12 + 'deep*')}]\n")
+    assert gark("check", cwd=project).code == 0
+    assert len(walks) == 1
+
+
 def test_a_path_is_no_name(project: Path) -> None:
     """The paths of a project are files: neither methods of the catalogue nor standard input."""
     for given in ("rk4", "-", "catalogue:", "gauss-2"):
@@ -229,6 +244,7 @@ def test_a_path_is_no_name(project: Path) -> None:
         ("a." * 200_000 + "a = 1", "nested too deeply"),
         ("a." * 90 + "a = 1", "unknown key 'a'"),
         ("[" + "paths." * 90 + "a]", "a list is expected here"),
+        ("a = " + ("{" + "a." * 90 + "a = ") * 50 + "1" + "}" * 50, "unknown key 'a'"),
         ("paths = " + "[" * 50 + "]" * 50, "a single value is expected here"),
         ("\n".join(f"a{n} = 1" for n in range(20_000)), " | a200 = 1"),
         ("\n" * 500_000 + "a = 1", "unknown key 'a'"),
@@ -242,6 +258,7 @@ def test_a_path_is_no_name(project: Path) -> None:
         "dots",
         "names",
         "head",
+        "names-in-tables",
         "inside",
         "keys",
         "lines",
