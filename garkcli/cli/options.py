@@ -53,12 +53,12 @@ METHOD = (
     "a method file, a name of the catalogue such as rk4, a family with its stages such as gauss-3, "
     "or - for standard input"
 )
-"""What stands for a method."""
+"""Words for one method on the command line."""
 SEVERAL = (
     "a directory stands for all *.gark.yaml below it, a pattern (in quotes, ** for any "
     "directories) for the files that match"
 )
-"""What stands for several."""
+"""Words for several methods."""
 KINDS: dict[str, dict[str, Any]] = {
     "written": {"type": PATH},
     "picture": {"type": PATH, "callback": arguments.picture},
@@ -251,8 +251,10 @@ def takes_methods(arguments: str) -> list[str]:
 
 def hint_rounding(methods: Iterable[MethodFile], output: Output) -> None:
     """Say of which methods the coefficients look rounded, with the line that is missing; check has
-    it in its report.
+    it in its report. To find them takes as long as a check: with -q nobody reads them.
     """
+    if output.verbosity < 0:
+        return
     from garkcli.check.deciding import looks_rounded
 
     several = len({method.source for method in methods}) > 1

@@ -15,6 +15,7 @@ import yaml
 from flint import fmpq
 from jsonschema import Draft7Validator
 
+from garkcli.check import deciding
 from garkcli.cli.options import command_of
 from garkcli.cli.table import COMMANDS, SHOWN
 from garkcli.methodfile.load import load, loads
@@ -628,6 +629,19 @@ def test_every_command_says_that_coefficients_look_rounded(command: str, tmp_pat
     hint = "hint: the coefficients look rounded; with the line  tolerance: 1e-15  the order is 2"
     assert gark(name, str(place), *options).err.count(hint) == 1
     assert "look rounded" not in gark(name, str(exact), *options).err
+
+
+def test_nobody_looks_for_rounding_that_nobody_reads(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """With ``-q`` no time goes into the hint, which for many stages takes half a minute."""
+    place = tmp_path / "half.gark.yaml"
+    place.write_text("A: [[0.3333333333333333]]\nb: [1]\n", encoding="utf-8")
+    asked: list[object] = []
+    monkeypatch.setattr(deciding, "looks_rounded", asked.append)
+    for words, count in (("-q",), 0), ((), 1):
+        assert gark("tableau", str(place), *words).code == 0
+        assert len(asked) == count
 
 
 def test_long_fractions_are_decimals_in_text_alone(tmp_path: Path) -> None:
