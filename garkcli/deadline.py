@@ -54,7 +54,7 @@ def until(moment: float | None) -> Iterator[None]:
 
 @contextmanager
 def spending(seconds: float | None) -> Iterator[None]:
-    """Limit the processor time of what is done inside in the same way."""
+    """Limit the processor time of the work inside; None sets no new limit, outer ones stay."""
     with _earliest(_spent, None if seconds is None else processor_time() + seconds):
         yield
 
@@ -102,13 +102,13 @@ def clock_left() -> float | None:
 
 
 def work_left() -> float | None:
-    """The same of processor time."""
+    """How much processor time is left, 0 where it is over; None where it has no limit."""
     spent = _spent.get()
     return None if spent is None else max(0.0, spent - processor_time())
 
 
 def seconds_left() -> float | None:
-    """The smaller one of both; None where there is no limit."""
+    """Seconds until the first limit, of the clock or of processor time; None without limits."""
     return min((x for x in (clock_left(), work_left()) if x is not None), default=None)
 
 

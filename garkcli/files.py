@@ -102,7 +102,7 @@ _BLOCK = 2**20
 
 
 def _read(descriptor: int, most: int) -> bytes:
-    """What comes from a descriptor until its end, ``most`` bytes of it."""
+    """The bytes from a descriptor until its end, at most ``most``."""
     blocks = []
     while block := os.read(descriptor, min(most, _BLOCK)):
         blocks.append(block)

@@ -14,8 +14,8 @@ def leave(number: int, _frame: object) -> None:
 
 
 def leave_at_once() -> None:
-    """Until the command runs, an interrupt would show a traceback of imports; one that is ignored
-    stays so.
+    """Let an interrupt end the process without a word, not with a traceback of imports, until the
+    command runs; one that is ignored stays so.
 
     Windows has an exit code of its own for a process that an interrupt ends.
     """

@@ -144,7 +144,7 @@ def audit(table: FoundTable) -> Audited | None:
 
 
 def findings_of(subject: Subject) -> tuple[AuditFinding, ...]:
-    """What is wrong with a table."""
+    """Every finding of a table, in the order in which an audit reports them."""
     return tuple(_weighed(x, subject) for check in CHECKS for x in check(subject))
 
 

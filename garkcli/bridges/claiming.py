@@ -45,7 +45,7 @@ def true_claims(found: Subject) -> Mapping[str, str]:
 
 
 def declared_claims(found: Subject) -> Mapping[str, str]:
-    """What the source declares, and what is true where it declares nothing.
+    """Claims of a table: the declared ones, and true ones where the source declares nothing.
 
     A declared order that is too low is a bound; one that the digits leave open is not claimed.
     """
@@ -71,7 +71,7 @@ def _is_fsal(found: Subject) -> bool:
 
 
 def _orders(found: Subject) -> list[tuple[str, Judged, int | None]]:
-    """What claims of orders are called, the orders, and the declared ones."""
+    """Every order with the key of its claim and the declared value."""
     table, embedded = found.table, found.embedded_order
     orders = [("order", found.order, table.order)]
     if embedded is not None:

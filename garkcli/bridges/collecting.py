@@ -51,7 +51,7 @@ class Result(Frozen, eq=False):
 
     @property
     def errors(self) -> Sequence[AuditFinding]:
-        """What its source declares and is not true, or cannot be."""
+        """Findings that contradict its source, or that no method can have."""
         findings = () if self.method is None else self.method.findings
         return [x for x in findings if x.level == "error" or x.claims]
 
@@ -61,7 +61,7 @@ class Result(Frozen, eq=False):
         return f"{self.stem}{SUFFIX}"
 
     def notes(self) -> Iterator[str]:
-        """What else people should know, a sentence each."""
+        """Further remarks for people, a sentence each."""
         yield from self.table.notes
         if self.trouble:
             yield self.trouble

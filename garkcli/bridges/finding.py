@@ -1,4 +1,4 @@
-"""What may be wrong with a table: every kind of finding."""
+"""Every kind of finding about a table."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Level: TypeAlias = Literal["error", "warning", "note"]
 
 
 class AuditFinding(Frozen):
-    """What is wrong with a table.
+    """A fault of a table, or a doubt about it.
 
     Attributes:
         code: a key of ``CODES``.

@@ -31,11 +31,11 @@ BYTES_PER_SECOND = 50_000
 
 
 class Source(Frozen):
-    """What is read.
+    """A source that is to be read.
 
     Attributes:
         name: the path of a file; what another source is called.
-        size: in bytes.
+        size: in bytes of a file, in characters of a text.
         text: of what is no ordinary file, such as standard input: that is this process's.
     """
 
@@ -50,7 +50,7 @@ def read_within_limits(
     late: Callable[[FoundTable], T],
     jobs: int = 1,
 ) -> Iterator[list[T]]:
-    """What becomes of each of some sources, in order.
+    """The outcome of each source, in order.
 
     Args:
         paths: of the sources; ``-`` is standard input.

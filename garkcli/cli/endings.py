@@ -1,6 +1,4 @@
-"""What the ending of a file says of what is in it: one rule for every option that names a file to
-write.
-"""
+"""The format of a file by its ending: one rule for every option that names a file to write."""
 
 from __future__ import annotations
 
@@ -43,7 +41,7 @@ ENDINGS: Mapping[str, tuple[str, ...]] = {
     ".py": ("python",),
     ".r": ("r",),
 }
-"""What a file holds, by its ending: the first that a command writes. Others say nothing."""
+"""Formats by endings; of several a command writes the first that it can. Others say nothing."""
 CURES = {
     "yaml": "gark convert, design --emit and claims --write write method files",
     **dict.fromkeys(("png", "svg", "pdf"), "--plot FILE draws, where a command can"),
@@ -53,7 +51,7 @@ CURES = {
         "gark export writes tables for programs",
     ),
 }
-"""What writes the files that a command does not."""
+"""Commands that write the formats which others cannot."""
 
 
 def ending_of(path: str) -> str:

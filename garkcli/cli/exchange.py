@@ -117,9 +117,7 @@ def import_(given: Given, output: Output) -> int:
 
 
 def _tell_signs(results: Sequence[Result], output: Output) -> None:
-    """How error estimates are read of which a source does not say what they are; a report has this
-    among its notes.
-    """
+    """Say how error estimates of unknown sign are read; a report has this among its notes."""
     for result in results:
         if result.method is not None and result.method.sign:
             output.note(f"{_place(result)}: {result.method.sign}")
@@ -131,7 +129,7 @@ def _place(result: Result) -> str:
 
 
 def _tell_wrong(results: Sequence[Result]) -> None:
-    """What sources declare and is not true, beside method files: each table, and the cure."""
+    """Name each wrong table and its cure, where the output is method files alone."""
     for result in results:
         for finding in result.errors:
             say(f"{_place(result)}: {finding.message}")
@@ -155,9 +153,7 @@ def _refuse_several(results: Sequence[Result], path: str) -> None:
 
 
 def _tell_unread(unread: Sequence[Result], output: Output) -> None:
-    """What looks like a table and was not read: how many, or with -v each with the reason; sources
-    that were not read in any case.
-    """
+    """Name sources that were not read; count other tables that were not, with -v name each."""
     for result in unread:
         if result.table.is_source:
             output.note(f"{printable(result.table.source)} {result.trouble}")

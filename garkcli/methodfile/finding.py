@@ -77,7 +77,7 @@ def fixed_part(pattern: str) -> str:
 
 
 def _expanded(place: str, parts: Sequence[str], root: str) -> Iterator[str]:
-    """What matches below a place; a link out of ``root`` is a match itself: nobody looks there."""
+    """Every match below a place; a link out of ``root`` is one itself: nobody looks behind it."""
     if not parts or (os.path.islink(place) and leads_away(place, root)):
         if os.path.lexists(place):
             yield place

@@ -340,8 +340,8 @@ class Numbers(Mutable):
     def rectangular(
         self, rows: Rows, node: Node, where: str, shape: tuple[int, int] | None = None
     ) -> Rows:
-        """A matrix whose rows are equally long, or a triangle where its shape is square; note
-        another one. That it has the shape is not looked at.
+        """The rows of a matrix, a triangle completed where ``shape`` is square; note rows of
+        different lengths. Nothing else compares the matrix with ``shape``.
         """
         lengths = [len(row) for row in rows]
         if shape == (len(rows), len(rows)) and spellings.is_triangle(lengths):

@@ -151,7 +151,7 @@ class Reader(Frozen):
 
 
 def unread(source: str, format: str, why: str) -> FoundTable:
-    """What stands for a source that was not read."""
+    """A place holder for a source that was not read, with the reason."""
     trouble = f"was not read: {why}"
     return FoundTable(source, 1, format, "the source", (), (), (), trouble=trouble, is_source=True)
 
