@@ -35,7 +35,7 @@ class Deferred(Sequence[Expr]):
         make: makes them.
         names: what each is called, if they are named.
         count: how many there are, where that is known.
-        total: the name of their sum; empty where it has none of its own.
+        total: their sum, where it is kept under a name of its own.
     """
 
     def __init__(
@@ -44,7 +44,7 @@ class Deferred(Sequence[Expr]):
         make: Callable[[], Vector],
         count: int | None = None,
         names: tuple[str, ...] = (),
-        total: str = "",
+        total: Deferred | None = None,
     ) -> None:
         self.name, self.names, self.total = name, names, total
         self._make, self._count = make, count

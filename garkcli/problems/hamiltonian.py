@@ -90,7 +90,7 @@ def summed(terms: Vector, total: Callable[[], Expr]) -> Vector:
     if len(terms) == 1:
         return terms
     if isinstance(terms, Deferred):
-        return Deferred(terms.total or f"{terms.name}, summed", lambda: (total(),), 1)
+        return terms.total or Deferred(f"{terms.name}, summed", lambda: (total(),), 1)
     return (total(),)
 
 

@@ -49,7 +49,7 @@ class Mechanical(Frozen):
 
     def problem(self, name: str, terms: int) -> Hamiltonian:
         """The problem in ``terms`` terms."""
-        whole = f"{name} terms=1"
+        whole = Deferred(f"{name} terms=1", lambda: self._split(1), 1)
         split = Deferred(f"{name} terms={terms}", lambda: self._split(terms), terms, total=whole)
         invariants: Invariants = ()
         if self.invariants:

@@ -170,7 +170,7 @@ def shared(name: str, parts: Callable[[], Sequence[Exprs]], terms: int) -> Defer
     """The parts of the problem called ``name`` in ``terms`` terms: the last one in equal shares
     where there are fewer parts, the last ones added up where there are more.
     """
-    whole = f"{name} terms=1"
+    whole = Deferred(f"{name} terms=1", lambda: _shared(parts(), 1), 1)
     return Deferred(f"{name} terms={terms}", lambda: _shared(parts(), terms), terms, total=whole)
 
 

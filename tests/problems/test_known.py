@@ -14,14 +14,16 @@ from flint import arb, ctx, fmpq
 
 from garkcli.problems import straightline
 from garkcli.problems.__main__ import answers, answers_of_clock
-from garkcli.problems.builtin import PROBLEMS
+from garkcli.problems.builtin import PROBLEMS, problem
 from garkcli.problems.deferred import KNOWN, Deferred, Record, ask, known
 from garkcli.problems.draw import Draw
 from garkcli.problems.straightline import Code, code_of, function
 
 DIGITS = 40
-NAMES = {"dahlquist": 1, "generic": 1, "generic-rhs": 1, "kepler": 3, "double-pendulum": 1}
-"""A number of terms for problems of every kind: the others differ in formulas alone."""
+TERMS = {name: 2 if of.takes_seed else 3 for name, of in PROBLEMS.items()}
+"""A number of terms for each problem; in one term comes its sum. Random ones in three take long."""
+SHARING = [name for name, of in PROBLEMS.items() if not of.takes_seed]
+"""The problems whose sum does not depend on how they are split."""
 NO_SYMPY = """
 import sys
 sys.modules["sympy"] = None
@@ -94,7 +96,7 @@ def assert_known(record: Record, problem: str) -> None:
                 assert known(problem)[expressions.name][question] == answer, expressions.name
 
 
-@pytest.mark.parametrize(("name", "terms"), NAMES.items())
+@pytest.mark.parametrize(("name", "terms"), TERMS.items())
 @pytest.mark.usefixtures("no_programs")
 def test_answers(name: str, terms: int) -> None:
     """Facts and programs agree with sympy's own derivatives, evaluated by sympy."""
@@ -109,6 +111,17 @@ def test_clock() -> None:
     record = answers_of_clock()
     code_of.cache_clear()
     assert_known(record, "clock")
+
+
+@pytest.mark.parametrize("name", SHARING)
+def test_equal_names_mean_equal_expressions(name: str) -> None:
+    """The sum of two or three terms has the name of the problem in one term, and is that."""
+    whole = problem(name, 1).terms
+    assert isinstance(whole, Deferred)
+    for terms in (2, 3):
+        total = problem(name, terms).unsplit().terms
+        assert isinstance(total, Deferred)
+        assert (total.name, total.made) == (whole.name, whole.made)
 
 
 def test_files() -> None:
