@@ -180,8 +180,8 @@ class Convergence(Shown, Frozen):
 
         Undecided where there is no order to be seen, also because there are no errors, or because
         they grow as steps shrink, or where the rounding of the coefficients comes before the slopes
-        have settled. Reduced where the steps
-        are too large for a stiff problem to show it, unless tiny ones show another one.
+        have settled. Reduced where the steps are too large for a stiff problem to show it, unless
+        tiny ones show another one.
         """
         if self.observed_order is None:
             return "undecided"

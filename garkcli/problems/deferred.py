@@ -55,7 +55,7 @@ class Deferred(Sequence[Expr]):
         return tuple(self._make())
 
     def derived(self, what: str, make: Callable[[], Vector], count: int | None = None) -> Deferred:
-        """Others that are made of these."""
+        """Expressions made of these, such as their derivatives."""
         return Deferred(f"{self.name}, {what}", make, count)
 
     @overload
@@ -126,7 +126,7 @@ def recorded(work: Callable[[], object]) -> Record:
 
 
 def names_of(invariants: Invariants) -> tuple[str, ...]:
-    """What invariants are called."""
+    """The names of invariants."""
     if isinstance(invariants, Deferred):
         return invariants.names
     return tuple(name for name, _ in invariants)

@@ -168,7 +168,7 @@ def enclosed(expressions: Vector, at: Place) -> list[arb]:
 
 
 def enclosed_at(expressions: Vector, names: Vector, numbers: Sequence[arb]) -> list[arb]:
-    """The same with the numbers that ``names`` stand for."""
+    """The expressions with ``numbers`` for the symbols ``names``, enclosed."""
     made = expressions
     if not isinstance(expressions, Deferred):
         import sympy

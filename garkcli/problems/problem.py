@@ -32,30 +32,26 @@ def unknowns(problem: Problem) -> Deferred:
 
 def conserved(problem: Problem) -> Vector:
     """What is conserved, the energy first where there is one."""
-    terms, invariants = problem.terms, problem.invariants
+    invariants = problem.invariants
+    of = problem.terms if isinstance(problem, Hamiltonian) else invariants
 
     def make() -> list[Expr]:
         return [x for _, x in problem.quantities]
 
-    count = len(conserved_names(problem))
-    if isinstance(problem, Hamiltonian):
-        if isinstance(terms, Deferred) and not invariants:
-            return terms.derived("energy", make, count)
-        if isinstance(terms, Deferred) and isinstance(invariants, Deferred):
-            return terms.derived("conserved", make, count)
-    elif isinstance(invariants, Deferred):
-        return invariants.derived("conserved", make, count)
+    if isinstance(of, Deferred) and (not invariants or isinstance(invariants, Deferred)):
+        what = "conserved" if invariants else "energy"
+        return of.derived(what, make, len(conserved_names(problem)))
     return tuple(make())
 
 
 def conserved_names(problem: Problem) -> tuple[str, ...]:
-    """What that is called."""
+    """The names of what is conserved."""
     own = ("energy",) if isinstance(problem, Hamiltonian) else ()
     return (*own, *names_of(problem.invariants))
 
 
 def summands(problem: Problem, k: int) -> Vector:
-    """What conserved quantity ``k`` is the sum of."""
+    """The summands of conserved quantity ``k``."""
     quantities = conserved(problem)
 
     def make() -> Exprs:

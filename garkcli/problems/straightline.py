@@ -142,7 +142,7 @@ def code_of(expressions: Vector, arguments: Vector, is_for_balls: bool) -> Code:
 
 
 def _spelled_out(code: Code) -> dict[str, list[str]]:
-    """What JSON keeps of a code."""
+    """A code as JSON, without what its name says."""
     return {
         "temporaries": list(code.temporaries),
         "results": list(code.results),

@@ -225,7 +225,7 @@ def _differs(x: Expr, names: Exprs) -> bool:
 
 
 def _differs_at(x: Expr, names: Exprs, bits: int) -> bool | None:
-    """The same at one precision; None where that is too low to tell."""
+    """Whether balls of ``bits`` bits do not overlap; None where that is too few to tell."""
     draw = Draw(1)
     first: arb | None = None
     is_good = True
