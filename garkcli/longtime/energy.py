@@ -173,7 +173,7 @@ def _history(
     """
     import numpy as np
 
-    verdict = _verdict(errors, fate, line, excused)
+    verdict = _verdict(errors, energy, fate, line, excused)
     drift, uncertainty = None, None
     if not errors.blew_up:
         drift = line.slope / h
@@ -215,9 +215,14 @@ def _errors(R: Matrix, omega: fmpq, energy: float, count: int) -> _Errors:
     return _Errors(values, is_exact, blew_up=len(values) <= count)
 
 
-def _verdict(errors: _Errors, fate: Stability, line: Line, excused: float) -> Verdict:
+def _verdict(
+    errors: _Errors, energy: float, fate: Stability, line: Line, excused: float
+) -> Verdict:
     """What the step map and the errors say. A drift that is seen, and less its uncertainty is no
     more than the ``excused`` that rounded coefficients can cause, is undecided.
+
+    A step multiplies areas, and the mean of the energy over the phases to first order, by det R: no
+    line fits an energy that decays to nothing, but det R − 1 shows it.
     """
     if errors.is_exact:
         return "exact"
@@ -225,7 +230,8 @@ def _verdict(errors: _Errors, fate: Stability, line: Line, excused: float) -> Ve
         return "unstable"
     if fate.fate == "elliptic":
         return "bounded"
-    certain = abs(line.slope) - line.uncertainty
+    area = abs(to_float(fate.determinant - 1)) * energy
+    certain = max(abs(line.slope) - line.uncertainty, area)
     if not excused or certain * (len(errors.values) - 1) > excused:
         return "drifts"
     return "undecided" if abs(line.slope) > line.uncertainty else "bounded"
