@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from yaml.nodes import MappingNode, Node, ScalarNode
+from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
 from garkcli.errors import did_you_mean
 from garkcli.exact.expression import FUNCTIONS
@@ -100,7 +100,11 @@ def _read(at: Any, node: Node, _: str) -> None:
     numbers: Numbers = at.numbers
     source = numbers.source
     keys = key_nodes(node)
-    for name, value_node in source.mapping(node, "parameters", ()).items():
+    names = _names_alone(node)
+    form = f"write parameters: {{{', '.join(f'{x}: free' for x in names or ['tau'])}}}"
+    for name in names:  # so that no coefficient with such a name is a second fault
+        numbers.define(name, Literal(ZERO))
+    for name, value_node in source.mapping(node, "parameters", (), form=form).items():
         key = keys[name]
         where = f"parameters: {unquoted(name)}"
         value: Expression = Literal(ZERO)
@@ -114,6 +118,13 @@ def _read(at: Any, node: Node, _: str) -> None:
             value = _value(at, name, value_node, where)
             numbers.places[name] = value_node
         numbers.define(name, value)
+
+
+def _names_alone(node: Node) -> list[str]:
+    """The names in a list without values, or a single one."""
+    nodes = node.value if isinstance(node, SequenceNode) else [node]
+    words = [x.value for x in nodes if isinstance(x, ScalarNode)]
+    return [x for x in words if x.isidentifier() and x.isascii() and x not in FUNCTIONS]
 
 
 def _value(at: Any, name: str, node: Node, where: str) -> Expression:
