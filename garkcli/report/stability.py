@@ -332,9 +332,11 @@ STABLE = Kind(
 
 
 def _zone(x: Any, d: Plain) -> str:
-    """An interval of x = z², with its end in z."""
-    end = "" if x.is_point or x.end is None else f", z to {_square_root(x.end, d.digits)}"
-    return d.interval(x, "x") + end
+    """An interval of x = (hω)², with the root of its end, which is one of hω."""
+    if x.is_point or x.end is None:
+        return d.interval(x, "x")
+    root = d.formula(r"\sqrt{x}", "sqrt(x)")
+    return f"{d.interval(x, 'x')}, {root} to {_square_root(x.end, d.digits)}"
 
 
 def discriminant(o: Any) -> Answer:
@@ -470,7 +472,10 @@ def _waves(linear: str, waves: str) -> list[Row]:
     rows = WAVES[waves]
     if linear != "none":
         return rows
-    return [replace(row, level=HEADLINE) if row.key == "stable" else row for row in rows]
+    return [
+        replace(row, level=HEADLINE, label=f"{OF_WAVES}:") if row.key == "stable" else row
+        for row in rows
+    ]
 
 
 WAVES = {

@@ -247,7 +247,8 @@ class Plain(Mutable):
         """A fraction."""
         if bottom == "1":
             return top
-        return f"({top}) / ({bottom})" if " " in bottom else f"({top}) / {bottom}"
+        top, bottom = (f"({x})" if " " in x else x for x in (top, bottom))
+        return f"{top} / {bottom}"
 
     def quotient(self, p: Polynomial, q: Polynomial, variable: str) -> str:
         """A rational function with whole coefficients, in decimals where these are long."""
@@ -413,8 +414,9 @@ class Plain(Mutable):
         if widths[-1] > last >= (CUT if is_cut else WORDS):
             widths[-1] = last
             if last < WORDS:
+                dots = self.spelt("…")
                 columns[-1] = tuple(
-                    x if len(x) <= last else f"{x[: last - 1]}…" for x in columns[-1]
+                    x if len(x) <= last else x[: last - len(dots)] + dots for x in columns[-1]
                 )
         widths[-1] = min(widths[-1], max(room - widths[0] - 2, WORDS))
         start = 1

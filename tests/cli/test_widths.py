@@ -188,3 +188,13 @@ def test_the_lists_are_columns() -> None:
         begin = [re.match(r"(?:  \S+)?\s+", line) for line in entries]
         assert len({x and x.end() for x in begin}) == 1
         assert max(map(len, entries)) <= 80
+
+
+def test_a_cut_column_keeps_its_line_in_ascii() -> None:
+    """Three dots in place of a sign take room from the text: each method has one line, as it has
+    in Unicode.
+    """
+    plain, ascii_ = (gark("list", "methods", encoding=x).out for x in ("utf-8", "ascii"))
+    assert "..." in ascii_
+    assert len(ascii_.splitlines()) == len(plain.splitlines())
+    assert max(map(len, ascii_.splitlines())) <= 80

@@ -107,7 +107,7 @@ def test_open_ends_of_intervals_are_no_markup() -> None:
     """The signs of ``0 ≤ x < 8`` are text in a page that is well-formed."""
     html = garkcli.find_stability("methods/rectangular.gark.yaml")._repr_html_()
     text = "".join(ET.fromstring(html).itertext())
-    assert "oscillator stable, x = (hω)² 0 ≤ x < 8, " in text.replace("\\(", "").replace("\\)", "")
+    assert "oscillator stable, x = (hω)²: 0 ≤ x < 8, " in text.replace("\\(", "").replace("\\)", "")
 
 
 def test_a_design_says_what_was_found() -> None:

@@ -201,3 +201,17 @@ def test_claims_that_are_late_are_not_decided(
     reason = "found not decided; it takes longer than 10 s of processor time"
     for name in ("a-stable", "l-stable"):
         assert f"claim undecided {name}: expected true, {reason}" in text
+
+
+def test_the_oscillator_is_read_aloud() -> None:
+    """Alone it is the headline, with a colon before the interval; the root of its end is named."""
+    assert run("stoermer-verlet").output.startswith(
+        "stoermer-verlet: oscillator stable, x = (hω)²: 0 ≤ x < 4, sqrt(x) to 2\n"
+    )
+    assert "oscillator stable, x = (hω)²  0 ≤ x ≤ 8, sqrt(x) to 2.82" in run("rk4").output
+
+
+def test_a_single_term_has_no_parentheses() -> None:
+    """R of the implicit Euler method, and of the midpoint rule."""
+    assert "  1 / (-z + 1)\n" in run("backward-euler").output
+    assert " (z + 2) / (-z + 2)\n" in run("implicit-midpoint").output

@@ -161,9 +161,9 @@ def l_stable(subject: Subject) -> Verdict:
 )
 def p_stable(subject: Subject) -> Verdict:
     """On the harmonic oscillator q̈ = −ω²q no numerical solution grows or decays, whatever the step
-    size: the step matrix M(hω) has the determinant 1, and its powers are bounded; |R(iy)| = 1 for
-    all y of a Runge–Kutta method. With several terms the kinetic energy is the first, the
-    potential one is divided equally among the others.
+    size: the step matrix M(hω) has the determinant 1, and its powers are bounded; for a
+    Runge–Kutta method |R(iy)| = 1 for all y. With several terms the kinetic energy is the first,
+    the potential one is divided equally among the others.
     """
     found = _on_oscillator(subject)
     if isinstance(found, Verdict):
@@ -182,8 +182,8 @@ def p_stable(subject: Subject) -> Verdict:
 )
 def i_stable(subject: Subject) -> Verdict:
     """On the harmonic oscillator q̈ = −ω²q all numerical solutions stay bounded for every step
-    size: the powers of the step matrix M(hω) are bounded; |R(iy)| ≤ 1 for all y of a Runge–Kutta
-    method. The oscillator is split as for p-stable.
+    size: the powers of the step matrix M(hω) are bounded; for a Runge–Kutta method |R(iy)| ≤ 1
+    for all y. The oscillator is split as for p-stable.
     """
     found = _on_oscillator(subject)
     if isinstance(found, Verdict):
