@@ -283,20 +283,30 @@ FUNCTION = Section(
 )
 
 
+def _variable(preferred: str, parameters: Sequence[str]) -> str:
+    """The letter of a polynomial whose coefficients have parameters: none of these."""
+    others = (x for x in f"{preferred}wuvsxyzabcdefghijklmnopqrt" if x not in parameters)
+    return next(others, f"{preferred}_")
+
+
 def _function_rows(found: Any, d: Plain) -> list[tuple[str, str]]:
+    names = found.family.family.parameters
+    z = _variable("z", names)
+    x = _variable("x", [*names, z])
     rows = []
-    for f in found:
+    for f in found.functions:
         which = "" if f.name == "all" else f" of colour {d.prose(f.name)}"
-        over, under = (_text(x, "z") for x in (f.numerator, f.denominator))
-        up, down = (_latex(x, "z") for x in (f.numerator, f.denominator))
+        over, under = (_text(p, z) for p in (f.numerator, f.denominator))
+        up, down = (_latex(p, z) for p in (f.numerator, f.denominator))
         latex = up if down == "1" else rf"\frac{{{up}}}{{{down}}}"
-        text = over if under == "1" else f"({over}) / ({under})"
-        rows.append((f"R(z){which}", d.formula(latex, text)))
+        top, bottom = (f"({p})" if " " in p else p for p in (over, under))
+        text = over if under == "1" else f"{top} / {bottom}"
+        rows.append((f"R({z}){which}", d.formula(latex, text)))
         limit = f.at_infinity
         rows.append(
             (f"{d.prose('R(∞)')}{which}", "unbounded" if limit is None else d.number(limit))
         )
-        rows.append((f"E(x){which}", _sum("x")(f.e_polynomial).words(d)))
+        rows.append((f"E({x}){which}", _sum(x)(f.e_polynomial).words(d)))
     return rows
 
 
@@ -306,7 +316,7 @@ def _stability_rows(x: Any, d: Plain) -> list[tuple[str, str]]:
     for key, fact in x.facts.items():
         text = fact_reason(fact, d.parameter, told_value)
         if fact.is_undecided and not fact.differs:
-            text = Reason(f"for one parameter: --set, then gark design --{key}")
+            text = Reason(f"--set all but one, then gark design --{key}")
             if x.family.has_one or key == "algebraically-stable":
                 text = Reason(f"not decided for every value: --set {d.parameter}=1/2")
         rows.append((key, d.reason(text)))
@@ -325,7 +335,7 @@ EVERY_STABILITY = Section(
     Row("restrictions", RESTRICTIONS, lambda x: x.family, DATA),
     Row("functions", parts(FUNCTION), level=DATA),
     Row("stability", part(STABLE), ".", DATA),
-    Row("functions_in_words", rows_of(_function_rows), "functions"),
+    Row("functions_in_words", rows_of(_function_rows), "."),
     Row("stability_in_words", rows_of(_stability_rows), "."),
     title=lambda x, d: f"{d.prose(x.file)}: {c.every_value(x.family, d)}",
 )

@@ -150,3 +150,20 @@ def test_stability_as_a_command(tmp_path: Path) -> None:
     assert (refused.code, "--set g=1/2" in refused.err) == (2, True)
     path.write_text(SEVERAL, encoding="utf-8")
     assert "gark design --a-stable" in gark("stability", str(path)).out
+
+
+def test_the_variable_of_a_polynomial_is_no_parameter(tmp_path: Path) -> None:
+    """R and E of explicit methods with a and b for parameters, and the same with z and x: other
+    names change nothing else than the letters.
+    """
+    path = tmp_path / "family.yaml"
+    shown = []
+    for a, b in ("ab", "zx", "xw"):
+        family = f"parameters: {{{a}: free, {b}: free}}\nA: [[0, 0], [{a}, 0]]\nb: [1-{b}, {b}]\n"
+        path.write_text(family, encoding="utf-8")
+        shown.append(gark("stability", str(path)).out)
+    assert "E(x)                  (2*a*b - 1)*x - a^2*b^2*x^2" in shown[0]
+    assert "R(w)                  1 + w + z*x*w^2" in shown[1]
+    assert "E(u)                  (2*z*x - 1)*u - z^2*x^2*u^2" in shown[1]
+    assert "R(z)                  1 + z + x*w*z^2" in shown[2]
+    assert "E(u)                  (2*x*w - 1)*u - x^2*w^2*u^2" in shown[2]
