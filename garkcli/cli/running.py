@@ -288,7 +288,7 @@ def energy(given: Given, output: Output) -> int:
     if given.plot is not None:
         from garkcli.plots.energy import energy_scene
 
-        output.save_plot(energy_scene(run), given.plot)
+        output.save_plot(energy_scene(run, name), given.plot)
     answers = [claim.holds for claim in claims]
     if run.is_unstable or False in answers:
         return 1

@@ -100,7 +100,7 @@ def _scene(
         raise MethodError("several are not drawn together", "draw them apart", code="arrays")
     (result,) = results
     if isinstance(result, LongRun):
-        return energy_scene(result)
+        return energy_scene(result, names[0])
     if isinstance(result, StablePlane):
         return stable_plane_scene(result, names[0] or result.family.name)
     if isinstance(result, SweepReport):

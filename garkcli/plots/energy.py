@@ -14,9 +14,15 @@ _HEIGHT, _LOWER = 200, 110
 """Of the panel of the energy, and of the others."""
 
 
-def energy_scene(run: LongRun) -> scene.Scene:
-    """The energy error against time, and below it a panel for the error of each other invariant."""
-    title = f"{scene.capitalized(run.problem.name)}, h = {run.step}, {run.steps} steps"
+def energy_scene(run: LongRun, name: str = "") -> scene.Scene:
+    """The energy error against time, and below it a panel for the error of each other invariant.
+
+    Args:
+        run: what is drawn.
+        name: of the method; none where it has no name.
+    """
+    about = f"{scene.capitalized(run.problem.name)}, h = {run.step}, {run.steps} steps"
+    title = f"{name}\n{about}" if name else about
     return scene.Scene(title, [history_panel(run, history) for history in run.invariants])
 
 

@@ -229,3 +229,12 @@ def test_an_invariant_that_ends_first(
     *_, found = json.loads(gark(*arguments, "--format", "json").out)["quantities"]
     assert (found["verdict"], found["doubt"]) == ("undecided", "value")
     assert gark(*arguments, "--format", "csv").code == 3
+
+
+def test_a_picture_has_the_name_of_the_method(tmp_path: Path) -> None:
+    """The title says which method it shows, and on which problem."""
+    path = tmp_path / "energy.svg"
+    gark("energy", "rk4", "--t-end", "10", "--plot", str(path))
+    drawn = path.read_text(encoding="utf-8")
+    assert "the classical Runge-Kutta method" in drawn
+    assert "Oscillator, h = " in drawn
