@@ -250,8 +250,12 @@ def report(given: Given, output: Output) -> int:
     methods = list(counting("methods", found, len(paths)))
     output.write(render(methods))
     for method in methods:
-        if not method.outcome.is_read:
-            say_faults(method.outcome)
+        outcome = method.outcome
+        if not outcome.is_read:
+            say_faults(outcome)
+        elif not outcome.ok:
+            how = "is undecided" if outcome.is_open else "fails"
+            output.note(f"{outcome.file}: a claim {how}, see the page")
     return max(method.outcome.exit_code for method in methods)
 
 

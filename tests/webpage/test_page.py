@@ -500,13 +500,14 @@ def test_methods_without_files_have_pages() -> None:
 
 def test_exit_codes_are_those_of_the_check(tmp_path: Path) -> None:
     """0, 1 where a claim fails, 2 where a file is no method; the page is written each time, and the
-    faults are told on stderr too.
+    faults are told on stderr too, or that a claim fails.
     """
     for method, code in (("rk4", 0), (FAILING, 1), (UNREADABLE, 2)):
         target = tmp_path / "page.html"
         run = gark("report", method, "--no-pictures", "-n", "2", "-o", str(target))
         assert (run.code, run.out) == (code, "")
         assert ("error" in run.err) == (code == 2)
+        assert (f"{method}: a claim fails, see the page\n" in run.err) == (code == 1)
         written = target.read_text(encoding="utf-8")
         assert written == report_page(method, order=2, pictures=False)
     run = gark("report", FAMILY, "--set", "g=1/4", "--no-pictures", "-n", "1", "-o", "-")
