@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TypeAlias
@@ -136,6 +137,19 @@ class Home(Frozen):
 
     key: str
     line: str
+
+
+_SHORT_VALUE = re.compile(r"[A-Za-z0-9<>=./+ -]{1,30}")
+_PLAIN_VALUE = re.compile(r"[A-Za-z0-9]\S*")
+"""A value that needs no quotes."""
+
+
+def _moved(key: str, value: Node, example: str) -> str:
+    """A key with the value that the file gives it, or an example where that is longer."""
+    if not isinstance(value, ScalarNode) or not _SHORT_VALUE.fullmatch(value.value):
+        return example
+    text = value.value
+    return f"{key}: {text}" if _PLAIN_VALUE.fullmatch(text) else f'{key}: "{text}"'
 
 
 Cures: TypeAlias = Callable[[], Mapping[str, str | Home]]
@@ -334,12 +348,14 @@ class Source:
                 if meant and meant not in given:
                     entries[meant] = value
         if unknown:
-            self._unknown_keys(unknown, where, known, cures(), words)
+            values = {id(key_node): value for key_node, value in node.value}
+            self._unknown_keys(unknown, values, where, known, cures(), words)
         return entries
 
     def _unknown_keys(
         self,
         unknown: Sequence[ScalarNode],
+        values: Mapping[int, Node],
         where: str,
         known: Sequence[str],
         cures: Mapping[str, str | Home],
@@ -358,8 +374,11 @@ class Source:
             first = nodes[0].value
             cure = cures.get(first)
             if isinstance(cure, Home):
+                homes = ((x, cures[x.value]) for x in shown)
                 lines = [
-                    x.line for x in (cures[node.value] for node in shown) if isinstance(x, Home)
+                    _moved(x.value, values[id(x)], home.line)
+                    for x, home in homes
+                    if isinstance(home, Home)
                 ]
                 cure = f"write {cure.key}: {{{', '.join(lines)}}}"
             elif cure is None:
