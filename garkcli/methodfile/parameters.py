@@ -101,7 +101,8 @@ def _read(at: Any, node: Node, _: str) -> None:
     source = numbers.source
     keys = key_nodes(node)
     names = _names_alone(node)
-    form = f"write parameters: {{{', '.join(f'{x}: free' for x in names or ['tau'])}}}"
+    shown = [x for x in names if len(x) < 20][:5] or ["tau"]
+    form = f"write parameters: {{{', '.join(f'{x}: free' for x in shown)}}}"
     for name in names:  # so that no coefficient with such a name is a second fault
         numbers.define(name, Literal(ZERO))
     for name, value_node in source.mapping(node, "parameters", (), form=form).items():

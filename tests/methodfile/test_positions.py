@@ -206,9 +206,7 @@ def test_half_a_surrogate_pair_is_reported_where_it_stands() -> None:
     assert (fault.line, fault.column) == (2, 13)
 
 
-@pytest.mark.parametrize(
-    ("names", "cure"), [("[x, y]", "{x: free, y: free}"), ("x", "{x: free}")]
-)
+@pytest.mark.parametrize(("names", "cure"), [("[x, y]", "{x: free, y: free}"), ("x", "{x: free}")])
 def test_names_without_values_are_one_fault(names: str, cure: str) -> None:
     """Coefficients that use such a name are no further faults; the cure has the names."""
     (fault,) = faults(f"parameters: {names}\nA: [[0, 0], [x, 0]]\nb: [1 - x, 1/(2*x)]\n")
