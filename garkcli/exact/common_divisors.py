@@ -76,8 +76,6 @@ def _modulo_prime(
         return None
     if f.degree() < field.degree or f.gcd(f.derivative()).degree():
         return None
-    if not u[-1] or not v[-1]:
-        return None
     while v:
         inverse = _inverse(v[-1], f)
         if inverse is None:
