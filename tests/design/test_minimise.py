@@ -78,22 +78,23 @@ def value(minimum: Minimum) -> str | None:
 
 
 @pytest.mark.parametrize(
-    ("path", "is_pair"),
+    ("path", "is_pair", "most"),
     [
-        ("methods/rk4.gark.yaml", False),
-        ("methods/collocation.gark.yaml", True),
-        ("methods/semi-separable.gark.yaml", False),
-        ("methods/prk-lobatto-iiia-iiib.gark.yaml", False),
+        ("methods/rk4.gark.yaml", False, 7),
+        ("methods/collocation.gark.yaml", True, 4),
+        ("methods/semi-separable.gark.yaml", False, 5),
+        ("methods/prk-lobatto-iiia-iiib.gark.yaml", False, 5),
     ],
 )
-def test_squared_errors_without_trees(path: str, is_pair: bool) -> None:
+def test_squared_errors_without_trees(path: str, is_pair: bool, most: int) -> None:
     """Σ e(u)² is that of the list of all trees, exactly: of point and polynomial spaces, of blocks
-    that are missing and of the symplectic pair.
+    that are missing and of the symplectic pair. From order 7 on there are trees with a symmetry that
+    a root has twice.
     """
     tableau = load(path).tableau
     if is_pair:
         tableau = pair(tableau)
-    for order in range(1, 5 if is_pair else 6):
+    for order in range(1, most + 1):
         listed = error_constants(tableau, order)
         assert listed is not None
         everything = squared_error(tableau, order, None)
