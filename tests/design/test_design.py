@@ -23,10 +23,13 @@ from garkcli.design.conditions import FamilyConditions
 from garkcli.design.design import Design, find_parameters
 from garkcli.design.groebner import reduced
 from garkcli.design.ideal import Ideal
-from garkcli.design.parts import Changes, Pieces, nodes_as_coordinates
+from garkcli.design.parts import Changes, Pieces, charts, nodes_as_coordinates, parts_of
 from garkcli.design.solutions import solutions, value_at
 from garkcli.errors import NotDecided
+from garkcli.exact.parametric import Parameters
 from garkcli.methodfile.family import loads_family, with_values
+from garkcli.ntrees.tree import Tree
+from garkcli.order.conditions import elementary_weight
 from garkcli.report.design import REPORT, DesignReport
 from tests.cli.harness import gark
 
@@ -353,12 +356,14 @@ CLASSICAL = ("1/2 1/2 1/2 1 0 1 1/6 1/3 1/3 1/6", "1/3 2/3 1 1 -1 1 1/8 3/8 3/8 
 
 
 def test_explicit_methods_of_four_stages() -> None:
-    """Order 4: a family of dimension 2; no value has order 5. One condition after the other leads to
-    bases that are too large; all of them at once do not.
+    """Order 4: a family of dimension 2; no value has order 5, for the tall tree alone. One condition
+    after the other leads to bases that are too large; all of them at once do not.
     """
     family = loads_family("unknown: {stages: 4, shape: explicit}\n")
     *_, four, five = find_parameters(family, 5, seconds=60).steps
     assert (four.kind, five.kind) == ("family", "none")
+    assert five.witness == Tree(0, (Tree(0, (Tree(0, (Tree(0, (Tree(0),)),)),)),))
+    assert elementary_weight(load("rk4").tableau, five.witness) == 0  # bᵀA⁴𝟙, and A⁴ = 0
     assert four.ideal is not None
     assert four.ideal.dimension == 2
     for values in CLASSICAL:
@@ -407,6 +412,25 @@ def test_parts_are_all_of_a_set(text: str, order: int) -> None:
         if compared == 5:
             break
     assert compared
+
+
+def test_a_part_with_one_coordinate_that_is_not_free() -> None:
+    """y² = 2 and x = z: two charts, y = ±√2, in the other coordinate. Their points are those of the
+    set; the point where what may not vanish does is none.
+    """
+    ring = Parameters(["x", "y", "z"])
+    x, y, z = ring.context.gens()
+    [part] = parts_of(Ideal(ring, [x - 1]).with_zeros([y**2 - 2, x - z]))
+    [free] = [name for name in part.ring.names if name != "y"]
+    found = charts(part)
+    assert [chart.names for chart in found] == [(free,), (free,)]
+    for chart, sign in zip(found, (-1, 1), strict=True):
+        point = chart.point(part, [fmpq(3)])
+        assert point is not None
+        assert point.values["x"] == point.values["z"] == 3
+        root = value_at(point.values["y"], point.real[chart.index])
+        assert float(root.ball(80)) == pytest.approx(sign * 2**0.5)
+        assert chart.point(part, [fmpq(1)]) is None
 
 
 def test_nodes_in_place_of_unknowns() -> None:

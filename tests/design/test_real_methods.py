@@ -80,6 +80,14 @@ def test_families_without_real_methods(entry: str, tmp_path: Path) -> None:
     assert gark("design", str(path)).code == 1
 
 
+def test_a_double_factor_is_no_other_set() -> None:
+    """The zeros of (x − y)² are those of x − y, complex ones too: nothing is said of real ones
+    apart.
+    """
+    step = find_parameters(loads_family(family("1/2 + (x - y)**2", "x", "y")), 2).last
+    assert (step.kind, step.has_methods, step.real) == ("family", True, None)
+
+
 RANGED = "{{free: true, range: [{}, {}]}}"
 
 

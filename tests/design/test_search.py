@@ -14,7 +14,7 @@ from flint import arb, ctx, fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from garkcli import find_order, loads, loads_family, search_methods
+from garkcli import find_order, find_property, loads, loads_family, search_methods
 from garkcli.crew.work import Alone, WorkerLost
 from garkcli.design.design import find_parameters
 from garkcli.design.search.least_squares import damped_step, least_squares
@@ -124,6 +124,27 @@ def test_residuals_are_those_of_the_conditions(text: str, values: dict[str, str]
         assert gradients[:, unknown] == pytest.approx(slope, abs=1e-6)
         middles = [float(x.mid()) for x in slopes[:, unknown, 0]]
         assert gradients[:, unknown, 0] == pytest.approx(middles, abs=1e-12)
+
+
+def test_of_two_methods_near_a_solution_the_stable_one_is_taken() -> None:
+    """With the nodes and weights of Radau IIA, order 3 is d = 3a − 1, and R has the leading
+    coefficients 5/6 − 2a and 2a − 2/3: A-stable from a = 3/8 on. Near 0.36 the shortest a is 1/3,
+    and the shortest d belongs to 2/5.
+    """
+    text = "parameters: {a: free, d: free}\nA: [[a, 1/3 - a], [1 - d, d]]\nb: [3/4, 1/4]\n"
+    values = []
+    for wanted in ("", "design: {a-stable: true}\n"):
+        find = Search(loads_family(text + wanted), 3).find(1, [0.36, 0.08])
+        assert find is not None
+        assert find.found is not None
+        assert find.is_stable
+        values.append(find.found.solution.values)
+    plain, stable = values
+    assert plain == {"a": fmpq(1, 3), "d": 0}
+    assert stable == {"a": fmpq(2, 5), "d": fmpq(1, 5)}
+    for a, holds in ((plain, False), (stable, True)):
+        settings = {name: str(value) for name, value in a.items()}
+        assert find_property(loads(text, settings=settings).tableau, "a-stable").value is holds
 
 
 def test_what_happens_to_a_start_does_not_depend_on_the_others() -> None:

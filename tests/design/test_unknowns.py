@@ -278,6 +278,20 @@ def test_embedded_entries() -> None:
     assert ideal.contains(b - bh)
 
 
+def test_embedded_weights_are_those_of_the_method() -> None:
+    """One stage of order 2 is the midpoint rule, and so is its conjugate: b̂ = 1 has order 2 with the
+    method, and is no part of the conjugate.
+    """
+    family = loads_family('A: [["?"]]\nb: ["?"]\nembedded: [1]\n')
+    [method] = find_parameters(family, 2).last.found
+    [conjugate] = find_parameters(family, 2, "conjugate").last.found
+    assert method.solution.values == conjugate.solution.values
+    assert method.solution.values == {"a11": fmpq(1, 2), "b1": 1}
+    assert method.embedded is not None
+    assert method.embedded[0].order == 2
+    assert conjugate.embedded is None
+
+
 def test_embedded_weights_that_are_not_there(tmp_path: Path) -> None:
     """Their order is not wanted of methods without them, nor of a single colour."""
     path = tmp_path / "family.yaml"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from flint import fmpq
 
 from garkcli import find_order, loads, pair
 from garkcli.design.choices import accepted_methods
@@ -51,6 +52,16 @@ def test_two_stages_that_damp() -> None:
     assert taken(found, "gamma") == pytest.approx([0.2928932188, 1.7071067812])
     text = f"{SDIRK2}{wanted}, R-infinity: 0, positive-weights: true}}"
     assert taken(find_parameters(loads_family(text)), "gamma") == pytest.approx([0.2928932188])
+
+
+@pytest.mark.parametrize(("node", "weight", "is_taken"), [("1/2", 0, False), ("2/3", 1, True)])
+def test_a_weight_of_zero_is_not_positive(node: str, weight: int, is_taken: bool) -> None:
+    """Two explicit stages of order 2 have b₁ = 1 − 1/(2c₂): 0 for c₂ = 1/2, 1/4 for 2/3."""
+    text = "unknown: {stages: 2, shape: explicit}\ndesign: {order: 2, positive-weights: true, "
+    found = find_parameters(loads_family(f"{text}fix: {{c2: {node}}}}}"))
+    [one] = found.last.found
+    assert one.solution.values["b1"] == fmpq(weight, 4)
+    assert (bool(one.accepted), found.reaches(2)) == (is_taken, is_taken)
 
 
 def test_the_value_at_infinity() -> None:

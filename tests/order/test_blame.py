@@ -129,3 +129,17 @@ def test_an_exact_entry_is_found_through_the_conjugate(key: str, j: int, tmp_pat
     assert blame.of == key
     assert [(x.i, x.j) for x in blame.repairs] == [(1 - j, j)]
     assert blame.repairs[0].old - blame.repairs[0].new == fmpq(1, 100)
+
+
+def test_an_entry_that_leaves_no_conjugate_is_passed_over(tmp_path: Path) -> None:
+    """The weights of the trapezoidal rule add up to 1 as well with b₁ = 0, which has no conjugate:
+    b₂ is named.
+    """
+    file = tmp_path / "m.gark.yaml"
+    text = "methods: [{{A: [[0, 0], [1/2, 1/2]], b: [1/2, {}]}}]\nexpect: {{conjugate-order: 2}}\n"
+    file.write_text(text.format("1"))
+    blame = check_file(str(file)).blame
+    assert blame is not None
+    assert [(x.m, x.j, x.new) for x in blame.repairs] == [(None, 1, fmpq(1, 2))]
+    file.write_text(text.format("1/2"))
+    assert check_file(str(file)).blame is None

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from garkcli import find_property
 from garkcli.exact.field import ONE
-from garkcli.exact.matrix import identity, is_singular
+from garkcli.exact.matrix import Matrix, identity, is_singular
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import roots_below
 from garkcli.families.registry import diagonal_method
@@ -457,6 +457,20 @@ def test_symmetry_within_a_tolerance_beside_a_family(transfer: str) -> None:
     tableau = loads(f"{{methods: {methods}, transfer: {transfer}}}").tableau
     assert symmetry(tableau, fmpq(1, 10**9)) == symmetry(tableau)
     assert symmetry(tableau).holds is True
+
+
+@pytest.mark.parametrize(
+    ("edge", "block"), [((1, 0), ((fmpq(1, 3), fmpq(1, 8)),)), ((0, 1), ((fmpq(0),), (fmpq(2),)))]
+)
+def test_a_stage_beside_a_family_that_has_no_image(edge: tuple[int, int], block: Matrix) -> None:
+    """The midpoint rule and Gauss 2, each symmetric, are no symmetric method where one block between
+    them is another: by the stage algebra as with the nodes.
+    """
+    methods = "[{family: gauss, stages: 2}, {A: [[1/2]], b: [1]}]"
+    tableau = loads(f"{{methods: {methods}, transfer: collocation}}").tableau
+    changed = replace(tableau, blocks={**tableau.blocks, edge: block})
+    assert symmetry(tableau).holds is symmetry(in_points(tableau)).holds is True
+    assert symmetry(changed).holds is symmetry(in_points(changed)).holds is False
 
 
 # -- families without their nodes
