@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from importlib import metadata
 from pathlib import Path
 
 import pytest
@@ -49,6 +50,39 @@ def test_a_right_answer_is_taken(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     found = groebner.unproved_basis(CIRCLE, CONTEXT)
     own = groebner.groebner_basis(CIRCLE, CONTEXT)
     assert sorted(map(str, found)) == sorted(map(str, own))
+
+
+def test_the_program_of_the_package_is_the_one_among_its_binaries(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Whatever else has its name; without the package the search path is asked."""
+    files = [metadata.PackagePath(f"wheel/{x}/msolve") for x in ("share", "bin", "doc")]
+    for file in files:
+        file.dist = metadata.PathDistribution(tmp_path / "wheel.dist-info")
+    monkeypatch.setattr(msolve, "which", lambda name: f"on the path: {name}")
+    monkeypatch.setattr(metadata, "files", {msolve.PACKAGE: files}.get)
+    assert msolve.find_msolve() == str(tmp_path / "wheel/bin/msolve")
+    monkeypatch.setattr(metadata, "files", {msolve.PACKAGE: files[::2]}.get)
+    assert msolve.find_msolve() == "on the path: msolve"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a script is no program there")
+@pytest.mark.parametrize("is_there", [True, False])
+def test_msolve_has_what_python_flint_leaves_of_the_time(
+    is_there: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """2a = 1, of the midpoint rule: python-flint has no time here where msolve is there, whose
+    answer is not proved to be all; without msolve it has the whole time, and proves its own.
+    """
+    path = program(tmp_path, "[2*x1-1]:")
+    for module in (design, groebner):
+        monkeypatch.setattr(module, "find_msolve", lambda: path if is_there else None)
+    monkeypatch.setattr(design, "SHARE", 0.0)
+    last = find_parameters(loads_family('A: [["?"]]\nb: [1]\n'), 2, seconds=60).last
+    assert last.ideal is not None
+    assert (last.kind, last.ideal.is_proved) == ("solutions", not is_there)
+    [one] = last.found
+    assert one.solution.values == {"a11": fmpq(1, 2)}
 
 
 WRONG = {

@@ -147,6 +147,21 @@ def test_of_two_methods_near_a_solution_the_stable_one_is_taken() -> None:
         assert find_property(loads(text, settings=settings).tableau, "a-stable").value is holds
 
 
+@pytest.mark.parametrize(
+    ("ends", "is_success"),
+    [("0, 1/3", False), ("2/3, 1", False), ("0, 1/2", True), ("1/2, 1", True)],
+)
+def test_successes_are_within_their_range(ends: str, is_success: bool) -> None:
+    """One stage of order 2 has the entry 1/2: no success where its range ends before, or begins
+    behind; one at either end.
+    """
+    text = f"parameters: {{t: {{free: true, range: [{ends}]}}}}\nA: [[t]]\nb: [1]\n"
+    search = Search(loads_family(text), 2)
+    found = search.solve(list(search.starts(0, 4)))
+    assert [k for k, _ in found] == (list(range(4)) if is_success else [])
+    assert [point for _, [point] in found] == pytest.approx([0.5] * len(found))
+
+
 def test_what_happens_to_a_start_does_not_depend_on_the_others() -> None:
     """To the last bit: one at a time, all at once, in another order."""
     search = Search(loads_family(explicit(4)), 4)

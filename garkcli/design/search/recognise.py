@@ -151,7 +151,7 @@ def _relation(numbers: Sequence[arb], bits: int) -> list[fmpz] | None:
     # by chance the lattice has vectors of kept/size bits
     most = kept // (2 * size)
     longest = max(int(shortest[0, j]).bit_length() for j in range(size + 1))
-    return relation if longest <= most and any(relation[1:]) else None
+    return relation if longest <= most else None
 
 
 def _coordinates(number: arb, generator: arb, degree: int, bits: int) -> list[fmpq] | None:
