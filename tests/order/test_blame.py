@@ -143,3 +143,18 @@ def test_an_entry_that_leaves_no_conjugate_is_passed_over(tmp_path: Path) -> Non
     assert [(x.m, x.j, x.new) for x in blame.repairs] == [(None, 1, fmpq(1, 2))]
     file.write_text(text.format("1/2"))
     assert check_file(str(file)).blame is None
+
+
+def test_a_colour_that_sees_nothing_hides_no_wrong_entry(tmp_path: Path) -> None:
+    """Radau IIA beside a part that is constant: order 3 with the true entry of the method, found
+    though the constant part has no tree above its root.
+    """
+    A = "[[null, null], [[[1/3], [1]], [[5/12, -1/12], [{}, 1/4]]]]"
+    text = f"tableau: {{{{A: {A}, b: [[1], [3/4, 1/4]]}}}}\nexpect: {{{{order: 3}}}}\n"
+    file = tmp_path / "m.gark.yaml"
+    file.write_text(text.format("2/3"))
+    blame = check_file(str(file)).blame
+    assert blame is not None
+    assert [(x.l, x.m, x.i, x.j, x.new) for x in blame.repairs] == [(1, 1, 1, 0, fmpq(3, 4))]
+    file.write_text(text.format("3/4"))
+    assert check_file(str(file)).blame is None
