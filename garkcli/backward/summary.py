@@ -90,7 +90,7 @@ def backward_analysis(
     equation = modified_equation(tableau, max_order)
     structure = hamiltonian_structure(tableau)
     if tolerance is not None:
-        from garkcli.order.rounded import RoundedTableau
+        from garkcli.tableau.rounded import RoundedTableau
 
         rounded = RoundedTableau.within(equation.tableau, tolerance)
         reached = order_of(rounded, equation.max_order)

@@ -8,7 +8,6 @@ from functools import lru_cache
 from garkcli.design.member import Whose
 from garkcli.design.search.run import Task, Timed, do
 from garkcli.design.search.search import Search
-from garkcli.errors import MethodError
 from garkcli.frozen import Frozen
 from garkcli.methodfile.family import FamilyFile, loads_family
 
@@ -38,11 +37,7 @@ class FileSearch(Frozen):
 
     @property
     def family(self) -> FamilyFile:
-        """The file, read once in each process.
-
-        Raises:
-            MethodError: its coefficients are rounded.
-        """
+        """The file, read once in each process."""
         return _family(self.text, self.source, self.settings)
 
     @property
@@ -57,11 +52,7 @@ class FileSearch(Frozen):
 
 @lru_cache(maxsize=4)
 def _family(text: str, source: str, settings: tuple[tuple[str, str], ...]) -> FamilyFile:
-    family = loads_family(text, source, dict(settings))
-    if family.tolerance is not None:
-        message = f"{source}: a search needs exact coefficients, and those of the file are rounded"
-        raise MethodError(message, "write radicals and fractions", code="rounded")
-    return family
+    return loads_family(text, source, dict(settings))
 
 
 @lru_cache(maxsize=4)

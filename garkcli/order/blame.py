@@ -19,8 +19,8 @@ from garkcli.frozen import Frozen, replace
 from garkcli.ntrees.tree import Tree
 from garkcli.order.conditions import Condition, all_conditions, conditions, count_conditions
 from garkcli.order.deciding import AnyOrder, order_of
-from garkcli.order.meant import AnyTableau, derived, meant, printed
 from garkcli.order.tolerance import within
+from garkcli.tableau.meant import AnyTableau, derived, meant, printed
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Edge, Tableau
 
@@ -138,7 +138,7 @@ class Missed(Frozen):
             made = derived(meant(method, self.near), self.which)
         except ZeroWeight:
             return None
-        return made
+        return made if isinstance(made, Tableau) or not made.obstacle else None
 
 
 def repairs(method: Tableau, missed: Missed, failing: list[Condition]) -> Iterator[Repair]:

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from flint import arb, fmpq
 
-from garkcli.exact.display import in_digits
 from garkcli.exact.field import ZERO, Number
 from garkcli.frozen import Frozen
 from garkcli.graph import components
@@ -187,13 +186,6 @@ def _singly(graph: StageGraph, implicit: Sequence[Vertex]) -> Literal["SDIRK", "
     return "ESDIRK" if see_nothing and set(implicit) == stages - first else ""
 
 
-def _digits(grain: fmpq) -> int:
-    """Digits of numbers of a rounded method: some more than are printed, which is less than half of
-    what its grain leaves.
-    """
-    return max(20, int((int(grain.q.bit_length()) - 80) * 0.15))
-
-
 def _gamma(graph: StageGraph, alone: Sequence[Vertex], tolerance: fmpq) -> Number | None:
     """The number by which every implicit stage depends on itself; the first one where they are
     equal within what rounding of two coefficients explains.
@@ -205,4 +197,4 @@ def _gamma(graph: StageGraph, alone: Sequence[Vertex], tolerance: fmpq) -> Numbe
     for entry in found:
         if entry is None or not within(entry - first, 2 * tolerance):
             return None
-    return in_digits(first, _digits(tolerance)) if tolerance else first
+    return first

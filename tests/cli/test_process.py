@@ -57,7 +57,7 @@ def test_check_imports_no_heavy_package() -> None:
 
 RARE = {
     "garkcli.check.baseline",
-    "garkcli.order.recovering",
+    "garkcli.check.within",
     "garkcli.exact.tower",
     "garkcli.methodfile.ark_prk",
     "garkcli.methodfile.printed",

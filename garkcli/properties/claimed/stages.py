@@ -25,6 +25,7 @@ from garkcli.properties.symmetry import MOST_TRIALS, symmetry
 from garkcli.reason import NO_REASON, Reason
 from garkcli.stability.algebraic import algebraic_within, contractivity, negative_pivot
 from garkcli.tableau.embedded import Further, as_colours
+from garkcli.tableau.meant import meant
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
@@ -247,11 +248,10 @@ def weak_stage_order(subject: Subject) -> Verdict:
     of time.
     """
     colours = range(subject.tableau.size)
-    least = weak_order(subject.defects, colours, subject.limit)
+    method = meant(subject.tableau, subject.tolerance)
+    least = weak_order(method, colours, subject.limit)
     found = (
-        [least]
-        if len(colours) == 1
-        else [weak_order(subject.defects, [l], subject.limit) for l in colours]
+        [least] if len(colours) == 1 else [weak_order(method, [l], subject.limit) for l in colours]
     )
     return Verdict(least, _by_colour(subject, found), is_at_least=least >= subject.limit)
 
