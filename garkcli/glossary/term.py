@@ -69,12 +69,12 @@ def terms_of(topic: str) -> tuple[Term, ...]:
 
 
 def plain(word: str) -> str:
-    """A word as it is compared: small letters, blanks for hyphens and underlines.
+    """A word as it is compared: small letters, blanks for hyphens and underlines, no colon behind.
 
-    >>> plain("Stiffly-Accurate")
+    >>> plain("Stiffly-Accurate:")
     'stiffly accurate'
     """
-    return " ".join(word.lower().replace("-", " ").replace("_", " ").split())
+    return " ".join(word.lower().replace("-", " ").replace("_", " ").removesuffix(":").split())
 
 
 @lru_cache(maxsize=1)
