@@ -18,9 +18,9 @@ from garkcli.errors import BlockTooLarge, counted
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix, add, multiply, outer, scale, transpose
 from garkcli.frozen import Frozen
+from garkcli.order.meant import AnyTableau
 from garkcli.tableau.conjugate import conjugate_block
 from garkcli.tableau.forms import gark
-from garkcli.tableau.meant import AnyTableau
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Edge, Method
 

@@ -12,9 +12,9 @@ from garkcli.api.arrays import from_arrays
 from garkcli.errors import MethodError
 from garkcli.exact.given import rational_of
 from garkcli.methodfile.load import load
+from garkcli.order.meant import AnyTableau, as_meant, meant
 from garkcli.tableau.forms import gark
 from garkcli.tableau.garkmethod import GarkMethod
-from garkcli.tableau.meant import AnyTableau, meant
 from garkcli.tableau.tableau import Method, Tableau
 
 AnyMethod: TypeAlias = (
@@ -117,7 +117,7 @@ def meant_of(given: AnyMethod, tolerance: object = None) -> tuple[GarkMethod, An
     own.
     """
     method, near = with_tolerance(given, tolerance)
-    return method, method.meant if tolerance is None else meant(method.tableau, near)
+    return method, as_meant(method) if tolerance is None else meant(method.tableau, near)
 
 
 def _rounded(tolerance: object) -> dict[str, Any]:

@@ -11,6 +11,7 @@ from garkcli.api.numbers import Whole, whole
 from garkcli.conversion.sheet import in_one_field, sheet_of
 from garkcli.errors import MethodError, did_you_mean
 from garkcli.families import registry
+from garkcli.order.meant import as_meant
 from garkcli.tableau import forms
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.tableau import Method
@@ -76,7 +77,7 @@ def gark(
     rule = RULES[transfer]
     if transfer == "legendre":
         K = None if degree is None else whole(degree, "degree")
-        rule = legendre_rule([method.meant for method in given], K)
+        rule = legendre_rule([as_meant(method) for method in given], K)
     numbered = list(enumerate(diagonal))
     blocks = {(l, m): rule(here, other) for l, here in numbered for m, other in numbered if l != m}
     return method_of(forms.gark(diagonal, blocks))

@@ -22,7 +22,9 @@ from garkcli.design.search.run import TOLERANCE, Method, Result
 from garkcli.design.stability_kinds import TwoSprings
 from garkcli.design.stable_plane import StablePlane, stable_set
 from garkcli.design.stable_values import StableValues, Wanted
+from garkcli.design.within import DesignWithin, find_within
 from garkcli.errors import MethodError, UsageProblem, did_you_mean
+from garkcli.exact.display import decimal
 from garkcli.exact.polynomial_text import root_decimal, root_text
 from garkcli.frozen import Frozen, replace
 from garkcli.methodfile import family as families
@@ -66,13 +68,39 @@ def family_of(given: AnyFamily, is_free: bool = True) -> Family:
     )
 
 
+def exact_family_of(given: AnyFamily, what: str, is_free: bool = True) -> Family:
+    """The same, where only exact coefficients have an answer.
+
+    Args:
+        given: a family, or the path of its file.
+        what: is asked.
+        is_free: as in ``family_of``.
+
+    Raises:
+        MethodError: its coefficients are rounded; or as ``family_of``.
+    """
+    family = family_of(given, is_free)
+    if is_rounded(family):
+        message = f"{what} needs exact coefficients, and those of the file are rounded"
+        cure = "write radicals and fractions; gark design alone finds values within the tolerance"
+        raise MethodError(message, cure, code="rounded")
+    return family
+
+
+def is_rounded(family: Family) -> bool:
+    """Whether known numbers of a family are rounded."""
+    return isinstance(family, FamilyFile) and family.tolerance is not None
+
+
 def find_parameters(
     family: AnyFamily,
     order: Whole | None = None,
     whose: Whose = "method",
     seconds: float | None = None,
-) -> Design:
+) -> Design | DesignWithin:
     r"""For which values of its parameters the members of a family have an order: ``gark design``.
+
+    Where known numbers are rounded it finds values with which a method within the tolerance has it.
 
     Args:
         family: as ``load_family`` and ``loads_family`` return it, or the path of a file.
@@ -91,7 +119,12 @@ def find_parameters(
     (<Design <text>: order 2 is reached>, ['every-value', 'solutions', 'none'])
     """
     most = None if order is None else whole(order, "order", 1)
-    return designing.find_parameters(family_of(family), most, whose, seconds)
+    read = family_of(family)
+    if is_rounded(read) and isinstance(read, FamilyFile):
+        from garkcli.methodfile.rounded_family import RoundedFamily  # it imports numpy
+
+        return find_within(RoundedFamily(read), most, whose, seconds)
+    return designing.find_parameters(read, most, whose, seconds)
 
 
 def minimise(design: Design | AnyFamily, objective: str, seconds: float | None = None) -> Minimum:
@@ -121,7 +154,8 @@ def minimise(design: Design | AnyFamily, objective: str, seconds: float | None =
         message = f"no objective {objective!r}"
         raise UsageProblem(message, did_you_mean(objective, OBJECTIVES), code="unknown-word")
     if not isinstance(design, Design):
-        design = designing.find_parameters(family_of(design, is_free=False), seconds=seconds)
+        read = exact_family_of(design, "minimise", is_free=False)
+        design = designing.find_parameters(read, seconds=seconds)
     return minimising.minimise(design, objective, seconds)
 
 
@@ -155,7 +189,7 @@ def search_methods(
     (<Result 1 method of 3 starts>, {'t': '1/2'})
     """
     return searching.search_methods(
-        family_of(family),
+        exact_family_of(family, "search_methods"),
         whole(order, "order", 1),
         whole(starts, "starts", 1),
         whole(seed, "seed"),
@@ -205,7 +239,7 @@ def stable_values(
     if wanted not in STABILITIES:
         message = f"no stability {wanted!r}"
         raise UsageProblem(message, did_you_mean(wanted, STABILITIES), code="unknown-word")
-    read = family_of(family)
+    read = exact_family_of(family, "stable_values")
     springs = alone = None
     if slow is not None:
         tableau = TABLEAUS[whose](read.tableau)
@@ -220,7 +254,9 @@ def stable_values(
 
 
 def found_methods(
-    found: Design | Minimum | Result, family: AnyFamily | None = None, whose: Whose | None = None
+    found: Design | DesignWithin | Minimum | Result,
+    family: AnyFamily | None = None,
+    whose: Whose | None = None,
 ) -> list[MethodFile]:
     r"""The methods that were found, each with the text of its file: ``gark design --output-dir``.
 
@@ -240,13 +276,13 @@ def found_methods(
     >>> ralston.A, ralston.b, ralston.order
     (((0, 0), (2/3, 0)), (1/4, 3/4), 2)
     """
-    if not isinstance(found, (Design, Minimum, Result)):
+    if not isinstance(found, (Design, DesignWithin, Minimum, Result)):
         raise MethodError(
             f"found methods are expected, not {type(found).__name__}",
             "give what find_parameters, minimise or search_methods returned",
             code="arrays",
         )
-    if isinstance(found, Design):
+    if isinstance(found, (Design, DesignWithin)):
         read = found.family
     elif isinstance(found, Minimum):
         read = found.design.family
@@ -292,9 +328,14 @@ class Found(Frozen):
         return text
 
 
-def found_files(found: Design | Minimum | Result, family: FamilyFile) -> Iterator[Found]:
+def found_files(
+    found: Design | DesignWithin | Minimum | Result, family: FamilyFile
+) -> Iterator[Found]:
     """The methods that were found, as their files say it."""
     source = f"found by gark design {family.source}"
+    if isinstance(found, DesignWithin):
+        yield from _files_within(found, family, source)
+        return
     if isinstance(found, Design):
         further = _stable(found.family, found.whose)
         for method in accepted_methods(found):
@@ -320,6 +361,19 @@ def found_files(found: Design | Minimum | Result, family: FamilyFile) -> Iterato
             if not find.is_exact:
                 head += f", residuals below {find.residual} before rounding"
             yield Found(family, find, head, claim, find.is_exact)
+
+
+def _files_within(found: DesignWithin, family: FamilyFile, source: str) -> Iterator[Found]:
+    """The files of values within a tolerance."""
+    step = found.best
+    for values in () if step is None else (x for x in step.found if x.is_admitted):
+        texts = {name: values.text(name, found.digits) for name in family.parameters}
+        claim = f"{CLAIMS[found.whose]}: {values.order}"
+        if values.embedded:
+            claim += f", embedded-order: {values.embedded}"
+        head = f"{source}: {claim} within {decimal(found.tolerance)}, numerical"
+        member = Method(1, "numerical", values.order, texts, "0")
+        yield Found(family, member, head, claim, is_exact=False)
 
 
 def _orders(method: Chosen, whose: Whose) -> str:

@@ -218,24 +218,36 @@ def compare(one: AnyMethod, other: AnyMethod, limit: Whole = DEFAULT_LIMIT) -> C
     return comparison.compare(method_of(one), method_of(other), whole(limit, "limit", 1))
 
 
-def convert(method: AnyMethod, to: str = "spelled-out", stages: Whole | None = None) -> Converted:
+def convert(
+    method: AnyMethod,
+    to: str = "spelled-out",
+    stages: Whole | None = None,
+    digits: Whole | None = None,
+    is_recognising: bool = False,
+) -> Converted:
     """The same method in another form: ``gark convert``.
 
     Args:
         method: whatever ``method_of`` takes.
-        to: the form: spelled-out, gark, ark, prk, pair or canonical.
+        to: the form: spelled-out, gark, ark, prk, pair, canonical or recovered.
         stages: how many each colour gets at least, by stages in front that do nothing.
+        digits: with recovered: digits after the point; by default 50, more if the tolerance has.
+        is_recognising: with recovered: exact numbers for decimals if no order falls.
 
     Raises:
-        UsageProblem: there is no such form.
+        UsageProblem: there is no such form, or it has no digits.
         CannotConvert: the method has none; the message says why.
         ZeroWeight: a pair would divide by zero.
 
     >>> convert("heun", stages=3).method.A
     ((0, 0, 0), (0, 0, 0), (0, 1, 0))
+    >>> rounded = loads("{tolerance: 1e-6, A: [[0, 0], [0.666667, 0]], b: [0.25, 0.75]}")
+    >>> convert(rounded, "recovered", is_recognising=True).method.A
+    ((0, 0), (2/3, 0))
     """
     many = None if stages is None else whole(stages, "stages", 1)
-    return conversion.convert(method_of(method), to, many)
+    places = None if digits is None else whole(digits, "digits", 1)
+    return conversion.convert(method_of(method), to, many, places, is_recognising)
 
 
 def path_of(given: object) -> str:

@@ -26,6 +26,7 @@ from garkcli.exact.field import ZERO
 from garkcli.order import simplifying as conditions
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.deciding import AnyOrder, order_of
+from garkcli.order.meant import as_meant, meant, tolerance_of
 from garkcli.order.simplifying import Simplifying
 from garkcli.properties.property import Verdict
 from garkcli.properties.reduction import smallest
@@ -34,7 +35,6 @@ from garkcli.properties.subject import Subject
 from garkcli.tableau import conjugate as conjugation
 from garkcli.tableau import forms
 from garkcli.tableau.garkmethod import Derivation, GarkMethod, derived_name
-from garkcli.tableau.meant import meant, tolerance_of
 from garkcli.tableau.tableau import Method, Tableau
 
 
@@ -69,7 +69,7 @@ def find_order(
         order = found.pair_order if method.derivation == "pair" else found.conjugate_order
         if order is not None:
             return order
-    return order_of(method.meant if is_own else meant(method.tableau, near), limit)
+    return order_of(as_meant(method) if is_own else meant(method.tableau, near), limit)
 
 
 def analyse(

@@ -17,8 +17,9 @@ def backward_analysis(
 ) -> BackwardAnalysis:
     """What trees of up to ``max_order`` vertices tell of a method: ``gark modified``.
 
-    With a tolerance the coefficients are those of the digits as they are given, and the order is
-    the one within it; nothing is decided about the other orders, which are about exact zeros.
+    With a tolerance they are those of the method that the digits are taken to be a rounding of, to
+    some digits more than are printed; nothing is decided about the orders that are about exact
+    zeros.
 
     Args:
         method: whatever ``method_of`` takes.

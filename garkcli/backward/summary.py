@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from flint import arb, fmpq
+
 from garkcli.backward.effective import effective_order
 from garkcli.backward.hamiltonian import (
     HamiltonianTerm,
@@ -14,16 +16,22 @@ from garkcli.backward.hamiltonian import (
 )
 from garkcli.backward.modified import ModifiedEquation, modified_equation
 from garkcli.doing import doing
-from garkcli.frozen import Frozen
+from garkcli.exact.enclosing import midpoint
+from garkcli.exact.field import Number
+from garkcli.frozen import Frozen, replace
 from garkcli.order.deciding import order_of
+from garkcli.order.meant import AnyTableau, meant
 from garkcli.order.simplifying import is_symplectic
+from garkcli.tableau.box import changed
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
 
 if TYPE_CHECKING:
-    from flint import fmpq
-
     from garkcli.ntrees.free import Structure
+
+
+EXTRA = 3
+"""Digits of coefficients of rounded methods beyond those that are printed."""
 
 
 class Reached(Frozen):
@@ -76,8 +84,9 @@ def backward_analysis(
 ) -> BackwardAnalysis:
     """Decide what trees of up to ``max_order`` vertices tell of ``tableau``.
 
-    With a ``tolerance`` the coefficients are those of the digits as they are given, and the order
-    is the one within it; nothing is decided about the other orders, which are about exact zeros.
+    With a ``tolerance`` they are those of the method that the digits are taken to be a rounding of,
+    to some digits more than are printed; nothing is decided about the other orders, which are about
+    exact zeros.
 
     Raises:
         UsageProblem: there are too many trees.
@@ -87,16 +96,15 @@ def backward_analysis(
     >>> found.symplectic, found.energy
     (Reached(order=4, is_lower_bound=False), Reached(order=4, is_lower_bound=False))
     """
-    equation = modified_equation(tableau, max_order)
     structure = hamiltonian_structure(tableau)
-    if tolerance is not None:
-        from garkcli.tableau.rounded import RoundedTableau
-
-        rounded = RoundedTableau.within(equation.tableau, tolerance)
-        reached = order_of(rounded, equation.max_order)
+    if tolerance:
+        rounded = meant(tableau, tolerance)
+        reached = order_of(rounded, max_order)
         order = Reached(reached.order, reached.is_lower_bound)
         symplectic = is_symplectic(rounded)
+        equation = _nearby(rounded, max_order)
         return BackwardAnalysis(equation, order, structure, symplectic, tolerance=tolerance)
+    equation = modified_equation(tableau, max_order)
     shift = effective_order(equation)
     effective = Reached(shift.order, not shift.is_proved)
     order = _reached(equation.order, max_order)
@@ -117,6 +125,21 @@ def backward_analysis(
         effective,
         terms,
     )
+
+
+def _nearby(rounded: AnyTableau, max_order: int) -> ModifiedEquation:
+    """The modified equation of the method that a rounded one is taken to be."""
+    assert not isinstance(rounded, Tableau)
+    places = len(str((1 / rounded.tolerance).floor())) + EXTRA
+    near = changed(rounded.near, lambda x: midpoint(x) if isinstance(x, arb) else x)
+    found = modified_equation(near, max_order)
+    unit = fmpq(10) ** -places
+
+    def rounded_to_unit(x: Number) -> fmpq:
+        assert isinstance(x, fmpq)
+        return unit * (x / unit + fmpq(1, 2)).floor()
+
+    return replace(found, coefficients=tuple(map(rounded_to_unit, found.coefficients)))
 
 
 def _reached(order: int, largest: int) -> Reached:

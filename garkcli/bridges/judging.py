@@ -9,10 +9,9 @@ from flint import arb, fmpq
 from garkcli.frozen import Frozen, replace
 from garkcli.methodfile.printed import Printed, Units, approximant_units, careless_units
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, StageSpans, Witness, find_order
-from garkcli.order.rounded import RoundedOrder, find_order_within
+from garkcli.order.rounded import RoundedOrder, RoundedTableau, find_order_within
 from garkcli.order.suggestion import SLACK, enough
 from garkcli.order.tolerance import unnatural
-from garkcli.tableau.rounded import RoundedTableau
 from garkcli.tableau.tableau import Tableau
 
 
@@ -119,7 +118,7 @@ def judged(
         order += 1
     if order < found.order:
         # rounding explains the next residuals, and so might a good method
-        met = replace(found, order=order, witness=None, sizes=found.sizes[:order])
+        met = replace(found, order=order, witness=None)
         return replace(_judged(met, exact, tableau), witness=exact.witness)
     return _judged(found, exact, tableau)
 

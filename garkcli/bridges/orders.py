@@ -7,9 +7,9 @@ from flint import fmpq
 from garkcli.exact.display import decimal
 from garkcli.frozen import Frozen
 from garkcli.order.deciding import order_of
+from garkcli.order.meant import meant
 from garkcli.order.simplifying import consistent_blocks
 from garkcli.tableau.forms import with_time
-from garkcli.tableau.meant import meant
 from garkcli.tableau.tableau import Tableau
 
 

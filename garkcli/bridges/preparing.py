@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Sequence
 
@@ -12,6 +13,7 @@ from garkcli.bridges.orders import find_orders
 from garkcli.bridges.payload import Kind, Payload
 from garkcli.doing import doing
 from garkcli.errors import MethodError, printable
+from garkcli.exact.display import to_float
 from garkcli.exact.field import ZERO
 from garkcli.frozen import replace
 from garkcli.methodfile.build import MethodFile
@@ -45,16 +47,17 @@ def prepared(method: GarkMethod, digits: int | None = None) -> Payload:
     if not isinstance(file, MethodFile):
         message = f"{method!r} is no method file"
         raise MethodError(message, "give what load, loads or from_arrays return", code="other-file")
-    tableau = method.tableau
-    if tableau.has_parameters:
+    if method.tableau.has_parameters:
         message = f"{method.name} has free parameters"
         raise CannotExport(message, "give each a value: --set NAME=VALUE", code="free-parameters")
+    method = _with_digits(method, file, digits)
+    tableau = method.tableau
     found = _entries(tableau, digits)
     embedded, dense = method.embedded, method.dense
     other = None if embedded is None else with_weights(tableau, embedded)
     return Payload(
         name=printable(
-            _name(file) if method is file else derived_name(method.derivation, _name(file))
+            derived_name(method.derivation, _name(file)) if method.derivation else _name(file)
         ),
         kind=kind_of(tableau),
         tableau=in_points(tableau) or tableau,
@@ -69,9 +72,30 @@ def prepared(method: GarkMethod, digits: int | None = None) -> Payload:
         structure=file.structure,
         reference=printable(str(file.reference)),
         digits=digits,
-        coupling=coupling_of(file) if method is file else None,
+        coupling=coupling_of(file) if not method.derivation else None,
         derivation=method.derivation,
     )
+
+
+def _with_digits(method: GarkMethod, file: MethodFile, digits: int | None) -> GarkMethod:
+    """The method; where more digits are requested than its file has, the one that these are taken
+    to be a rounding of.
+    """
+    if not method.tolerance or digits is None:
+        return method
+    sizes = [abs(to_float(x)) for row in method.tableau.rows for x in row if x]
+    places = digits + max(0, -math.floor(math.log10(min(sizes, default=1.0))))
+    if fmpq(10) ** -places >= method.tolerance:
+        return method
+    # files that are exact do without
+    from garkcli.api.methods import conjugate, pair
+    from garkcli.conversion.convert import convert
+
+    found: GarkMethod = convert(file, "recovered", digits=places).method
+    made = {"conjugate": conjugate, "pair": pair}.get(method.derivation)
+    if made is not None:
+        found = made(found)
+    return found
 
 
 def _name(method: MethodFile) -> str:

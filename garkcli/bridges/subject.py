@@ -22,13 +22,11 @@ from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.load import loads
 from garkcli.methodfile.printed import FEWEST_DIGITS
 from garkcli.order.certificate import StageSpans
-from garkcli.order.rounded import find_order_within
-from garkcli.order.simplifying import RoundedDefects
+from garkcli.order.rounded import RoundedTableau, find_order_within
 from garkcli.order.sums import wrong_rows
 from garkcli.sources.found import FoundTable
 from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.forms import with_time
-from garkcli.tableau.rounded import RoundedTableau
 from garkcli.tableau.tableau import Tableau
 
 HIGH = 10
@@ -120,7 +118,7 @@ class Subject(Frozen, eq=False):
         # parts of shared stages with times of their own: each has its own row sums for nodes
         has_own_times = len(self.table.A) > 1 and len(set(self.table.A)) == 1
         edges = [(l, m) for l, m in self.tableau.edges() if not has_own_times or l == m]
-        rows = wrong_rows(RoundedDefects(rounded), edges)
+        rows = wrong_rows(rounded.defects, edges)
         names = [colour.name for colour in self.tableau.colours]
         return {str(sum_text(row, names)): row.off for row in rows}
 

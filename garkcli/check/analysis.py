@@ -9,16 +9,15 @@ from flint import fmpq
 
 from garkcli.doing import doing
 from garkcli.errors import MethodError, ZeroWeight
-from garkcli.exact.field import ZERO
 from garkcli.frozen import Frozen
 from garkcli.order.certificate import DEFAULT_LIMIT, Proof, prove
 from garkcli.order.deciding import AnyOrder, order_of
+from garkcli.order.meant import derived, meant, printed
 from garkcli.order.simplifying import Simplifying, consistent_blocks, defects_of
 from garkcli.reason import NO_REASON, Reason
 from garkcli.tableau.embedded import NOTHING, Further
 from garkcli.tableau.forms import with_time
 from garkcli.tableau.garkmethod import GarkMethod
-from garkcli.tableau.meant import derived, meant, printed
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
 
@@ -27,10 +26,11 @@ if TYPE_CHECKING:
 
     from garkcli.check.further import DenseFacts, EmbeddedFacts
     from garkcli.exact.field import Number
+    from garkcli.order.meant import AnyTableau
+    from garkcli.order.nearness import Nearness
     from garkcli.order.suggestion import Misprint, Suggestion
     from garkcli.order.sums import WrongSum
     from garkcli.properties.subject import Subject
-    from garkcli.tableau.meant import AnyTableau
 
 Units: TypeAlias = "Callable[[], Mapping[Number, fmpq]]"
 """By how much each printed value may be off in its last place."""
@@ -101,9 +101,21 @@ class Analysis(Shown, Frozen):
         """The method whose properties are decided on demand."""
         from garkcli.properties.subject import Subject
 
-        tolerance = ZERO if self.tolerance is None else self.tolerance
+        method = meant(self.tableau, self.tolerance)
         order = self.order.order
-        return Subject(self.tableau, order, self.simplifying, self.limit, tolerance, self.further)
+        return Subject.read(method, order, self.simplifying, self.limit, self.further)
+
+    @cached_property
+    def nearness(self) -> Nearness | None:
+        """How far the method that a rounded one is taken to be is from the print; None of an exact
+        one.
+        """
+        method = meant(self.tableau, self.tolerance)
+        if isinstance(method, Tableau):
+            return None
+        from garkcli.order.nearness import nearness
+
+        return nearness(method.search, self.order.order)
 
     @cached_property
     def wrong_rows(self) -> tuple[WrongSum, ...]:

@@ -86,7 +86,7 @@ def _holds(claim: ClaimText, verdict: Verdict, subject: Subject) -> bool | None:
     if verdict.is_undecided:
         return None
     if isinstance(value, Size):
-        return isinstance(wanted, Measure) and wanted.agrees(value.root, subject.tolerance)
+        return isinstance(wanted, Measure) and wanted.agrees(value.root, subject.rounding)
     if verdict.is_at_least and isinstance(value, int):
         return agrees(wanted, AtLeast(value))
     return agrees(wanted, value)

@@ -16,7 +16,7 @@ from garkcli.frozen import replace
 from garkcli.methodfile.expectations import highest_order
 from garkcli.order.certificate import Order
 from garkcli.order.deciding import AnyOrder, order_of
-from garkcli.tableau.meant import derived, meant
+from garkcli.order.meant import derived, meant
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:

@@ -19,10 +19,10 @@ from garkcli.doing import doing
 from garkcli.frozen import replace
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, StageSpans
 from garkcli.order.deciding import AnyOrder, order_of
+from garkcli.order.meant import meant, printed
 from garkcli.order.simplifying import Simplifying, is_symplectic, simplifying
 from garkcli.order.tolerance import TINY, within
 from garkcli.tableau.embedded import NOTHING, Further
-from garkcli.tableau.meant import meant, printed
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
@@ -48,40 +48,38 @@ def analyse(
             where residuals look like rounding.
         further: its embedded weights and its dense output.
     """
-    method = meant(tableau, tolerance)
+    method = meant(tableau, tolerance, further)
     spans = StageSpans(tableau) if further and method is tableau else None
     order = order_of(method, limit, spans)
-    inconsistent = inconsistent_blocks(method)
-    conditions = simplifying(method, limit)
     conjugated, both, obstacle = conjugate_and_pair(method)
     conjugate_order = None
     if conjugated is not None:
         with doing("conjugate"):
             conjugate_order = order_of(conjugated, limit)
-    conjugate_inconsistent = inconsistent_blocks(conjugated)
+    is_own_pair = both is None or is_pair_of_itself(method, both)
     pair_order, pair_conditions = None, None
-    if both is not None and not is_pair_of_itself(method, both):
+    if both is not None and not is_own_pair:
         with doing("pair"):
-            pair_order, pair_conditions = order_of(both, limit), simplifying(both, limit)
+            pair_order = order_of(both, limit)
+    # all orders of a rounded method come first: each tells more of the method that it means
+    if method is not tableau and order.is_lower_bound:
+        order = order_of(method, limit)
+    inconsistent = inconsistent_blocks(method)
+    conditions = simplifying(method, limit)
+    if both is not None and not is_own_pair:
+        with doing("pair"):
+            pair_conditions = simplifying(both, limit)
+    conjugate_inconsistent = inconsistent_blocks(conjugated)
     symplectic = is_symplectic(method)
+    misprint, suggestion = None, None
     if isinstance(method, Tableau):
         suggestion = _suggestion(method, order, limit)
         misprint = _misprint(tableau, order, suggestion, units)
-    else:
-        # balls, which exact methods do without
-        from garkcli.check.within import agreeing, implied
-        from garkcli.order.suggestion import suggest_wider
+    elif units:
+        from garkcli.order.suggestion import misprint_within, suggest_wider  # balls
 
-        conditions = implied(tableau, conditions, order, inconsistent)
-        if pair_conditions is not None:
-            pair_conditions = replace(pair_conditions, B=conditions.B * 2)
-        conjugate_order, pair_order = agreeing(
-            method, order, symplectic, conjugated, conjugate_order, pair_order
-        )
-        if symplectic:
-            conjugate_inconsistent = inconsistent
-        misprint = None
-        suggestion = suggest_wider(method, order, units(), limit) if units else None
+        suggestion = suggest_wider(method, order, units(), limit)
+        misprint = None if suggestion else misprint_within(method, order, limit)
     if both is not None and pair_conditions is None:
         pair_order, pair_conditions = order, conditions
     found = Analysis(

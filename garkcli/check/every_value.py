@@ -20,7 +20,7 @@ from garkcli.exact.parametric import Parametric
 from garkcli.frozen import Frozen, field, replace
 from garkcli.methodfile.description import ClaimText
 from garkcli.methodfile.expectations import OF_ORDERS, AtLeast, highest_order
-from garkcli.methodfile.family import FamilyFile, family_of, loads_family
+from garkcli.methodfile.family import FamilyFile, family_of, loads_family, refuse_rounded
 from garkcli.order.simplifying import is_symplectic, simplifying
 from garkcli.properties.registry import KEYS
 from garkcli.reason import NO_REASON, Reason
@@ -216,6 +216,7 @@ def check_every(
     """
     try:
         family = family_of(file, settings)
+        refuse_rounded(family)
         count = len(family.parameters)
         if count > MOST_PARAMETERS:
             message = f"{count} free parameters (limit {MOST_PARAMETERS})"

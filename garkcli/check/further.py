@@ -10,8 +10,8 @@ from garkcli.order.certificate import StageSpans
 from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.dense import DenseOrder, Slopes, dense_order, ends_at_step, slopes
 from garkcli.order.functionals import Estimator, Orders, estimator
+from garkcli.order.meant import AnyTableau, printed
 from garkcli.tableau.embedded import Further, with_weights
-from garkcli.tableau.meant import AnyTableau, printed
 from garkcli.tableau.tableau import Tableau
 
 
@@ -82,7 +82,7 @@ def further_facts(
         if isinstance(method, Tableau):
             changed: AnyTableau = with_weights(method, weights)
         else:
-            changed = method.with_weights(weights)
+            changed = method.with_embedded()
         other = order_of(changed, limit, spans)
         timed_order = nonautonomous(changed, other, inconsistent, limit)
         smaller = other if other.order < order.order else order

@@ -11,10 +11,10 @@ from flint import fmpq
 
 from garkcli.exact.matrix import Matrix, apply, dot, is_singular, multiply
 from garkcli.frozen import Frozen
+from garkcli.order.meant import derived, meant
 from garkcli.order.pair_order import Condition, added, missing_of_block, pair_criterion
 from garkcli.order.simplifying import simplifying
 from garkcli.tableau.forms import gark
-from garkcli.tableau.meant import derived, meant
 from garkcli.tableau.tableau import Method, Tableau
 
 if TYPE_CHECKING:

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from garkcli.design.minimise.result import Minimum
     from garkcli.design.search.run import Result, Task, Timed
     from garkcli.design.stable_values import StableValues
+    from garkcli.design.within import DesignWithin
     from garkcli.methodfile.family import FamilyFile
     from garkcli.methodfile.search_file import FileSearch
     from garkcli.tableau.family import Stability
@@ -62,6 +63,7 @@ def design(given: Given, output: Output) -> int:
     is_free = given.minimise is None
     family = load_family(given.file, given.settings, given.moment, is_free)
     is_of_springs = given.slow is not None
+    _refuse_rounded(family, given)
     given.order = given.order or family.order
     asked = _asked(family, given)
     if asked is not None and (given.order is None or is_of_springs):
@@ -75,6 +77,8 @@ def design(given: Given, output: Output) -> int:
     output.check_place(given.emit)
     if given.folder is not None:
         make_folder(given.folder)
+    if family.tolerance is not None:
+        return _within(family, given, output)
     if given.search is not None:
         _refuse_unsettled(family)
         return _search(family, given, output)
@@ -86,6 +90,43 @@ def design(given: Given, output: Output) -> int:
         family = load_family(given.file, settings, given.moment, is_free)
         family = _as_stable(family, asked)
     return _told(family, chosen, given, output)
+
+
+def _refuse_rounded(family: FamilyFile, given: Given) -> None:
+    """Refuse what exact coefficients alone have.
+
+    Raises:
+        UsageProblem: an option asks for it, and coefficients are rounded.
+    """
+    if family.tolerance is None:
+        return
+    asked = {
+        f"--{given.stability}": given.stability,
+        "--search": given.search,
+        "--minimise": given.minimise,
+        "--choose": given.choose,
+    }
+    for option in (name for name, value in asked.items() if value):
+        message = f"{option} needs exact coefficients, and those of the file are rounded"
+        cure = "write radicals and fractions; gark design alone finds values within the tolerance"
+        raise UsageProblem(message, cure, code="rounded")
+
+
+def _within(family: FamilyFile, given: Given, output: Output) -> int:
+    """Values within the tolerance: report them, write the files, and return the exit code."""
+    from garkcli.api.design import find_parameters
+    from garkcli.design.within import DesignWithin
+    from garkcli.methodfile.naming import called
+    from garkcli.report.design_within import REPORT, WithinReport
+
+    with until(given.moment):
+        found = find_parameters(family, given.order, given.whose)
+    assert isinstance(found, DesignWithin)
+    output.tell(REPORT, WithinReport(called(given.file), found))
+    is_reached = found.reaches(given.order or 1)
+    if found.best is not None:
+        _emit(found, family, given, output)
+    return EXIT_CODES[None if is_reached and family.stable else is_reached]
 
 
 def _check_stability(given: Given) -> None:
@@ -211,7 +252,7 @@ def _told(family: FamilyFile, chosen: list[Choice], given: Given, output: Output
 
 def _found(family: FamilyFile, given: Given) -> Design:
     """For which values the method has the order."""
-    from garkcli.api.design import find_parameters
+    from garkcli.design.design import find_parameters
 
     return find_parameters(family, given.order, given.whose)
 
@@ -305,7 +346,9 @@ def _stable_values(family: FamilyFile, given: Given, output: Output) -> int:
     return EXIT_CODES[found.has_values]
 
 
-def _emit(found: Design | Minimum, family: FamilyFile, given: Given, output: Output) -> None:
+def _emit(
+    found: Design | DesignWithin | Minimum, family: FamilyFile, given: Given, output: Output
+) -> None:
     """Write the first of the methods found, or all.
 
     Raises:

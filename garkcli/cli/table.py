@@ -171,6 +171,8 @@ conditions --sort words=tree,worst default=tree
 
 convert --to words=forms = convert.to | The form of the result.
 --stages N 1..1000 = convert.stages
+convert --digits N 1..1000 = convert.digits
+convert --recognise = convert.is_recognising
 --strict | Exit with 1 unless every entry is identical.
 
 --slow A = two_springs.slow
@@ -336,7 +338,7 @@ tableaux: conjugate FILE | the symplectic conjugate, or the symplectic pair
     --pair --digits --document --set
 tableaux: convert FILE | the same method in another form, or with fewer stages
     = convert
-    --to --stages --set
+    --to --stages --digits --recognise --set
 tableaux: diff FIRST SECOND | how two methods differ, or that they are the same
     = compare
     --strict --set
@@ -405,6 +407,8 @@ conditions: --coloured with --symplectic
     | free trees have colours | leave out --coloured and --shapes
 conditions: --set without FILE | --set is for the parameters of FILE | name a file
 conditions: --kind with FILE | the kind is that of FILE | leave out --kind; --pair asks for the pair
+convert: --digits --recognise without --to=recovered
+    | OPTION goes with --to recovered | add --to recovered
 convert: --stages with --to=reduced
     | --stages adds stages, --to reduced leaves some out | use one of them
 design: --seed --most --jobs --scheduler without --search

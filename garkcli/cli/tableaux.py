@@ -141,7 +141,10 @@ def _refuse_partitioned(tableau: Tableau) -> None:
 
 
 def read_family(
-    error: HasFreeParameters, settings: Mapping[str, str], needs: Mapping[str, object]
+    error: HasFreeParameters,
+    settings: Mapping[str, str],
+    needs: Mapping[str, object],
+    is_judged: bool = True,
 ) -> tuple[FamilyFile, EveryFamily]:
     """The family of a file, from the refusal to read it as a method.
 
@@ -149,15 +152,18 @@ def read_family(
         error: the refusal.
         settings: values of other parameters.
         needs: options that need numbers, with their values; falsy ones were not given.
+        is_judged: whether it is decided what holds, which rounded numbers do not tell.
 
     Raises:
         UsageProblem: it is not said for every value, or one of the options was given.
     """
     from garkcli.check.every_family import every_family
-    from garkcli.methodfile.family import family_of
+    from garkcli.methodfile.family import family_of, refuse_rounded
 
     file = family_of(error, settings)
     try:
+        if is_judged:
+            refuse_rounded(file)
         found = every_family(file)
     except MethodError as refusal:
         raise UsageProblem(refusal.message, refusal.help, code=refusal.code) from None
@@ -175,10 +181,10 @@ def _write_family(error: HasFreeParameters, given: Given, output: Output) -> Non
     Raises:
         UsageProblem: the nodes have no simple radicals, or numbers are requested.
     """
+    from garkcli.order.meant import derived, printed
     from garkcli.tableau.garkmethod import GarkMethod, derived_name
-    from garkcli.tableau.meant import derived, printed
 
-    file, family = read_family(error, given.settings, {"--digits": given.digits})
+    file, family = read_family(error, given.settings, {"--digits": given.digits}, is_judged=False)
     shown = family.printed(printed(derived(family.tableau, given.which)))
     cure = f"--set {file.parameters[0]}=1/2"
     if shown is None:

@@ -260,13 +260,13 @@ def _valued(given: Given) -> Valued:
     functions of them.
     """
     from garkcli.methodfile.load import load
+    from garkcli.order.meant import as_meant, derived
     from garkcli.report.conditions import Valued
-    from garkcli.tableau.meant import derived
 
     which = given.which or ""
     parameters: tuple[str, ...] = ()
     try:
-        known_as = load(given.file, given.settings).meant
+        known_as = as_meant(load(given.file, given.settings))
     except HasFreeParameters as error:
         from garkcli.cli.tableaux import read_family
 

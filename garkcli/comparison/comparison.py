@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import isclose
 from typing import Literal, TypeAlias
 
 from flint import fmpq
@@ -17,10 +18,10 @@ from garkcli.exact.field import ZERO
 from garkcli.frozen import Frozen
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.deciding import AnyOrder
-from garkcli.properties.property import Verdict
+from garkcli.order.meant import meant
+from garkcli.properties.property import Size, Verdict
 from garkcli.properties.registry import KEYS
 from garkcli.tableau.garkmethod import GarkMethod
-from garkcli.tableau.meant import meant
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
 
@@ -186,7 +187,7 @@ def compare(one: GarkMethod, other: GarkMethod, limit: int = DEFAULT_LIMIT) -> C
         pair = PropertyPair(
             key, first.subject.verdict(key), second.subject.verdict(key), tolerances
         )
-        if _text(pair.one) != _text(pair.other):
+        if _differ(pair):
             different.append(pair)
     if first.symplectic != second.symplectic:
         verdicts = Verdict(first.symplectic), Verdict(second.symplectic)
@@ -232,6 +233,14 @@ def form_of(tableau: Tableau) -> str:
 
 def _of_embedded(analysis: Analysis) -> AnyOrder | None:
     return None if analysis.embedded is None else analysis.embedded.order
+
+
+def _differ(pair: PropertyPair) -> bool:
+    """Whether a property tells two methods apart; numbers of rounded ones have some digits only."""
+    one, other = pair.one.value, pair.other.value
+    if any(pair.tolerances) and isinstance(one, Size) and isinstance(other, Size):
+        return not isclose(float(one), float(other), rel_tol=1e-12)
+    return _text(pair.one) != _text(pair.other)
 
 
 def _text(verdict: Verdict) -> tuple[str, bool, bool]:

@@ -12,7 +12,7 @@ from garkcli.frozen import Frozen
 from garkcli.ntrees.count import count_by_root
 from garkcli.ntrees.tree import Tree
 from garkcli.order.conditions import Condition, conditions, coupling_graph, twin_roots
-from garkcli.tableau.meant import AnyTableau, printed
+from garkcli.order.meant import AnyTableau, printed
 from garkcli.tableau.pointwise import Block, Cell
 
 

@@ -27,6 +27,7 @@ from garkcli.convergence.solver import Solver
 from garkcli.errors import UsageProblem
 from garkcli.order import deciding
 from garkcli.order.certificate import DEFAULT_LIMIT
+from garkcli.order.meant import meant
 from garkcli.order.simplifying import simplifying
 from garkcli.order.weak_stages import weak_stage_order
 from garkcli.problems.builtin import GENERIC, GENERIC_RHS, hamiltonian
@@ -36,7 +37,6 @@ from garkcli.problems.problem import Problem, merge_terms
 from garkcli.stepping.fields import visible_tableau, visible_trees, with_clock, with_joined_terms
 from garkcli.stepping.integrator import bind
 from garkcli.stepping.linear import MAX_STEPS, whole_steps
-from garkcli.tableau.meant import meant
 from garkcli.tableau.tableau import Tableau
 
 

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from garkcli.check.claims import verify
 from garkcli.check.deciding import analyse
+from garkcli.conversion.recovered import Recovered, is_as_good, recovered
 from garkcli.conversion.sheet import CannotConvert, Place, Sheet, arranged
-from garkcli.conversion.targets import TARGETS, Target
+from garkcli.conversion.targets import RECOVERED, TARGETS, Target
 from garkcli.doing import doing
-from garkcli.errors import UsageProblem, did_you_mean
+from garkcli.errors import MethodFileError, UsageProblem, did_you_mean
 from garkcli.frozen import Frozen, replace
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.carried import claim_lines, lines_of
 from garkcli.methodfile.expectations import highest_order
 from garkcli.methodfile.load import loads
-from garkcli.methodfile.writer import can_spell_out, write_method
+from garkcli.methodfile.writer import can_spell_out, write_method, write_tableau_file
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.tableau.garkmethod import GarkMethod, derived_name
 
@@ -64,16 +65,26 @@ class Converted(Frozen):
 
 
 @doing("other form")
-def convert(method: GarkMethod, to: str = "spelled-out", stages: int | None = None) -> Converted:
+def convert(
+    method: GarkMethod,
+    to: str = "spelled-out",
+    stages: int | None = None,
+    digits: int | None = None,
+    is_recognising: bool = False,
+) -> Converted:
     """The same method in another form.
 
     Args:
         method: a loaded method, or one from arrays.
         to: one of ``TARGETS``.
         stages: how many stages each colour gets at least, by stages in front that do nothing.
+        digits: of ``recovered``: how many after the point; None for 50, or as many
+            as the tolerance has.
+        is_recognising: of ``recovered``: whether exact numbers take the place of decimals where
+            all digits agree and no order falls.
 
     Raises:
-        UsageProblem: there is no such form.
+        UsageProblem: there is no such form, or it has no digits.
         CannotConvert: the method has none; the message says why.
         ZeroWeight: a pair would divide by zero.
 
@@ -84,7 +95,13 @@ def convert(method: GarkMethod, to: str = "spelled-out", stages: int | None = No
     if to not in TARGETS:
         raise UsageProblem(f"no form {to!r}", did_you_mean(to, TARGETS), code="unknown-word")
     goal = TARGETS[to]
-    sheet = goal.convert(method)
+    found = None
+    if to == RECOVERED:
+        found = recovered(method, digits, is_recognising)
+    elif digits is not None or is_recognising:
+        message = f"the form {to} has the numbers of the file"
+        raise UsageProblem(message, "leave out digits", code="not-together")
+    sheet = goal.convert(method) if found is None else found.sheet
     if stages is not None:
         sheet = padded(sheet, stages)
     if not can_spell_out(sheet.tableau):
@@ -97,11 +114,38 @@ def convert(method: GarkMethod, to: str = "spelled-out", stages: int | None = No
     name = UNNAMED if method.name in ("", source) else method.name
     if goal.makes_another:
         name = derived_name(goal.name, name)
-    text = _with_head(write_method(sheet.tableau, name, method.tolerance, sheet.further), method)
+    if found is None:
+        text = write_method(sheet.tableau, name, method.tolerance, sheet.further)
+    else:
+        text = _written(replace(found, sheet=sheet), name)
+    text = _with_head(text, method)
     loses_further = bool(method.further) and not sheet.further
     if not isinstance(method, MethodFile):
         return Converted(loads(text), (), loses_further)
     return replace(_claimed(text, method, goal), loses_further=loses_further)
+
+
+def _written(found: Recovered, name: str) -> str:
+    """The file of a recovered method, with as many of the exact numbers as no order falls with."""
+    proposals = {**found.proposals}
+    while True:
+        text = write_tableau_file(
+            found.sheet.tableau,
+            name,
+            found.tolerance_with(proposals),
+            text=found.text_with(proposals),
+            further=found.sheet.further,
+        )
+        if not proposals or _is_as_good(text, found):
+            return text
+        proposals.popitem()  # the longest says least
+
+
+def _is_as_good(text: str, found: Recovered) -> bool:
+    try:
+        return is_as_good(loads(text), found)
+    except MethodFileError:
+        return False
 
 
 def _with_head(text: str, method: GarkMethod) -> str:

@@ -168,6 +168,8 @@ def as_canonical(method: GarkMethod) -> Sheet:
     return shared(smaller) or smaller
 
 
+RECOVERED = "recovered"
+"""The form that other numbers are written in than the file has."""
 TARGETS: Mapping[str, Target] = {
     target.name: target
     for target in (
@@ -183,6 +185,7 @@ TARGETS: Mapping[str, Target] = {
             makes_another=True,
         ),
         Target("canonical", "reduced, spelled out, its stages sorted", as_canonical),
+        Target(RECOVERED, "of a rounded method the one that its digits mean", sheet_of),
     )
 }
 """Every form by name."""

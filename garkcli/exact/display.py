@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from decimal import Decimal
+from typing import Any
 
 from flint import arb, ctx, fmpq
 
@@ -90,8 +92,10 @@ def _bits(digits: int) -> int:
     return int(digits * 3.33) + 8
 
 
-def to_ball(number: Number, digits: int = 17) -> arb:
-    """An enclosure of ``number`` with at least ``digits`` correct decimal digits."""
+def to_ball(number: Number | arb, digits: int = 17) -> arb:
+    """An enclosure of a number with at least ``digits`` correct digits; a ball as it is."""
+    if isinstance(number, arb):
+        return number
     goal = _bits(digits)
     with ctx.workprec(goal + 32):
         while True:
@@ -116,6 +120,17 @@ def _ball(number: Number) -> arb:
 def to_decimal(number: Number, digits: int = 17) -> str:
     """The number rounded to ``digits`` significant digits."""
     return to_ball(number, digits).str(digits, radius=False)
+
+
+def in_digits(number: Any, digits: int) -> fmpq:
+    """The decimal of so many significant digits next to a number or the middle of a ball.
+
+    >>> in_digits(fmpq(1, 3), 4)
+    3333/10000
+    """
+    with ctx.workprec(_bits(digits) + 32):
+        text = arb(number).mid().str(digits, radius=False)
+    return fmpq(*Decimal(text).as_integer_ratio())
 
 
 def decimal(number: fmpq) -> str:

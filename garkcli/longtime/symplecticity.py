@@ -17,11 +17,11 @@ from flint import arb, ctx, fmpq
 from garkcli.doing import doing
 from garkcli.frozen import Frozen
 from garkcli.longtime.history import State
+from garkcli.order.meant import meant
 from garkcli.order.simplifying import is_symplectic
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
 from garkcli.stepping.fields import visible_tableau
 from garkcli.stepping.integrator import Integrator, bind, integrate
-from garkcli.tableau.meant import meant
 from garkcli.tableau.tableau import Tableau
 
 Jacobian: TypeAlias = list[list[Any]]

@@ -19,12 +19,12 @@ from garkcli.methodfile.numbers import Entry, Numbers, Row
 from garkcli.methodfile.source import Source
 from garkcli.methodfile.values import Values
 from garkcli.order.certificate import find_order
+from garkcli.order.meant import AnyTableau, meant
 from garkcli.reference import Reference
 from garkcli.tableau import forms
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.embedded import DenseOutput, Further, padded
 from garkcli.tableau.garkmethod import GarkMethod
-from garkcli.tableau.meant import AnyTableau, meant
 from garkcli.tableau.stages import StageSpace
 from garkcli.tableau.tableau import Method, Tableau, butcher
 from garkcli.transfer import (
@@ -134,7 +134,7 @@ class BlockBuilder:
             (self.values.number(x), self._rule(rule)) for rule, x in text.terms if x is not None
         ]
         total = sum((tau for tau, _ in terms), start=ZERO)
-        if total != ONE:
+        if not self.values.once(("sum", id(text)), lambda: total == ONE):
             message = f"the weights of the combination sum to {total}, not to 1"
             cure = "weights that sum to 1 keep the block consistent"
             raise MethodError(message, cure, code="weights-of-combination")
@@ -147,7 +147,10 @@ class BlockBuilder:
     @cached_property
     def _alone(self) -> list[AnyTableau]:
         """The diagonal methods on their own, rounded where the file is."""
-        return [meant(self.values.alone(method), self.tolerance) for method in self.methods]
+        return self.values.once(
+            ("alone", id(self.text)),
+            lambda: [meant(self.values.alone(method), self.tolerance) for method in self.methods],
+        )
 
     @cached_property
     def _orders(self) -> list[int]:
@@ -161,7 +164,10 @@ class BlockBuilder:
             message = "a symplectic- rule compares orders of numbers, and the file has unknowns"
             cure = "give values, or write the rule without symplectic- and ask for the pair"
             raise MethodError(message, cure, code="free-parameters")
-        return [find_order(self.values.alone(method)).order for method in self.methods]
+        return self.values.once(
+            ("orders", id(self.text)),
+            lambda: [find_order(self.values.alone(method)).order for method in self.methods],
+        )
 
 
 T = TypeVar("T")

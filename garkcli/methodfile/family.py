@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from typing import TypeAlias
 
-from flint import fmpq_mpoly
+from flint import fmpq, fmpq_mpoly
 from yaml.nodes import ScalarNode
 
 from garkcli.design.want import numerators, sign_polynomial
 from garkcli.errors import HasFreeParameters, MethodError
+from garkcli.exact.field import Number
 from garkcli.exact.parametric import Parameters, common_denominator
+from garkcli.methodfile.build import Builder
 from garkcli.methodfile.description import (
     ClaimText,
     Description,
@@ -27,6 +30,8 @@ from garkcli.methodfile.wishes import Wishes, meaning_of
 from garkcli.tableau.family import Family
 from garkcli.tableau.tableau import Tableau
 
+Moved: TypeAlias = "Callable[[Sequence[Number]], Sequence[fmpq]]"
+"""Numbers in place of the printed ones."""
 _NAME = re.compile(r"\ba[0-9_]+")
 """An entry of a block."""
 
@@ -47,6 +52,7 @@ class FamilyFile(Family, kw_only=True):
         structure: which vector fields the problem has.
         claims: what ``expect`` says.
         left_behind: further weights of methods inside of a construction, which it has not.
+        tolerance: the rounding of its numbers; None where none of them is rounded.
     """
 
     source: str
@@ -60,6 +66,7 @@ class FamilyFile(Family, kw_only=True):
     structure: Structure = "general"
     claims: tuple[ClaimText, ...] = ()
     left_behind: tuple[str, ...] = ()
+    tolerance: fmpq | None = None
 
 
 def load_family(
@@ -100,6 +107,7 @@ def loads_family(
     is_design: bool = True,
     deadline: float | None = None,
     is_free: bool = True,
+    numbers: Moved | None = None,
 ) -> FamilyFile:
     r"""Read a method file with free parameters from its text.
 
@@ -110,6 +118,8 @@ def loads_family(
         is_design: whether to use ``design`` of the file.
         deadline: as in ``load_family``.
         is_free: as in ``load_family``.
+        numbers: what takes the place of its rounded numbers, from these as they are printed; None
+            for themselves.
 
     Raises:
         MethodFileError: every fault of the file, with positions.
@@ -127,7 +137,7 @@ def loads_family(
     wishes = reader.wishes if is_design and reader.wishes is not None else Wishes()
     reader.numbers.entries += wishes.entries
     reader.numbers.free |= wishes.ranges
-    return _family(reader, description, wishes, settings, deadline)
+    return _family(reader, description, wishes, settings, deadline, numbers)
 
 
 def family_of(error: HasFreeParameters, settings: Mapping[str, str] = NO_SETTINGS) -> FamilyFile:
@@ -146,15 +156,45 @@ def family_of(error: HasFreeParameters, settings: Mapping[str, str] = NO_SETTING
     return _family(reader, description, Wishes(), settings, None)
 
 
+def refuse_rounded(family: FamilyFile) -> None:
+    """Refuse to say what holds for every value of the unknowns where known numbers are rounded: a
+    last digit would decide it.
+
+    Raises:
+        MethodError: they are.
+    """
+    if family.tolerance is None:
+        return
+    names = ", ".join(family.parameters)
+    message = (
+        f"the coefficients are rounded and {names} free: what holds for every value is decided for"
+        " exact ones alone"
+    )
+    cure = f"gark design finds values within the tolerance; --set {family.parameters[0]}=1/2"
+    raise MethodError(message, f"{cure} chooses one", code="rounded")
+
+
 def _family(
     reader: Reader,
     description: Description,
     wishes: Wishes,
     settings: Mapping[str, str],
     deadline: float | None,
+    numbers: Moved | None = None,
 ) -> FamilyFile:
     """The family that a file describes, with what is wanted of it."""
     made = built(reader, description, FamilyValues)
+    tolerance = description.tolerance or None
+    if tolerance is not None:
+        from garkcli.methodfile.rounding import Rounded  # few files are rounded
+
+        own = set(map(id, wishes.entries))
+        coefficients = [x for x in reader.numbers.entries if id(x) not in own]
+        rounded = Rounded(coefficients, made.values)
+        tolerance = tolerance if rounded.numbers else None
+        if numbers is not None:
+            change = rounded.changer(numbers(rounded.numbers))
+            made = Builder(made.text, FamilyValues(reader.numbers, change))
     tableau, values = made.tableau, made.values
     ring = values.domain.ring
     source = reader.source
@@ -191,6 +231,7 @@ def _family(
         structure=description.structure,
         left_behind=left_behind(description.content),
         claims=description.claims,
+        tolerance=tolerance,
     )
 
 

@@ -4,7 +4,7 @@ of their own.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import chain
 from math import prod
 from typing import Any, cast
@@ -46,14 +46,22 @@ class FamilyValues(Values):
     """The coefficients of a file as rational functions of its free parameters.
 
     Radicals are unknowns of their own, with the relation that they satisfy.
+
+    Args:
+        numbers: of the file.
+        change: what takes the place of an expression; None for itself.
     """
 
-    def __init__(self, numbers: Numbers) -> None:
+    def __init__(
+        self, numbers: Numbers, change: Callable[[Expression], Expression] | None = None
+    ) -> None:
         self.numbers = numbers
         self.printed = ()
         self._values: dict[int, Number] = {}
         expressions = [entry.expression for entry in numbers.entries]
-        self.domain = _FamilyDomain(list(numbers.free), expressions)
+        if change is not None:
+            expressions = [change(x) for x in expressions]
+        self.domain = _FamilyDomain(list(numbers.free), expressions, change)
         self._evaluate(numbers, self.domain)
 
     def alone(self, method: Method) -> Tableau:
@@ -124,7 +132,13 @@ class FamilyValues(Values):
 class _FamilyDomain(Domain):
     """Evaluates expressions to rational functions of parameters."""
 
-    def __init__(self, names: list[str], expressions: list[Expression]) -> None:
+    def __init__(
+        self,
+        names: list[str],
+        expressions: list[Expression],
+        change: Callable[[Expression], Expression] | None = None,
+    ) -> None:
+        self._change = change
         found = dict.fromkeys(chain.from_iterable(map(roots_in, expressions)))
         self._names = {root: f"{ROOT}{i}" for i, root in enumerate(found, start=1)}
         self.ring = Parameters([*names, *self._names.values()])
@@ -170,7 +184,8 @@ class _FamilyDomain(Domain):
         return cast("Number", self.ring.parameter(name))
 
     def coefficient(self, expression: Expression) -> Number:
-        value = super().coefficient(expression)
+        changed = expression if self._change is None else self._change(expression)
+        value = super().coefficient(changed)
         parts = fraction(value, self.ring)
         self._limit(max(map(self._terms_of, parts)), 0, expression)
         self._terms += sum(map(len, parts))

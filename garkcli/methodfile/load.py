@@ -22,6 +22,7 @@ from garkcli.methodfile.reader import Reader
 from garkcli.methodfile.reading import SUFFIX
 from garkcli.methodfile.source import Source
 from garkcli.methodfile.values import Values
+from garkcli.order.meant import remember
 from garkcli.reference import Work
 
 NO_SETTINGS: Mapping[str, str] = {}
@@ -104,7 +105,7 @@ def loads(
     if reader.numbers.free:
         raise _free(reader, description)
     made = built(reader, description, Values)
-    return MethodFile(
+    method = MethodFile(
         source=source,
         text=text,
         name=one_line(description.name) or source,
@@ -124,6 +125,16 @@ def loads(
         left_behind=left_behind(description.content),
         rules=rules_of_blocks(description),
     )
+    tolerance = description.tolerance
+    if tolerance:
+        from garkcli.methodfile.rounding import box_of  # few files are rounded
+
+        remember(
+            method.tableau,
+            tolerance,
+            lambda: (box_of(made, reader.numbers, tolerance), made.further),
+        )
+    return method
 
 
 def works_in(text: str, source: str) -> tuple[Work, ...]:

@@ -142,6 +142,11 @@ def _approximation(value: Number) -> fmpq:
     return fmpq(100, q * q)
 
 
+def is_long_fraction(expression: Expression, value: Number) -> bool:
+    """Whether a fraction of whole numbers may be an approximant: its denominator is long."""
+    return _is_whole(expression) and isinstance(value, fmpq) and value.q >= LONG_DENOMINATOR
+
+
 def _literals(expression: Expression) -> Iterator[Literal]:
     match expression:
         case Literal():

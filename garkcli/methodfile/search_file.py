@@ -8,6 +8,7 @@ from functools import lru_cache
 from garkcli.design.member import Whose
 from garkcli.design.search.run import Task, Timed, do
 from garkcli.design.search.search import Search
+from garkcli.errors import MethodError
 from garkcli.frozen import Frozen
 from garkcli.methodfile.family import FamilyFile, loads_family
 
@@ -37,7 +38,11 @@ class FileSearch(Frozen):
 
     @property
     def family(self) -> FamilyFile:
-        """The file, read once in each process."""
+        """The file, read once in each process.
+
+        Raises:
+            MethodError: its coefficients are rounded.
+        """
         return _family(self.text, self.source, self.settings)
 
     @property
@@ -52,7 +57,11 @@ class FileSearch(Frozen):
 
 @lru_cache(maxsize=4)
 def _family(text: str, source: str, settings: tuple[tuple[str, str], ...]) -> FamilyFile:
-    return loads_family(text, source, dict(settings))
+    family = loads_family(text, source, dict(settings))
+    if family.tolerance is not None:
+        message = f"{source}: a search needs exact coefficients, and those of the file are rounded"
+        raise MethodError(message, "write radicals and fractions", code="rounded")
+    return family
 
 
 @lru_cache(maxsize=4)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from typing import TypeVar
 
 from garkcli.errors import ExpressionError, LimitExceeded, UndefinedValue
 from garkcli.exact.domain import Domain
@@ -13,6 +14,8 @@ from garkcli.exact.rewriting import parts, roots_in
 from garkcli.methodfile.numbers import Entry, Numbers, Row, Rows
 from garkcli.tableau.forms import gark
 from garkcli.tableau.tableau import Method, Tableau
+
+T = TypeVar("T")
 
 
 class Values:
@@ -35,6 +38,14 @@ class Values:
         known = self._evaluate(numbers, domain)
         self.printed = tuple((expressions[key], number) for key, number in known.items())
         _note_faults(numbers, numbers.of_parameters)
+
+    def once(self, key: object, find: Callable[[], T]) -> T:
+        """What is decided of a method once, whatever numbers take the place of those printed."""
+        decided = self.__dict__.setdefault("decided", {})
+        if key not in decided:
+            decided[key] = find()
+        found: T = decided[key]
+        return found
 
     def alone(self, method: Method) -> Tableau:
         """A diagonal method as a tableau."""

@@ -30,7 +30,7 @@ from garkcli.exact.enclosing import Entries, entrywise_max, plus, scalar_product
 from garkcli.frozen import Frozen
 from garkcli.ntrees.tree import Tree
 from garkcli.order.recursion import Forest, OrderByOrder
-from garkcli.tableau.rounded import Enclosure
+from garkcli.tableau.enclosure import Enclosure
 from garkcli.tableau.tableau import Edge, Tableau
 
 Rows = list[Entries]

@@ -19,8 +19,8 @@ from garkcli.frozen import Frozen, replace
 from garkcli.ntrees.tree import Tree
 from garkcli.order.conditions import Condition, all_conditions, conditions, count_conditions
 from garkcli.order.deciding import AnyOrder, order_of
+from garkcli.order.meant import AnyTableau, derived, meant, printed
 from garkcli.order.tolerance import within
-from garkcli.tableau.meant import AnyTableau, derived, meant, printed
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Edge, Tableau
 
@@ -138,7 +138,7 @@ class Missed(Frozen):
             made = derived(meant(method, self.near), self.which)
         except ZeroWeight:
             return None
-        return made if isinstance(made, Tableau) or not made.obstacle else None
+        return made
 
 
 def repairs(method: Tableau, missed: Missed, failing: list[Condition]) -> Iterator[Repair]:
@@ -156,8 +156,8 @@ def repairs(method: Tableau, missed: Missed, failing: list[Condition]) -> Iterat
         if tried >= MAX_ENTRIES:
             return
         new = _solution(method, missed, entry, solved)
-        if new is None:
-            continue
+        if new is None or within(new - entry.old, missed.tolerance):
+            continue  # no misprint is as small as the rounding
         changed = missed.restored(entry.put(method, new))
         if changed is None:
             continue
@@ -350,7 +350,10 @@ def blame_of(
     if count_conditions(tableau, missed.order) > MAX_CONDITIONS:
         return None
     of_order = list(all_conditions(judged, missed.order))
-    failing = [condition for condition in of_order if not condition.holds]
+    missing = [condition for condition in of_order if not condition.holds]
+    # what rounding explains alone says nothing of an entry, but where all is explained so
+    failing = [x for x in missing if not within(x.residual, x.allowed)] or missing
+    failed = {x.tree for x in failing}
     used = [_blocks_in(tableau, condition.tree) for condition in failing]
     in_every: list[Edge] = []
     in_none: list[Edge] = []
@@ -364,7 +367,7 @@ def blame_of(
     share: dict[Edge, float] = {}
     for block in in_every:
         with_block = [x for x in of_order if block in _blocks_in(tableau, x.tree)]
-        share[block] = sum(not x.holds for x in with_block) / len(with_block)
+        share[block] = sum(x.tree in failed for x in with_block) / len(with_block)
     most = max(share.values(), default=0.0)
     best = [block for block in in_every if share[block] == most]
     culprit = best[0] if len(best) == 1 else None

@@ -2,25 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from flint import fmpq
 
-from garkcli.errors import MethodError
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import dot
 from garkcli.frozen import Frozen, replace
 from garkcli.ntrees.count import count_by_root
 from garkcli.ntrees.tree import Tree
-from garkcli.order.tolerance import within
 from garkcli.order.tree_vectors import TreeVectors
-from garkcli.tableau.meant import AnyTableau, printed
 from garkcli.tableau.tableau import Colour, Tableau
 from garkcli.upward import Shown
 
 if TYPE_CHECKING:
-    from garkcli.tableau.rounded import RoundedTableau
+    from garkcli.order.meant import AnyTableau
 
 
 class Condition(Shown, Frozen):
@@ -31,6 +28,7 @@ class Condition(Shown, Frozen):
         value: the elementary weight b_lᵀ 𝒜^[u], exact.
         allowed: how far rounding of the coefficients can move the value; zero where they are meant
             exactly.
+        is_met: whether the method that they are a rounding of meets it; of exact ones no.
         twins: further root colours with which the tree has the same condition, as they share stages
             and weights.
     """
@@ -39,6 +37,7 @@ class Condition(Shown, Frozen):
     value: Number
     allowed: fmpq = ZERO
     twins: tuple[int, ...] = ()
+    is_met: bool = False
 
     @property
     def required(self) -> fmpq:
@@ -52,8 +51,8 @@ class Condition(Shown, Frozen):
 
     @property
     def holds(self) -> bool:
-        """Whether the residual is zero, or no larger than rounding can make it."""
-        return self.is_exact or bool(self.allowed and within(self.residual, self.allowed))
+        """Whether the residual is zero, or that of the method that is rounded."""
+        return self.is_exact or self.is_met
 
     @property
     def is_exact(self) -> bool:
@@ -85,22 +84,14 @@ def conditions(method: AnyTableau, trees: Iterable[Tree]) -> Iterator[Condition]
     Raises:
         MethodError: a tree that the coupling graph does not admit.
     """
-    tableau = printed(method)
+    tableau = method if isinstance(method, Tableau) else method.tableau
     vectors = TreeVectors(tableau)
-    allowed = None if isinstance(method, Tableau) else _effects(method)
     for tree in trees:
         value = dot(tableau.colours[tree.root].b, vectors.of(tree))
-        is_met = value == fmpq(1, tree.density)
-        yield Condition(tree, value, ZERO if is_met or allowed is None else allowed(tree))
-
-
-def _effects(rounded: RoundedTableau) -> Callable[[Tree], fmpq]:
-    from garkcli.order.effects import Effects  # balls, which exact methods do without
-
-    if rounded.obstacle:
-        cure = "give more digits and a smaller tolerance"
-        raise MethodError(rounded.obstacle, cure, code="zero-weight")
-    return Effects(rounded).bound
+        if isinstance(method, Tableau) or value == fmpq(1, tree.density):
+            yield Condition(tree, value)
+        else:
+            yield Condition(tree, value, method.allowed(tree), is_met=method.meets(tree))
 
 
 def elementary_weight(tableau: Tableau, tree: Tree) -> Number:
@@ -169,7 +160,7 @@ def all_conditions(method: AnyTableau, order: int) -> Iterator[Condition]:
     """Every condition of ``order``, its value exact, with the twins of its root: identical ones
     come once.
     """
-    tableau = printed(method)
+    tableau = method if isinstance(method, Tableau) else method.tableau
     twins = twin_roots(tableau)
     for condition in conditions(method, admissible_trees(tableau, order)):
         yield replace(condition, twins=twins[condition.tree.root][1:])

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, TypeAlias, Union
 
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, StageSpans, find_order
-from garkcli.tableau.meant import AnyTableau
+from garkcli.order.meant import AnyTableau
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:

@@ -13,6 +13,7 @@ more stages, which see nothing, and what b gives.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from flint import fmpq
 
@@ -22,12 +23,15 @@ from garkcli.exact.matrix import Vector
 from garkcli.frozen import Frozen, replace
 from garkcli.order.certificate import StageSpans, Witness
 from garkcli.order.functionals import Functional, Undecided, first_failure
-from garkcli.order.tolerance import are_alike, within
+from garkcli.order.meant import AnyTableau, printed, tolerance_of
+from garkcli.order.tolerance import within
 from garkcli.tableau.embedded import DenseOutput, Weights
-from garkcli.tableau.meant import AnyTableau, meant, printed, tolerance_of
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
+
+if TYPE_CHECKING:
+    from garkcli.order.rounded import Near
 
 
 class DenseWitness(Frozen):
@@ -74,7 +78,8 @@ def dense_order(
         limit: the order at which to stop.
         spans: of the stage vectors, where some are known.
     """
-    functionals = [Functional(dense.coefficients(k), k) for k in range(1, dense.degree + 1)]
+    known = dense if isinstance(method, Tableau) else method.further.dense or dense
+    functionals = [Functional(known.coefficients(k), k) for k in range(1, dense.degree + 1)]
     # the next power has no coefficients, and its order should have one
     beyond = dense.degree + 1
     zeros = tuple((ZERO,) * len(colour.b) for colour in printed(method).colours)
@@ -96,13 +101,15 @@ def ends_at_step(method: AnyTableau, dense: DenseOutput) -> bool:
     """Whether b(1) = b, entry by entry, or as far as rounding lets it be: then the output is
     continuous from step to step.
     """
-    t = tolerance_of(method) or ZERO
-    for l, colour in enumerate(printed(method).colours):
-        for b, x, row in zip(colour.b, dense.at(ONE)[l], dense.weights[l], strict=True):
-            terms = sum(1 for coefficient in (b, *row) if coefficient)
-            if not within(b - x, terms * t):
-                return False
-    return True
+    tableau, grain = method, ZERO
+    if not isinstance(method, Tableau):
+        tableau, dense, grain = method.near, method.further.dense or dense, method.grain
+    assert isinstance(tableau, Tableau)
+    return all(
+        within(b - x, grain)
+        for colour, row in zip(tableau.colours, dense.at(ONE), strict=True)
+        for b, x in zip(colour.b, row, strict=True)
+    )
 
 
 class Slopes(Frozen):
@@ -133,22 +140,20 @@ def slopes(method: AnyTableau, dense: DenseOutput) -> Slopes:
     It is what it should be where the stages that have weight in it evaluate at x_0, or at x_1;
     it is not where an elementary weight says so.
     """
-    whole = meant(_with_ends(printed(method)), tolerance_of(method))
-    first = dense.coefficients(1)
+    known = dense
+    whole: Tableau | Near = _with_ends(printed(method))
+    if not isinstance(method, Tableau):
+        from garkcli.order.rounded import Near  # balls, which exact methods do without
+
+        known = method.further.dense or dense
+        whole = Near(_with_ends(method.near), method.grain)
+    first = known.coefficients(1)
     ends = (
-        Functional(_beside(first, (-ONE, ZERO)), terms=_beside(_ones(first), (ZERO, ZERO))),
-        Functional(
-            _beside(_slope_at_one(dense.weights), (ZERO, -ONE)),
-            terms=_beside(_slope_at_one(tuple(map(_ones, dense.weights))), (ZERO, ZERO)),
-        ),
+        Functional(_beside(first, (-ONE, ZERO))),
+        Functional(_beside(_slope_at_one(known.weights), (ZERO, -ONE))),
     )
     start, end = (_vanishes(whole, x) for x in ends)
     return Slopes(start, end)
-
-
-def _ones(rows: Sequence[Vector]) -> tuple[Vector, ...]:
-    """1 for each coefficient that is not 0."""
-    return tuple(tuple(ONE if x else ZERO for x in row) for row in rows)
 
 
 def _with_ends(tableau: Tableau) -> Tableau:
@@ -184,10 +189,10 @@ def _beside(rows: Weights, ends: Vector) -> Weights:
     return tuple((*row, *ends) for row in rows)
 
 
-def _vanishes(method: AnyTableau, functional: Functional) -> bool | None:
+def _vanishes(method: Tableau | Near, functional: Functional) -> bool | None:
     """Whether a functional is zero on every problem; None where that is not decided."""
-    tableau = printed(method)
-    if all(_cancels(method, functional, l) for l in range(tableau.size)):
+    tableau, grain = (method, ZERO) if isinstance(method, Tableau) else (method.near, method.grain)
+    if all(_cancels(tableau, grain, functional.weights, l) for l in range(tableau.size)):
         return True
     largest = max(space.stages for space in tableau.spaces)
     try:
@@ -197,22 +202,19 @@ def _vanishes(method: AnyTableau, functional: Functional) -> bool | None:
     return None if failure is None else False
 
 
-def _cancels(method: AnyTableau, functional: Functional, l: int) -> bool:
+def _cancels(tableau: Tableau, grain: fmpq, weights: Weights, l: int) -> bool:
     """Whether the weights of a colour cancel at stages that evaluate at the same place."""
-    tableau, t = printed(method), tolerance_of(method) or ZERO
     k = tableau.colours[l].space
     blocks = [block for (j, _), block in tableau.blocks.items() if j == k]
-    assert functional.terms is not None
     places: list[Vector] = []
-    sums: list[tuple[Number, Number]] = []
-    for i, parts in enumerate(zip(functional.weights[l], functional.terms[l], strict=True)):
+    sums: list[Number] = []
+    for i, weight in enumerate(weights[l]):
         row = tuple(x for block in blocks for x in block[i])
         for number, place in enumerate(places):
-            if all(are_alike(x, y, t) for x, y in zip(place, row, strict=True)):
-                weight, terms = sums[number]
-                sums[number] = weight + parts[0], terms + parts[1]
+            if all(within(x - y, grain) for x, y in zip(place, row, strict=True)):
+                sums[number] = sums[number] + weight
                 break
         else:
             places.append(row)
-            sums.append(parts)
-    return all(within(weight, t * fmpq(str(terms))) for weight, terms in sums)
+            sums.append(weight)
+    return all(within(weight, grain) for weight in sums)

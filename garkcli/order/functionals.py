@@ -24,14 +24,14 @@ from garkcli.exact.matrix import Vector, dot
 from garkcli.frozen import Frozen
 from garkcli.ntrees.tree import Tree
 from garkcli.order.certificate import StageSpans, Witness, witness_of
+from garkcli.order.conditions import count_conditions, elementary_weight
 from garkcli.order.constants import ErrorConstants, estimate_constants
+from garkcli.order.meant import AnyTableau, printed
 from garkcli.tableau.embedded import Weights, with_weights
-from garkcli.tableau.meant import AnyTableau, printed
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
-    pass
-
+    from garkcli.order.rounded import Near
 
 MOST_TREES = 50_000
 """Most trees of an order whose weights are enclosed one by one."""
@@ -44,13 +44,10 @@ class Functional(Frozen):
         weights: a row per colour.
         exact_at: the order at which their elementary weights should be 1/γ(u); at all others, and
             everywhere where it is None, they should be zero.
-        terms: of how many coefficients that are not 0 each weight is the sum: it is rounded by so
-            many times their rounding. None where each is one coefficient.
     """
 
     weights: Weights
     exact_at: int | None = None
-    terms: Weights | None = None
 
     def share(self, order: int) -> int:
         """1 where the weights of an order should be those of the exact solution, else 0."""
@@ -73,7 +70,7 @@ class Undecided(Exception):
 
 
 def first_failure(
-    method: AnyTableau,
+    method: AnyTableau | Near,
     functionals: Sequence[Functional],
     orders: Iterable[int],
     spans: StageSpans | None = None,
@@ -83,34 +80,28 @@ def first_failure(
 
     Args:
         method: whose stages they are at.
-        functionals: each is held against every tree.
+        functionals: each is held against every tree; of a rounded method those of the method that
+            it is taken to be.
         orders: of the trees.
         spans: of the stage vectors, where some are known.
 
     Raises:
-        Undecided: of a rounded method an order has more than ``MOST_TREES`` trees, and not all of
-            its conditions are met exactly.
+        Undecided: of a rounded method an order has more than ``MOST_TREES`` trees.
     """
     if isinstance(method, Tableau):
         return _first_exact(method, functionals, orders, spans)
-    remaining = list(orders)
-    exact = _first_exact(method.tableau, functionals, remaining, spans)
-    if exact is None:
-        return None
-    first = exact.witness.tree.order
-    from garkcli.order.rounded import Conditions  # balls, which exact methods do without
+    from garkcli.order.rounded import tree_missed  # balls, which exact methods do without
 
-    judges = []
-    for functional in functionals:
-        rounded = method.with_weights(functional.weights, functional.terms)
-        judges.append(Conditions(rounded, MOST_TREES))
-    for order in [n for n in remaining if n >= first]:
+    judges = [with_weights(method.near, functional.weights) for functional in functionals]
+    for order in orders:
+        if count_conditions(method.near, order) > MOST_TREES:
+            raise Undecided(order)
         for number, (judge, functional) in enumerate(zip(judges, functionals, strict=True)):
-            verdict = judge.of(order, functional.share(order))
-            if verdict is None:
-                raise Undecided(order)
-            if verdict.witness is not None:
-                return Failure(number, verdict.witness)
+            share = functional.share(order)
+            tree = tree_missed(judge, order, share, method.grain)
+            if tree is not None:
+                value = elementary_weight(judge, tree)
+                return Failure(number, Witness(tree, value, fmpq(share, tree.density)))
     return None
 
 
@@ -175,11 +166,7 @@ def estimator(
         spans: of the stage vectors, where some are known.
     """
     tableau = printed(method)
-    rows, terms = [], []
-    for colour, row in zip(tableau.colours, embedded, strict=True):
-        pairs = list(zip(colour.b, row, strict=True))
-        rows.append(tuple(b - other for b, other in pairs))
-        terms.append(tuple(fmpq(bool(b) + bool(other)) for b, other in pairs))
+    rows = _differences(tableau, embedded)
     sums = tuple(sum(row, start=ZERO) for row in rows)
     if not any(x for row in rows for x in row):
         return Estimator(sums, None, None, is_zero=True)
@@ -187,11 +174,22 @@ def estimator(
     order: int | None = orders.least + 1
     if not orders.differ:
         larger = range(orders.least + 1, orders.limit + 1)
-        order = _leading(method, Functional(tuple(rows), terms=tuple(terms)), larger, spans)
+        known = tuple(rows)
+        if not isinstance(method, Tableau):
+            known = tuple(_differences(method.near, method.further.embedded or ()))
+        order = _leading(method, Functional(known), larger, spans)
     constants = None
     if order is not None:
         constants = estimate_constants(difference, order, is_rounded=method is not tableau)
     return Estimator(sums, order, constants, is_zero=False)
+
+
+def _differences(tableau: Tableau, embedded: Weights) -> list[Vector]:
+    """B − b̂, a row per colour."""
+    return [
+        tuple(b - other for b, other in zip(colour.b, row, strict=True))
+        for colour, row in zip(tableau.colours, embedded, strict=True)
+    ]
 
 
 def _leading(

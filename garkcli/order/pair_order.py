@@ -12,7 +12,7 @@ from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.simplifying import Defects, defects_of
 
 if TYPE_CHECKING:
-    from garkcli.tableau.meant import AnyTableau
+    from garkcli.order.meant import AnyTableau
     from garkcli.tableau.tableau import Tableau
 
 

@@ -1,189 +1,211 @@
-"""The order within a tolerance, of tableaus whose coefficients are rounded.
+"""Tableaus whose coefficients are rounded, and their order.
 
-A condition is met within t when its residual |b_lᵀ 𝒜^[u] − 1/γ(u)| is no larger than rounding every
-coefficient by t can make it, ``order.effects``. It fails when it is larger: then every method
-within t misses it. That is decided by proof, never by floats: exactly as far as the conditions hold
-exactly, then tree by tree in ball arithmetic, or for all trees at once by bounds from approximate
-spans where the trees are too many.
+The numbers of a file may each be off by a radius of their own. What is true of a rounded method is
+what is true of one method that its numbers may be a rounding of (``order.recovering``): all
+verdicts are about that one. An order fails where no such method has it, which is proved; else it is
+undecided.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
-from itertools import chain
-from typing import TYPE_CHECKING, Literal, TypeAlias
 
-from flint import arb, arb_mat, ctx, fmpq
+from flint import arb, ctx, fmpq
 
 from garkcli.doing import doing
-from garkcli.exact.display import decimal, to_ball
-from garkcli.exact.enclosing import times
+from garkcli.exact.display import decimal
+from garkcli.exact.field import Number
 from garkcli.frozen import Frozen, FrozenBut
 from garkcli.ntrees.count import Admissible, counts_upto
-from garkcli.ntrees.stage_vectors import StageVectors
-from garkcli.ntrees.table import TreeTable
 from garkcli.ntrees.tree import Tree
 from garkcli.order.approximate_spans import ApproximateSpans
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, Witness, find_order
-from garkcli.order.conditions import coupling_graph, elementary_weight, is_admissible, twin_roots
-from garkcli.order.effects import Effects
-from garkcli.order.tolerance import within
-from garkcli.tableau.rounded import Enclosure, RoundedTableau, Row, Rows, enclose_tableau
-from garkcli.tableau.tableau import Tableau
+from garkcli.order.conditions import count_conditions, coupling_graph, elementary_weight
+from garkcli.order.recovering import Derive, Failure, Recovery
+from garkcli.order.simplifying import BoxDefects, Defects
+from garkcli.order.tree_residuals import TreeResiduals
+from garkcli.tableau.box import Box, plain_box
+from garkcli.tableau.conjugate import conjugate
+from garkcli.tableau.embedded import NOTHING, Further, as_colours, with_weights
+from garkcli.tableau.enclosure import enclose_tableau
+from garkcli.tableau.forms import pair, with_time
+from garkcli.tableau.tableau import Edge, Tableau
 from garkcli.upward import Shown
 
-if TYPE_CHECKING:
-    from garkcli.ntrees.table import Column, Segment
 
-
-class Sizes(Frozen, eq=False):
-    """How large the residuals of one order are.
+class Near(Frozen, eq=False):
+    """A method that is known to many bits.
 
     Attributes:
-        bound: no |residual| of the order is larger.
-        reached: the largest |residual| that is known of a tree.
+        near: so well as it is known, one coordinate a stage.
+        grain: what counts as zero of numbers that are made of its own.
     """
 
-    bound: arb
-    reached: arb
+    near: Tableau
+    grain: fmpq
 
 
-class TreeResiduals(StageVectors[Rows]):
-    """The residuals b_lᵀ 𝒜^[u] − 1/γ(u) of every admissible tree in balls, order after order.
+class RoundedTableau(Frozen, eq=False):
+    """A tableau with the method that it is taken to be a rounding of.
 
-    A row per tree; what orders share is kept. Trees share their branches, as in the tree table: u =
-    stem ∘ branch gives 𝒜^[u] = 𝒜^[stem] ⊙ A 𝒜^[branch], so
-
-        b_lᵀ 𝒜^[u] = (b_l ⊙ 𝒜^[stem])ᵀ (A 𝒜^[branch]),
-
-    and the weights of all trees of a segment are entries of one matrix product. The vectors of the
-    order itself are not needed. All arithmetic is ball arithmetic: nothing here depends on the
-    rounding of floats.
+    Attributes:
+        tableau: as it is printed.
+        tolerance: the rounding of its coefficients, or of most.
+        search: for the method.
+        name: of the tableau among those that are made from the method.
     """
 
-    def __init__(self, tableau: Tableau, enclosure: Enclosure) -> None:
-        self.enclosure = enclosure
-        self._roots = tuple(twin_roots(tableau))
-        edges, linear = coupling_graph(tableau)
-        self._admissible = Admissible.of(tableau.size, edges, linear)
-        super().__init__(self._admissible, [colour.space for colour in tableau.colours])
+    tableau: Tableau
+    tolerance: fmpq
+    search: Recovery
+    name: str = "method"
 
-    def sizes(self, order: int) -> Sizes:
-        """Bounds on all |residuals| of an order."""
-        bound = reached = arb(0)
-        for residual, _, _ in self.of_order(order):
-            size = abs(residual)
-            bound = bound.max(size)
-            if size > reached:
-                reached = size
-        return Sizes(bound.abs_upper(), reached)
-
-    def table(self, order: int) -> TreeTable:
-        """The table whose ids ``of_order`` gives."""
-        return TreeTable.of(self._admissible, order)
-
-    def of_order(self, order: int, share: int = 1) -> list[tuple[arb, arb, int]]:
-        """The residual b_lᵀ 𝒜^[u] − share/γ(u), share/γ(u) and the id of each tree of an order, for
-        the roots that differ in more than their colour.
+    @staticmethod
+    def of(tableau: Tableau, tolerance: fmpq, box: Box, further: Further) -> RoundedTableau:
+        """All methods of a box. A construction may join stages whose printed numbers are equal, and
+        would not for all methods of the box: then each coefficient is a printed number.
         """
-        with ctx.workprec(self.enclosure.bits):
-            return list(self._residuals(self.table(order), order, share))
+        search = Recovery(box, further)
+        made = search.origin.defects("method").tableau.made, search.origin.exact("method")
+        if any(_shape(x) != _shape(tableau) for x in made):
+            return RoundedTableau.within(tableau, tolerance, further)
+        return RoundedTableau(tableau, tolerance, search)
 
-    def _residuals(
-        self, table: TreeTable, order: int, share: int
-    ) -> Iterator[tuple[arb, arb, int]]:
-        if order == 1:
-            for l in self._roots:
-                weights = self.enclosure.b[l].entries()
-                yield sum(weights, arb(-share)), arb(share), l
-            return
-        required: dict[int, arb] = {}
-        for segment in table.segments:
-            if segment.order != order or segment.root not in self._roots:
-                continue
-            values = self._values(table, segment)
-            ids = slice(segment.ids.start, segment.ids.stop)
-            stems = table.stem[ids] - segment.stems.start
-            where = stems * len(segment.branches) + table.branch[ids] - segment.branches.start
-            trees = zip(where.tolist(), segment.ids, table.gamma[ids].tolist(), strict=True)
-            for i, u, gamma in trees:
-                if gamma not in required:
-                    required[gamma] = share / arb(gamma)
-                yield values[i] - required[gamma], required[gamma], u
+    @staticmethod
+    def within(tableau: Tableau, tolerance: fmpq, further: Further = NOTHING) -> RoundedTableau:
+        """Every coefficient that is not 0 off by ``tolerance`` at most."""
+        return _around(tableau, further, tolerance, lambda _: tolerance)
 
-    def _values(self, table: TreeTable, segment: Segment) -> Row:
-        """b_lᵀ 𝒜^[u] for every stem with every branch, stem by stem."""
-        b = self.enclosure.b[segment.root].entries()
-        stems = self.stems(table, segment)
-        if len(stems) < len(segment.branches):  # the weights and A go where they are fewer
-            left = arb_mat([times(row, b) for row in stems])
-            left *= self.enclosure.A[self.rows[segment.root], segment.branch_root]
-            branches = self.of(table, segment.branch_order, segment.branch_root)
-        else:
-            left = arb_mat(stems)
-            branches = [times(row, b) for row in self.branches(table, segment)]
-        return (left * arb_mat(branches).transpose()).entries()
+    @staticmethod
+    def printed(tableau: Tableau, units: Mapping[Number, fmpq]) -> RoundedTableau:
+        """Every coefficient off by what its last digits leave open.
 
-    def _part(self, vectors: Rows, places: Column) -> Rows:
-        return [vectors[i] for i in places.tolist()]
+        Args:
+            tableau: with a coordinate a stage.
+            units: by how much each value that is printed may be off; a value that is missing was
+                made of printed ones, and may be off by the largest unit.
+        """
+        largest = max(units.values(), default=fmpq(0))
+        return _around(tableau, NOTHING, largest, lambda x: units.get(x, largest))
 
-    def _vertex(self, l: int) -> Rows:
-        return [[arb(1)] * self.enclosure.stages[self.rows[l]]]
+    @property
+    def near(self) -> Tableau:
+        """The method that it is taken to be, to many bits."""
+        return self.search.settled.exact(self.name)
 
-    def _image(self, space: int, m: int, vectors: Rows) -> Rows:
-        return (arb_mat(vectors) * self.enclosure.A[space, m].transpose()).tolist()
+    @property
+    def further(self) -> Further:
+        """Its embedded weights and its dense output."""
+        return self.search.settled.further
 
-    def _product(self, space: int, stems: Rows, branches: Rows) -> Rows:  # noqa: ARG002
-        return list(map(times, stems, branches))
+    @property
+    def grain(self) -> fmpq:
+        """What counts as zero of numbers that are made of those of ``near``."""
+        return self.search.settled.grain
 
-    def _joined(self, parts: list[Rows]) -> Rows:
-        return list(chain.from_iterable(parts))
+    @property
+    def defects(self) -> Defects:
+        """The defects of all methods that it may be a rounding of: balls, which hold 0 where one of
+        them has none.
+        """
+        return BoxDefects(self.tableau, self.search.origin.in_balls(self.name), self.search.bits)
+
+    def meets(self, tree: Tree) -> bool:
+        """Whether the method that it is taken to be meets the condition of a tree."""
+        return self.search.settled.meets(self.name, tree)
+
+    def allowed(self, tree: Tree) -> fmpq:
+        """How far rounding can move the elementary weight of a tree at most."""
+        return self.search.origin.reach(self.name, tree)
+
+    def explains(self, tree: Tree) -> bool:
+        """Whether some method that it may be a rounding of meets the condition of a tree."""
+        is_rounded = bool(self.search.box.numbers)
+        return is_rounded and self.search.origin.may_meet(self.name, tree)
+
+    def conjugate(self) -> RoundedTableau:
+        """The symplectic conjugate.
+
+        Raises:
+            ZeroWeight: a weight that it divides by is 0.
+        """
+        return self._derived("conjugate", conjugate)
+
+    def pair(self) -> RoundedTableau:
+        """The symplectic pair (Q, P).
+
+        Raises:
+            ZeroWeight: a weight that a conjugate divides by is 0.
+        """
+        return self._derived("pair", pair)
+
+    def with_time(self) -> RoundedTableau | None:
+        """With time as its last colour, whose blocks are the nodes; None where it has no sense."""
+        timed = with_time(self.tableau)
+        if timed is None:
+            return None
+
+        def derive(tableau: Tableau) -> Tableau:
+            return with_time(tableau) or tableau
+
+        return self._derived("with time", derive)
+
+    def with_embedded(self) -> RoundedTableau:
+        """The same stages with the embedded weights."""
+        self.search.settled  # noqa: B018 -- it adds the tableau
+        printed = with_weights(self.tableau, self.search.printed_further.embedded or ())
+        return RoundedTableau(printed, self.tolerance, self.search, "embedded")
+
+    def _derived(self, kind: str, make: Derive) -> RoundedTableau:
+        name, search = f"{kind} of {self.name}", self.search
+        derived = make(self.tableau)
+        base = search.targets[self.name]
+        search.targets.setdefault(name, lambda whole: make(base(whole)))
+        return RoundedTableau(derived, self.tolerance, search, name)
+
+
+def _shape(tableau: Tableau) -> tuple[list[int], set[Edge]]:
+    return [space.stages for space in tableau.spaces], set(tableau.blocks)
+
+
+def _around(
+    tableau: Tableau, further: Further, tolerance: fmpq, radius_of: Callable[[Number], fmpq]
+) -> RoundedTableau:
+    whole = as_colours(tableau, further)
+    box = plain_box(whole, radius_of, tableau.size)
+    return RoundedTableau(tableau, tolerance, Recovery(box, further))
 
 
 FEW_TREES = 50_000
-"""Up to so many trees an order is decided by listing them; beyond, spans are tried first."""
-MOST_TREES = 500_000
-"""Beyond so many trees of an order they are not listed at all."""
+"""Up to so many trees the residuals of an order are bounded by listing them; beyond, by spans."""
 FEW_WITNESSES = 2_000
 """Up to so many trees the one that fails by most is sought, after one that fails."""
-FEW_DOUBTS = 200
-"""So many residuals are held against what rounding can do one by one."""
-
-TOO_MANY = "there are too many trees to decide"
-
-Means: TypeAlias = Literal["exact", "trees", "spans"]
-"""How an order was decided: conditions hold exactly; every tree was evaluated; by bounds on all
-trees.
-"""
-
-_Doubt: TypeAlias = tuple[arb, arb, int]
-"""The |residual| and the residual of a tree, and its id."""
+NOT_FOUND = "no method with it was found, and it is not proved that there is none"
 
 
 class RoundedOrder(Shown, FrozenBut):
-    """The outcome: every condition up to ``order`` is met within ``tolerance``.
+    """The outcome: one method within ``tolerance`` meets every condition up to ``order``.
 
     Attributes:
         order: the largest such order, a lower bound where there is no witness.
         tolerance: t > 0, the rounding of the coefficients.
-        witness: a tree of the next order whose residual is larger than rounding can make it; its
-            value is exact.
+        witness: a tree of the next order; no method within the tolerance meets its condition, or
+            not together with those of the others. Its value is exact, of the digits as printed.
         undecided: why the next order is not decided; empty where it is, or where the search
             stopped at its limit.
-        sizes: for each order 1, 2, … that was decided a bound on all |residuals|; for the order
-            that fails, the |residual| of the witness.
-        means: what decided each of these orders.
+        exact: up to which order the digits as printed meet all conditions exactly.
+        rounded: the method.
     """
 
-    besides = frozenset({"sizes"})
+    besides = frozenset({"rounded"})
 
     order: int
     tolerance: fmpq
     witness: Witness | None
     undecided: str = ""
-    sizes: tuple[arb, ...] = ()
-    means: tuple[Means, ...] = ()
+    exact: int = 0
+    rounded: RoundedTableau | None = None
 
     def __repr__(self) -> str:
         least = "at least " if self.is_lower_bound else ""
@@ -194,11 +216,30 @@ class RoundedOrder(Shown, FrozenBut):
         """Whether nothing is known to fail."""
         return self.witness is None
 
+    @cached_property
+    def sizes(self) -> tuple[arb, ...]:
+        """For each order 1, 2, … a bound on all |residuals| of the digits as printed."""
+        zeros = (arb(0),) * min(self.exact, self.order)
+        if self.rounded is None or self.order <= self.exact:
+            return zeros
+        tableau = self.rounded.tableau
+        enclosure = enclose_tableau(tableau, self.rounded.search.bits)
+        trees = TreeResiduals(tableau, enclosure)
+        admissible = Admissible.of(tableau.size, *coupling_graph(tableau))
+        sizes = []
+        for order in range(self.exact + 1, self.order + 1):
+            if sum(counts_upto(admissible, order)[-1]) <= FEW_TREES:
+                sizes.append(trees.sizes(order).bound)
+            else:
+                spans = ApproximateSpans(tableau, enclosure, arb(self.tolerance))
+                sizes.append(spans.sizes(order).bound)
+        return (*zeros, *sizes)
+
     @property
     def largest_residual(self) -> arb:
         """A bound on all |residuals| up to ``order``."""
         bound = arb(0)
-        for size in self.sizes[: self.order]:
+        for size in self.sizes:
             bound = bound.max(size)
         return bound
 
@@ -207,190 +248,65 @@ class RoundedOrder(Shown, FrozenBut):
 def find_order_within(
     rounded: RoundedTableau, limit: int = DEFAULT_LIMIT, exact: Order | None = None
 ) -> RoundedOrder:
-    """The largest r ≤ ``limit`` for which all conditions of order ≤ r are met within the rounding.
+    """The largest r ≤ ``limit`` for which one method within the rounding meets all conditions of
+    order ≤ r, together with all that was asked of it before.
 
     Args:
-        rounded: a tableau with its radii; its coupling graph decides which trees count.
+        rounded: a tableau with its rounding; its coupling graph decides which trees count.
         limit: the order at which to stop.
         exact: what ``find_order`` gives for this tableau and limit, where that is known.
     """
     exact = exact or find_order(rounded.tableau, limit)
-    verdicts = [Verdict(arb(0), "exact")] * exact.order
-    if exact.witness is None or rounded.obstacle:
-        return _outcome(rounded, verdicts, rounded.obstacle)
-    search = Conditions(rounded)
-    if search.fails(exact.witness):
-        witness = search.largest(exact.witness)
-        return _outcome(rounded, [*verdicts, Verdict(arb(0), "exact", witness)])
-    while len(verdicts) < limit:
-        verdict = search.of(len(verdicts) + 1)
-        if verdict is None:
-            return _outcome(rounded, verdicts, TOO_MANY)
-        verdicts.append(verdict)
-        if verdict.witness is not None:
-            break
-    return _outcome(rounded, verdicts)
+    if exact.witness is None:
+        return RoundedOrder(exact.order, rounded.tolerance, None, "", exact.order, rounded)
+    if not rounded.explains(exact.witness.tree):
+        rounded.search.note(rounded.name, exact.order, exact.witness.tree)
+        worst = _worst(rounded, exact.witness)
+        return RoundedOrder(exact.order, rounded.tolerance, worst, "", exact.order, rounded)
+    order, failure, missed = rounded.search.order_of(rounded.name, limit)
+    if failure is None or not failure.is_proved:
+        undecided = "" if failure is None else NOT_FOUND
+        return RoundedOrder(order, rounded.tolerance, None, undecided, exact.order, rounded)
+    witness = _witness(rounded, _most_telling(rounded, order + 1, failure, missed))
+    return RoundedOrder(order, rounded.tolerance, witness, "", exact.order, rounded)
 
 
-def _outcome(
-    rounded: RoundedTableau, verdicts: Sequence[Verdict], undecided: str = ""
-) -> RoundedOrder:
-    met = [x.size for x in verdicts if x.witness is None]
-    failing = [x.witness for x in verdicts if x.witness is not None]
-    return RoundedOrder(
-        len(met),
-        rounded.tolerance,
-        failing[0] if failing else None,
-        undecided,
-        (*met, *(abs(to_ball(x.residual)) for x in failing)),
-        tuple(x.means for x in verdicts),
-    )
-
-
-class Verdict(Frozen, eq=False):
-    """What became of the conditions of an order: ``size`` bounds all |residuals| where they are
-    met; otherwise there is a witness.
+def _most_telling(
+    rounded: RoundedTableau, order: int, failure: Failure, missed: Sequence[Tree]
+) -> Tree:
+    """A tree of an order that fails: one whose condition no method of the box meets; else the one
+    that weighs most in the proof that none meets all.
     """
+    alone = next((u for u in missed if not rounded.explains(u)), None)
+    if alone is not None:
+        return alone
+    return next((u for u in failure.trees if u.order == order), missed[0])
 
-    size: arb
-    means: Means
-    witness: Witness | None = None
+
+def _witness(rounded: RoundedTableau, tree: Tree) -> Witness:
+    value = elementary_weight(rounded.tableau, tree)
+    return Witness(tree, value, fmpq(1, tree.density))
 
 
-class Conditions:
-    """The conditions b_lᵀ 𝒜^[u] = share/γ(u) of one rounded tableau, an order at a time.
-
-    Args:
-        rounded: the tableau with its radii.
-        most: beyond so many trees of an order they are not listed.
+def _worst(rounded: RoundedTableau, witness: Witness) -> Witness:
+    """The condition that fails by most of the order of one that fails; this one where they are
+    many.
     """
-
-    def __init__(self, rounded: RoundedTableau, most: int = MOST_TREES) -> None:
-        self.rounded = rounded
-        self.most = most
-        self.admissible = Admissible.of(rounded.tableau.size, *coupling_graph(rounded.tableau))
-
-    @cached_property
-    def effects(self) -> Effects:
-        return Effects(self.rounded)
-
-    @cached_property
-    def residuals(self) -> TreeResiduals:
-        return TreeResiduals(self.rounded.tableau, self.rounded.enclosure)
-
-    @cached_property
-    def corner(self) -> TreeResiduals:
-        return TreeResiduals(self.rounded.tableau, self.rounded.corner)
-
-    @cached_property
-    def spans(self) -> ApproximateSpans:
-        # members as short as the tolerance cost bits
-        enclosure = enclose_tableau(self.rounded.tableau, 6 * self.rounded.bits)
-        return ApproximateSpans(self.rounded.tableau, enclosure, arb(self.rounded.tolerance))
-
-    def fails(self, witness: Witness) -> bool:
-        """Whether rounding does not explain the residual of a tree."""
-        return not within(witness.residual, self.effects.bound(witness.tree))
-
-    def largest(self, witness: Witness) -> Witness:
-        """The condition that fails by most of the order of one that fails; this one where they are
-        many.
-        """
-        order = witness.tree.order
-        if sum(counts_upto(self.admissible, order)[-1]) > FEW_WITNESSES:
-            return witness
-        found = self._by_trees(order, 1).witness
-        return found or witness
-
-    def of(self, order: int, share: int = 1) -> Verdict | None:
-        """All conditions of an order; None where there are too many trees to decide."""
-        count = sum(counts_upto(self.admissible, order)[-1])
-        if count > FEW_TREES and share:
-            verdict = self._by_bushes(order) or self._by_spans(order)
-            if verdict is not None:
-                return verdict
-        return None if count > self.most else self._by_trees(order, share)
-
-    def _least_effect(self, order: int) -> arb:
-        """For each tree of an order its weight |b_lᵀ 𝒜^[u]|, times this, changes by no less.
-
-        The derivatives of the weight, each times its coefficient, sum to the weight over all
-        weights b and to as much again for each edge of the tree over all blocks.
-        """
-        rounded = self.rounded
-        weights = [
-            (x.entries(), off) for x, off in zip(rounded.enclosure.b, rounded.b, strict=True)
-        ]
-        blocks = [
-            (rounded.enclosure.A[key].entries(), [x for row in rows for x in row])
-            for key, rows in rounded.A.items()
-        ]
-        return _least_ratio(weights) + (order - 1) * _least_ratio(blocks)
-
-    def _by_trees(self, order: int, share: int) -> Verdict:
-        bound = arb(0)
-        with ctx.workprec(self.rounded.bits):
-            least = self._least_effect(order)
-            doubtful: list[_Doubt] = []
-            for residual, required, tree_id in self.residuals.of_order(order, share):
-                size = abs(residual)
-                bound = bound.max(size)
-                if not size <= least * (required - size):
-                    doubtful.append((size, residual, tree_id))
-            if len(doubtful) > FEW_DOUBTS:
-                # those that one method of the box does not explain: that with the largest
-                # coefficients, whose residuals differ by no more than rounding can make them
-                moved = {u: residual for residual, _, u in self.corner.of_order(order, share)}
-                doubtful = [x for x in doubtful if not x[0] <= abs(moved[x[2]] - x[1])]
-        doubtful.sort(key=lambda x: float(x[0].mid()), reverse=True)
-        table = self.residuals.table(order)
-        witness = self._first_failing(((size, table.tree(u)) for size, _, u in doubtful), share)
-        return Verdict(bound.abs_upper(), "trees", witness)
-
-    def _by_bushes(self, order: int) -> Verdict | None:
-        """That the order fails, where a quadrature condition does: a bush of leaves of one colour.
-
-        It is examined before the many, as methods of high order seldom integrate better.
-        """
-        tableau = self.rounded.tableau
-        for l in twin_roots(tableau):
-            for m in range(tableau.size):
-                bush = Tree(l, (Tree(m),) * (order - 1))
-                if is_admissible(tableau, bush):
-                    witness = Witness(bush, elementary_weight(tableau, bush), fmpq(1, bush.density))
-                    if self.fails(witness):
-                        return Verdict(arb(0), "trees", witness)
-        return None
-
-    def _by_spans(self, order: int) -> Verdict | None:
-        """The conditions of an order where a bound on all decides, or one tree that fails."""
-        hulls = self.spans.sizes(order)
-        with ctx.workprec(self.rounded.bits):
-            # no residual is a larger part of the weight that is required
-            part = hulls.bound * order
-            if part <= self._least_effect(order) * (1 - part):
-                return Verdict(hulls.bound, "spans")
-        witness = self._first_failing(hulls.members, 1)
-        return None if witness is None else Verdict(hulls.bound, "spans", witness)
-
-    def _first_failing(self, trees: Iterable[tuple[arb, Tree]], share: int) -> Witness | None:
-        """The first tree whose |residual|, in a ball beside it, rounding does not explain."""
-        for size, tree in trees:
-            if size <= self.effects.effect(tree):
-                continue
-            weight = elementary_weight(self.rounded.tableau, tree)
-            witness = Witness(tree, weight, fmpq(share, tree.density))
-            if self.fails(witness):
-                return witness
-        return None
+    order, tableau = witness.tree.order, rounded.tableau
+    if not rounded.search.box.numbers or count_conditions(tableau, order) > FEW_WITNESSES:
+        return witness
+    missed = rounded.search.origin.missed(rounded.name, order)
+    worst = next((u for u in missed if not rounded.explains(u)), None)
+    return witness if worst is None else _witness(rounded, worst)
 
 
-def _least_ratio(parts: Sequence[tuple[Row, Row]]) -> arb:
-    """The least radius, each in units of its coefficient, of the nonzero ones."""
-    least: arb | None = None
-    for entries, radii in parts:
-        for x, radius in zip(entries, radii, strict=True):
-            if not x.is_zero():
-                ratio = (radius / x.abs_upper()).abs_lower()
-                least = ratio if least is None else least.min(ratio)
-    return arb(0) if least is None else least
+def tree_missed(tableau: Tableau, order: int, share: int, grain: fmpq) -> Tree | None:
+    """The tree of an order whose elementary weight differs most from share/γ(u); None where none
+    differs by more than ``grain``.
+    """
+    bits = 2 * int(grain.q.bit_length()) + 64
+    trees = TreeResiduals(tableau, enclose_tableau(tableau, bits))
+    with ctx.workprec(bits):
+        sizes = [(abs(x), u) for x, _, u in trees.of_order(order, share)]
+        missed = [(float(x.mid()), u) for x, u in sizes if not x < grain]
+    return trees.table(order).tree(max(missed)[1]) if missed else None

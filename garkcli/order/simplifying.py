@@ -19,12 +19,10 @@ from garkcli.exact.matrix import EntrywiseMap, LinearMap, Matrix, Vector, dot
 from garkcli.frozen import Frozen, FrozenBut
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.tableau import conjugate
-from garkcli.tableau.meant import printed
 from garkcli.tableau.tableau import Edge, Tableau
 
 if TYPE_CHECKING:
-    from garkcli.tableau.meant import AnyTableau
-    from garkcli.tableau.rounded import RoundedTableau
+    from garkcli.order.meant import AnyTableau
 
 
 class Defects:
@@ -120,26 +118,44 @@ class Defects:
         return LinearMap(block, self.tableau.field)
 
 
-class RoundedDefects(Defects):
-    """The defects of the methods that a tableau may be a rounding of: balls, which hold 0 where
-    rounding explains the defect.
+class BoxDefects(Defects):
+    """The defects of many methods at once: balls, which hold 0 where one of them may have none.
 
-    Their entries belong to stages, also where the exact defects are elements of a stage algebra.
+    Args:
+        tableau: one of them.
+        balls: all of them, one coordinate a stage.
+        bits: of the arithmetic.
     """
 
-    def __init__(self, rounded: RoundedTableau) -> None:
-        super().__init__(rounded.tableau, rounded.in_balls)
-        self._bits = rounded.bits
+    def __init__(self, tableau: Tableau, balls: Tableau, bits: int) -> None:
+        super().__init__(tableau, balls)
+        self._bits = bits
 
     def precision(self) -> AbstractContextManager[object]:
         return ctx.workprec(self._bits)
 
     def vanish(self, defects: Iterable[Any]) -> bool:
-        """Whether rounding explains them all."""
+        """Whether all may be zero."""
         return all(x.is_finite() and x.contains(0) for x in map(arb, defects))
 
     def _made_ready(self, block: Matrix) -> EntrywiseMap:
         return EntrywiseMap(block)
+
+
+class RoundedDefects(BoxDefects):
+    """The defects of the method that a tableau is taken to be a rounding of: balls, which hold 0
+    where it has none.
+
+    Args:
+        near: that method, one coordinate a stage.
+        grain: smaller numbers count as zero.
+    """
+
+    def __init__(self, near: Tableau, grain: fmpq) -> None:
+        from garkcli.tableau.enclosure import in_balls  # balls, which exact methods do without
+
+        bits = 2 * int(grain.q.bit_length()) + 64
+        super().__init__(near, in_balls(near, grain, bits), bits)
 
 
 def _minus_part(u: Vector, v: Vector, k: int) -> Vector:
@@ -161,10 +177,12 @@ def is_symplectic(method: AnyTableau) -> bool:
 
 
 def defects_of(method: AnyTableau) -> Defects:
-    """The defects of a tableau, over its box where it is rounded."""
-    if isinstance(method, Tableau) or method.obstacle:
-        return Defects(printed(method))
-    return RoundedDefects(method)
+    """The defects of a tableau, of the one that it is taken to be where it is rounded."""
+    if isinstance(method, Tableau):
+        return Defects(method)
+    if not method.search.box.numbers:
+        return Defects(method.tableau)
+    return RoundedDefects(method.near, method.grain)
 
 
 Table: TypeAlias = "tuple[tuple[int | None, ...], ...]"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 from flint import arb, ctx, fmpq
 
@@ -12,13 +12,14 @@ from garkcli.frozen import FrozenBut
 from garkcli.ntrees.count import Admissible, counts_upto
 from garkcli.order.approximate_spans import ApproximateSpans, HullSizes
 from garkcli.order.blame import Missed, Repair, blame_of
-from garkcli.order.certificate import DEFAULT_LIMIT, Order
+from garkcli.order.certificate import DEFAULT_LIMIT, Order, Witness, find_order
 from garkcli.order.conditions import count_conditions, coupling_graph
 from garkcli.order.deciding import AnyOrder, order_of
-from garkcli.order.effects import Effects
-from garkcli.order.rounded import FEW_TREES, Conditions, RoundedOrder, Sizes, TreeResiduals
-from garkcli.order.tolerance import unnatural, within
-from garkcli.tableau.rounded import RoundedTableau, enclose_tableau
+from garkcli.order.rounded import FEW_TREES, RoundedOrder, RoundedTableau
+from garkcli.order.suspects import suspects
+from garkcli.order.tolerance import rounded_up, unnatural, within
+from garkcli.order.tree_residuals import Sizes, TreeResiduals
+from garkcli.tableau.enclosure import enclose_tableau
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
@@ -98,8 +99,13 @@ def find_misprint(
     """
     if exact.witness is None:
         return None
-    wide = {value: SLACK * unit for value, unit in units.items()}
-    rounded = RoundedTableau.printed(tableau, wide)
+    full = RoundedTableau.printed(tableau, _times_slack(_of_full_length(units)))
+    if order_of(full, found.order).order < found.order:
+        # a digit too many or a wrong one makes a number short, or long, beside all others
+        repairs = suspects(full, found.order)
+        if repairs:
+            return _misprinted(full, exact.witness, found.order, repairs)
+    rounded = RoundedTableau.printed(tableau, _times_slack(units))
     within_digits = order_of(rounded, found.order)
     is_explained = within_digits.order >= found.order
     largest = max(units.values(), default=ZERO)
@@ -108,19 +114,55 @@ def find_misprint(
     looked_at = found.worst if near else exact.order + 1
     missed = Missed(looked_at, found.order, tolerance=near, near=near)
     visible: list[Repair] = []
-    for repair in _few_repairs(tableau, missed):
+    repairs = () if is_explained else suspects(rounded, found.order)
+    for repair in repairs or _few_repairs(tableau, missed):
         unit = largest if is_explained else units.get(repair.old, ZERO)
         if not within(repair.new - repair.old, SLACK * unit):
             visible.append(repair)
     if is_explained and not visible:
         return None
     witness = within_digits.witness or exact.witness
-    return Misprint(
-        found.order,
-        abs(to_ball(witness.residual)),
-        Effects(rounded).effect(witness.tree),
-        tuple(visible),
-    )
+    if not visible and rounded.explains(witness.tree):
+        return None  # together the conditions exclude each other, but no entry is to blame
+    return _misprinted(rounded, witness, found.order, visible)
+
+
+def _times_slack(units: Mapping[Number, fmpq]) -> dict[Number, fmpq]:
+    return {value: SLACK * unit for value, unit in units.items()}
+
+
+def _of_full_length(units: Mapping[Number, fmpq]) -> dict[Number, fmpq]:
+    """By how much values may be off that were printed with as many places, or as many digits, as
+    the others: zeros at the end are often left away.
+    """
+    rounded = {x: unit for x, unit in units.items() if unit and x}
+    finest = min(rounded.values(), default=ZERO)
+    sizes = {x: rounded_up(abs(to_ball(x))) for x in rounded}
+    part = min((unit / sizes[x] for x, unit in rounded.items()), default=ZERO)
+    longer = {x: min(unit, max(finest, part * sizes[x])) for x, unit in rounded.items()}
+    return {**units, **longer}
+
+
+def _misprinted(
+    rounded: RoundedTableau, witness: Witness, order: int, repairs: Sequence[Repair]
+) -> Misprint:
+    explained = arb(rounded.allowed(witness.tree))
+    return Misprint(order, abs(to_ball(witness.residual)), explained, tuple(repairs))
+
+
+def misprint_within(rounded: RoundedTableau, found: AnyOrder, limit: int) -> Misprint | None:
+    """The entries of a rounded method that alone may keep it from the order that its residuals
+    speak for; None where they speak for no other.
+    """
+    if found.witness is None:
+        return None
+    if not abs(to_ball(found.witness.residual)) <= unnatural(found.order + 1):
+        return None  # which the next line would find, by the trees of all orders
+    meant = suggest_tolerance(rounded.tableau, find_order(rounded.tableau, limit), limit)
+    if meant is None or meant.order <= found.order:
+        return None
+    repairs = suspects(rounded, meant.order)
+    return _misprinted(rounded, found.witness, meant.order, repairs) if repairs else None
 
 
 def _few_repairs(tableau: Tableau, missed: Missed) -> tuple[Repair, ...]:
@@ -201,7 +243,7 @@ def suggest_wider(
     if found.witness is None or max(units.values(), default=ZERO) <= rounded.tolerance:
         return None
     printed = RoundedTableau.printed(rounded.tableau, units)
-    if not printed.obstacle and Conditions(printed).fails(found.witness):
+    if not printed.explains(found.witness.tree):
         return None
     wider = order_of(printed, limit)
     if wider.witness is None or wider.order <= found.order or not isinstance(wider, RoundedOrder):

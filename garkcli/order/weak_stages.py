@@ -12,22 +12,20 @@ from functools import cache
 
 from garkcli.deadline import check_time
 from garkcli.exact.matrix import Vector, dot
+from garkcli.order.meant import AnyTableau
 from garkcli.order.simplifying import Defects, defects_of
-from garkcli.tableau.meant import AnyTableau
 
 
-def weak_stage_order(method: AnyTableau, colours: Sequence[int], limit: int) -> int:
+def weak_stage_order(method: AnyTableau | Defects, colours: Sequence[int], limit: int) -> int:
     """The largest q, up to a limit, for which b^{l} A^{l,m} ⋯ A^{n,p} (A^{p,r} (c^{r})^(k−1) −
     (c^{p})^k / k) = 0 for k = 1, …, q, every r and all products of blocks between some colours.
 
-    Of a rounded tableau a product counts as zero where rounding explains it.
-
     Args:
-        method: rounded or not.
+        method: rounded or not, or by how much it misses conditions.
         colours: between which products are taken: those that are stiff.
         limit: where the search stops.
     """
-    defects = defects_of(method)
+    defects = method if isinstance(method, Defects) else defects_of(method)
     edges = set(defects.tableau.edges())
     residual = cache(defects.C)
 
@@ -49,48 +47,38 @@ def weak_stage_order(method: AnyTableau, colours: Sequence[int], limit: int) -> 
 
 
 def _functionals(defects: Defects, colours: Sequence[int]) -> Iterator[tuple[int, Vector]]:
-    """A basis of all b^{l} A^{l,m} ⋯ A^{n,p}, each with its last colour p.
-
-    The products are chosen by the entries as they are printed, and computed from the entries of the
-    computation: a method whose rounding is the tableau has the same products.
-    """
-    printed = Defects(defects.tableau) if defects.entries is not defects.tableau else defects
+    """A basis of all b^{l} A^{l,m} ⋯ A^{n,p}, each with its last colour p."""
     edges = set(defects.tableau.edges())
-    found = {l: Echelon() for l in colours}
-    waiting = deque((l, printed.weights(l), defects.weights(l)) for l in colours)
+    found = {l: Echelon(defects) for l in colours}
+    waiting = deque((l, defects.weights(l)) for l in colours)
     while waiting:
         check_time()
-        l, w, meant = waiting.popleft()
-        if not found[l].grows(w):
-            continue
-        yield l, meant
-        for m in colours:
-            if (l, m) in edges:
-                before = printed.before(l, m, w)
-                waiting.append(
-                    (m, before, before if printed is defects else defects.before(l, m, meant))
-                )
+        l, w = waiting.popleft()
+        with defects.precision():
+            if not found[l].grows(w):
+                continue
+        yield l, w
+        waiting.extend((m, defects.before(l, m, w)) for m in colours if (l, m) in edges)
 
 
 class Echelon:
-    """A linear span of vectors of exact numbers, grown by elimination.
+    """A linear span of vectors, grown by elimination.
 
-    >>> from flint import fmpq
-    >>> span = Echelon()
-    >>> [span.grows((fmpq(x), fmpq(y))) for x, y in ((0, 2), (0, 1), (3, 1), (1, 1))]
-    [True, False, True, False]
+    Args:
+        defects: what tells whether a number is zero.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, defects: Defects) -> None:
+        self._vanish = defects.vanish
         self._rows: list[tuple[int, Vector]] = []
 
     def grows(self, vector: Vector) -> bool:
         """Take in a vector; whether it was no combination of those before."""
         for pivot, row in self._rows:
             factor = vector[pivot]
-            if factor:
+            if factor != 0:
                 vector = tuple(x - factor * y for x, y in zip(vector, row, strict=True))
-        found = next((j for j, x in enumerate(vector) if x), None)
+        found = next((j for j, x in enumerate(vector) if not self._vanish([x])), None)
         if found is None:
             return False
         self._rows.append((found, tuple(x / vector[found] for x in vector)))

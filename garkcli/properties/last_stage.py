@@ -104,10 +104,8 @@ def missed_entries(
 
 
 def _is_close(a: Number, b: Number, allowed: fmpq) -> bool:
-    """Whether two coefficients are equal; zeros are no rounded numbers."""
-    if a == b or not allowed or not a or not b:
-        return a == b
-    return within(a - b, allowed)
+    """Whether two coefficients are equal."""
+    return a == b or (bool(allowed) and within(a - b, allowed))
 
 
 def _is_stage(

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from flint import arb, fmpq
 
+from garkcli.exact.display import in_digits
 from garkcli.exact.field import ZERO, Number
 from garkcli.frozen import Frozen
 from garkcli.graph import components
@@ -186,6 +187,16 @@ def _singly(graph: StageGraph, implicit: Sequence[Vertex]) -> Literal["SDIRK", "
     return "ESDIRK" if see_nothing and set(implicit) == stages - first else ""
 
 
+def _shown(number: Number, grain: fmpq) -> Number:
+    """An entry of a rounded method to some digits more than are printed, of which the grain has two
+    for each; one of few digits, which is exact, as it is.
+    """
+    digits = max(20, 3 + int((int(grain.q.bit_length()) - 80) * 0.15))
+    if isinstance(number, fmpq) and number.q < 10**digits:
+        return number
+    return in_digits(number, digits)
+
+
 def _gamma(graph: StageGraph, alone: Sequence[Vertex], tolerance: fmpq) -> Number | None:
     """The number by which every implicit stage depends on itself; the first one where they are
     equal within what rounding of two coefficients explains.
@@ -197,4 +208,4 @@ def _gamma(graph: StageGraph, alone: Sequence[Vertex], tolerance: fmpq) -> Numbe
     for entry in found:
         if entry is None or not within(entry - first, 2 * tolerance):
             return None
-    return first
+    return _shown(first, tolerance) if tolerance else first

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import combinations
+from typing import Any
 
 from flint import fmpq
 
@@ -16,17 +17,22 @@ from garkcli.doing import doing
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Vector, apply
 from garkcli.frozen import replace
+from garkcli.order.tolerance import within
 from garkcli.properties.pattern import Vertex, is_nonzero, spaces_that_matter
 from garkcli.tableau.embedded import NOTHING, Further, as_colours, from_colours
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
 
-def reduced(tableau: Tableau) -> Tableau | None:
+def reduced(tableau: Tableau, tolerance: fmpq = ZERO) -> Tableau | None:
     """The smallest method that does the same; the same object where there is nothing to leave out.
 
     None where the nodes have no simple radicals. A stage space of which nothing is left keeps one
     stage, a zero with weight zero.
+
+    Args:
+        tableau: the method.
+        tolerance: what counts as zero of its numbers; 0 for exact ones.
 
     >>> from garkcli.methodfile.load import loads
     >>> twice = loads("methods: [{A: [[0, 0], [0, 0]], b: [1/2, 1/2]}]").tableau
@@ -36,12 +42,12 @@ def reduced(tableau: Tableau) -> Tableau | None:
     exact = at_points(tableau)
     if exact is None:
         return None
-    smaller = _once(exact)
+    smaller = _once(exact, tolerance)
     if smaller.spaces == exact.spaces and smaller.blocks == exact.blocks:
         return tableau
     # weights that were added may be zero, and leave a stage without influence
     while True:
-        smaller, before = _once(smaller), smaller
+        smaller, before = _once(smaller, tolerance), smaller
         if sizes(smaller) == sizes(before):
             return smaller
 
@@ -56,13 +62,13 @@ def at_points(tableau: Tableau) -> Tableau | None:
     return in_points(tableau)
 
 
-def _once(tableau: Tableau) -> Tableau:
-    matters = stages_that_matter(tableau)
+def _once(tableau: Tableau, tolerance: fmpq) -> Tableau:
+    matters = stages_that_matter(tableau, tolerance)
     kept = []
     for k, space in enumerate(tableau.spaces):
         kept.append([i for i in range(space.stages) if (k, i) in matters] or [0])
     smaller = _without(tableau, kept)
-    return merged(_with_idle_stages_zero(smaller))
+    return merged(_with_idle_stages_zero(smaller), tolerance)
 
 
 def _with_idle_stages_zero(tableau: Tableau) -> Tableau:
@@ -130,11 +136,11 @@ def _tells_apart(tableau: Tableau, k: int, tolerance: fmpq) -> bool:
     return False
 
 
-def stages_that_matter(tableau: Tableau) -> set[Vertex]:
-    """The stages that have an influence on the step."""
+def stages_that_matter(tableau: Tableau, tolerance: fmpq = ZERO) -> set[Vertex]:
+    """The stages that have an influence on the step, by entries larger than a tolerance."""
     reached: set[Vertex] = set()
     for colour in tableau.colours:
-        reached |= _with_entries(colour.space, colour.b)
+        reached |= _with_entries(colour.space, colour.b, tolerance)
     waiting = list(reached)
     while waiting:
         k, i = waiting.pop()
@@ -142,15 +148,15 @@ def stages_that_matter(tableau: Tableau) -> set[Vertex]:
             block = tableau.blocks.get((k, m))
             if block is None:
                 continue
-            seen = _with_entries(colour.space, block[i])
+            seen = _with_entries(colour.space, block[i], tolerance)
             waiting += seen - reached
             reached |= seen
     return reached
 
 
-def _with_entries(space: int, row: Vector) -> set[Vertex]:
+def _with_entries(space: int, row: Vector, tolerance: fmpq) -> set[Vertex]:
     """The stages of a space whose entries in a row are not zero."""
-    return {(space, j) for j, entry in enumerate(row) if entry}
+    return {(space, j) for j, entry in enumerate(row) if is_nonzero(entry, tolerance)}
 
 
 def _without(tableau: Tableau, kept: Sequence[Sequence[int]]) -> Tableau:
@@ -173,13 +179,14 @@ def _chosen(row: Vector, stages: Sequence[int]) -> Vector:
     return tuple(row[i] for i in stages)
 
 
-def merged(tableau: Tableau) -> Tableau:
+def merged(tableau: Tableau, tolerance: fmpq = ZERO) -> Tableau:
     """The tableau with one stage for each class of equal ones; their weights are added.
 
     Args:
         tableau: over point spaces.
+        tolerance: of equal numbers.
     """
-    classes = _equal_stages(tableau)
+    classes = _equal_stages(tableau, tolerance)
     firsts = [[members[0] for members in of_space] for of_space in classes]
     spaces = []
     for space, stages in zip(tableau.spaces, firsts, strict=True):
@@ -207,38 +214,52 @@ def sums_over(row: Vector, classes: Sequence[Sequence[int]]) -> Vector:
     return tuple(sums)
 
 
-def _equal_stages(tableau: Tableau) -> list[list[list[int]]]:
+def _equal_stages(tableau: Tableau, tolerance: fmpq) -> list[list[list[int]]]:
     """For each space its stages in classes of equal ones, the coarsest partition that is stable."""
     numbers = range(len(tableau.spaces))
     classes = [[list(range(space.stages))] for space in tableau.spaces]
     while True:
-        finer = [_split(tableau, k, classes) for k in numbers]
+        finer = [_split(tableau, k, classes, tolerance) for k in numbers]
         if list(map(len, finer)) == list(map(len, classes)):
             return finer
         classes = finer
 
 
-def _split(tableau: Tableau, k: int, classes: list[list[list[int]]]) -> list[list[int]]:
+def _split(
+    tableau: Tableau, k: int, classes: list[list[list[int]]], tolerance: fmpq
+) -> list[list[int]]:
     """The classes of one space, divided by what their stages see."""
+
+    def are_equal(seen: list[Any], sight: list[Any]) -> bool:
+        if not tolerance:
+            return seen == sight
+        pairs = zip(_numbers(seen), _numbers(sight), strict=True)
+        return all(within(x - y, tolerance) for x, y in pairs)
+
     found: list[list[int]] = []
     blocks = [(tableau.blocks.get((k, m)), x.space) for m, x in enumerate(tableau.colours)]
     for members in classes[k]:
         if len(members) == 1:
             found.append(members)
             continue
-        by_sight: list[tuple[list[object], list[int]]] = []
+        by_sight: list[tuple[list[Any], list[int]]] = []
         for i in members:
             # what the stage sees: its node, and the sums of its entries over each class
-            sight: list[object] = [tableau.spaces[k].nodes[i]]
+            sight: list[Any] = [tableau.spaces[k].nodes[i]]
             sight += [sums_over(A[i], classes[space]) for A, space in blocks if A is not None]
             # compared, not hashed: that of a fraction is slow to be had first
-            alike = next((x for seen, x in by_sight if seen == sight), None)
+            alike = next((x for seen, x in by_sight if are_equal(seen, sight)), None)
             if alike is None:
                 by_sight.append((sight, [i]))
             else:
                 alike.append(i)
         found += [alike for _, alike in by_sight]
     return sorted(found)
+
+
+def _numbers(sight: list[Any]) -> list[Number]:
+    node, *rows = sight
+    return [node, *(x for row in rows for x in row)]
 
 
 @doing("smallest method")

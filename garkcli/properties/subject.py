@@ -13,7 +13,7 @@ from garkcli.doing import doing
 from garkcli.errors import NotDecided
 from garkcli.exact.field import ONE, ZERO
 from garkcli.frozen import Frozen
-from garkcli.order.simplifying import Simplifying
+from garkcli.order.simplifying import Defects, RoundedDefects, Simplifying
 from garkcli.properties.pattern import Shape, StageGraph, shape_of, stage_graph
 from garkcli.properties.reduction import at_points, reduced
 from garkcli.properties.registry import find
@@ -24,8 +24,10 @@ from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
+    from garkcli.order.meant import AnyTableau
     from garkcli.properties.property import Verdict
     from garkcli.stability.linear import StabilityFunction
+    from garkcli.stability.within import StabilityWithin
 
 MISSING_BLOCKS = Reason("some stages do not see every vector field")
 """Why what is about all vector fields together has no meaning where blocks are missing."""
@@ -39,8 +41,10 @@ class Subject(Frozen):
         order: its order, or a lower bound of that.
         simplifying: its B, C and D.
         limit: where the search for these stopped.
-        tolerance: the rounding of its coefficients; 0 where they are meant exactly.
+        tolerance: smaller numbers count as zero, as the method is known so well; 0 where it is
+            exact.
         further: its embedded weights and its dense output.
+        rounding: by how much the printed coefficients may be off.
     """
 
     tableau: Tableau
@@ -49,6 +53,26 @@ class Subject(Frozen):
     limit: int
     tolerance: fmpq = ZERO
     further: Further = NOTHING
+    rounding: fmpq = ZERO
+
+    @staticmethod
+    def read(
+        method: AnyTableau, order: int, simplifying: Simplifying, limit: int, further: Further
+    ) -> Subject:
+        """The subject of a method; of a rounded one the method that it is taken to be."""
+        if isinstance(method, Tableau):
+            return Subject(method, order, simplifying, limit, ZERO, further)
+        grain, t = method.grain, method.tolerance
+        return Subject(method.near, order, simplifying, limit, grain, method.further, t)
+
+    @cached_property
+    def defects(self) -> Defects:
+        """By how much it misses conditions."""
+        return (
+            RoundedDefects(self.tableau, self.tolerance)
+            if self.tolerance
+            else Defects(self.tableau)
+        )
 
     def verdict(self, key: str) -> Verdict:
         """What is true of a property; each is decided once, or is not in the time for all."""
@@ -133,7 +157,7 @@ class Subject(Frozen):
     @cached_property
     def reduced(self) -> Tableau | None:
         """The smallest method of the same step; None where nodes have no simple radicals."""
-        return reduced(self.tableau)
+        return reduced(self.tableau, self.tolerance)
 
     @cached_property
     def symmetry(self) -> Symmetry:
@@ -153,9 +177,17 @@ class Subject(Frozen):
         return stability_function(self.tableau)
 
     @cached_property
+    def intervals(self) -> StabilityWithin:
+        """What is known of the intervals of a method known to many bits."""
+        from garkcli.stability.within import stability_within
+
+        shares = [ONE] * self.tableau.size
+        return stability_within(self.tableau, shares, self.tolerance)
+
+    @cached_property
     def linear_within(self) -> tuple[bool | None, bool | None]:
-        """Whether all methods within the tolerance are A-stable, L-stable; None: not decided."""
+        """Whether a method known to many bits is A-stable, L-stable; None: not decided."""
         from garkcli.stability.within import stiff_stability_within
 
         shares = [ONE] * self.tableau.size
-        return stiff_stability_within(self.tableau, shares, self.tolerance, self.order)
+        return stiff_stability_within(self.tableau, shares, self.tolerance)

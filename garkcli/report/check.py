@@ -16,7 +16,7 @@ from garkcli.check.findings import (
 from garkcli.check.findings import CLAIM as CLAIM_CURE
 from garkcli.check.pair_reasons import pair_reason, rule_reasons
 from garkcli.errors import counted
-from garkcli.exact.display import decimal
+from garkcli.exact.display import decimal, plain_decimal, to_float
 from garkcli.frozen import replace
 from garkcli.ntrees.drawing import draw_text
 from garkcli.ntrees.notation import format_tree
@@ -25,7 +25,7 @@ from garkcli.page.exactly import ROOT_OF, root_data
 from garkcli.page.paint import folded
 from garkcli.properties.property import Size
 from garkcli.properties.registry import KEYS, find
-from garkcli.reason import NO_REASON, Reason, joined
+from garkcli.reason import NO_REASON, Place, Reason, joined
 from garkcli.report.failure import FAULT
 from garkcli.tell import kinds
 from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, maybe, optional, via
@@ -572,6 +572,55 @@ SUGGESTION = Section(
 )
 
 
+def _entry_words(found: Any, d: Plain) -> str:
+    """``a[3,2]``; of several colours ``a{1,2}[3,2]``."""
+    x, tableau = found
+    colours = [x.l] if x.m is None else [x.l, x.m]
+    names = [tableau.colours[l].name for l in colours] if tableau.size > 1 else []
+    return d.place(Place(x.letter, tuple(names), (x.j,) if x.i is None else (x.i, x.j)))
+
+
+def _recovered_words(found: Any, d: Plain) -> str:
+    """``0.98 t from the print, at a[3,2]``."""
+    near, tableau, order = found
+    text = f"{plain_decimal(near.distance)} t from the print"
+    if near.entry is not None:
+        text += f", at {_entry_words((near.entry, tableau), d)}"
+    if near.suspect is not None:
+        entry = _entry_words((near.suspect, tableau), d)
+        text += f"; {entry} alone is far off: a misprint?"
+    if near.is_proved:
+        text += f"; a method of order {order} within t is proved to exist"
+    return text if near.is_full else f"{text}; its conditions are met to second order"
+
+
+def _recovered(a: Any) -> Any:
+    return None if a.nearness is None else (a.nearness, a.tableau, a.order.order)
+
+
+def _entry(which: str) -> Callable[[Any], Any]:
+    def get(found: Any) -> Any:
+        near, tableau, _ = found
+        entry = getattr(near, which)
+        return None if entry is None else (entry, tableau)
+
+    return get
+
+
+ENTRY = Section(
+    Row("letter", kinds.choice("a", "b", "c", "embedded", "dense"), "0.letter"),
+    Row("colours", PLACED, lambda x: _block(x[0].l, x[0].m)),
+    Row("indices", PLACED, lambda x: _block(x[0].i, x[0].j)),
+)
+RECOVERED = Section(
+    Row("distance", kinds.FLOAT, lambda x: to_float(x[0].distance)),
+    maybe("entry", part(ENTRY), _entry("entry")),
+    maybe("suspect", part(ENTRY), _entry("suspect")),
+    Row("met_fully", kinds.TRUTH, "0.is_full"),
+    Row("proved_to_exist", kinds.TRUTH, "0.is_proved"),
+)
+
+
 def hints(o: Any) -> list[Reason]:
     """What failing conditions tell, a sentence or two each."""
     a = o.analysis
@@ -581,7 +630,8 @@ def hints(o: Any) -> list[Reason]:
     from garkcli.report.hints import blame_text, misprint_text, suggestion_text  # few files
 
     names = [colour.name for colour in a.tableau.colours]
-    blame = NO_REASON if o.blame is None else blame_text(o.blame, names)
+    is_told = a.tolerance is not None and a.misprint is not None  # the entry that is wrong
+    blame = NO_REASON if o.blame is None or is_told else blame_text(o.blame, names)
     return [
         *(sum_text(x, names) for x in sums),
         *([] if a.suggestion is None else [suggestion_text(a.suggestion, a.tolerance)]),
@@ -705,6 +755,8 @@ def colours_of(tableau: Any) -> list[Any]:
 ANALYSIS = [
     Row("exact", kinds.TRUTH, lambda a: a.tolerance is None, DATA),
     maybe("tolerance", kinds.TOLERANCE, level=DATA),
+    Row("recovered_in_words", told(_recovered_words), _recovered, DETAIL, label="recovered"),
+    optional("recovered", part(RECOVERED), _recovered, DATA),
     Row("colours", parts(COLOURS), lambda a: colours_of(a.tableau), DATA),
     order("order", lambda a: a.order, HEADLINE),
     Row(

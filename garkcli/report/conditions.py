@@ -14,11 +14,11 @@ from garkcli.frozen import Frozen, Mutable, replace
 from garkcli.ntrees.notation import condition_latex, condition_text, format_tree, vertex_letters
 from garkcli.ntrees.tree import Tree
 from garkcli.order.conditions import Condition
+from garkcli.order.meant import AnyTableau, printed, tolerance_of
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.paint import numbered
 from garkcli.report.symplectic_subject import SUBJECT, Subject
 from garkcli.report.trees import DATA, DETAIL, SIZES, TREES, pictures
-from garkcli.tableau.meant import AnyTableau, printed, tolerance_of
 from garkcli.tableau.tableau import Tableau
 from garkcli.tell.dialect import LONG, Plain
 from garkcli.tell.facts import Kind, Level, Row, Section, maybe, optional

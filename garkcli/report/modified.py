@@ -234,7 +234,7 @@ def _vertices(report: ModifiedReport) -> str:
 
 def _note(report: ModifiedReport) -> str:
     is_rounded = report.found.tolerance is not None
-    return "coefficients of the digits as they are given" if is_rounded else ""
+    return "coefficients of one method within the rounding" if is_rounded else ""
 
 
 MODIFIED = Section(

@@ -27,6 +27,7 @@ TOLD_BY = {
     "comparison.Comparison": "diff",
     "convergence.Convergence": "convergence",
     "design.Design": "design",
+    "design.DesignWithin": "design_within",
     "design.Minimum": "design",
     "design.StablePlane": "stable_plane",
     "design.StableValues": "stable_values",

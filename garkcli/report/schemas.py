@@ -29,6 +29,7 @@ REPORTS = {
     "design": "garkcli.report.design:REPORT",
     "design-search": "garkcli.report.search:REPORT",
     "design-stability": "garkcli.report.stable_values:REPORT",
+    "design-within": "garkcli.report.design_within:REPORT",
     "design-plane": "garkcli.report.stable_plane:REPORT",
     "modified": "garkcli.report.modified:REPORT",
     "modified-energy": "garkcli.report.modified_energy:REPORT",

@@ -382,7 +382,7 @@ def title(x: Any, d: Plain) -> str:
     within = x.found.tolerance
     given = x.file or x.name
     name = d.prose(derived_name(x.derivation, given) if x.derivation else given)
-    return name if within is None else d.known(f"{name}, all methods", Status(within))
+    return name if within is None else d.known(name, Status(within))
 
 
 def head(kind: str) -> list[Row]:

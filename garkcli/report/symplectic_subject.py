@@ -18,7 +18,7 @@ from garkcli.ntrees.symplectic import (
     independent_classes,
     structure_of,
 )
-from garkcli.tableau.meant import AnyTableau, printed
+from garkcli.order.meant import AnyTableau, printed
 from garkcli.tableau.tableau import Tableau
 from garkcli.tell.facts import Level, Row, Section
 from garkcli.tell.kinds import COUNT, POSITION, TEXTS, choice
@@ -170,8 +170,8 @@ def subject_of_method(method: AnyTableau, orders: range) -> Subject:
             momenta only.
         ZeroWeight: the pair would divide by zero.
     """
+    from garkcli.order.meant import derived
     from garkcli.order.simplifying import is_symplectic
-    from garkcli.tableau.meant import derived
 
     if not is_symplectic(method):
         if printed(method).is_partitioned:

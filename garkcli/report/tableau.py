@@ -15,6 +15,7 @@ from garkcli.check.analysis import inconsistent_blocks
 from garkcli.exact.display import to_float, to_text
 from garkcli.exact.field import Algebraic
 from garkcli.exact.parametric import Parametric
+from garkcli.order.meant import as_meant
 from garkcli.order.simplifying import is_symplectic
 from garkcli.page.cells import cell_text, remark
 from garkcli.page.schema import DERIVATION, NUMBER, NUMERAL, Schema, array, nullable
@@ -101,11 +102,11 @@ def _entries(entry: Schema, change: Callable[[Entries, Cell], object]) -> list[R
 
 
 def _consistent(x: Any) -> Answer:
-    return wrong(inconsistent_blocks(x.method.meant), "A", x.method.tolerance)
+    return wrong(inconsistent_blocks(as_meant(x.method)), "A", x.method.tolerance)
 
 
 def _symplectic(x: Any) -> Answer:
-    found = is_symplectic(x.method.meant)
+    found = is_symplectic(as_meant(x.method))
     return Answer(found, Status(x.method.tolerance if found else None))
 
 

@@ -117,37 +117,38 @@ def _eliminate(rows: list[list[Any]], pivot: int, remaining: list[int]) -> None:
                 row[j] = row[j] - factor * pivot_row[j]
 
 
-BITS = 256
-"""Precision of the balls; far below any tolerance that files have."""
-DIGITS = BITS // 4
-"""Digits of exact numbers that become balls."""
+def bits_for(grain: fmpq) -> int:
+    """The precision of balls in which numbers larger than ``grain`` are not lost."""
+    return 2 * int(grain.q.bit_length()) + 64
+
+
+def snapped(ball: arb) -> arb:
+    """The ball, or 0 where it may be 0: a number that is not 0 is larger than the balls."""
+    return arb(0) if ball.contains(0) else ball
 
 
 def algebraic_within(tableau: Tableau, tolerance: fmpq) -> bool | None:
-    """Whether all methods within the tolerance are algebraically stable; None if not decided.
+    """Whether a method that is known to many bits is algebraically stable; None if not decided.
 
-    Symmetric elimination in balls. A pivot that is positive for all numbers is eliminated; a
-    diagonal entry that is negative for all decides, and so does a minor of two rows that is. The
-    matrix of many methods is singular: then nothing is decided, for neighbours are on both sides.
+    Symmetric elimination in balls, those with 0 in them being 0. A pivot that is positive is
+    eliminated; a diagonal entry that is negative decides, and so does a minor of two rows that is.
 
     Args:
         tableau: the method, one coordinate a stage; all blocks are there.
-        tolerance: the rounding of coefficients that are not zero.
+        tolerance: what counts as zero.
     """
-    with ctx.workprec(BITS):
+    with ctx.workprec(bits_for(tolerance)):
         weights = [x for colour in tableau.colours for x in rounded_balls(colour.b, tolerance)]
         if any(b < 0 for b in weights):
             return False
-        holds = is_positive(form_within(tableau, tolerance))
-        if holds and not all(b > 0 or b.is_zero() for b in weights):
-            return None
-        return holds
+        return is_positive([[*map(snapped, row)] for row in form_within(tableau, tolerance)])
 
 
 def rounded_balls(row: Vector, tolerance: fmpq) -> list[arb]:
     """Coefficients with their rounding; zeros are structure."""
     rounding = arb(0, arb(tolerance).upper())
-    return [to_ball(x, DIGITS) + rounding if x else arb(0) for x in row]
+    digits = int(ctx.prec * 0.302)
+    return [to_ball(x, digits) + rounding if x else arb(0) for x in row]
 
 
 def form_within(tableau: Tableau, tolerance: fmpq) -> list[list[arb]]:
@@ -194,4 +195,6 @@ def is_positive(form: list[list[arb]]) -> bool | None:
             is_zero = all(rows[i][j].is_zero() for i in remaining for j in remaining)
             return True if is_zero else None
         _eliminate(rows, pivots[0], remaining)
+        for i, j in product(remaining, repeat=2):
+            rows[i][j] = snapped(rows[i][j])
     return True

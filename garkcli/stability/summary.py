@@ -18,7 +18,7 @@ from garkcli.exact.cells import Interval
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.polynomial import Polynomial
 from garkcli.frozen import Frozen, replace
-from garkcli.order.deciding import order_of
+from garkcli.order.meant import meant
 from garkcli.stability.algebraic import AlgebraicStability, algebraic_stability, algebraic_within
 from garkcli.stability.damping import ImexPair, Ray, imex_pair
 from garkcli.stability.fraction import Fraction, lines_needed, stability_fraction
@@ -34,7 +34,6 @@ from garkcli.stability.oscillator import OscillatorStability, usual_oscillator
 from garkcli.stability.sector import Sector, largest_sector
 from garkcli.stability.ssp import AdditiveRadius, SspCoefficient, additive_radius, ssp_coefficient
 from garkcli.stability.within import StabilityWithin, stability_within
-from garkcli.tableau.meant import meant
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
 
@@ -175,7 +174,7 @@ class Stability(Shown, Frozen):
         algebraic: algebraic stability; None where it has no meaning.
         tolerance: the rounding within which it holds; None where it holds exactly.
         colours: the colours, each with a z of its own; None for one colour or rounded ones.
-        algebraic_within: algebraic stability of all methods within the tolerance; None where that
+        algebraic_within: that of the method that a rounded one is taken to be; None where that
             is not decided.
         late: the attributes for which the time was not enough; they are None.
     """
@@ -235,16 +234,18 @@ def stability(
 
 @doing("stability")
 def stability_of_rounded(tableau: Tableau, tolerance: fmpq) -> Stability:
-    """What holds for all methods within a tolerance, where that is decided.
+    """What holds of the method that a rounded one is taken to be, where that is decided.
 
     Args:
         tableau: the method.
         tolerance: the rounding of its coefficients.
     """
-    order = order_of(meant(tableau, tolerance)).order
+    method = meant(tableau, tolerance)
+    assert not isinstance(method, Tableau)
+    near, grain = method.near, method.grain
     linear = []
     for name, shares in directions(tableau):
-        decided = stability_within(tableau, shares, tolerance, order)
+        decided = stability_within(near, shares, grain)
         R = stability_function(tableau, shares)
         linear.append(
             LinearStability(
@@ -260,7 +261,7 @@ def stability_of_rounded(tableau: Tableau, tolerance: fmpq) -> Stability:
                 within=decided,
             )
         )
-    algebraic = algebraic_within(tableau, tolerance) if linear else None
+    algebraic = algebraic_within(near, grain) if linear else None
     return Stability(tableau, tuple(linear), None, None, tolerance, algebraic_within=algebraic)
 
 

@@ -1,9 +1,8 @@
-"""Stability of methods with rounded coefficients: what is true of all methods within a tolerance.
+"""Stability of rounded methods: of the one that a method is taken to be, known to many bits.
 
-Every coefficient that is not zero in the file is a ball of the radius of the tolerance. What
-follows for all numbers in the balls is decided; the rest is not, and is never guessed. One thing
-more is used: the order p that the method has within its tolerance counts as its order, so that
-|R(iy)|² = 1 + O(y^(p+1)) and the first coefficients of the E-polynomial are zero and not noise.
+Coefficients of polynomials are balls; a ball with zero in it is zero, as others are larger by far
+than the balls are wide. What follows for all numbers in the balls is decided; the rest is not, and
+is never guessed.
 """
 
 from __future__ import annotations
@@ -19,9 +18,8 @@ from garkcli.exact.polynomial import squared_on_axis
 from garkcli.exact.roots import sign
 from garkcli.frozen import Frozen, replace
 from garkcli.graph import components
-from garkcli.stability.algebraic import BITS, DIGITS, rounded_balls
+from garkcli.stability.algebraic import bits_for, rounded_balls, snapped
 from garkcli.stability.ball_polynomials import (
-    OPEN,
     UNLIMITED,
     Bounds,
     are_coprime,
@@ -56,7 +54,7 @@ def fraction_within(tableau: Tableau, shares: Sequence[Number], tolerance: fmpq)
     Args:
         tableau: the method, one coordinate a stage.
         shares: w_l with λ_l = w_l λ, one per colour.
-        tolerance: the largest error of a coefficient that is not zero.
+        tolerance: how well a coefficient that is not zero is known.
     """
     system = stage_system(tableau, [((w,),) for w in shares])
     # how many coefficients each entry of the system is the sum of, each counted |w_l| times
@@ -68,7 +66,17 @@ def fraction_within(tableau: Tableau, shares: Sequence[Number], tolerance: fmpq)
     Q = _reciprocal(summands.W, arb_mat(W) if W else arb_mat(0, 0))
     b = _widened(system.B[0], summands.B[0], tolerance)
     product = Q * arb_poly(_series(W, b, [to_ball(x) for (x,) in system.E]))
-    return BallFraction([product[k] for k in range(len(W) + 1)], [Q[k] for k in range(len(Q))])
+    P = [snapped(product[k]) for k in range(len(W) + 1)]
+    denominator = [snapped(Q[k]) for k in range(len(Q))]
+    while len(denominator) > 1 and denominator[-1].is_zero():
+        denominator.pop()
+    while len(P) > len(denominator) and P[-1].is_zero():
+        P.pop()
+    return BallFraction(P, denominator)
+
+
+def _digits() -> int:
+    return int(ctx.prec * 0.302)
 
 
 def _ones(row: Vector) -> Vector:
@@ -79,8 +87,10 @@ def _widened(row: Vector, counts: Vector, tolerance: fmpq) -> list[arb]:
     """Sums of ``counts`` coefficients with their rounding; what is a sum of none is zero."""
     sums = []
     for x, count in zip(row, counts, strict=True):
-        radius = to_ball(count, DIGITS) * arb(tolerance)
-        sums.append(to_ball(x, DIGITS) + arb(0, radius.upper()) if count else to_ball(x, DIGITS))
+        radius = to_ball(count, _digits()) * arb(tolerance)
+        sums.append(
+            to_ball(x, _digits()) + arb(0, radius.upper()) if count else to_ball(x, _digits())
+        )
     return sums
 
 
@@ -119,7 +129,7 @@ def ssp_within(tableau: Tableau, shares: Sequence[Number], tolerance: fmpq) -> B
         tableau: the method, one coordinate a stage.
         shares: r_l / r for each colour; those with 0 have the vector field 0, as for
             ``ssp_coefficient``.
-        tolerance: the rounding of coefficients that are not zero.
+        tolerance: how well a coefficient that is not zero is known.
     """
     pattern, parts = stacked(*driven_part(tableau, shares))
     n = len(pattern)
@@ -128,7 +138,7 @@ def ssp_within(tableau: Tableau, shares: Sequence[Number], tolerance: fmpq) -> B
     driven = [share for share in shares if share]
     for share, part in zip(driven, parts, strict=True):
         wide = arb_mat([rounded_balls(row, tolerance) for row in part])
-        whole += wide * to_ball(share, DIGITS)
+        whole += wide * to_ball(share, _digits())
         columns = wide.transpose().tolist()
         vectors += [column for column in columns if not all(x.is_zero() for x in column)]
     denominator = _reciprocal(pattern, -whole)
@@ -173,79 +183,44 @@ class StabilityWithin(Frozen):
 
 
 def stability_within(
-    tableau: Tableau, shares: Sequence[Number], tolerance: fmpq, order: int
+    tableau: Tableau, shares: Sequence[Number], tolerance: fmpq
 ) -> StabilityWithin:
     """What is decided of R and of the SSP coefficient of a method with rounded coefficients.
 
     Args:
         tableau: the method, one coordinate a stage.
         shares: w_l with λ_l = w_l λ, one per colour.
-        tolerance: the largest error of a coefficient that is not zero.
-        order: the order that the method has within the tolerance.
+        tolerance: how well a coefficient that is not zero is known.
     """
-    with ctx.workprec(BITS):
+    with ctx.workprec(bits_for(tolerance)):
         R = fraction_within(tableau, shares, tolerance)
-        E = _margin(R, order)
-        a_stable, l_stable = stiff_stability_within(tableau, shares, tolerance, order)
+        E = _margin(R)
+        a_stable, l_stable = stiff_stability_within(tableau, shares, tolerance)
         return StabilityWithin(
             a_stable=a_stable,
             l_stable=l_stable,
             real=_real_end(R),
-            # rounding hides whether all coefficients are zero
-            imaginary=OPEN if all(a.is_zero() for a in E) else first_failure(E),
+            imaginary=first_failure(E),
             ssp=ssp_within(tableau, shares, tolerance),
         )
 
 
 def stiff_stability_within(
-    tableau: Tableau, shares: Sequence[Number], tolerance: fmpq, order: int
+    tableau: Tableau, shares: Sequence[Number], tolerance: fmpq
 ) -> tuple[bool | None, bool | None]:
     """Whether a method is A-stable and whether it is L-stable; see ``stability_within``."""
-    with ctx.workprec(BITS):
+    with ctx.workprec(bits_for(tolerance)):
         R = fraction_within(tableau, shares, tolerance)
-        is_stiff = is_stiffly_accurate(tableau, shares)
-        a_stable = both(_is_bounded(_margin(R, order), is_stiff), _poles_are_right(R))
-        return a_stable, both(a_stable, _vanishes_at_infinity(R, is_stiff))
+        a_stable = both(_is_bounded(_margin(R)), _poles_are_right(R))
+        return a_stable, both(a_stable, len(R.P) < len(R.Q) or R.P[len(R.Q) - 1].is_zero())
 
 
-def is_stiffly_accurate(tableau: Tableau, shares: Sequence[Number]) -> bool:
-    """Whether a stage is the step, a_ij^{k,m} = b_j^{m} for every colour m that is driven.
-
-    Then R(∞) = 0 where W is regular. Equal coefficients of the file are equal numbers, whatever
-    was rounded; equal sums of coefficients of several colours are a chance.
-
-    Args:
-        tableau: the method, one coordinate a stage.
-        shares: w_l with λ_l = w_l λ; colours with 0 are not driven.
-    """
-    driven = [m for m, share in enumerate(shares) if share]
-    for k in {tableau.colours[m].space for m in driven}:
-        for i in range(tableau.spaces[k].stages):
-            if all(_has_weights_of(tableau, k, i, m) for m in driven):
-                return True
-    return False
+def _margin(R: BallFraction) -> list[arb]:
+    """The coefficients of E in y²."""
+    return [*map(snapped, difference(squared_on_axis(R.Q), squared_on_axis(R.P)))]
 
 
-def _has_weights_of(tableau: Tableau, k: int, i: int, m: int) -> bool:
-    """Whether stage i of space k sees colour m with its weights."""
-    weights = tuple(tableau.colours[m].b)
-    block = tableau.blocks.get((k, m))
-    if block is None:
-        return not any(weights)
-    return tuple(block[i]) == weights
-
-
-def _margin(R: BallFraction, order: int) -> list[arb]:
-    """The coefficients of E in y²; those that are zero by the order are zero."""
-    E = difference(squared_on_axis(R.Q), squared_on_axis(R.P))
-    zeros = order // 2 + 1
-    for k, a in enumerate(E[:zeros]):
-        if a.contains(0):
-            E[k] = arb(0)
-    return E
-
-
-def _is_bounded(E: Sequence[arb], is_stiff: bool) -> bool | None:
+def _is_bounded(E: Sequence[arb]) -> bool | None:
     """Whether |R(iy)| ≤ 1 for all real y."""
     rest = list(E)
     while rest and rest[-1].is_zero():
@@ -253,12 +228,9 @@ def _is_bounded(E: Sequence[arb], is_stiff: bool) -> bool | None:
     while rest and rest[0].is_zero():
         rest.pop(0)
     if not rest:
-        return None
-    near, far = rest[0], rest[-1]
-    if near < 0 or far < 0:
+        return True
+    if rest[0] < 0 or rest[-1] < 0:
         return False
-    if is_stiff and far.contains(0):
-        return None
     return is_positive(rest)
 
 
@@ -276,17 +248,4 @@ def _real_end(R: BallFraction) -> Bounds:
     Q = arb_poly(mirrored(R.Q))
     margin = Q * Q - P * P
     # the constants of P and Q are 1: that of the margin is zero
-    return first_failure([arb(0), *(margin[k] for k in range(1, len(margin)))])
-
-
-def _vanishes_at_infinity(R: BallFraction, is_stiff: bool) -> bool | None:
-    """Whether R(∞) = 0."""
-    size = len(R.Q)
-    is_regular = size == len(R.P) and not R.Q[-1].contains(0)
-    if is_stiff and is_regular:
-        return True
-    if len(R.P) < size or R.P[size - 1].is_zero():
-        return True
-    if R.P[size - 1].contains(0):
-        return None
-    return False
+    return first_failure([arb(0), *(snapped(margin[k]) for k in range(1, len(margin)))])

@@ -11,7 +11,6 @@ from flint import fmpq
 from garkcli.errors import MethodError, counted
 from garkcli.frozen import Frozen
 from garkcli.tableau.embedded import DenseOutput, Further, Weights
-from garkcli.tableau.meant import AnyTableau, derived, meant
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown, answered
 
@@ -132,15 +131,6 @@ class GarkMethod(Shown, Frozen, kw_only=True):
         from garkcli.tableau import pointwise  # loaded when entries are requested
 
         return pointwise.entries(self.tableau).beside(self.further)
-
-    @cached_property
-    def meant(self) -> AnyTableau:
-        """The tableau, with its rounding where it has a tolerance; what was made of a rounded
-        method is as uncertain as that makes it.
-        """
-        if self.base is not None and self.tolerance == self.base.tolerance:
-            return derived(self.base.meant, self.derivation)
-        return meant(self.tableau, self.tolerance)
 
     @property
     def A(self) -> Any:  # noqa: N802 -- the name it has everywhere

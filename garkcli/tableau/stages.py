@@ -257,7 +257,8 @@ def _common_denominator(nodes: tuple[fmpq, ...]) -> fmpz:
 def _bits(number: Number) -> int:
     if isinstance(number, Algebraic):
         return sum(int(x.height_bits()) for x in number.poly.coeffs())
-    return int(number.height_bits())
+    # balls and forms are as long as their context makes them
+    return int(number.height_bits()) if isinstance(number, fmpq) else 0
 
 
 def _value(coefficients: Sequence[Number], x: Number) -> Number:

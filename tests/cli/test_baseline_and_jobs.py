@@ -436,7 +436,7 @@ def test_an_undecided_claim_in_a_baseline(tmp_path: Path) -> None:
     """A report with a claim that is undecided is a baseline: the same file is no worse."""
     (tmp_path / "open.gark.yaml").write_text(
         "A: [[0.167, 3.333], [-1.333, 0.333]]\nb: [0.333, 0.667]\ntolerance: 1e-3\n"
-        "expect: {algebraically-stable: true, order: 2}\n",
+        "expect: {p-stable: true, order: 2}\n",
         encoding="utf-8",
     )
     first = gark("check", "open.gark.yaml", "--format", "json", "-o", "o.json", cwd=tmp_path)
@@ -444,7 +444,6 @@ def test_an_undecided_claim_in_a_baseline(tmp_path: Path) -> None:
     again = gark("check", "open.gark.yaml", "--baseline", "o.json", cwd=tmp_path)
     assert (again.code, "damaged" in again.err) == (0, False)
     (tmp_path / "open.gark.yaml").write_text(
-        "A: [[0, 0], [1, 0]]\nb: [1/2, 1/2]\nexpect: {algebraically-stable: true, order: 2}\n",
-        encoding="utf-8",
+        "A: [[0, 0], [1, 0]]\nb: [1/2, 1/2]\nexpect: {p-stable: true, order: 2}\n", encoding="utf-8"
     )
     assert gark("check", "open.gark.yaml", "--baseline", "o.json", cwd=tmp_path).code == 1

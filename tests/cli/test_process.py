@@ -57,7 +57,7 @@ def test_check_imports_no_heavy_package() -> None:
 
 RARE = {
     "garkcli.check.baseline",
-    "garkcli.check.within",
+    "garkcli.order.recovering",
     "garkcli.exact.tower",
     "garkcli.methodfile.ark_prk",
     "garkcli.methodfile.printed",

@@ -13,8 +13,7 @@ from flint import fmpq
 
 from garkcli.exact.display import to_decimal, to_float
 from garkcli.methodfile.load import loads
-from garkcli.order.rounded import find_order_within
-from garkcli.tableau.rounded import RoundedTableau
+from garkcli.order.rounded import RoundedTableau, find_order_within
 from tests.cli.harness import ROOT, gark
 
 DECIMALS = ROOT / "tests" / "examples" / "hints" / "gauss2-decimals.gark.yaml"

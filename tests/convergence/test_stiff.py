@@ -12,11 +12,11 @@ from flint import fmpq
 from garkcli import converge, loads
 from garkcli.convergence.result import Convergence
 from garkcli.methodfile.build import MethodFile
+from garkcli.order.meant import meant
 from garkcli.order.simplifying import simplifying
 from garkcli.order.weak_stages import weak_stage_order
 from garkcli.problems.builtin import problem
 from garkcli.stepping.integrator import StepFailed
-from garkcli.tableau.meant import meant
 from tests.catalogue.catalogue import entries
 from tests.catalogue.method_files import method_file
 

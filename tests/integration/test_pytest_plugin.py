@@ -25,7 +25,7 @@ SILENT = "A: [[0]]\nb: [1]\n"
 FAMILY = "parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [0, 1]\nexpect: {order: 2}\n"
 OPEN = (
     "A: [[0.167, 3.333], [-1.333, 0.333]]\nb: [0.333, 0.667]\ntolerance: 1e-3\n"
-    "expect: {algebraically-stable: true, order: 2}\n"
+    "expect: {p-stable: true, order: 2}\n"
 )
 """Rounding leaves one claim undecided."""
 FILES = {
@@ -108,7 +108,7 @@ def test_an_undecided_claim_is_skipped_with_its_reason(project: pytest.Pytester)
     result = run(project, str(path), "-rs")
     assert outcomes(result) == {"passed": 1, "skipped": 1}
     result.stdout.fnmatch_lines(
-        ["SKIPPED*open.gark.yaml:4: undecided: algebraically-stable: *leaves the signs open"]
+        ["SKIPPED*open.gark.yaml:4: undecided: p-stable: *the coefficients are rounded"]
     )
 
 

@@ -27,9 +27,9 @@ from garkcli.methodfile.load import loads
 from garkcli.order.certificate import find_order
 from garkcli.order.conditions import elementary_weight
 from garkcli.order.dense import DenseOrder, dense_order, ends_at_step, slopes
+from garkcli.order.meant import meant
 from garkcli.tableau.embedded import DenseOutput, Further, with_weights
 from garkcli.tableau.forms import gark, spelled_out
-from garkcli.tableau.meant import meant
 from garkcli.tableau.tableau import Tableau
 from tests.oracles import samples
 from tests.oracles.brute import Trees, Weights, brute_order, density, order_of, plain
@@ -437,7 +437,7 @@ def test_too_many_trees_leave_dense_output_open(monkeypatch: pytest.MonkeyPatch)
     method = loads(HERMITE)
     assert method.dense is not None
     tableau = rounded_tableau(method.tableau)
-    found = dense_order(meant(tableau, TOLERANCE), method.dense, 9)
+    found = dense_order(meant(tableau, TOLERANCE, method.further), method.dense, 9)
     assert (found.order, found.undecided, found.is_lower_bound) == (2, True, True)
     alike = loads(ALIKE)
     analysis = analyse(alike.tableau, 9, TOLERANCE, further=alike.further)

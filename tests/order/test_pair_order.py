@@ -19,6 +19,7 @@ from garkcli.check.deciding import analyse
 from garkcli.check.pair_reasons import pair_reason, rule_reasons
 from garkcli.methodfile.build import MethodFile
 from garkcli.order.certificate import find_order
+from garkcli.order.meant import as_meant
 from garkcli.order.pair_order import pair_criterion
 from garkcli.properties.reduction import is_plainly_irreducible
 from garkcli.report.checked import REPORT
@@ -255,8 +256,8 @@ def test_weights_of_the_pair_that_are_rounded() -> None:
     b = "[0.166666666666667, 0.666666666666667, 0.166666666666667]"
     text = f"A: [[0, 0, 0], [0.5, 0, 0], [-1, 2, 0]]\nb: {b}\n"
     rounded, exact = loads(f"{text}tolerance: 1e-14"), loads(text)
-    assert pair_criterion(rounded.meant).order == 3
-    assert pair_criterion(exact.meant).order == 0
+    assert pair_criterion(as_meant(rounded)).order == 3
+    assert pair_criterion(as_meant(exact)).order == 0
     assert sum(exact.tableau.colours[0].b, fmpq(0)) != 1
 
 

@@ -16,13 +16,13 @@ from garkcli.errors import ZeroWeight
 from garkcli.families.registry import diagonal_method
 from garkcli.frozen import replace
 from garkcli.ntrees.table import TreeTable
-from garkcli.order import rounded as module
 from garkcli.order.approximate_spans import ApproximateSpans
 from garkcli.order.certificate import find_order
 from garkcli.order.conditions import conditions, coupling_graph
-from garkcli.order.rounded import RoundedOrder, TreeResiduals, find_order_within
+from garkcli.order.rounded import RoundedOrder, RoundedTableau, find_order_within
+from garkcli.order.tree_residuals import TreeResiduals
+from garkcli.tableau.enclosure import enclose_tableau
 from garkcli.tableau.forms import gark, pair
-from garkcli.tableau.rounded import RoundedTableau, enclose_tableau
 from garkcli.tableau.tableau import Tableau, butcher
 from garkcli.transfer import collocation
 from tests.oracles import samples
@@ -67,7 +67,6 @@ def assert_witness(found: RoundedOrder) -> None:
     """The witness belongs to the next order."""
     assert found.witness is not None
     assert found.witness.tree.order == found.order + 1
-    assert len(found.sizes) == len(found.means) == found.order + 1
 
 
 @pytest.mark.parametrize("name", [*ROUNDED, *EXACT[::3]])
@@ -104,8 +103,8 @@ def test_conjugates_and_pairs_of_the_catalogue_are_decided() -> None:
 
 @given(SEEDS)
 def test_orders_are_those_of_every_tree(seed: int) -> None:
-    """Random graphs and rounded named methods, tolerances of all sizes: the search that lists trees
-    and leaves most of them to quick bounds decides as the conditions do, one by one.
+    """Random graphs and rounded named methods, tolerances of all sizes: the order is that of the
+    conditions of the method that is recovered, one by one.
     """
     dice = Random(seed)
     tableau = samples.random_graph(dice)
@@ -115,7 +114,7 @@ def test_orders_are_those_of_every_tree(seed: int) -> None:
     box = RoundedTableau.within(tableau, fmpq(1, 10 ** dice.randint(0, 31)))
     found = find_order_within(box, 5)
     assert found.order == first_missed(box, 5) - 1
-    assert found.is_lower_bound == (found.order == 5)
+    assert found.is_lower_bound == (found.order == 5 or bool(found.undecided))
     exact = largest_residuals(tableau, 5)[: found.order]
     with ctx.workprec(2000):
         assert all(bound >= size for bound, size in zip(found.sizes, exact, strict=False))
@@ -248,7 +247,6 @@ def test_gauss_and_lobatto_in_decimals(
     found = find_order_within(box.pair())
     assert found.order == order
     assert_witness(found)
-    assert ("spans" in found.means) == (stages > 2)
 
 
 def test_families_mixed_with_decimals() -> None:
@@ -273,42 +271,8 @@ def test_exact_methods_need_no_trees() -> None:
     """
     both = pair(samples.everywhere(collocation, "gauss 10", "lobatto-iiia 11"))
     found = order_within(both, fmpq(1, 10**30))
-    assert (found.order, set(found.means)) == (20, {"exact"})
+    assert (found.order, found.exact) == (20, 20)
     assert found.witness == find_order(both).witness
-
-
-def test_what_is_too_much_is_left_undecided() -> None:
-    """A tolerance at the size of the rounding: the trees are too many, the bounds too wide, nothing
-    is claimed.
-    """
-    box = RoundedTableau.within(gauss_lobatto(4, 30), fmpq(1, 10**29))
-    found = find_order_within(box.pair())
-    assert found.undecided == module.TOO_MANY
-    assert found.witness is None
-    assert 6 <= found.order < 12
-
-
-def test_spans_come_first_then_trees(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Where spans cannot tell, trees do as long as they are not too many."""
-    box = RoundedTableau.within(gauss_lobatto(2, 30), fmpq(1, 10**30))
-    monkeypatch.setattr(module, "FEW_TREES", 0)
-    found = find_order_within(box)
-    assert found.order == 4
-    assert "trees" in found.means
-    monkeypatch.setattr(module, "MOST_TREES", 0)
-    search = module.Conditions(box, most=0)
-    assert any(search.of(n) is None for n in range(1, 5))
-
-
-def test_many_doubts_are_left_to_one_method_of_the_box(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Where residuals are as large as the digits, the method with the largest coefficients explains
-    most of them; the order is the same as without that.
-    """
-    box = RoundedTableau.within(gauss_lobatto(2, 16), fmpq(1, 10**16))
-    one_by_one = find_order_within(box)
-    monkeypatch.setattr(module, "FEW_DOUBTS", 0)
-    again = RoundedTableau.within(box.tableau, box.tolerance)
-    assert find_order_within(again) == one_by_one
 
 
 def test_limits() -> None:
@@ -316,5 +280,3 @@ def test_limits() -> None:
     tableau = published("sprk_Yoshida_6_8")
     found = order_within(tableau, fmpq(1, 10**30), 3)
     assert (found.order, found.is_lower_bound, found.undecided) == (3, True, "")
-    endless = samples.without_cycles()
-    assert order_within(endless, fmpq(1, 2)).order == 60

@@ -16,8 +16,8 @@ from garkcli import catalogue, find_property, loads
 from garkcli.design.design import find_parameters
 from garkcli.errors import MethodFileError
 from garkcli.methodfile.family import loads_family
+from garkcli.order.meant import meant
 from garkcli.order.weak_stages import weak_stage_order
-from garkcli.tableau.meant import meant
 from garkcli.tableau.tableau import Tableau
 from tests.cli.harness import gark
 

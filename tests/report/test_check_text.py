@@ -263,7 +263,7 @@ def test_long_decimals_fit_a_screen(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     tight = DECIMALS.replace("33333338333333", "33333333333333").replace("1e-12", "1e-19")
     gauss = "A: [[0.25, -0.0386751345948], [0.5386751345948, 0.25]]\nb: [0.5, 0.5]\n"
     for text, shown in (
-        (DECIMALS, "a[3,1] = -0.33333333333333333 instead of -0.33333333338333333, or "),
+        (DECIMALS, "a[3,1] = -0.33333333333333333 instead of -0.33333333338333333"),
         (tight, "the tolerance is too tight; with the line tolerance: 1e-17 the order is 4"),
         (
             f"{gauss}expect: {{order: 4}}",

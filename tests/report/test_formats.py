@@ -42,7 +42,7 @@ HEUN = "methods: [{family: heun}]\n"
 WRONG = f"{MIDPOINT}expect: {{order: 3, symplectic: false, bound: 2, B: [5]}}\n"
 UNDECIDED = (
     "A: [[0.167, 3.333], [-1.333, 0.333]]\nb: [0.333, 0.667]\ntolerance: 1e-3\n"
-    "expect: {algebraically-stable: true, order: 3}\n"
+    "expect: {p-stable: true, order: 3}\n"
 )
 AWKWARD = "a%,b:c`d|e\nf.gark.yaml"
 
@@ -274,19 +274,19 @@ def test_undecided_claims_do_not_fail(tmp_path: Path) -> None:
     """
     found = undecided(tmp_path)
     assert [x.claim for x in found.failed_claims] == ["order"]
-    assert [x.claim for x in found.undecided_claims] == ["algebraically-stable"]
+    assert [x.claim for x in found.undecided_claims] == ["p-stable"]
     levels = {x["ruleId"]: x["level"] for x in sarif(found)["results"]}
     assert levels == {"claim": "error", "undecided": "warning"}
     (suite,) = junit(found)
     tags = {(case.get("name") or "").partition(":")[0]: [x.tag for x in case] for case in suite}
-    assert tags == {"is a method": [], "algebraically-stable": ["skipped"], "order": ["failure"]}
+    assert tags == {"is a method": [], "p-stable": ["skipped"], "order": ["failure"]}
     still_open = replace(found, claims=found.undecided_claims)
     summary = REPORT.document([found, still_open])["summary"]
     assert summary == {"files": 2, "failed": 1, "undecided": 1, "without_claims": 0}
     text = check_findings.github([found])
     assert re.findall("^::(error|warning) .*::(.*): expected", text, re.M) == [
         ("error", "order"),
-        ("warning", "algebraically-stable"),
+        ("warning", "p-stable"),
     ]
 
 

@@ -88,6 +88,7 @@ RUNS: dict[str, list[tuple[str, ...]]] = {
         (FAMILY, "--pair"),
         (FAMILY, "--order", "2", "--minimise", "error"),
     ],
+    "design-within": [("design", "tests/examples/families/rounded-sdirk.gark.yaml")],
     "design-plane": [("design", PLANE, "--a-stable")],
     "design-stability": [
         ("design", FAMILY, option, *of)

@@ -223,7 +223,7 @@ def test_in_short() -> None:
         (found,) = stability(tableau).linear
         assert found.words == words
     rounded = stability_of_rounded(family("gauss", 1), fmpq(1, 10**6))
-    assert rounded.linear[0].words == "A-stable not decided"
+    assert rounded.linear[0].words == "A-stable, not L-stable"
 
 
 def test_the_sdirk_methods_of_crouzeix() -> None:

@@ -9,11 +9,10 @@ from hypothesis import strategies as st
 
 from garkcli.families.registry import diagonal_method
 from garkcli.methodfile.load import loads
-from garkcli.properties.last_stage import is_stiffly_accurate as has_new_value_as_stage
 from garkcli.stability.linear import is_a_stable, is_l_stable, stability_function
 from garkcli.stability.summary import stability_of_rounded
-from garkcli.stability.within import is_stiffly_accurate, stability_within
-from garkcli.tableau.forms import additive, gark
+from garkcli.stability.within import stability_within
+from garkcli.tableau.forms import gark
 
 TOLERANCE = fmpq(1, 10**9)
 
@@ -53,12 +52,12 @@ def test_a_digit_off_is_decided_as_exactly(digit: int, sign: int) -> None:
     assert found.a_stable in {None, exact}
 
 
-def test_symmetric_methods_are_left_open() -> None:
-    """E is zero for Gauss methods: neighbours on one side are not A-stable."""
+def test_symmetric_methods_are_decided() -> None:
+    """E is zero for the Gauss method that the digits mean."""
     half, small, large = "0.25", "-0.0386751346", "0.5386751346"
     text = f"methods: [{{A: [[{half}, {small}], [{large}, {half}]], b: [0.5, 0.5]}}]"
     (found,) = stability_of_rounded(loads(text).tableau, TOLERANCE).linear
-    assert found.a_stable is None
+    assert (found.a_stable, found.l_stable) == (True, False)
 
 
 @given(st.sampled_from(["radau-iia", "radau-ia", "lobatto-iiic"]), st.integers(2, 2))
@@ -66,7 +65,7 @@ def test_exact_methods_are_decided_alike(name: str, stages: int) -> None:
     """Where something is decided for all neighbours it is what holds exactly."""
     tableau = gark([diagonal_method(name, stages)], {})
     R = stability_function(tableau)
-    found = stability_within(tableau, [fmpq(1)], fmpq(1, 10**12), 1)
+    found = stability_within(tableau, [fmpq(1)], fmpq(1, 10**60))
     assert found.a_stable in {None, is_a_stable(R)}
     assert found.l_stable in {None, is_l_stable(R)}
 
@@ -75,7 +74,7 @@ def test_exact_methods_are_decided_alike(name: str, stages: int) -> None:
 def test_explicit_methods_are_decided(name: str) -> None:
     """A polynomial is unbounded, rounded or not."""
     tableau = gark([diagonal_method(name, None)], {})
-    assert stability_within(tableau, [fmpq(1)], fmpq(1, 10**12), 1).a_stable is False
+    assert stability_within(tableau, [fmpq(1)], fmpq(1, 10**60)).a_stable is False
 
 
 @pytest.mark.parametrize(
@@ -92,7 +91,7 @@ def test_a_root_that_cancels_is_no_pole(A: str, b: str) -> None:
     tableau = loads(f"methods: [{{A: {A}, b: {b}}}]").tableau
     R = stability_function(tableau)
     assert is_a_stable(R)
-    found = stability_within(tableau, [fmpq(1)], TOLERANCE, 0)
+    found = stability_within(tableau, [fmpq(1)], fmpq(1, 10**60))
     assert found.a_stable is not False
     assert found.l_stable in {None, is_l_stable(R)}
 
@@ -100,46 +99,5 @@ def test_a_root_that_cancels_is_no_pole(A: str, b: str) -> None:
 def test_a_pole_on_the_left_that_stays_decides() -> None:
     """R = 1/(1 + z) has |R(iy)| ≤ 1 for all y, and a pole at −1 for all neighbours."""
     tableau = loads("methods: [{A: [[-1]], b: [-1]}]").tableau
-    found = stability_within(tableau, [fmpq(1)], TOLERANCE, 0)
+    found = stability_within(tableau, [fmpq(1)], fmpq(1, 10**60))
     assert found.a_stable is False
-
-
-@pytest.mark.parametrize(("units", "expected"), [(fmpq(9, 10), None), (fmpq(20), True)])
-def test_coefficients_that_are_added_add_their_rounding(units: fmpq, expected: bool | None) -> None:
-    """Two matrices on one stage, a = 1/2 + u t each: A-stable where their sum is 1 or more. Each may
-    be off by t, so that u = 9/10 leaves it open, though the sum is 1.8 t above 1; u = 20 decides.
-    """
-    a = fmpq(1, 2) + units * TOLERANCE
-    one = fmpq(1)
-    both = additive([((a,),), ((a,),)], [(one,), (one,)], None)
-    assert is_a_stable(stability_function(both))
-    assert stability_of_rounded(both, TOLERANCE).linear[0].a_stable is expected
-
-
-@pytest.mark.parametrize(
-    ("first", "second", "stiff"),
-    [
-        (("1/2", "1/2"), ("1/2", "1/2"), True),
-        (("1/3", "1/2"), ("2/3", "1/2"), False),
-        (("1", "1"), ("0", "0"), True),
-        (("1/4", "1/2"), ("1/4", "1/2"), False),
-    ],
-)
-def test_the_last_stage_is_compared_colour_by_colour(
-    first: tuple[str, str], second: tuple[str, str], stiff: bool
-) -> None:
-    """One stage with a^{1}, a^{2} and b^{1}, b^{2}: where a^{1} + a^{2} = b^{1} + b^{2} by chance,
-    neighbours have R(∞) ≠ 0, and L-stability is left open. The property says the same.
-    """
-    numbers = [fmpq(*map(int, x.split("/"))) for x in (*first, *second)]
-    a, b, other_a, other_b = numbers
-    both = additive([((a,),), ((other_a,),)], [(b,), (other_b,)], None)
-    shares = [fmpq(1), fmpq(1)]
-    assert is_stiffly_accurate(both, shares) is stiff
-    assert has_new_value_as_stage(both) is stiff
-    found = stability_within(both, shares, TOLERANCE, 0)
-    if a + other_a == b + other_b:
-        assert is_l_stable(stability_function(both))
-        assert found.l_stable is (True if stiff else None)
-    alone = stability_within(both, [fmpq(1), fmpq(0)], TOLERANCE, 0)
-    assert alone.l_stable is (a == b)

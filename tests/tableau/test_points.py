@@ -18,11 +18,11 @@ from garkcli.exact.field import Algebraic, Number
 from garkcli.exact.matrix import Vector, apply, dot
 from garkcli.families.registry import diagonal_method
 from garkcli.order.certificate import find_order
+from garkcli.order.meant import meant
 from garkcli.order.simplifying import simplifying
 from garkcli.tableau import polynomial_space
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.forms import gark, pair, spelled_out
-from garkcli.tableau.meant import meant
 from garkcli.tableau.pointwise import (
     Cell,
     coordinates_at_nodes,

@@ -17,8 +17,8 @@ from garkcli.methodfile.constructed.parts import METHOD, PartReader
 from garkcli.methodfile.description import ConstructionText, PartText
 from garkcli.methodfile.values import Values as Numbers
 from garkcli.order.deciding import order_of
+from garkcli.order.meant import meant
 from garkcli.properties.symmetry import symmetry
-from garkcli.tableau.meant import meant
 from garkcli.tableau.tableau import Tableau
 
 _FORM = "write for instance {of: {family: gauss, stages: 1}, order: 6}"
@@ -120,8 +120,8 @@ def _read(at: PartReader, found: g.Found, _: str) -> ConstructionText:
         at.rounding(at.tolerance),
     )
 
-    def made(tableau_of: Callable[[PartText], Tableau], _: Numbers) -> Tableau:
-        return plan.made(tableau_of(found["of"]))
+    def made(tableau_of: Callable[[PartText], Tableau], numbers: Numbers) -> Tableau:
+        return plan.made(tableau_of(found["of"]), numbers)
 
     return at.made(found.node, made)
 
@@ -143,8 +143,8 @@ class _Plan(Frozen):
     is_symmetric: bool | None
     tolerance: fmpq | None
 
-    def made(self, base: Tableau) -> Tableau:
-        """The extrapolated method.
+    def made(self, base: Tableau, numbers: Numbers) -> Tableau:
+        """The extrapolated method; its order and its symmetry are those of the printed numbers.
 
         Raises:
             MethodError: the order of the method is not known, or already high enough.
@@ -156,16 +156,20 @@ class _Plan(Frozen):
                 message, "say from: its order, and symmetric: true or false", code="free-parameters"
             )
         if is_symmetric is None:
-            is_symmetric = bool(symmetry(base, self.tolerance or ZERO).holds)
+            is_symmetric = numbers.once(
+                ("symmetric", id(self)), lambda: bool(symmetry(base, self.tolerance or ZERO).holds)
+            )
         if order is None:
-            order = order_of(meant(base, self.tolerance), MAX_ORDER).order
+            order = numbers.once(
+                ("order", id(self)), lambda: order_of(meant(base, self.tolerance), MAX_ORDER).order
+            )
         if order < 1:
             message = "the method has order 0: its error does not go to 0 with h"
             raise MethodError(message, "extrapolate a consistent one", code="not-consistent")
-        numbers = self.sequence
-        if isinstance(numbers, str):
-            numbers = self._by_name(numbers, order, is_symmetric)
-        return extrapolated(base, numbers, order, is_symmetric)
+        sequence_of_steps = self.sequence
+        if isinstance(sequence_of_steps, str):
+            sequence_of_steps = self._by_name(sequence_of_steps, order, is_symmetric)
+        return extrapolated(base, sequence_of_steps, order, is_symmetric)
 
     def _by_name(self, name: str, order: int, is_symmetric: bool) -> tuple[int, ...]:
         gap = 2 if is_symmetric else 1

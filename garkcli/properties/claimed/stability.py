@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from flint import acb, acb_poly, arb, ctx, fmpq
 
 from garkcli.exact.cells import Interval, between, first_end
-from garkcli.exact.display import to_ball
+from garkcli.exact.display import in_digits, to_ball
 from garkcli.exact.field import ZERO
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import (
@@ -27,19 +27,21 @@ from garkcli.stability.linear import StabilityFunction, e_polynomial, imaginary_
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
+    from garkcli.stability.ball_polynomials import Bounds
     from garkcli.stability.oscillator import OscillatorStability
 
 _BITS = 128
 _DIGITS = 6
+_DIGITS_OF_ENDS = 15
 _LONG = 60
 """Longer polynomials are not shown."""
 
 
 def decide_within(found: bool | None) -> Verdict:
-    """A verdict on all methods within a tolerance."""
+    """A verdict on a method that is known to many bits."""
     if found is None:
-        return Verdict.undecided("methods within the tolerance differ, or seem to")
-    return Verdict.unless(NO_REASON if found else Reason("no method within the tolerance is"))
+        return Verdict.undecided("a polynomial is too near to zero where it has a sign")
+    return Verdict(found)
 
 
 def obstacle_to_a_stability(R: StabilityFunction) -> Reason:
@@ -234,13 +236,27 @@ def ssp_coefficient(subject: Subject) -> Verdict:
     if subject.points is None:
         return Verdict.undecided("the nodes have no simple radicals")
     negative = _negative(subject.points, subject.tolerance)
-    if subject.tolerance and not negative:
-        return Verdict.undecided("the coefficients are rounded")
     if negative:
         return Verdict(Size(RealRoot.rational(ZERO)), negative)
+    if subject.tolerance:
+        return _between(subject.intervals.ssp)
     found = ssp_coefficient(subject.points)
     assert found is not None
     return Verdict(Size(found.value))
+
+
+def _between(found: Bounds, is_squared: bool = False) -> Verdict:
+    """A number that is known between bounds, to so many digits as they share."""
+    if found.low is None:
+        return Verdict(Size(None))
+    if found.high is None:
+        return Verdict.undecided("its end is not found")
+    low, high = arb(found.low), arb(found.high)
+    with ctx.workprec(_BITS):
+        ball = low.union(high).sqrt() if is_squared else low.union(high)
+        if not ball.rad() < abs(ball) * arb(10) ** -_DIGITS_OF_ENDS and ball != 0:
+            return Verdict.undecided("its end is not found to enough digits")
+        return Verdict(Size(RealRoot.rational(in_digits(ball, _DIGITS_OF_ENDS))))
 
 
 def _negative(tableau: Tableau, tolerance: fmpq) -> Reason:
@@ -270,7 +286,7 @@ def real_stability(subject: Subject) -> Verdict:
     if not subject.is_linear:
         return Verdict.meaningless(MISSING_BLOCKS)
     if subject.tolerance:
-        return Verdict.undecided("the coefficients are rounded")
+        return _between(subject.intervals.real)
     return Verdict(Size(first_end(real_set(subject.linear))))
 
 
@@ -289,6 +305,6 @@ def imaginary_stability(subject: Subject) -> Verdict:
     if not subject.is_linear:
         return Verdict.meaningless(MISSING_BLOCKS)
     if subject.tolerance:
-        return Verdict.undecided("the coefficients are rounded")
+        return _between(subject.intervals.imaginary, is_squared=True)
     squared = first_end(imaginary_set(subject.linear))
     return Verdict(Size(None if squared is None else square_root(squared)))

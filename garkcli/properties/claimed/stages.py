@@ -25,7 +25,6 @@ from garkcli.properties.symmetry import MOST_TRIALS, symmetry
 from garkcli.reason import NO_REASON, Reason
 from garkcli.stability.algebraic import algebraic_within, contractivity, negative_pivot
 from garkcli.tableau.embedded import Further, as_colours
-from garkcli.tableau.meant import meant
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
@@ -189,17 +188,15 @@ def reducible(subject: Subject) -> Verdict:
     whole = as_colours(tableau, further)
     if is_plainly_irreducible(whole, subject.tolerance):
         return Verdict(False, Reason("every stage has a weight, and no two have the same row sums"))
-    smaller = reduced(whole) if further else subject.reduced
+    smaller = reduced(whole, subject.tolerance) if further else subject.reduced
     if smaller is None:
         return Verdict.undecided("stages at irrational nodes are not compared")
     if sizes(smaller) != sizes(tableau):
         stages = ", ".join(str(space.stages) for space in smaller.spaces)
         return Verdict(True, Reason("{} stages do the same", stages))
-    if subject.tolerance:
-        return Verdict.undecided("rounding may hide equal stages")
     if further and subject.reduced is not None and sizes(subject.reduced) != sizes(tableau):
         return Verdict(False, Reason("{} need stages that b does without", _names(further)))
-    matters = stages_that_matter(smaller)
+    matters = stages_that_matter(smaller, subject.tolerance)
     idle = [(k, 0) for k, x in enumerate(smaller.spaces) if x.stages == 1 and (k, 0) not in matters]
     if idle:
         stage = stages_name(tableau, idle)
@@ -248,10 +245,11 @@ def weak_stage_order(subject: Subject) -> Verdict:
     of time.
     """
     colours = range(subject.tableau.size)
-    method = meant(subject.tableau, subject.tolerance)
-    least = weak_order(method, colours, subject.limit)
+    least = weak_order(subject.defects, colours, subject.limit)
     found = (
-        [least] if len(colours) == 1 else [weak_order(method, [l], subject.limit) for l in colours]
+        [least]
+        if len(colours) == 1
+        else [weak_order(subject.defects, [l], subject.limit) for l in colours]
     )
     return Verdict(least, _by_colour(subject, found), is_at_least=least >= subject.limit)
 

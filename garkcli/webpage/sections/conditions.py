@@ -10,9 +10,9 @@ from garkcli.frozen import Frozen
 from garkcli.methodfile.build import MethodFile
 from garkcli.ntrees.notation import format_tree
 from garkcli.order.conditions import Condition, all_conditions, count_conditions
+from garkcli.order.meant import meant
 from garkcli.report.conditions import ConditionRow, is_parametric, row_of
 from garkcli.tableau.garkmethod import derivation_of
-from garkcli.tableau.meant import meant
 from garkcli.tableau.tableau import Tableau
 from garkcli.tell.dialect import Plain
 from garkcli.webpage.mathml import typeset_condition, typeset_number

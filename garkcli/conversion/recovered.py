@@ -1,0 +1,187 @@
+"""The method that the authors of a rounded file meant, to as many digits as one wants."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from operator import ge
+from typing import TYPE_CHECKING, Any
+
+from flint import arb, ctx, fmpq
+
+from garkcli.check.deciding import analyse
+from garkcli.conversion.sheet import CannotConvert, Sheet
+from garkcli.design.search.proposing import PRECISION, exact_form
+from garkcli.exact.affine import Affine
+from garkcli.exact.display import plain_decimal
+from garkcli.exact.enclosing import midpoint
+from garkcli.exact.field import Number
+from garkcli.frozen import Frozen, replace
+from garkcli.order.meant import as_meant
+from garkcli.order.polishing import BITS_OF_A_DIGIT, SPARE_DIGITS, polished
+from garkcli.order.rounded import RoundedTableau
+from garkcli.tableau.embedded import from_colours
+from garkcli.tableau.garkmethod import GarkMethod
+from garkcli.tableau.stages import PointSpace
+
+if TYPE_CHECKING:
+    from garkcli.check.analysis import Analysis
+    from garkcli.order.deciding import AnyOrder
+    from garkcli.order.dense import DenseOrder
+    from garkcli.tableau.tableau import Tableau
+
+DIGITS = 50
+"""After the point, unless others are requested or the file has more."""
+DIGITS_OF_A_ROOT = 20
+"""So many tell the root of a polynomial from its others."""
+FEWEST_TO_RECOGNISE = 40
+"""Fewer digits speak for no exact number."""
+
+
+class Recovered(Frozen, eq=False):
+    """The method that a rounded one is taken to be.
+
+    Attributes:
+        sheet: its entries: those that no rounded number is in as they are, others with the wanted
+            digits.
+        tolerance: a unit of the last digit: with half a unit the method is at an end of many radii,
+            where no search finds it again.
+        exact: texts of numbers that are no decimals, by their values.
+        proposals: texts of exact numbers that the digits speak for, likewise; the shortest first.
+        orders: of the method, its conjugate, its pair, its embedded weights and dense output.
+    """
+
+    sheet: Sheet
+    tolerance: fmpq
+    exact: Mapping[Number, str]
+    proposals: Mapping[Number, str]
+    orders: tuple[int, ...]
+
+    def text_with(self, proposals: Mapping[Number, str]) -> Callable[[Number], str]:
+        """How coefficients are written where some exact numbers are taken."""
+        known = {**self.exact, **proposals}
+
+        def text(number: Number) -> str:
+            assert isinstance(number, fmpq)
+            return known.get(number) or plain_decimal(number)
+
+        return text
+
+    def tolerance_with(self, proposals: Mapping[Number, str]) -> fmpq | None:
+        """The tolerance of a file with these; None where it has no decimals."""
+        known = {fmpq(0), *self.exact, *proposals}
+        return None if all(x in known for x in _numbers(self.sheet)) else self.tolerance
+
+
+def recovered(
+    method: GarkMethod, digits: int | None = None, is_recognising: bool = False
+) -> Recovered:
+    """The method that a rounded one is taken to be, with so many digits after the point.
+
+    Args:
+        method: with a tolerance.
+        digits: after the point; None for 50, or as many as the tolerance has where it has more.
+        is_recognising: whether to look for exact numbers.
+
+    Raises:
+        CannotConvert: there is no rounding.
+        MethodError: no more digits of it are known.
+    """
+    if method.tolerance is None:
+        message = "the coefficients are exact: there is nothing to recover"
+        cure = "a line such as tolerance: 1e-10 says that they are rounded"
+        raise CannotConvert(message, cure)
+    if digits is None:
+        digits = max(DIGITS, len(str((1 / method.tolerance).floor())))
+    # as gark check has it: with the orders of the conjugate and the pair as well
+    analysis = analyse(method.tableau, tolerance=method.tolerance, further=method.further)
+    meant = as_meant(method)
+    assert isinstance(meant, RoundedTableau)
+    search = meant.search
+    many = max(digits, FEWEST_TO_RECOGNISE) if is_recognising else digits
+    place = polished(search, many)
+    with ctx.workprec(int((many + 2 * SPARE_DIGITS) * BITS_OF_A_DIGIT)):
+        made = search.box.around(place.shifts).made
+    unit = fmpq(10) ** -digits
+    exact: dict[Number, str] = {}
+    found: dict[Number, str] = {}
+
+    def entry(value: Any, form: Any) -> Number:
+        """The number as it is written."""
+        if isinstance(value, fmpq) and not isinstance(form, Affine):
+            exact[value] = str(value)
+            return value
+        middle = midpoint(value) if isinstance(value, arb) else value
+        near = _nearest(middle, unit)
+        if is_recognising and near not in found:
+            text = _recognised(middle, many)
+            if text is not None:
+                found[near] = text
+        return near
+
+    with ctx.workprec(place.search.bits):
+        values = search.box.at(place.shifts)
+    whole = _entry_by_entry(values, made, entry)
+    sheet = Sheet(*from_colours(whole, search.printed_further))
+    shortest = dict(sorted(found.items(), key=lambda x: len(x[1])))
+    return Recovered(sheet, unit, exact, shortest, tuple(_orders(analysis)))
+
+
+def _nearest(x: fmpq, unit: fmpq) -> fmpq:
+    """The multiple of a unit that is nearest to a number."""
+    return unit * (x / unit + fmpq(1, 2)).floor()
+
+
+def _recognised(x: fmpq, digits: int) -> str | None:
+    """An exact number that so many digits speak for; all that are known agree with it."""
+    near = plain_decimal(_nearest(x, fmpq(10) ** -DIGITS_OF_A_ROOT))
+    found = exact_form(x, digits, near)
+    if found is None:
+        return None
+    text, exact = found
+    with ctx.workprec(PRECISION):
+        agrees = abs(arb(exact) - arb(x)) < arb(10) ** -(digits + SPARE_DIGITS - 2)
+    return text if agrees else None
+
+
+def _entry_by_entry(
+    values: Tableau, forms: Tableau, entry: Callable[[Any, Any], Number]
+) -> Tableau:
+    """The tableau with each entry made of its value and its form."""
+
+    def row(some: Sequence[Any], others: Sequence[Any]) -> tuple[Number, ...]:
+        return tuple(map(entry, some, others))
+
+    colours = tuple(
+        replace(x, b=row(x.b, y.b), c=row(x.c, y.c))
+        for x, y in zip(values.colours, forms.colours, strict=True)
+    )
+    blocks = {
+        key: tuple(map(row, block, forms.blocks[key])) for key, block in values.blocks.items()
+    }
+    spaces = tuple(
+        PointSpace(next(x.c for x in colours if x.space == k)) for k in range(len(values.spaces))
+    )
+    return replace(values, spaces=spaces, colours=colours, blocks=blocks)
+
+
+def _numbers(sheet: Sheet) -> Iterator[Number]:
+    """All numbers that a file of it has."""
+    for row in sheet.tableau.rows:
+        yield from row
+    for weights in sheet.further.rows:
+        for row in weights:
+            yield from row
+
+
+def is_as_good(made: GarkMethod, found: Recovered) -> bool:
+    """Whether a method has all orders of the recovered one."""
+    analysis = analyse(made.tableau, tolerance=made.tolerance, further=made.further)
+    return all(map(ge, _orders(analysis), found.orders))
+
+
+def _orders(a: Analysis) -> list[int]:
+    """The orders of a method, its conjugate, its pair, its embedded weights and dense output."""
+    found: list[AnyOrder | DenseOrder | None] = [a.order, a.conjugate_order, a.pair_order]
+    found.append(None if a.embedded is None else a.embedded.order)
+    found.append(None if a.dense is None else a.dense.order)
+    return [0 if x is None else x.order for x in found]

@@ -1,0 +1,528 @@
+"""Values of unknowns beside rounded numbers: those of one method within the rounding.
+
+The conditions of a family whose numbers are rounded contradict each other in their last digits. So
+values are sought that meet them up to the rounding; from these one method is recovered, with its
+numbers within the tolerance and its unknowns near the values (``order.recovering``); and at its
+numbers, known to many bits, the conditions are solved again: what is left of them and of their
+rank is zero or is none.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Protocol
+
+from flint import arb, ctx, fmpq, fmpq_mpoly
+
+from garkcli.deadline import check_time, within
+from garkcli.design.conditions import FamilyConditions
+from garkcli.design.member import TABLEAUS, Whose, member
+from garkcli.design.rounded_system import RoundedSystem, Solved
+from garkcli.design.search.least_squares import least_squares
+from garkcli.design.search.search import Search
+from garkcli.errors import (
+    MethodError,
+    MethodFileError,
+    NotDecided,
+    VanishingDenominator,
+    ZeroWeight,
+)
+from garkcli.exact.display import to_float
+from garkcli.exact.field import Number
+from garkcli.exact.rounding import in_decimals
+from garkcli.frozen import Frozen
+from garkcli.ntrees.tree import Tree
+from garkcli.order.certificate import DEFAULT_LIMIT
+from garkcli.order.meant import derived
+from garkcli.tableau.embedded import with_weights
+from garkcli.tableau.family import Family
+from garkcli.tableau.tableau import Tableau
+from garkcli.upward import Shown
+
+if TYPE_CHECKING:
+    from garkcli.order.rounded import RoundedTableau
+
+BITS = 300
+"""Of numbers as they are printed, at least."""
+STARTS = 100
+"""Random starts where conditions are not linear."""
+TRIES = 20
+"""Choices of unknowns that are free, for one with the ranges and signs that are wanted."""
+MOST = 5
+"""Solutions that are sought where conditions are not linear."""
+WIDTHS = (30, 300, 3000, 30_000)
+"""By how many tolerances values of unknowns may move."""
+WIDEST = fmpq(1, 100)
+LOOSE = 10_000
+"""So many tolerances may be left of conditions before a method is recovered."""
+GRAINS = 1024
+"""Residuals of so many grains are zeros, where values are solved for."""
+SAME_REACH = fmpq(1, 100)
+"""What bounds of rounding differ by where unknowns take no part."""
+SAME = 1e-6
+"""Solutions no further apart in any unknown are one."""
+
+
+class Rounding(Protocol):
+    """A family whose numbers are rounded."""
+
+    @property
+    def family(self) -> Family:
+        """As it is printed."""
+
+    @property
+    def tolerance(self) -> fmpq:
+        """The rounding."""
+
+    def at(self, shifts: Sequence[fmpq], bits: int) -> Family:
+        """With numbers that are off by these shares of the tolerance, nothing for none."""
+
+    def filled(self, values: Mapping[str, fmpq], digits: int, width: fmpq) -> Any:
+        """With values for the unknowns that may move by a width: ``rounded``, the method, and
+        ``shifts``, by how much its own numbers are off in the end.
+        """
+
+
+class ValuesWithin(Frozen, eq=False):
+    """Values of the unknowns, of one method within the tolerance.
+
+    Attributes:
+        values: each to many digits.
+        directions: of each unknown that depends on free ones to first order, by how much; of linear
+            conditions that is all.
+        free: the unknowns that are free around it.
+        distance: by how much a number of the file is off at most, in units of the tolerance.
+        is_admitted: whether it is in the ranges and has the signs that are wanted.
+        order: the largest order that the method is found to have.
+        embedded: the order of the embedded weights; None where there are none.
+    """
+
+    values: Mapping[str, fmpq]
+    directions: Mapping[str, Mapping[str, fmpq]]
+    free: tuple[str, ...]
+    distance: float
+    is_admitted: bool
+    order: int
+    embedded: int | None = None
+
+    def text(self, name: str, digits: int) -> str:
+        """The value of an unknown with so many decimals."""
+        return in_decimals(self.values[name], digits)
+
+    @property
+    def dimension(self) -> int:
+        """Of the solutions around it."""
+        return len(self.free)
+
+
+class StepWithin(Frozen, eq=False):
+    """What is known of an order.
+
+    Attributes:
+        order: the order.
+        found: methods that have it.
+        is_linear: whether the conditions are linear in the unknowns.
+        printed: the dimension of what the digits as printed leave, -1 where they contradict each
+            other; None where that is not known, as conditions are not linear.
+        left: what is left of the conditions as printed, where nothing was found.
+        witness: a tree whose condition concerns known numbers alone, and which no method within
+            the tolerance meets: that is proved.
+    """
+
+    order: int
+    found: tuple[ValuesWithin, ...] = ()
+    is_linear: bool = True
+    printed: int | None = None
+    left: float | None = None
+    witness: Tree | None = None
+
+    @property
+    def has_methods(self) -> bool | None:
+        """Whether methods have the order; None where it is not decided."""
+        if any(x.is_admitted for x in self.found):
+            return True
+        return None if self.witness is None else False
+
+
+class DesignWithin(Shown, Frozen, eq=False):
+    """Values of unknowns within a tolerance.
+
+    Attributes:
+        family: as it is printed.
+        whose: which order is meant.
+        tolerance: the rounding of its numbers.
+        steps: the highest order that was found, if any, and the one that was not.
+    """
+
+    family: Family
+    whose: Whose
+    tolerance: fmpq
+    steps: tuple[StepWithin, ...]
+
+    @property
+    def digits(self) -> int:
+        """Decimals of values that the tolerance leaves, and two more."""
+        return len(str(int((1 / self.tolerance).floor()))) + 1
+
+    @property
+    def best(self) -> StepWithin | None:
+        """The highest order with methods."""
+        return next((x for x in reversed(self.steps) if x.has_methods), None)
+
+    def reaches(self, order: int = 1) -> bool | None:
+        """Whether methods of the file have the order; None where that is not decided."""
+        if self.best is not None and self.best.order >= order:
+            return True
+        last = self.steps[-1]
+        return False if last.order <= order and last.has_methods is False else None
+
+    def __repr__(self) -> str:
+        highest = 0 if self.best is None else self.best.order
+        return f"<DesignWithin {self.family.name}: order {highest} is found>"
+
+
+def find_within(
+    rounding: Rounding,
+    order: int | None = None,
+    whose: Whose = "method",
+    seconds: float | None = None,
+) -> DesignWithin:
+    """Values of the unknowns with which methods within the tolerance have an order.
+
+    Args:
+        rounding: a family with rounded numbers.
+        order: the order wanted; where it is not given, as far as values are found.
+        whose: of the method, its symplectic conjugate, or its symplectic pair.
+        seconds: after which the rest stays undecided; None for no limit.
+
+    Raises:
+        ZeroWeight: a weight is zero for every value, and there is no conjugate.
+    """
+    with within(seconds):
+        return _Finding(rounding, whose).design(order or rounding.family.order)
+
+
+class _Finding:
+    """The search for values.
+
+    Args:
+        rounding: a family with rounded numbers.
+        whose: which order is meant.
+    """
+
+    def __init__(self, rounding: Rounding, whose: Whose) -> None:
+        self.rounding = rounding
+        self.whose = whose
+        self.family = rounding.family
+        self.tolerance = rounding.tolerance
+        self.digits = len(str(int((1 / rounding.tolerance).floor()))) + 20
+        self.bits = max(BITS, 8 * self.digits)
+        self.printed = _Conditions(rounding.at((), self.bits), whose)
+
+    def design(self, wanted: int | None) -> DesignWithin:
+        """The steps up to the order that is wanted, or as far as values are found."""
+        steps: list[StepWithin] = []
+        if wanted is not None:
+            steps = [self._step(wanted)]
+        if not steps or not steps[-1].has_methods:
+            lower = self._lower(DEFAULT_LIMIT if wanted is None else wanted - 1)
+            steps = [*lower, *steps] if wanted is not None else lower
+        return DesignWithin(self.family, self.whose, self.tolerance, tuple(steps))
+
+    def _lower(self, most: int) -> list[StepWithin]:
+        """The highest order with methods up to one, and the next."""
+        steps: list[StepWithin] = []
+        for order in range(1, most + 1):
+            steps = [*steps[-1:], self._step(order)]
+            if not steps[-1].has_methods:
+                break
+        return steps
+
+    def _step(self, order: int) -> StepWithin:
+        try:
+            return self._examined(order)
+        except NotDecided:
+            return StepWithin(order)
+
+    def _examined(self, order: int) -> StepWithin:
+        """What is known of an order.
+
+        Raises:
+            NotDecided: the time is not enough.
+        """
+        import numpy as np
+
+        if self.family.impossible or self.family.unsettled:
+            return StepWithin(order)
+        conditions = self.printed.of_order(order)
+        system = RoundedSystem(conditions, self.unknowns, self.bits)
+        start = [arb(x) for x in self._start()]
+        printed = None
+        if system.is_linear:
+            exact = system.solve(start, arb(2) ** (100 - self.bits))
+            assert exact is not None
+            is_met = exact.left < arb(2) ** (100 - self.bits)
+            printed = len(exact.free) if is_met else -1
+        loose = (arb(self.tolerance) * LOOSE).min(arb("0.01"))
+        found: list[ValuesWithin] = []
+        seen: list[list[float]] = []
+        left: arb | None = None
+        for solved in self._solutions(system, order, start):
+            if not solved.left < loose:
+                left = solved.left if left is None else left.min(solved.left)
+                if system.is_linear:
+                    break
+                continue
+            point = [float(x) for x in solved.point]
+            if any(np.allclose(point, other, rtol=0, atol=SAME) for other in seen):
+                continue
+            seen.append(point)
+            values = self._recovered(solved, order)
+            if values is not None:
+                self._add(found, values)
+            is_enough = found and found[0].is_admitted and found[0].dimension > 0
+            if is_enough or len(found) >= MOST or len(seen) >= TRIES:
+                break
+        witness = None if found else self._witness(order)
+        rest = None if left is None or found else float(left.mid())
+        return StepWithin(order, tuple(found), system.is_linear, printed, rest, witness)
+
+    def _add(self, found: list[ValuesWithin], values: ValuesWithin) -> None:
+        """Keep values that are new: those that are admitted in place of others."""
+        if values.is_admitted:
+            found[:] = [x for x in found if x.is_admitted]
+        elif any(x.is_admitted for x in found):
+            return
+        if values.dimension and found:
+            return
+        for other in found:
+            if all(abs(to_float(values.values[k] - x)) <= SAME for k, x in other.values.items()):
+                return
+        found.append(values)
+
+    @property
+    def unknowns(self) -> int:
+        """The parameters, and roots of them."""
+        return len(self.printed.family.ring.names)
+
+    def _start(self) -> list[fmpq]:
+        """0 for each unknown, or the middle of its range where 0 is not in it."""
+        start = []
+        for name in self.printed.family.ring.names:
+            low, high = self.family.ranges.get(name, (None, None))
+            if (low is None or low <= 0) and (high is None or high >= 0):
+                start.append(fmpq(0))
+            else:
+                ends = [x for x in (low, high) if x is not None]
+                start.append(sum(ends, fmpq(0)) / len(ends))
+        return start
+
+    def _solutions(
+        self, system: RoundedSystem, order: int, start: Sequence[arb]
+    ) -> Iterator[Solved]:
+        """Points that meet the conditions, as printed, as far as their rounding lets them."""
+        noise = arb(to_float(self.tolerance) ** (2 / 3))
+        first = system.solve(start, noise)
+        if first is not None:
+            yield first
+            if system.is_linear and not first.free:
+                return
+        search = Search(self.printed.family, order, self.whose)
+        if system.is_linear:
+            for point in search.starts(0, TRIES):
+                solved = system.solve([arb(x) for x in point], noise)
+                if solved is not None:
+                    yield solved
+            return
+        import numpy as np
+
+        columns = np.ascontiguousarray(np.array(list(search.starts(0, STARTS))).transpose())
+        small = max(1e-13, 1000 * to_float(self.tolerance))
+        minima = least_squares(search.conditions.at, columns, small=small)
+        for k in np.flatnonzero(minima.succeeded):
+            check_time()
+            solved = system.solve([arb(float(x)) for x in minima.points[:, k]], noise)
+            if solved is not None:
+                yield solved
+
+    # one method
+
+    def _recovered(self, near: Solved, order: int) -> ValuesWithin | None:
+        """The values of a method within the tolerance that has the order, near others; None where
+        none is found.
+        """
+        names = self.printed.family.ring.names
+        values = dict(zip(names, map(_rational, near.point), strict=True))
+        own = {name: values[name] for name in self.family.parameters}
+        widths = (width * self.tolerance for width in WIDTHS)
+        for width in (x for x in widths if x <= WIDEST):
+            check_time()
+            try:
+                filled = self.rounding.filled(own, self.digits, width)
+                rounded = self._meant(filled)
+            except (MethodFileError, MethodError, ZeroWeight):
+                return None
+            if rounded.search.order_of(rounded.name, order)[0] < order:
+                continue
+            found = self._at(filled, rounded, values, order)
+            if found is not None:
+                return found
+        return None
+
+    def _meant(self, filled: Any) -> RoundedTableau:
+        """The tableau whose order is meant.
+
+        Raises:
+            ZeroWeight: there is no conjugate.
+        """
+        rounded: RoundedTableau = filled.rounded
+        found = derived(rounded, self.whose)
+        assert not isinstance(found, Tableau)
+        return found
+
+    def _at(
+        self, filled: Any, rounded: RoundedTableau, values: Mapping[str, fmpq], order: int
+    ) -> ValuesWithin | None:
+        """The conditions at the numbers of one method, solved; None where they contradict each
+        other there.
+        """
+        search = rounded.search
+        search.settled  # noqa: B018 -- it moves to a method with all that is asked
+        shifts = filled.shifts()
+        conditions = _Conditions(self.rounding.at(shifts, search.bits), self.whose)
+        system = RoundedSystem(conditions.of_order(order), self.unknowns, search.bits)
+        solved = system.solve([arb(x) for x in values.values()], search.small)
+        if solved is None or not solved.left < search.small:
+            return None
+        names = conditions.family.ring.names
+        parameters = set(self.family.parameters)
+        bound = {names[k]: solved.slopes(k) for _, k in solved.pivots if names[k] in parameters}
+        directions = {
+            name: {names[k]: _rational(x) for k, x in slopes.items() if not abs(x) < search.small}
+            for name, slopes in bound.items()
+        }
+        points = {names[k]: _rational(x) for k, x in enumerate(solved.point)}
+        grain = search.grain * GRAINS
+        try:
+            own, embedded = conditions.orders(points, grain)
+        except VanishingDenominator:
+            return None
+        return ValuesWithin(
+            values=points,
+            directions=directions,
+            free=tuple(names[k] for k in solved.free),
+            distance=max((abs(to_float(x)) for x in shifts), default=0.0),
+            is_admitted=conditions.admits(solved.point, search.small),
+            order=own,
+            embedded=embedded,
+        )
+
+    def _witness(self, order: int) -> Tree | None:
+        """A tree whose condition has no unknown, and which no rounding explains."""
+        names, width = self.family.parameters, self.tolerance
+        [start] = Search(self.printed.family, 1, self.whose).starts(0, 1)
+        small = [fmpq(int(x * 1000) + 1, 1009) for x in start]
+        probes = [small, [1000 * x for x in small]]
+        for tree in self.printed.of_known_numbers(order):
+            try:
+                one, other = (
+                    self._meant(
+                        self.rounding.filled(dict(zip(names, x, strict=False)), self.digits, width)
+                    )
+                    for x in probes
+                )
+            except (MethodFileError, MethodError, ZeroWeight):
+                return None
+            # where rounding makes unknowns matter, large ones may do more than it
+            reach, far = one.allowed(tree), other.allowed(tree)
+            if abs(far - reach) <= SAME_REACH * reach and not other.explains(tree):
+                return tree
+        return None
+
+
+class _Conditions:
+    """Everything that is asked of the unknowns of a family."""
+
+    def __init__(self, family: Family, whose: Whose) -> None:
+        self.family = family
+        self.whose = whose
+        self._conditions = FamilyConditions(TABLEAUS[whose](family.tableau), family.ring)
+
+    @cached_property
+    def _relations(self) -> list[fmpq_mpoly]:
+        roots = [x.relation for x in self.family.radicals]
+        return [p for p in (*roots, *self.family.relations) if p]
+
+    @cached_property
+    def _known(self) -> dict[int, list[Any]]:
+        return {}
+
+    def _of(self, order: int) -> list[Any]:
+        if order not in self._known:
+            self._known[order] = [x for x in self._conditions.of_order(order) if x.polynomial]
+        return self._known[order]
+
+    def of_order(self, order: int) -> list[fmpq_mpoly]:
+        """The polynomials that are zero at methods of an order."""
+        own = [x.polynomial for k in range(1, order + 1) for x in self._of(k)]
+        return [*self._relations, *own]
+
+    def of_known_numbers(self, order: int) -> Iterator[Tree]:
+        """The trees up to an order whose conditions are missed and have no unknown in them."""
+        for k in range(1, order + 1):
+            yield from (x.tree for x in self._of(k) if x.polynomial.is_constant())
+
+    def orders(self, values: Mapping[str, Number], grain: fmpq) -> tuple[int, int | None]:
+        """The order of the method with some values, and of its embedded weights; None for none.
+
+        Args:
+            values: of all unknowns.
+            grain: what residuals are below that count as zero.
+
+        Raises:
+            VanishingDenominator: there is no such method.
+        """
+        family, weights = self.family, self.family.further.embedded
+        own = TABLEAUS[self.whose](member(family.tableau, family.ring, values))
+        if weights is None or self.whose != "method":
+            return _order_of(own, grain), None
+        embedded = member(with_weights(family.tableau, weights), family.ring, values)
+        return _order_of(own, grain), _order_of(embedded, grain)
+
+    def admits(self, point: Sequence[arb], small: arb) -> bool:
+        """Whether a point has the ranges and signs that are wanted, as far as it is known."""
+        family = self.family
+        values = dict(zip(family.ring.names, point, strict=True))
+        for name, (low, high) in family.ranges.items():
+            if low is not None and values[name] < arb(low) - small:
+                return False
+            if high is not None and values[name] > arb(high) + small:
+                return False
+
+        def at(polynomials: Sequence[fmpq_mpoly]) -> list[arb]:
+            system = RoundedSystem([p for p in polynomials if p], len(point), ctx.prec)
+            return system.values(point)
+
+        even = [x.name for x in family.radicals if x.is_even]
+        roots = [family.ring.parameter(name).numerator for name in even]
+        nonzero = at([*family.nonzero, *self._conditions.denominators])
+        return (
+            all(abs(x) > small for x in nonzero)
+            and all(x > small for x in at(family.positive))
+            and all(x > -small for x in at(family.not_negative))
+            and all(x > -small for x in at(roots))
+        )
+
+
+def _order_of(tableau: Tableau, grain: fmpq) -> int:
+    """The order of a method whose residuals below a size are zeros."""
+    from garkcli.order.rounded import tree_missed  # it imports numpy
+
+    missed = (k for k in range(1, DEFAULT_LIMIT + 1) if tree_missed(tableau, k, 1, grain))
+    return next(missed, DEFAULT_LIMIT + 1) - 1
+
+
+def _rational(x: arb) -> fmpq:
+    mantissa, exponent = x.mid().man_exp()
+    return fmpq(mantissa) * fmpq(2) ** int(exponent)

@@ -1,0 +1,325 @@
+"""Affine forms: numbers that depend on others which are known within radii.
+
+A form is c + Σ_k g_k ε_k + ρ with |ε_k| ≤ 1 and |ρ| ≤ r: ε_k is by how much the k-th printed
+number is off, in units of its radius. The centre c is a ball of many bits, the slopes g_k are
+floats, and r bounds what they leave out: their own rounding and all terms of second order. So a
+form encloses what is made of the printed numbers for all numbers within their radii, and equal
+numbers stay equal: a − a is 0.
+
+Slopes and remainders are bounded however floats are rounded: every operation adds a few units in
+the last place of the sizes that take part.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+from flint import arb, arb_mat, ctx, fmpq
+
+from garkcli.exact.display import to_ball, to_float
+from garkcli.exact.enclosing import scalar_product
+from garkcli.exact.field import Algebraic
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping, Sequence
+
+    from numpy.typing import NDArray
+
+    Floats: TypeAlias = NDArray[np.float64]
+
+DIGITS_OF_A_BIT = 0.302
+UNIT = 2.0**-50
+"""Eight units in the last place of a float: more than the rounding of a few operations."""
+LEAST = 1e-300
+"""Added to remainders, as products of smaller numbers may underflow."""
+
+
+def size(ball: arb) -> float:
+    """No less than the absolute value of all numbers in a ball."""
+    return float(ball.abs_upper()) * (1 + UNIT)
+
+
+class Affine:
+    """One form; its slopes are those that are not zero.
+
+    A form is no zero, and equal to nothing but itself: a sum without slopes is a plain number.
+    """
+
+    __slots__ = ("centre", "remainder", "slopes")
+
+    def __init__(self, centre: arb, slopes: Mapping[int, float], remainder: float = 0.0) -> None:
+        self.centre = centre
+        self.slopes = slopes
+        self.remainder = remainder
+
+    @property
+    def reach(self) -> float:
+        """How far the form is from its centre at most."""
+        return (sum(map(abs, self.slopes.values())) + self.remainder) * (
+            1 + len(self.slopes) * UNIT
+        )
+
+    @property
+    def ball(self) -> arb:
+        """All values."""
+        return self.centre + arb(0, self.reach * (1 + UNIT))
+
+    def _combined(self, factor: float, other: Affine, factor_of_other: float) -> dict[int, float]:
+        slopes = {k: factor * g for k, g in self.slopes.items()}
+        for k, g in other.slopes.items():
+            slopes[k] = slopes.get(k, 0.0) + factor_of_other * g
+        return slopes
+
+    def height_bits(self) -> int:
+        """Its length does not grow with that of what it is made of."""
+        return 0
+
+    def __add__(self, other: Any) -> Affine:
+        if not isinstance(other, Affine):
+            return Affine(self.centre + constant(other), self.slopes, self.remainder)
+        slopes = self._combined(1.0, other, 1.0)
+        lost = UNIT * sum(map(abs, slopes.values()))
+        return Affine(self.centre + other.centre, slopes, self.remainder + other.remainder + lost)
+
+    __radd__ = __add__
+
+    def __neg__(self) -> Affine:
+        return Affine(-self.centre, {k: -g for k, g in self.slopes.items()}, self.remainder)
+
+    def __sub__(self, other: Any) -> Affine:
+        return self.__add__(-other)
+
+    def __rsub__(self, other: Any) -> Affine:
+        return (-self).__add__(other)
+
+    def __mul__(self, other: Any) -> Any:
+        if not isinstance(other, Affine):
+            if not other:
+                return fmpq(0)
+            factor = constant(other)
+            x, most = float(factor.mid()), size(factor)
+            slopes = {k: x * g for k, g in self.slopes.items()}
+            rest = most * (self.remainder * (1 + UNIT) + UNIT * self.reach) + LEAST
+            return Affine(self.centre * factor, slopes, rest)
+        x, y = float(self.centre.mid()), float(other.centre.mid())
+        most, most_of_other = size(self.centre), size(other.centre)
+        rest = self.reach * other.reach
+        rest += most * (other.remainder + UNIT * other.reach)
+        rest += most_of_other * (self.remainder + UNIT * self.reach)
+        slopes = self._combined(y, other, x)
+        return Affine(self.centre * other.centre, slopes, rest * (1 + UNIT) + LEAST)
+
+    __rmul__ = __mul__
+
+    def inverse(self) -> Affine:
+        """1/x = 1/c − (x − c)/c² + (x − c)²/(c² x); without a bound where x may be 0."""
+        reach = self.reach
+        nearest = float(self.centre.abs_lower()) * (1 - UNIT)
+        if nearest <= reach * (1 + UNIT):
+            return Affine(arb("nan"), self.slopes, float("inf"))
+        factor = -1 / (self.centre * self.centre)
+        x, most = float(factor.mid()), size(factor)
+        rest = most * (self.remainder + UNIT * reach + reach * reach / (nearest - reach))
+        slopes = {k: x * g for k, g in self.slopes.items()}
+        return Affine(1 / self.centre, slopes, rest * (1 + 8 * UNIT) + LEAST)
+
+    def __truediv__(self, other: Any) -> Any:
+        return self * (other.inverse() if isinstance(other, Affine) else 1 / fmpq(1) / other)
+
+    def __rtruediv__(self, other: Any) -> Any:
+        return self.inverse() * other
+
+    def __pow__(self, exponent: int) -> Any:
+        base = self if exponent >= 0 else self.inverse()
+        result: Any = fmpq(1)
+        for _ in range(abs(exponent)):
+            result = base * result
+        return result
+
+
+def constant(number: Any) -> arb:
+    """A number to the bits of the context."""
+    if isinstance(number, Algebraic):
+        return to_ball(number, int(ctx.prec * DIGITS_OF_A_BIT))
+    return arb(number)
+
+
+class Forms:
+    """A row of forms over the same K printed numbers.
+
+    Args:
+        centres: balls.
+        slopes: shape (forms, K).
+        remainders: one each.
+    """
+
+    __slots__ = ("_middle", "_reach", "centres", "remainders", "slopes")
+
+    def __init__(self, centres: Sequence[arb], slopes: Floats, remainders: Floats) -> None:
+        self.centres = centres
+        self.slopes = slopes
+        self.remainders = remainders
+        self._middle: Floats | None = None
+        self._reach: Floats | None = None
+
+    @staticmethod
+    def of(row: Iterable[Any], numbers: int) -> Forms:
+        """Forms and exact numbers as one row over ``numbers`` printed numbers."""
+        row = list(row)
+        slopes, remainders = np.zeros((len(row), numbers)), np.zeros(len(row))
+        centres = []
+        for i, x in enumerate(row):
+            if isinstance(x, Affine):
+                centres.append(x.centre)
+                for k, g in x.slopes.items():
+                    slopes[i, k] = g
+                remainders[i] = x.remainder
+            else:
+                centres.append(constant(x))
+        return Forms(centres, slopes, remainders)
+
+    @property
+    def are_numbers(self) -> bool:
+        """Whether they depend on nothing: K = 0."""
+        return not self.slopes.shape[1]
+
+    @property
+    def middle(self) -> Floats:
+        """The centres as floats."""
+        if self._middle is None:
+            self._middle = np.array([float(x.mid()) for x in self.centres])
+        return self._middle
+
+    @property
+    def reach(self) -> Floats:
+        """How far each form is from its centre at most, but for its remainder."""
+        if self._reach is None:
+            count = self.slopes.shape[1]
+            self._reach = np.abs(self.slopes).sum(axis=1) * (1 + (count + 8) * UNIT)
+        return self._reach
+
+    def __len__(self) -> int:
+        return len(self.centres)
+
+    def __mul__(self, other: Forms) -> Forms:
+        """The products, form by form."""
+        centres = [x * y for x, y in zip(self.centres, other.centres, strict=True)]
+        if self.are_numbers:
+            return Forms(centres, self.slopes, self.remainders)
+        x, y = self.middle, other.middle
+        slopes = x[:, None] * other.slopes + y[:, None] * self.slopes
+        x, y = np.abs(x) * (1 + UNIT), np.abs(y) * (1 + UNIT)
+        rest = x * (other.remainders + UNIT * other.reach) + y * (
+            self.remainders + UNIT * self.reach
+        )
+        rest += (self.reach + self.remainders) * (other.reach + other.remainders)
+        return Forms(centres, slopes, rest * (1 + 8 * UNIT) + LEAST)
+
+    def scaled(self, factor: fmpq) -> Forms:
+        """The forms times a number."""
+        ball, x = arb(factor), to_float(factor)
+        rest = abs(x) * (self.remainders + UNIT * self.reach)
+        centres = [ball * c for c in self.centres]
+        if self.are_numbers:
+            return Forms(centres, self.slopes, self.remainders)
+        return Forms(centres, x * self.slopes, rest * (1 + UNIT) + LEAST)
+
+    def minus(self, other: Forms, share: fmpq) -> Forms:
+        """The differences with a share of others."""
+        ball, factor = arb(share), to_float(share)
+        centres = [x - ball * y for x, y in zip(self.centres, other.centres, strict=True)]
+        if self.are_numbers:
+            return Forms(centres, self.slopes, self.remainders)
+        rest = self.remainders + abs(factor) * other.remainders
+        rest += UNIT * (self.reach + abs(factor) * other.reach)
+        slopes = self.slopes - factor * other.slopes
+        return Forms(centres, slopes, rest * (1 + 8 * UNIT) + LEAST)
+
+    def dot(self, other: Forms) -> Forms:
+        """The scalar product, a row of one form."""
+        centre = scalar_product(self.centres, other.centres)
+        if self.are_numbers:
+            return Forms([centre], self.slopes[:1], self.remainders[:1])
+        slopes = (self.middle @ other.slopes + other.middle @ self.slopes)[None, :]
+        x, y = np.abs(self.middle), np.abs(other.middle)
+        lost = UNIT * (len(self) + 8)
+        rest = x @ (other.remainders + lost * other.reach) + y @ (
+            self.remainders + lost * self.reach
+        )
+        rest += (self.reach + self.remainders) @ (other.reach + other.remainders)
+        return Forms([centre], slopes, np.array([rest * (1 + lost) + LEAST]))
+
+
+class FormMatrix:
+    """A matrix of forms whose slopes are few: each entry is made of a few printed numbers.
+
+    Args:
+        rows: forms and exact numbers.
+        numbers: K.
+    """
+
+    def __init__(self, rows: Sequence[Sequence[Any]], numbers: int) -> None:
+        height, width = len(rows), len(rows[0])
+        self.numbers = numbers
+        self.centres = arb_mat(height, width)
+        self.remainders = np.zeros((height, width))
+        self.reach = np.zeros((height, width))
+        places: list[tuple[int, int, int]] = []
+        slopes: list[float] = []
+        for i, row in enumerate(rows):
+            for j, x in enumerate(row):
+                if isinstance(x, Affine):
+                    self.centres[i, j] = x.centre
+                    self.remainders[i, j] = x.remainder
+                    self.reach[i, j] = x.reach
+                    places += [(i, j, k) for k in x.slopes]
+                    slopes += x.slopes.values()
+                elif x:
+                    self.centres[i, j] = constant(x)
+        self.middle = np.zeros((height, width))
+        if not numbers:
+            return
+        self._places = np.array(places, int).reshape(-1, 3).T
+        self._slopes = np.array(slopes)
+        self.middle = np.array([[float(x.mid()) for x in row] for row in self.centres.tolist()])
+
+    def times(self, v: Forms) -> Forms:
+        """A v."""
+        return self._times(v, self.centres, self.middle, self.reach, self.remainders, 0)
+
+    def before(self, w: Forms) -> Forms:
+        """wᵀ A."""
+        centres = self.centres.transpose()
+        return self._times(w, centres, self.middle.T, self.reach.T, self.remainders.T, 1)
+
+    def row(self, i: int) -> Forms:
+        """Row i."""
+        return self._part(0, i, self.centres.tolist()[i], self.remainders[i])
+
+    def column(self, j: int) -> Forms:
+        """Column j."""
+        return self._part(1, j, self.centres.transpose().tolist()[j], self.remainders[:, j])
+
+    def _part(self, axis: int, number: int, centres: list[arb], remainders: Floats) -> Forms:
+        slopes = np.zeros((len(centres), self.numbers))
+        if not self.numbers:
+            return Forms(centres, slopes, remainders)
+        here = self._places[axis] == number
+        slopes[self._places[1 - axis][here], self._places[2][here]] = self._slopes[here]
+        return Forms(centres, slopes, remainders.copy())
+
+    def _times(
+        self, v: Forms, centres: arb_mat, middle: Floats, reach: Floats, rest: Floats, axis: int
+    ) -> Forms:
+        image = (centres * arb_mat([[x] for x in v.centres])).entries()
+        if v.are_numbers:
+            return Forms(image, np.zeros((len(image), 0)), np.zeros(len(image)))
+        slopes = middle @ v.slopes
+        to, of = self._places[axis], self._places[1 - axis]
+        np.add.at(slopes, (to, self._places[2]), self._slopes * v.middle[of])
+        lost = UNIT * (len(v) + 8)
+        sizes, of_v = np.abs(middle), np.abs(v.middle)
+        remainders = sizes @ (v.remainders + lost * v.reach) + (rest + lost * reach) @ of_v
+        remainders += reach @ (v.reach + v.remainders)
+        return Forms(image, slopes, remainders * (1 + lost) + LEAST)

@@ -1,0 +1,119 @@
+"""Files with unknowns beside rounded numbers: with values for the unknowns, and near the print."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from flint import ctx, fmpq
+
+from garkcli.exact.display import to_ball
+from garkcli.exact.field import Number
+from garkcli.exact.nodes import Expression, Literal
+from garkcli.exact.rewriting import parts
+from garkcli.exact.rounding import in_decimals
+from garkcli.frozen import Frozen
+from garkcli.methodfile.build import Builder, part_of
+from garkcli.methodfile.family import FamilyFile, loads_family
+from garkcli.methodfile.load import described
+from garkcli.methodfile.rounding import Rounded
+from garkcli.methodfile.values import Values
+from garkcli.order.rounded import RoundedTableau
+from garkcli.tableau.box import Box
+
+
+class Filled(Frozen, eq=False):
+    """A family with values for its unknowns.
+
+    Attributes:
+        rounded: the method, with all that it may be a rounding of.
+        given: of each of its rounded numbers, whether it is the value of an unknown.
+    """
+
+    rounded: RoundedTableau
+    given: tuple[bool, ...]
+
+    def shifts(self) -> tuple[fmpq, ...]:
+        """By how much the numbers of the file are off at the method that it is taken to be, in
+        units of the tolerance.
+        """
+        off = zip(self.rounded.search.place.shifts, self.given, strict=True)
+        return tuple(x for x, is_given in off if not is_given)
+
+
+class RoundedFamily(Frozen, eq=False):
+    """A family with rounded numbers, as ``garkcli.design.within`` takes it."""
+
+    family: FamilyFile
+
+    @property
+    def tolerance(self) -> fmpq:
+        """The rounding."""
+        assert self.family.tolerance is not None
+        return self.family.tolerance
+
+    def at(self, shifts: Sequence[fmpq], bits: int) -> FamilyFile:
+        """As ``family_at``."""
+        return family_at(self.family, shifts, bits)
+
+    def filled(self, values: Mapping[str, fmpq], digits: int, width: fmpq) -> Filled:
+        """As ``filled``."""
+        return filled(self.family, values, digits, width)
+
+
+def filled(family: FamilyFile, values: Mapping[str, fmpq], digits: int, width: fmpq) -> Filled:
+    """A family with values for its unknowns.
+
+    Args:
+        family: with a tolerance.
+        values: of each free parameter.
+        digits: decimals that are written of them.
+        width: by how much each may be off that is not 0.
+
+    Raises:
+        MethodFileError: they make no method.
+    """
+    texts = {name: in_decimals(x, digits) for name, x in values.items()}
+    reader, description = described(family.text, family.source, {**family.settings, **texts})
+    text = part_of(reader.source, reader.numbers, description)
+    known = Values(reader.numbers)
+    reader.source.close()
+    made = Builder(text, known)
+    given = {id(x) for name in texts for x in _literals(reader.numbers.parameters[name])}
+    rounded = Rounded(reader.numbers.entries, known, given)
+    tolerance = family.tolerance
+    assert tolerance is not None
+    radii = tuple(width if is_given else tolerance for is_given in rounded.is_given)
+    box = Box(rounded.numbers, radii, rounded.maker(text))
+    tableau = RoundedTableau.of(made.tableau, tolerance, box, made.further)
+    return Filled(tableau, rounded.is_given)
+
+
+def family_at(family: FamilyFile, shifts: Sequence[fmpq], bits: int) -> FamilyFile:
+    """A family with other numbers in place of the rounded ones.
+
+    Args:
+        family: with a tolerance.
+        shifts: by how much they are off, in units of it; nothing for none.
+        bits: of irrational ones.
+    """
+    tolerance = family.tolerance
+    assert tolerance is not None
+
+    def moved(printed: Sequence[Number]) -> list[fmpq]:
+        offs = shifts or (fmpq(0),) * len(printed)
+        return [_rational(x) + tolerance * off for x, off in zip(printed, offs, strict=True)]
+
+    with ctx.workprec(bits):
+        return loads_family(family.text, family.source, family.settings, numbers=moved)
+
+
+def _rational(number: Number) -> fmpq:
+    if isinstance(number, fmpq):
+        return number
+    return to_ball(number, int(ctx.prec * 0.302)).mid().fmpq()
+
+
+def _literals(expression: Expression) -> list[Expression]:
+    if isinstance(expression, Literal):
+        return [expression]
+    return [y for x in parts(expression) for y in _literals(x)]

@@ -1,0 +1,94 @@
+"""How coefficients are meant: exactly, or rounded by the tolerance of their file."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, TypeAlias
+
+from flint import fmpq
+
+from garkcli.tableau.conjugate import conjugate
+from garkcli.tableau.embedded import NOTHING, Further
+from garkcli.tableau.forms import pair
+from garkcli.tableau.tableau import Tableau
+
+if TYPE_CHECKING:
+    from garkcli.order.rounded import RoundedTableau
+    from garkcli.tableau.box import Box
+    from garkcli.tableau.garkmethod import GarkMethod
+
+AnyTableau: TypeAlias = "Tableau | RoundedTableau"
+"""What conditions are decided of: a tableau as it is, or all that it may be a rounding of."""
+
+
+def meant(tableau: Tableau, tolerance: fmpq | None, further: Further | None = None) -> AnyTableau:
+    """The tableau itself, or with the method that it may be a rounding of; that is sought once.
+
+    Args:
+        tableau: the method.
+        tolerance: the rounding of its coefficients; None or 0 for exact ones.
+        further: its embedded weights and dense output, which are rounded too; None where they do
+            not matter.
+    """
+    if not tolerance:
+        return tableau
+    known: dict[fmpq, RoundedTableau] = tableau.__dict__.setdefault("meant", {})
+    found = known.get(tolerance)
+    if found is None or (further is not None and found.search.printed_further != further):
+        from garkcli.order.rounded import RoundedTableau
+
+        of_tolerance, box = tableau.__dict__.get("box", (None, None))
+        if of_tolerance == tolerance and box is not None:
+            found = RoundedTableau.of(tableau, tolerance, *box())
+        else:
+            found = RoundedTableau.within(tableau, tolerance, further or NOTHING)
+        known[tolerance] = found
+    return found
+
+
+def remember(tableau: Tableau, tolerance: fmpq, box: Callable[[], tuple[Box, Further]]) -> None:
+    """Keep which numbers of a tableau are rounded, and how it is made of them: ``meant`` takes each
+    coefficient that is not 0 for one of them where nobody knows better.
+
+    Args:
+        tableau: the method.
+        tolerance: its rounding.
+        box: all methods that it may be, with its further weights.
+    """
+    tableau.__dict__["box"] = tolerance, box
+
+
+def as_meant(method: GarkMethod) -> AnyTableau:
+    """The tableau of a method, with its rounding where it has a tolerance; what was made of a
+    rounded method is as uncertain as that makes it.
+    """
+    if method.base is not None and method.tolerance == method.base.tolerance:
+        return derived(as_meant(method.base), method.derivation)
+    return meant(method.tableau, method.tolerance, method.further)
+
+
+def derived(method: AnyTableau, which: str | None) -> AnyTableau:
+    """The symplectic conjugate or the symplectic pair of a method, or the method itself.
+
+    Args:
+        method: rounded or not; what is made of it is rounded by what its rounding does.
+        which: ``conjugate`` or ``pair``; empty or None for the method.
+
+    Raises:
+        ZeroWeight: a weight that it divides by is 0.
+    """
+    if which == "conjugate":
+        return conjugate(method) if isinstance(method, Tableau) else method.conjugate()
+    if which == "pair":
+        return pair(method) if isinstance(method, Tableau) else method.pair()
+    return method
+
+
+def printed(method: AnyTableau) -> Tableau:
+    """The tableau as it is printed."""
+    return method if isinstance(method, Tableau) else method.tableau
+
+
+def tolerance_of(method: AnyTableau) -> fmpq | None:
+    """The rounding of its coefficients; None where they are exact."""
+    return None if isinstance(method, Tableau) else method.tolerance

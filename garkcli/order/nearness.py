@@ -1,0 +1,162 @@
+"""How far the method that a rounded one is taken to be is from the print, and which printed number
+alone is far off.
+
+The shifts x, in units of the radii, are the least ones that meet rows with slopes J: they are in
+the span of the rows, on which P projects. Let one of them cost nothing: then |x|² falls by
+x_k²/P_kk, number k is x_k/P_kk off, and the others are left with x − (x_k/P_kk) P e_k, but for k
+itself. A number that leaves next to nothing to all others, where no other number does, is a
+suspect: rounding moves them all.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from flint import ctx, fmpq
+
+from garkcli.exact.affine import Affine
+from garkcli.exact.display import to_float
+from garkcli.frozen import Frozen
+from garkcli.order.existence import is_proved_to_exist
+from garkcli.order.recovering import orthonormal
+
+if TYPE_CHECKING:
+    from garkcli.exact.affine import Floats
+    from garkcli.order.recovering import Recovery
+
+FEWEST_ROWS = 5
+"""Fewer independent rows leave many numbers alone by chance."""
+FAR = 0.5
+"""Rounding to a last place moves a number by half a unit of it."""
+NEXT_TO_NOTHING = 0.1
+"""The part of the suspect's shift that the others may have."""
+
+
+class Entry(Frozen):
+    """An entry of a method; all count from 0.
+
+    Attributes:
+        letter: a, b, c; or ``embedded`` or ``dense`` for further weights.
+        l: its colour.
+        m: of a block the colour that is seen; None otherwise.
+        i: of a block the row; of dense output the power of θ less one; None otherwise.
+        j: the place in its row.
+    """
+
+    letter: str
+    l: int
+    m: int | None
+    i: int | None
+    j: int
+
+
+class Nearness(Frozen):
+    """How far the print is from the method that it is taken to mean.
+
+    Attributes:
+        distance: the largest shift of a printed number, in units of its radius; to two digits.
+        entry: one that this number is in; None where no number is off.
+        suspect: an entry whose printed number alone is far off; None where none is.
+        is_full: whether the conditions are met fully, and not to second order only.
+        is_proved: whether a method of the order is proved to exist within the radii; False says
+            nothing.
+    """
+
+    distance: fmpq
+    entry: Entry | None
+    suspect: Entry | None
+    is_full: bool
+    is_proved: bool
+
+
+def nearness(search: Recovery, order: int) -> Nearness:
+    """How far the method that a search has settled on is from the print.
+
+    Args:
+        search: for it.
+        order: of the method.
+    """
+    place = search.settled
+    shifts = np.array([to_float(x) for x in place.shifts])
+    sizes = np.array([_two_digits(x) for x in np.abs(shifts)])
+    distance = max(sizes, default=fmpq(0))
+    entry = suspect = None
+    if distance:
+        entry = _entry_of(search, int(np.argmax(np.abs(shifts) > to_float(distance) * (1 - 1e-4))))
+        k = _suspect(search, shifts)
+        suspect = None if k is None else _entry_of(search, k)
+    is_full = not place.slack
+    is_proved = is_full and is_proved_to_exist(search, order)
+    return Nearness(distance, entry, suspect, is_full, is_proved)
+
+
+def _two_digits(x: float) -> fmpq:
+    """A size that is not near the end of its second digit by chance: floats end in noise."""
+    millionths = fmpq(round(x * 10**6), 10**6)
+    unit = fmpq(1, 100)
+    return unit * (millionths / unit + fmpq(1, 2)).floor()
+
+
+def _suspect(search: Recovery, shifts: Floats) -> int | None:
+    """The number that alone is far off."""
+    if not any(search.wanted.values()):
+        return None
+    return far_alone(orthonormal(search.place.rows(search.wanted).slopes), shifts)
+
+
+def far_alone(basis: Floats, shifts: Floats) -> int | None:
+    """The number that alone is far off, where the slopes of the rows have an orthonormal basis."""
+    if len(basis) < FEWEST_ROWS:
+        return None
+    projector = basis.T @ basis
+    shifts = projector @ shifts  # the least, without ends
+    share = np.diag(projector)
+    far = np.flatnonzero(share > 1e-6)
+    left = np.full(len(shifts), np.inf)
+    for k in far:
+        rest = shifts - shifts[k] / share[k] * projector[k]
+        rest[k] = 0.0
+        left[k] = np.abs(rest).max()
+    best = int(np.argmin(left))
+    off = abs(shifts[best] / share[best])
+    others = np.delete(left, best)
+    is_alone = not (others < 2 * NEXT_TO_NOTHING * off).any()
+    return best if off > FAR and left[best] < NEXT_TO_NOTHING * off and is_alone else None
+
+
+def _entry_of(search: Recovery, k: int) -> Entry:
+    """The first entry that is a printed number itself, or else one that it is in."""
+    with ctx.workprec(search.bits):
+        made = search.box.around(search.origin.shifts).made
+    size = made.size // (1 + len(search.printed_further.rows))
+    found: list[tuple[int, Entry]] = []
+
+    def look(entry: Entry, x: Any) -> None:
+        if isinstance(x, Affine) and x.slopes.get(k):
+            found.append((len(x.slopes), entry))
+
+    for (space, m), block in made.blocks.items():
+        l = next(l for l, colour in enumerate(made.colours) if colour.space == space)
+        for i, row in enumerate(block):
+            for j, x in enumerate(row):
+                look(Entry("a", l, m, i, j), x)
+    for number, colour in enumerate(made.colours):
+        which, l = divmod(number, size)
+        for j, x in enumerate(colour.b):
+            look(_weight(search, which, l, j), x)
+    for l, colour in enumerate(made.colours[:size]):
+        for j, x in enumerate(colour.c):
+            look(Entry("c", l, None, None, j), x)
+    return min(found, key=lambda x: x[0])[1]
+
+
+def _weight(search: Recovery, row: int, l: int, j: int) -> Entry:
+    """An entry of b, or of a further row of weights."""
+    if not row:
+        return Entry("b", l, None, None, j)
+    if search.printed_further.embedded is not None:
+        if row == 1:
+            return Entry("embedded", l, None, None, j)
+        row -= 1
+    return Entry("dense", l, None, row - 1, j)

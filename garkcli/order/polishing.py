@@ -1,0 +1,202 @@
+"""The method that a rounded one is taken to be, to as many digits as one wants.
+
+Of all methods of the box that meet the rows of the search it is the one nearest to the print: with
+the least sum of squares of the shifts x, each in units of its radius, and none beyond 1. Where F
+are the rows and J their slopes at x, the next x is the least one with F(x) + J·(x' − x) = 0. That
+gains the more digits a step the smaller the radii are; where the rows determine the method it is
+Newton's method. All of it is done in balls; slopes are differences over steps that are far below
+the last digit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from flint import arb, arb_mat, ctx, fmpq
+
+from garkcli.deadline import check_time
+from garkcli.errors import MethodError
+from garkcli.exact.enclosing import midpoint
+from garkcli.order.recovering import Place
+from garkcli.order.rows import of_tree
+
+if TYPE_CHECKING:
+    from garkcli.order.recovering import Recovery, System
+
+BITS_OF_A_DIGIT = 3.33
+SPARE_DIGITS = 12
+"""So many digits more are computed than are wanted."""
+AT_AN_END = 1 - 1e-6
+"""What would pull a shift that is held at an end less far than this lets it go."""
+MOST_STEPS = 60
+"""Steps that gain nothing end the search; so do so many, and one for each digit."""
+
+
+def polished(search: Recovery, digits: int) -> Place:
+    """The nearest method to the print that meets all that the settled one meets.
+
+    Args:
+        search: it is settled.
+        digits: so many after the point of each of its numbers are right.
+
+    Raises:
+        MethodError: rows are met to second order only, or the steps do not converge.
+    """
+    place = search.settled
+    system = search.wanted
+    if not any(system.values()):
+        return place
+    bits = int((digits + SPARE_DIGITS) * BITS_OF_A_DIGIT)
+    # a shift times its radius is what a number is off by
+    bits = max(bits, search.zero_bits)
+    finer = search.finer(2 * bits + _finest(search) + 64)
+    for _ in range(8):
+        place = _Polishing(finer, system, bits).nearest(place.shifts)
+        missed = finer.missed_at(place)
+        if not missed:
+            return place
+        more: System = {
+            name: {of_tree(u, finer.share(name, u.order)): [0] for u in trees}
+            for name, trees in missed.items()
+        }
+        system = {
+            name: {**system.get(name, {}), **more.get(name, {})} for name in {**system, **more}
+        }
+    raise _unknown()
+
+
+def _finest(search: Recovery) -> int:
+    """Bits after the point up to which the smallest radius reaches."""
+    return max((int(t.q.bit_length() - t.p.bit_length()) + 1 for t in search.box.radii), default=0)
+
+
+def _unknown() -> MethodError:
+    message = "its conditions are met to second order only: no more digits of it are known"
+    cure = "a tolerance nearer to the printed digits may single it out"
+    return MethodError(message, cure, code="cannot-convert")
+
+
+class _Polishing:
+    """Steps to the nearest method that meets some rows.
+
+    Args:
+        search: with as many bits as the slopes need.
+        system: the rows.
+        bits: to which shifts are wanted.
+    """
+
+    def __init__(self, search: Recovery, system: System, bits: int) -> None:
+        self.search = search
+        self.system = system
+        self.bits = bits
+        reach = search.origin.rows(system).reach
+        least = 1e-12 * search.radius
+        self.scales = [arb(max(float(x), least)) for x in reach]
+        # singular values are of the order of a radius where varieties cross, errors of its square
+        self.grain = arb(2) ** -(3 * _finest(search) // 2 + 40)
+
+    def nearest(self, shifts: Sequence[fmpq]) -> Place:
+        """The nearest method to the print near some shifts."""
+        x = [*shifts]
+        slopes: arb_mat | None = None
+        goal, before = arb(2) ** -self.bits, arb(2)
+        with ctx.workprec(self.search.bits):
+            for step in range(MOST_STEPS + self.bits):
+                check_time()
+                place = Place(self.search, x)
+                values = self._values(place)
+                if slopes is None:
+                    slopes = self._slopes(x, values)
+                moved, is_free = _least(slopes, values, x, self.grain)
+                change = max(
+                    (abs(new - arb(old)) for new, old in zip(moved, x, strict=True)), default=arb(0)
+                )
+                x = [midpoint(y) for y in moved]
+                if change < goal:
+                    return self._checked(Place(self.search, x))
+                if step > 6 and not change < before:
+                    raise _unknown()
+                # where the rows leave nothing free the old slopes do
+                if is_free or not change < 1e-6 * before:
+                    slopes = None
+                before = change
+        raise _unknown()
+
+    def _values(self, place: Place) -> list[arb]:
+        found = place.values(self.system)
+        return [x / scale for x, scale in zip(found, self.scales, strict=True)]
+
+    def _slopes(self, x: Sequence[fmpq], values: Sequence[arb]) -> arb_mat:
+        """∂F_i/∂x_k by differences."""
+        h = fmpq(1, 1 << self.bits)
+        columns = []
+        for k in range(len(x)):
+            check_time()
+            beside = [y + h if i == k else y for i, y in enumerate(x)]
+            there = self._values(Place(self.search, beside))
+            columns.append([((a - b) / h).mid() for a, b in zip(there, values, strict=True)])
+        return arb_mat([list(row) for row in zip(*columns, strict=True)])
+
+    def _checked(self, place: Place) -> Place:
+        """The method, where it meets all rows, those that others give included."""
+        small = arb(2) ** -(3 * self.bits // 4)
+        if place.distance > 1 or not all(abs(x) < small for x in self._values(place)):
+            raise _unknown()
+        return place
+
+
+def _least(
+    slopes: arb_mat, values: Sequence[arb], x: Sequence[fmpq], grain: arb
+) -> tuple[list[arb], bool]:
+    """The least x' with F + J·(x' − x) = 0 and |x'_k| ≤ 1, and whether the rows leave others free
+    than those at an end. Those are let go where they do not pull outwards.
+    """
+    count = len(x)
+    rows = slopes.tolist()
+    here = arb_mat([[arb(y)] for y in x])
+    wanted = [y - value for (y,), value in zip((slopes * here).tolist(), values, strict=True)]
+    held = [0] * count
+    for _ in range(3 * count + 10):
+        free = [k for k in range(count) if not held[k]]
+        chosen = _independent([[row[k] for k in free] for row in rows], grain)
+        moved = [arb(end) for end in held]
+        pulls = arb_mat(count, 1)
+        if chosen:
+            part = arb_mat([[rows[i][k] for k in free] for i in chosen])
+            right = arb_mat(
+                [[wanted[i] - sum((rows[i][k] * held[k] for k in range(count) if held[k]), arb(0))]
+                 for i in chosen]
+            )  # fmt: skip
+            weights = (part * part.transpose()).mid().solve(right.mid()).mid()
+            pulls = arb_mat([rows[i] for i in chosen]).transpose() * weights
+            for k in free:
+                moved[k] = pulls[k, 0].mid()
+        beyond = [k for k in free if abs(moved[k]) > 1]
+        if beyond:
+            for k in beyond:
+                held[k] = 1 if moved[k] > 0 else -1
+            continue
+        loose = [k for k in range(count) if held[k] and pulls[k, 0] * held[k] < AT_AN_END]
+        if not loose:
+            return moved, len(chosen) < len(free)
+        held[min(loose, key=lambda k: float((pulls[k, 0] * held[k]).mid()))] = 0
+    raise _unknown()
+
+
+def _independent(rows: Sequence[Sequence[arb]], grain: arb) -> list[int]:
+    """Rows that no combination of the others gives, by elimination with the largest rest first."""
+    rest = {i: arb_mat([list(row)]) for i, row in enumerate(rows) if row}
+    chosen: list[int] = []
+    while rest:
+        sizes = {i: float((row * row.transpose())[0, 0].mid().sqrt()) for i, row in rest.items()}
+        i = max(sizes, key=sizes.__getitem__)
+        row = rest.pop(i)
+        square = (row * row.transpose())[0, 0].mid()
+        if not square > grain * grain:
+            break
+        chosen.append(i)
+        for j, other in rest.items():
+            share = ((other * row.transpose())[0, 0] / square).mid()
+            rest[j] = (other - row * share).mid()
+    return sorted(chosen)

@@ -1,0 +1,230 @@
+"""Conditions on rounded methods as rows: what has to vanish, as affine forms of what is printed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TypeAlias
+
+import numpy as np
+from flint import arb, fmpq
+
+from garkcli.exact.affine import UNIT, Forms
+from garkcli.frozen import Frozen
+from garkcli.ntrees.tree import Tree
+from garkcli.tableau.box import FormTableau
+
+
+class Label(Frozen):
+    """Which conditions: those of one kind, of one block or colour, of one number.
+
+    Attributes:
+        kind: B, C, D, symplectic, symmetric, palindrome, node, stiff, diagonal, damping, weak, or
+            tree.
+        l: a colour.
+        m: a colour that it sees, where the kind is of a block.
+        k: the number of a simplifying condition; what nodes are; the stage of ``symplectic``,
+            ``symmetric``, ``stiff`` and ``diagonal``; of ``damping`` the degree of the denominator;
+            of a tree the γ(u)-fold of what its elementary weight should be, 1 or 0.
+        tree: of an order condition.
+        path: the colours of a word b A ⋯ A, whose last stages are those of l.
+    """
+
+    kind: str
+    l: int
+    m: int = 0
+    k: int = 0
+    tree: Tree | None = None
+    path: tuple[int, ...] = ()
+
+
+def of_tree(tree: Tree, share: int = 1) -> Label:
+    """The condition b_lᵀ 𝒜^[u] = share/γ(u) of a tree."""
+    return Label("tree", tree.root, k=share, tree=tree)
+
+
+Chosen: TypeAlias = "dict[Label, list[int]]"
+"""Rows of conditions by their places; of stages where a condition is of each."""
+
+
+class FormDefects:
+    """Left side minus right side of conditions on a tableau of forms; what they share is kept."""
+
+    def __init__(self, tableau: FormTableau) -> None:
+        self.tableau = tableau
+        self._powers = [[tableau.one(l)] for l in range(len(tableau.b))]
+        self._images: dict[tuple[int, Tree], Forms] = {}
+        self._known: dict[Label, Forms] = {}
+        self._words: dict[tuple[int, ...], Forms] = {}
+
+    def of(self, label: Label) -> Forms:
+        """The defects of a label, one or a row of stages."""
+        if label not in self._known:
+            self._known[label] = getattr(self, f"_{label.kind}")(label)
+        return self._known[label]
+
+    def rows(self, chosen: Chosen) -> Forms:
+        """The chosen defects, all in one row."""
+        return joined([part(self.of(label), which) for label, which in chosen.items()])
+
+    def _power(self, l: int, k: int) -> Forms:
+        powers = self._powers[l]
+        while len(powers) <= k:
+            powers.append(powers[-1] * self.tableau.c[l])
+        return powers[k]
+
+    def _B(self, x: Label) -> Forms:  # noqa: N802 -- the paper's letters
+        found = self.tableau.b[x.l].dot(self._power(x.l, x.k - 1))
+        return shifted(found, fmpq(1, x.k))
+
+    def _C(self, x: Label) -> Forms:  # noqa: N802
+        image = self.tableau.block(x.l, x.m).times(self._power(x.m, x.k - 1))
+        return image.minus(self._power(x.l, x.k), fmpq(1, x.k))
+
+    def _D(self, x: Label) -> Forms:  # noqa: N802
+        b = self.tableau.b
+        left = self.tableau.block(x.l, x.m).before(b[x.l] * self._power(x.l, x.k - 1))
+        rest = b[x.m].minus(b[x.m] * self._power(x.m, x.k), fmpq(1))
+        return left.minus(rest, fmpq(1, x.k))
+
+    def _symplectic(self, x: Label) -> Forms:
+        """b_i a_ij + b_j a_ji − b_i b_j for row i = k of the block (l, m)."""
+        b = self.tableau.b
+        b_i = repeated(b[x.l], x.k, len(b[x.m]))
+        forth = b_i * self.tableau.block(x.l, x.m).row(x.k)
+        back = b[x.m] * self.tableau.block(x.m, x.l).column(x.k)
+        return forth.minus(b_i * b[x.m], fmpq(1)).minus(back, fmpq(-1))
+
+    def _symmetric(self, x: Label) -> Forms:
+        """a_kj + a_{s+1−k, s+1−j} − b_j for row k of the block (l, m): what the adjoint method has,
+        its stages in reverse, is there already.
+        """
+        block = self.tableau.block(x.l, x.m)
+        last = reverse(block.row(len(self.tableau.b[x.l]) - 1 - x.k))
+        return block.row(x.k).minus(self.tableau.b[x.m], fmpq(1)).minus(last, fmpq(-1))
+
+    def _palindrome(self, x: Label) -> Forms:
+        """b_j − b_{s+1−j} for the first half of the weights."""
+        b = self.tableau.b[x.l]
+        return part(b.minus(reverse(b), fmpq(1)), range(len(b) // 2))
+
+    def _node(self, x: Label) -> Forms:
+        """The nodes less k, which is 0 or 1."""
+        return shifted(self.tableau.c[x.l], fmpq(x.k))
+
+    def _stiff(self, x: Label) -> Forms:
+        """a_kj^{l,m} − b_j^m."""
+        return self.tableau.block(x.l, x.m).row(x.k).minus(self.tableau.b[x.m], fmpq(1))
+
+    def _diagonal(self, x: Label) -> Forms:
+        """a_ii^{l,l} less the first that is not zero, stage k."""
+        block = self.tableau.block(x.l, x.l)
+        entries = joined([part(block.row(i), [i]) for i in range(len(self.tableau.b[x.l]))])
+        return entries.minus(repeated(entries, x.k, len(entries)), fmpq(1))
+
+    def _weak(self, x: Label) -> Forms:
+        """B A ⋯ A (A^{l,m} c^(k−1) − c^k / k)."""
+        return self.word(x.path).dot(self.of(Label("C", x.l, x.m, x.k)))
+
+    def word(self, path: tuple[int, ...]) -> Forms:
+        """The functional b^{l} A^{l,m} ⋯ A^{n,p} of colours l, m, …, p."""
+        if path not in self._words:
+            if len(path) == 1:
+                self._words[path] = self.tableau.b[path[0]]
+            else:
+                block = self.tableau.block(*path[-2:])
+                self._words[path] = block.before(self.word(path[:-1]))
+        return self._words[path]
+
+    def _damping(self, x: Label) -> Forms:
+        """The coefficients of z^k in the numerator of R of colour l alone, from the degree of the
+        denominator on: R(∞) = 0 where they vanish; none where all stages are explicit.
+        """
+        denominator, series = self._fraction(x.l)
+        if not x.k:
+            return part(series, [])
+        return joined(
+            [
+                part(series, range(k + 1)).dot(part(denominator, range(k, -1, -1)))
+                for k in range(x.k, len(denominator))
+            ]
+        )
+
+    def degree(self, l: int) -> int:
+        """That of the denominator of R of colour l alone, whatever the numbers of the box are."""
+        denominator, _ = self._fraction(l)
+        return max(k for k in range(len(denominator)) if not may_vanish(denominator, k))
+
+    def _fraction(self, l: int) -> tuple[Forms, Forms]:
+        """The coefficients of det(I − zA), and of R as a power series, up to z^s.
+
+        The first by Newton's identities from the traces of powers of A; b A^(k−1) 𝟙 in the second.
+        """
+        block, stages = self.tableau.block(l, l), len(self.tableau.b[l])
+        unit = part(self.tableau.one(l), [0])
+        columns = [block.column(i) for i in range(stages)]
+        vector = self.tableau.one(l)
+        series, traces, found = [unit], [], [unit]
+        for k in range(1, stages + 1):
+            series.append(self.tableau.b[l].dot(vector))
+            vector = block.times(vector)
+            diagonal = joined([part(column, [i]) for i, column in enumerate(columns)])
+            traces.append(diagonal.dot(self.tableau.one(l)))
+            columns = [block.times(column) for column in columns]
+            total = joined(found[::-1]).dot(joined(traces))
+            found.append(total.scaled(fmpq(-1, k)))
+        return joined(found), joined(series)
+
+    def _tree(self, x: Label) -> Forms:
+        """γ(u) b_lᵀ 𝒜^[u] − k."""
+        assert x.tree is not None
+        tree = x.tree
+        found = self.tableau.b[x.l].dot(self._vector(tree))
+        return shifted(found.scaled(fmpq(tree.density)), fmpq(x.k))
+
+    def _vector(self, tree: Tree) -> Forms:
+        vector = None
+        for branch in tree.branches:
+            image = self._image(tree.root, branch)
+            vector = image if vector is None else vector * image
+        return self.tableau.one(tree.root) if vector is None else vector
+
+    def _image(self, l: int, branch: Tree) -> Forms:
+        key = self.tableau.made.colours[l].space, branch
+        if key not in self._images:
+            self._images[key] = self.tableau.A[key[0], branch.root].times(self._vector(branch))
+        return self._images[key]
+
+
+def joined(rows: Sequence[Forms]) -> Forms:
+    """Rows one after the other."""
+    centres = [x for row in rows for x in row.centres]
+    slopes = np.concatenate([row.slopes for row in rows])
+    return Forms(centres, slopes, np.concatenate([row.remainders for row in rows]))
+
+
+def part(forms: Forms, which: Sequence[int]) -> Forms:
+    """Some forms of a row."""
+    places = list(which)
+    centres = [forms.centres[i] for i in places]
+    return Forms(centres, forms.slopes[places], forms.remainders[places])
+
+
+def reverse(forms: Forms) -> Forms:
+    """The last form first."""
+    return part(forms, range(len(forms) - 1, -1, -1))
+
+
+def repeated(forms: Forms, i: int, count: int) -> Forms:
+    """Form i, so many times."""
+    return part(forms, [i] * count)
+
+
+def shifted(forms: Forms, number: fmpq) -> Forms:
+    """The forms less a number."""
+    ball = arb(number)
+    return Forms([x - ball for x in forms.centres], forms.slopes, forms.remainders)
+
+
+def may_vanish(forms: Forms, i: int) -> bool:
+    """Whether a form may be zero."""
+    return not abs(forms.centres[i]) > float(forms.reach[i] + forms.remainders[i]) * (1 + UNIT)

@@ -1,0 +1,125 @@
+"""The residuals of all trees of an order in balls."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import chain
+from typing import TYPE_CHECKING
+
+from flint import arb, arb_mat, ctx
+
+from garkcli.exact.enclosing import times
+from garkcli.frozen import Frozen
+from garkcli.ntrees.count import Admissible
+from garkcli.ntrees.stage_vectors import StageVectors
+from garkcli.ntrees.table import TreeTable
+from garkcli.order.conditions import coupling_graph, twin_roots
+from garkcli.tableau.enclosure import Enclosure, Row, Rows
+from garkcli.tableau.tableau import Tableau
+
+if TYPE_CHECKING:
+    from garkcli.ntrees.table import Column, Segment
+
+
+class Sizes(Frozen, eq=False):
+    """How large the residuals of one order are.
+
+    Attributes:
+        bound: no |residual| of the order is larger.
+        reached: the largest |residual| that is known of a tree.
+    """
+
+    bound: arb
+    reached: arb
+
+
+class TreeResiduals(StageVectors[Rows]):
+    """The residuals b_lᵀ 𝒜^[u] − 1/γ(u) of every admissible tree in balls, order after order.
+
+    A row per tree; what orders share is kept. Trees share their branches, as in the tree table: u =
+    stem ∘ branch gives 𝒜^[u] = 𝒜^[stem] ⊙ A 𝒜^[branch], so
+
+        b_lᵀ 𝒜^[u] = (b_l ⊙ 𝒜^[stem])ᵀ (A 𝒜^[branch]),
+
+    and the weights of all trees of a segment are entries of one matrix product. The vectors of the
+    order itself are not needed. All arithmetic is ball arithmetic: nothing here depends on the
+    rounding of floats.
+    """
+
+    def __init__(self, tableau: Tableau, enclosure: Enclosure) -> None:
+        self.enclosure = enclosure
+        self._roots = tuple(twin_roots(tableau))
+        edges, linear = coupling_graph(tableau)
+        self._admissible = Admissible.of(tableau.size, edges, linear)
+        super().__init__(self._admissible, [colour.space for colour in tableau.colours])
+
+    def sizes(self, order: int) -> Sizes:
+        """Bounds on all |residuals| of an order."""
+        bound = reached = arb(0)
+        for residual, _, _ in self.of_order(order):
+            size = abs(residual)
+            bound = bound.max(size)
+            if size > reached:
+                reached = size
+        return Sizes(bound.abs_upper(), reached)
+
+    def table(self, order: int) -> TreeTable:
+        """The table whose ids ``of_order`` gives."""
+        return TreeTable.of(self._admissible, order)
+
+    def of_order(self, order: int, share: int = 1) -> list[tuple[arb, arb, int]]:
+        """The residual b_lᵀ 𝒜^[u] − share/γ(u), share/γ(u) and the id of each tree of an order, for
+        the roots that differ in more than their colour.
+        """
+        with ctx.workprec(self.enclosure.bits):
+            return list(self._residuals(self.table(order), order, share))
+
+    def _residuals(
+        self, table: TreeTable, order: int, share: int
+    ) -> Iterator[tuple[arb, arb, int]]:
+        if order == 1:
+            for l in self._roots:
+                weights = self.enclosure.b[l].entries()
+                yield sum(weights, arb(-share)), arb(share), l
+            return
+        required: dict[int, arb] = {}
+        for segment in table.segments:
+            if segment.order != order or segment.root not in self._roots:
+                continue
+            values = self._values(table, segment)
+            ids = slice(segment.ids.start, segment.ids.stop)
+            stems = table.stem[ids] - segment.stems.start
+            where = stems * len(segment.branches) + table.branch[ids] - segment.branches.start
+            trees = zip(where.tolist(), segment.ids, table.gamma[ids].tolist(), strict=True)
+            for i, u, gamma in trees:
+                if gamma not in required:
+                    required[gamma] = share / arb(gamma)
+                yield values[i] - required[gamma], required[gamma], u
+
+    def _values(self, table: TreeTable, segment: Segment) -> Row:
+        """b_lᵀ 𝒜^[u] for every stem with every branch, stem by stem."""
+        b = self.enclosure.b[segment.root].entries()
+        stems = self.stems(table, segment)
+        if len(stems) < len(segment.branches):  # the weights and A go where they are fewer
+            left = arb_mat([times(row, b) for row in stems])
+            left *= self.enclosure.A[self.rows[segment.root], segment.branch_root]
+            branches = self.of(table, segment.branch_order, segment.branch_root)
+        else:
+            left = arb_mat(stems)
+            branches = [times(row, b) for row in self.branches(table, segment)]
+        return (left * arb_mat(branches).transpose()).entries()
+
+    def _part(self, vectors: Rows, places: Column) -> Rows:
+        return [vectors[i] for i in places.tolist()]
+
+    def _vertex(self, l: int) -> Rows:
+        return [[arb(1)] * self.enclosure.stages[self.rows[l]]]
+
+    def _image(self, space: int, m: int, vectors: Rows) -> Rows:
+        return (arb_mat(vectors) * self.enclosure.A[space, m].transpose()).tolist()
+
+    def _product(self, space: int, stems: Rows, branches: Rows) -> Rows:  # noqa: ARG002
+        return list(map(times, stems, branches))
+
+    def _joined(self, parts: list[Rows]) -> Rows:
+        return list(chain.from_iterable(parts))

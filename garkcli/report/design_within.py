@@ -1,0 +1,224 @@
+"""``gark design`` of rounded coefficients: values of the unknowns within the tolerance."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple, get_args
+
+from flint import fmpq
+
+from garkcli.design.member import Whose
+from garkcli.design.within import BITS, STARTS, DesignWithin, StepWithin, ValuesWithin
+from garkcli.errors import counted
+from garkcli.exact.display import decimal
+from garkcli.exact.rounding import in_decimals
+from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
+from garkcli.tell.dialect import Plain
+from garkcli.tell.facts import Kind, Level, Row, Section, maybe
+from garkcli.tell.kinds import COUNT, INTEGER, POSITION, TEXT, TEXTS, TOLERANCE, TREE, TRUTH, choice
+from garkcli.tell.parts import answer, parts, rows_of
+from garkcli.tell.report import Report
+
+HEADLINE, USUAL, DETAIL, DATA = Level
+Rows = list[tuple[str, str]]
+
+
+class WithinReport(NamedTuple):
+    """What is reported: the values, and their file."""
+
+    file: str
+    design: DesignWithin
+
+
+class _Found(NamedTuple):
+    """Values with the digits that the tolerance leaves."""
+
+    digits: int
+    values: ValuesWithin
+
+    @property
+    def texts(self) -> dict[str, str]:
+        """The values."""
+        return {name: self.values.text(name, self.digits) for name in self.values.values}
+
+    @property
+    def directions(self) -> list[tuple[str, dict[str, str]]]:
+        """Each free unknown with the slopes of its dependent ones."""
+        slopes = self.values.directions.items()
+        return [
+            (free, {name: self.text(x[free]) for name, x in slopes if free in x})
+            for free in self.values.free
+        ]
+
+    def text(self, x: fmpq) -> str:
+        """A number in so many digits."""
+        return in_decimals(x, self.digits)
+
+
+def _of(design: DesignWithin, step: StepWithin) -> list[_Found]:
+    return [_Found(design.digits, x) for x in step.found]
+
+
+def _briefly(step: StepWithin) -> str:
+    """What was found, in a few words."""
+    [first, *_] = step.found
+    if first.dimension:
+        return f"a family of dimension {first.dimension}"
+    count = counted(len(step.found), "solution")
+    return count if step.is_linear else f"{count} found"
+
+
+def _answer(x: WithinReport, d: Plain) -> str:
+    """The highest order with values; what is known of the next."""
+    design, best, last = x.design, x.design.best, x.design.steps[-1]
+    whose = "" if design.whose == "method" else f" of the {design.whose}"
+    within = f"within {decimal(design.tolerance)}"
+    texts = []
+    if best is not None:
+        texts.append(f"order {best.order}{whose} {within} for {_briefly(best)}")
+    if best is not last:
+        known = "for no value" if last.has_methods is False else "is not decided"
+        order = f"order {last.order}{'' if best else whose}"
+        texts.append(f"{order} {known}{'' if best else f' {within}'}")
+    return d.prose("; ".join(texts))
+
+
+def _printed(step: StepWithin) -> str:
+    """What the digits leave as they are printed."""
+    if step.printed is None:
+        return ""
+    if step.printed < 0:
+        return "the printed digits contradict each other and leave no value"
+    left = f"dimension {step.printed}" if step.printed else "one value"
+    return f"the printed digits leave {left}"
+
+
+def _open(x: DesignWithin, step: StepWithin, d: Plain) -> str:
+    """Why an order is not decided, or why no value has it."""
+    if x.family.impossible:
+        return d.prose(x.family.impossible[0])
+    if step.witness is not None:
+        within = f"no method within {decimal(x.tolerance)} meets it"
+        tree = d.tree(step.witness)
+        return f"no value: the condition of {tree} concerns known numbers alone, and {within}"
+    if step.found:
+        return "the values found are out of a range, or have a sign that is not wanted"
+    texts = ["not decided: no method within the tolerance was found with it"]
+    if step.left is not None and step.is_linear:
+        texts.append(f"as printed, the conditions leave {step.left:.2g} of one of them")
+    if not step.is_linear:
+        texts.append(f"the conditions are not linear, and {STARTS} starts of Newton's method fail")
+    return d.prose("; ".join(texts))
+
+
+def _terms(found: _Found, name: str, d: Plain) -> str:
+    """An unknown, by those that are free: ``1.5 - 0.5*bh3``."""
+    directions = found.values.directions.get(name, {})
+    text = found.text(_at_zero(found.values, name))
+    for free, slope in directions.items():
+        sign = "-" if slope < 0 else "+"
+        text += f" {sign} {found.text(abs(slope))}*{free}"
+    return f"{d.expression(name)} = {d.expression(text)}"
+
+
+def _at_zero(values: ValuesWithin, name: str) -> fmpq:
+    """The value of an unknown that depends on free ones linearly, where these are 0."""
+    off = values.directions.get(name, {})
+    return values.values[name] - sum((s * values.values[k] for k, s in off.items()), fmpq(0))
+
+
+def _solution(found: _Found, d: Plain) -> str:
+    """The values, and what is known of the method with them."""
+    values = found.values
+    texts = [f"{d.expression(k)} = {d.expression(x)}" for k, x in found.texts.items()]
+    said = [] if values.embedded is None else [f"embedded order {values.embedded}"]
+    if not values.is_admitted:
+        said.append("out of a range, or with a sign that is not wanted")
+    return ", ".join(texts) + d.prose("".join(f"; {x}" for x in said))
+
+
+def rows(x: WithinReport, d: Plain) -> Rows:
+    """What each order asks, the values and what they are of."""
+    design = x.design
+    told: Rows = []
+    for step in design.steps:
+        label = f"order {step.order}"
+        if not step.has_methods:
+            told.append((label, _open(design, step, d)))
+            continue
+        first = _of(design, step)[0]
+        texts = [_briefly(step), d.prose(_printed(step))]
+        told.append((label, "; ".join(filter(None, texts))))
+        if first.values.dimension and step.is_linear:
+            bound = [k for k in design.family.parameters if k not in first.values.free]
+            told += [("values", _terms(first, name, d)) for name in bound[:1]]
+            told += [("", _terms(first, name, d)) for name in bound[1:]]
+        elif first.values.dimension:
+            told.append(("free", ", ".join(map(d.expression, first.values.free))))
+        such = "example" if first.values.dimension else "values"
+        found = _of(design, step)
+        told += [(such if not k else "", _solution(y, d)) for k, y in enumerate(found)]
+        off = d.prose(f"{first.values.distance:.2g} t")
+        told.append(
+            (
+                "recovered",
+                f"one method whose numbers differ from the printed ones by {off} at most, t ="
+                f" {decimal(design.tolerance)}, found to {BITS // 10} digits and more: numerical",
+            )
+        )
+        if not step.is_linear:
+            told.append(("", d.prose(f"by Newton's method from {STARTS} starts; others may exist")))
+    kinds = ", ".join(map(str, design.family.stable))
+    if kinds and design.best is not None:
+        text = f"{kinds}: not examined here: gark check of the file that --emit writes decides it"
+        told.append(("stable", d.prose(text)))
+    return told
+
+
+TEXTS_BY_NAME = Kind({"type": "object", "additionalProperties": S.TEXT}, lambda x, _: dict(x))
+DIRECTION = Section(Row("free", TEXT, "0"), Row("values", TEXTS_BY_NAME, "1"))
+SOLUTION = Section(
+    Row(
+        "values", TEXTS_BY_NAME, lambda x: {k: x.values.text(k, x.digits) for k in x.values.values}
+    ),
+    Row("directions", parts(DIRECTION)),
+    Row("dimension", COUNT, "values.dimension"),
+    Row("distance", Kind({"type": "number", "minimum": 0}), lambda x: round(x.values.distance, 6)),
+    Row("admissible", TRUTH, "values.is_admitted"),
+    maybe("embedded_order", COUNT, "values.embedded"),
+)
+
+
+def _step(get: Any) -> Any:
+    return lambda x: get(x[1])
+
+
+STEP = Section(
+    Row("order", POSITION, _step(lambda s: s.order)),
+    maybe("reached", TRUTH, _step(lambda s: s.has_methods)),
+    Row("linear", TRUTH, _step(lambda s: s.is_linear)),
+    maybe("printed_dimension", INTEGER, _step(lambda s: s.printed)),
+    maybe("witness", TREE, _step(lambda s: s.witness)),
+    Row("solutions", parts(SOLUTION), lambda x: _of(*x)),
+)
+WHOLE = Section(
+    Row("file", TEXT, level=DATA),
+    Row("name", TEXT, "design.family.name", DETAIL),
+    Row("of", choice(*get_args(Whose)), "design.whose", DATA),
+    answer(_answer),
+    Row("unknowns", TEXTS, lambda x: list(x.design.family.parameters)),
+    Row("tolerance", TOLERANCE, "design.tolerance", DATA),
+    Row("orders", parts(STEP), lambda x: [(x.design, s) for s in x.design.steps], DATA),
+    Row("orders_in_words", rows_of(rows), "."),
+    title=lambda x, d: d.prose(x.file),
+)
+REPORT: Report[WithinReport] = Report.only(
+    "gark/design-within/1",
+    "report of gark design within a tolerance",
+    WHOLE,
+    lambda x: {"colours": [c.name for c in x.design.family.tableau.colours]},
+)
+
+
+def whole(found: DesignWithin, name: str) -> WithinReport:
+    """What the report says of values, by the name of their family where there is no other."""
+    return WithinReport(name or found.family.name, found)

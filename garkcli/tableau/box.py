@@ -1,0 +1,232 @@
+"""The box of all methods that a rounded one may be: printed numbers with a radius each, and what
+is made of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any, TypeAlias
+
+from flint import arb_mat, ctx, fmpq
+
+from garkcli.exact.affine import Affine, FormMatrix, Forms, constant
+from garkcli.exact.display import to_float
+from garkcli.exact.field import Algebraic, Number
+from garkcli.exact.matrix import Vector, apply, apply_left, identity, multiply
+from garkcli.frozen import Frozen, replace
+from garkcli.tableau.polynomial_space import PolynomialSpace, coordinates_at_nodes, powers_of_nodes
+from garkcli.tableau.stages import PointSpace
+from garkcli.tableau.tableau import Edge, Tableau
+
+Make: TypeAlias = Callable[[Sequence[Any]], Tableau]
+"""A tableau from other numbers than the printed ones: exact ones, or affine forms."""
+
+
+FAMILY_BITS = 1000
+"""Bits to which the entries of families are enclosed, beside rounded methods."""
+
+
+class Box(Frozen, eq=False):
+    """All methods whose printed numbers are off by no more than their radii.
+
+    Attributes:
+        numbers: as they are printed.
+        radii: t_k > 0, by how much each may be off.
+        make: a method from such numbers; further weights are colours that no stage sees, as
+            ``embedded.as_colours`` has them.
+    """
+
+    numbers: tuple[Number, ...]
+    radii: tuple[fmpq, ...]
+    make: Make
+
+    def at(self, shifts: Sequence[fmpq]) -> Tableau:
+        """The method whose numbers are off by these shares of their radii; irrational ones are
+        balls of the bits of the context.
+        """
+        moved = zip(self.numbers, self.radii, shifts, strict=True)
+        return self.make([rational_or_ball(x) + t * shift for x, t, shift in moved])
+
+    def around(self, shifts: Sequence[fmpq]) -> FormTableau:
+        """All methods within the radii of this one, as forms of the shares that are added."""
+        moved = enumerate(zip(self.numbers, self.radii, shifts, strict=True))
+        forms = [
+            Affine(constant(x) + constant(t * shift), {k: to_float(t)})
+            for k, (x, t, shift) in moved
+        ]
+        return FormTableau(self.make(forms), len(forms))
+
+
+class FormTableau:
+    """A tableau whose entries are forms of the same K printed numbers.
+
+    Args:
+        made: its entries are affine forms and exact numbers, one coordinate a stage.
+        numbers: K.
+    """
+
+    def __init__(self, made: Tableau, numbers: int) -> None:
+        self.made = made
+        self.numbers = numbers
+        self.b = [Forms.of(colour.b, numbers) for colour in made.colours]
+        self.c = [Forms.of(colour.c, numbers) for colour in made.colours]
+        self.A = {key: FormMatrix(block, numbers) for key, block in made.blocks.items()}
+
+    @property
+    def in_balls(self) -> Tableau:
+        """Each entry as a ball around all its values."""
+        return changed(self.made, lambda x: x.ball if isinstance(x, Affine) else constant(x))
+
+    def block(self, l: int, m: int) -> FormMatrix:
+        """A^{l,m}, which exists."""
+        return self.A[self.made.colours[l].space, m]
+
+    def one(self, l: int) -> Forms:
+        """𝟙 in the space of colour l."""
+        return Forms.of([fmpq(1)] * len(self.b[l]), self.numbers)
+
+
+def rational_or_ball(number: Any) -> Any:
+    """A number, enclosed to the bits of the context where it is irrational."""
+    return constant(number) if isinstance(number, Algebraic) else number
+
+
+def changed(tableau: Tableau, change: Callable[[Any], Any]) -> Tableau:
+    """A tableau of one coordinate a stage with another number in place of each."""
+
+    def row(numbers: Any) -> Any:
+        return tuple(map(change, numbers))
+
+    spaces = tuple(PointSpace(row(space.nodes)) for space in tableau.spaces)
+    colours = tuple(replace(x, b=row(x.b), c=row(x.c)) for x in tableau.colours)
+    blocks = {key: tuple(map(row, block)) for key, block in tableau.blocks.items()}
+    return Tableau(spaces, colours, blocks)
+
+
+def to_points(tableau: Tableau) -> Tableau:
+    """The tableau with one coordinate a stage; where nodes are those of a family, its entries are
+    enclosed to the bits of the context.
+    """
+    if all(isinstance(space, PointSpace) for space in tableau.spaces):
+        return tableau
+    into, back = [], []
+    stages = max(space.stages for space in tableau.spaces)
+    for space in tableau.spaces:
+        if isinstance(space, PolynomialSpace):
+            # Vandermonde matrices lose bits
+            with ctx.workprec(ctx.prec + 16 * stages):
+                into.append(_rows(powers_of_nodes(space)))
+                back.append(_rows(coordinates_at_nodes(space)))
+        else:
+            into.append(identity(space.stages))
+            back.append(identity(space.stages))
+    blocks: dict[Edge, Any] = {
+        (k, m): multiply(into[k], multiply(in_balls(block), back[tableau.colours[m].space]))
+        for (k, m), block in tableau.blocks.items()
+    }
+    colours = tuple(
+        replace(
+            x,
+            b=apply_left(in_balls([x.b])[0], back[x.space]),
+            c=apply(into[x.space], in_balls([x.c])[0]),
+        )
+        for x in tableau.colours
+    )
+    spaces = tuple(
+        PointSpace(apply(into[k], in_balls([x.nodes])[0])) for k, x in enumerate(tableau.spaces)
+    )
+    return Tableau(spaces, colours, blocks)
+
+
+def in_balls(rows: Any) -> Any:
+    """The rows with balls in place of irrational numbers."""
+    return tuple(tuple(map(rational_or_ball, row)) for row in rows)
+
+
+def _rows(matrix: arb_mat) -> Any:
+    return tuple(map(tuple, matrix.tolist()))
+
+
+def plain_box(tableau: Tableau, radius_of: Callable[[Number], fmpq], colours: int) -> Box:
+    """The box of a method whose coefficients are what is printed.
+
+    Nodes that are the row sums of a block are made of it; others are printed. Colours that share
+    stages and have the same nodes have them once. Families are exact.
+
+    Args:
+        tableau: the method, with colours for further weights.
+        radius_of: by how much a coefficient that is not 0 may be off; 0 for one that is exact.
+        colours: those of the method itself.
+    """
+    sums = [_block_of_nodes(tableau, l) for l in range(colours)]
+    nodes = [(x.space, tuple(x.c)) for x in tableau.colours[:colours]]
+    first = [nodes.index(x) for x in nodes]
+    is_family = [isinstance(space, PolynomialSpace) for space in tableau.spaces]
+    of_families = [is_family[x.space] for x in tableau.colours]
+    in_families = list(of_families)
+    for (k, m), block in tableau.blocks.items():
+        in_families += [is_family[k] and of_families[m]] * len(block)
+    with ctx.workprec(FAMILY_BITS if any(is_family) else ctx.prec):
+        tableau = to_points(tableau)
+    rows: list[Vector] = [colour.b for colour in tableau.colours]
+    for block in tableau.blocks.values():
+        rows += block
+    printed_nodes = [l for l in range(colours) if sums[l] is None and first[l] == l]
+    rows += [tableau.colours[l].c for l in printed_nodes]
+    in_families += [of_families[l] for l in printed_nodes]
+    radii = [
+        [radius_of(x) if x and not is_exact else fmpq(0) for x in row]
+        for row, is_exact in zip(rows, in_families, strict=True)
+    ]
+    printed = [
+        (x, t)
+        for row, off in zip(rows, radii, strict=True)
+        for x, t in zip(row, off, strict=True)
+        if t
+    ]
+
+    def make(values: Sequence[Any]) -> Tableau:
+        left = iter(values)
+        made = _filled(rows, radii, left)
+        b = [next(made) for _ in tableau.colours]
+        blocks: dict[Edge, Any] = {
+            key: tuple(next(made) for _ in block) for key, block in tableau.blocks.items()
+        }
+        c: list[Any] = []
+        for l, m in enumerate(sums):
+            if first[l] < l:
+                c.append(c[first[l]])
+            elif m is None:
+                c.append(next(made))
+            else:
+                block = blocks[tableau.colours[l].space, m]
+                c.append(apply(block, PointSpace(block[0]).one))
+        new = [
+            replace(colour, b=b[l], c=c[l % colours]) for l, colour in enumerate(tableau.colours)
+        ]
+        spaces = [
+            PointSpace(next(x.c for x in new if x.space == k)) for k in range(len(tableau.spaces))
+        ]
+        return Tableau(tuple(spaces), tuple(new), blocks)
+
+    return Box(tuple(x for x, _ in printed), tuple(t for _, t in printed), make)
+
+
+def _filled(
+    rows: Sequence[Vector], radii: Sequence[Sequence[fmpq]], values: Iterator[Any]
+) -> Iterator[tuple[Any, ...]]:
+    """The rows with values in place of the numbers that have a radius."""
+    for row, off in zip(rows, radii, strict=True):
+        yield tuple(
+            next(values) if t else rational_or_ball(x) for x, t in zip(row, off, strict=True)
+        )
+
+
+def _block_of_nodes(tableau: Tableau, l: int) -> int | None:
+    """A colour m with A^{l,m} 𝟙 = c^{l}; None where there is none."""
+    nodes = tuple(tableau.colours[l].c)
+    for m in range(tableau.size):
+        block = tableau.block(l, m)
+        if block is not None and apply(block, tableau.space(m).one) == nodes:
+            return m
+    return None

@@ -1,0 +1,237 @@
+"""``gark design`` where known numbers are rounded: values of one method within the tolerance."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from flint import fmpq
+
+from garkcli import find_parameters, found_methods, load, minimise, search_methods, stable_values
+from garkcli.design.within import DesignWithin, ValuesWithin
+from garkcli.errors import MethodError
+from garkcli.exact.display import to_ball, to_float
+from garkcli.exact.field import Number
+from garkcli.exact.rounding import in_decimals
+from garkcli.methodfile.family import loads_family
+from tests.cli.harness import gark
+
+SDIRK = """tolerance: 1e-10
+A:
+  - [0.4358665215, 0, 0]
+  - [0.2820667392, 0.4358665215, 0]
+  - [1.2084966491, -0.6443631706, 0.4358665215]
+b: [1.2084966491, -0.6443631706, 0.4358665215]
+embedded: ["?", "?", "?"]
+design: {order: 3, embedded-order: 2}
+"""
+HEUN = """tolerance: 1e-8
+A: [[0, 0], [0.66666667, 0]]
+"""
+
+
+def within(text: str) -> DesignWithin:
+    """What is found for a file with rounded numbers."""
+    found = find_parameters(loads_family(text))
+    assert isinstance(found, DesignWithin)
+    return found
+
+
+def only(found: DesignWithin) -> ValuesWithin:
+    """The one solution of the highest order."""
+    assert found.best is not None
+    [values] = found.best.found
+    return values
+
+
+def decimals(row: tuple[Number, ...], digits: int) -> str:
+    """A row, rounded to so many decimal places; zeros are exact."""
+    balls = (to_ball(x, digits + 10) if x else None for x in row)
+    return ", ".join("0" if x is None else in_decimals(x.mid().fmpq(), digits) for x in balls)
+
+
+def test_embedded_weights_of_a_rounded_method_are_a_line() -> None:
+    """Three weights with two conditions, Σ bh = 1 and Σ bh c = 1/2: the printed digits of A and b
+    miss conditions of their own, and leave no value; one method within the tolerance leaves a line.
+    """
+    found = within(SDIRK)
+    values = only(found)
+    assert found.best is not None
+    assert (found.best.order, found.best.printed, values.dimension, values.embedded) == (
+        3,
+        -1,
+        1,
+        2,
+    )
+    assert 0 < values.distance <= 1
+    bh = [to_float(x) for x in values.values.values()]
+    c = (0.4358665215, 0.7179332607, 1.0)
+    assert sum(bh) == pytest.approx(1, abs=1e-14)
+    assert sum(x * y for x, y in zip(bh, c, strict=True)) == pytest.approx(0.5, abs=1e-9)
+    [free] = values.free
+    moves = {free: 1.0, **{k: to_float(x[free]) for k, x in values.directions.items()}}
+    assert sum(moves.values()) == pytest.approx(0, abs=1e-14)
+    assert sum(moves[k] * y for k, y in zip(values.values, c, strict=True)) == pytest.approx(
+        0, abs=1e-9
+    )
+
+
+NAMES = ("esdirk-324", "kvaerno-3", "kvaerno-4", "sdirk-4", "cash-4-3")
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("digits", [6, 12])
+def test_embedded_rows_of_the_catalogue_are_found_again(name: str, digits: int) -> None:
+    """The embedded row of a method, rounded and taken away, is among the values: with free weights
+    as published, the others are as published, up to rounding. The dimension is that of the exact
+    method.
+    """
+    method = load(name)
+    tableau = method.tableau
+    b, published = tableau.colours[0].b, method.embedded
+    assert published is not None
+    orders = {claim.key: claim.value for claim in method.claims}
+    rows = "\n".join(f"  - [{decimals(row, digits)}]" for row in tableau.block(0, 0) or ())
+    unknown = ", ".join(['"?"'] * len(b))
+    wants = f"{{order: {orders['order']}, embedded-order: {orders['embedded-order']}}}"
+    text = (
+        f"tolerance: 1e-{digits}\nA:\n{rows}\nb: [{decimals(b, digits)}]\n"
+        f"embedded: [{unknown}]\ndesign: {wants}\n"
+    )
+    values = only(within(text))
+    assert values.embedded == orders["embedded-order"]
+    row = [to_float(x) for x in published[0]]
+    weights = dict(zip(values.values, row, strict=True))
+    for unknown_weight, slopes in values.directions.items():
+        moved = sum(
+            to_float(a) * (weights[k] - to_float(values.values[k])) for k, a in slopes.items()
+        )
+        expected = to_float(values.values[unknown_weight]) + moved
+        assert weights[unknown_weight] == pytest.approx(expected, abs=2000 * 10.0**-digits)
+
+
+def test_weights_at_rounded_gauss_nodes_have_order_4_and_not_5() -> None:
+    """Nodes and weights move together: with the nodes as printed, order 4 has no weights."""
+    text = """tolerance: 1e-8
+A: [[0.25000000, -0.03867513], [0.53867513, 0.25000000]]
+b: ["?", "?"]
+"""
+    found = within(text)
+    values = only(found)
+    assert [to_float(x) for x in values.values.values()] == pytest.approx([0.5, 0.5], abs=1e-14)
+    assert (found.reaches(4), found.reaches(5)) == (True, None)
+    assert found.best is not None
+    assert found.best.printed == -1
+
+
+def test_unknowns_that_are_not_linear_are_found_numerically() -> None:
+    """Two entries of a Gauss method: both orders of its stages, and no other."""
+    text = """tolerance: 1e-8
+A: [[0.25000000, "?"], ["?", 0.25000000]]
+b: [0.50000000, 0.50000000]
+c: [0.21132487, 0.78867513]
+design: {order: 4}
+"""
+    found = within(text)
+    assert found.best is not None
+    assert not found.best.is_linear
+    root = 3**0.5 / 6
+    for values in found.best.found:
+        pair = sorted(to_float(x) for x in values.values.values())
+        assert pair == pytest.approx([0.25 - root, 0.25 + root], abs=1e-12)
+    assert "by Newton's method from 100 starts" in " ".join(
+        gark("design", "-", stdin=text).out.split()
+    )
+
+
+def test_known_numbers_that_fail_for_certain_are_proved_to_fail(tmp_path: Path) -> None:
+    """Order 2 asks for b c = 1/2: 0.2667 by known numbers alone is no rounding of it."""
+    file = tmp_path / "heun.yaml"
+    text = HEUN + 'b: [0.60000000, 0.40000000]\nembedded: ["?", "?"]\ndesign: {order: 2}\n'
+    file.write_text(text, encoding="utf-8")
+    found = within(text)
+    assert found.reaches(2) is False
+    answer = gark("design", str(file))
+    assert answer.code == 1
+    assert "the condition of [[]] concerns known numbers alone" in " ".join(answer.out.split())
+
+
+def test_ranges_hold_for_values_within() -> None:
+    """b₂ = 3/4 alone has order 2, to the digits that 2/3 has: outside of a range it does not count,
+    and no verdict is about other values.
+    """
+    free = "parameters: {{t: {{free: true, range: [{}]}}}}\nb: [1 - t, t]\ndesign: {{order: 2}}\n"
+    inside, outside = within(HEUN + free.format("1/2, 1")), within(HEUN + free.format("0.1, 0.3"))
+    assert to_float(only(inside).values["t"]) == pytest.approx(0.75, abs=1e-8)
+    assert (inside.reaches(2), outside.reaches(2)) == (True, None)
+
+
+def test_the_file_that_is_written_passes_the_check(tmp_path: Path) -> None:
+    """--emit writes decimals and claims, which ``gark check`` confirms within the tolerance."""
+    file, made = tmp_path / "sdirk.yaml", tmp_path / "made.gark.yaml"
+    file.write_text(SDIRK, encoding="utf-8")
+    assert gark("design", str(file), "--emit", str(made), "-q").code == 0
+    checked = gark("check", str(made))
+    assert checked.code == 0, checked.out
+    assert "order: 3, embedded-order: 2" in checked.out
+    [method] = found_methods(within(SDIRK))
+    assert method.tolerance == fmpq(1, 10**10)
+
+
+def test_what_needs_exact_numbers_says_so(tmp_path: Path) -> None:
+    """A minimum, a search, stable values and what holds for every value would rest on last digits:
+    they are refused, in Python too, with what helps.
+    """
+    file = tmp_path / "sdirk.yaml"
+    file.write_text(SDIRK, encoding="utf-8")
+    options = (["--minimise", "error"], ["--search", "4"], ["--a-stable"], ["--choose", "bh1=0"])
+    runs = [gark("design", str(file), *option) for option in options]
+    runs += [gark(command, str(file)) for command in ("check", "stability", "conditions")]
+    for run in runs:
+        assert run.code == 2
+        assert "rounded" in run.err + run.out
+        assert "gark design" in run.err + run.out
+    family = loads_family(SDIRK)
+    for call in (
+        lambda: minimise(family, "error"),
+        lambda: search_methods(family, 3),
+        lambda: stable_values(family, "a-stable"),
+    ):
+        with pytest.raises(MethodError, match="rounded"):
+            call()
+
+
+def test_data_have_values_and_directions(tmp_path: Path) -> None:
+    """JSON has what the text says: decimals, never floats."""
+    file = tmp_path / "sdirk.yaml"
+    file.write_text(SDIRK, encoding="utf-8")
+    data = json.loads(gark("design", str(file), "--format", "json").out)
+    [step] = data["orders"]
+    [solution] = step["solutions"]
+    assert (data["schema"], data["tolerance"]) == ("gark/design-within/1", "1e-10")
+    assert (step["printed_dimension"], solution["dimension"]) == (-1, 1)
+    assert all(isinstance(x, str) for x in solution["values"].values())
+
+
+def test_a_tolerance_without_rounded_numbers_changes_nothing() -> None:
+    """Where every entry is unknown no number is rounded, and the answer is exact."""
+    text = 'A: [[0, 0], ["?", 0]]\nb: ["?", "?"]\ndesign: {order: 2}\n'
+    exact, rounded = (find_parameters(loads_family(x)) for x in (text, f"{text}tolerance: 1e-9\n"))
+    assert [x.ideal.polynomials for x in exact.steps] == [
+        x.ideal.polynomials for x in rounded.steps
+    ]
+
+
+def test_equal_digits_prove_nothing_where_rounding_lets_unknowns_matter() -> None:
+    """As printed b c = 0.4 for every t, as both nodes are 0.4. They may differ by rounding, and a
+    large t makes more of it: order 2 is not decided, where one node twice proves that it fails.
+    """
+    text = "tolerance: 1e-8\nparameters: {t: free}\nb: [1 - t, t]\ndesign: {order: 2}\n"
+    apart = within(f"{text}A: [[0.40000000, 0], [0, 0.400000000]]\n")
+    same = within(
+        f"{text}parameters: {{t: free, c: 0.40000000}}\nA: [[c, 0], [0, c]]\n".replace(
+            "parameters: {t: free}\n", ""
+        )
+    )
+    assert (apart.reaches(2), same.reaches(2)) == (None, False)

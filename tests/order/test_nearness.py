@@ -1,0 +1,133 @@
+"""How far a recovered method is from the print, and which entry alone is far off."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from flint import arb, ctx, fmpq
+
+from garkcli.check.deciding import analyse
+from garkcli.exact.affine import Affine, Forms
+from garkcli.methodfile.load import load, loads
+from garkcli.order.existence import has_zero, is_proved_to_exist
+from garkcli.order.meant import as_meant
+from garkcli.order.nearness import Entry, Nearness, far_alone
+from garkcli.order.rounded import RoundedTableau
+from tests.cli.harness import gark
+
+THREE_EIGHTHS = """
+tolerance: 1e-9
+A:
+  - [0, 0, 0, 0]
+  - [0.333333333333, 0, 0, 0]
+  - [-0.333333333333, 1, 0, 0]
+  - [1, -1, 1, 0]
+b: [0.125, 0.375, {b3}, 0.125]
+"""
+OFF = THREE_EIGHTHS.replace("{b3}", "0.3750000007")
+TWO_OFF = OFF.replace("b: [0.125", "b: [0.1250000007")
+
+
+def nearness_of(text: str) -> Nearness:
+    """Of a rounded method."""
+    method = loads(text)
+    found = analyse(method.tableau, tolerance=method.tolerance, further=method.further).nearness
+    assert found is not None
+    return found
+
+
+def test_one_entry_is_far_off() -> None:
+    """A weight of the 3/8 rule that is 0.7 t off, where all others have twelve digits, is named; it
+    is not where the others have as few digits, nor where two are off.
+    """
+    found = nearness_of(OFF)
+    assert found.distance == fmpq(7, 10)
+    assert found.entry == found.suspect == Entry("b", 0, None, None, 2)
+    assert nearness_of(TWO_OFF).suspect is None
+    assert nearness_of(THREE_EIGHTHS.replace("{b3}", "0.375")).suspect is None
+
+
+def test_two_numbers_of_one_sum_are_no_suspects() -> None:
+    """Where conditions see a sum alone, either number may be the wrong one; the same shift of a
+    number that stands alone is told.
+    """
+    basis = np.eye(6)[:5]
+    basis[4, 4:] = np.sqrt(0.5)
+    assert far_alone(basis, np.array([0, 0, 0, 0, 0.4, 0.4])) is None
+    assert far_alone(basis, np.array([0, 0.8, 0, 0, 0, 0])) == 1
+
+
+def test_rounding_is_no_suspect() -> None:
+    """Methods of the catalogue that are rounded to fewer digits have no suspects: rounding moves all
+    numbers alike.
+    """
+    for name in ("kvaerno-3", "cash-4-2", "ark-324"):
+        method = load(name)
+        found = analyse(method.tableau, tolerance=method.tolerance, further=method.further)
+        assert found.nearness is not None
+        assert found.nearness.suspect is None
+        assert found.nearness.distance <= 1
+
+
+def test_reports_tell_it(tmp_path: Path) -> None:
+    """With -v in a line, for programs as fields; not of exact methods."""
+    file = tmp_path / "off.gark.yaml"
+    file.write_text(OFF)
+    text = " ".join(gark("check", "-v", str(file)).out.split())
+    assert "recovered 0.7 t from the print, at b[3]; b[3] alone is far off: a misprint?" in text
+    assert "recovered" not in gark("check", str(file)).out
+    (found,) = json.loads(gark("check", "--format", "json", str(file)).out)["files"]
+    entry = {"letter": "b", "colours": [1], "indices": [3]}
+    assert found["recovered"] == {
+        "distance": 0.7,
+        "entry": entry,
+        "suspect": entry,
+        "met_fully": True,
+        "proved_to_exist": False,
+    }
+    assert "recovered" not in gark("check", "-v", "rk4").out
+
+
+@pytest.mark.parametrize(
+    ("name", "order"), [("kvaerno-3", 3), ("cash-4-2", 4), ("billington-2", 2)]
+)
+def test_methods_are_proved_to_exist(name: str, order: int) -> None:
+    """Of methods without simplifying conditions the order is proved, and no larger one."""
+    method = load(name)
+    analyse(method.tableau, tolerance=method.tolerance, further=method.further)
+    found = as_meant(method)
+    assert isinstance(found, RoundedTableau)
+    assert is_proved_to_exist(found.search, order)
+    assert not is_proved_to_exist(found.search, order + 1)
+
+
+def test_conditions_that_depend_on_each_other_prove_nothing() -> None:
+    """The 3/8 rule with its zeros and ones exact has fewer numbers than conditions."""
+    assert not nearness_of(OFF).is_proved
+
+
+def square_less_two(near: fmpq, radius: fmpq) -> list[Affine]:
+    """x² − 2 for all x near a number."""
+    x = Affine(arb(near), {0: float(radius.p) / float(radius.q)})
+    return [x * x - 2]
+
+
+def test_the_proof_is_one() -> None:
+    """x² − 2 has a zero within 2⁻²⁰ of 1.4142136 and none within 2⁻²⁰ of 1.4142; twice the same
+    condition proves nothing, nor does one that depends on nothing, nor a number that is held.
+    """
+    free, held = np.array([True]), np.array([False])
+    radius = fmpq(1, 1 << 20)
+    with ctx.workprec(200):
+        near = square_less_two(fmpq(14142136, 10**7), radius)
+        far = square_less_two(fmpq(14142, 10**4), radius)
+        assert has_zero(Forms.of(near, 1), free)
+        assert not has_zero(Forms.of(near, 1), held)
+        assert not has_zero(Forms.of(far, 1), free)
+        assert not has_zero(Forms.of([*near, *near], 1), free)
+        assert not has_zero(Forms.of([fmpq(0)], 1), free)
+        x = Affine(arb(fmpq(1, 10)), {0: 1.0})
+        assert not has_zero(Forms.of([x * x + fmpq(1, 1000)], 1), free)  # to first order there is
