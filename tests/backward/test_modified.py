@@ -12,7 +12,7 @@ from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from garkcli import find_order, load, loads
+from garkcli import backward_analysis, find_order, load, loads
 from garkcli.backward.modified import ModifiedEquation, modified_equation
 from garkcli.backward.series import (
     Forest,
@@ -267,3 +267,17 @@ def test_trees_that_are_not_there() -> None:
     assert not equation[Tree(0, [Tree(0)])]
     with pytest.raises(KeyError):
         equation[Tree(0, [Tree(1), Tree(1), Tree(1)])]
+
+
+def test_a_rounded_method_has_the_coefficients_of_one_that_it_may_be() -> None:
+    """Gauss 2 in twelve decimals: 0 up to order 4, and those of Gauss 2 beyond, to the digits of
+    the file.
+    """
+    digits = "A: [[0.25, -0.038675134595], [0.538675134595, 0.25]], b: [0.5, 0.5]"
+    rounded = backward_analysis(loads(f"{{tolerance: 1e-12, {digits}}}"), 5).equation
+    exact = modified_equation(load("gauss-2").tableau, 5)
+    for order in (2, 3, 4):
+        assert not list(rounded.terms(order))
+    found, wanted = dict(rounded.terms(5)), dict(exact.terms(5))
+    assert set(found) == set(wanted)
+    assert all(abs(found[u] - wanted[u]) < fmpq(1, 10**14) for u in wanted)

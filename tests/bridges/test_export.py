@@ -183,3 +183,20 @@ def test_files_are_what_a_target_writes(target: str, tmp_path: Path) -> None:
     assert gark("export", str(path), "--to", target, "-o", str(output)).code == 0
     assert output.read_text(encoding="utf-8") == written
     assert gark("export", str(path), "--to", target).out == written
+
+
+def test_digits_beyond_those_of_the_file_are_recovered() -> None:
+    """Gauss 2 in twelve decimals: with 30 digits the entries are those of Gauss 2; with as many as
+    the file has they are those of the file.
+    """
+    method = loads(
+        "{tolerance: 1e-12, A: [[0.25, -0.038675134595], [0.538675134595, 0.25]], b: [0.5, 0.5]}"
+    )
+    found = json.loads(bridges()["json"].written(prepared(method, 30)))
+    assert found["A"] == [
+        ["0.25", "-0.038675134594812882254574390251"],
+        ["0.538675134594812882254574390251", "0.25"],
+    ]
+    assert found["order"] == 4
+    short = json.loads(bridges()["json"].written(prepared(method, 10)))
+    assert short["A"][1] == ["0.5386751346", "0.25"]
