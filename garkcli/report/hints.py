@@ -71,10 +71,16 @@ def _repairs(repairs: Sequence[Repair], names: Sequence[str]) -> Reason:
 
 def misprint_text(found: Misprint, names: Sequence[str]) -> Reason:
     """Why no tolerance is proposed: an entry looks misprinted, and which."""
-    text = (
-        f"up to order {found.order} the residuals are at most {size(found.residual)}, the digits in"
-        f" the file explain {size(found.explained)}: an entry looks misprinted"
-    )
+    if found.residual > found.explained:
+        text = (
+            f"up to order {found.order} the residuals are at most {size(found.residual)}, the"
+            f" digits in the file explain {size(found.explained)}: an entry looks misprinted"
+        )
+    else:
+        text = (
+            f"the digits in the file explain each condition up to order {found.order}, but not all"
+            " together: an entry looks misprinted"
+        )
     if not found.repairs:
         return Reason(text)
     mended = _repairs(found.repairs, names)
