@@ -201,8 +201,8 @@ KEYS = {
         g.Key(
             "tolerance: 1e-13",
             g.Kind(NUMBER.schema, _tolerance),
-            "How far each coefficient may be off; zeros are exact. A condition is met when its "
-            "residual is no larger than rounding every coefficient by this can make it.",
+            "How far each decimal and each long fraction may be off; zeros, short fractions and "
+            "roots are exact. Verdicts are about one method whose numbers differ by at most this.",
             page=f"{_PAGE}rounded-coefficients",
         ),
         g.Key(
