@@ -10,8 +10,8 @@ from garkcli.order.certificate import StageSpans
 from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.dense import DenseOrder, Slopes, dense_order, ends_at_step, slopes
 from garkcli.order.functionals import Estimator, Orders, estimator
-from garkcli.order.meant import AnyTableau, printed
-from garkcli.tableau.embedded import Further, with_weights
+from garkcli.order.meant import AnyTableau, as_dense, as_embedded, printed, with_further
+from garkcli.tableau.embedded import Further
 from garkcli.tableau.tableau import Tableau
 
 
@@ -79,21 +79,18 @@ def further_facts(
     embedded, facts = None, None
     weights, dense = further.embedded, further.dense
     if weights is not None:
-        if isinstance(method, Tableau):
-            changed: AnyTableau = with_weights(method, weights)
-        else:
-            changed = method.with_embedded()
+        changed = as_embedded(method, weights)
         other = order_of(changed, limit, spans)
         timed_order = nonautonomous(changed, other, inconsistent, limit)
         smaller = other if other.order < order.order else order
         differ = other.order != order.order and not smaller.is_lower_bound
-        found = estimator(method, weights, Orders(smaller.order, differ, limit), spans)
+        found = estimator(with_further(method) or method, weights, Orders(smaller.order, differ, limit), spans)
         embedded = EmbeddedFacts(printed(changed), other, timed_order, found)
     if dense is not None:
         facts = DenseFacts(
-            order=dense_order(method, dense, limit, spans),
+            order=dense_order(as_dense(method), dense, limit, spans),
             degree=dense.degree,
-            ends_at_step=ends_at_step(method, dense),
-            slopes=slopes(method, dense),
+            ends_at_step=ends_at_step(with_further(method) or method, dense),
+            slopes=slopes(with_further(method) or method, dense),
         )
     return embedded, facts

@@ -309,7 +309,9 @@ class Builder(Generic[V]):
         methods = [self._diagonal(l, method) for l, method in enumerate(text.methods)]
         structure = description.structure
         is_general = structure == "general"
-        blocks = BlockBuilder(self.source, self.values, text, methods, description.tolerance)
+        rounding = description.rounding
+        largest = None if rounding is None else rounding.largest
+        blocks = BlockBuilder(self.source, self.values, text, methods, largest)
         tableau = forms.gark(methods, blocks.built(is_general))
         if is_general:
             return tableau

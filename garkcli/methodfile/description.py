@@ -16,6 +16,7 @@ from garkcli.tableau.tableau import Method, Tableau
 
 if TYPE_CHECKING:
     from garkcli.families.family import Recipe
+    from garkcli.methodfile.tolerance import Rounding
     from garkcli.methodfile.values import Values
 
 Structure: TypeAlias = Literal["general", "semi-separable", "separable", "nystrom"]
@@ -189,9 +190,9 @@ class PartText(Frozen):
     @property
     def tolerance(self) -> fmpq | None:
         """The rounding of its coefficients."""
-        content = self.description.content
+        content, rounding = self.description.content, self.description.rounding
         made = content.tolerance if isinstance(content, ConstructionText) else None
-        return self.description.tolerance or made
+        return made if rounding is None else rounding.largest
 
 
 Make: TypeAlias = "Callable[[Callable[[PartText], Tableau], Values], Tableau]"
@@ -318,5 +319,5 @@ class Description(Frozen):
     reference: str = ""
     aliases: tuple[str, ...] = ()
     bibliography: Reference | None = None
-    tolerance: fmpq | None = None
+    rounding: Rounding | None = None
     claims: tuple[ClaimText, ...] = ()

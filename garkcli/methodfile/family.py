@@ -30,7 +30,7 @@ from garkcli.methodfile.wishes import Wishes, meaning_of
 from garkcli.tableau.family import Family
 from garkcli.tableau.tableau import Tableau
 
-Moved: TypeAlias = "Callable[[Sequence[Number]], Sequence[fmpq]]"
+Moved: TypeAlias = "Callable[[Sequence[Number], Sequence[fmpq]], Sequence[fmpq]]"
 """Numbers in place of the printed ones."""
 _NAME = re.compile(r"\ba[0-9_]+")
 """An entry of a block."""
@@ -52,7 +52,7 @@ class FamilyFile(Family, kw_only=True):
         structure: which vector fields the problem has.
         claims: what ``expect`` says.
         left_behind: further weights of methods inside of a construction, which it has not.
-        tolerance: the rounding of its numbers; None where none of them is rounded.
+        tolerance: the rounding of its numbers, the largest; None where none of them is rounded.
     """
 
     source: str
@@ -118,8 +118,8 @@ def loads_family(
         is_design: whether to use ``design`` of the file.
         deadline: as in ``load_family``.
         is_free: as in ``load_family``.
-        numbers: what takes the place of its rounded numbers, from these as they are printed; None
-            for themselves.
+        numbers: what takes the place of its rounded numbers, from these as they are printed and
+            their radii; None for themselves.
 
     Raises:
         MethodFileError: every fault of the file, with positions.
@@ -184,16 +184,17 @@ def _family(
 ) -> FamilyFile:
     """The family that a file describes, with what is wanted of it."""
     made = built(reader, description, FamilyValues)
-    tolerance = description.tolerance or None
-    if tolerance is not None:
-        from garkcli.methodfile.rounding import Rounded  # few files are rounded
+    tolerance: fmpq | None = None
+    if description.rounding is not None:
+        from garkcli.methodfile.rounding import Rounded, refuse_keys  # few files are rounded
 
         own = set(map(id, wishes.entries))
         coefficients = [x for x in reader.numbers.entries if id(x) not in own]
-        rounded = Rounded(coefficients, made.values)
-        tolerance = tolerance if rounded.numbers else None
+        rounded = Rounded(coefficients, made.values, description.rounding)
+        refuse_keys(reader.source, description.rounding, rounded)
+        tolerance = max(rounded.radii, default=None)
         if numbers is not None:
-            change = rounded.changer(numbers(rounded.numbers))
+            change = rounded.changer(numbers(rounded.numbers, rounded.radii))
             made = Builder(made.text, FamilyValues(reader.numbers, change))
     tableau, values = made.tableau, made.values
     ring = values.domain.ring

@@ -6,22 +6,17 @@ of parameters and everything mathematical are for ``gark check``.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Mapping
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
-from flint import fmpq
 from yaml.nodes import Node, SequenceNode
 
-from garkcli.errors import LimitExceeded
-from garkcli.exact.expression import read_decimal
 from garkcli.methodfile import grammar as g
 from garkcli.methodfile.bibliography import ALIASES, REFERENCE
 from garkcli.methodfile.description import BESIDE, CONSTRUCTIONS, FORMS, PLAIN, STRUCTURES
 from garkcli.methodfile.expectations import EXPECT
-from garkcli.methodfile.nodes import shortened
-from garkcli.methodfile.parameters import DEFINITIONS, NUMBER, PARAMETERS
+from garkcli.methodfile.parameters import DEFINITIONS, PARAMETERS
 from garkcli.methodfile.source import Home
 from garkcli.methodfile.spelled_out import BUTCHER, DENSE, TABLEAU, TABLEAU_KEYS, rows_of
 
@@ -32,23 +27,6 @@ if TYPE_CHECKING:
 _PAGE = "docs/method-file.md#"
 _MADE = f"{_PAGE}compose-adjoint-extrapolate-splitting-methods-made-from-methods"
 _PAPER = f"{_PAGE}methods-and-transfer-the-papers-construction"
-_DECIMAL = r"([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?"
-
-
-def _tolerance(at: Any, node: Node, where: str) -> fmpq | None:
-    """A rational number between 0 and 1; no parameters, as it is no coefficient."""
-    text = at.source.scalar(node, where)
-    if text is None:
-        return None
-    try:
-        value = read_decimal(text) if re.fullmatch(_DECIMAL, text, re.ASCII) else None
-    except LimitExceeded:
-        value = None
-    if value is not None and 0 < value < 1:
-        return value
-    message = f"{where}: a decimal number between 0 and 1 is expected, not {shortened(text)}"
-    at.source.fault(node, message, "for instance 1e-13", code="wrong-value")
-    return None
 
 
 def _methods() -> g.Schema:
@@ -200,9 +178,10 @@ KEYS = {
         ),
         g.Key(
             "tolerance: 1e-13",
-            g.Kind(NUMBER.schema, _tolerance),
-            "How far each decimal and each long fraction may be off; zeros, short fractions and "
-            "roots are exact. Verdicts are about one method whose numbers differ by at most this.",
+            g.later("tolerance", "KIND"),
+            "How far each rounded coefficient may be off; zeros, short fractions and roots are "
+            "exact. Write one number for all, a number for each place, or digits: then every "
+            "decimal is off by one unit of its last digit at most.",
             page=f"{_PAGE}rounded-coefficients",
         ),
         g.Key(

@@ -6,6 +6,7 @@ import os
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
+from functools import partial
 
 from garkcli.doing import doing
 from garkcli.errors import Fault, HasFreeParameters, MethodFileError
@@ -105,6 +106,12 @@ def loads(
     if reader.numbers.free:
         raise _free(reader, description)
     made = built(reader, description, Values)
+    rounded = None
+    if description.rounding is not None:
+        from garkcli.methodfile.rounding import refuse_keys, rounded_of  # few files are rounded
+
+        rounded = rounded_of(made, reader.numbers, description.rounding)
+        refuse_keys(reader.source, description.rounding, rounded)
     method = MethodFile(
         source=source,
         text=text,
@@ -115,7 +122,9 @@ def loads(
         form=description.form,
         structure=description.structure,
         is_conjugate=description.is_conjugate,
-        tolerance=description.tolerance,
+        tolerance=(rounded and rounded.largest("")) or None,
+        embedded_tolerance=(rounded and rounded.largest("embedded")) or None,
+        dense_tolerance=(rounded and rounded.largest("dense")) or None,
         claims=description.claims,
         reference=description.reference,
         description=description.description,
@@ -125,15 +134,9 @@ def loads(
         left_behind=left_behind(description.content),
         rules=rules_of_blocks(description),
     )
-    tolerance = description.tolerance
-    if tolerance:
-        from garkcli.methodfile.rounding import box_of  # few files are rounded
-
-        remember(
-            method.tableau,
-            tolerance,
-            lambda: (box_of(made, reader.numbers, tolerance), made.further),
-        )
+    if rounded is not None:
+        box = partial(rounded.box, made.text)
+        remember(method.tableau, method.tolerance, lambda: (box(), made.further))
     return method
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TypeAlias
 
 from flint import arb, ctx, fmpq
@@ -145,6 +145,59 @@ def _approximation(value: Number) -> fmpq:
 def is_long_fraction(expression: Expression, value: Number) -> bool:
     """Whether a fraction of whole numbers may be an approximant: its denominator is long."""
     return _is_whole(expression) and isinstance(value, fmpq) and value.q >= LONG_DENOMINATOR
+
+
+def fewest_digits(texts: Iterable[Expression]) -> int:
+    """A decimal with fewer digits is exact beside others that are long: it has at most half as
+    many. Zeros after the point count, as tables have decimals of one length.
+
+    >>> from garkcli.exact.expression import parse
+    >>> fewest_digits(map(parse, ("0.25", "0.7886751345948129", "1/3")))
+    9
+    """
+    decimals = [x for text in texts for x in _literals(text) if is_decimal(x)]
+    return max(map(_places, decimals), default=0) // 2 + 1
+
+
+def unit_of(expression: Expression, value: Number, fewest: int) -> fmpq:
+    """By how much a decimal may be off, one unit of its last digit, or a fraction with a long
+    denominator; 0 for one that is exact.
+
+    Args:
+        expression: as it is written.
+        value: of it.
+        fewest: digits of a decimal that is no exact one, as ``fewest_digits`` has it.
+
+    >>> from garkcli.exact.expression import parse
+    >>> unit_of(parse("0.25"), fmpq(1, 4), 9), unit_of(parse("0.25"), fmpq(1, 4), 2)
+    (0, 1/100)
+    """
+    if isinstance(expression, Literal) and is_decimal(expression):
+        return _unit(expression) if _places(expression) >= fewest else fmpq(0)
+    return _approximation(value)
+
+
+def coarsest_unit(texts: Sequence[Expression]) -> fmpq:
+    """By how much a number in some texts may be off at most, where its own digits say it."""
+    fewest = fewest_digits(texts)
+    units = [fmpq(0)]
+    for literal in (x for text in texts for x in _literals(text)):
+        if is_decimal(literal):
+            units.append(unit_of(literal, literal.value, fewest))
+        elif literal.value >= LONG_DENOMINATOR:
+            units.append(fmpq(100) / literal.value**2)
+    return max(units)
+
+
+def is_decimal(literal: Literal) -> bool:
+    """Whether a number is written as a decimal."""
+    return "." in literal.text or "e" in literal.text.lower()
+
+
+def _places(literal: Literal) -> int:
+    """Digits of a decimal, with zeros between the point and the first of them."""
+    mantissa, _, exponent = literal.text.lower().partition("e")
+    return max(_digits(literal), len(mantissa.partition(".")[2]) - int(exponent or 0))
 
 
 def _literals(expression: Expression) -> Iterator[Literal]:

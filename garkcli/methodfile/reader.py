@@ -7,7 +7,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any, Literal, cast
 
-from flint import fmpq
 from yaml.nodes import MappingNode, Node, ScalarNode
 
 from garkcli.errors import did_you_mean
@@ -24,6 +23,7 @@ from garkcli.methodfile.spelled_out import tableau, tableau_of
 if TYPE_CHECKING:
     from garkcli.methodfile.constructed.parts import Open, Opened
     from garkcli.methodfile.shapes import Shaped
+    from garkcli.methodfile.tolerance import Rounding, Tolerance
     from garkcli.methodfile.wishes import Wishes
 
 
@@ -39,14 +39,15 @@ class ContentReader(Reading):
 
     Attributes:
         shaped: the tableau of its ``unknown``; None without that.
-        tolerance: the rounding of its coefficients; None where they are meant exactly.
+        tolerance: what the file says of the rounding of its coefficients; None where they are
+            meant exactly.
     """
 
     def __init__(self, numbers: Numbers, opened: Open) -> None:
         super().__init__(numbers)
         self._open = opened
         self.shaped: Shaped | None = None
-        self.tolerance: fmpq | None = None
+        self.tolerance: Tolerance | None = None
 
     def read(self, root: MappingNode, entries: Entries) -> d.Description | None:
         """What the keys of a method say; None, with faults noted, where they make none."""
@@ -198,7 +199,7 @@ class Reader(Reading):
         said = {
             key: KEYS[key].kind.read(self, entries[key], key) for key in _ABOUT if key in entries
         }
-        tolerance: fmpq | None = said.get("tolerance")
+        tolerance: Tolerance | None = said.get("tolerance")
         self.content.tolerance = tolerance
         found = self.content.read(root, entries)
         if found is None:
@@ -210,19 +211,26 @@ class Reader(Reading):
             self.wishes = read_wishes(self, self.design)
         if self.content.shaped is not None:
             self._refuse_unused(self.content.shaped.layout.unknowns)
-        if tolerance is None and isinstance(found.content, d.ConstructionText):
-            tolerance = found.content.tolerance
+        rounding = self._rounding(tolerance, found.content)
         reference, bibliography = said.get("reference", ("", None))
         return replace(
             found,
             name=said.get("name") or "",
             description=said.get("description") or "",
-            tolerance=tolerance,
+            rounding=rounding,
             claims=said.get("expect", ()),
             aliases=said.get("aliases", ()),
             reference=reference,
             bibliography=bibliography,
         )
+
+    def _rounding(self, tolerance: Tolerance | None, content: d.Content) -> Rounding | None:
+        """That of the file, or of what it is made from; None where all of it is exact."""
+        from garkcli.methodfile.tolerance import Rounding, same_for_all  # few files are rounded
+
+        if tolerance is None and isinstance(content, d.ConstructionText) and content.tolerance:
+            tolerance = same_for_all(content.tolerance)
+        return None if tolerance is None else Rounding(tolerance, content, self.numbers.entries)
 
     def _refuse_unused(self, unknowns: Iterable[str]) -> None:
         """Note parameters beside a shape that are none of its unknowns, and that nothing uses."""

@@ -34,7 +34,7 @@ class Filled(Frozen, eq=False):
 
     def shifts(self) -> tuple[fmpq, ...]:
         """By how much the numbers of the file are off at the method that it is taken to be, in
-        units of the tolerance.
+        units of their radii.
         """
         off = zip(self.rounded.search.place.shifts, self.given, strict=True)
         return tuple(x for x, is_given in off if not is_given)
@@ -79,10 +79,11 @@ def filled(family: FamilyFile, values: Mapping[str, fmpq], digits: int, width: f
     reader.source.close()
     made = Builder(text, known)
     given = {id(x) for name in texts for x in _literals(reader.numbers.parameters[name])}
-    rounded = Rounded(reader.numbers.entries, known, given)
-    tolerance = family.tolerance
-    assert tolerance is not None
-    radii = tuple(width if is_given else tolerance for is_given in rounded.is_given)
+    tolerance, rounding = family.tolerance, description.rounding
+    assert tolerance is not None and rounding is not None
+    rounded = Rounded(reader.numbers.entries, known, rounding, given)
+    pairs = zip(rounded.radii, rounded.is_given, strict=True)
+    radii = tuple(width if is_given else radius for radius, is_given in pairs)
     box = Box(rounded.numbers, radii, rounded.maker(text))
     tableau = RoundedTableau.of(made.tableau, tolerance, box, made.further)
     return Filled(tableau, rounded.is_given)
@@ -93,15 +94,13 @@ def family_at(family: FamilyFile, shifts: Sequence[fmpq], bits: int) -> FamilyFi
 
     Args:
         family: with a tolerance.
-        shifts: by how much they are off, in units of it; nothing for none.
+        shifts: by how much they are off, in units of their radii; nothing for none.
         bits: of irrational ones.
     """
-    tolerance = family.tolerance
-    assert tolerance is not None
 
-    def moved(printed: Sequence[Number]) -> list[fmpq]:
+    def moved(printed: Sequence[Number], radii: Sequence[fmpq]) -> list[fmpq]:
         offs = shifts or (fmpq(0),) * len(printed)
-        return [_rational(x) + tolerance * off for x, off in zip(printed, offs, strict=True)]
+        return [_rational(x) + t * off for x, t, off in zip(printed, radii, offs, strict=True)]
 
     with ctx.workprec(bits):
         return loads_family(family.text, family.source, family.settings, numbers=moved)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Container, Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from flint import ctx, fmpq
 
@@ -14,29 +14,32 @@ from garkcli.exact.rewriting import parts
 from garkcli.frozen import replace
 from garkcli.methodfile.build import Builder
 from garkcli.methodfile.numbers import Entry, Numbers
-from garkcli.methodfile.printed import is_long_fraction
+from garkcli.methodfile.printed import is_decimal, is_long_fraction
+from garkcli.methodfile.source import Source
 from garkcli.methodfile.values import Values
 from garkcli.tableau.box import Box, rational_or_ball, to_points
 from garkcli.tableau.embedded import as_colours
 
 if TYPE_CHECKING:
     from garkcli.methodfile.description import PartText
+    from garkcli.methodfile.tolerance import Rounding
+
+_Rounded: TypeAlias = tuple[Entry, Expression, Number]
+"""A rounded number, in an entry."""
 
 
-def box_of(built: Builder[Values], numbers: Numbers, tolerance: fmpq) -> Box:
-    """All methods that a file may mean: each decimal in it may be off by the tolerance, and each
-    fraction with a long denominator; short fractions and radicals are exact. Where there is none
-    of these, each coefficient that is not 0 may be off.
+def rounded_of(built: Builder[Values], numbers: Numbers, rounding: Rounding) -> Rounded:
+    """The rounded numbers of a file: each decimal in it, and each fraction with a long denominator;
+    short fractions and radicals are exact. Where there is none of these, and one tolerance for the
+    whole file, each coefficient that is not 0 may be off.
 
     Args:
         built: the method, with the values of the file.
         numbers: the coefficients of the file.
-        tolerance: by how much they may be off.
+        rounding: by how much they may be off.
     """
     named = {id(x) for text in numbers.parameters.values() for x in _all_parts(text)}
-    rounded = Rounded(numbers.entries, built.values, apart=named)
-    radii = (tolerance,) * len(rounded.places)
-    return Box(rounded.numbers, radii, rounded.maker(built.text))
+    return Rounded(numbers.entries, built.values, rounding, apart=named)
 
 
 class Rounded:
@@ -46,6 +49,7 @@ class Rounded:
     Args:
         coefficients: of the file.
         known: their values, as they are printed.
+        rounding: by how much each number may be off.
         given: the literals, by their identity, that take the place of unknowns: they are rounded
             as they are written, and entries with them are not what the file prints.
         apart: where equal texts, which are read once, may be roundings of several numbers: the
@@ -55,13 +59,17 @@ class Rounded:
     Attributes:
         places: of each, by the identity of its expression.
         numbers: as they are printed.
+        radii: by how much each may be off, the least where it is in several places; those that may
+            not are left out, but for values of unknowns.
         is_given: of each, whether it takes the place of an unknown.
+        keys: those under ``tolerance`` that are about some rounded number.
     """
 
     def __init__(
         self,
         coefficients: Sequence[Entry],
         known: Values,
+        rounding: Rounding,
         given: Container[int] = (),
         apart: Container[int] | None = None,
     ) -> None:
@@ -70,23 +78,47 @@ class Rounded:
             id(x): x.expression if apart is None else _copied(x.expression, apart)
             for x in coefficients
         }
-        self.places: dict[int, int] = {}
-        found: list[Number] = []
-        entries = [(self.expressions[id(x)], known.number(x)) for x in coefficients]
-        printed = [x for x in entries if x[1] and not is_of_unknowns(x[0], given)]
-        rounded = [y for x in printed for y in _rounded_in(*x)]
-        # what has unknowns in it is no single number
-        mixed = [x for x, _ in entries if is_of_unknowns(x, given)]
-        inside = [y for x in mixed for y in _rounded_in(x, fmpq(0))]
-        own = [x for x in inside if id(x[0]) in given]
-        if not rounded and len(inside) == len(own):
-            rounded = printed
-        for expression, number in (*rounded, *inside):
-            if id(expression) not in self.places:
-                self.places[id(expression)] = len(found)
-                found.append(number)
-        self.numbers = tuple(found)
-        self.is_given = tuple(x in given for x in self.places)
+        found: list[_Rounded] = []
+        mixed: list[_Rounded] = []
+        printed: list[_Rounded] = []
+        for entry in coefficients:
+            expression, number = self.expressions[id(entry)], known.number(entry)
+            if is_of_unknowns(expression, given):
+                # what has unknowns in it is no single number
+                mixed += [(entry, *x) for x in _rounded_in(expression, fmpq(0))]
+            elif number:
+                printed.append((entry, expression, number))
+                found += [(entry, *x) for x in _rounded_in(expression, number)]
+        is_bare = not found and all(id(x) in given for _, x, _ in mixed)
+        if is_bare and rounding.tolerance.is_single:
+            found = printed
+        found += mixed
+        radii: dict[int, fmpq] = {}
+        numbers: dict[int, Number] = {}
+        self.keys: set[str] = set()
+        self._largest: dict[str, fmpq] = {}
+        for entry, part, number in found:
+            t = rounding.radius(entry, part, number)
+            numbers.setdefault(id(part), number)
+            radii[id(part)] = min(t, radii.get(id(part), t))
+            if t:
+                self.keys.add(rounding.key_of(entry))
+        for entry, part, _ in found:
+            kind, t = rounding.kind_of(entry), radii[id(part)]
+            self._largest[kind] = max(t, self._largest.get(kind, t))
+        kept = [key for key, t in radii.items() if t or key in given]
+        self.places = {key: number for number, key in enumerate(kept)}
+        self.numbers = tuple(numbers[key] for key in kept)
+        self.radii = tuple(radii[key] for key in kept)
+        self.is_given = tuple(key in given for key in kept)
+
+    def largest(self, *kinds: str) -> fmpq:
+        """By how much a number of some kinds may be off at most: empty for A, b and c."""
+        return max((self._largest.get(kind, fmpq(0)) for kind in kinds), default=fmpq(0))
+
+    def box(self, text: PartText) -> Box:
+        """All methods that a file may mean."""
+        return Box(self.numbers, self.radii, self.maker(text))
 
     def maker(self, text: PartText) -> Callable[[Sequence[Any]], Any]:
         """What makes the method of other numbers."""
@@ -129,6 +161,17 @@ class Rounded:
         return to_points(as_colours(builder.tableau, builder.further))
 
 
+def refuse_keys(source: Source, rounding: Rounding, rounded: Rounded) -> None:
+    """Refuse keys of ``tolerance`` that are about nothing.
+
+    Raises:
+        MethodFileError: there are some.
+    """
+    for node, message, cure, code in rounding.refusals(rounded.keys):
+        source.fault(node, message, cure, code=code)
+    source.close()
+
+
 def _all_parts(expression: Expression) -> Iterator[Expression]:
     """An expression and all that is in it."""
     yield expression
@@ -161,8 +204,8 @@ def _rounded_in(expression: Expression, value: Number) -> Iterator[tuple[Express
         yield expression, value
         return
     match expression:
-        case Literal(value=own, text=text):
-            if own and ("." in text or "e" in text.lower()):
+        case Literal(value=own):
+            if own and is_decimal(expression):
                 yield expression, own
         case Chain(operands=operands):
             parts = [

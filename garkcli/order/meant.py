@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypeAlias
 from flint import fmpq
 
 from garkcli.tableau.conjugate import conjugate
-from garkcli.tableau.embedded import NOTHING, Further
+from garkcli.tableau.embedded import NOTHING, Further, Weights, with_weights
 from garkcli.tableau.forms import pair
 from garkcli.tableau.tableau import Tableau
 
@@ -46,16 +46,52 @@ def meant(tableau: Tableau, tolerance: fmpq | None, further: Further | None = No
     return found
 
 
-def remember(tableau: Tableau, tolerance: fmpq, box: Callable[[], tuple[Box, Further]]) -> None:
+def remember(
+    tableau: Tableau, tolerance: fmpq | None, box: Callable[[], tuple[Box, Further]]
+) -> None:
     """Keep which numbers of a tableau are rounded, and how it is made of them: ``meant`` takes each
     coefficient that is not 0 for one of them where nobody knows better.
 
     Args:
         tableau: the method.
-        tolerance: its rounding.
+        tolerance: its rounding; None where only further weights are rounded.
         box: all methods that it may be, with its further weights.
     """
     tableau.__dict__["box"] = tolerance, box
+
+
+def with_further(method: AnyTableau) -> RoundedTableau | None:
+    """A method with its further weights, where any of its numbers is rounded; an exact method may
+    have rounded ones.
+    """
+    if not isinstance(method, Tableau):
+        return method
+    of_tolerance, box = method.__dict__.get("box", (None, None))
+    if of_tolerance is not None or box is None:
+        return None
+    if "with further" not in method.__dict__:
+        from garkcli.order.rounded import RoundedTableau
+
+        whole, further = box()
+        largest = max(whole.radii, default=None)
+        found = largest and RoundedTableau.of(method, largest, whole, further)
+        method.__dict__["with further"] = found
+    known: RoundedTableau | None = method.__dict__["with further"]
+    return known
+
+
+def as_embedded(method: AnyTableau, weights: Weights) -> AnyTableau:
+    """A method with its embedded weights in place of its own, rounded where these or A are."""
+    rounded = with_further(method)
+    found = None if rounded is None else rounded.with_embedded()
+    return with_weights(printed(method), weights) if found is None else found
+
+
+def as_dense(method: AnyTableau) -> AnyTableau:
+    """A method with the rounding that its dense output depends on."""
+    rounded = with_further(method)
+    found = None if rounded is None else rounded.with_dense()
+    return printed(method) if found is None else found
 
 
 def as_meant(method: GarkMethod) -> AnyTableau:

@@ -19,7 +19,7 @@ import numpy as np
 from flint import arb, ctx, fmpq
 
 from garkcli.deadline import check_time
-from garkcli.exact.affine import UNIT, Forms
+from garkcli.exact.affine import UNIT, Affine, Forms
 from garkcli.exact.display import to_float
 from garkcli.frozen import Frozen
 from garkcli.ntrees.count import Admissible, counts_upto
@@ -323,6 +323,16 @@ class Recovery:
     def wanted(self) -> System:
         """All rows that the method meets by the search."""
         return _both(self.shape, self.system)
+
+    def largest_in(self, name: str) -> fmpq:
+        """The largest radius of the printed numbers that a tableau depends on; 0 for an exact one.
+        """
+        made = self.origin.defects(name).tableau.made
+        rows = [row for colour in made.colours for row in (colour.b, colour.c)]
+        rows += [row for block in made.blocks.values() for row in block]
+        forms = (x for row in rows for x in row if isinstance(x, Affine))
+        found = {k for x in forms for k, slope in x.slopes.items() if slope}
+        return max((self.box.radii[k] for k in found), default=fmpq(0))
 
     def finer(self, bits: int) -> Recovery:
         """The same search with at least so many bits."""

@@ -16,7 +16,7 @@ from flint import arb, ctx, fmpq
 from garkcli.doing import doing
 from garkcli.exact.display import decimal
 from garkcli.exact.field import Number
-from garkcli.frozen import Frozen, FrozenBut
+from garkcli.frozen import Frozen, FrozenBut, replace
 from garkcli.ntrees.count import Admissible, counts_upto
 from garkcli.ntrees.tree import Tree
 from garkcli.order.approximate_spans import ApproximateSpans
@@ -151,11 +151,21 @@ class RoundedTableau(Frozen, eq=False):
 
         return self._derived("with time", derive)
 
-    def with_embedded(self) -> RoundedTableau:
-        """The same stages with the embedded weights."""
+    def with_embedded(self) -> RoundedTableau | None:
+        """The same stages with the embedded weights; None where no rounded number is in either."""
         self.search.settled  # noqa: B018 -- it adds the tableau
+        tolerance = self.search.largest_in("embedded")
+        if not tolerance:
+            return None
         printed = with_weights(self.tableau, self.search.printed_further.embedded or ())
-        return RoundedTableau(printed, self.tolerance, self.search, "embedded")
+        return RoundedTableau(printed, tolerance, self.search, "embedded")
+
+    def with_dense(self) -> RoundedTableau | None:
+        """The same with the rounding of dense output; None where no rounded number is in it."""
+        powers = range(1, len(self.search.printed_further.powers) + 1)
+        self.search.settled  # noqa: B018 -- it adds the tableaus
+        tolerance = max(self.search.largest_in(f"power {power}") for power in powers)
+        return replace(self, tolerance=tolerance) if tolerance else None
 
     def _derived(self, kind: str, make: Derive) -> RoundedTableau:
         name, search = f"{kind} of {self.name}", self.search

@@ -104,12 +104,15 @@ class GarkMethod(Shown, Frozen, kw_only=True):
     Attributes:
         tableau: what its order conditions are about.
         name: what people call it.
-        tolerance: the rounding that its coefficients admit, or None where they are meant exactly.
+        tolerance: the rounding that A, b and c admit, the largest where there are several; None
+            where they are meant exactly.
         derivation: whether it was made as the conjugate or the pair of ``base``.
         base: the method it was made from.
         embedded: further weights at the same stages, a row of exact numbers a colour; None where
             there are none, as for a conjugate and a pair.
         dense: weights that are polynomials; None likewise.
+        embedded_tolerance: the rounding that the embedded weights admit by themselves.
+        dense_tolerance: that of dense output.
 
     >>> from garkcli import load
     >>> method = load("rk4")
@@ -124,6 +127,8 @@ class GarkMethod(Shown, Frozen, kw_only=True):
     base: GarkMethod | None = None
     embedded: Weights | None = None
     dense: DenseOutput | None = None
+    embedded_tolerance: fmpq | None = None
+    dense_tolerance: fmpq | None = None
 
     @cached_property
     def entries(self) -> Entries:

@@ -49,7 +49,7 @@ class PartReader(Reading):
         numbers: the coefficients of the file.
         written: what reads methods that are spelled out.
         opened: what reads methods of the catalogue.
-        tolerance: the rounding that the file states; None where it states none.
+        tolerance: what the file says of rounding; None where it says nothing.
         structure: which vector fields the problem has.
 
     Attributes:
@@ -61,15 +61,24 @@ class PartReader(Reading):
         numbers: Numbers,
         written: Written,
         opened: Open,
-        tolerance: fmpq | None,
+        tolerance: Tolerance | None,
         structure: Structure,
     ) -> None:
         super().__init__(numbers)
-        self.tolerance = tolerance
+        self._tolerance = tolerance
         self.structure = structure
         self.parts: list[PartText] = []
         self._written = written
         self._open = opened
+
+    @property
+    def tolerance(self) -> fmpq | None:
+        """The rounding that the file states for what was read so far; None where it states none."""
+        if self._tolerance is None:
+            return None
+        from garkcli.methodfile.tolerance import largest
+
+        return largest(self._tolerance, self.numbers.entries)
 
     def method(self, node: Node, where: str, why: str = AT_POINTS) -> PartText | None:
         """A method: a family, coefficients of any form, or a name.

@@ -1,0 +1,250 @@
+"""``tolerance``: by how much the numbers of a file may be off, all of them alike or by their place."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Any, TypeAlias
+
+from flint import fmpq
+from yaml.nodes import MappingNode, Node
+
+from garkcli.errors import LimitExceeded, did_you_mean
+from garkcli.exact.expression import read_decimal
+from garkcli.exact.field import ZERO, Number
+from garkcli.exact.nodes import Expression
+from garkcli.frozen import Frozen, FrozenBut
+from garkcli.methodfile import description as d
+from garkcli.methodfile.grammar import Key, Kind, Schema
+from garkcli.methodfile.nodes import key_nodes, shortened
+from garkcli.methodfile.numbers import Entry, Row, Rows
+from garkcli.methodfile.parameters import NUMBER
+from garkcli.methodfile.printed import coarsest_unit, fewest_digits, unit_of
+
+DIGITS = "digits"
+"""Each decimal is off by one unit of its last digit at most."""
+OTHERS = "others"
+"""What no other key is about."""
+Off: TypeAlias = "fmpq | str"
+"""By how much: a number, or ``DIGITS``."""
+
+_DECIMAL = r"([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?"
+_FORM = "write for instance {others: 1e-20, embedded: 1e-12}"
+
+
+class Tolerance(FrozenBut):
+    """What a file says under ``tolerance``.
+
+    Attributes:
+        offs: by key: ``others``, ``embedded``, ``dense``, a colour by number or name.
+        places: where the keys are; none for one tolerance for all.
+    """
+
+    besides = frozenset({"places"})
+
+    offs: Mapping[str, Off]
+    places: Mapping[str, Node]
+
+    def __hash__(self) -> int:
+        return hash(tuple(self.offs.items()))
+
+    @property
+    def is_single(self) -> bool:
+        """Whether it is one number for the whole file."""
+        return not self.places and not self.is_of_digits
+
+    @property
+    def is_of_digits(self) -> bool:
+        """Whether the last digits of some numbers say it."""
+        return DIGITS in self.offs.values()
+
+
+def same_for_all(off: Off) -> Tolerance:
+    """One tolerance for all numbers."""
+    return Tolerance({OTHERS: off}, {})
+
+
+def largest(tolerance: Tolerance, entries: Iterable[Entry]) -> fmpq:
+    """By how much a number among some entries may be off at most, wherever it is."""
+    offs = [x for x in tolerance.offs.values() if isinstance(x, fmpq)]
+    if tolerance.is_of_digits:
+        offs.append(coarsest_unit([x.expression for x in entries]))
+    return max(offs, default=ZERO)
+
+
+def _off(at: Any, node: Node, where: str) -> Off | None:
+    """A number between 0 and 1, which uses no parameters, as it is no coefficient; or the word."""
+    text = at.source.scalar(node, where)
+    if text is None or text == DIGITS:
+        return text
+    try:
+        value = read_decimal(text) if re.fullmatch(_DECIMAL, text, re.ASCII) else None
+    except LimitExceeded:
+        value = None
+    if value is not None and 0 < value < 1:
+        return value
+    message = f"{where}: a decimal number between 0 and 1 is expected, not {shortened(text)}"
+    cure = f"for instance 1e-13; or {DIGITS}, for a unit of the last digit of each decimal"
+    at.source.fault(node, message, cure, code="wrong-value")
+    return None
+
+
+def _read(at: Any, node: Node, where: str) -> Tolerance | None:
+    if not isinstance(node, MappingNode):
+        off = _off(at, node, where)
+        return None if off is None else same_for_all(off)
+    entries = at.source.mapping(node, where, (), form=_FORM)
+    if not entries and not at.source.faults:
+        at.source.fault(node, f"{where} is empty", _FORM, code="empty")
+    offs = {key: _off(at, value, f"{where}, {key}") for key, value in entries.items()}
+    known = {key: off for key, off in offs.items() if off is not None}
+    return Tolerance(known, key_nodes(node)) if known else None
+
+
+def _schema() -> Schema:
+    off: Schema = {"anyOf": [NUMBER.schema(), {"const": DIGITS}]}
+    named = {key.name: key.schema() for key in _INSIDE}
+    by_place: Schema = {"type": "object", "minProperties": 1, "properties": named}
+    return {"anyOf": [*off["anyOf"], {**by_place, "additionalProperties": off}]}
+
+
+_OFF = Kind(lambda: {"anyOf": [NUMBER.schema(), {"const": DIGITS}]}, _off)
+_INSIDE = (
+    Key(
+        f"{OTHERS}: 1e-20",
+        _OFF,
+        "The tolerance of all numbers that no other key is about; without it they are exact.",
+    ),
+    Key("embedded: 1e-12", _OFF, "The tolerance of embedded weights."),
+    Key("dense: 1e-8", _OFF, "The tolerance of the coefficients of dense output."),
+)
+KIND = Kind(_schema, _read, lambda: _INSIDE)
+"""What is under ``tolerance``."""
+
+
+class Rounding:
+    """By how much each number of a file may be off.
+
+    A number has the tolerance of what it is, embedded or dense; else that of its colour; else
+    that of the others; else it is exact.
+
+    Args:
+        tolerance: what the file says.
+        content: its coefficients, by their places.
+        entries: all of them.
+
+    Attributes:
+        tolerance: what the file says.
+        largest: by how much one of them may be off at most.
+    """
+
+    def __init__(self, tolerance: Tolerance, content: d.Content, entries: Sequence[Entry]) -> None:
+        self.tolerance = tolerance
+        self.names = _names(content)
+        self._kinds: dict[int, str] = {}
+        self._keys: dict[int, str] = {}
+        for kind, l, entry in _places(content):
+            self._kinds[id(entry)] = kind
+            own = [kind, *self.names[l]] if l is not None else [kind]
+            self._keys[id(entry)] = next((x for x in own if x in tolerance.offs), OTHERS)
+        self._fewest = fewest_digits(x.expression for x in entries) if tolerance.is_of_digits else 0
+        self.largest = largest(tolerance, entries)
+
+    def kind_of(self, entry: Entry) -> str:
+        """Whether a number is of embedded weights or of dense output; empty for A, b and c."""
+        return self._kinds.get(id(entry), "")
+
+    def key_of(self, entry: Entry) -> str:
+        """The key of ``tolerance`` that is about a number."""
+        return self._keys.get(id(entry), OTHERS)
+
+    def radius(self, entry: Entry, part: Expression, value: Number) -> fmpq:
+        """By how much a number in an entry may be off; 0 for one that is exact."""
+        off = self.tolerance.offs.get(self.key_of(entry), ZERO)
+        if isinstance(off, fmpq):
+            return off
+        return unit_of(part, value, self._fewest)
+
+    def refusals(self, used: Iterable[str]) -> Iterator[tuple[Node | None, str, str, str]]:
+        """What is wrong with the keys: where, the message, the cure, the kind of fault.
+
+        Args:
+            used: the keys that are about some rounded number.
+        """
+        known = [OTHERS, *d.BESIDE, *(name for names in self.names for name in names)]
+        for key, node in self.tolerance.places.items():
+            if key not in known:
+                message = f"tolerance: nothing of the method is called {shortened(key)}"
+                yield node, message, did_you_mean(key, known), "unknown-key"
+            elif key in self.tolerance.offs and key not in used:
+                message = f"tolerance: {key} has no rounded number"
+                yield node, message, "leave it out: short fractions and roots are exact", "empty"
+        if self.tolerance.offs == {OTHERS: DIGITS} and OTHERS not in used:
+            message = f"tolerance: {DIGITS} is about decimals, and the file has none"
+            yield None, message, "leave it out, or write a number such as 1e-13", "empty"
+
+
+def _names(content: d.Content) -> list[tuple[str, ...]]:
+    """What each colour is called in the file: its number, and its name where it has one."""
+    match content:
+        case d.MethodsText(methods=methods):
+            names = [x.name if isinstance(x, d.ButcherText) else "" for x in methods]
+        case d.PrkText():
+            names = ["q", "p"]
+        case d.TableauText(b=b) | d.ArkText(b=b):
+            names = [""] * len(b)
+        case _:
+            return []
+    return [(str(l), name) if name else (str(l),) for l, name in enumerate(names, start=1)]
+
+
+_Place: TypeAlias = tuple[str, "int | None", Entry]
+"""A number: ``embedded``, ``dense`` or empty; its colour from 0, None where it has none."""
+
+
+def _places(content: d.Content) -> Iterator[_Place]:
+    """The numbers that are of a colour, or of further weights; A^{l,m} is of colour l, and of
+    colours that share their stages A^{m} is of colour m.
+    """
+    match content:
+        case d.MethodsText(methods=methods, transfer=transfer):
+            for l, method in enumerate(methods):
+                if isinstance(method, d.ButcherText):
+                    yield from _of_butcher(method, l)
+                else:
+                    yield from _of_rows([method.numbers], l)
+                    yield from _of_further(method.further, l)
+            for (l, _), block in transfer.blocks.items():
+                if isinstance(block, d.MatrixText):
+                    yield from _of_rows(block.rows, l)
+        case d.PrkText(q=q, p=p):
+            yield from _of_butcher(q, 0)
+            yield from _of_butcher(p, 1)
+        case d.TableauText():
+            for l, blocks in enumerate(content.A):
+                for block_rows in blocks:
+                    yield from _of_rows(block_rows or (), l)
+                yield from _of_rows([content.b[l], content.c[l] or ()], l)
+        case d.ArkText():
+            for m, rows in enumerate(content.A):
+                yield from _of_rows([*rows, content.b[m]], m)
+    if isinstance(content, d.TableauText | d.ArkText):
+        for l, further in enumerate(content.further):
+            yield from _of_further(further, l)
+
+
+def _of_butcher(text: d.ButcherText, l: int) -> Iterator[_Place]:
+    yield from _of_rows([*text.A, text.b, text.c or ()], l)
+    yield from _of_further(text.further, l)
+
+
+def _of_rows(rows: Iterable[Row], l: int, kind: str = "") -> Iterator[_Place]:
+    for row in rows:
+        for entry in row:
+            yield kind, l, entry
+
+
+def _of_further(text: d.FurtherText, l: int) -> Iterator[_Place]:
+    dense: Rows = text.dense or ()
+    yield from _of_rows([text.embedded or ()], l, "embedded")
+    yield from _of_rows(dense, l, "dense")
