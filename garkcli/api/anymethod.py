@@ -11,6 +11,7 @@ from flint import fmpq
 from garkcli.api.arrays import from_arrays
 from garkcli.errors import MethodError
 from garkcli.exact.given import rational_of
+from garkcli.frozen import replace
 from garkcli.methodfile.load import load
 from garkcli.order.meant import AnyTableau, as_meant, meant
 from garkcli.tableau.forms import gark
@@ -109,6 +110,9 @@ def refuse_rounded(method: GarkMethod, derivation: str = "") -> None:
 def with_tolerance(given: AnyMethod, tolerance: object = None) -> tuple[GarkMethod, fmpq | None]:
     """A method with the tolerance that it is judged within: the one given, or its own."""
     method = method_of(given, tolerance)
+    if tolerance is not None and (method.embedded_tolerance or method.dense_tolerance):
+        # that of its further weights is another too
+        method = replace(method, tableau=replace(method.tableau))
     return method, tolerance_of(method, tolerance)
 
 

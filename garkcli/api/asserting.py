@@ -19,7 +19,7 @@ from garkcli.methodfile.expectations import AtLeast
 from garkcli.order.blame import Missed, blame_of
 from garkcli.order.certificate import DEFAULT_LIMIT, Order
 from garkcli.order.deciding import AnyOrder
-from garkcli.tableau.embedded import with_weights
+from garkcli.order.meant import as_embedded, as_meant, keep, printed, tolerance_of
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.tableau import Tableau
 
@@ -135,8 +135,11 @@ def _embedded(method: GarkMethod) -> GarkMethod:
         message = f"{_called(method)} has no embedded weights"
         cure = "from_arrays(A, b, c, embedded), or embedded: […] in its file"
         raise MethodError(message, cure, code="arrays")
-    tableau = with_weights(method.tableau, method.embedded)
-    return GarkMethod(tableau=tableau, name=method.name, tolerance=method.tolerance)
+    changed = as_embedded(as_meant(method), method.embedded)
+    near, tableau = tolerance_of(changed), printed(changed)
+    if near is not None:
+        keep(tableau, near, changed)
+    return GarkMethod(tableau=tableau, name=method.name, tolerance=near)
 
 
 _PARTS = {

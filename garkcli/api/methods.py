@@ -289,4 +289,6 @@ def reduced(method: AnyMethod) -> GarkMethod | None:
         tolerance=method.tolerance,
         embedded=further.embedded,
         dense=further.dense,
+        embedded_tolerance=method.embedded_tolerance,
+        dense_tolerance=method.dense_tolerance,
     )

@@ -7,8 +7,9 @@ from flint import fmpq
 from garkcli.exact.display import decimal
 from garkcli.frozen import Frozen
 from garkcli.order.deciding import order_of
-from garkcli.order.meant import meant
+from garkcli.order.meant import as_embedded, meant, tolerance_of
 from garkcli.order.simplifying import consistent_blocks
+from garkcli.tableau.embedded import Weights
 from garkcli.tableau.forms import with_time
 from garkcli.tableau.tableau import Tableau
 
@@ -23,6 +24,7 @@ class Orders(Frozen):
         nonautonomous: the order for y' = f(t, y) with the nodes as they are, where nodes are not
             the row sums; None where it is the order, or has no meaning.
         tolerance: within which the conditions are met; None where they hold exactly.
+        embedded_tolerance: the same of those of the embedded weights.
     """
 
     order: int
@@ -30,6 +32,7 @@ class Orders(Frozen):
     embedded: int | None = None
     nonautonomous: int | None = None
     tolerance: fmpq | None = None
+    embedded_tolerance: fmpq | None = None
 
     @property
     def effective(self) -> int:
@@ -48,27 +51,37 @@ class Orders(Frozen):
         text = f"order {least}{self.order}"
         if self.embedded is not None:
             text += f", embedded order {self.embedded}"
+            if self.embedded_tolerance != self.tolerance:
+                text += f" {_how(self.embedded_tolerance)}"
         if self.nonautonomous is not None:
             text += f", order {self.nonautonomous} where f depends on t"
-        if self.tolerance is None:
+        if self.tolerance is None and self.embedded_tolerance is None:
             return f"{text}; every order condition decided exactly"
-        return f"{text}; order conditions met within {decimal(self.tolerance)}"
+        return f"{text}; order conditions met {_how(self.tolerance)}"
 
 
-def find_orders(tableau: Tableau, embedded: Tableau | None, tolerance: fmpq | None) -> Orders:
+def _how(tolerance: fmpq | None) -> str:
+    return "exactly" if tolerance is None else f"within {decimal(tolerance)}"
+
+
+def find_orders(tableau: Tableau, embedded: Weights | None, tolerance: fmpq | None) -> Orders:
     """Prove the orders of a method.
 
     Args:
         tableau: the method.
-        embedded: the same with the embedded weights; None without them.
+        embedded: its embedded weights; None without them.
         tolerance: the rounding of its coefficients; None where they are exact.
     """
 
-    def found(of: Tableau | None) -> int | None:
-        return None if of is None else order_of(meant(of, tolerance)).order
-
     method = meant(tableau, tolerance)
     order = order_of(method)
-    timed = None if all(consistent_blocks(method).values()) else found(with_time(tableau))
+    timed = None
+    if not all(consistent_blocks(method).values()):
+        of_time = with_time(tableau)
+        timed = None if of_time is None else order_of(meant(of_time, tolerance)).order
     with_nodes = None if timed == order.order else timed
-    return Orders(order.order, order.is_lower_bound, found(embedded), with_nodes, tolerance)
+    other, near = None, tolerance
+    if embedded is not None:
+        changed = as_embedded(method, embedded)
+        other, near = order_of(changed).order, tolerance_of(changed)
+    return Orders(order.order, order.is_lower_bound, other, with_nodes, tolerance, near)

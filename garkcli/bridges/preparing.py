@@ -19,7 +19,6 @@ from garkcli.frozen import replace
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.constructed.multirate import coupling_of
 from garkcli.properties.family_entries import is_nonzero_at, nodes_of
-from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.garkmethod import GarkMethod, derived_name
 from garkcli.tableau.pointwise import Block, Cell, Entries, Row, entries, in_points
 from garkcli.tableau.polynomial_space import PolynomialSpace
@@ -54,7 +53,6 @@ def prepared(method: GarkMethod, digits: int | None = None) -> Payload:
     tableau = method.tableau
     found = _entries(tableau, digits)
     embedded, dense = method.embedded, method.dense
-    other = None if embedded is None else with_weights(tableau, embedded)
     return Payload(
         name=printable(
             derived_name(method.derivation, _name(file)) if method.derivation else _name(file)
@@ -65,7 +63,7 @@ def prepared(method: GarkMethod, digits: int | None = None) -> Payload:
         b=found.b,
         c=found.c,
         is_exact=found.is_exact,
-        orders=find_orders(tableau, other, method.tolerance),
+        orders=find_orders(tableau, embedded, method.tolerance),
         embedded=embedded,
         dense=None if dense is None else dense.weights,
         tolerance=method.tolerance,

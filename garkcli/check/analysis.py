@@ -139,7 +139,7 @@ class Analysis(Shown, Frozen):
                 continue
             from garkcli.order.sums import wrong_weights
 
-            defects = defects_of(meant(tableau, self.tolerance))
+            defects = defects_of(meant(tableau, getattr(order, "tolerance", None)))
             found += wrong_weights(defects, is_embedded)
         return tuple(found)
 

@@ -84,7 +84,7 @@ def _method_file(method: GarkMethod, digits: int | None) -> str:
     Raises:
         UsageProblem: none spells it out.
     """
-    from garkcli.methodfile.writer import write_rounded, write_tableau_file
+    from garkcli.methodfile.writer import tolerance_of_file, write_rounded, write_tableau_file
     from garkcli.tableau.pointwise import in_points
 
     _refuse_partitioned(method.tableau)
@@ -98,7 +98,8 @@ def _method_file(method: GarkMethod, digits: int | None) -> str:
         message = "the nodes have no simple radicals, so the tableau cannot be spelled out exactly"
         cure = f"--digits {DEFAULT_DIGITS} writes decimals"
         raise UsageProblem(message, cure, code="no-radicals")
-    return write_tableau_file(exact, method.name, method.tolerance, further=method.further)
+    tolerance = tolerance_of_file(method, method.further)
+    return write_tableau_file(exact, method.name, tolerance, further=method.further)
 
 
 def _derived_file(made: GarkMethod, output: Output) -> str:
@@ -251,7 +252,7 @@ def reduce(given: Given, output: Output) -> None:
     from garkcli.api.methods import reduced
     from garkcli.methodfile.load import load
     from garkcli.methodfile.naming import called
-    from garkcli.methodfile.writer import can_spell_out, write_method
+    from garkcli.methodfile.writer import can_spell_out, tolerance_of_file, write_method
 
     method = load(given.file, given.settings)
     file = called(given.file)
@@ -269,7 +270,8 @@ def reduce(given: Given, output: Output) -> None:
     elif made is method:
         output.write(method.text)
     elif can_spell_out(made.tableau):
-        text = write_method(made.tableau, made.name, made.tolerance, made.further)
+        tolerance = tolerance_of_file(method, made.further)
+        text = write_method(made.tableau, made.name, tolerance, made.further)
         output.write(_against(method, made, output) + text)
     else:
         message = f"{file}: a method of this structure cannot be spelled out in a file"

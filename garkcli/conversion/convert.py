@@ -14,7 +14,12 @@ from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.carried import claim_lines, lines_of
 from garkcli.methodfile.expectations import highest_order
 from garkcli.methodfile.load import loads
-from garkcli.methodfile.writer import can_spell_out, write_method, write_tableau_file
+from garkcli.methodfile.writer import (
+    can_spell_out,
+    tolerance_of_file,
+    write_method,
+    write_tableau_file,
+)
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.tableau.garkmethod import GarkMethod, derived_name
 
@@ -115,7 +120,8 @@ def convert(
     if goal.makes_another:
         name = derived_name(goal.name, name)
     if found is None:
-        text = write_method(sheet.tableau, name, method.tolerance, sheet.further)
+        tolerance = tolerance_of_file(method, sheet.further)
+        text = write_method(sheet.tableau, name, tolerance, sheet.further)
     else:
         text = _written(replace(found, sheet=sheet), name)
     text = _with_head(text, method)

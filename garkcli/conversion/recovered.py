@@ -14,11 +14,11 @@ from garkcli.design.search.proposing import PRECISION, exact_form
 from garkcli.exact.affine import Affine
 from garkcli.exact.display import plain_decimal
 from garkcli.exact.enclosing import midpoint
-from garkcli.exact.field import Number
+from garkcli.exact.field import ONE, Number
 from garkcli.frozen import Frozen, replace
-from garkcli.order.meant import as_meant
+from garkcli.methodfile.writer import Written
+from garkcli.order.meant import as_meant, with_further
 from garkcli.order.polishing import BITS_OF_A_DIGIT, SPARE_DIGITS, polished
-from garkcli.order.rounded import RoundedTableau
 from garkcli.tableau.embedded import from_colours
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.stages import PointSpace
@@ -48,6 +48,7 @@ class Recovered(Frozen, eq=False):
         exact: texts of numbers that are no decimals, by their values.
         proposals: texts of exact numbers that the digits speak for, likewise; the shortest first.
         orders: of the method, its conjugate, its pair, its embedded weights and dense output.
+        is_exact: whether A, b and c are exact, and only further weights rounded.
     """
 
     sheet: Sheet
@@ -55,6 +56,7 @@ class Recovered(Frozen, eq=False):
     exact: Mapping[Number, str]
     proposals: Mapping[Number, str]
     orders: tuple[int, ...]
+    is_exact: bool
 
     def text_with(self, proposals: Mapping[Number, str]) -> Callable[[Number], str]:
         """How coefficients are written where some exact numbers are taken."""
@@ -66,9 +68,15 @@ class Recovered(Frozen, eq=False):
 
         return text
 
-    def tolerance_with(self, proposals: Mapping[Number, str]) -> fmpq | None:
+    def tolerance_with(self, proposals: Mapping[Number, str]) -> Written | None:
         """The tolerance of a file with these; None where it has no decimals."""
         known = {fmpq(0), *self.exact, *proposals}
+        further = self.sheet.further
+        dense = [row for power in further.powers for row in power]
+        rows = {"embedded": further.embedded or (), "dense": dense}
+        rounded = [key for key, x in rows.items() if any(y not in known for z in x for y in z)]
+        if self.is_exact:
+            return dict.fromkeys(rounded, self.tolerance) or None
         return None if all(x in known for x in _numbers(self.sheet)) else self.tolerance
 
 
@@ -86,16 +94,15 @@ def recovered(
         CannotConvert: there is no rounding.
         MethodError: no more digits of it are known.
     """
-    if method.tolerance is None:
+    meant = with_further(as_meant(method))
+    if meant is None:
         message = "the coefficients are exact: there is nothing to recover"
         cure = "a line such as tolerance: 1e-10 says that they are rounded"
         raise CannotConvert(message, cure)
     if digits is None:
-        digits = max(DIGITS, len(str((1 / method.tolerance).floor())))
+        digits = max(DIGITS, len(str((1 / min(meant.search.box.radii, default=ONE)).floor())))
     # as gark check has it: with the orders of the conjugate and the pair as well
     analysis = analyse(method.tableau, tolerance=method.tolerance, further=method.further)
-    meant = as_meant(method)
-    assert isinstance(meant, RoundedTableau)
     search = meant.search
     many = max(digits, FEWEST_TO_RECOGNISE) if is_recognising else digits
     place = polished(search, many)
@@ -122,8 +129,9 @@ def recovered(
         values = search.box.at(place.shifts)
     whole = _entry_by_entry(values, made, entry)
     sheet = Sheet(*from_colours(whole, search.printed_further))
+    is_exact = method.tolerance is None
     shortest = dict(sorted(found.items(), key=lambda x: len(x[1])))
-    return Recovered(sheet, unit, exact, shortest, tuple(_orders(analysis)))
+    return Recovered(sheet, unit, exact, shortest, tuple(_orders(analysis)), is_exact)
 
 
 def _nearest(x: fmpq, unit: fmpq) -> fmpq:

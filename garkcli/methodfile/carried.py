@@ -84,6 +84,7 @@ def write_conjugate_of(method: MethodFile, name: str) -> str:
     are about the other method, and so are weights that only the method itself has.
     """
     kept = [(key, _without_further(x)) for key, x in _entries(method) if key.value not in _DROPPED]
+    kept = [(key, x) for key, x in kept if key.value != "tolerance" or x.value]
     title: tuple[Node, Node] = (_scalar("name"), _scalar(name))
     added: tuple[Node, Node] = (_scalar("conjugate"), ScalarNode("tag:yaml.org,2002:bool", "true"))
     return _lines([title, *kept, *([] if method.is_conjugate else [added])])

@@ -74,7 +74,7 @@ def largest(tolerance: Tolerance, entries: Iterable[Entry]) -> fmpq:
 
 def _off(at: Any, node: Node, where: str) -> Off | None:
     """A number between 0 and 1, which uses no parameters, as it is no coefficient; or the word."""
-    text = at.source.scalar(node, where)
+    text: str | None = at.source.scalar(node, where)
     if text is None or text == DIGITS:
         return text
     try:

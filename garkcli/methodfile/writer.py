@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import chain
 from typing import TypeAlias
 
@@ -15,18 +15,21 @@ from garkcli.exact.matrix import Matrix, Vector
 from garkcli.frozen import replace
 from garkcli.methodfile.description import block_name
 from garkcli.tableau.embedded import NOTHING, Further
+from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Colour, Tableau
 
 NumberText: TypeAlias = Callable[[Number], str]
 """How a coefficient is written."""
+Written: TypeAlias = "fmpq | Mapping[str, fmpq]"
+"""A tolerance for the file, or by keys of ``tolerance``."""
 
 
 def write_tableau_file(
     tableau: Tableau,
     name: str,
-    tolerance: fmpq | None = None,
+    tolerance: Written | None = None,
     note: str = "",
     text: NumberText = to_text,
     parameters: Sequence[str] = (),
@@ -37,7 +40,8 @@ def write_tableau_file(
     Args:
         tableau: over point spaces, every entry exact.
         name: what the file calls the method.
-        tolerance: the rounding of its coefficients, or None.
+        tolerance: the rounding of its coefficients, or None; by keys of ``tolerance`` where it is
+            not the same for all.
         note: a comment above it.
         text: how a coefficient is written.
         parameters: what it says of each parameter in the coefficients, such as ``tau: free``.
@@ -54,12 +58,36 @@ def write_tableau_file(
         linear = [str(l) for l, x in enumerate(tableau.colours, start=1) if x.is_linear]
         lines += [f"linear: [{', '.join(linear)}]"] if linear else []
     if tolerance is not None:
-        lines.append(f"tolerance: {decimal(tolerance)}")
+        lines.append(f"tolerance: {_tolerance(tolerance)}")
     return "\n".join(lines) + "\n"
 
 
+def _tolerance(written: Written) -> str:
+    if isinstance(written, fmpq):
+        return decimal(written)
+    return f"{{{', '.join(f'{key}: {decimal(t)}' for key, t in written.items())}}}"
+
+
+def tolerance_of_file(method: GarkMethod, further: Further) -> Written | None:
+    """The tolerance of a file that spells a method out: what its numbers are off by at most.
+
+    Args:
+        method: as it is.
+        further: its further weights in the file.
+    """
+    own = method.tolerance
+    by_key = {
+        "embedded": None if further.embedded is None else method.embedded_tolerance,
+        "dense": None if further.dense is None else method.dense_tolerance,
+    }
+    apart = {key: t for key, t in by_key.items() if t is not None and t != own}
+    if own is None or not apart:
+        return apart or own
+    return {"others": own, **apart}
+
+
 def write_method(
-    tableau: Tableau, name: str, tolerance: fmpq | None, further: Further = NOTHING
+    tableau: Tableau, name: str, tolerance: Written | None, further: Further = NOTHING
 ) -> str:
     """The same with decimals where coefficients are rounded."""
     text = to_text if tolerance is None else _decimal_text

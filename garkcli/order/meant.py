@@ -34,7 +34,7 @@ def meant(tableau: Tableau, tolerance: fmpq | None, further: Further | None = No
         return tableau
     known: dict[fmpq, RoundedTableau] = tableau.__dict__.setdefault("meant", {})
     found = known.get(tolerance)
-    if found is None or (further is not None and found.search.printed_further != further):
+    if found is None or (further and found.search.printed_further != further):
         from garkcli.order.rounded import RoundedTableau
 
         of_tolerance, box = tableau.__dict__.get("box", (None, None))
@@ -58,6 +58,11 @@ def remember(
         box: all methods that it may be, with its further weights.
     """
     tableau.__dict__["box"] = tolerance, box
+
+
+def keep(tableau: Tableau, tolerance: fmpq, rounded: AnyTableau) -> None:
+    """Let ``meant`` find what a tableau is with a tolerance."""
+    tableau.__dict__.setdefault("meant", {})[tolerance] = rounded
 
 
 def with_further(method: AnyTableau) -> RoundedTableau | None:

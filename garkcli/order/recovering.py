@@ -330,7 +330,8 @@ class Recovery:
         made = self.origin.defects(name).tableau.made
         rows = [row for colour in made.colours for row in (colour.b, colour.c)]
         rows += [row for block in made.blocks.values() for row in block]
-        forms = (x for row in rows for x in row if isinstance(x, Affine))
+        entries: Iterator[object] = (x for row in rows for x in row)
+        forms = (x for x in entries if isinstance(x, Affine))
         found = {k for x in forms for k, slope in x.slopes.items() if slope}
         return max((self.box.radii[k] for k in found), default=fmpq(0))
 

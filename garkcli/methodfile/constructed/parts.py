@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from flint import fmpq
 from yaml.nodes import MappingNode, Node, ScalarNode
@@ -16,6 +16,9 @@ from garkcli.methodfile.description import ConstructionText, Description, Make, 
 from garkcli.methodfile.grammar import defined
 from garkcli.methodfile.numbers import Numbers, Reading
 from garkcli.methodfile.source import Source
+
+if TYPE_CHECKING:
+    from garkcli.methodfile.tolerance import Tolerance
 
 _FORM = "write for instance rk4, {family: heun} or {A: …, b: …}"
 _NO_FILE = "put it as NAME.gark.yaml in a folder of GARK_PATH, and write NAME"
