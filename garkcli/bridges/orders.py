@@ -72,7 +72,6 @@ def find_orders(tableau: Tableau, embedded: Weights | None, tolerance: fmpq | No
         embedded: its embedded weights; None without them.
         tolerance: the rounding of its coefficients; None where they are exact.
     """
-
     method = meant(tableau, tolerance)
     order = order_of(method)
     timed = None

@@ -84,7 +84,8 @@ def further_facts(
         timed_order = nonautonomous(changed, other, inconsistent, limit)
         smaller = other if other.order < order.order else order
         differ = other.order != order.order and not smaller.is_lower_bound
-        found = estimator(with_further(method) or method, weights, Orders(smaller.order, differ, limit), spans)
+        orders = Orders(smaller.order, differ, limit)
+        found = estimator(with_further(method) or method, weights, orders, spans)
         embedded = EmbeddedFacts(printed(changed), other, timed_order, found)
     if dense is not None:
         facts = DenseFacts(

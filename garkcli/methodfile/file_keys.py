@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from yaml.nodes import Node, SequenceNode
+from yaml.nodes import SequenceNode
 
 from garkcli.methodfile import grammar as g
 from garkcli.methodfile.bibliography import ALIASES, REFERENCE

@@ -80,7 +80,8 @@ def filled(family: FamilyFile, values: Mapping[str, fmpq], digits: int, width: f
     made = Builder(text, known)
     given = {id(x) for name in texts for x in _literals(reader.numbers.parameters[name])}
     tolerance, rounding = family.tolerance, description.rounding
-    assert tolerance is not None and rounding is not None
+    assert tolerance is not None
+    assert rounding is not None
     rounded = Rounded(reader.numbers.entries, known, rounding, given)
     pairs = zip(rounded.radii, rounded.is_given, strict=True)
     radii = tuple(width if is_given else radius for radius, is_given in pairs)

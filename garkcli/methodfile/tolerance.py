@@ -1,4 +1,4 @@
-"""``tolerance``: by how much the numbers of a file may be off, all of them alike or by their place."""
+"""``tolerance``: by how much numbers of a file may be off, all of them alike or by their place."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from garkcli.errors import LimitExceeded, did_you_mean
 from garkcli.exact.expression import read_decimal
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.nodes import Expression
-from garkcli.frozen import Frozen, FrozenBut
+from garkcli.frozen import FrozenBut
 from garkcli.methodfile import description as d
 from garkcli.methodfile.grammar import Key, Kind, Schema
 from garkcli.methodfile.nodes import key_nodes, shortened

@@ -325,8 +325,7 @@ class Recovery:
         return _both(self.shape, self.system)
 
     def largest_in(self, name: str) -> fmpq:
-        """The largest radius of the printed numbers that a tableau depends on; 0 for an exact one.
-        """
+        """The largest radius of the numbers that a tableau depends on; 0 for an exact one."""
         made = self.origin.defects(name).tableau.made
         rows = [row for colour in made.colours for row in (colour.b, colour.c)]
         rows += [row for block in made.blocks.values() for row in block]

@@ -234,7 +234,8 @@ def test_the_parts_of_a_file_are_kept() -> None:
     )
     assert (method.name, method.description, method.reference) == ("N", "D", "R")
     assert (method.source, method.form, method.structure) == ("s", "methods", "general")
-    assert method.tolerance == fmpq(1, 1000)
+    assert loads("tolerance: 1e-3\nA: [[0.25]]\nb: [1]").tolerance == fmpq(1, 1000)
+    assert method.tolerance is None  # nothing in it is rounded
     assert loads(TWO + "transfer: collocation", "s").name == "s"
 
 

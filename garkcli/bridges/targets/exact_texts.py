@@ -91,8 +91,11 @@ _REPORT: Record[Payload] = Record(
     Field("order", COUNT, lambda x: x.orders.order),
     Field("embedded_order", nullable(COUNT), lambda x: x.orders.embedded),
     Field("nonautonomous_order", nullable(COUNT), lambda x: x.orders.nonautonomous),
+    Field("tolerance", nullable(TEXT), lambda x: x.tolerance and decimal(x.tolerance)),
     Field(
-        "tolerance", nullable(TEXT), lambda x: None if x.tolerance is None else decimal(x.tolerance)
+        "embedded_order_tolerance",
+        nullable(TEXT),
+        lambda x: x.orders.embedded_tolerance and decimal(x.orders.embedded_tolerance),
     ),
     Field("reference", nullable(TEXT), lambda x: x.reference or None),
     Field("exact", FLAG, lambda x: x.is_exact and x.digits is None),
