@@ -44,7 +44,9 @@ class Payload(Frozen, eq=False, kw_only=True):
         dense: ``dense[l][i]`` are the coefficients of θ, θ², … of b_i(θ) of colour l.
         orders: what was proved.
         is_exact: whether every entry is an exact number.
-        tolerance: the rounding that the coefficients of the file admit; None where they are exact.
+        tolerance: the rounding that A, b and c of the file admit; None where they are exact.
+        embedded_tolerance: that of its embedded weights.
+        dense_tolerance: that of its dense output.
         structure: which vector fields the method is for, such as ``general``, ``separable``.
         reference: where it was published, in one line.
         digits: of every number, where they were requested.
@@ -64,6 +66,8 @@ class Payload(Frozen, eq=False, kw_only=True):
     embedded: tuple[Row, ...] | None = None
     dense: tuple[tuple[Row, ...], ...] | None = None
     tolerance: fmpq | None = None
+    embedded_tolerance: fmpq | None = None
+    dense_tolerance: fmpq | None = None
     structure: str = "general"
     reference: str = ""
     digits: int | None = None

@@ -180,7 +180,7 @@ class Rounding:
                 message = f"tolerance: {key} has no rounded number"
                 yield node, message, "leave it out: short fractions and roots are exact", "empty"
         if self.tolerance.offs == {OTHERS: DIGITS} and OTHERS not in used:
-            message = f"tolerance: {DIGITS} is about decimals, and the file has none"
+            message = "tolerance: digits is about decimals, and the file has none"
             yield None, message, "leave it out, or write a number such as 1e-13", "empty"
 
 

@@ -80,8 +80,8 @@ REPORTS = {
 }
 """Of each command runs with a report."""
 
-GIVEN_NAMES = re.compile(r"[VFfHP]?\d+|angular momentum|g|\w+order_is_lower_bound")
-"""Keys that are names of colours, invariants or parameters, or stand beside any order."""
+GIVEN_NAMES = re.compile(r"[VFfHP]?\d+|angular momentum|g|\w+order_is_lower_bound|\w+_tolerance")
+"""Keys that are names of colours, invariants or parameters, or stand beside any order or weights."""
 
 
 def section(name: str) -> str:

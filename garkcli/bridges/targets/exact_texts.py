@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import Any
 
+from flint import fmpq
+
 from garkcli.bridges.comments import HASH, head, problem_class
 from garkcli.bridges.numbers import EXACT, Style
 from garkcli.bridges.payload import Payload
@@ -80,6 +82,12 @@ _COLOUR: Record[Colour] = Record(
 _NUMBERS = array(NUMERAL)
 _MATRIX = array(_NUMBERS)
 _ONE_ROW = one_of(_NUMBERS, _MATRIX)
+
+
+def _decimal(tolerance: fmpq | None) -> str | None:
+    return None if tolerance is None else decimal(tolerance)
+
+
 _REPORT: Record[Payload] = Record(
     schema_named(SCHEMA),
     Field("written_by", TEXT, lambda x: f"gark {x.version}"),
@@ -91,12 +99,9 @@ _REPORT: Record[Payload] = Record(
     Field("order", COUNT, lambda x: x.orders.order),
     Field("embedded_order", nullable(COUNT), lambda x: x.orders.embedded),
     Field("nonautonomous_order", nullable(COUNT), lambda x: x.orders.nonautonomous),
-    Field("tolerance", nullable(TEXT), lambda x: x.tolerance and decimal(x.tolerance)),
-    Field(
-        "embedded_order_tolerance",
-        nullable(TEXT),
-        lambda x: x.orders.embedded_tolerance and decimal(x.orders.embedded_tolerance),
-    ),
+    Field("tolerance", nullable(TEXT), lambda x: _decimal(x.tolerance)),
+    Field("embedded_tolerance", nullable(TEXT), lambda x: _decimal(x.embedded_tolerance)),
+    Field("dense_tolerance", nullable(TEXT), lambda x: _decimal(x.dense_tolerance)),
     Field("reference", nullable(TEXT), lambda x: x.reference or None),
     Field("exact", FLAG, lambda x: x.is_exact and x.digits is None),
     _COLOUR.every("colours", lambda x: x.tableau.colours),
