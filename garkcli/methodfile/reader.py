@@ -226,11 +226,16 @@ class Reader(Reading):
 
     def _rounding(self, tolerance: Tolerance | None, content: d.Content) -> Rounding | None:
         """That of the file, or of what it is made from; None where all of it is exact."""
-        from garkcli.methodfile.tolerance import Rounding, same_for_all  # few files are rounded
+        if tolerance is None:
+            inside = content.tolerance if isinstance(content, d.ConstructionText) else None
+            if not inside:
+                return None
+            from garkcli.methodfile.tolerance import same_for_all
 
-        if tolerance is None and isinstance(content, d.ConstructionText) and content.tolerance:
-            tolerance = same_for_all(content.tolerance)
-        return None if tolerance is None else Rounding(tolerance, content, self.numbers.entries)
+            tolerance = same_for_all(inside)
+        from garkcli.methodfile.tolerance import Rounding  # few files are rounded
+
+        return Rounding(tolerance, content, self.numbers.entries)
 
     def _refuse_unused(self, unknowns: Iterable[str]) -> None:
         """Note parameters beside a shape that are none of its unknowns, and that nothing uses."""
