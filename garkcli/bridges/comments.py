@@ -10,6 +10,7 @@ from textwrap import wrap
 
 from garkcli.bridges.payload import Payload
 from garkcli.errors import counted, printable
+from garkcli.exact.display import decimal
 from garkcli.frozen import Frozen
 from garkcli.page.plaintext import plain_line
 
@@ -94,6 +95,9 @@ def head(payload: Payload, *notes: str) -> list[str]:
         f"Method: {payload.name}",
         f"Proved by gark: {payload.orders.sentence()}.",
     ]
+    if payload.moved_within is not None:
+        near = f"within {decimal(payload.moved_within)} of those of its file"
+        lines.append(f"Numbers: {near}, with more digits, so that the orders hold.")
     if payload.reference:
         lines.append(f"Reference: {payload.reference}")
     return [*lines, *notes]

@@ -50,6 +50,8 @@ class Payload(Frozen, eq=False, kw_only=True):
         structure: which vector fields the method is for, such as ``general``, ``separable``.
         reference: where it was published, in one line.
         digits: of every number, where they were requested.
+        moved_within: how far they are from those of the file at most, where these have fewer
+            digits; None where they are the same.
         coupling: between the slow stages of a multirate infinitesimal method.
         derivation: whether it is the conjugate or the pair of what a file gives.
         version: of gark.
@@ -71,6 +73,7 @@ class Payload(Frozen, eq=False, kw_only=True):
     structure: str = "general"
     reference: str = ""
     digits: int | None = None
+    moved_within: fmpq | None = None
     coupling: Coupling | None = None
     derivation: Derivation = ""
     version: str = __version__

@@ -49,7 +49,8 @@ def prepared(method: GarkMethod, digits: int | None = None) -> Payload:
     if method.tableau.has_parameters:
         message = f"{method.name} has free parameters"
         raise CannotExport(message, "give each a value: --set NAME=VALUE", code="free-parameters")
-    method = _with_digits(method, file, digits)
+    printed, method = method, _with_digits(method, file, digits)
+    moved_within = None if method is printed else _tolerance(printed)
     tableau = method.tableau
     found = _entries(tableau, digits)
     embedded, dense = method.embedded, method.dense
@@ -72,20 +73,28 @@ def prepared(method: GarkMethod, digits: int | None = None) -> Payload:
         structure=file.structure,
         reference=printable(str(file.reference)),
         digits=digits,
+        moved_within=moved_within,
         coupling=coupling_of(file) if not method.derivation else None,
         derivation=method.derivation,
     )
+
+
+def _tolerance(method: GarkMethod) -> fmpq | None:
+    """The largest rounding of its numbers; None where all are exact."""
+    found = (method.tolerance, method.embedded_tolerance, method.dense_tolerance)
+    return max((t for t in found if t is not None), default=None)
 
 
 def _with_digits(method: GarkMethod, file: MethodFile, digits: int | None) -> GarkMethod:
     """The method; where more digits are requested than its file has, the one that these are taken
     to be a rounding of.
     """
-    if not method.tolerance or digits is None:
+    tolerance = _tolerance(method)
+    if tolerance is None or digits is None:
         return method
     sizes = [abs(to_float(x)) for row in method.tableau.rows for x in row if x]
     places = digits + max(0, -math.floor(math.log10(min(sizes, default=1.0))))
-    if fmpq(10) ** -places >= method.tolerance:
+    if fmpq(10) ** -places >= tolerance:
         return method
     # files that are exact do without
     from garkcli.api.methods import conjugate, pair

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING
 
 from flint import fmpq
 
-from garkcli.exact.field import ZERO
+from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Vector, dot
 from garkcli.frozen import Frozen
 from garkcli.ntrees.tree import Tree
@@ -27,6 +27,7 @@ from garkcli.order.certificate import StageSpans, Witness, witness_of
 from garkcli.order.conditions import count_conditions, elementary_weight
 from garkcli.order.constants import ErrorConstants, estimate_constants
 from garkcli.order.meant import AnyTableau, printed
+from garkcli.order.tolerance import within
 from garkcli.tableau.embedded import Weights, with_weights
 from garkcli.tableau.tableau import Tableau
 
@@ -167,21 +168,25 @@ def estimator(
     """
     tableau = printed(method)
     rows = _differences(tableau, embedded)
-    sums = tuple(sum(row, start=ZERO) for row in rows)
+    known, grain = rows, ZERO
+    if not isinstance(method, Tableau):
+        known, grain = _differences(method.near, method.further.embedded or ()), method.grain
+    sums = tuple(_unless_within(sum(row, start=ZERO), grain) for row in known)
     if not any(x for row in rows for x in row):
         return Estimator(sums, None, None, is_zero=True)
     difference = with_weights(tableau, tuple(rows))
     order: int | None = orders.least + 1
     if not orders.differ:
         larger = range(orders.least + 1, orders.limit + 1)
-        known = tuple(rows)
-        if not isinstance(method, Tableau):
-            known = tuple(_differences(method.near, method.further.embedded or ()))
-        order = _leading(method, Functional(known), larger, spans)
+        order = _leading(method, Functional(tuple(known)), larger, spans)
     constants = None
     if order is not None:
         constants = estimate_constants(difference, order, is_rounded=method is not tableau)
     return Estimator(sums, order, constants, is_zero=False)
+
+
+def _unless_within(number: Number, grain: fmpq) -> Number:
+    return ZERO if within(number, grain) else number
 
 
 def _differences(tableau: Tableau, embedded: Weights) -> list[Vector]:

@@ -95,6 +95,8 @@ class _Polishing:
         self.scales = [arb(max(float(x), least)) for x in reach]
         # singular values are of the order of a radius where varieties cross, errors of its square
         self.grain = arb(2) ** -(3 * _finest(search) // 2 + 40)
+        # a number that has to be at an end gets there from both sides
+        self.end = 1 + arb(2) ** -(bits // 2)
 
     def nearest(self, shifts: Sequence[fmpq]) -> Place:
         """The nearest method to the print near some shifts."""
@@ -108,11 +110,11 @@ class _Polishing:
                 values = self._values(place)
                 if slopes is None:
                     slopes = self._slopes(x, values)
-                moved, is_free = _least(slopes, values, x, self.grain)
+                moved, is_free = self._least(slopes, values, x)
                 change = max(
                     (abs(new - arb(old)) for new, old in zip(moved, x, strict=True)), default=arb(0)
                 )
-                x = [midpoint(y) for y in moved]
+                x = [min(max(midpoint(y), fmpq(-1)), fmpq(1)) for y in moved]
                 if change < goal:
                     return self._checked(Place(self.search, x))
                 if step > 6 and not change < before:
@@ -138,50 +140,50 @@ class _Polishing:
             columns.append([((a - b) / h).mid() for a, b in zip(there, values, strict=True)])
         return arb_mat([list(row) for row in zip(*columns, strict=True)])
 
+    def _least(
+        self, slopes: arb_mat, values: Sequence[arb], x: Sequence[fmpq]
+    ) -> tuple[list[arb], bool]:
+        """The least x' with F + J·(x' − x) = 0 and |x'_k| ≤ 1, and whether the rows leave others
+        free than those at an end. Those are let go where they do not pull outwards.
+        """
+        count = len(x)
+        rows = slopes.tolist()
+        here = arb_mat([[arb(y)] for y in x])
+        wanted = [y - value for (y,), value in zip((slopes * here).tolist(), values, strict=True)]
+        held = [0] * count
+        for _ in range(3 * count + 10):
+            free = [k for k in range(count) if not held[k]]
+            chosen = _independent([[row[k] for k in free] for row in rows], self.grain)
+            moved = [arb(end) for end in held]
+            pulls = arb_mat(count, 1)
+            if chosen:
+                part = arb_mat([[rows[i][k] for k in free] for i in chosen])
+                by_held = [
+                    sum((rows[i][k] * held[k] for k in range(count) if held[k]), arb(0))
+                    for i in chosen
+                ]
+                right = arb_mat([[wanted[i] - y] for i, y in zip(chosen, by_held, strict=True)])
+                weights = (part * part.transpose()).mid().solve(right.mid()).mid()
+                pulls = arb_mat([rows[i] for i in chosen]).transpose() * weights
+                for k in free:
+                    moved[k] = pulls[k, 0].mid()
+            beyond = [k for k in free if abs(moved[k]) > self.end]
+            if beyond:
+                for k in beyond:
+                    held[k] = 1 if moved[k] > 0 else -1
+                continue
+            loose = [k for k in range(count) if held[k] and pulls[k, 0] * held[k] < AT_AN_END]
+            if not loose:
+                return moved, len(chosen) < len(free)
+            held[min(loose, key=lambda k: float((pulls[k, 0] * held[k]).mid()))] = 0
+        raise _unknown()
+
     def _checked(self, place: Place) -> Place:
         """The method, where it meets all rows, those that others give included."""
         small = arb(2) ** -(3 * self.bits // 4)
         if place.distance > 1 or not all(abs(x) < small for x in self._values(place)):
             raise _unknown()
         return place
-
-
-def _least(
-    slopes: arb_mat, values: Sequence[arb], x: Sequence[fmpq], grain: arb
-) -> tuple[list[arb], bool]:
-    """The least x' with F + J·(x' − x) = 0 and |x'_k| ≤ 1, and whether the rows leave others free
-    than those at an end. Those are let go where they do not pull outwards.
-    """
-    count = len(x)
-    rows = slopes.tolist()
-    here = arb_mat([[arb(y)] for y in x])
-    wanted = [y - value for (y,), value in zip((slopes * here).tolist(), values, strict=True)]
-    held = [0] * count
-    for _ in range(3 * count + 10):
-        free = [k for k in range(count) if not held[k]]
-        chosen = _independent([[row[k] for k in free] for row in rows], grain)
-        moved = [arb(end) for end in held]
-        pulls = arb_mat(count, 1)
-        if chosen:
-            part = arb_mat([[rows[i][k] for k in free] for i in chosen])
-            right = arb_mat(
-                [[wanted[i] - sum((rows[i][k] * held[k] for k in range(count) if held[k]), arb(0))]
-                 for i in chosen]
-            )  # fmt: skip
-            weights = (part * part.transpose()).mid().solve(right.mid()).mid()
-            pulls = arb_mat([rows[i] for i in chosen]).transpose() * weights
-            for k in free:
-                moved[k] = pulls[k, 0].mid()
-        beyond = [k for k in free if abs(moved[k]) > 1]
-        if beyond:
-            for k in beyond:
-                held[k] = 1 if moved[k] > 0 else -1
-            continue
-        loose = [k for k in range(count) if held[k] and pulls[k, 0] * held[k] < AT_AN_END]
-        if not loose:
-            return moved, len(chosen) < len(free)
-        held[min(loose, key=lambda k: float((pulls[k, 0] * held[k]).mid()))] = 0
-    raise _unknown()
 
 
 def _independent(rows: Sequence[Sequence[arb]], grain: arb) -> list[int]:

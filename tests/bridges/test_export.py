@@ -197,6 +197,20 @@ def test_digits_beyond_those_of_the_file_are_recovered() -> None:
         ["0.25", "-0.038675134594812882254574390251"],
         ["0.538675134594812882254574390251", "0.25"],
     ]
-    assert found["order"] == 4
+    assert (found["order"], found["moved_within"]) == (4, "1e-12")
+    assert "Numbers: within 1e-12 of those of its file" in bridges()["c"].written(
+        prepared(method, 30)
+    )
     short = json.loads(bridges()["json"].written(prepared(method, 10)))
-    assert short["A"][1] == ["0.5386751346", "0.25"]
+    assert (short["A"][1], short["moved_within"]) == (["0.5386751346", "0.25"], None)
+
+
+def test_digits_of_rounded_embedded_weights_are_recovered() -> None:
+    """A, b and c are exact; the embedded weights are a third each, as their sum is 1."""
+    method = loads(
+        "{tolerance: {embedded: 1e-6}, A: [[0, 0, 0], [1/2, 0, 0], [0, 3/4, 0]],"
+        " b: [2/9, 1/3, 4/9], embedded: [0.333333, 0.333333, 0.333333]}"
+    )
+    found = json.loads(bridges()["json"].written(prepared(method, 20)))
+    assert found["embedded"] == ["0.33333333333333333333"] * 3
+    assert found["b"][2] == "0.44444444444444444444"

@@ -134,6 +134,17 @@ def test_numbers_stay_within_their_radii() -> None:
     assert [*made.b] == [fmpq(19999985, 10**8), fmpq(4000002, 10**7), fmpq(39999995, 10**8)]
 
 
+def test_numbers_stay_at_their_ends() -> None:
+    """1 − 1e-12 has to be 1, which is as far as it may go; the other numbers move by 1e-20."""
+    text = (
+        "{tolerance: {others: 1e-20, embedded: 1e-12}, A: [[0, 0], [0.66666666666666666667, 0]],"
+        " b: [0.25, 0.75], embedded: [0.999999999999, 0]}"
+    )
+    made = recovered(text, 30)
+    assert made.embedded == ((1, 0),)
+    assert abs(made.b[1] * made.c[1] - fmpq(1, 2)) < fmpq(1, 10**29)
+
+
 @pytest.mark.parametrize("text", [FAMILY, FURTHER])
 def test_digits_do_not_depend_on_the_start(text: str) -> None:
     """Wherever floats lead the search to, give or take 1e-9 t, the same digits are written."""

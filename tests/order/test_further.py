@@ -149,6 +149,7 @@ def test_rounding_within_a_tolerance_changes_no_order(
     assert found.embedded.order.order == exact.embedded.order.order
     one, other = found.embedded.estimator, exact.embedded.estimator
     assert one.order == other.order
+    assert one.sums == other.sums
     assert one.constants is not None
     assert other.constants is not None
     assert one.constants.all.two == pytest.approx(other.constants.all.two)

@@ -102,6 +102,7 @@ _REPORT: Record[Payload] = Record(
     Field("tolerance", nullable(TEXT), lambda x: _decimal(x.tolerance)),
     Field("embedded_tolerance", nullable(TEXT), lambda x: _decimal(x.embedded_tolerance)),
     Field("dense_tolerance", nullable(TEXT), lambda x: _decimal(x.dense_tolerance)),
+    Field("moved_within", nullable(TEXT), lambda x: _decimal(x.moved_within)),
     Field("reference", nullable(TEXT), lambda x: x.reference or None),
     Field("exact", FLAG, lambda x: x.is_exact and x.digits is None),
     _COLOUR.every("colours", lambda x: x.tableau.colours),
