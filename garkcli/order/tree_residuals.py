@@ -86,10 +86,14 @@ class TreeResiduals(StageVectors[Rows]):
         for segment in table.segments:
             if segment.order != order or segment.root not in self._roots:
                 continue
-            values = self._values(table, segment)
             ids = slice(segment.ids.start, segment.ids.stop)
             stems = table.stem[ids] - segment.stems.start
-            where = stems * len(segment.branches) + table.branch[ids] - segment.branches.start
+            branches = table.branch[ids] - segment.branches.start
+            if len(segment.stems) < len(segment.branches):
+                where = branches * len(segment.stems) + stems
+            else:
+                where = stems * len(segment.branches) + branches
+            values = self._values(table, segment)
             trees = zip(where.tolist(), segment.ids, table.gamma[ids].tolist(), strict=True)
             for i, u, gamma in trees:
                 if gamma not in required:
@@ -97,17 +101,17 @@ class TreeResiduals(StageVectors[Rows]):
                 yield values[i] - required[gamma], required[gamma], u
 
     def _values(self, table: TreeTable, segment: Segment) -> Row:
-        """b_lᵀ 𝒜^[u] for every stem with every branch, stem by stem."""
+        """b_lᵀ 𝒜^[u] for every stem with every branch; what there are more of is the rows."""
         b = self.enclosure.b[segment.root].entries()
         stems = self.stems(table, segment)
         if len(stems) < len(segment.branches):  # the weights and A go where they are fewer
-            left = arb_mat([times(row, b) for row in stems])
-            left *= self.enclosure.A[self.rows[segment.root], segment.branch_root]
-            branches = self.of(table, segment.branch_order, segment.branch_root)
+            few = arb_mat([times(row, b) for row in stems])
+            few *= self.enclosure.A[self.rows[segment.root], segment.branch_root]
+            many = self.of(table, segment.branch_order, segment.branch_root)
         else:
-            left = arb_mat(stems)
-            branches = [times(row, b) for row in self.branches(table, segment)]
-        return (left * arb_mat(branches).transpose()).entries()
+            few = arb_mat([times(row, b) for row in self.branches(table, segment)])
+            many = stems
+        return (arb_mat(many) * few.transpose()).entries()
 
     def _part(self, vectors: Rows, places: Column) -> Rows:
         return [vectors[i] for i in places.tolist()]
