@@ -24,7 +24,7 @@ NAMES = {
     "What is true of it": {
         "api.methods": "find_order is_symplectic analyse simplifying find_property",
         "api.asserting": "find_orders assert_order",
-        "api.calls": "find_stability two_springs claims_of prove_method",
+        "api.calls": "find_stability two_springs claims_of prove_method prove_method_exists",
         "report.calls": "certificate",
     },
     "Methods from it": {"api.methods": "conjugate pair symplectic_pair reduced"},

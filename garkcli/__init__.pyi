@@ -6,6 +6,7 @@ from garkcli.api.asserting import find_orders as find_orders
 from garkcli.api.calls import claims_of as claims_of
 from garkcli.api.calls import find_stability as find_stability
 from garkcli.api.calls import prove_method as prove_method
+from garkcli.api.calls import prove_method_exists as prove_method_exists
 from garkcli.api.calls import two_springs as two_springs
 from garkcli.api.calls import with_claims as with_claims
 from garkcli.api.construction import diagonal_method as diagonal_method

@@ -19,8 +19,18 @@ whose sign changes on a list of points show that the nodes are real and distinct
 is ℚ(0). Everything is written over ℚ: a number of K is the list of its coordinates in 1, θ, θ², …,
 a vector the list of all coordinates of its numbers, a map the matrix that acts on such lists.
 
+Of a method with rounded numbers it proves that one method within their radii has the order:
+
+  1. Around a point near the print, number k is centre_k + width_k ε_k, |ε_k| ≤ 1, within its
+     radius. The conditions of all trees up to the order are F = c + G ε + ρ there, |ρ_i| ≤ r_i.
+  2. Let ε = W η with Σ_j |W_kj| ≤ 1, |η_j| ≤ 1, and M = G W. Where |c_i| + Σ_{j≠i} |M_ij| + r_i
+     ≤ |M_ii| for all i, η_i − F_i / M_ii maps the cube into itself. By L. E. J. Brouwer it has a
+     fixed point, and there F = 0: all conditions hold. (Where M_ii = 0, F_i is 0 anyway.)
+  3. The sum of the witness, of conditions up to one order more, is zero nowhere within the radii:
+     no method there has that order.
+
 Exit code 0: every order is proved. 1: something is not. 2: no such file, no proof in it, or one
-beyond the limits below, which keep a small file from filling the memory.
+beyond the limits below, which keep a small file from filling the memory or taking hours.
 """
 
 import json
@@ -33,6 +43,10 @@ from math import prod
 MOST_BYTES, MOST_COLOURS, MOST_DEGREE = 50_000_000, 100, 60
 MOST_VALUES = 10_000  # rational numbers of a stage value, in all spaces together
 MOST_NUMBERS = 4_000_000  # rational numbers of all matrices of a tableau
+# of rounded numbers, so that a proof takes a minute or so at most
+MOST_BYTES_ROUNDED, MOST_DIGITS, MOST_ORDER, MOST_TREES = 5_000_000, 300, 60, 2_000
+MOST_STEPS = 20_000_000  # trees × (trees + entries of matrices) × numbers
+PRINTED = "printed", "radius", "centre", "width"
 
 
 class NotProved(Exception):
@@ -51,7 +65,8 @@ def limit(count, most, what):
 
 def rational(text):
     """A fraction as gark writes it; with an exponent a short text could be a number without end."""
-    demand(re.fullmatch("-?[0-9]{1,4300}(/[0-9]{1,4300})?", text), "a number that is no fraction")
+    is_one = re.fullmatch("-?[0-9]{1,4300}([/.][0-9]{1,4300})?", text)
+    demand(is_one, "a number that is no fraction")
     return Fraction(text)
 
 
@@ -106,6 +121,70 @@ class Field:
     def matrix(self, data):
         rows = [zip(*(self.times(self.number(x)) for x in row), strict=True) for row in data]
         return [list(chain(*parts)) for row in rows for parts in row]
+
+
+class Form:
+    """centre + Σ_k slopes_k ε_k + ρ for all |ε_k| ≤ 1, where |ρ| ≤ rest."""
+
+    def __init__(self, centre, slopes=None, rest=Fraction(0)):
+        self.centre, self.slopes, self.rest = Fraction(centre), slopes or {}, rest
+        self.reach = rest + sum(map(abs, self.slopes.values()))
+
+    def joined(self, a, other, b, centre, rest):
+        """A form with the slopes of a · self + b · other."""
+        slopes = {k: a * x for k, x in self.slopes.items()}
+        for k, x in other.slopes.items():
+            slopes[k] = slopes.get(k, 0) + b * x
+        return Form(centre, slopes, rest)
+
+    def __add__(self, other):
+        other = form(other)
+        return self.joined(1, other, 1, self.centre + other.centre, self.rest + other.rest)
+
+    def __mul__(self, other):
+        other = form(other)
+        a, b = self.centre, other.centre
+        rest = abs(a) * other.rest + abs(b) * self.rest + self.reach * other.reach
+        return self.joined(b, other, a, a * b, rest)
+
+    __radd__, __rmul__ = __add__, __mul__
+
+    def __sub__(self, other):
+        return self + -1 * form(other)
+
+    def inverse(self):
+        """1/x = 1/c − (x − c)/c² + (x − c)²/(c² x)."""
+        c, least = self.centre, abs(self.centre) - self.reach
+        demand(least > 0, "a division by what may be zero")
+        slopes = {k: -x / c**2 for k, x in self.slopes.items()}
+        return Form(1 / c, slopes, (self.rest + self.reach**2 / least) / c**2)
+
+
+def form(x):
+    return x if isinstance(x, Form) else Form(x)
+
+
+class Printed(Field):
+    """ℚ where k is printed number k, of a centre and a width, and [sign, x, y] is made of two."""
+
+    def __init__(self, numbers):
+        super().__init__({"modulus": ["0", "1"], "theta_between": ["-1", "1"]})
+        self.forms = [Form(x, {k: width} if width else {}) for k, (x, width) in enumerate(numbers)]
+
+    def number(self, data):
+        return [self.value(data)]
+
+    def value(self, data):
+        if isinstance(data, str):
+            return rational(data)
+        if isinstance(data, int):
+            demand(0 < data <= len(self.forms), "a number that is not printed")
+            return self.forms[data - 1]
+        sign, x, y = data[0], *map(self.value, data[1:])
+        demand(sign in {"+", "-", "*", "/"}, "a sign that is none")
+        if sign in "+-":
+            return form(x) + y if sign == "+" else form(x) - y
+        return form(x) * (y if sign == "*" else form(y).inverse())
 
 
 class Space:
@@ -190,6 +269,20 @@ def density(tree):
     return order_of(tree) * prod(map(density, tree[1]))
 
 
+def ordered(tree):
+    """The tree with its branches in order, so that equal ones are equal."""
+    return tree[0], tuple(sorted(map(ordered, tree[1])))
+
+
+def forests(trees, size):
+    """All branches of a size together, of trees with their sizes, the largest first."""
+    if not size:
+        yield ()
+    for i, (n, tree) in enumerate(trees):
+        if n <= size:
+            yield from ((tree, *rest) for rest in forests(trees[i:], size - n))
+
+
 class Tableau:
     """By colours: what they drive, if they are linear, spaces, weights; A^{l,m} where m is seen."""
 
@@ -260,6 +353,20 @@ class Tableau:
                 image = self.branch(l, branch)
                 inside = all(hull.holds(space.product(image, rest)) for rest in rests)
                 demand(inside, f"the listed trees of order {k}, colour {l + 1}, do not span")
+
+    def all_trees(self, order):
+        """All trees up to an order that have a condition."""
+        known = []
+        for n in range(1, order + 1):
+            smaller = known[::-1]
+            for l in self.colours:
+                seen = [x for x in smaller if (l, x[1][0]) in self.blocks]
+                if self.linear[l]:
+                    seen = [x for x in seen if x[0] == n - 1]
+                for branches in forests(seen, n - 1):
+                    known.append((n, ordered((l, branches))))
+                    limit(len(known), MOST_TREES, "trees")
+        return [tree for _, tree in known]
 
     def check_witness(self, data, k):
         tree = read_tree(data["tree"])
@@ -339,15 +446,59 @@ def pair_of(method, conjugate):
     return Tableau(method.field, [driven for driven, _ in colours], *parts, blocks)
 
 
+def prove_existence(data):
+    """Points 1, 2, 3 of rounded numbers. Returns what is proved."""
+    text, method, order = json.dumps(data), data["method"], data["method"]["order"]
+    listed = len(method["conditions"]) + len(method["witness"] or ())
+    entries = sum(len(row) for x in method["blocks"] for row in x["A"])
+    limit(len(text), MOST_BYTES_ROUNDED, "bytes")
+    limit(max(map(len, re.findall("[0-9]+", text))), MOST_DIGITS, "digits of a number")
+    limit(order, MOST_ORDER, "as order")
+    limit(listed, MOST_TREES, "trees")
+    limit(listed * (listed + entries) * len(data["numbers"]), MOST_STEPS, "steps")
+    given = [[rational(x[key]) for key in PRINTED] for x in data["numbers"]]
+    for printed, radius, centre, width in given:
+        inside = 0 <= width <= radius - abs(centre - printed)
+        demand(inside, "the method that is proved to exist is not within the radii")
+    here = read_tableau(Printed([x[2:] for x in given]), method)
+    trees = [ordered(read_tree(x["tree"])) for x in method["conditions"]]
+    W = [[rational(a) for a in x["W"]] for x in method["conditions"]]
+    demand({len(column) for column in W} == {len(given)}, "W misfits")
+    inside = all(sum(map(abs, row)) <= 1 for row in zip(*W, strict=True))
+    demand(inside, "W leaves the box around the method")
+    # colours with the same stages and weights have the same conditions
+    parts = [(x["space"], x["linear"], x["b"]) for x in method["colours"]]
+    needed = (x for x in here.all_trees(order) if parts.index(parts[x[0]]) == x[0])
+    demand(set(needed) <= set(trees), "a condition is left out")
+    for i, tree in enumerate(trees):
+        row = form(here.defect(tree)[0])
+        image = [abs(sum(a * column[k] for k, a in row.slopes.items())) for column in W]
+        most = abs(row.centre) + row.rest + sum(image) - image[i]
+        demand(most <= image[i], f"a condition of order {order_of(tree)} may fail")
+    proved = f"order {order} of one within the radii, proved by {len(trees)} trees"
+    if method["witness"]:
+        there, missed = read_tableau(Printed([x[:2] for x in given]), method), Form(0)
+        for x in method["witness"]:
+            tree = read_tree(x["tree"])
+            demand(order_of(tree) <= order + 1, "the witness has another order")
+            missed += rational(x["factor"]) * form(there.defect(tree)[0])
+        demand(abs(missed.centre) > missed.reach, "the witness may vanish")
+        proved += f"; order {order + 1} of none"
+    return proved + here.assumed()
+
+
 def referee(path):
     with open(path, encoding="utf-8") as file:
         text = file.read(MOST_BYTES + 1)
     limit(len(text), MOST_BYTES, "bytes")
     data = json.loads(text)
     demand(data["schema"] == "gark/certificate/1", "another kind of file")
-    field = Field(data["field"] or {"modulus": ["0", "1"], "theta_between": ["-1", "1"]})
     print(f"{path}: {''.join(c if c.isprintable() else '?' for c in data['name'])}")
     demand("method" in data, "there is no method in it")
+    if "numbers" in data:
+        print(f"  method: {prove_existence(data)}")
+        return
+    field = Field(data["field"] or {"modulus": ["0", "1"], "theta_between": ["-1", "1"]})
     method = tableau = read_tableau(field, data["method"])
     for name in [name for name in ("method", "conjugate", "pair") if name in data]:
         if name == "conjugate":

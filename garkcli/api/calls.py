@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
 
 from flint import fmpq
 
@@ -27,6 +28,9 @@ from garkcli.stability.two_frequencies import (
     two_frequencies,
 )
 from garkcli.tableau.garkmethod import GarkMethod
+
+if TYPE_CHECKING:
+    from garkcli.check.existing import ExistenceProof
 
 
 def claims_of(method: AnyMethod, keys: str | Iterable[str] = ()) -> dict[str, str]:
@@ -189,9 +193,28 @@ def prove_method(method: AnyMethod, limit: Whole = DEFAULT_LIMIT) -> MethodProof
         limit: the order at which to stop.
 
     Raises:
-        MethodError: the coefficients are rounded.
+        MethodError: the coefficients are rounded: ``prove_method_exists`` is for these.
 
     >>> prove_method("rk4")
     <MethodProof order 4, conjugate 4, pair 4>
     """
     return analysis.prove_method(method_of(method), whole(limit, "limit", 1))
+
+
+def prove_method_exists(method: AnyMethod, limit: Whole = DEFAULT_LIMIT) -> ExistenceProof:
+    """That a method within the rounding of a printed one has its order, and none a higher one.
+
+    Args:
+        method: whatever ``method_of`` takes; its coefficients are rounded.
+        limit: the order at which to stop.
+
+    Raises:
+        MethodError: the coefficients are exact, or it is not proved, as where conditions depend on
+            each other.
+
+    >>> prove_method_exists("kvaerno-3")
+    <ExistenceProof of order 3>
+    """
+    from garkcli.check import existing  # numpy is paid for here
+
+    return existing.prove_method_exists(method_of(method), whole(limit, "limit", 1))

@@ -230,7 +230,8 @@ def prove_method(method: GarkMethod, limit: int = DEFAULT_LIMIT) -> MethodProof:
     """
     if method.tolerance is not None:
         message = "the coefficients are rounded: an order within a tolerance has no exact proof"
-        raise MethodError(message, "give them exactly, without a tolerance", code="rounded")
+        cure = "prove_method_exists proves that a method within it exists"
+        raise MethodError(message, cure, code="rounded")
     conjugated, both, obstacle = conjugate_and_pair(method.tableau)
     return MethodProof(
         name=method.name,

@@ -48,19 +48,21 @@ def certificate(given: Given, output: Output) -> None:
     """A proof of the orders of a method that can be checked without gark.
 
     The exact tableau, its conjugate and pair, trees that span all trees of each order, and a tree
-    that fails. tools/referee.py of the source distribution, one short file of plain Python, decides
-    the orders again from it; --format coq is for the proof assistant Coq.
+    that fails; of rounded coefficients what proves that a method within the tolerance has the
+    order. tools/referee.py of the source distribution, one short file of plain Python, decides
+    the orders again from it; --format coq is for the proof assistant Coq, and for exact methods.
     """
-    from garkcli.api.calls import prove_method
+    from garkcli.api.calls import prove_method, prove_method_exists
     from garkcli.report.certificate import REPORT
 
-    proof = prove_method(given.method())
+    method = given.method()
     if output.format == "coq":
         from garkcli.report.coq import coq_proof
 
-        output.write(coq_proof(proof))
+        output.write(coq_proof(prove_method(method)))
     else:
-        output.tell(REPORT, proof)
+        proved = prove_method if method.tolerance is None else prove_method_exists
+        output.tell(REPORT, proved(method))
 
 
 @declared("explain", FORMATS, WORD={"shell_complete": completed("check.meanings:known_words")})

@@ -366,7 +366,7 @@ claims: claims FILE... | what is true of a method, as claims for its file
     = claims_of with_claims
     --write --all --key
 looking_up: certificate FILE | a proof of the orders, which a separate short script checks
-    = certificate prove_method
+    = certificate prove_method prove_method_exists
     --set
 looking_up: schema | JSON Schemas of method files, problem files and reports
     = method_file_schema problem_file_schema sweep_schema project_schema report_schema

@@ -572,7 +572,7 @@ class Recovery:
         that a compromise of all misses by most, and what builds on it.
         """
         rows = self.origin.rows({"method": chosen})
-        c, G, _ = _scaled(rows)
+        c, G, _ = scaled(rows)
         places = [(label, i) for label, which in chosen.items() for i in which]
         weights = np.array([WEIGHTS.get(label.kind, 1.0) for label, _ in places])
         miss = _compromise(weights[:, None] * G, weights * c) / weights
@@ -722,7 +722,7 @@ class Recovery:
                 return Failure(True, (label,))
         place = self._newton(system, self.place)
         if place is None and np.isfinite(rows.remainders).all():
-            c, G, scale = _scaled(rows)
+            c, G, scale = scaled(rows)
             start = bounded_least_squares(G, c)
             miss = c + G @ start
             if np.abs(miss).max(initial=0) > 1e-12 and excludes(rows, miss / scale):
@@ -901,7 +901,7 @@ def _both(one: System, other: System) -> System:
     return {name: {**one.get(name, {}), **other.get(name, {})} for name in {**one, **other}}
 
 
-def _scaled(rows: Forms) -> tuple[Floats, Floats, Floats]:
+def scaled(rows: Forms) -> tuple[Floats, Floats, Floats]:
     """Centres and slopes in units of what the slopes can do, and these units."""
     scale = np.maximum(rows.reach + rows.remainders, 1e-300)
     return rows.middle / scale, rows.slopes / scale[:, None], scale

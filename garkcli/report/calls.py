@@ -6,8 +6,8 @@ import os
 from collections.abc import Iterable
 from typing import Literal
 
-from garkcli.api.anymethod import AnyMethod
-from garkcli.api.calls import prove_method
+from garkcli.api.anymethod import AnyMethod, method_of
+from garkcli.api.calls import prove_method, prove_method_exists
 from garkcli.api.files import AnyPath, references_in
 from garkcli.api.numbers import Whole, whole
 from garkcli.bridges.registry import bridges
@@ -78,18 +78,22 @@ def certificate(method: AnyMethod, format: Literal["json", "coq"] = "json") -> s
     """What proves the orders of a method, as JSON text or for Coq: ``gark certificate``.
 
     Args:
-        method: whatever ``method_of`` takes; its coefficients are exact.
+        method: whatever ``method_of`` takes.
         format: ``"json"``, or ``"coq"`` for the theory in ``proofs/``.
 
     Raises:
-        MethodError: the coefficients are rounded; or, for Coq, a colour is linear.
+        MethodError: the coefficients are rounded, and it is not proved that a method within the
+            tolerance has the order; or, for Coq, they are rounded, or a colour is linear.
 
     >>> import json
     >>> json.loads(certificate("heun"))["schema"]
     'gark/certificate/1'
     """
-    proof = prove_method(method)
-    return coq_proof(proof) if format == "coq" else REPORT.json([proof])
+    method = method_of(method)
+    if format == "coq":
+        return coq_proof(prove_method(method))
+    is_exact = method.tolerance is None
+    return REPORT.json([prove_method(method) if is_exact else prove_method_exists(method)])
 
 
 def run_sweep(

@@ -2,13 +2,13 @@
 
 In JSON rational numbers are text; a number of ℚ(θ) is the list of its coordinates in 1, θ, θ², …;
 trees are written in brackets. Colours and stage spaces count from 1. ``docs/certificate.md`` has
-the format.
+the format. That of a rounded method proves that one within its rounding has the order.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from flint import fmpq, fmpq_poly
 
@@ -19,10 +19,13 @@ from garkcli.exact.display import to_ball
 from garkcli.exact.field import Number, NumberField, coordinates
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import real_roots
+from garkcli.exact.traces import rational_text
+from garkcli.exact.traces import told as made_of
 from garkcli.frozen import replace
 from garkcli.ntrees.notation import format_tree
 from garkcli.order.certificate import Proof
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
+from garkcli.reason import NO_REASON
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.stages import StageSpace
 from garkcli.tell.dialect import Plain
@@ -31,6 +34,9 @@ from garkcli.tell.kinds import COUNT, INDEX, POSITION, TEXT, TREE, TRUTH, choice
 from garkcli.tell.parts import part, parts, rows_of, told
 from garkcli.tell.report import Report
 from garkcli.version import __version__
+
+if TYPE_CHECKING:
+    from garkcli.check.existing import ExistenceProof
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 DIGITS_OF_ROOT = 100
@@ -42,7 +48,7 @@ In: TypeAlias = "tuple[Any, int]"
 # for people
 
 
-def _signs(proof: Proof, d: Plain) -> Plain:
+def _signs(proof: Proof | ExistenceProof, d: Plain) -> Plain:
     """The signs for the trees of a method, its conjugate or its pair."""
     return replace(d, colours=[colour.name for colour in proof.tableau.colours])
 
@@ -143,7 +149,7 @@ WITNESS = Section(
 )
 
 
-def _all(get: Callable[[Any], Iterable[Any]]) -> Callable[[Proof], list[In]]:
+def _all(get: Callable[[Any], Iterable[Any]]) -> Callable[[Any], list[In]]:
     """Parts of a tableau with the degree of its numbers."""
     return lambda proof: [(x, proof.tableau.degree) for x in get(proof.tableau)]
 
@@ -180,25 +186,98 @@ def _pair(proof: MethodProof) -> Proof | None:
     return None if proof.conjugate is None else proof.pair
 
 
-REPORT: Report[MethodProof] = Report.only(
-    "gark/certificate/1",
-    "certificate of gark certificate",
-    Section(
-        Row("name", TEXT, level=DATA),
-        Row("version", TEXT, lambda _: __version__, DATA),
-        maybe("field", part(FIELD), "method.tableau.field", DATA),
-        Row("order", told(_proved), "method", HEADLINE),
-        Row("conjugate_order", told(_proved), "conjugate"),
-        Row("pair_order", told(_proved), "pair"),
-        Row("method", part(PROOF), level=DETAIL),
-        optional("conjugate", part(PROOF), level=DETAIL),
-        optional("pair", part(TRUTH_OF), _pair, DETAIL),
-        optional("no_conjugate", TEXT, lambda x: str(x.obstacle) or None),
-        title=lambda x, d: d.prose(x.name),
-    ),
+EXACT = Section(
+    Row("name", TEXT, level=DATA),
+    Row("version", TEXT, lambda _: __version__, DATA),
+    maybe("field", part(FIELD), "method.tableau.field", DATA),
+    Row("order", told(_proved), "method", HEADLINE),
+    Row("conjugate_order", told(_proved), "conjugate"),
+    Row("pair_order", told(_proved), "pair"),
+    Row("method", part(PROOF), level=DETAIL),
+    optional("conjugate", part(PROOF), level=DETAIL),
+    optional("pair", part(TRUTH_OF), _pair, DETAIL),
+    optional("no_conjugate", TEXT, lambda x: str(x.obstacle) or None),
+    title=lambda x, d: d.prose(x.name),
 )
 
 
-def whole(proof: MethodProof, _: str) -> MethodProof:
+# of rounded methods
+
+
+def _exists(proof: ExistenceProof, d: Plain) -> str:
+    """The order, and by how many conditions a method with it is proved to exist."""
+    found = proof.order
+    status = replace(order_answer(found).status, open=NO_REASON, at_least=proof.witness is None)
+    order = d.known(str(found.order), status)
+    count = counted(len(proof.conditions), "condition")
+    return f"{order}: a method is proved to exist by {count}"
+
+
+def _excluded(proof: ExistenceProof) -> str | None:
+    """By how many conditions the next order is excluded."""
+    order, count = proof.order.order + 1, len(proof.witness or ())
+    if count:
+        how = "a condition excludes" if count == 1 else f"{count} conditions together exclude"
+        return f"no method within the tolerance has order {order}: {how} it"
+    if proof.order.witness is None:
+        return None
+    return f"that order {order} fails is left out: it takes more than a sum of conditions"
+
+
+def _condition_rows(proof: ExistenceProof, d: Plain) -> list[tuple[str, str]]:
+    """The conditions of each order."""
+    d = _signs(proof, d)
+    trees = [tree for tree, _ in proof.conditions]
+    orders = range(1, proof.order.order + 1)
+    return [(f"order {k}", ", ".join(d.tree(u) for u in trees if u.order == k)) for k in orders]
+
+
+DECIMAL: S.Schema = {"type": "string", "pattern": r"^-?\d+([/.]\d+)?$"}
+"""A rational number, also in decimals."""
+MADE: S.Schema = S.one_of(DECIMAL, {"type": "integer"}, {"type": "array"})
+"""How an entry is made: a rational number, the number of a printed one, or [sign, one, other]."""
+SHORT = Kind(DECIMAL, lambda x, _: rational_text(x))
+SHORTS = Kind(S.array(DECIMAL), lambda row, _: [rational_text(x) for x in row])
+PRINTED = Section(
+    Row("printed", SHORT), Row("radius", SHORT), Row("centre", SHORT), Row("width", SHORT)
+)
+OF_COLOUR = Section(
+    *COLOUR.rows[:4], Row("b", Kind(S.array(MADE)), lambda x: [made_of(a) for a in x[0].b])
+)
+OF_BLOCK = Section(
+    *BLOCK.rows[:2],
+    Row("A", Kind(S.array(S.array(MADE))), lambda x: [[*map(made_of, row)] for row in x[0][1]]),
+)
+CONDITION = Section(Row("tree", TREE, "0"), Row("W", SHORTS, "1"))
+FACTOR = Section(Row("tree", TREE, "0"), Row("factor", SHORT, "1"))
+EXISTING = Section(
+    Row("spaces", parts(Section(SPACE.rows[0])), "tableau.spaces", DATA),
+    Row("colours", parts(OF_COLOUR), _all(lambda tableau: tableau.colours), DATA),
+    Row("blocks", parts(OF_BLOCK), _all(lambda tableau: sorted(tableau.blocks.items())), DATA),
+    Row("order", COUNT, "order.order", DATA),
+    Row("conditions", parts(CONDITION), level=DATA),
+    maybe("witness", parts(FACTOR), level=DATA),
+)
+WITHIN = Section(
+    Row("name", TEXT, level=DATA),
+    Row("version", TEXT, lambda _: __version__, DATA),
+    Row("order", told(_exists), ".", HEADLINE),
+    Row("excluded", told(lambda text, d: d.prose(text)), _excluded, label="next order"),
+    Row("numbers", parts(PRINTED), level=DATA),
+    Row("method", part(EXISTING), ".", DATA),
+    Row("spanning_in_words", rows_of(_condition_rows), ".", DETAIL),
+    title=lambda x, d: d.prose(x.name),
+)
+
+REPORT: Report[Any] = Report(
+    "gark/certificate/1",
+    "certificate of gark certificate",
+    lambda: [EXACT, WITHIN],
+    lambda proof: EXACT if isinstance(proof, MethodProof) else WITHIN,
+    key="",
+)
+
+
+def whole(proof: Any, _: str) -> Any:
     """What the report says of a proof, which has a name."""
     return proof

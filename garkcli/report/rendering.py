@@ -22,6 +22,7 @@ TOLD_BY = {
     "backward.BackwardAnalysis": "modified",
     "backward.ModifiedRun": "modified_energy",
     "check.Analysis": "checked",
+    "check.ExistenceProof": "certificate",
     "check.MethodProof": "certificate",
     "check.Outcome": "checked",
     "comparison.Comparison": "diff",
@@ -46,8 +47,9 @@ def render(value: object, format: str = "text", name: str = "") -> str:
     Args:
         value: a method (``gark tableau``); what ``check_file``, ``analyse``, ``find_stability``,
             ``converge``, ``long_run``, ``compare``, ``backward_analysis``, ``modified_run``,
-            ``find_parameters``, ``minimise``, ``stable_values``, ``prove_method``, ``run_sweep``,
-            ``explain`` or ``audit`` returned; or a list of outcomes.
+            ``find_parameters``, ``minimise``, ``stable_values``, ``prove_method``,
+            ``prove_method_exists``, ``run_sweep``, ``explain`` or ``audit`` returned; or a list of
+            outcomes.
         format: as the command has it: ``"text"``, ``"json"`` and others.
         name: what to call the method where the value does not say it.
 

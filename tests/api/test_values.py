@@ -74,7 +74,7 @@ def test_values_are_short() -> None:
     family = garkcli.loads_family(FAMILY)
     design = garkcli.find_parameters(family)
     stability = garkcli.find_stability("gauss-2")
-    proof = garkcli.prove_method("rk4")
+    proof, exists = garkcli.prove_method("rk4"), garkcli.prove_method_exists("kvaerno-3")
     modified = garkcli.backward_analysis(VERLET, 3)
     energies = garkcli.modified_run(VERLET, "pendulum", 2, longest=0.5)
     (audited,) = garkcli.audit("tests/bridges/sources/kutta.csv")
@@ -85,7 +85,7 @@ def test_values_are_short() -> None:
         *(family, design, *design.steps, garkcli.minimise(design, "error")),
         garkcli.search_methods(family, 2, starts=1),
         *(stability, *stability.linear, stability.linear[0].R),
-        *(proof, proof.method, modified, modified.equation, energies),
+        *(proof, proof.method, exists, modified, modified.equation, energies),
         *energies.energies,
         garkcli.modified_formula(VERLET, "pendulum", 2),
         *(audited, audited.table, bound, bound.at(20)),

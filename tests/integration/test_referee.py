@@ -79,7 +79,7 @@ def test_the_referee_shares_no_code() -> None:
             imported.add(str(node.module))
     library = {"fractions", "itertools", "json", "math", "re", "sys"}
     assert imported == library
-    assert sum(bool(line.strip()) for line in text.splitlines()) < 320
+    assert sum(bool(line.strip()) for line in text.splitlines()) < 460
 
 
 @pytest.mark.parametrize("path", METHODS, ids=lambda path: path.name.split(".")[0])
@@ -521,11 +521,11 @@ def test_theta_is_one_root(ends: tuple[str, str], tmp_path: Path) -> None:
 
 
 def test_rounded_coefficients_have_no_proof() -> None:
-    """A tolerance is refused with the cure."""
+    """Exact orders of rounded coefficients are refused, with what there is instead."""
     method = loads("A: [[0]]\nb: [0.9999999]\ntolerance: 1e-6\n")
     with pytest.raises(Exception, match="rounded") as caught:
         prove_method(method)
-    assert "without a tolerance" in str(caught.value)
+    assert "prove_method_exists" in str(caught.value)
 
 
 _ENTRIES = st.sampled_from(["0", "1/2", "1/3", "1", "-1/4", "sqrt(2)/2", "1/6"])

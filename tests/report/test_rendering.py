@@ -62,6 +62,11 @@ MADE: dict[str, Made] = {
         ("design", PLANE, "--a-stable"),
         PLANE,
     ),
+    "ExistenceProof": (
+        lambda: garkcli.prove_method_exists("kvaerno-3"),
+        ("certificate", "kvaerno-3"),
+        "",
+    ),
     "MethodProof": (lambda: garkcli.prove_method("rk4"), ("certificate", "rk4"), ""),
     "Meaning": (lambda: garkcli.explain("density"), ("explain", "density"), "density"),
     "Audited": (lambda: list(garkcli.audit(KUTTA)), ("audit", KUTTA), ""),
