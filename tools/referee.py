@@ -45,7 +45,7 @@ MOST_VALUES = 10_000  # rational numbers of a stage value, in all spaces togethe
 MOST_NUMBERS = 4_000_000  # rational numbers of all matrices of a tableau
 # of rounded numbers, so that a proof takes a minute or so at most
 MOST_BYTES_ROUNDED, MOST_DIGITS, MOST_ORDER, MOST_TREES = 5_000_000, 300, 60, 2_000
-MOST_STEPS = 20_000_000  # trees × (trees + entries of matrices) × numbers
+MOST_STEPS = 10_000_000  # trees × (trees + entries of matrices) × numbers
 PRINTED = "printed", "radius", "centre", "width"
 
 
