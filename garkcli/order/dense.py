@@ -23,7 +23,7 @@ from garkcli.exact.matrix import Vector
 from garkcli.frozen import Frozen, replace
 from garkcli.order.certificate import StageSpans, Witness
 from garkcli.order.functionals import Functional, Undecided, first_failure
-from garkcli.order.meant import AnyTableau, printed, tolerance_of
+from garkcli.order.meant import NOT_FOUND, AnyTableau, printed, tolerance_of
 from garkcli.order.tolerance import within
 from garkcli.tableau.embedded import DenseOutput, Weights
 from garkcli.tableau.stages import PointSpace
@@ -47,13 +47,13 @@ class DenseOrder(Shown, Frozen):
     Attributes:
         order: every condition up to it holds, for all θ; within ``tolerance`` where that is given.
         witness: what fails one order higher; None where the search stopped, or nothing is decided.
-        undecided: whether the next order is undecided.
+        undecided: why the next order is undecided; empty where it is decided, or not asked for.
         tolerance: the rounding of the coefficients; None where they are exact.
     """
 
     order: int
     witness: DenseWitness | None
-    undecided: bool = False
+    undecided: str = ""
     tolerance: fmpq | None = None
 
     @property
@@ -89,12 +89,16 @@ def dense_order(
     try:
         failure = first_failure(method, functionals, orders, spans)
     except Undecided as found:
-        return DenseOrder(found.order - 1, None, True, tolerance)
+        why = f"order {found.order} is too much to decide"
+        return DenseOrder(found.order - 1, None, why, tolerance)
     if failure is None:
         # where no tree is that large, none is larger
-        return DenseOrder(limit, None, False, tolerance)
+        return DenseOrder(limit, None, "", tolerance)
+    order = failure.witness.tree.order
+    if not isinstance(method, Tableau) and not method.search.excludes_dense(order):
+        return DenseOrder(order - 1, None, NOT_FOUND, tolerance)
     witness = DenseWitness(failure.number + 1, failure.witness)
-    return DenseOrder(failure.witness.tree.order - 1, witness, False, tolerance)
+    return DenseOrder(order - 1, witness, "", tolerance)
 
 
 def ends_at_step(method: AnyTableau, dense: DenseOutput) -> bool:

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 AnyTableau: TypeAlias = "Tableau | RoundedTableau"
 """What conditions are decided of: a tableau as it is, or all that it may be a rounding of."""
+NOT_FOUND = "no method with it was found, and it is not proved that there is none"
+"""Why the next order of a rounded method is undecided."""
 
 
 def meant(tableau: Tableau, tolerance: fmpq | None, further: Further | None = None) -> AnyTableau:

@@ -87,7 +87,7 @@ def nearness(search: Recovery, order: int) -> Nearness:
         k = _suspect(search, shifts)
         suspect = None if k is None else _entry_of(search, k)
     is_full = not place.slack
-    is_proved = is_full and is_proved_to_exist(search, order)
+    is_proved = is_full and order > 0 and is_proved_to_exist(search, order)
     return Nearness(distance, entry, suspect, is_full, is_proved)
 
 

@@ -181,7 +181,7 @@ class _Polishing:
     def _checked(self, place: Place) -> Place:
         """The method, where it meets all rows, those that others give included."""
         small = arb(2) ** -(3 * self.bits // 4)
-        if place.distance > 1 or not all(abs(x) < small for x in self._values(place)):
+        if not place.is_inside or not all(abs(x) < small for x in self._values(place)):
             raise _unknown()
         return place
 

@@ -114,6 +114,11 @@ class Place:
         """By how much a number is off at most, in units of its radius."""
         return max((abs(to_float(x)) for x in self.shifts), default=0.0)
 
+    @property
+    def is_inside(self) -> bool:
+        """Whether all its numbers are within their radii."""
+        return all(abs(x) <= 1 for x in self.shifts)
+
     @cached_property
     def _made(self) -> FormTableau:
         return self.search.box.around(self.shifts)
@@ -293,6 +298,7 @@ class Recovery:
         self.radius = max((to_float(t) for t in box.radii), default=0.0)
         self.origin = Place(self, (fmpq(0),) * len(box.numbers))
         self.place = self.origin
+        self._dense: tuple[int, Failure | None] = 0, None
         self.shape: System = {}
         self.system: System = {}
         self._orders: dict[str, tuple[int, Failure | None, list[Tree], int]] = {}
@@ -316,7 +322,7 @@ class Recovery:
                 self.with_weights("embedded", _embedded)
                 self.order_of("embedded", DEFAULT_LIMIT)
             if self.printed_further.dense is not None:
-                self.recover_dense(DEFAULT_LIMIT)
+                self._dense = self.recover_dense(DEFAULT_LIMIT)
         return self.place
 
     @property
@@ -367,6 +373,14 @@ class Recovery:
             if failure is not None:
                 return order - 1, failure
         return min(limit, dense.degree), None
+
+    def excludes_dense(self, order: int) -> bool:
+        """Whether it is proved that dense output has a smaller order."""
+        self.settled  # noqa: B018 -- it looks for that
+        reached, failure = self._dense
+        if order > len(self.printed_further.powers):
+            return True  # there is no coefficient of such a power
+        return order == reached + 1 and failure is not None and failure.is_proved
 
     def with_weights(self, name: str, weights: Callable[[Further], Weights]) -> None:
         """Add the tableau with some of its further weights for b."""
@@ -668,13 +682,10 @@ class Recovery:
             return Failure(is_proved=False)
         failure = self.move(_both(self.shape, wanted))
         if failure is not None and self.shape:
-            alone = self.move(wanted)  # an order that needs another shape is taken
-            if alone is None:
+            # an order that needs another shape is taken, and one that the shape excludes may hold
+            failure = self.move(wanted)
+            if failure is None:
                 self.shape = {}
-            elif alone.is_proved or not failure.is_proved:
-                failure = alone
-            if alone is None:
-                failure = None
         if failure is None:
             self.system = wanted
         return failure
@@ -709,17 +720,18 @@ class Recovery:
     def move(self, system: System) -> Failure | None:
         """Move to a method that meets all rows of a system; why there is none."""
         rows = self.origin.rows(system)
-        if not np.isfinite(rows.slopes).all():
-            return Failure(is_proved=False)  # numbers beyond floats
         labels = [
             (name, label)
             for name, chosen in system.items()
             for label, which in chosen.items()
             for _ in which
         ]
+        is_finite = [bool(np.isfinite(row).all()) for row in rows.slopes]
         for i, label in enumerate(labels):
-            if not may_vanish(rows, i):
+            if is_finite[i] and not may_vanish(rows, i):
                 return Failure(True, (label,))
+        if not all(is_finite):
+            return Failure(is_proved=False)  # numbers beyond floats
         place = self._newton(system, self.place)
         if place is None and np.isfinite(rows.remainders).all():
             c, G, scale = scaled(rows)
@@ -784,8 +796,8 @@ class Recovery:
                 if not is_bounded or not np.isfinite(solver.slopes).all():
                     break  # it divides by what may be zero
                 if worst < self.goal:
-                    return place if place.distance <= 1 else None
-                if place.distance <= 1 and (champion is None or worst < champion[0]):
+                    return place if place.is_inside else None
+                if place.is_inside and (champion is None or worst < champion[0]):
                     champion = worst, place
                 relative = float(worst)
                 if step:

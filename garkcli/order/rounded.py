@@ -8,20 +8,22 @@ undecided.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 
 from flint import arb, ctx, fmpq
 
 from garkcli.doing import doing
 from garkcli.exact.display import decimal
-from garkcli.exact.field import Number
+from garkcli.exact.enclosing import midpoint
+from garkcli.exact.field import ZERO, Number
 from garkcli.frozen import Frozen, FrozenBut, replace
 from garkcli.ntrees.count import Admissible, counts_upto
 from garkcli.ntrees.tree import Tree
 from garkcli.order.approximate_spans import ApproximateSpans
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, Witness, find_order
 from garkcli.order.conditions import count_conditions, coupling_graph, elementary_weight
+from garkcli.order.meant import NOT_FOUND
 from garkcli.order.recovering import Derive, Failure, Recovery
 from garkcli.order.simplifying import BoxDefects, Defects
 from garkcli.order.tree_residuals import TreeResiduals
@@ -93,6 +95,20 @@ class RoundedTableau(Frozen, eq=False):
     def near(self) -> Tableau:
         """The method that it is taken to be, to many bits."""
         return self.search.settled.exact(self.name)
+
+    @property
+    def widest(self) -> fmpq | None:
+        """By how much an entry is off at most, be it printed or made of printed numbers; None where
+        a weight that it is divided by may be 0.
+        """
+        whole = self.search.origin.in_balls(self.name)
+        rows = [row for colour in whole.colours for row in (colour.b, colour.c)]
+        rows += [row for block in whole.blocks.values() for row in block]
+        entries: Iterator[object] = (x for row in rows for x in row)
+        radii = [x.rad() for x in entries if isinstance(x, arb)]
+        if not all(x.is_finite() for x in radii):
+            return None
+        return max(map(midpoint, radii), default=ZERO)
 
     @property
     def further(self) -> Further:
@@ -191,7 +207,6 @@ FEW_TREES = 50_000
 """Up to so many trees the residuals of an order are bounded by listing them; beyond, by spans."""
 FEW_WITNESSES = 2_000
 """Up to so many trees the one that fails by most is sought, after one that fails."""
-NOT_FOUND = "no method with it was found, and it is not proved that there is none"
 
 
 class RoundedOrder(Shown, FrozenBut):

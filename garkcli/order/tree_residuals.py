@@ -101,7 +101,7 @@ class TreeResiduals(StageVectors[Rows]):
                 yield values[i] - required[gamma], required[gamma], u
 
     def _values(self, table: TreeTable, segment: Segment) -> Row:
-        """b_lᵀ 𝒜^[u] for every stem with every branch; what there are more of is the rows."""
+        """b_lᵀ 𝒜^[u] for every stem with every branch; the longer list is outside."""
         b = self.enclosure.b[segment.root].entries()
         stems = self.stems(table, segment)
         if len(stems) < len(segment.branches):  # the weights and A go where they are fewer

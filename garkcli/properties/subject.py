@@ -33,6 +33,10 @@ MISSING_BLOCKS = Reason("some stages do not see every vector field")
 """Why what is about all vector fields together has no meaning where blocks are missing."""
 
 
+MAY_HOLD = "the method that the file is taken to mean has it not, another within t may"
+"""Why what the digits do not exclude is not refuted."""
+
+
 class Subject(Frozen):
     """A method with what is known of it.
 
@@ -45,6 +49,8 @@ class Subject(Frozen):
             exact.
         further: its embedded weights and its dense output.
         rounding: by how much the printed coefficients may be off.
+        printed: the method as it is printed, where it is rounded, with what its coefficients are
+            off at most for ``tolerance``.
     """
 
     tableau: Tableau
@@ -54,6 +60,7 @@ class Subject(Frozen):
     tolerance: fmpq = ZERO
     further: Further = NOTHING
     rounding: fmpq = ZERO
+    printed: Subject | None = None
 
     @staticmethod
     def read(
@@ -63,7 +70,11 @@ class Subject(Frozen):
         if isinstance(method, Tableau):
             return Subject(method, order, simplifying, limit, ZERO, further)
         grain, t = method.grain, method.tolerance
-        return Subject(method.near, order, simplifying, limit, grain, method.further, t)
+        widest = method.widest
+        wide = None
+        if widest is not None:
+            wide = Subject(method.tableau, order, simplifying, limit, widest, further)
+        return Subject(method.near, order, simplifying, limit, grain, method.further, t, wide)
 
     @cached_property
     def defects(self) -> Defects:
@@ -87,7 +98,10 @@ class Subject(Frozen):
         before = processor_time()
         try:
             with spending(SECONDS - sum(self._spent)):
-                return find(key).decide(self)
+                found = find(key).decide(self)
+                if found.value is False and self.rounding and not self._excludes(key):
+                    return Verdict.undecided(MAY_HOLD)
+                return found
         except NotDecided as error:
             if not error.is_late:
                 raise
@@ -95,6 +109,10 @@ class Subject(Frozen):
             return Verdict.undecided(f"it takes longer than {SECONDS:.0f} s of processor time")
         finally:
             self._spent.append(processor_time() - before)
+
+    def _excludes(self, key: str) -> bool:
+        """Whether no method within the rounding has a property."""
+        return self.printed is not None and find(key).decide(self.printed).value is False
 
     @cached_property
     def _spent(self) -> list[float]:

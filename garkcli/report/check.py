@@ -719,9 +719,7 @@ def dense_order(a: Any) -> Any:
 
 def dense_answer(found: DenseOrder, has_colours: bool) -> Answer:
     """An order of dense output as a value with its status."""
-    is_open = (
-        Reason(f"order {found.order + 1} is too much to decide") if found.undecided else NO_REASON
-    )
+    is_open = Reason(found.undecided) if found.undecided else NO_REASON
     status = Status(found.tolerance, found.is_lower_bound, is_open)
     if found.witness is None:
         return Answer(found.order, status)
@@ -737,7 +735,7 @@ DENSE = Section(
     maybe("slope_at_start", kinds.TRUTH, "slopes.at_start"),
     maybe("slope_at_end", kinds.TRUTH, "slopes.at_end"),
     optional("order_is_lower_bound", kinds.TRUE, lambda x: x.order.is_lower_bound or None, DATA),
-    optional("order_undecided", kinds.TRUE, lambda x: x.order.undecided or None, DATA),
+    optional("order_undecided", kinds.TRUE, lambda x: bool(x.order.undecided) or None, DATA),
 )
 COLOURS = Section(
     Row("name", kinds.TEXT, "1.name"),

@@ -7,7 +7,7 @@ undecided, the rest is not; what takes longest comes last.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from flint import fmpq
 
@@ -33,9 +33,12 @@ from garkcli.stability.linear import (
 from garkcli.stability.oscillator import OscillatorStability, usual_oscillator
 from garkcli.stability.sector import Sector, largest_sector
 from garkcli.stability.ssp import AdditiveRadius, SspCoefficient, additive_radius, ssp_coefficient
-from garkcli.stability.within import StabilityWithin, stability_within
+from garkcli.stability.within import StabilityWithin, stability_within, stiff_stability_within
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
+
+if TYPE_CHECKING:
+    from garkcli.order.rounded import RoundedTableau
 
 
 class Colours(Frozen):
@@ -246,6 +249,8 @@ def stability_of_rounded(tableau: Tableau, tolerance: fmpq) -> Stability:
     linear = []
     for name, shares in directions(tableau):
         decided = stability_within(near, shares, grain)
+        if not (decided.a_stable and decided.l_stable):
+            decided = _unless_another(decided, method, shares)
         R = stability_function(tableau, shares)
         linear.append(
             LinearStability(
@@ -263,6 +268,21 @@ def stability_of_rounded(tableau: Tableau, tolerance: fmpq) -> Stability:
         )
     algebraic = algebraic_within(near, grain) if linear else None
     return Stability(tableau, tuple(linear), None, None, tolerance, algebraic_within=algebraic)
+
+
+def _unless_another(
+    found: StabilityWithin, method: RoundedTableau, shares: Sequence[Number]
+) -> StabilityWithin:
+    """What is found, undecided where another method within the rounding may be stable."""
+    widest = method.widest
+    if widest is None:
+        return replace(found, a_stable=found.a_stable or None, l_stable=found.l_stable or None)
+    a_stable, l_stable = stiff_stability_within(method.tableau, shares, widest)
+    return replace(
+        found,
+        a_stable=None if a_stable is not False and not found.a_stable else found.a_stable,
+        l_stable=None if l_stable is not False and not found.l_stable else found.l_stable,
+    )
 
 
 def directions(tableau: Tableau) -> list[tuple[str, list[Number]]]:

@@ -1,8 +1,8 @@
 """Stability of rounded methods: of the one that a method is taken to be, known to many bits.
 
-Coefficients of polynomials are balls; a ball with zero in it is zero, as others are larger by far
-than the balls are wide. What follows for all numbers in the balls is decided; the rest is not, and
-is never guessed.
+Coefficients of polynomials are balls. A ball with zero in it counts as zero: so narrow a ball
+holds it only where the coefficient vanishes. What follows for all numbers in the other balls
+is decided; the rest is not.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ from garkcli.tableau.tableau import Tableau
 
 
 class BallFraction(Frozen):
-    """R = P/Q for all methods within a tolerance, coefficients from the lowest.
+    """R = P/Q of a rounded method, coefficients from the lowest.
 
     Attributes:
         P: the numerator, one coefficient more than there are unknown stage values.
@@ -165,7 +165,7 @@ def _numerators(denominator: arb_poly, matrix: arb_mat, vector: list[arb]) -> li
 
 
 class StabilityWithin(Frozen):
-    """What holds for all methods within a tolerance; None where that is not decided.
+    """What holds of a rounded method; None where that is not decided.
 
     Attributes:
         a_stable: A-stability.

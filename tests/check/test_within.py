@@ -11,12 +11,18 @@ from flint import fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from garkcli.api.calls import find_stability
 from garkcli.check.analysis import Analysis
+from garkcli.check.check_file import check_method
 from garkcli.check.claims import verify
 from garkcli.check.deciding import analyse
 from garkcli.check.outcome import Outcome
 from garkcli.methodfile.load import loads
 from garkcli.methodfile.printed import printed_units
+from garkcli.ntrees.tree import Tree
+from garkcli.order.meant import as_meant
+from garkcli.order.recovering import Failure, Recovery
+from garkcli.order.rounded import RoundedTableau
 from garkcli.page.paint import Paint
 from garkcli.report.check_text import render
 from garkcli.tableau.forms import gark
@@ -171,3 +177,77 @@ def test_three_digits_refute_nothing() -> None:
     found = analyse(method, LIMIT, fmpq(1, 1000))
     assert_no_contradiction(found)
     assert found.order.order >= 6 or found.order.witness is None
+
+
+def test_an_order_that_the_shape_excludes_may_hold(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A proof that no method has an order and the shape of the digits says nothing of the order
+    alone.
+    """
+    box = as_meant(loads(f"tolerance: 1e-6\n{GAUSS}"))
+    assert isinstance(box, RoundedTableau)
+    search = box.search
+    assert search.settled
+    answers = iter([Failure(True), Failure(False)])
+    monkeypatch.setattr(search, "move", lambda _: next(answers))
+    tree = Tree(0, (Tree(0),) * 4)
+    failure = search._meet({"method": [tree]})
+    assert failure is not None
+    assert not failure.is_proved
+
+
+def test_a_file_of_order_0_has_a_full_report() -> None:
+    """Weights whose sum is 2/5: nothing is proved to exist, and every line is there."""
+    text = "{name: x, tolerance: 1e-6, A: [[0, 0], [0.5, 0]], b: [0.1, 0.3]}"
+    outcome = check_method(loads(text))
+    assert outcome.analysis is not None
+    assert outcome.analysis.nearness is not None
+    assert not outcome.analysis.nearness.is_proved
+    assert "order 0 within 1e-6" in words([outcome])
+
+
+@pytest.mark.parametrize(
+    ("tolerance", "verdict"), [("1e-7", (None, None)), ("1e-9", (False, False))]
+)
+def test_what_another_method_within_t_may_have_is_not_refuted(
+    tolerance: str, verdict: tuple[bool | None, bool | None]
+) -> None:
+    """2/7, 11/28, 3/14 make an A-stable method on the edge, which is within 1e-7 of these digits;
+    the nearest method of order 2 is not A-stable. Within 1e-9 there is none.
+    """
+    text = "{A: [[0.2857142, 0], [0.3928571, 0.2142857]], b: [1/3, 2/3], tolerance: 1e-7}"
+    edge = loads("{A: [[2/7, 0], [11/28, 3/14]], b: [1/3, 2/3]}")
+    assert find_stability(edge).linear[0].a_stable
+    method = loads(text.replace("1e-7", tolerance))
+    found = find_stability(method).linear[0]
+    analysis = analyse(method.tableau, tolerance=method.tolerance)
+    assert (found.a_stable, analysis.subject.verdict("a-stable").value) == verdict
+
+
+def test_dense_output_fails_by_proof_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where the search for a method with the next order gives up, the order is left open."""
+    text = (
+        "{tolerance: 1e-3, A: [[0, 0], [0.6667, 0]], b: [0.25, 0.75],"
+        " dense: {degree: 2, weights: [[1, -0.5], [0, 0.5]]}}"
+    )
+    whole = Recovery.recover_dense
+    for is_proved in (True, False):
+        method = loads(text)
+        if not is_proved:
+            monkeypatch.setattr(
+                Recovery, "recover_dense", lambda x, limit: (whole(x, limit)[0], Failure(False))
+            )
+        found = analyse(method.tableau, tolerance=method.tolerance, further=method.further)
+        assert found.dense is not None
+        assert found.dense.order.order == 1
+        assert bool(found.dense.order.witness) == is_proved
+        assert bool(found.dense.order.undecided) != is_proved
+
+
+def test_weights_that_may_be_zero_leave_the_others_alone() -> None:
+    """The conjugate divides by 0.0005 ± 0.001; that explicit stages have no order 3 stays proved,
+    for the pair too.
+    """
+    method = loads("{tolerance: 1e-3, A: [[0, 0], [0.5, 0]], b: [0.0005, 0.9995]}")
+    found = analyse(method.tableau, tolerance=method.tolerance)
+    assert found.pair_order is not None
+    assert (found.pair_order.order, found.pair_order.is_lower_bound) == (2, False)
