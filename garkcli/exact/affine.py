@@ -7,7 +7,7 @@ form encloses what is made of the printed numbers for all numbers within their r
 numbers stay equal: a − a is 0.
 
 Slopes and remainders are bounded however floats are rounded: every operation adds a few units in
-the last place of the sizes that take part.
+the last place of the sizes that take part, and the radius of a ball whose middle is taken for it.
 """
 
 from __future__ import annotations
@@ -38,6 +38,11 @@ LEAST = 1e-300
 def size(ball: arb) -> float:
     """No less than the absolute value of all numbers in a ball."""
     return float(ball.abs_upper()) * (1 + UNIT)
+
+
+def lost(ball: arb) -> float:
+    """By how much the numbers in a ball are off the float that takes its place, at most."""
+    return float(ball.rad()) * (1 + UNIT) + UNIT * size(ball)
 
 
 class Affine:
@@ -98,15 +103,14 @@ class Affine:
             if not other:
                 return fmpq(0)
             factor = constant(other)
-            x, most = float(factor.mid()), size(factor)
+            x = float(factor)
             slopes = {k: x * g for k, g in self.slopes.items()}
-            rest = most * (self.remainder * (1 + UNIT) + UNIT * self.reach) + LEAST
-            return Affine(self.centre * factor, slopes, rest)
-        x, y = float(self.centre.mid()), float(other.centre.mid())
-        most, most_of_other = size(self.centre), size(other.centre)
+            rest = size(factor) * self.remainder * (1 + UNIT) + lost(factor) * self.reach + LEAST
+            return Affine(self.centre * factor, slopes, rest * (1 + UNIT))
+        x, y = float(self.centre), float(other.centre)
         rest = self.reach * other.reach
-        rest += most * (other.remainder + UNIT * other.reach)
-        rest += most_of_other * (self.remainder + UNIT * self.reach)
+        rest += size(self.centre) * other.remainder + lost(self.centre) * other.reach
+        rest += size(other.centre) * self.remainder + lost(other.centre) * self.reach
         slopes = self._combined(y, other, x)
         return Affine(self.centre * other.centre, slopes, rest * (1 + UNIT) + LEAST)
 
@@ -119,13 +123,14 @@ class Affine:
         if nearest <= reach * (1 + UNIT):
             return Affine(arb("nan"), self.slopes, float("inf"))
         factor = -1 / (self.centre * self.centre)
-        x, most = float(factor.mid()), size(factor)
-        rest = most * (self.remainder + UNIT * reach + reach * reach / (nearest - reach))
+        x = float(factor)
+        rest = size(factor) * (self.remainder + reach * reach / (nearest - reach))
+        rest += lost(factor) * reach
         slopes = {k: x * g for k, g in self.slopes.items()}
         return Affine(1 / self.centre, slopes, rest * (1 + 8 * UNIT) + LEAST)
 
     def __truediv__(self, other: Any) -> Any:
-        return self * (other.inverse() if isinstance(other, Affine) else 1 / fmpq(1) / other)
+        return self * (other.inverse() if isinstance(other, Affine) else fmpq(1) / other)
 
     def __rtruediv__(self, other: Any) -> Any:
         return self.inverse() * other
@@ -154,13 +159,14 @@ class Forms:
         remainders: one each.
     """
 
-    __slots__ = ("_middle", "_reach", "centres", "remainders", "slopes")
+    __slots__ = ("_middle", "_radii", "_reach", "centres", "remainders", "slopes")
 
     def __init__(self, centres: Sequence[arb], slopes: Floats, remainders: Floats) -> None:
         self.centres = centres
         self.slopes = slopes
         self.remainders = remainders
         self._middle: Floats | None = None
+        self._radii: Floats | None = None
         self._reach: Floats | None = None
 
     @staticmethod
@@ -188,8 +194,20 @@ class Forms:
     def middle(self) -> Floats:
         """The centres as floats."""
         if self._middle is None:
-            self._middle = np.array([float(x.mid()) for x in self.centres])
+            self._middle = np.array([float(x) for x in self.centres])
         return self._middle
+
+    @property
+    def radii(self) -> Floats:
+        """By how much the numbers in each centre are off its middle, at most."""
+        if self._radii is None:
+            self._radii = np.array([float(x.rad()) for x in self.centres]) * (1 + UNIT)
+        return self._radii
+
+    @property
+    def sizes(self) -> Floats:
+        """No less than the absolute values of all numbers in the centres."""
+        return np.abs(self.middle) * (1 + UNIT) + self.radii
 
     @property
     def reach(self) -> Floats:
@@ -209,10 +227,9 @@ class Forms:
             return Forms(centres, self.slopes, self.remainders)
         x, y = self.middle, other.middle
         slopes = x[:, None] * other.slopes + y[:, None] * self.slopes
-        x, y = np.abs(x) * (1 + UNIT), np.abs(y) * (1 + UNIT)
-        rest = x * (other.remainders + UNIT * other.reach) + y * (
-            self.remainders + UNIT * self.reach
-        )
+        x, y = self.sizes, other.sizes
+        rest = x * other.remainders + (self.radii + UNIT * x) * other.reach
+        rest += y * self.remainders + (other.radii + UNIT * y) * self.reach
         rest += (self.reach + self.remainders) * (other.reach + other.remainders)
         return Forms(centres, slopes, rest * (1 + 8 * UNIT) + LEAST)
 
@@ -242,13 +259,12 @@ class Forms:
         if self.are_numbers:
             return Forms([centre], self.slopes[:1], self.remainders[:1])
         slopes = (self.middle @ other.slopes + other.middle @ self.slopes)[None, :]
-        x, y = np.abs(self.middle), np.abs(other.middle)
-        lost = UNIT * (len(self) + 8)
-        rest = x @ (other.remainders + lost * other.reach) + y @ (
-            self.remainders + lost * self.reach
-        )
+        x, y = self.sizes, other.sizes
+        unit = UNIT * (len(self) + 8)
+        rest = x @ other.remainders + (self.radii + unit * x) @ other.reach
+        rest += y @ self.remainders + (other.radii + unit * y) @ self.reach
         rest += (self.reach + self.remainders) @ (other.reach + other.remainders)
-        return Forms([centre], slopes, np.array([rest * (1 + lost) + LEAST]))
+        return Forms([centre], slopes, np.array([rest * (1 + unit) + LEAST]))
 
 
 class FormMatrix:
@@ -282,16 +298,17 @@ class FormMatrix:
             return
         self._places = np.array(places, int).reshape(-1, 3).T
         self._slopes = np.array(slopes)
-        self.middle = np.array([[float(x.mid()) for x in row] for row in self.centres.tolist()])
+        rows = self.centres.tolist()
+        self.middle = np.array([[float(x) for x in row] for row in rows])
+        self.radii = np.array([[float(x.rad()) for x in row] for row in rows]) * (1 + UNIT)
 
     def times(self, v: Forms) -> Forms:
         """A v."""
-        return self._times(v, self.centres, self.middle, self.reach, self.remainders, 0)
+        return self._times(v, self.centres, 0)
 
     def before(self, w: Forms) -> Forms:
         """wᵀ A."""
-        centres = self.centres.transpose()
-        return self._times(w, centres, self.middle.T, self.reach.T, self.remainders.T, 1)
+        return self._times(w, self.centres.transpose(), 1)
 
     def row(self, i: int) -> Forms:
         """Row i."""
@@ -309,17 +326,17 @@ class FormMatrix:
         slopes[self._places[1 - axis][here], self._places[2][here]] = self._slopes[here]
         return Forms(centres, slopes, remainders.copy())
 
-    def _times(
-        self, v: Forms, centres: arb_mat, middle: Floats, reach: Floats, rest: Floats, axis: int
-    ) -> Forms:
+    def _times(self, v: Forms, centres: arb_mat, axis: int) -> Forms:
         image = (centres * arb_mat([[x] for x in v.centres])).entries()
         if v.are_numbers:
             return Forms(image, np.zeros((len(image), 0)), np.zeros(len(image)))
+        parts = self.middle, self.radii, self.reach, self.remainders
+        middle, radii, reach, rest = (x.T for x in parts) if axis else parts
         slopes = middle @ v.slopes
         to, of = self._places[axis], self._places[1 - axis]
         np.add.at(slopes, (to, self._places[2]), self._slopes * v.middle[of])
-        lost = UNIT * (len(v) + 8)
-        sizes, of_v = np.abs(middle), np.abs(v.middle)
-        remainders = sizes @ (v.remainders + lost * v.reach) + (rest + lost * reach) @ of_v
-        remainders += reach @ (v.reach + v.remainders)
-        return Forms(image, slopes, remainders * (1 + lost) + LEAST)
+        unit = UNIT * (len(v) + 8)
+        sizes = np.abs(middle) * (1 + UNIT) + radii
+        remainders = sizes @ v.remainders + (radii + unit * sizes) @ v.reach
+        remainders += reach @ (v.reach + v.remainders + v.radii) + (rest + unit * reach) @ v.sizes
+        return Forms(image, slopes, remainders * (1 + unit) + LEAST)

@@ -321,3 +321,43 @@ def test_the_same_by_rows_and_by_matrices() -> None:
         one = A.row(i).dot(v)
         assert one.centres[0].overlaps(image.centres[i])
         assert np.allclose(one.slopes[0], image.slopes[i], rtol=1e-12, atol=1e-15)
+
+
+RADIUS = fmpq(1, 8)
+"""Of the centres below: 1 ± 1/8 and ε, of which all products are."""
+
+
+def around_one(shift: Any) -> Affine:
+    return Affine(shift if isinstance(shift, arb) else arb(shift), {0: 1.0})
+
+
+WIDE: dict[str, Callable[[Affine], Any]] = {
+    "x y": lambda x: x * x,
+    "x c": lambda x: x * x.centre,
+    "1/x": lambda x: (x * fmpq(1, 4) + 1).inverse(),
+    "rows": lambda x: Forms.of([x], 1) * Forms.of([x], 1),
+    "scalar product": lambda x: Forms.of([x], 1).dot(Forms.of([x], 1)),
+    "matrix": lambda x: FormMatrix([[x]], 1).times(Forms.of([x], 1)),
+    "matrix from the left": lambda x: FormMatrix([[x]], 1).before(Forms.of([x], 1)),
+}
+
+
+@pytest.mark.parametrize("name", WIDE)
+def test_radii_of_centres_count(name: str) -> None:
+    """Whatever number a centre stands for, what is made of it is enclosed at both ends of ε."""
+    make = WIDE[name]
+
+    def ends(found: Any) -> arb:
+        """Centre, slopes and remainder of what was made."""
+        if isinstance(found, Forms):
+            slopes = dict(enumerate(found.slopes[0]))
+            return Affine(found.centres[0], slopes, found.remainders[0]).ball
+        return found.ball
+
+    with ctx.workprec(200):
+        all_of_them = ends(make(around_one(arb(1, arb(RADIUS)))))
+        for shift in (1 - RADIUS, fmpq(1), 1 + RADIUS):
+            for eps in (-1, 1):
+                factor = shift if name == "x c" else shift + eps
+                value = 1 / ((shift + eps) / 4 + 1) if name == "1/x" else (shift + eps) * factor
+                assert all_of_them.contains(value)
