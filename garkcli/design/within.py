@@ -29,6 +29,7 @@ from garkcli.errors import (
     ZeroWeight,
 )
 from garkcli.exact.display import to_float
+from garkcli.exact.enclosing import midpoint
 from garkcli.exact.field import Number
 from garkcli.exact.rounding import in_decimals
 from garkcli.frozen import Frozen
@@ -353,7 +354,7 @@ class _Finding:
         none is found.
         """
         names = self.printed.family.ring.names
-        values = dict(zip(names, map(_rational, near.point), strict=True))
+        values = dict(zip(names, map(midpoint, near.point), strict=True))
         own = {name: values[name] for name in self.family.parameters}
         widths = (width * self.tolerance for width in WIDTHS)
         for width in (x for x in widths if x <= WIDEST):
@@ -399,10 +400,10 @@ class _Finding:
         parameters = set(self.family.parameters)
         bound = {names[k]: solved.slopes(k) for _, k in solved.pivots if names[k] in parameters}
         directions = {
-            name: {names[k]: _rational(x) for k, x in slopes.items() if not abs(x) < search.small}
+            name: {names[k]: midpoint(x) for k, x in slopes.items() if not abs(x) < search.small}
             for name, slopes in bound.items()
         }
-        points = {names[k]: _rational(x) for k, x in enumerate(solved.point)}
+        points = {names[k]: midpoint(x) for k, x in enumerate(solved.point)}
         grain = search.grain * GRAINS
         try:
             own, embedded = conditions.orders(points, grain)
@@ -521,8 +522,3 @@ def _order_of(tableau: Tableau, grain: fmpq) -> int:
 
     missed = (k for k in range(1, DEFAULT_LIMIT + 1) if tree_missed(tableau, k, 1, grain))
     return next(missed, DEFAULT_LIMIT + 1) - 1
-
-
-def _rational(x: arb) -> fmpq:
-    mantissa, exponent = x.mid().man_exp()
-    return fmpq(mantissa) * fmpq(2) ** int(exponent)

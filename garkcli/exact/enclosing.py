@@ -168,6 +168,11 @@ def midpoint(ball: arb) -> fmpq:
     return fmpq(mantissa) * fmpq(2) ** int(exponent)
 
 
+def bits_for(grain: fmpq) -> int:
+    """The precision of balls in which numbers larger than ``grain`` are not lost."""
+    return 2 * int(grain.q.bit_length()) + 64
+
+
 def root_count(coefficients: Sequence[arb]) -> int | None:
     """The number of distinct real roots, by Sturm's chain; None too where roots are multiple.
 

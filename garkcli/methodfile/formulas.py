@@ -9,6 +9,7 @@ from flint import arb, ctx, fmpq
 from yaml.nodes import Node
 
 from garkcli.errors import ExpressionError, LimitExceeded, did_you_mean
+from garkcli.exact.enclosing import midpoint
 from garkcli.exact.formula import CONSTANTS, RESERVED, Value, parse_formula, value_of
 from garkcli.exact.nodes import Expression, Literal
 from garkcli.exact.rewriting import names_in, size_of
@@ -155,10 +156,7 @@ def nearby(value: Value) -> fmpq:
     """
     if isinstance(value, fmpq):
         return value
-    # the middle of a ball is a whole number times a power of 2
-    mantissa, exponent = map(int, value.mid().man_exp())
-    middle = mantissa * fmpq(2) ** exponent
-    reach = fmpq(1, 10**PLACES)
+    middle, reach = midpoint(value), fmpq(1, 10**PLACES)
     return _simplest(middle - reach, middle + reach)
 
 

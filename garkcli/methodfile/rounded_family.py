@@ -6,7 +6,8 @@ from collections.abc import Mapping, Sequence
 
 from flint import ctx, fmpq
 
-from garkcli.exact.display import to_ball
+from garkcli.exact.affine import constant
+from garkcli.exact.enclosing import midpoint
 from garkcli.exact.field import Number
 from garkcli.exact.nodes import Expression, Literal
 from garkcli.exact.rewriting import parts
@@ -101,16 +102,11 @@ def family_at(family: FamilyFile, shifts: Sequence[fmpq], bits: int) -> FamilyFi
 
     def moved(printed: Sequence[Number], radii: Sequence[fmpq]) -> list[fmpq]:
         offs = shifts or (fmpq(0),) * len(printed)
-        return [_rational(x) + t * off for x, t, off in zip(printed, radii, offs, strict=True)]
+        centres = [x if isinstance(x, fmpq) else midpoint(constant(x)) for x in printed]
+        return [x + t * off for x, t, off in zip(centres, radii, offs, strict=True)]
 
     with ctx.workprec(bits):
         return loads_family(family.text, family.source, family.settings, numbers=moved)
-
-
-def _rational(number: Number) -> fmpq:
-    if isinstance(number, fmpq):
-        return number
-    return to_ball(number, int(ctx.prec * 0.302)).mid().fmpq()
 
 
 def _literals(expression: Expression) -> list[Expression]:

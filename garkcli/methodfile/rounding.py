@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from flint import ctx, fmpq
 
-from garkcli.exact.enclosing import OPERATIONS, enclose
+from garkcli.exact.enclosing import OPERATIONS, enclose, midpoint
 from garkcli.exact.field import Number
 from garkcli.exact.nodes import AlgebraicRoot, Chain, Expression, Literal, Name, Power, Root
 from garkcli.exact.rewriting import parts
@@ -150,7 +150,7 @@ class Rounded:
                 case Power(base=base):
                     return replace(expression, base=change(base))
                 case Root() | AlgebraicRoot() if not is_of_unknowns(expression, ()):
-                    return Literal(enclose(expression).mid().fmpq())
+                    return Literal(midpoint(enclose(expression)))
             return expression
 
         return change

@@ -15,7 +15,7 @@ from flint import arb, ctx, fmpq
 
 from garkcli.doing import doing
 from garkcli.exact.display import decimal
-from garkcli.exact.enclosing import midpoint
+from garkcli.exact.enclosing import bits_for, midpoint
 from garkcli.exact.field import ZERO, Number
 from garkcli.frozen import Frozen, FrozenBut, replace
 from garkcli.ntrees.count import Admissible, counts_upto
@@ -329,7 +329,7 @@ def tree_missed(tableau: Tableau, order: int, share: int, grain: fmpq) -> Tree |
     """The tree of an order whose elementary weight differs most from share/γ(u); None where none
     differs by more than ``grain``.
     """
-    bits = 2 * int(grain.q.bit_length()) + 64
+    bits = bits_for(grain)
     trees = TreeResiduals(tableau, enclose_tableau(tableau, bits))
     with ctx.workprec(bits):
         sizes = [(abs(x), u) for x, _, u in trees.of_order(order, share)]

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from flint import arb, ctx, fmpq
 
 from garkcli.doing import doing
+from garkcli.exact.enclosing import bits_for
 from garkcli.exact.matrix import EntrywiseMap, LinearMap, Matrix, Vector, dot
 from garkcli.frozen import Frozen, FrozenBut
 from garkcli.order.certificate import DEFAULT_LIMIT
@@ -154,7 +155,7 @@ class RoundedDefects(BoxDefects):
     def __init__(self, near: Tableau, grain: fmpq) -> None:
         from garkcli.tableau.enclosure import in_balls  # balls, which exact methods do without
 
-        bits = 2 * int(grain.q.bit_length()) + 64
+        bits = bits_for(grain)
         super().__init__(near, in_balls(near, grain, bits), bits)
 
 

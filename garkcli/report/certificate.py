@@ -16,6 +16,7 @@ from garkcli.check.analysis import MethodProof
 from garkcli.errors import counted
 from garkcli.exact.cells import between
 from garkcli.exact.display import to_ball
+from garkcli.exact.enclosing import midpoint
 from garkcli.exact.field import Number, NumberField, coordinates
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import real_roots
@@ -82,8 +83,7 @@ def _texts(polynomial: fmpq_poly) -> list[str]:
 def _theta_between(field: NumberField) -> list[str]:
     """An interval around θ."""
     ball = to_ball(field.element(fmpq_poly([0, 1])), DIGITS_OF_ROOT + 10)
-    mantissa, exponent = ball.mid().man_exp()
-    near = fmpq(mantissa) * fmpq(2) ** int(exponent)
+    near = midpoint(ball)
     unit = fmpq(1, 10**DIGITS_OF_ROOT)
     units = (near / unit).floor()
     rounded = unit * units

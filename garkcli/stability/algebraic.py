@@ -15,6 +15,7 @@ from typing import Any
 from flint import arb, ctx, fmpq
 
 from garkcli.exact.display import to_ball
+from garkcli.exact.enclosing import bits_for as bits_for
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.exact.roots import sign
@@ -115,11 +116,6 @@ def _eliminate(rows: list[list[Any]], pivot: int, remaining: list[int]) -> None:
         if factor:
             for j in remaining:
                 row[j] = row[j] - factor * pivot_row[j]
-
-
-def bits_for(grain: fmpq) -> int:
-    """The precision of balls in which numbers larger than ``grain`` are not lost."""
-    return 2 * int(grain.q.bit_length()) + 64
 
 
 def snapped(ball: arb) -> arb:
