@@ -117,6 +117,24 @@ class ValuesWithin(Frozen, eq=False):
         return len(self.free)
 
 
+def with_more(found: list[ValuesWithin], values: ValuesWithin) -> list[ValuesWithin]:
+    """Values that were found with one more, where it is new: those that are admitted are kept in
+    place of others, and a family in place of single solutions.
+    """
+    if values.is_admitted:
+        found = [x for x in found if x.is_admitted]
+    elif any(x.is_admitted for x in found):
+        return found
+    if any(x.dimension for x in found):
+        return found
+    if values.dimension:
+        return [values]
+    for other in found:
+        if all(abs(to_float(values.values[k] - x)) <= SAME for k, x in other.values.items()):
+            return found
+    return [*found, values]
+
+
 class StepWithin(Frozen, eq=False):
     """What is known of an order.
 
@@ -281,26 +299,13 @@ class _Finding:
             seen.append(point)
             values = self._recovered(solved, order)
             if values is not None:
-                self._add(found, values)
-            is_enough = found and found[0].is_admitted and found[0].dimension > 0
+                found = with_more(found, values)
+            is_enough = any(x.is_admitted and x.dimension for x in found)
             if is_enough or len(found) >= MOST or len(seen) >= TRIES:
                 break
         witness = None if found else self._witness(order)
         rest = None if left is None or found else float(left.mid())
         return StepWithin(order, tuple(found), system.is_linear, printed, rest, witness)
-
-    def _add(self, found: list[ValuesWithin], values: ValuesWithin) -> None:
-        """Keep values that are new: those that are admitted in place of others."""
-        if values.is_admitted:
-            found[:] = [x for x in found if x.is_admitted]
-        elif any(x.is_admitted for x in found):
-            return
-        if values.dimension and found:
-            return
-        for other in found:
-            if all(abs(to_float(values.values[k] - x)) <= SAME for k, x in other.values.items()):
-                return
-        found.append(values)
 
     @property
     def unknowns(self) -> int:

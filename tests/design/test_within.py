@@ -9,7 +9,7 @@ import pytest
 from flint import fmpq
 
 from garkcli import find_parameters, found_methods, load, minimise, search_methods, stable_values
-from garkcli.design.within import DesignWithin, ValuesWithin
+from garkcli.design.within import DesignWithin, ValuesWithin, with_more
 from garkcli.errors import MethodError
 from garkcli.exact.display import to_ball, to_float
 from garkcli.exact.field import Number
@@ -235,3 +235,34 @@ def test_equal_digits_prove_nothing_where_rounding_lets_unknowns_matter() -> Non
         )
     )
     assert (apart.reaches(2), same.reaches(2)) == (None, False)
+
+
+def values_at(t: int, is_admitted: bool, free: tuple[str, ...] = ()) -> ValuesWithin:
+    """One solution, or an example of a family."""
+    return ValuesWithin(
+        values={"t": fmpq(t)},
+        directions={},
+        free=free,
+        distance=0.0,
+        is_admitted=is_admitted,
+        order=2,
+    )
+
+
+def test_a_family_is_kept_in_place_of_single_solutions() -> None:
+    """Whichever is found first; what is admitted goes before, be it a family or not."""
+    lone, again, other = values_at(1, True), values_at(1, True), values_at(2, True)
+    family = values_at(3, True, ("t",))
+    outside, wide = values_at(4, False), values_at(5, False, ("t",))
+
+    def kept(*values: ValuesWithin) -> list[ValuesWithin]:
+        found: list[ValuesWithin] = []
+        for x in values:
+            found = with_more(found, x)
+        return found
+
+    assert kept(lone, again, other) == [lone, other]
+    assert kept(lone, family) == kept(family, lone) == kept(lone, other, family) == [family]
+    assert kept(outside, wide) == kept(wide, outside) == [wide]
+    assert kept(wide, lone) == kept(lone, wide) == [lone]
+    assert kept(wide, family) == kept(outside, lone, wide, family) == [family]
