@@ -46,7 +46,7 @@ class Tolerance(FrozenBut):
     places: Mapping[str, Node]
 
     def __hash__(self) -> int:
-        return hash(tuple(self.offs.items()))
+        return hash(frozenset(self.offs.items()))
 
     @property
     def is_single(self) -> bool:
@@ -176,12 +176,21 @@ class Rounding:
             if key not in known:
                 message = f"tolerance: nothing of the method is called {shortened(key)}"
                 yield node, message, did_you_mean(key, known), "unknown-key"
+            elif l := self._named_like(key):
+                message = f"tolerance: {key} may mean colour {l}, whose method has this name"
+                yield node, message, "give the method another name", "name-taken"
             elif key in self.tolerance.offs and key not in used:
                 message = f"tolerance: {key} has no rounded number"
                 yield node, message, "leave it out: short fractions and roots are exact", "empty"
         if self.tolerance.offs == {OTHERS: DIGITS} and OTHERS not in used:
             message = "tolerance: digits is about decimals, and the file has none"
             yield None, message, "leave it out, or write a number such as 1e-13", "empty"
+
+    def _named_like(self, key: str) -> int | None:
+        """The colour, counted from 1, whose name is a key that means something else."""
+        taken = {OTHERS, *d.BESIDE, *(number for number, *_ in self.names)}
+        named = (l for l, (number, *own) in enumerate(self.names, start=1) if key in own)
+        return next((l for l in named if key in taken and key != str(l)), None)
 
 
 def _names(content: d.Content) -> list[tuple[str, ...]]:

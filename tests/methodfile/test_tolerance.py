@@ -17,6 +17,7 @@ from garkcli.methodfile.family import loads_family
 from garkcli.methodfile.file_keys import method_file_schema
 from garkcli.methodfile.load import loads
 from garkcli.methodfile.rounded_family import filled
+from garkcli.methodfile.tolerance import DIGITS, Tolerance
 from garkcli.order.certificate import Order
 from garkcli.order.dense import DenseOrder
 from garkcli.order.meant import as_meant
@@ -209,6 +210,35 @@ def test_a_wrong_tolerance_is_one_fault_with_its_cure(
     assert message in fault.message
     assert cure in (fault.help or "")
     assert fault.line == 1
+
+
+TWO_COLOURS = (
+    "methods: [{{A: [[0.7]], b: [1.0]}}, {{name: {}, A: [[0.3]], b: [1.0]}}]\ntransfer: collocation"
+)
+
+
+@pytest.mark.parametrize("name", ["others", "embedded", "dense", "1"])
+def test_a_key_that_is_the_name_of_a_colour_too_is_refused(name: str) -> None:
+    """It would mean two things; a name that nothing else has, or that is its own number, does not,
+    nor does one that is no key.
+    """
+    text = TWO_COLOURS.format(f'"{name}"')
+    with pytest.raises(MethodFileError) as refused:
+        loads(f"tolerance: {{{name}: 1e-5}}\n{text}")
+    [fault] = refused.value.faults
+    assert "may mean colour 2" in fault.message
+    assert (fault.line, fault.help) == (1, "give the method another name")
+    assert loads(f"tolerance: {{2: 1e-5}}\n{text}").tolerance == fmpq(1, 10**5)
+    own = TWO_COLOURS.format('"2"')
+    assert loads(f"tolerance: {{2: 1e-5}}\n{own}").tolerance == fmpq(1, 10**5)
+
+
+def test_equal_tolerances_have_one_hash() -> None:
+    """The order of keys says nothing."""
+    offs = {"others": fmpq(1, 100), "embedded": DIGITS}
+    one, other = Tolerance(offs, {}), Tolerance(dict(reversed(offs.items())), {})
+    assert one == other
+    assert hash(one) == hash(other)
 
 
 def test_digits_of_a_file_without_decimals_are_a_fault() -> None:
