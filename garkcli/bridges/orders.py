@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from flint import fmpq
 
+from garkcli.check.analysis import inconsistent_blocks, nonautonomous
 from garkcli.exact.display import decimal
 from garkcli.frozen import Frozen
+from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.deciding import order_of
 from garkcli.order.meant import as_embedded, meant, tolerance_of
-from garkcli.order.simplifying import consistent_blocks
 from garkcli.tableau.embedded import Weights
-from garkcli.tableau.forms import with_time
 from garkcli.tableau.tableau import Tableau
 
 
@@ -74,11 +74,8 @@ def find_orders(tableau: Tableau, embedded: Weights | None, tolerance: fmpq | No
     """
     method = meant(tableau, tolerance)
     order = order_of(method)
-    timed = None
-    if not all(consistent_blocks(method).values()):
-        of_time = with_time(tableau)
-        timed = None if of_time is None else order_of(meant(of_time, tolerance)).order
-    with_nodes = None if timed == order.order else timed
+    timed = nonautonomous(method, order, inconsistent_blocks(method), DEFAULT_LIMIT)
+    with_nodes = None if timed is None or timed.order == order.order else timed.order
     other, near = None, tolerance
     if embedded is not None:
         changed = as_embedded(method, embedded)

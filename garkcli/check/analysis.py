@@ -12,7 +12,7 @@ from garkcli.errors import MethodError, ZeroWeight
 from garkcli.frozen import Frozen
 from garkcli.order.certificate import DEFAULT_LIMIT, Proof, prove
 from garkcli.order.deciding import AnyOrder, order_of
-from garkcli.order.meant import derived, meant, printed
+from garkcli.order.meant import as_embedded, derived, meant, printed
 from garkcli.order.simplifying import Simplifying, consistent_blocks, defects_of
 from garkcli.reason import NO_REASON, Reason
 from garkcli.tableau.embedded import NOTHING, Further
@@ -131,16 +131,17 @@ class Analysis(Shown, Frozen):
     def wrong_weights(self) -> tuple[WrongSum, ...]:
         """The weights, embedded ones after them, whose sum is not 1, in the same way."""
         found: list[WrongSum] = []
-        asked = [(self.tableau, self.order, False)]
-        if self.embedded is not None:
-            asked.append((self.embedded.tableau, self.embedded.order, True))
+        method = meant(self.tableau, self.tolerance)
+        asked = [(method, self.order, False)]
+        if self.embedded is not None and self.further.embedded is not None:
+            changed = as_embedded(method, self.further.embedded)
+            asked.append((changed, self.embedded.order, True))
         for tableau, order, is_embedded in asked:
             if order.order or order.witness is None:
                 continue
             from garkcli.order.sums import wrong_weights
 
-            defects = defects_of(meant(tableau, getattr(order, "tolerance", None)))
-            found += wrong_weights(defects, is_embedded)
+            found += wrong_weights(defects_of(tableau), is_embedded)
         return tuple(found)
 
     def __repr__(self) -> str:

@@ -272,6 +272,31 @@ def test_exports_say_how_each_order_is_met() -> None:
     assert sentence == "order 4, embedded order 4 within 1e-12; order conditions met exactly"
 
 
+def test_exports_name_the_order_on_problems_with_time_that_check_names() -> None:
+    """Order 2 has b₂ = 1/2, and b₂ c₂ = 1/2 with a c₂ that is exact and not 1 fails. Were the
+    exact numbers rounded too, both would hold.
+    """
+    method = loads("tolerance: 1e-3\nA: [[], [1]]\nb: [0.5, 0.5]\nc: [0, 5009/5000]")
+    found = check_method(method).analysis
+    assert found.nonautonomous_order is not None
+    assert (found.order.order, found.nonautonomous_order.order) == (2, 1)
+    orders = prepared(method).orders
+    assert (orders.order, orders.nonautonomous) == (2, 1)
+
+
+@pytest.mark.parametrize("tolerance", ["1e-3", "{embedded: 1e-3}"])
+def test_a_wrong_sum_is_told_where_exact_weights_make_it(tolerance: str) -> None:
+    """Embedded weights with the sum 1.002, one of them rounded by 0.001: were all three, the sum
+    would be 1 within the rounding, as order 1 is not.
+    """
+    text = "A: [[], [1/2], [0, 1/2]]\nb: [0, 1, 0]\nembedded: [0.5, 1/2, 1/500]"
+    found = check_method(loads(f"tolerance: {tolerance}\n{text}")).analysis
+    assert found.embedded is not None
+    assert found.embedded.order.order == 0
+    [wrong] = found.wrong_weights
+    assert (wrong.is_embedded, wrong.off) == (True, fmpq(1, 500))
+
+
 def test_design_takes_each_number_within_its_own_radius() -> None:
     """Unknown weights beside A whose entries have another tolerance than the embedded weights."""
     text = (
