@@ -129,6 +129,24 @@ class Affine:
         slopes = {k: x * g for k, g in self.slopes.items()}
         return Affine(1 / self.centre, slopes, rest * (1 + 8 * UNIT) + LEAST)
 
+    def root(self, index: int) -> Affine:
+        """The real root, f(x) = f(c) + f'(c) (x − c) + f''(ξ) (x − c)²/2; without a bound where x
+        may be 0, or the root is not real.
+        """
+        if index % 2 and self.centre < 0:
+            return -((-self).root(index))
+        reach = self.reach
+        nearest = float(self.centre.abs_lower()) * (1 - UNIT)
+        if nearest <= reach * (1 + UNIT) or not self.centre > 0:
+            return Affine(arb("nan"), self.slopes, float("inf"))
+        root, low = self.centre.root(index), arb((nearest - reach) * (1 - UNIT))
+        factor = root / (index * self.centre)
+        bend = low.root(index) / (low * low) * (index - 1) / (2 * index * index)
+        x = float(factor)
+        rest = size(factor) * self.remainder + lost(factor) * reach + size(bend) * reach * reach
+        slopes = {k: x * g for k, g in self.slopes.items()}
+        return Affine(root, slopes, rest * (1 + 8 * UNIT) + LEAST)
+
     def __truediv__(self, other: Any) -> Any:
         return self * (other.inverse() if isinstance(other, Affine) else fmpq(1) / other)
 

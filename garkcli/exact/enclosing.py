@@ -132,6 +132,11 @@ def integer_power(base: arb, exponent: int) -> arb:
     return power if exponent >= 0 else 1 / power
 
 
+def real_root(ball: arb, index: int) -> arb:
+    """The real root of a ball, of index 2 or more."""
+    return -((-ball).root(index)) if index % 2 and ball < 0 else ball.root(index)
+
+
 def enclose(expression: Expression) -> arb:
     """A ball that holds the value of ``expression``, at the current ``flint.ctx`` precision.
 
@@ -153,10 +158,7 @@ def enclose(expression: Expression) -> arb:
         case Power(base=base, exponent=exponent):
             return integer_power(enclose(base), exponent)
         case Root(radicand=radicand, index=index):
-            ball = enclose(radicand)
-            if index % 2 and ball < 0:
-                return -((-ball).root(index))
-            return ball.root(index)
+            return real_root(enclose(radicand), index)
         case AlgebraicRoot(coefficients=coefficients, number=number):
             return isolated(coefficients, ctx.prec)[number]
     raise TypeError(f"no value: {expression!r}")

@@ -10,13 +10,14 @@ from garkcli.frozen import FrozenBut
 
 class Expression(FrozenBut, kw_only=True):
     """A node; ``start`` and ``end`` are its offsets in the text and do not take part in
-    comparisons.
+    comparisons, nor do ``decimals``: those in the polynomial that it is a root of.
     """
 
-    besides = frozenset({"start", "end"})
+    besides = frozenset({"start", "end", "decimals"})
 
     start: int = 0
     end: int = 0
+    decimals: tuple[Literal, ...] = ()
 
 
 def divided_by_zero(at: Expression, cure: str = "write another divisor") -> UndefinedValue:
@@ -27,10 +28,15 @@ def divided_by_zero(at: Expression, cure: str = "write another divisor") -> Unde
 class Literal(Expression):
     """A rational number; ``text`` is how it is printed, where it was read."""
 
-    besides = frozenset({"start", "end", "text"})
+    besides = Expression.besides | {"text"}
 
     value: fmpq
     text: str = ""
+
+
+def is_decimal(literal: Literal) -> bool:
+    """Whether a number is written as a decimal."""
+    return "." in literal.text or "e" in literal.text.lower()
 
 
 class Name(Expression):

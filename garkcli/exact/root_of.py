@@ -6,6 +6,8 @@ it is meant. gark keeps the irreducible factor with that root, so that a number 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from flint import arb, ctx, fmpq, fmpq_poly, fmpz_poly
 
 from garkcli.errors import ExpressionError, LimitExceeded, UndefinedValue
@@ -19,7 +21,10 @@ from garkcli.exact.nodes import (
     Power,
     Root,
     divided_by_zero,
+    is_decimal,
 )
+from garkcli.exact.rewriting import parts
+from garkcli.frozen import replace
 
 MAX_POLYNOMIAL_DEGREE = 12
 """Largest degree of such a polynomial."""
@@ -53,16 +58,30 @@ def root_nearest(polynomial: Expression, near: Expression, start: int, end: int)
     if target.degree() > 0:
         raise _error("a number near the root is expected", near)
     factor, number = _nearest(p, target[0], polynomial, near)
+    root = _root(factor, number)
+    return replace(root, start=start, end=end, decimals=tuple(_decimals(polynomial)))
+
+
+def _root(factor: fmpz_poly, number: int) -> Expression:
+    """One of the real roots of an irreducible polynomial."""
     if factor.degree() == 1:
-        return Literal(fmpq(-factor[0], factor[1]), start=start, end=end)
+        return Literal(fmpq(-factor[0], factor[1]))
     coefficients = tuple(int(a) for a in factor.coeffs())
     if len(coefficients) == 3:
         c, b, a = (fmpq(x) for x in coefficients)
         middle = -b / (2 * a)
         radical = Root(Literal(middle * middle - c / a), 2)
         sign = "-" if number == 0 else "+"
-        return Chain(f"+{sign}", (Literal(middle), radical), start=start, end=end)
-    return AlgebraicRoot(coefficients, number, start=start, end=end)
+        return Chain(f"+{sign}", (Literal(middle), radical))
+    return AlgebraicRoot(coefficients, number)
+
+
+def _decimals(expression: Expression) -> Iterator[Literal]:
+    """The decimals in a polynomial."""
+    if isinstance(expression, Literal) and is_decimal(expression):
+        yield expression
+    for part in parts(expression):
+        yield from _decimals(part)
 
 
 def _nearest(p: fmpq_poly, target: fmpq, at: Expression, near: Expression) -> tuple[fmpz_poly, int]:

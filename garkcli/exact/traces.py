@@ -72,6 +72,14 @@ class Trace:
             result = self * result
         return 1 / result if exponent < 0 else result
 
+    def root(self, index: int) -> Trace:
+        """It has none: sums and products alone are made again.
+
+        Raises:
+            Untold: always.
+        """
+        raise Untold(f"a rounded number is under a root of index {index}")
+
 
 def told(number: Any) -> Told:
     """How a number is made, a trace or not.

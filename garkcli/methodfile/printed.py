@@ -10,7 +10,7 @@ from flint import arb, ctx, fmpq
 from garkcli.exact.display import to_ball
 from garkcli.exact.enclosing import OPERATIONS, enclose, integer_power
 from garkcli.exact.field import Number
-from garkcli.exact.nodes import AlgebraicRoot, Chain, Expression, Literal, Power, Root
+from garkcli.exact.nodes import AlgebraicRoot, Chain, Expression, Literal, Power, Root, is_decimal
 from garkcli.order.tolerance import rounded_up
 
 Printed: TypeAlias = Sequence[tuple[Expression, Number]]
@@ -160,8 +160,9 @@ def fewest_digits(texts: Iterable[Expression]) -> int:
 
 
 def unit_of(expression: Expression, value: Number, fewest: int) -> fmpq:
-    """By how much a decimal may be off, one unit of its last digit, or a fraction with a long
-    denominator; 0 for one that is exact.
+    """By how much a decimal may be off, one unit of its last digit, a fraction with a long
+    denominator, or a root of a polynomial with decimals, as the coarsest of these; 0 for one that
+    is exact.
 
     Args:
         expression: as it is written.
@@ -172,6 +173,8 @@ def unit_of(expression: Expression, value: Number, fewest: int) -> fmpq:
     >>> unit_of(parse("0.25"), fmpq(1, 4), 9), unit_of(parse("0.25"), fmpq(1, 4), 2)
     (0, 1/100)
     """
+    if expression.decimals:
+        return max(unit_of(x, x.value, fewest) for x in expression.decimals)
     if isinstance(expression, Literal) and is_decimal(expression):
         return _unit(expression) if _places(expression) >= fewest else fmpq(0)
     return _approximation(value)
@@ -189,11 +192,6 @@ def coarsest_unit(texts: Sequence[Expression]) -> fmpq:
     return max(units)
 
 
-def is_decimal(literal: Literal) -> bool:
-    """Whether a number is written as a decimal."""
-    return "." in literal.text or "e" in literal.text.lower()
-
-
 def _places(literal: Literal) -> int:
     """Digits of a decimal, with zeros between the point and the first of them."""
     mantissa, _, exponent = literal.text.lower().partition("e")
@@ -201,6 +199,9 @@ def _places(literal: Literal) -> int:
 
 
 def _literals(expression: Expression) -> Iterator[Literal]:
+    if expression.decimals:
+        yield from expression.decimals
+        return
     match expression:
         case Literal():
             yield expression

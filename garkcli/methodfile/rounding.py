@@ -5,16 +5,25 @@ from __future__ import annotations
 from collections.abc import Callable, Container, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from flint import ctx, fmpq
+from flint import arb, ctx, fmpq
 
-from garkcli.exact.enclosing import OPERATIONS, enclose, midpoint
+from garkcli.exact.enclosing import OPERATIONS, enclose, midpoint, real_root
 from garkcli.exact.field import Number
-from garkcli.exact.nodes import AlgebraicRoot, Chain, Expression, Literal, Name, Power, Root
+from garkcli.exact.nodes import (
+    AlgebraicRoot,
+    Chain,
+    Expression,
+    Literal,
+    Name,
+    Power,
+    Root,
+    is_decimal,
+)
 from garkcli.exact.rewriting import parts
 from garkcli.frozen import replace
 from garkcli.methodfile.build import Builder
 from garkcli.methodfile.numbers import Entry, Numbers
-from garkcli.methodfile.printed import is_decimal, is_long_fraction
+from garkcli.methodfile.printed import is_long_fraction
 from garkcli.methodfile.source import Source
 from garkcli.methodfile.values import Values
 from garkcli.tableau.box import Box, rational_or_ball, to_points
@@ -30,8 +39,8 @@ _Rounded: TypeAlias = tuple[Entry, Expression, Number]
 
 def rounded_of(built: Builder[Values], numbers: Numbers, rounding: Rounding) -> Rounded:
     """The rounded numbers of a file: each decimal in it, and each fraction with a long denominator;
-    short fractions and radicals are exact. Where there is none of these, and one tolerance for the
-    whole file, each coefficient that is not 0 may be off.
+    short fractions are exact, and roots of exact numbers. Where there is none of these, and one
+    tolerance for the whole file, each coefficient that is not 0 may be off.
 
     Args:
         built: the method, with the values of the file.
@@ -43,8 +52,9 @@ def rounded_of(built: Builder[Values], numbers: Numbers, rounding: Rounding) -> 
 
 
 class Rounded:
-    """The rounded numbers of a file, each with its place: a literal, or an expression that is a
-    long fraction or has a root of rounded numbers in it.
+    """The rounded numbers of a file, each with its place: a decimal, which may be under a root; an
+    expression that is a long fraction; or a root of a polynomial with decimals, which is off by
+    as much as each of these.
 
     Args:
         coefficients: of the file.
@@ -149,7 +159,12 @@ class Rounded:
                     return replace(expression, operands=tuple(map(change, operands)))
                 case Power(base=base):
                     return replace(expression, base=change(base))
-                case Root() | AlgebraicRoot() if not is_of_unknowns(expression, ()):
+                case Root(radicand=radicand):
+                    expression = replace(expression, radicand=change(radicand))
+                    if is_of_unknowns(expression, ()):
+                        return expression
+                    return Literal(midpoint(enclose(expression)))
+                case AlgebraicRoot():
                     return Literal(midpoint(enclose(expression)))
             return expression
 
@@ -188,6 +203,8 @@ def _copied(expression: Expression, kept: Container[int]) -> Expression:
             return replace(expression, operands=tuple(_copied(x, kept) for x in operands))
         case Power(base=base):
             return replace(expression, base=_copied(base, kept))
+        case Root(radicand=radicand):
+            return replace(expression, radicand=_copied(radicand, kept))
     return replace(expression)
 
 
@@ -203,18 +220,15 @@ def _rounded_in(expression: Expression, value: Number) -> Iterator[tuple[Express
     if is_long_fraction(expression, value):
         yield expression, value
         return
-    match expression:
-        case Literal(value=own):
-            if own and is_decimal(expression):
-                yield expression, own
-        case Chain(operands=operands):
-            parts = [
-                _rounded_in(x, x.value if isinstance(x, Literal) else fmpq(0)) for x in operands
-            ]
-            for part in parts:
-                yield from part
-        case Power(base=base):
-            yield from _rounded_in(base, base.value if isinstance(base, Literal) else fmpq(0))
+    if expression.decimals:
+        own = _value(expression)
+        if own:
+            yield expression, own
+        return
+    if isinstance(expression, Literal) and expression.value and is_decimal(expression):
+        yield expression, expression.value
+    for part in parts(expression):
+        yield from _rounded_in(part, part.value if isinstance(part, Literal) else fmpq(0))
 
 
 class _Moved(Values):
@@ -257,11 +271,21 @@ class _Moved(Values):
             case Power(base=base, exponent=exponent):
                 inner = self._value(base)
                 return None if inner is None else inner**exponent
+            case Root(radicand=radicand, index=index):
+                inner = self._value(radicand)
+                if isinstance(inner, (fmpq, arb)):
+                    return real_root(arb(inner), index)
+                return None if inner is None else inner.root(index)
         return None
 
 
 def _exact(expression: Expression) -> Any:
     """The value of an expression without rounded numbers."""
+    return rational_or_ball(_value(expression))
+
+
+def _value(expression: Expression) -> Number:
+    """The value of an expression as it is printed."""
     from garkcli.exact.domain import Domain
 
-    return rational_or_ball(Domain([expression]).coefficient(expression))
+    return Domain([expression]).coefficient(expression)

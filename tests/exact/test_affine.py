@@ -263,6 +263,36 @@ def test_the_inverse_is_as_wide_as_it_has_to_be() -> None:
     assert fmpq(1, 12) <= exactly(found.remainder) <= fmpq(1, 12) + fmpq(1, 10**12)
 
 
+@pytest.mark.parametrize("index", [2, 3, 4, 5])
+@pytest.mark.parametrize("centre", [fmpq(1), fmpq(7, 3), fmpq(-2)])
+def test_roots_are_enclosed(index: int, centre: fmpq) -> None:
+    """The power of a root is the number itself, at corners and inside; no even root of a negative
+    number is real.
+    """
+    x = Affine(arb(centre), {0: 0.25, 1: 0.125}, 0.0625)
+    found = x.root(index)
+    if centre < 0 and index % 2 == 0:
+        assert not found.ball.is_finite()
+        return
+    for eps in ((1, 1, 1), (-1, -1, -1), (1, -1, 1), (fmpq(1, 2), fmpq(-1, 3), 0), (0, 0, 0)):
+        value = centre + fmpq(eps[0], 4) + fmpq(eps[1], 8) + fmpq(eps[2], 16)
+        linear = found.centre + sum(arb(g) * arb(fmpq(eps[k])) for k, g in found.slopes.items())
+        ends = [linear + found.remainder, linear - found.remainder]
+        high, low = (end**index - value for end in ends)
+        assert high > 0
+        assert low < 0
+    near = Affine(arb(1), {0: 0.25}).root(2)
+    # at ε = −1 it is sqrt(3/4), of which centre and slope give 7/8
+    assert 0.875 - 0.75**0.5 <= near.remainder <= 0.0121
+
+
+@pytest.mark.parametrize("slope", [1.0, 2.0])
+def test_roots_of_what_may_be_zero_have_no_bound(slope: float) -> None:
+    """The slope of a root has none there."""
+    assert not Affine(arb(1), {0: slope}).root(2).ball.is_finite()
+    assert not Affine(arb(-1), {0: slope}).root(3).ball.is_finite()
+
+
 def test_division_near_zero_has_no_bound() -> None:
     """Where the divisor may be zero, or touches it, nothing is said; a row with it may be zero."""
     for centre, slope, rest in ((0, 1.0, 0.0), (1, 1.0, 0.0), (1, 0.5, 0.5), (-1, 2.0, 0.0)):

@@ -10,9 +10,10 @@ from garkcli.api.design import find_parameters
 from garkcli.bridges.preparing import prepared
 from garkcli.check.check_file import check_method
 from garkcli.check.deciding import analyse
+from garkcli.check.existing import prove_method_exists
 from garkcli.conversion.convert import convert
 from garkcli.design.within import DesignWithin
-from garkcli.errors import MethodFileError
+from garkcli.errors import MethodError, MethodFileError
 from garkcli.methodfile.family import loads_family
 from garkcli.methodfile.file_keys import method_file_schema
 from garkcli.methodfile.load import loads
@@ -270,6 +271,58 @@ def test_exports_say_how_each_order_is_met() -> None:
     assert payload.tolerance is None
     sentence = payload.orders.sentence()
     assert sentence == "order 4, embedded order 4 within 1e-12; order conditions met exactly"
+
+
+ROOTS = {
+    "sqrt(1.001)": fmpq(1001, 1000),
+    "0 - cbrt(1/2 - 1.501)": fmpq(1501, 1000),
+    "root(1 + 0.001, 4)": fmpq(1, 1000),
+    "root_of(x - 1.001, 1)": fmpq(1001, 1000),
+}
+
+
+@pytest.mark.parametrize("half", ["0.5", "1/2"])
+@pytest.mark.parametrize("root", ROOTS)
+def test_a_decimal_under_a_root_is_rounded_like_any_other(root: str, half: str) -> None:
+    """Whatever other numbers of the file are: Σ b = 1 holds within 0.002, not within 0.0001."""
+    text = f"A: [[0, 0], [{half}, 0]]\nb: [0, '{root}']\n"
+    wide, narrow = loads(f"tolerance: 2e-3\n{text}"), loads(f"tolerance: 1e-4\n{text}")
+    rounded = as_meant(wide)
+    assert not isinstance(rounded, Tableau)
+    exact = set() if half == "1/2" else {fmpq(1, 2)}
+    assert set(rounded.search.box.numbers) == {ROOTS[root], *exact}
+    assert (find_orders(wide)["order"], find_orders(narrow)["order"]) == (2, 0)
+
+
+def test_a_root_of_a_polynomial_with_decimals_is_as_exact_as_these() -> None:
+    """The root is the number that is rounded; by digits, as the coarsest of the decimals."""
+    text = 'A: [[1/2]]\nb: ["root_of(1.0000*x^3 - 1.003, 1)"]'
+    for tolerance, radius in (("1e-2", fmpq(1, 100)), ("digits", fmpq(1, 1000))):
+        method = loads(f"tolerance: {tolerance}\n{text}")
+        rounded = as_meant(method)
+        assert not isinstance(rounded, Tableau)
+        assert rounded.search.box.radii == (radius,)
+    exact = 'A: [[1/2]]\nb: ["root_of(x^3 - 1003/1000, 1)"]'
+    with pytest.raises(MethodFileError, match="the file has none"):
+        loads(f"tolerance: digits\n{exact}")
+
+
+def test_roots_of_rounded_numbers_have_no_certificate() -> None:
+    """The referee adds and multiplies alone."""
+    method = loads("tolerance: 2e-3\nA: [[0.5]]\nb: [sqrt(1.001)]")
+    with pytest.raises(MethodError, match="under a root of index 2"):
+        prove_method_exists(method)
+
+
+def test_a_root_of_a_rounded_number_moves_beside_unknowns() -> None:
+    """A weight sqrt(1.000001) t or sqrt(1.000001 t) is 1 for t = 1 within the rounding."""
+    text = "tolerance: 1e-6\nparameters: {t: free}\nA: [[t/2]]\nb: [{}]\ndesign: {order: 2}\n"
+    for root in ("sqrt(1.000001)*t", "sqrt(1.000001*t)"):
+        found = find_parameters(loads_family(text.replace("{}", root)))
+        assert isinstance(found, DesignWithin)
+        assert found.best is not None
+        assert found.best.order == 2
+        assert float(found.best.found[0].values["t"]) == pytest.approx(1, abs=2e-6)
 
 
 def test_exports_name_the_order_on_problems_with_time_that_check_names() -> None:
