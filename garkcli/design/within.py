@@ -31,10 +31,12 @@ from garkcli.errors import (
 from garkcli.exact.display import to_float
 from garkcli.exact.enclosing import midpoint
 from garkcli.exact.field import Number
+from garkcli.exact.parametric import fraction
 from garkcli.exact.rounding import in_decimals
 from garkcli.frozen import Frozen
 from garkcli.ntrees.tree import Tree
 from garkcli.order.certificate import DEFAULT_LIMIT
+from garkcli.order.conditions import elementary_weight
 from garkcli.order.meant import derived
 from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.family import Family
@@ -59,8 +61,6 @@ LOOSE = 10_000
 """So many tolerances may be left of conditions before a method is recovered."""
 GRAINS = 1024
 """Residuals of so many grains are zeros, where values are solved for."""
-SAME_REACH = fmpq(1, 100)
-"""What bounds of rounding differ by where unknowns take no part."""
 SAME = 1e-6
 """Solutions no further apart in any unknown are one."""
 
@@ -78,6 +78,13 @@ class Rounding(Protocol):
 
     def at(self, shifts: Sequence[fmpq], bits: int) -> Family:
         """With numbers that are off by these shares of the tolerance, nothing for none."""
+
+    def generic(self) -> Family:
+        """With indeterminates in place of known numbers: what holds there holds for all of these.
+
+        Raises:
+            MethodFileError: it is too large.
+        """
 
     def filled(self, values: Mapping[str, fmpq], digits: int, width: fmpq) -> Any:
         """With values for the unknowns that may move by a width: ``rounded``, the method, and
@@ -425,26 +432,37 @@ class _Finding:
         )
 
     def _witness(self, order: int) -> Tree | None:
-        """A tree whose condition has no unknown, and which no rounding explains."""
-        names, width = self.family.parameters, self.tolerance
+        """A tree in whose condition there is no unknown, whatever the known numbers are, and which
+        no rounding explains.
+        """
+        trees = list(self.printed.of_known_numbers(order))
+        if not trees:
+            return None
         [start] = Search(self.printed.family, 1, self.whose).starts(0, 1)
-        small = [fmpq(int(x * 1000) + 1, 1009) for x in start]
-        probes = [small, [1000 * x for x in small]]
-        for tree in self.printed.of_known_numbers(order):
-            try:
-                one, other = (
-                    self._meant(
-                        self.rounding.filled(dict(zip(names, x, strict=False)), self.digits, width)
-                    )
-                    for x in probes
-                )
-            except (MethodFileError, MethodError, ZeroWeight):
-                return None
-            # where rounding makes unknowns matter, large ones may do more than it
-            reach, far = one.allowed(tree), other.allowed(tree)
-            if abs(far - reach) <= SAME_REACH * reach and not other.explains(tree):
-                return tree
-        return None
+        values = [fmpq(int(x * 1000) + 1, 1009) for x in start]
+        own = dict(zip(self.family.parameters, values, strict=False))
+        try:
+            weights = _Weights(self.rounding.generic(), self.whose)
+            rounded = self._meant(self.rounding.filled(own, self.digits, self.tolerance))
+            found = (x for x in trees if weights.are_known(x) and not rounded.explains(x))
+            return next(found, None)
+        except (MethodFileError, MethodError, ZeroWeight):
+            return None
+
+
+class _Weights:
+    """The elementary weights of a family whose known numbers are indeterminates."""
+
+    def __init__(self, family: Family, whose: Whose) -> None:
+        self.tableau = TABLEAUS[whose](family.tableau)
+        self.ring = family.ring
+        unknown = {*family.parameters, *(x.name for x in family.radicals)}
+        self.unknowns = [k for k, name in enumerate(family.ring.names) if name in unknown]
+
+    def are_known(self, tree: Tree) -> bool:
+        """Whether the weight of a tree is the same for all values of the unknowns."""
+        parts = fraction(elementary_weight(self.tableau, tree), self.ring)
+        return not any(part.degrees()[k] > 0 for part in parts for k in self.unknowns)
 
 
 class _Conditions:

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from flint import fmpq, fmpq_mpoly
 from yaml.nodes import ScalarNode
 
 from garkcli.design.want import numerators, sign_polynomial
 from garkcli.errors import HasFreeParameters, MethodError
-from garkcli.exact.field import Number
 from garkcli.exact.parametric import Parameters, common_denominator
 from garkcli.methodfile.build import Builder
 from garkcli.methodfile.description import (
@@ -30,8 +29,12 @@ from garkcli.methodfile.wishes import Wishes, meaning_of
 from garkcli.tableau.family import Family
 from garkcli.tableau.tableau import Tableau
 
-Moved: TypeAlias = "Callable[[Sequence[Number], Sequence[fmpq]], Sequence[fmpq]]"
-"""Numbers in place of the printed ones."""
+if TYPE_CHECKING:
+    from garkcli.exact.nodes import Expression
+    from garkcli.methodfile.rounding import Rounded
+
+Moved: TypeAlias = "Callable[[Rounded], Mapping[int, Expression]]"
+"""Expressions in place of the rounded numbers, by the identity of what they replace."""
 _NAME = re.compile(r"\ba[0-9_]+")
 """An entry of a block."""
 
@@ -118,8 +121,7 @@ def loads_family(
         is_design: whether to use ``design`` of the file.
         deadline: as in ``load_family``.
         is_free: as in ``load_family``.
-        numbers: what takes the place of its rounded numbers, from these as they are printed and
-            their radii; None for themselves.
+        numbers: what takes the place of its rounded numbers; None for themselves.
 
     Raises:
         MethodFileError: every fault of the file, with positions.
@@ -194,7 +196,7 @@ def _family(
         refuse_keys(reader.source, description.rounding, rounded)
         tolerance = max(rounded.radii, default=None)
         if numbers is not None:
-            change = rounded.changer(numbers(rounded.numbers, rounded.radii))
+            change = rounded.changer(numbers(rounded))
             made = Builder(made.text, FamilyValues(reader.numbers, change))
     tableau, values = made.tableau, made.values
     ring = values.domain.ring

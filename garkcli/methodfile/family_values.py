@@ -24,7 +24,7 @@ from garkcli.exact.parametric import (
     terms_of_product,
     terms_of_sum,
 )
-from garkcli.exact.rewriting import format_expression, roots_in
+from garkcli.exact.rewriting import format_expression, names_in, roots_in
 from garkcli.exact.roots import RealRoot
 from garkcli.frozen import replace
 from garkcli.methodfile.numbers import Entry, Free, Numbers
@@ -59,9 +59,11 @@ class FamilyValues(Values):
         self.printed = ()
         self._values: dict[int, Number] = {}
         expressions = [entry.expression for entry in numbers.entries]
+        names = dict.fromkeys(numbers.free)
         if change is not None:
             expressions = [change(x) for x in expressions]
-        self.domain = _FamilyDomain(list(numbers.free), expressions, change)
+            names |= dict.fromkeys(x.name for y in expressions for x in names_in(y))
+        self.domain = _FamilyDomain(list(names), expressions, change)
         self._evaluate(numbers, self.domain)
 
     def alone(self, method: Method) -> Tableau:

@@ -8,7 +8,6 @@ from flint import ctx, fmpq
 
 from garkcli.exact.affine import constant
 from garkcli.exact.enclosing import midpoint
-from garkcli.exact.field import Number
 from garkcli.exact.nodes import Expression, Literal
 from garkcli.exact.rewriting import parts
 from garkcli.exact.rounding import in_decimals
@@ -56,6 +55,17 @@ class RoundedFamily(Frozen, eq=False):
         """As ``family_at``."""
         return family_at(self.family, shifts, bits)
 
+    def generic(self) -> FamilyFile:
+        """With an indeterminate in place of each rounded number and of each root."""
+        family = self.family
+        return loads_family(
+            family.text,
+            family.source,
+            family.settings,
+            is_design=False,
+            numbers=Rounded.indeterminates,
+        )
+
     def filled(self, values: Mapping[str, fmpq], digits: int, width: fmpq) -> Filled:
         """As ``filled``."""
         return filled(self.family, values, digits, width)
@@ -100,10 +110,13 @@ def family_at(family: FamilyFile, shifts: Sequence[fmpq], bits: int) -> FamilyFi
         bits: of irrational ones.
     """
 
-    def moved(printed: Sequence[Number], radii: Sequence[fmpq]) -> list[fmpq]:
+    def moved(rounded: Rounded) -> Mapping[int, Expression]:
+        printed, radii = rounded.numbers, rounded.radii
         offs = shifts or (fmpq(0),) * len(printed)
         centres = [x if isinstance(x, fmpq) else midpoint(constant(x)) for x in printed]
-        return [x + t * off for x, t, off in zip(centres, radii, offs, strict=True)]
+        return rounded.literals(
+            [x + t * off for x, t, off in zip(centres, radii, offs, strict=True)]
+        )
 
     with ctx.workprec(bits):
         return loads_family(family.text, family.source, family.settings, numbers=moved)

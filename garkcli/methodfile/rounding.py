@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterator, Sequence
+from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from flint import arb, ctx, fmpq
@@ -19,6 +19,7 @@ from garkcli.exact.nodes import (
     Root,
     is_decimal,
 )
+from garkcli.exact.parametric import Parametric
 from garkcli.exact.rewriting import parts
 from garkcli.frozen import replace
 from garkcli.methodfile.build import Builder
@@ -33,6 +34,8 @@ if TYPE_CHECKING:
     from garkcli.methodfile.description import PartText
     from garkcli.methodfile.tolerance import Rounding
 
+INDETERMINATE = "_number"
+"""What the names of indeterminates begin with that stand for known numbers."""
 _Rounded: TypeAlias = tuple[Entry, Expression, Number]
 """A rounded number, in an entry."""
 
@@ -92,11 +95,16 @@ class Rounded:
         mixed: list[_Rounded] = []
         printed: list[_Rounded] = []
         for entry in coefficients:
-            expression, number = self.expressions[id(entry)], known.number(entry)
+            expression = self.expressions[id(entry)]
+            number: Any = known.number(entry)
             if is_of_unknowns(expression, given):
                 # what has unknowns in it is no single number
                 mixed += [(entry, *x) for x in _rounded_in(expression, fmpq(0))]
-            elif number:
+                continue
+            if isinstance(number, Parametric):
+                # roots are unknowns there: what they make may be 0
+                number = _value(expression)
+            if number:
                 printed.append((entry, expression, number))
                 found += [(entry, *x) for x in _rounded_in(expression, number)]
         is_bare = not found and all(id(x) in given for _, x, _ in mixed)
@@ -107,9 +115,9 @@ class Rounded:
         numbers: dict[int, Number] = {}
         self.keys: set[str] = set()
         self._largest: dict[str, fmpq] = {}
-        for entry, part, number in found:
-            t = rounding.radius(entry, part, number)
-            numbers.setdefault(id(part), number)
+        for entry, part, value in found:
+            t = rounding.radius(entry, part, value)
+            numbers.setdefault(id(part), value)
             radii[id(part)] = min(t, radii.get(id(part), t))
             if t:
                 self.keys.add(rounding.key_of(entry))
@@ -139,9 +147,30 @@ class Rounded:
 
         return make
 
-    def changer(self, numbers: Sequence[fmpq]) -> Callable[[Expression], Expression]:
-        """What puts other numbers into expressions; a root of numbers becomes one of its digits
-        too, as many as the bits of the context leave.
+    def literals(self, numbers: Sequence[fmpq]) -> Mapping[int, Expression]:
+        """Other numbers by the identity of the expressions whose place they take."""
+        return {key: Literal(numbers[place]) for key, place in self.places.items()}
+
+    def indeterminates(self) -> Mapping[int, Expression]:
+        """A name for each rounded number, those in sums that are 0 as printed too, and for each
+        root of known numbers: by identity, as ``literals`` has them.
+        """
+        found: dict[int, Expression] = {}
+        for entry in self._coefficients:
+            expression = self.expressions[id(entry)]
+            every = list(_all_parts(expression))
+            named = [x for x in every if id(x) in self.places]
+            named += [x for x, _ in _rounded_in(expression, self.known.number(entry))]
+            roots = (x for x in every if isinstance(x, Root | AlgebraicRoot))
+            named += [x for x in roots if not is_of_unknowns(x, ())]
+            for x in named:
+                found.setdefault(id(x), Name(f"{INDETERMINATE}{len(found)}"))
+        return found
+
+    @staticmethod
+    def changer(instead: Mapping[int, Expression]) -> Callable[[Expression], Expression]:
+        """Expressions with others in place of some, by identity; a root of numbers becomes one of
+        its digits too, as many as the bits of the context leave.
         """
         known: dict[int, Expression] = {}
 
@@ -152,8 +181,8 @@ class Rounded:
             return known[key]
 
         def changed(expression: Expression) -> Expression:
-            if id(expression) in self.places:
-                return Literal(numbers[self.places[id(expression)]])
+            if id(expression) in instead:
+                return instead[id(expression)]
             match expression:
                 case Chain(operands=operands):
                     return replace(expression, operands=tuple(map(change, operands)))

@@ -237,6 +237,26 @@ def test_equal_digits_prove_nothing_where_rounding_lets_unknowns_matter() -> Non
     assert (apart.reaches(2), same.reaches(2)) == (None, False)
 
 
+A_PRODUCT_OF_DIFFERENCES = """tolerance: 1e-6
+A: [[0, 0, 0], ["?", 0, 0], [0.4, 0, 0]]
+b: [0.7, {}, 0.3]
+design: {{order: 2}}
+"""
+
+
+@pytest.mark.parametrize(
+    "weight",
+    ["(0.5 - 0.5)*(0.25 - 0.25)", "0.5 - 0.50", "sqrt(0.25) - 0.5", "0.5*sqrt(2) - sqrt(0.5)"],
+)
+def test_a_weight_that_rounding_alone_makes_zero_proves_nothing(weight: str) -> None:
+    """As printed the unknown a₂₁ is in no condition of order 2. But b₂ may be 1e-12, and a₂₁ 4e11;
+    a weight of 0 proves that order 2 fails.
+    """
+    found = within(A_PRODUCT_OF_DIFFERENCES.format(weight))
+    assert found.reaches(2) is None
+    assert within(A_PRODUCT_OF_DIFFERENCES.format(0)).reaches(2) is False
+
+
 def values_at(t: int, is_admitted: bool, free: tuple[str, ...] = ()) -> ValuesWithin:
     """One solution, or an example of a family."""
     return ValuesWithin(
