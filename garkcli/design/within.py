@@ -10,14 +10,13 @@ rank is zero or is none.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from functools import cached_property
 from typing import TYPE_CHECKING, Any, Protocol
 
-from flint import arb, ctx, fmpq, fmpq_mpoly
+from flint import arb, fmpq
 
 from garkcli.deadline import check_time, within
-from garkcli.design.conditions import FamilyConditions
-from garkcli.design.member import TABLEAUS, Whose, member
+from garkcli.design.member import Whose
+from garkcli.design.rounded_conditions import GenericWeights, RoundedConditions
 from garkcli.design.rounded_system import RoundedSystem, Solved
 from garkcli.design.search.least_squares import least_squares
 from garkcli.design.search.search import Search
@@ -30,15 +29,11 @@ from garkcli.errors import (
 )
 from garkcli.exact.display import to_float
 from garkcli.exact.enclosing import midpoint
-from garkcli.exact.field import Number
-from garkcli.exact.parametric import fraction
 from garkcli.exact.rounding import in_decimals
 from garkcli.frozen import Frozen
 from garkcli.ntrees.tree import Tree
 from garkcli.order.certificate import DEFAULT_LIMIT
-from garkcli.order.conditions import elementary_weight
 from garkcli.order.meant import derived
-from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.family import Family
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
@@ -102,6 +97,7 @@ class ValuesWithin(Frozen, eq=False):
         free: the unknowns that are free around it.
         distance: by how much a number of the file is off at most, in units of the tolerance.
         is_admitted: whether it is in the ranges and has the signs that are wanted.
+        digits: decimal places in which the conditions are 0 at the method.
         order: the largest order that the method is found to have.
         embedded: the order of the embedded weights; None where there are none.
     """
@@ -111,6 +107,7 @@ class ValuesWithin(Frozen, eq=False):
     free: tuple[str, ...]
     distance: float
     is_admitted: bool
+    digits: int
     order: int
     embedded: int | None = None
 
@@ -143,7 +140,7 @@ def with_more(found: list[ValuesWithin], values: ValuesWithin) -> list[ValuesWit
 
 
 class StepWithin(Frozen, eq=False):
-    """What is known of an order.
+    """Results for one order.
 
     Attributes:
         order: the order.
@@ -244,7 +241,7 @@ class _Finding:
         self.tolerance = rounding.tolerance
         self.digits = len(str(int((1 / rounding.tolerance).floor()))) + 20
         self.bits = max(BITS, 8 * self.digits)
-        self.printed = _Conditions(rounding.at((), self.bits), whose)
+        self.printed = RoundedConditions(rounding.at((), self.bits), whose)
 
     def design(self, wanted: int | None) -> DesignWithin:
         """The steps up to the order that is wanted, or as far as values are found."""
@@ -272,7 +269,7 @@ class _Finding:
             return StepWithin(order)
 
     def _examined(self, order: int) -> StepWithin:
-        """What is known of an order.
+        """Results for one order.
 
         Raises:
             NotDecided: the time is not enough.
@@ -403,7 +400,7 @@ class _Finding:
         search = rounded.search
         search.settled  # noqa: B018 -- it moves to a method with all that is asked
         shifts = filled.shifts()
-        conditions = _Conditions(self.rounding.at(shifts, search.bits), self.whose)
+        conditions = RoundedConditions(self.rounding.at(shifts, search.bits), self.whose)
         system = RoundedSystem(conditions.of_order(order), self.unknowns, search.bits)
         solved = system.solve([arb(x) for x in values.values()], search.small)
         if solved is None or not solved.left < search.small:
@@ -427,6 +424,7 @@ class _Finding:
             free=tuple(names[k] for k in solved.free),
             distance=max((abs(to_float(x)) for x in shifts), default=0.0),
             is_admitted=conditions.admits(solved.point, search.small),
+            digits=len(str(int((1 / search.grain).floor()))) - 1,
             order=own,
             embedded=embedded,
         )
@@ -442,106 +440,9 @@ class _Finding:
         values = [fmpq(int(x * 1000) + 1, 1009) for x in start]
         own = dict(zip(self.family.parameters, values, strict=False))
         try:
-            weights = _Weights(self.rounding.generic(), self.whose)
+            weights = GenericWeights(self.rounding.generic(), self.whose)
             rounded = self._meant(self.rounding.filled(own, self.digits, self.tolerance))
             found = (x for x in trees if weights.are_known(x) and not rounded.explains(x))
             return next(found, None)
         except (MethodFileError, MethodError, ZeroWeight):
             return None
-
-
-class _Weights:
-    """The elementary weights of a family whose known numbers are indeterminates."""
-
-    def __init__(self, family: Family, whose: Whose) -> None:
-        self.tableau = TABLEAUS[whose](family.tableau)
-        self.ring = family.ring
-        unknown = {*family.parameters, *(x.name for x in family.radicals)}
-        self.unknowns = [k for k, name in enumerate(family.ring.names) if name in unknown]
-
-    def are_known(self, tree: Tree) -> bool:
-        """Whether the weight of a tree is the same for all values of the unknowns."""
-        parts = fraction(elementary_weight(self.tableau, tree), self.ring)
-        return not any(part.degrees()[k] > 0 for part in parts for k in self.unknowns)
-
-
-class _Conditions:
-    """Everything that is asked of the unknowns of a family."""
-
-    def __init__(self, family: Family, whose: Whose) -> None:
-        self.family = family
-        self.whose = whose
-        self._conditions = FamilyConditions(TABLEAUS[whose](family.tableau), family.ring)
-
-    @cached_property
-    def _relations(self) -> list[fmpq_mpoly]:
-        roots = [x.relation for x in self.family.radicals]
-        return [p for p in (*roots, *self.family.relations) if p]
-
-    @cached_property
-    def _known(self) -> dict[int, list[Any]]:
-        return {}
-
-    def _of(self, order: int) -> list[Any]:
-        if order not in self._known:
-            self._known[order] = [x for x in self._conditions.of_order(order) if x.polynomial]
-        return self._known[order]
-
-    def of_order(self, order: int) -> list[fmpq_mpoly]:
-        """The polynomials that are zero at methods of an order."""
-        own = [x.polynomial for k in range(1, order + 1) for x in self._of(k)]
-        return [*self._relations, *own]
-
-    def of_known_numbers(self, order: int) -> Iterator[Tree]:
-        """The trees up to an order whose conditions are missed and have no unknown in them."""
-        for k in range(1, order + 1):
-            yield from (x.tree for x in self._of(k) if x.polynomial.is_constant())
-
-    def orders(self, values: Mapping[str, Number], grain: fmpq) -> tuple[int, int | None]:
-        """The order of the method with some values, and of its embedded weights; None for none.
-
-        Args:
-            values: of all unknowns.
-            grain: what residuals are below that count as zero.
-
-        Raises:
-            VanishingDenominator: there is no such method.
-        """
-        family, weights = self.family, self.family.further.embedded
-        own = TABLEAUS[self.whose](member(family.tableau, family.ring, values))
-        if weights is None or self.whose != "method":
-            return _order_of(own, grain), None
-        embedded = member(with_weights(family.tableau, weights), family.ring, values)
-        return _order_of(own, grain), _order_of(embedded, grain)
-
-    def admits(self, point: Sequence[arb], small: arb) -> bool:
-        """Whether a point has the ranges and signs that are wanted, as far as it is known."""
-        family = self.family
-        values = dict(zip(family.ring.names, point, strict=True))
-        for name, (low, high) in family.ranges.items():
-            if low is not None and values[name] < arb(low) - small:
-                return False
-            if high is not None and values[name] > arb(high) + small:
-                return False
-
-        def at(polynomials: Sequence[fmpq_mpoly]) -> list[arb]:
-            system = RoundedSystem([p for p in polynomials if p], len(point), ctx.prec)
-            return system.values(point)
-
-        even = [x.name for x in family.radicals if x.is_even]
-        roots = [family.ring.parameter(name).numerator for name in even]
-        nonzero = at([*family.nonzero, *self._conditions.denominators])
-        return (
-            all(abs(x) > small for x in nonzero)
-            and all(x > small for x in at(family.positive))
-            and all(x > -small for x in at(family.not_negative))
-            and all(x > -small for x in at(roots))
-        )
-
-
-def _order_of(tableau: Tableau, grain: fmpq) -> int:
-    """The order of a method whose residuals below a size are zeros."""
-    from garkcli.order.rounded import tree_missed  # it imports numpy
-
-    missed = (k for k in range(1, DEFAULT_LIMIT + 1) if tree_missed(tableau, k, 1, grain))
-    return next(missed, DEFAULT_LIMIT + 1) - 1

@@ -197,7 +197,9 @@ def _family(
         tolerance = max(rounded.radii, default=None)
         if numbers is not None:
             change = rounded.changer(numbers(rounded))
-            made = Builder(made.text, FamilyValues(reader.numbers, change))
+            moved = FamilyValues(reader.numbers, change)
+            moved.decide_as(made.values)
+            made = Builder(made.text, moved)
     tableau, values = made.tableau, made.values
     ring = values.domain.ring
     source = reader.source

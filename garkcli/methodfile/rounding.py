@@ -139,7 +139,7 @@ class Rounded:
         return Box(self.numbers, self.radii, self.maker(text))
 
     def maker(self, text: PartText) -> Callable[[Sequence[Any]], Any]:
-        """What makes the method of other numbers."""
+        """A function that makes the method of other numbers."""
 
         def make(numbers: Sequence[Any]) -> Any:
             with ctx.workprec(max(ctx.prec, 64)):
@@ -169,8 +169,8 @@ class Rounded:
 
     @staticmethod
     def changer(instead: Mapping[int, Expression]) -> Callable[[Expression], Expression]:
-        """Expressions with others in place of some, by identity; a root of numbers becomes one of
-        its digits too, as many as the bits of the context leave.
+        """A function that puts other expressions in place of some, by identity; a root of numbers
+        becomes one of its digits too, as many as the bits of the context leave.
         """
         known: dict[int, Expression] = {}
 
@@ -268,7 +268,7 @@ class _Moved(Values):
     ) -> None:
         known, places = rounded.known, rounded.places
         self._values = {}
-        self.__dict__["decided"] = known.__dict__.setdefault("decided", {})
+        self.decide_as(known)
         self.printed = ()
         self._places, self._numbers = places, numbers
         self._found: dict[int, Any] = {}

@@ -24,7 +24,7 @@ from garkcli.methodfile.printed import coarsest_unit, fewest_digits, unit_of
 DIGITS = "digits"
 """Each decimal is off by one unit of its last digit at most."""
 OTHERS = "others"
-"""What no other key is about."""
+"""The key for numbers that no other key is about."""
 Off: TypeAlias = "fmpq | str"
 """By how much: a number, or ``DIGITS``."""
 
@@ -33,7 +33,7 @@ _FORM = "write for instance {others: 1e-20, embedded: 1e-12}"
 
 
 class Tolerance(FrozenBut):
-    """What a file says under ``tolerance``.
+    """Tolerances of a file by the place of its numbers.
 
     Attributes:
         offs: by key: ``others``, ``embedded``, ``dense``, a colour by number or name.
@@ -119,7 +119,7 @@ _INSIDE = (
     Key("dense: 1e-8", _OFF, "The tolerance of the coefficients of dense output."),
 )
 KIND = Kind(_schema, _read, lambda: _INSIDE)
-"""What is under ``tolerance``."""
+"""A value of ``tolerance``."""
 
 
 class Rounding:
@@ -166,7 +166,7 @@ class Rounding:
         return unit_of(part, value, self._fewest)
 
     def refusals(self, used: Iterable[str]) -> Iterator[tuple[Node | None, str, str, str]]:
-        """What is wrong with the keys: where, the message, the cure, the kind of fault.
+        """Faults of the keys: where, the message, the cure, the kind of fault.
 
         Args:
             used: the keys that are about some rounded number.
@@ -194,7 +194,7 @@ class Rounding:
 
 
 def _names(content: d.Content) -> list[tuple[str, ...]]:
-    """What each colour is called in the file: its number, and its name where it has one."""
+    """Names of each colour in the file: its number, and its name where it has one."""
     match content:
         case d.MethodsText(methods=methods):
             names = [x.name if isinstance(x, d.ButcherText) else "" for x in methods]

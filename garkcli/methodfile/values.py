@@ -47,6 +47,10 @@ class Values:
         found: T = decided[key]
         return found
 
+    def decide_as(self, other: Values) -> None:
+        """Let what is decided once be what it is of other numbers in the same file."""
+        self.__dict__["decided"] = other.__dict__.setdefault("decided", {})
+
     def alone(self, method: Method) -> Tableau:
         """A diagonal method as a tableau."""
         return gark([method], {})

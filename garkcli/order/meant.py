@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from garkcli.tableau.garkmethod import GarkMethod
 
 AnyTableau: TypeAlias = "Tableau | RoundedTableau"
-"""What conditions are decided of: a tableau as it is, or all that it may be a rounding of."""
+"""A tableau as it is, or with all methods that it may be a rounding of."""
 NOT_FOUND = "no method with it was found, and it is not proved that there is none"
 """Why the next order of a rounded method is undecided."""
 

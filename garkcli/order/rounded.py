@@ -117,7 +117,7 @@ class RoundedTableau(Frozen, eq=False):
 
     @property
     def grain(self) -> fmpq:
-        """What counts as zero of numbers that are made of those of ``near``."""
+        """Numbers that are made of those of ``near`` and are no larger count as zero."""
         return self.search.settled.grain
 
     @property

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple, get_args
 from flint import fmpq
 
 from garkcli.design.member import Whose
-from garkcli.design.within import BITS, STARTS, DesignWithin, StepWithin, ValuesWithin
+from garkcli.design.within import STARTS, DesignWithin, StepWithin, ValuesWithin
 from garkcli.errors import counted
 from garkcli.exact.display import decimal
 from garkcli.exact.rounding import in_decimals
@@ -23,7 +23,7 @@ Rows = list[tuple[str, str]]
 
 
 class WithinReport(NamedTuple):
-    """What is reported: the values, and their file."""
+    """Values of unknowns, and the file that they are for."""
 
     file: str
     design: DesignWithin
@@ -59,7 +59,7 @@ def _of(design: DesignWithin, step: StepWithin) -> list[_Found]:
 
 
 def _briefly(step: StepWithin) -> str:
-    """What was found, in a few words."""
+    """The solutions, in a few words."""
     [first, *_] = step.found
     if first.dimension:
         return f"a family of dimension {first.dimension}"
@@ -83,7 +83,7 @@ def _answer(x: WithinReport, d: Plain) -> str:
 
 
 def _printed(step: StepWithin) -> str:
-    """What the digits leave as they are printed."""
+    """The solutions of the conditions with the digits as they are printed."""
     if step.printed is None:
         return ""
     if step.printed < 0:
@@ -137,7 +137,7 @@ def _solution(found: _Found, d: Plain) -> str:
 
 
 def rows(x: WithinReport, d: Plain) -> Rows:
-    """What each order asks, the values and what they are of."""
+    """Each order with the values for it and their method."""
     design = x.design
     told: Rows = []
     for step in design.steps:
@@ -162,7 +162,8 @@ def rows(x: WithinReport, d: Plain) -> Rows:
             (
                 "recovered",
                 f"one method whose numbers differ from the printed ones by {off} at most, t ="
-                f" {decimal(design.tolerance)}, found to {BITS // 10} digits and more: numerical",
+                f" {decimal(design.tolerance)}; it meets the conditions to {first.values.digits}"
+                " digits: numerical",
             )
         )
         if not step.is_linear:
@@ -220,5 +221,5 @@ REPORT: Report[WithinReport] = Report.only(
 
 
 def whole(found: DesignWithin, name: str) -> WithinReport:
-    """What the report says of values, by the name of their family where there is no other."""
+    """Values with the name of their file, or that of their family where there is none."""
     return WithinReport(name or found.family.name, found)

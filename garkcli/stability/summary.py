@@ -237,7 +237,7 @@ def stability(
 
 @doing("stability")
 def stability_of_rounded(tableau: Tableau, tolerance: fmpq) -> Stability:
-    """What holds of the method that a rounded one is taken to be, where that is decided.
+    """Stability of the method that a rounded one is taken to be, where it is decided.
 
     Args:
         tableau: the method.
@@ -295,7 +295,7 @@ def directions(tableau: Tableau) -> list[tuple[str, list[Number]]]:
 
 
 def linear_stability(tableau: Tableau, name: str, shares: Sequence[Number]) -> LinearStability:
-    """What the stability function in one direction of (λ_1, …, λ_N) tells, but for the sector."""
+    """Linear stability in one direction of (λ_1, …, λ_N), but for the sector."""
     R = stability_function(tableau, shares)
     late: set[str] = set()
     a_stable = _in_time(late, "a_stable", lambda: is_a_stable(R))

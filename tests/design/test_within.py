@@ -65,7 +65,9 @@ def test_embedded_weights_of_a_rounded_method_are_a_line() -> None:
         2,
     )
     assert 0 < values.distance <= 1
+    assert values.digits == 43
     bh = [to_float(x) for x in values.values.values()]
+    assert abs(sum(values.values.values()) - 1) < fmpq(1, 10**43)
     c = (0.4358665215, 0.7179332607, 1.0)
     assert sum(bh) == pytest.approx(1, abs=1e-14)
     assert sum(x * y for x, y in zip(bh, c, strict=True)) == pytest.approx(0.5, abs=1e-9)
@@ -265,6 +267,7 @@ def values_at(t: int, is_admitted: bool, free: tuple[str, ...] = ()) -> ValuesWi
         free=free,
         distance=0.0,
         is_admitted=is_admitted,
+        digits=40,
         order=2,
     )
 
