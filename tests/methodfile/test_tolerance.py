@@ -325,6 +325,24 @@ def test_a_root_of_a_rounded_number_moves_beside_unknowns() -> None:
         assert float(found.best.found[0].values["t"]) == pytest.approx(1, abs=2e-6)
 
 
+FSAL = "{{A: [[0, 0, 0], [0.5, 0, 0], [0.2, 0.8, 0]], b: [{}, 0.8, 0]}}"
+
+
+@pytest.mark.parametrize(("weight", "stages", "numbers"), [("0.2", 5, 14), ("0.3", 6, 5)])
+def test_where_stages_are_joined_each_coefficient_is_rounded(
+    weight: str, stages: int, numbers: int
+) -> None:
+    """The last row is b as printed, so that the last stage is the first of the next step: 5 stages
+    where others within the rounding have 6, and 14 coefficients. With another b all follow the 5
+    decimals.
+    """
+    rounded = as_meant(
+        loads(f"tolerance: 1e-3\ncompose: {{of: {FSAL.format(weight)}, steps: [1/2, 1/2]}}")
+    )
+    assert not isinstance(rounded, Tableau)
+    assert (rounded.tableau.space(0).stages, len(rounded.search.box.numbers)) == (stages, numbers)
+
+
 def test_exports_name_the_order_on_problems_with_time_that_check_names() -> None:
     """Order 2 has b₂ = 1/2, and b₂ c₂ = 1/2 with a c₂ that is exact and not 1 fails. Were the
     exact numbers rounded too, both would hold.
