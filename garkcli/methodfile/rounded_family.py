@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from flint import ctx, fmpq
 
+from garkcli.errors import MethodError
 from garkcli.exact.affine import constant
 from garkcli.exact.enclosing import midpoint
 from garkcli.exact.nodes import Expression, Literal
@@ -82,6 +83,7 @@ def filled(family: FamilyFile, values: Mapping[str, fmpq], digits: int, width: f
 
     Raises:
         MethodFileError: they make no method.
+        MethodError: stages are joined that would differ with other last digits.
     """
     texts = {name: in_decimals(x, digits) for name, x in values.items()}
     reader, description = described(family.text, family.source, {**family.settings, **texts})
@@ -98,6 +100,9 @@ def filled(family: FamilyFile, values: Mapping[str, fmpq], digits: int, width: f
     radii = tuple(width if is_given else radius for radius, is_given in pairs)
     box = Box(rounded.numbers, radii, rounded.maker(text))
     tableau = RoundedTableau.of(made.tableau, tolerance, box, made.further)
+    if tableau.search.box is not box:
+        message = "stages are joined that would differ with other last digits"
+        raise MethodError(message, "write the method out", code="rounded")
     return Filled(tableau, rounded.is_given)
 
 

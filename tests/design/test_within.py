@@ -259,6 +259,18 @@ def test_a_weight_that_rounding_alone_makes_zero_proves_nothing(weight: str) -> 
     assert within(A_PRODUCT_OF_DIFFERENCES.format(0)).reaches(2) is False
 
 
+def test_where_stages_are_joined_nothing_is_decided() -> None:
+    """As printed the last stage is the first of the next step; with other last digits it is not,
+    and no number of the method made is one of the file.
+    """
+    text = """tolerance: 1e-6
+parameters: {t: free}
+compose: {of: {A: [[0, 0, 0], [t, 0, 0], [0.2, 0.8, 0]], b: [0.2, 0.8, 0]}, steps: [1/2, 1/2]}
+design: {order: 2}
+"""
+    assert within(text).reaches(2) is None
+
+
 def values_at(t: int, is_admitted: bool, free: tuple[str, ...] = ()) -> ValuesWithin:
     """One solution, or an example of a family."""
     return ValuesWithin(
