@@ -7,7 +7,7 @@ form encloses what is made of the printed numbers for all numbers within their r
 numbers stay equal: a − a is 0.
 
 Slopes and remainders are bounded however floats are rounded: every operation adds a few units in
-the last place of the sizes that take part, and the radius of a ball whose middle is taken for it.
+the last place of the sizes that take part, and the radius of a ball of which the middle is used.
 """
 
 from __future__ import annotations

@@ -48,7 +48,7 @@ class Values:
         return found
 
     def decide_as(self, other: Values) -> None:
-        """Let what is decided once be what it is of other numbers in the same file."""
+        """Take the decisions of ``once`` from other numbers of the same file."""
         self.__dict__["decided"] = other.__dict__.setdefault("decided", {})
 
     def alone(self, method: Method) -> Tableau:
