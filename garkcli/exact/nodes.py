@@ -94,3 +94,19 @@ class RealPower(Expression):
 
     base: Expression
     exponent: Expression
+
+
+def parts(expression: Expression) -> tuple[Expression, ...]:
+    """The expressions that ``expression`` is made of."""
+    match expression:
+        case Chain(operands=operands):
+            return operands
+        case Power(base=base):
+            return (base,)
+        case RealPower(base=base, exponent=exponent):
+            return (base, exponent)
+        case Root(radicand=radicand):
+            return (radicand,)
+        case Call(argument=argument):
+            return (argument,)
+    return ()

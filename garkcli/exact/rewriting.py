@@ -18,6 +18,7 @@ from garkcli.exact.nodes import (
     Power,
     RealPower,
     Root,
+    parts,
 )
 from garkcli.frozen import replace
 
@@ -38,22 +39,6 @@ def depth_of(expression: Expression, depths: Mapping[str, int]) -> int:
     if isinstance(expression, Name):
         return depths.get(expression.name, 1)
     return 1 + max([depth_of(x, depths) for x in parts(expression)], default=0)
-
-
-def parts(expression: Expression) -> tuple[Expression, ...]:
-    """The expressions that ``expression`` is made of."""
-    match expression:
-        case Chain(operands=operands):
-            return operands
-        case Power(base=base):
-            return (base,)
-        case RealPower(base=base, exponent=exponent):
-            return (base, exponent)
-        case Root(radicand=radicand):
-            return (radicand,)
-        case Call(argument=argument):
-            return (argument,)
-    return ()
 
 
 def names_in(expression: Expression) -> Iterator[Name]:

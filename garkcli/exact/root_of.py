@@ -22,8 +22,8 @@ from garkcli.exact.nodes import (
     Root,
     divided_by_zero,
     is_decimal,
+    parts,
 )
-from garkcli.exact.rewriting import parts
 from garkcli.frozen import replace
 
 MAX_POLYNOMIAL_DEGREE = 12

@@ -9,8 +9,7 @@ from flint import ctx, fmpq
 from garkcli.errors import MethodError
 from garkcli.exact.affine import constant
 from garkcli.exact.enclosing import midpoint
-from garkcli.exact.nodes import Expression, Literal
-from garkcli.exact.rewriting import parts
+from garkcli.exact.nodes import Expression, Literal, parts
 from garkcli.exact.rounding import in_decimals
 from garkcli.frozen import Frozen
 from garkcli.methodfile.build import Builder, part_of

@@ -18,9 +18,9 @@ from garkcli.exact.nodes import (
     Power,
     Root,
     is_decimal,
+    parts,
 )
 from garkcli.exact.parametric import Parametric
-from garkcli.exact.rewriting import parts
 from garkcli.frozen import replace
 from garkcli.methodfile.build import Builder
 from garkcli.methodfile.numbers import Entry, Numbers

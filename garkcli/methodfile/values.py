@@ -9,8 +9,8 @@ from garkcli.errors import ExpressionError, LimitExceeded, UndefinedValue
 from garkcli.exact.domain import Domain
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix, Vector
-from garkcli.exact.nodes import Expression
-from garkcli.exact.rewriting import parts, roots_in
+from garkcli.exact.nodes import Expression, parts
+from garkcli.exact.rewriting import roots_in
 from garkcli.methodfile.numbers import Entry, Numbers, Row, Rows
 from garkcli.tableau.forms import gark
 from garkcli.tableau.tableau import Method, Tableau

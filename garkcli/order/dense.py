@@ -23,8 +23,8 @@ from garkcli.exact.matrix import Vector
 from garkcli.frozen import Frozen, replace
 from garkcli.order.certificate import StageSpans, Witness
 from garkcli.order.functionals import Functional, Undecided, first_failure
-from garkcli.order.meant import NOT_FOUND, AnyTableau, printed, tolerance_of
-from garkcli.order.tolerance import within
+from garkcli.order.meant import AnyTableau, printed, tolerance_of
+from garkcli.order.tolerance import NOT_FOUND, within
 from garkcli.tableau.embedded import DenseOutput, Weights
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau

@@ -19,8 +19,6 @@ if TYPE_CHECKING:
 
 AnyTableau: TypeAlias = "Tableau | RoundedTableau"
 """A tableau as it is, or with all methods that it may be a rounding of."""
-NOT_FOUND = "no method with it was found, and it is not proved that there is none"
-"""Why the next order of a rounded method is undecided."""
 
 
 def meant(tableau: Tableau, tolerance: fmpq | None, further: Further | None = None) -> AnyTableau:

@@ -23,9 +23,9 @@ from garkcli.ntrees.tree import Tree
 from garkcli.order.approximate_spans import ApproximateSpans
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, Witness, find_order
 from garkcli.order.conditions import count_conditions, coupling_graph, elementary_weight
-from garkcli.order.meant import NOT_FOUND
 from garkcli.order.recovering import Derive, Failure, Recovery
 from garkcli.order.simplifying import BoxDefects, Defects
+from garkcli.order.tolerance import NOT_FOUND
 from garkcli.order.tree_residuals import TreeResiduals
 from garkcli.tableau.box import Box, plain_box
 from garkcli.tableau.conjugate import conjugate
@@ -98,11 +98,11 @@ class RoundedTableau(Frozen, eq=False):
 
     @property
     def widest(self) -> fmpq | None:
-        """By how much an entry is off at most, be it printed or made of printed numbers; None where
-        a weight that it is divided by may be 0.
+        """By how much an entry of b and A is off at most, be it printed or made of printed numbers;
+        None where a weight that it is divided by may be 0.
         """
         whole = self.search.origin.in_balls(self.name)
-        rows = [row for colour in whole.colours for row in (colour.b, colour.c)]
+        rows = [colour.b for colour in whole.colours]
         rows += [row for block in whole.blocks.values() for row in block]
         entries: Iterator[object] = (x for row in rows for x in row)
         radii = [x.rad() for x in entries if isinstance(x, arb)]

@@ -17,6 +17,8 @@ TINY = fmpq(1, 10**6)
 """No larger residual counts as rounding, at any order."""
 UNNATURAL = fmpq(1, 1000)
 """Nor is one larger than this part of the smallest error that quadrature leaves at its order."""
+NOT_FOUND = "no method with it was found, and it is not proved that there is none"
+"""Why the next order of a rounded method is undecided."""
 
 
 def unnatural(order: int) -> fmpq:

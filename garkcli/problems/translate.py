@@ -13,8 +13,18 @@ from garkcli.errors import LimitExceeded, UndefinedValue
 from garkcli.exact.domain import MAX_BITS, too_many_bits
 from garkcli.exact.expression import MAX_EXPONENT
 from garkcli.exact.formula import CONSTANTS, FLOAT_BITS, Value, exponent_of, value_of
-from garkcli.exact.nodes import Call, Chain, Expression, Literal, Name, Power, RealPower, Root
-from garkcli.exact.rewriting import format_expression, names_in, parts
+from garkcli.exact.nodes import (
+    Call,
+    Chain,
+    Expression,
+    Literal,
+    Name,
+    Power,
+    RealPower,
+    Root,
+    parts,
+)
+from garkcli.exact.rewriting import format_expression, names_in
 from garkcli.frozen import Frozen
 from garkcli.problems.expr import Expr, rational
 
