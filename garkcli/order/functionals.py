@@ -17,7 +17,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
-from flint import fmpq
+from flint import ctx, fmpq
 
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Vector, dot
@@ -168,10 +168,13 @@ def estimator(
     """
     tableau = printed(method)
     rows = _differences(tableau, embedded)
-    known, grain = rows, ZERO
+    known, grain, bits = rows, ZERO, ctx.prec
     if not isinstance(method, Tableau):
-        known, grain = _differences(method.near, method.further.embedded or ()), method.grain
-    sums = tuple(_unless_within(sum(row, start=ZERO), grain) for row in known)
+        grain, bits = method.grain, method.search.bits
+        with ctx.workprec(bits):  # zeros are zeros to many bits alone
+            known = _differences(method.near, method.further.embedded or ())
+    with ctx.workprec(bits):
+        sums = tuple(_unless_within(sum(row, start=ZERO), grain) for row in known)
     if not any(x for row in rows for x in row):
         return Estimator(sums, None, None, is_zero=True)
     difference = with_weights(tableau, tuple(rows))
