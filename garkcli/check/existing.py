@@ -1,4 +1,4 @@
-"""What proves that a method within the rounding of a printed one has an order."""
+"""Proofs that a method within the rounding of a printed one has an order."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class PrintedNumber(Frozen):
 
 
 class ExistenceProof(Shown, Frozen):
-    """What proves that a method whose numbers are within their radii has an order.
+    """A proof that a method whose numbers are within their radii has an order.
 
     Attributes:
         name: of the printed method.
@@ -101,7 +101,7 @@ def prove_method_exists(method: GarkMethod, limit: int = DEFAULT_LIMIT) -> Exist
 
 
 def _not_proved(order: RoundedOrder, why: str) -> MethodError:
-    message = f"order {order.order} within the tolerance has no proof for others: {why}"
+    message = f"order {order.order} within the tolerance has no proof that others can check: {why}"
     cure = "give the coefficients exactly, without a tolerance; gark convert --to recovered"
     return MethodError(message, f"{cure} --recognise finds them for many methods", code="rounded")
 

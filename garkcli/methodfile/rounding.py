@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from garkcli.methodfile.tolerance import Rounding
 
 INDETERMINATE = "_number"
-"""What the names of indeterminates begin with that stand for known numbers."""
+"""The beginning of the names of indeterminates that stand for known numbers."""
 _Rounded: TypeAlias = tuple[Entry, Expression, Number]
 """A rounded number, in an entry."""
 

@@ -37,7 +37,7 @@ SHARE = fmpq(1, 10**6)
 FEW = 50
 """Up to so many conditions the proof is tried, even with fewer numbers: some hold exactly."""
 NOTHING = 1e-250
-"""What floats leave of remainders that are zero."""
+"""A bound on remainders that are zero but for the rounding of floats."""
 MOST_TREES = 2_000
 """So many conditions are joined to exclude an order."""
 DIGITS = (4, 7, 10, 14)
@@ -45,7 +45,7 @@ DIGITS = (4, 7, 10, 14)
 
 
 class Existence(Frozen):
-    """What proves that a method of some order is in a box.
+    """A proof that a method of some order is in a box.
 
     Attributes:
         trees: all conditions up to the order.

@@ -273,7 +273,7 @@ def stability_of_rounded(tableau: Tableau, tolerance: fmpq) -> Stability:
 def _unless_another(
     found: StabilityWithin, method: RoundedTableau, shares: Sequence[Number]
 ) -> StabilityWithin:
-    """What is found, undecided where another method within the rounding may be stable."""
+    """A verdict of no stability, undecided where another method within the rounding may have it."""
     widest = method.widest
     if widest is None:
         return replace(found, a_stable=found.a_stable or None, l_stable=found.l_stable or None)

@@ -165,7 +165,7 @@ def _numerators(denominator: arb_poly, matrix: arb_mat, vector: list[arb]) -> li
 
 
 class StabilityWithin(Frozen):
-    """What holds of a rounded method; None where that is not decided.
+    """Stability of a rounded method; None where that is not decided.
 
     Attributes:
         a_stable: A-stability.
