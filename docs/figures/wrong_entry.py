@@ -15,7 +15,8 @@ from pathlib import Path
 from garkcli import find_order, loads
 from garkcli.ntrees.drawing import FONTS, layout
 from garkcli.ntrees.notation import format_tree
-from garkcli.order.blame import Missed, Repair, blame_of
+from garkcli.order.blame import Missed, blame_of
+from garkcli.order.repair import Repair
 
 HERE = Path(__file__).resolve().parent
 RK4 = """

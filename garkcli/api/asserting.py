@@ -14,19 +14,17 @@ from garkcli.api.methods import conjugate, find_order, pair
 from garkcli.check.claims import agrees
 from garkcli.check.findings import repair_text, witness_text
 from garkcli.errors import MethodError, ZeroWeight
-from garkcli.frozen import Frozen, replace
+from garkcli.frozen import Frozen
 from garkcli.methodfile.expectations import AtLeast
 from garkcli.order.blame import Missed, blame_of
 from garkcli.order.certificate import DEFAULT_LIMIT, Order
 from garkcli.order.deciding import AnyOrder
-from garkcli.order.meant import as_embedded, as_meant, keep, printed, tolerance_of
+from garkcli.order.meant import as_embedded, as_meant, keep, meant, printed, tolerance_of
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.tableau import Tableau
 
 Wanted: TypeAlias = "int | str | None"
 """An order, or ``">= 4"``."""
-NEAR = 10
-"""An entry is a repair when it brings residuals within so many tolerances, as in ``gark check``."""
 _AT_LEAST = re.compile(r"\s*>=\s*([0-9]{1,4})\s*")
 _MAX_ORDER = 1000
 
@@ -200,10 +198,9 @@ def _read(value: Any) -> int | AtLeast:
 
 def _blamed(tableau: Tableau, part: _Part, found: AnyOrder, claimed: int) -> Iterator[str]:
     """The entries whose change would restore the order."""
-    missed = Missed(found.order + 1, claimed, which=part.which)
-    if not isinstance(found, Order):
-        missed = replace(missed, tolerance=found.tolerance, near=NEAR * found.tolerance)
-    blame = blame_of(tableau, missed)
+    missed = Missed(found.order + 1, claimed, part.which or "order")
+    method = tableau if isinstance(found, Order) else meant(tableau, found.tolerance)
+    blame = blame_of(method, missed)
     if blame is None or not blame.repairs:
         return
     names = [colour.name for colour in tableau.colours]

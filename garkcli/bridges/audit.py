@@ -21,6 +21,7 @@ from garkcli.errors import MethodFileError, counted
 from garkcli.exact.field import ZERO
 from garkcli.frozen import Frozen, replace
 from garkcli.methodfile.build import MethodFile
+from garkcli.methodfile.printed import SLACK
 from garkcli.methodfile.reading import no_one
 from garkcli.order.tolerance import within
 from garkcli.sources.finder import UNRECOGNISED
@@ -285,9 +286,9 @@ def _culprit(subject: Subject, declared: int) -> str:
         return ""
     from garkcli.order.blame import Missed, blame_of
 
-    near = 100 * subject.rounded.tolerance
-    missed = Missed(witness.tree.order, declared, tolerance=near, near=near)
-    blame = blame_of(subject.tableau, missed)
+    rounded = subject.digits.of(subject.tableau, slack=100 * SLACK)
+    missed = Missed(witness.tree.order, declared)
+    blame = blame_of(rounded if rounded.tolerance else subject.tableau, missed)
     if blame is None or len(blame.repairs) != 1:
         return ""
     repair = repair_text(blame.repairs[0], [colour.name for colour in subject.tableau.colours])

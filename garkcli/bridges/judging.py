@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from functools import cached_property
 
-from flint import arb, fmpq
+from flint import fmpq
 
+from garkcli.check.remark import enough
 from garkcli.frozen import Frozen, replace
-from garkcli.methodfile.printed import Printed, Units, approximant_units, careless_units
+from garkcli.methodfile.printed import SLACK, Printed, Units, approximant_units, careless_units
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, StageSpans, Witness, find_order
 from garkcli.order.rounded import RoundedOrder, RoundedTableau, find_order_within
-from garkcli.order.suggestion import SLACK, enough
 from garkcli.order.tolerance import unnatural
 from garkcli.tableau.tableau import Tableau
 
@@ -22,15 +22,15 @@ class Judged(Frozen, eq=False):
         order: as far as conditions hold, exactly or within the rounding.
         is_open: whether the next order is undecided: rounding may be why it fails.
         witness: a tree whose condition fails; None where none is known.
-        missed: the tableau and its largest residual up to this order; None where the conditions
-            hold exactly.
+        rounded: the tableau, and by how much the numbers of a method with the order are off; None
+            where the conditions hold exactly.
         is_limited: whether the search stopped at its limit.
     """
 
     order: int
     is_open: bool = False
     witness: Witness | None = None
-    missed: tuple[Tableau, arb] | None = None
+    rounded: tuple[Tableau, fmpq] | None = None
     is_limited: bool = False
 
     @cached_property
@@ -38,10 +38,11 @@ class Judged(Frozen, eq=False):
         """The power of ten that a method file has to admit for this order; None where the
         conditions hold exactly.
         """
-        if self.missed is None:
+        if self.rounded is None:
             return None
-        tableau, residual = self.missed
-        return fmpq(10) ** enough(tableau, self.order, residual)
+        tableau, off = self.rounded
+        exponent = enough(off, self.order, lambda t: RoundedTableau.within(tableau, t))
+        return None if exponent is None else fmpq(10) ** exponent
 
     @property
     def claim(self) -> str:
@@ -106,25 +107,26 @@ def judged(
         return Judged(exact.order, is_limited=True)
     if tolerance:
         within = RoundedTableau.within(tableau, tolerance)
-        return _judged(find_order_within(within, reach, exact), exact, tableau)
+        return _judged(find_order_within(within, reach, exact), exact)
     rounded = digits.of(tableau)
     if not rounded.tolerance:
         return Judged(exact.order, witness=exact.witness)
     found = find_order_within(rounded, reach, exact)
     if found.order == reach and found.sizes[-1] <= unnatural(reach):
-        return replace(_judged(found, exact, tableau), is_open=False, is_limited=True)
+        return replace(_judged(found, exact), is_open=False, is_limited=True)
     order = exact.order
     while order < found.order and found.sizes[order] <= unnatural(order + 1):
         order += 1
     if order < found.order:
         # rounding explains the next residuals, and so might a good method
         met = replace(found, order=order, witness=None)
-        return replace(_judged(met, exact, tableau), witness=exact.witness)
-    return _judged(found, exact, tableau)
+        return replace(_judged(met, exact), witness=exact.witness)
+    return _judged(found, exact)
 
 
-def _judged(found: RoundedOrder, exact: Order, tableau: Tableau) -> Judged:
+def _judged(found: RoundedOrder, exact: Order) -> Judged:
     is_open = found.witness is None
     if found.order == exact.order:
         return Judged(found.order, is_open, found.witness or exact.witness)
-    return Judged(found.order, is_open, found.witness, (tableau, found.largest_residual))
+    assert found.rounded is not None
+    return Judged(found.order, is_open, found.witness, (found.rounded.tableau, found.rounded.off))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 from flint import fmpq
 
@@ -22,18 +22,13 @@ from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Sequence
 
     from garkcli.check.further import DenseFacts, EmbeddedFacts
-    from garkcli.exact.field import Number
     from garkcli.order.meant import AnyTableau
     from garkcli.order.nearness import Nearness
-    from garkcli.order.suggestion import Misprint, Suggestion
     from garkcli.order.sums import WrongSum
     from garkcli.properties.subject import Subject
-
-Units: TypeAlias = "Callable[[], Mapping[Number, fmpq]]"
-"""By how much each printed value may be off in its last place."""
 
 
 class Analysis(Shown, Frozen):
@@ -62,10 +57,6 @@ class Analysis(Shown, Frozen):
         tolerance: the rounding within which all of this holds; None where it holds exactly.
         nonautonomous_order: the order on problems ẏ = f(t, y) with the nodes as printed; None where
             that has no meaning.
-        suggestion: the tolerance that the residuals speak for: of a method that is exact by its
-            word, or where the tolerance of the file is too tight for its own rounding.
-        misprint: why no tolerance is proposed though residuals are tiny: digits do not explain
-            them.
         embedded: the truth about its embedded weights; None where it has none.
         dense: the truth about its dense output; likewise.
         further: these weights.
@@ -90,8 +81,6 @@ class Analysis(Shown, Frozen):
     limit: int
     tolerance: fmpq | None = None
     nonautonomous_order: AnyOrder | None = None
-    suggestion: Suggestion | None = None
-    misprint: Misprint | None = None
     embedded: EmbeddedFacts | None = None
     dense: DenseFacts | None = None
     further: Further = NOTHING

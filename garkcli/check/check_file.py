@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from garkcli.check.claims import verify
 from garkcli.check.culprit import culprit
-from garkcli.check.deciding import analyse
+from garkcli.check.deciding import analyse, remark_of
 from garkcli.check.outcome import Outcome
 from garkcli.errors import HasFreeParameters, MethodFileError
 from garkcli.methodfile.build import MethodFile
@@ -16,10 +16,6 @@ from garkcli.order.certificate import DEFAULT_LIMIT
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
-
-    from flint import fmpq
-
-    from garkcli.exact.field import Number
 
 
 def check_file(
@@ -57,15 +53,8 @@ def check_method(
         limit: where the search for orders stops, unless a claim reaches further.
         want_constants: compute the error constants too.
     """
-
-    def units() -> Mapping[Number, fmpq]:
-        # few methods are asked
-        from garkcli.methodfile.printed import printed_units
-
-        return printed_units(method.printed)
-
     reach = max(limit, highest_order(method.claims) + 1)
-    analysis = analyse(method.tableau, reach, method.tolerance, units, method.further)
+    analysis = analyse(method.tableau, reach, method.tolerance, method.further)
     first_failing = None if analysis.order.is_lower_bound else analysis.order.order + 1
     constants = None
     if want_constants and first_failing is not None:
@@ -73,6 +62,7 @@ def check_method(
 
         constants = error_constants(method.tableau, first_failing)
     claims = verify(method.claims, analysis)
+    remark = remark_of(method, analysis)
     return Outcome(
         file=method.source,
         name=method.name,
@@ -80,7 +70,8 @@ def check_method(
         analysis=analysis,
         claims=claims,
         text=method.text,
-        blame=culprit(method, analysis, claims, reach),
+        blame=culprit(method, analysis, claims, reach, remark),
+        remark=remark,
         constants=constants,
         left_behind=method.left_behind,
         rules=method.rules,

@@ -4,37 +4,37 @@ that one wrong entry seems to cost.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
-
-from flint import fmpq
 
 from garkcli.check.claims import verify
 from garkcli.check.deciding import analyse
-from garkcli.exact.field import ZERO
 from garkcli.frozen import replace
 from garkcli.methodfile.expectations import highest_order
 from garkcli.order.certificate import Order
 from garkcli.order.deciding import AnyOrder, order_of
-from garkcli.order.meant import derived, meant
+from garkcli.order.meant import AnyTableau, derived, meant, within_digits
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
     from garkcli.check.analysis import Analysis
     from garkcli.check.outcome import Claim
+    from garkcli.check.remark import Remark
     from garkcli.methodfile.build import MethodFile
-    from garkcli.order.blame import Blame, Missed
+    from garkcli.order.blame import Blame
 
 WITHOUT_NODES = {"order", "conjugate-order", "pair-order", "symplectic"}
 """The claims that do not depend on nodes: without ``c`` in the file these follow the entries."""
-NEAR = 10
-"""An entry is a repair when it brings residuals within so many tolerances: the entry that is
-solved for carries the rounding of all others.
-"""
+UNASKED = {"order", "embedded-order"}
+"""The orders that a wrong entry may cost unclaimed."""
 
 
 def culprit(
-    method: MethodFile, analysis: Analysis, claims: tuple[Claim, ...], limit: int
+    method: MethodFile,
+    analysis: Analysis,
+    claims: tuple[Claim, ...],
+    limit: int,
+    remark: Remark | None = None,
 ) -> Blame | None:
     """What is to blame for the first order that is smaller than the file claims, or for that of a
     method of which it claims none.
@@ -44,125 +44,95 @@ def culprit(
         analysis: the truth about it.
         claims: what became of its claims.
         limit: where the search for orders stops.
+        remark: what its digits say of its rounding.
     """
-    blame = _of_claims(method, analysis)
-    return _with_consequences(method, claims, blame or _unclaimed(method, analysis), limit)
+    blame = _of_claims(method, analysis, remark) or _unclaimed(method, analysis, remark)
+    return _with_consequences(method, claims, blame, limit)
 
 
-def _of_claims(method: MethodFile, analysis: Analysis) -> Blame | None:
+def _of_claims(method: MethodFile, analysis: Analysis, remark: Remark | None) -> Blame | None:
     """Nobody is to blame where the next order is not known to fail, or where rounding explains that
     it does.
     """
-    parts = (
-        ("order", analysis.order, ""),
-        ("conjugate-order", analysis.conjugate_order, "conjugate"),
-        ("pair-order", analysis.pair_order, "pair"),
-    )
-    for key, found, which in parts:
+    for key, tableau, found in _orders(method, analysis):
         claimed = highest_order(method.claims, [key])
-        if found is None or found.order >= claimed:
+        if found.order >= claimed:
             continue
-        is_explained = method.tolerance is not None and analysis.suggestion is not None
-        if found.is_lower_bound or is_explained:
+        if found.is_lower_bound or _is_explained(method, remark, claimed):
             return None
-        return _missing(method, analysis, method.tableau, found, claimed, key, which)
-    key, facts = "embedded-order", analysis.embedded
-    claimed = highest_order(method.claims, [key])
-    if facts is None or facts.order.order >= claimed or facts.order.is_lower_bound:
-        return None
-    # the method itself has the order that the file claims: one of the weights is wrong
-    blame = _missing(method, analysis, facts.tableau, facts.order, claimed, key)
-    return blame and replace(blame, culprit=None, in_every=(), in_none=())
+        from garkcli.order.blame import Missed, blame_of  # paid for by failures alone
+
+        first = None
+        for judged, order in _ways(method, tableau, found, key, remark):
+            if order.witness is None or order.order >= claimed:
+                continue
+            missed = Missed(order.order + 1, claimed, key, key == "embedded-order")
+            answer = blame_of(judged, missed)
+            first = first or answer
+            if answer is not None and answer.repairs:
+                first = answer
+                break
+        if first is not None and key == "embedded-order":
+            # the method itself has the order that the file claims: no block alone is to blame
+            first = replace(first, culprit=None, in_every=(), in_none=())
+        return first
+    return None
 
 
-def _missing(
-    method: MethodFile,
-    analysis: Analysis,
-    tableau: Tableau,
-    found: AnyOrder,
-    claimed: int,
-    key: str,
-    which: str = "",
-) -> Blame | None:
-    """What is to blame for an order that is smaller than claimed."""
-    from garkcli.order.blame import Missed, blame_of  # paid for by failures alone
-
-    missed = Missed(found.order + 1, claimed, key, which, is_embedded=key == "embedded-order")
-
-    def blame(missed: Missed, judged: AnyOrder) -> Blame | None:
-        return blame_of(tableau, replace(missed, order=judged.order + 1))
-
-    return _by_any_way(method, analysis, tableau, found, missed, blame)
+def _is_explained(method: MethodFile, remark: Remark | None, claimed: int) -> bool:
+    """Whether a wider tolerance than that of the file gives the claimed order."""
+    if method.tolerance is None or remark is None:
+        return False
+    return bool(remark.line) and remark.order >= claimed
 
 
-def _unclaimed(method: MethodFile, analysis: Analysis) -> Blame | None:
+def _orders(method: MethodFile, analysis: Analysis) -> Iterator[tuple[str, Tableau, AnyOrder]]:
+    """The orders that a file may claim, with the tableau whose entries may be wrong."""
+    for key, found in (
+        ("order", analysis.order),
+        ("conjugate-order", analysis.conjugate_order),
+        ("pair-order", analysis.pair_order),
+    ):
+        if found is not None:
+            yield key, method.tableau, found
+    if analysis.embedded is not None:
+        yield "embedded-order", analysis.embedded.tableau, analysis.embedded.order
+
+
+def _unclaimed(method: MethodFile, analysis: Analysis, remark: Remark | None) -> Blame | None:
     """The entry that seems wrong in a method, or in its embedded weights, of which the file claims
     no order.
     """
     claimed = {claim.key for claim in method.claims}
-    facts = analysis.embedded
-    asked = [("order", method.tableau, analysis.order)]
-    if facts is not None:
-        asked.append(("embedded-order", facts.tableau, facts.order))
-    for key, tableau, found in asked:
-        if key in claimed:
+    for key, tableau, found in _orders(method, analysis):
+        if key in claimed or key not in UNASKED:
             continue
         from garkcli.order.blame import Missed, slip_of  # CI makes claims
 
         missed = Missed(0, 0, key, is_embedded=key == "embedded-order")
-
-        def blame(missed: Missed, judged: AnyOrder, tableau: Tableau = tableau) -> Blame | None:
-            return slip_of(tableau, missed, judged)
-
-        if slip := _by_any_way(method, analysis, tableau, found, missed, blame):
-            return slip
+        for judged, order in _ways(method, tableau, found, key, remark):
+            if slip := slip_of(judged, missed, order):
+                return slip
     return None
 
 
-def _by_any_way(
-    method: MethodFile,
-    analysis: Analysis,
-    tableau: Tableau,
-    found: AnyOrder,
-    missed: Missed,
-    blame: Callable[[Missed, AnyOrder], Blame | None],
-) -> Blame | None:
-    """The first answer that has repairs; the first answer where none has.
-
-    Conditions are judged exactly or within the tolerance of the file; where decimals of many digits
-    are meant exactly by its word, then as if they were rounded.
+def _ways(
+    method: MethodFile, tableau: Tableau, found: AnyOrder, key: str, remark: Remark | None
+) -> Iterator[tuple[AnyTableau, AnyOrder]]:
+    """The method as conditions are judged, with its order: exactly or within the tolerance of the
+    file; where decimals are meant exactly by its word, then as if they were rounded.
     """
-    first = None
-    for judged, tolerance in _judgements(method, analysis, tableau, found, missed):
-        seen = replace(missed, tolerance=tolerance, near=NEAR * tolerance)
-        answer = blame(seen, judged)
-        if answer is not None and answer.repairs:
-            return answer
-        first = first or answer
-    return first
-
-
-def _judgements(
-    method: MethodFile, analysis: Analysis, tableau: Tableau, found: AnyOrder, missed: Missed
-) -> Iterator[tuple[AnyOrder, fmpq]]:
-    """The order of a tableau with the rounding within which it is so."""
     if not isinstance(found, Order):
-        yield found, found.tolerance
+        yield meant(method.tableau, method.tolerance, method.further), found
         return
-    yield found, ZERO
-    if analysis.suggestion is not None or analysis.misprint is not None:
-        return  # they say how the coefficients are rounded
-    from garkcli.methodfile.printed import approximant_units
-    from garkcli.order.blame import FEW_ROUNDED, count_entries
-    from garkcli.order.suggestion import SLACK
+    yield tableau, found
+    if remark is not None:
+        return  # it says how the coefficients are rounded
+    from garkcli.methodfile.printed import left_open
 
-    tolerance = SLACK * max(approximant_units(method.printed).values(), default=ZERO)
-    if not tolerance or count_entries(tableau, missed) > FEW_ROUNDED:
-        return
-    judged = order_of(derived(meant(tableau, tolerance), missed.which))
-    is_missed = not missed.claimed or judged.order < missed.claimed
-    if judged.witness is not None and is_missed:
-        yield judged, tolerance
+    rounded = within_digits(method.tableau, left_open)
+    if rounded is not None:
+        yield rounded, order_of(derived(rounded, key))
 
 
 def _with_consequences(

@@ -9,7 +9,6 @@ from flint import fmpq
 
 from garkcli.check.analysis import (
     Analysis,
-    Units,
     conjugate_and_pair,
     inconsistent_blocks,
     is_pair_of_itself,
@@ -17,25 +16,23 @@ from garkcli.check.analysis import (
 )
 from garkcli.doing import doing
 from garkcli.frozen import replace
-from garkcli.order.certificate import DEFAULT_LIMIT, Order, StageSpans
+from garkcli.order.certificate import DEFAULT_LIMIT, StageSpans
 from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.meant import meant, printed
 from garkcli.order.simplifying import Simplifying, is_symplectic, simplifying
 from garkcli.order.tolerance import TINY, within
 from garkcli.tableau.embedded import NOTHING, Further
-from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
+    from garkcli.check.remark import Remark
     from garkcli.methodfile.build import MethodFile
-    from garkcli.order.suggestion import Misprint, Suggestion
 
 
 def analyse(
     tableau: Tableau,
     limit: int = DEFAULT_LIMIT,
     tolerance: fmpq | None = None,
-    units: Units | None = None,
     further: Further = NOTHING,
 ) -> Analysis:
     """Decide everything that ``gark check`` reports; up to the order ``limit``.
@@ -44,8 +41,6 @@ def analyse(
         tableau: the method.
         limit: where the search for orders stops.
         tolerance: the rounding of its coefficients; None for coefficients that are meant exactly.
-        units: by how much each printed value may be off, where its digits are known; asked for only
-            where residuals look like rounding.
         further: its embedded weights and its dense output.
     """
     method = meant(tableau, tolerance, further)
@@ -71,15 +66,6 @@ def analyse(
             pair_conditions = simplifying(both, limit)
     conjugate_inconsistent = inconsistent_blocks(conjugated)
     symplectic = is_symplectic(method)
-    misprint, suggestion = None, None
-    if isinstance(method, Tableau):
-        suggestion = _suggestion(method, order, limit)
-        misprint = _misprint(tableau, order, suggestion, units)
-    elif units:
-        from garkcli.order.suggestion import misprint_within, suggest_wider  # balls
-
-        suggestion = suggest_wider(method, order, units(), limit)
-        misprint = None if suggestion else misprint_within(method, order, limit)
     if both is not None and pair_conditions is None:
         pair_order, pair_conditions = order, conditions
     found = Analysis(
@@ -102,8 +88,6 @@ def analyse(
         limit=limit,
         tolerance=tolerance,
         nonautonomous_order=nonautonomous(method, order, inconsistent, limit),
-        suggestion=None if misprint else suggestion,
-        misprint=misprint,
     )
     if not further:
         return found
@@ -113,18 +97,36 @@ def analyse(
     return replace(found, embedded=embedded, dense=dense, further=further)
 
 
-def looks_rounded(method: MethodFile) -> Suggestion | None:
+def looks_rounded(method: MethodFile) -> Remark | None:
     """The tolerance that a file lacks; None where it has one, or is exact, or has a misprint."""
     if method.tolerance is not None:
         return None
-    from garkcli.methodfile.printed import printed_units  # every check may do without
+    from garkcli.check.remark import remark_on  # balls, which exact methods do without
 
-    units = printed_units(method.printed)
-    if not any(units.values()):
-        return None
     order = order_of(method.tableau)
-    found = _suggestion(method.tableau, order, DEFAULT_LIMIT)
-    return None if _misprint(method.tableau, order, found, lambda: units) else found
+    found = remark_on(method.tableau, order, None) if is_doubtful(order, None) else None
+    return found if found is not None and found.line else None
+
+
+def remark_of(method: MethodFile, analysis: Analysis) -> Remark | None:
+    """What the digits of a file say of its rounding: of the method, else of embedded weights."""
+    asked = [("order", analysis.order)]
+    if analysis.embedded is not None:
+        asked.append(("embedded-order", analysis.embedded.order))
+    for key, found in asked:
+        if not is_doubtful(found, method.tolerance):
+            continue
+        from garkcli.check.remark import remark_on  # balls, which exact methods do without
+
+        remark = remark_on(method.tableau, found, method.tolerance, key, analysis.limit)
+        if remark is not None:
+            return remark
+    return None
+
+
+def is_doubtful(found: AnyOrder, tolerance: fmpq | None) -> bool:
+    """Whether rounding may be why an order is no higher: it is not in nearly all exact methods."""
+    return found.witness is not None and (bool(tolerance) or within(found.witness.residual, TINY))
 
 
 def _capped(
@@ -132,26 +134,3 @@ def _capped(
 ) -> int | None:
     """A bound, as far as the order bears it out: within a tolerance it may not."""
     return None if conditions is None or order is None else min(bound(conditions), order.order)
-
-
-def _misprint(
-    tableau: Tableau, order: AnyOrder, suggestion: Suggestion | None, units: Units | None
-) -> Misprint | None:
-    """The one printed value that does not fit the others, where there is one."""
-    if suggestion is None or units is None or not isinstance(order, Order):
-        return None
-    from garkcli.order.suggestion import find_misprint
-
-    return find_misprint(tableau, order, suggestion, units())
-
-
-def _suggestion(tableau: Tableau, order: AnyOrder, limit: int) -> Suggestion | None:
-    """What to write into a file that looks rounded; only tiny residuals are examined further."""
-    spelled_out = any(isinstance(space, PointSpace) for space in tableau.spaces)
-    if not spelled_out or order.witness is None or not isinstance(order, Order):
-        return None
-    if not within(order.witness.residual, TINY):
-        return None
-    from garkcli.order.suggestion import suggest_tolerance
-
-    return suggest_tolerance(tableau, order, limit)

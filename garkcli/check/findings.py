@@ -19,9 +19,9 @@ from garkcli.tableau.forms import with_time
 
 if TYPE_CHECKING:
     from garkcli.check.analysis import Analysis
-    from garkcli.order.blame import Repair
     from garkcli.order.deciding import AnyOrder
     from garkcli.order.dense import DenseWitness
+    from garkcli.order.repair import Repair
     from garkcli.order.simplifying import Simplifying
     from garkcli.order.sums import WrongSum
     from garkcli.tableau.tableau import Tableau
@@ -135,12 +135,12 @@ def claim_hint(outcome: Outcome, claim: str) -> Reason:
         return sum_text(analysis.wrong_rows[0], names)
     if claim not in {"order", "conjugate-order", "pair-order", "embedded-order"}:
         return NO_REASON
-    found = analysis.suggestion
-    if found is not None and claim != "embedded-order":
-        return Reason(f"with the line {{}} the order is {found.order}", found.line)
-    if analysis.misprint is not None and analysis.misprint.repairs:
-        first = repair_text(analysis.misprint.repairs[0], names)
-        return Reason("an entry looks misprinted: {}", first)
+    found = outcome.remark
+    if found is not None and (found.of == "embedded-order") <= (claim == "embedded-order"):
+        if not found.repairs:
+            order = f"{found.of.replace('-', ' ')} is {found.order}"
+            return Reason(f"with the line {{}} the {order}", found.line)
+        return Reason("an entry looks misprinted: {}", repair_text(found.repairs[0], names))
     if blame is not None and blame.of == claim and blame.repairs:
         first = repair_text(blame.repairs[0], names)
         return Reason("the claimed order would hold with {}", first)

@@ -12,6 +12,7 @@ from garkcli.upward import Shown
 
 if TYPE_CHECKING:
     from garkcli.check.every_value import EveryValue
+    from garkcli.check.remark import Remark
     from garkcli.methodfile.description import BlockRule
     from garkcli.order.blame import Blame
     from garkcli.order.constants import ErrorConstants
@@ -57,6 +58,7 @@ class Outcome(Shown, Frozen):
         text: the file as read, for showing lines of it.
         blame: where the order falls short of a claim, what the failing conditions tell; None
             otherwise.
+        remark: what the digits of the file say of its rounding; None where they say nothing more.
         constants: the error constants at the first failing order, if wanted.
         needs_claims: whether a file that makes no claim fails.
         needed: claims without which a file fails.
@@ -75,6 +77,7 @@ class Outcome(Shown, Frozen):
     faults: tuple[Fault, ...] = ()
     text: str = ""
     blame: Blame | None = None
+    remark: Remark | None = None
     constants: ErrorConstants | None = None
     is_crash: bool = False
     needs_claims: bool = False

@@ -265,7 +265,7 @@ def hint_rounding(methods: Iterable[MethodFile], output: Output) -> None:
             where = f"{method.source}: " if several else ""
             said.append(
                 f"{where}hint: the coefficients look rounded; with the line  {found.line}  "
-                f"the order is {found.order}"
+                f"order {found.order} holds"
             )
     for text in dict.fromkeys(said):
         output.note(text)

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import partial
+from typing import TYPE_CHECKING
 
 from garkcli.doing import doing
 from garkcli.errors import Fault, HasFreeParameters, MethodFileError
@@ -23,8 +24,13 @@ from garkcli.methodfile.reader import Reader
 from garkcli.methodfile.reading import SUFFIX
 from garkcli.methodfile.source import Source
 from garkcli.methodfile.values import Values
-from garkcli.order.meant import remember
+from garkcli.order.meant import remember, remember_digits
 from garkcli.reference import Work
+
+if TYPE_CHECKING:
+    from garkcli.order.meant import Radii
+    from garkcli.tableau.box import Box
+    from garkcli.tableau.embedded import Further
 
 NO_SETTINGS: Mapping[str, str] = {}
 _READ: ContextVar[list[MethodFile] | None] = ContextVar("read", default=None)
@@ -137,6 +143,13 @@ def loads(
     if rounded is not None:
         box = partial(rounded.box, made.text)
         remember(method.tableau, method.tolerance, lambda: (box(), made.further))
+
+    def box_by_digits(radii: Radii) -> tuple[Box, Further]:
+        from garkcli.methodfile.rounding import box_of  # few files are rounded
+
+        return box_of(made, reader.numbers, description.content, radii), made.further
+
+    remember_digits(method.tableau, box_by_digits)
     return method
 
 

@@ -22,14 +22,16 @@ FEWEST_DIGITS = 6
 SHORTENED = 4
 """The denominator of a decimal has so many digits fewer in lowest terms, at most."""
 MANY_DIGITS = 14
-"""In the source of a solver a decimal of so many digits is a rounded one, however long others are:
-products of two that are written out have twice as many.
+"""A decimal of so many digits is a rounded one, however long others are: products of two that are
+written out have twice as many.
 """
 LONG_DENOMINATOR = 10**5
 """Fractions with a smaller denominator are no approximants."""
-LONG_DECIMAL = 10**9
-"""Decimals that were written as fractions with a smaller one are exact."""
+LONG_DECIMAL = 9
+"""Decimals that were written as fractions are exact with fewer places."""
 
+SLACK = 10
+"""Units of the last place by which a number may be off that was computed in them."""
 CARELESS = 1_000
 """Units of the last place that a careless rounding may be off by."""
 FLOAT = fmpq(1, 2**53)
@@ -41,33 +43,64 @@ QUADRUPLE = fmpq(1, 2**113)
 """By how much of itself the number of quadruple precision next to a number is off."""
 
 
-def printed_units(printed: Printed, many: int | None = None) -> dict[Number, fmpq]:
+def printed_units(printed: Printed, many: int = MANY_DIGITS) -> dict[Number, fmpq]:
     """By how much each value may be off if its last digits are rounded, one unit of them.
 
     A decimal counts as rounded when it has more than half as many digits as the longest one of
-    the file: beside 0.7886751345948129 the number 0.25 is exact. A long numerator or denominator
-    may be off by one. Units are rounded up, by less than a tenth.
+    the file: beside 0.7886751345948129 the number 0.25 is exact. A fraction with a long denominator
+    may be an approximant. Units are rounded up, by less than a tenth.
 
     Args:
         printed: coefficients as they are written, with their values.
-        many: a decimal of so many digits counts as rounded whatever the longest has; None for no
-            such number.
+        many: a decimal of so many digits counts as rounded whatever the longest has.
 
     >>> from garkcli.exact.expression import parse
     >>> units = printed_units([(parse(x), fmpq(1, 2)) for x in ("0.50000000", "1/2")])
     >>> units[fmpq(1, 2)]
     11/1000000000
     """
-    longest = max((_digits(x) for text, _ in printed for x in _literals(text)), default=0)
-    half = longest // 2 + 1
-    fewest = max(FEWEST_DIGITS, half if many is None else min(half, many))
+    decimals = [x for text, _ in printed for x in _literals(text) if is_decimal(x)]
+    longest = max(map(_digits, decimals), default=0)
+    fewest = max(FEWEST_DIGITS, min(longest // 2 + 1, many))
     units: dict[Number, fmpq] = {}
-    with ctx.workprec(4 * longest + 128):
-        for expression, value in printed:
-            unit = _radius(_enclosed(expression, fewest))
-            # equal values may be printed to different lengths
-            units[value] = max(unit, units.get(value, unit))
+    for expression, value in printed:
+        unit = _unit_in(expression, fewest)
+        # equal values may be printed to different lengths
+        units[value] = max(unit, units.get(value, unit))
     return units
+
+
+def left_open(printed: Printed) -> list[fmpq]:
+    """By how much each number may be off that was computed in its digits, or in floats where these
+    are the digits of one; 0 where it is exact.
+    """
+    fewest = max(FEWEST_DIGITS, fewest_digits(text for text, _ in printed))
+    units = [(x, unit_of(text, fewest)) for text, x in printed]
+    return [SLACK * max(unit, _float_unit(x, unit)) for x, unit in units]
+
+
+def _float_unit(value: Number, unit: fmpq) -> fmpq:
+    """By how much of itself a rounded number is off that is a float; 0 where it is none."""
+    if not unit or not _is_float(value, unit):
+        return fmpq(0)
+    return rounded_up(abs(to_ball(value))) * FLOAT
+
+
+def at_full_length(printed: Printed) -> list[fmpq]:
+    """The same where each was printed with as many places, or as many digits, as half of the others
+    at least: zeros at the end are often left away, and a digit too many or a wrong one makes a
+    number long, or short.
+    """
+    own = left_open(printed)
+    with ctx.workprec(64):
+        sizes = [rounded_up(abs(to_ball(value))) for _, value in printed]
+    rounded = [(unit, size) for unit, size in zip(own, sizes, strict=True) if unit and size]
+    if not rounded:
+        return own
+    middle = len(rounded) // 2
+    unit = sorted(unit for unit, _ in rounded)[middle]
+    part = sorted(unit / size for unit, size in rounded)[middle]
+    return [min(x, max(unit, part * size)) for x, size in zip(own, sizes, strict=True)]
 
 
 def approximant_units(printed: Printed, given: Units | None = None) -> dict[Number, fmpq]:
@@ -87,10 +120,7 @@ def approximant_units(printed: Printed, given: Units | None = None) -> dict[Numb
     >>> units[values[0]], 0 < units[values[1]] < fmpq(1, 10**22), units[values[2]]
     (0, True, 0)
     """
-    units = printed_units([pair for pair in printed if not _is_whole(pair[0])], MANY_DIGITS)
-    for expression, value in printed:
-        if _is_whole(expression):
-            units.setdefault(value, _approximation(value))
+    units = printed_units(printed)
     for value, unit in (given or {}).items():
         units[value] = max(unit, units.get(value, unit))
     return units
@@ -115,6 +145,8 @@ def careless_units(printed: Printed, given: Units | None = None) -> dict[Number,
             is_float = unit > of_float / SHORTER or _is_float(value, unit)
             least = of_float if is_float else CARELESS * size * QUADRUPLE
             units[value] = max(CARELESS * max(unit, least), own.get(value, unit))
+        else:
+            units[value] = own.get(value, unit)
     return units
 
 
@@ -127,7 +159,7 @@ def _is_float(value: Number, unit: fmpq) -> bool:
 
 def _is_whole(expression: Expression) -> bool:
     """Whether only whole numbers are in it, 2.0 as C has it among them."""
-    return all(x.value.q == 1 for x in _literals(expression))
+    return all(x.value.q == 1 or not x.text for x in _literals(expression))
 
 
 def _approximation(value: Number) -> fmpq:
@@ -135,10 +167,10 @@ def _approximation(value: Number) -> fmpq:
     if not isinstance(value, fmpq) or value.q < LONG_DENOMINATOR:
         return fmpq(0)
     q = int(value.q)
-    for places in range(len(str(q)), len(str(q)) + SHORTENED):
+    for places in range(len(str(q - 1)), len(str(q)) + SHORTENED):
         # a decimal that was written as a fraction, in lowest terms
         if not 10**places % q:
-            return fmpq(1, 10**places) if q >= LONG_DECIMAL else fmpq(0)
+            return fmpq(1, 10**places) if places >= LONG_DECIMAL else fmpq(0)
     return fmpq(100, q * q)
 
 
@@ -149,46 +181,41 @@ def is_long_fraction(expression: Expression, value: Number) -> bool:
 
 def fewest_digits(texts: Iterable[Expression]) -> int:
     """A decimal with fewer digits is exact beside others that are long: it has at most half as
-    many. Zeros after the point count, as tables have decimals of one length.
+    many, and not many. Zeros after the point count, as tables have decimals of one length.
 
     >>> from garkcli.exact.expression import parse
     >>> fewest_digits(map(parse, ("0.25", "0.7886751345948129", "1/3")))
     9
     """
     decimals = [x for text in texts for x in _literals(text) if is_decimal(x)]
-    return max(map(_places, decimals), default=0) // 2 + 1
+    return min(max(map(_places, decimals), default=0) // 2 + 1, MANY_DIGITS)
 
 
-def unit_of(expression: Expression, value: Number, fewest: int) -> fmpq:
+def unit_of(expression: Expression, fewest: int) -> fmpq:
     """By how much a decimal may be off, one unit of its last digit, a fraction with a long
     denominator, or a root of a polynomial with decimals, as the coarsest of these; 0 for one that
     is exact.
 
     Args:
         expression: as it is written.
-        value: of it.
         fewest: digits of a decimal that is no exact one, as ``fewest_digits`` has it.
 
     >>> from garkcli.exact.expression import parse
-    >>> unit_of(parse("0.25"), fmpq(1, 4), 9), unit_of(parse("0.25"), fmpq(1, 4), 2)
+    >>> unit_of(parse("0.25"), 9), unit_of(parse("0.25"), 2)
     (0, 1/100)
     """
     if expression.decimals:
-        return max(unit_of(x, x.value, fewest) for x in expression.decimals)
+        return max(unit_of(x, fewest) for x in expression.decimals)
     if isinstance(expression, Literal) and is_decimal(expression):
         return _unit(expression) if _places(expression) >= fewest else fmpq(0)
-    return _approximation(value)
+    return _unit_in(expression, fewest)
 
 
 def coarsest_unit(texts: Sequence[Expression]) -> fmpq:
     """By how much a number in some texts may be off at most, where its own digits say it."""
     fewest = fewest_digits(texts)
     units = [fmpq(0)]
-    for literal in (x for text in texts for x in _literals(text)):
-        if is_decimal(literal):
-            units.append(unit_of(literal, literal.value, fewest))
-        elif literal.value >= LONG_DENOMINATOR:
-            units.append(fmpq(100) / literal.value**2)
+    units += [unit_of(x, fewest) for text in texts for x in _literals(text)]
     return max(units)
 
 
@@ -198,6 +225,21 @@ def _places(literal: Literal) -> int:
     return max(_digits(literal), len(mantissa.partition(".")[2]) - int(exponent or 0))
 
 
+def _parts(chain: Chain) -> Iterator[tuple[str, Expression]]:
+    """Terms or factors with their signs; a fraction of whole numbers is one factor, which has no
+    text.
+    """
+    rest = list(zip(chain.signs, chain.operands, strict=True))
+    while rest:
+        sign, part = rest.pop(0)
+        match (sign, part), *rest[:1]:
+            case ("*", Literal(value=p)), ("/", Literal(value=q)) if q and p.q == q.q == 1:
+                rest.pop(0)
+                yield sign, Literal(p / q)
+            case _:
+                yield sign, part
+
+
 def _literals(expression: Expression) -> Iterator[Literal]:
     if expression.decimals:
         yield from expression.decimals
@@ -205,9 +247,9 @@ def _literals(expression: Expression) -> Iterator[Literal]:
     match expression:
         case Literal():
             yield expression
-        case Chain(operands=operands):
-            for operand in operands:
-                yield from _literals(operand)
+        case Chain():
+            for _, part in _parts(expression):
+                yield from _literals(part)
         case Power(base=inner) | Root(radicand=inner):
             yield from _literals(inner)
 
@@ -224,16 +266,31 @@ def _unit(literal: Literal) -> fmpq:
     return fmpq(10) ** -decimals
 
 
+def _unit_in(expression: Expression, fewest: int) -> fmpq:
+    """By how much an expression may be off if its long numbers are, rounded up."""
+    longest = [x for x in _literals(expression) if _open(x, fewest)]
+    if not longest:
+        return fmpq(0)
+    with ctx.workprec(2 * max(x.value.height_bits() for x in longest) + 128):
+        return _radius(_enclosed(expression, fewest))
+
+
+def _open(literal: Literal, fewest: int) -> fmpq:
+    """By how much a decimal or a fraction may be off."""
+    if is_decimal(literal):
+        return _unit(literal) if _digits(literal) >= fewest else fmpq(0)
+    return _approximation(literal.value)
+
+
 def _enclosed(expression: Expression, fewest: int) -> arb:
     """All values that the expression may have, its long numbers off by one unit each."""
     match expression:
         case Literal(value=value):
-            least = FEWEST_DIGITS if expression.text.isdigit() else fewest
-            return arb(value) if _digits(expression) < least else arb(value, arb(_unit(expression)))
-        case Chain(signs=signs, operands=operands):
+            return arb(value, arb(_open(expression, fewest)))
+        case Chain(signs=signs):
             total = arb(0) if signs[0] in "+-" else arb(1)
-            for sign, operand in zip(signs, operands, strict=True):
-                total = OPERATIONS[sign](total, _enclosed(operand, fewest))
+            for sign, part in _parts(expression):
+                total = OPERATIONS[sign](total, _enclosed(part, fewest))
             return total
         case Power(base=base, exponent=exponent):
             return integer_power(_enclosed(base, fewest), exponent)

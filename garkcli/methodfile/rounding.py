@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from flint import arb, ctx, fmpq
 
 from garkcli.exact.enclosing import OPERATIONS, enclose, midpoint, real_root
-from garkcli.exact.field import Number
+from garkcli.exact.field import ONE, Number
 from garkcli.exact.nodes import (
     AlgebraicRoot,
     Chain,
@@ -31,8 +31,9 @@ from garkcli.tableau.box import Box, rational_or_ball, to_points
 from garkcli.tableau.embedded import as_colours
 
 if TYPE_CHECKING:
-    from garkcli.methodfile.description import PartText
+    from garkcli.methodfile.description import Content, PartText
     from garkcli.methodfile.tolerance import Rounding
+    from garkcli.order.meant import Radii
 
 INDETERMINATE = "_number"
 """The beginning of the names of indeterminates that stand for known numbers."""
@@ -54,6 +55,31 @@ def rounded_of(built: Builder[Values], numbers: Numbers, rounding: Rounding) -> 
     return Rounded(numbers.entries, built.values, rounding, apart=named)
 
 
+def box_of(built: Builder[Values], numbers: Numbers, content: Content, radii_of: Radii) -> Box:
+    """All methods that a file may mean by other radii than its ``tolerance``.
+
+    Args:
+        built: the method, with the values of the file.
+        numbers: the coefficients of the file.
+        content: these by their places.
+        radii_of: by how much rounded numbers may be off, as they are written; 0 for exact ones.
+    """
+    from garkcli.methodfile.tolerance import Rounding, same_for_all
+
+    rounded = rounded_of(built, numbers, Rounding(same_for_all(ONE), content, numbers.entries))
+    radii = radii_of(list(zip(rounded.written, rounded.numbers, strict=True)))
+    kept = [k for k, radius in enumerate(radii) if radius]
+    make = rounded.maker(built.text)
+
+    def make_with(moved: Sequence[Any]) -> Any:
+        every = list(map(rational_or_ball, rounded.numbers))
+        for k, x in zip(kept, moved, strict=True):
+            every[k] = x
+        return make(every)
+
+    return Box(tuple(rounded.numbers[k] for k in kept), tuple(radii[k] for k in kept), make_with)
+
+
 class Rounded:
     """The rounded numbers of a file, each with its place: a decimal, which may be under a root; an
     expression that is a long fraction; or a root of a polynomial with decimals, which is off by
@@ -71,6 +97,7 @@ class Rounded:
 
     Attributes:
         places: of each, by the identity of its expression.
+        written: their expressions.
         numbers: as they are printed.
         radii: by how much each may be off, the least where it is in several places; those that may
             not are left out, but for values of unknowns.
@@ -113,11 +140,13 @@ class Rounded:
         found += mixed
         radii: dict[int, fmpq] = {}
         numbers: dict[int, Number] = {}
+        written: dict[int, Expression] = {}
         self.keys: set[str] = set()
         self._largest: dict[str, fmpq] = {}
         for entry, part, value in found:
-            t = rounding.radius(entry, part, value)
+            t = rounding.radius(entry, part)
             numbers.setdefault(id(part), value)
+            written[id(part)] = part
             radii[id(part)] = min(t, radii.get(id(part), t))
             if t:
                 self.keys.add(rounding.key_of(entry))
@@ -127,6 +156,7 @@ class Rounded:
         kept = [key for key, t in radii.items() if t or key in given]
         self.places = {key: number for number, key in enumerate(kept)}
         self.numbers = tuple(numbers[key] for key in kept)
+        self.written = tuple(written[key] for key in kept)
         self.radii = tuple(radii[key] for key in kept)
         self.is_given = tuple(key in given for key in kept)
 

@@ -11,7 +11,7 @@ from yaml.nodes import MappingNode, Node
 
 from garkcli.errors import LimitExceeded, did_you_mean
 from garkcli.exact.expression import read_decimal
-from garkcli.exact.field import ZERO, Number
+from garkcli.exact.field import ZERO
 from garkcli.exact.nodes import Expression
 from garkcli.frozen import FrozenBut
 from garkcli.methodfile import description as d
@@ -158,12 +158,12 @@ class Rounding:
         """The key of ``tolerance`` that is about a number."""
         return self._keys.get(id(entry), OTHERS)
 
-    def radius(self, entry: Entry, part: Expression, value: Number) -> fmpq:
+    def radius(self, entry: Entry, part: Expression) -> fmpq:
         """By how much a number in an entry may be off; 0 for one that is exact."""
         off = self.tolerance.offs.get(self.key_of(entry), ZERO)
         if isinstance(off, fmpq):
             return off
-        return unit_of(part, value, self._fewest)
+        return unit_of(part, self._fewest)
 
     def refusals(self, used: Iterable[str]) -> Iterator[tuple[Node | None, str, str, str]]:
         """Faults of the keys: where, the message, the cure, the kind of fault.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
 from flint import fmpq
@@ -13,12 +13,18 @@ from garkcli.tableau.forms import pair
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
+    from garkcli.exact.field import Number
+    from garkcli.exact.nodes import Expression
     from garkcli.order.rounded import RoundedTableau
     from garkcli.tableau.box import Box
     from garkcli.tableau.garkmethod import GarkMethod
 
 AnyTableau: TypeAlias = "Tableau | RoundedTableau"
 """A tableau as it is, or with all methods that it may be a rounding of."""
+Radii: TypeAlias = "Callable[[Sequence[tuple[Expression, Number]]], Sequence[fmpq]]"
+"""By how much printed numbers may be off, as they are written."""
+ByRadii: TypeAlias = "Callable[[Radii], tuple[Box, Further]]"
+"""All methods that a file may mean, with its further weights, where its numbers may be off so."""
 
 
 def meant(tableau: Tableau, tolerance: fmpq | None, further: Further | None = None) -> AnyTableau:
@@ -38,12 +44,41 @@ def meant(tableau: Tableau, tolerance: fmpq | None, further: Further | None = No
         from garkcli.order.rounded import RoundedTableau
 
         of_tolerance, box = tableau.__dict__.get("box", (None, None))
+        by_radii: ByRadii | None = tableau.__dict__.get("digits")
         if of_tolerance == tolerance and box is not None:
             found = RoundedTableau.of(tableau, tolerance, *box())
         else:
-            found = RoundedTableau.within(tableau, tolerance, further or NOTHING)
+            made = by_radii and by_radii(lambda numbers: [tolerance] * len(numbers))
+            if made and (not further or made[1] == further):
+                found = RoundedTableau.of(tableau, tolerance, *made)
+            else:  # numbers that no file prints
+                found = RoundedTableau.within(tableau, tolerance, further or NOTHING)
         known[tolerance] = found
     return found
+
+
+def within_digits(tableau: Tableau, radii: Radii) -> RoundedTableau | None:
+    """The tableau with what its printed numbers leave open; None where all are exact, or nobody
+    knows how they are printed.
+
+    Args:
+        tableau: the method.
+        radii: by how much its numbers may be off.
+    """
+    box: ByRadii | None = tableau.__dict__.get("digits")
+    if box is None:
+        return None
+    made, further = box(radii)
+    if not made.numbers:
+        return None
+    from garkcli.order.rounded import RoundedTableau
+
+    return RoundedTableau.of(tableau, max(made.radii), made, further)
+
+
+def remember_digits(tableau: Tableau, box: ByRadii) -> None:
+    """Keep how a tableau is made of its printed numbers, for other radii than the file has."""
+    tableau.__dict__["digits"] = box
 
 
 def remember(
@@ -113,11 +148,15 @@ def derived(method: AnyTableau, which: str | None) -> AnyTableau:
 
     Args:
         method: rounded or not; what is made of it is rounded by what its rounding does.
-        which: ``conjugate`` or ``pair``; empty or None for the method.
+        which: ``conjugate`` or ``pair``, or the order that is claimed of them; of a rounded method
+            also ``embedded-order``. Anything else is the method.
 
     Raises:
         ZeroWeight: a weight that it divides by is 0.
     """
+    which = (which or "").removesuffix("-order")
+    if which == "embedded" and not isinstance(method, Tableau):
+        return as_embedded(method, method.search.printed_further.embedded or ())
     if which == "conjugate":
         return conjugate(method) if isinstance(method, Tableau) else method.conjugate()
     if which == "pair":

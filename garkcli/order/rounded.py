@@ -121,6 +121,13 @@ class RoundedTableau(Frozen, eq=False):
         return self.search.settled.grain
 
     @property
+    def off(self) -> fmpq:
+        """By how much a number of the method that was found so far is off at most."""
+        search = self.search
+        shifts = zip(search.place.shifts, search.box.radii, strict=True)
+        return max((abs(x) * t for x, t in shifts), default=fmpq(0))
+
+    @property
     def defects(self) -> Defects:
         """The defects of all methods that it may be a rounding of: balls, which hold 0 where one of
         them has none.

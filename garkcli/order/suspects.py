@@ -4,71 +4,189 @@ order, the others being off by no more than their rounding.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Container, Sequence
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from flint import fmpq
 
 from garkcli.deadline import check_time
 from garkcli.exact.affine import Affine
-from garkcli.frozen import replace
-from garkcli.order.blame import Repair
-from garkcli.order.recovering import FLOOR, Place, Recovery, nearest
+from garkcli.exact.display import to_float
+from garkcli.frozen import Frozen, replace
+from garkcli.order.certificate import DEFAULT_LIMIT
+from garkcli.order.conditions import conditions
+from garkcli.order.recovering import FLOOR, Place, Recovery, exactly, nearest
+from garkcli.order.repair import Repair
 from garkcli.order.rounded import RoundedTableau
 from garkcli.order.rows import of_tree
+from garkcli.order.tolerance import unnatural, within
 
 if TYPE_CHECKING:
-    from garkcli.exact.affine import Floats
+    from collections.abc import Iterator
+
+    from garkcli.exact.affine import Floats, Forms
     from garkcli.exact.field import Number
-    from garkcli.tableau.tableau import Tableau
+    from garkcli.exact.matrix import Matrix, Vector
+    from garkcli.ntrees.tree import Tree
+    from garkcli.order.recovering import System
 
 MOST_NUMBERS = 300
 """Printed numbers of methods for which one is sought."""
-MOST_SUSPECTS = 5
+MOST_SUSPECTS = 8
 """Candidates of first order, of which no more are tried."""
+LEAST = 1e-24
+"""Squared slopes of a number, beside those of all others, that are no rounding of zeros."""
+MAX_STEPS = 6
+SLOWEST = 0.8
+"""A number is given up when a step leaves more than this part of what is missed."""
+STRAIGHT = 0.01
+"""The part of its radius by which a number may miss its value where slopes are not renewed."""
+NEARLY = 1e-9
+"""By how much a slope that is 1 may be off."""
+LONGEST = 1e9
+"""A step of so many radii is the last: floats hold it to a small part of one."""
 
 
-def suspects(rounded: RoundedTableau, order: int) -> tuple[Repair, ...]:
+def suspects(rounded: RoundedTableau, order: int, limit: int = DEFAULT_LIMIT) -> dict[Repair, int]:
     """The entries of which one alone, with another value, would leave a method of an order to the
-    others within their rounding; those that change least first.
+    others within their rounding; those that change least first. None changes by less than rounding
+    would.
 
     Args:
-        rounded: the method; its numbers are coefficients.
-        order: that it would have.
+        rounded: the method, its conjugate, …, or the method with its embedded weights; its numbers
+            are coefficients.
+        order: that it would have at least; the method itself would keep its own order.
+        limit: where the search for its order stops.
+
+    Returns:
+        the order that each gives.
     """
     search = rounded.search
     if len(search.box.numbers) > MOST_NUMBERS:
-        return ()
-    found = []
-    for k, shift in sorted(_candidates(search, order), key=lambda x: abs(x[1]))[:MOST_SUSPECTS]:
+        return {}
+    kept = search.order_of("method", limit)[0]
+    found: dict[Repair, int] = {}
+    tried = None
+    for rank, candidate in _ranked(search, rounded.name, order, limit)[:MOST_SUSPECTS]:
         check_time()
-        value = _value(search, order, k, shift)
-        place = _entry(search.origin, rounded.tableau, k)
-        if value is not None and place is not None:
-            found.append(Repair(*place, search.box.numbers[k], value))
-    return tuple(found)
+        if found and rank != tried:
+            break
+        tried, k = rank, candidate.number
+        wide = _around(search, candidate)
+        if wide is None:
+            continue
+        reached, _, missed = wide.order_of(rounded.name, limit)
+        if (
+            reached < order
+            or _is_rounding(rounded, reached + 1, missed)
+            or wide.order_of("method", kept)[0] < kept
+        ):
+            continue
+        change = _in_few_digits(wide, k, search) - search.box.numbers[k]
+        repair = _repair(search, k, change)
+        if repair is not None and not within(change, search.box.radii[k]):
+            found[repair] = reached
+    return found
 
 
-def _candidates(search: Recovery, order: int) -> Iterator[tuple[int, float]]:
-    """Numbers without which first order lets all conditions be met, with the shifts they need."""
-    missed = [u for q in range(1, order + 1) for u in search.origin.missed("method", q)]
-    system = search.independent({"method": {of_tree(u): [0] for u in missed}}, search.origin)
-    if not system:
-        return
+def _is_rounding(rounded: RoundedTableau, order: int, missed: Sequence[Tree]) -> bool:
+    """Whether all conditions that a method misses of an order are missed by no more than rounding
+    would: more than one entry is off.
+    """
+    sizes = (x.residual for x in conditions(rounded.tableau, missed))
+    return bool(missed) and all(within(x, unnatural(order)) for x in sizes)
+
+
+class _Candidate(Frozen):
+    """A number without which first order lets all conditions be met.
+
+    Attributes:
+        number: which.
+        shift: what it would be off by, in units of its radius.
+        doubt: by how much more or less.
+        is_sure: whether first order meets them all together; else each alone.
+    """
+
+    number: int
+    shift: fmpq
+    doubt: float
+    is_sure: bool
+
+
+_Rank: TypeAlias = tuple[bool, int]
+"""Whether a candidate is sure to first order, and the order that it could give."""
+
+
+def _ranked(search: Recovery, name: str, order: int, limit: int) -> list[tuple[_Rank, _Candidate]]:
+    """The numbers of which one may be wrong: sure ones first, then those that could give most, then
+    those that change least.
+    """
+    best: dict[int, tuple[_Rank, _Candidate]] = {}
+    among = None
+    for q in range(order, limit + 1):
+        group = _candidates(search, name, q, among)
+        if not group and q == order < limit:
+            continue  # a condition that an entry enters by its square has no slope there
+        if not group:
+            break
+        among = {x.number for x in group}
+        for x in group:
+            rank = x.is_sure, q
+            if x.number not in best or best[x.number][0] < rank:
+                best[x.number] = rank, x
+    return sorted(best.values(), key=lambda y: (not y[0][0], -y[0][1], abs(y[1].shift)))
+
+
+def _candidates(
+    search: Recovery, name: str, order: int, among: Container[int] | None = None
+) -> list[_Candidate]:
+    """The numbers of which one may be wrong for an order to hold."""
+    missed = [u for q in range(1, order + 1) for u in search.origin.missed(name, q)]
+    system = search.independent({name: {of_tree(u): [0] for u in missed}}, search.origin)
+    if not any(system.values()):
+        return []
     rows = search.origin.rows(system)
+    found = []
     for k in range(rows.slopes.shape[1]):
         check_time()
+        if among is None or k in among:
+            candidate = _candidate(search, system, rows, k)
+            found += [] if candidate is None else [candidate]
+    return found
+
+
+def _candidate(search: Recovery, system: System, rows: Forms, k: int) -> _Candidate | None:
+    """What number k would be off by, by Newton's method for it alone; the others stay within their
+    radii to first order.
+    """
+    shift, unit = fmpq(0), to_float(search.box.radii[k])
+    before = np.inf
+    for _ in range(MAX_STEPS):
         own = rows.slopes[:, k]
         others = np.delete(rows.slopes, k, axis=1)
         scale = np.maximum(np.abs(others).sum(axis=1), 1e-12 * search.radius)
         c, own, others = rows.middle / scale, own / scale, others / scale[:, None]
-        size = float(own @ own)
-        if size < FLOOR:
-            continue
+        size, miss = float(own @ own), float(np.abs(c).max())
+        if size < LEAST or not miss < SLOWEST * before:
+            return None
         x = nearest(_without(others, own), _without(c, own), FLOOR)
-        if x is not None:
-            yield k, -float(own @ (c + others @ x)) / size
+        step = -float(own @ (c if x is None else c + others @ x)) / size
+        shift += exactly(step)  # beyond the digits of a float
+        # what is of second order, and what floats leave of the step, is within the rounding
+        if step * step * unit < STRAIGHT and abs(step) < LONGEST:
+            doubt = 0.5 * abs(step) + 2
+            if x is None:  # where slopes are nearly dependent that may still be too much
+                if np.abs(c + step * own).max() > 1:
+                    return None
+                doubt += 1 / float(np.abs(own).max())
+            return _Candidate(k, shift, doubt, is_sure=x is not None)
+        shifts = [fmpq(0)] * rows.slopes.shape[1]
+        shifts[k] = shift
+        before, rows = miss, Place(search, shifts).rows(system)
+        if not np.isfinite(rows.slopes).all():
+            return None
+    return None
 
 
 def _without(rows: Floats, direction: Floats) -> Floats:
@@ -77,42 +195,66 @@ def _without(rows: Floats, direction: Floats) -> Floats:
     return rest
 
 
-def _value(search: Recovery, order: int, k: int, shift: float) -> Number | None:
-    """What number k is in a method of the order where it may be off by more; None where there is
-    none.
-    """
-    radii = list(search.box.radii)
-    unit = radii[k]
-    radii[k] = unit * (int(1.5 * abs(shift)) + 2)
-    wide = Recovery(replace(search.box, radii=tuple(radii)), search.printed_further)
-    if wide.order_of("method", order)[0] < order:
+def _around(search: Recovery, candidate: _Candidate) -> Recovery | None:
+    """The search where one number is near another value."""
+    k, box = candidate.number, search.box
+    numbers, radii = list(box.numbers), list(box.radii)
+    number = numbers[k]
+    if not isinstance(number, fmpq):
         return None
-    number = search.box.numbers[k]
+    numbers[k] = number + radii[k] * candidate.shift
+    radii[k] *= int(candidate.doubt) + 1
+    other = Recovery(
+        replace(box, numbers=tuple(numbers), radii=tuple(radii)), search.printed_further
+    )
+    other.targets.update({x: y for x, y in search.targets.items() if x not in other.targets})
+    return other
+
+
+def _in_few_digits(wide: Recovery, k: int, search: Recovery) -> fmpq:
+    """The value of number k in the method that was found, to the place of its rounding, or to the
+    last place that it was printed with where that is not far behind.
+    """
+    printed, near = search.box.numbers[k], wide.box.numbers[k]
+    assert isinstance(printed, fmpq)
+    assert isinstance(near, fmpq)
     step = fmpq(1)
-    while step > 2 * unit:
+    while step > 2 * search.box.radii[k]:
         step /= 10
-    shift_in_steps = radii[k] * wide.place.shifts[k] / step
-    return number + step * (shift_in_steps + fmpq(1, 2)).floor()
+    step = next((x for x in (step, step / 10, step / 100) if (printed / x).q == 1), step)
+    value = near + wide.box.radii[k] * wide.place.shifts[k]
+    return step * (value / step + fmpq(1, 2)).floor()
 
 
-def _entry(
-    origin: Place, printed: Tableau, k: int
-) -> tuple[int, int | None, int | None, int] | None:
-    """The first entry of the tableau that is made of number k alone."""
-    made = origin.defects("method").tableau.made
-
-    def is_it(x: object) -> bool:
-        return isinstance(x, Affine) and set(x.slopes) == {k}
-
-    for l, m in printed.edges():
-        block = made.block(l, m)
-        assert block is not None
-        for i, row in enumerate(block):
-            for j, x in enumerate(row):
-                if is_it(x):
-                    return l, m, i, j
-    for l, colour in enumerate(made.colours):
-        for j, x in enumerate(colour.b):
-            if is_it(x):
-                return l, None, None, j
+def _repair(search: Recovery, k: int, change: Number) -> Repair | None:
+    """The entry that is number k, with or without a sign, or else the only one with that among its
+    terms, and what it is with another value of the number; None where there is no such entry.
+    """
+    forms, printed = search.origin.defects("method").tableau.made, search.origin.exact("method")
+    entries: list[tuple[Repair, Any]] = [
+        (Repair(l, m, i, j, old, old), form)
+        for l, m in forms.edges()
+        for i, rows in enumerate(_paired(printed.block(l, m), forms.block(l, m)))
+        for j, (old, form) in enumerate(zip(*rows, strict=True))
+    ]
+    weights = [(False, "method")] + [(True, "embedded")] * ("embedded" in search.targets)
+    for is_embedded, name in weights:
+        rows_of = (
+            search.origin.exact(name).colours,
+            search.origin.defects(name).tableau.made.colours,
+        )
+        for l, (own, made) in enumerate(zip(*rows_of, strict=True)):
+            for j, (old, form) in enumerate(zip(own.b, made.b, strict=True)):
+                entries.append((Repair(l, None, None, j, old, old, is_embedded), form))
+    with_it = [x for x in entries if isinstance(x[1], Affine) and k in x[1].slopes]
+    alone = [x for x in with_it if len(x[1].slopes) == 1] or (with_it if len(with_it) == 1 else [])
+    for repair, form in alone:
+        slope = form.slopes[k] / to_float(search.box.radii[k])
+        if abs(abs(slope) - 1) < NEARLY and isinstance(repair.old, fmpq):
+            return replace(repair, new=repair.old + (change if slope > 0 else -change))
     return None
+
+
+def _paired(printed: Matrix | None, forms: Matrix | None) -> Iterator[tuple[Vector, Vector]]:
+    """Rows of a block as printed with those of forms."""
+    return zip(printed or (), forms or (), strict=True)

@@ -558,17 +558,11 @@ WRONG_SUM = Section(
     Row("sum", kinds.EXACT, "total"),
     Row("required", kinds.EXACT, "wanted"),
 )
-MISPRINT = Section(
+REMARK = Section(
+    Row("of", kinds.choice("order", "embedded-order")),
     Row("order", kinds.COUNT),
-    Row("residual", kinds.UPPER),
-    Row("explained", kinds.UPPER),
+    optional("line", Kind(S.TEXT), lambda r: r.line or None),
     Row("repairs", parts(REPAIR)),
-)
-SUGGESTION = Section(
-    Row("line", kinds.TEXT),
-    Row("order", kinds.COUNT),
-    Row("rounding", kinds.UPPER),
-    Row("genuine", kinds.UPPER),
 )
 
 
@@ -625,17 +619,17 @@ def hints(o: Any) -> list[Reason]:
     """What failing conditions tell, a sentence or two each."""
     a = o.analysis
     sums = a.wrong_weights
-    if a.suggestion is None and a.misprint is None and o.blame is None and not sums:
+    if o.remark is None and o.blame is None and not sums:
         return []
-    from garkcli.report.hints import blame_text, misprint_text, suggestion_text  # few files
+    from garkcli.report.hints import blame_text, remark_text  # few files
 
     names = [colour.name for colour in a.tableau.colours]
-    is_told = a.tolerance is not None and a.misprint is not None  # the entry that is wrong
+    # the entry that is wrong
+    is_told = a.tolerance is not None and o.remark is not None and bool(o.remark.repairs)
     blame = NO_REASON if o.blame is None or is_told else blame_text(o.blame, names)
     return [
         *(sum_text(x, names) for x in sums),
-        *([] if a.suggestion is None else [suggestion_text(a.suggestion, a.tolerance)]),
-        *([] if a.misprint is None else [misprint_text(a.misprint, names)]),
+        *([] if o.remark is None else [remark_text(o.remark, names, a.tolerance)]),
         *([blame] if blame else []),
     ]
 
@@ -981,9 +975,8 @@ CHECKED = Section(
     LEFT_BEHIND,
     optional("every_property", parts(VERDICT), every_property, DATA),
     optional("blame", part(BLAME), level=DATA),
-    optional("misprint", part(MISPRINT), "analysis.misprint", DATA),
     optional("error_constants", part(CONSTANTS, _constants_words), "constants"),
-    optional("suggestion", part(SUGGESTION), "analysis.suggestion", DATA),
+    optional("remark", part(REMARK), level=DATA),
     optional("same_as", part(SAME_AS, _known_words), _known(is_same=True)),
     optional("differs_from", part(DIFFERS_FROM, _known_words), _known(is_same=False)),
     *CLAIMS,

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from flint import arb, fmpq
+from flint import fmpq
 
 from garkcli.check.findings import names_of, repair_text
+from garkcli.check.remark import Remark
+from garkcli.errors import counted
 from garkcli.exact.display import decimal
-from garkcli.order.blame import Blame, Repair
-from garkcli.order.suggestion import Misprint, Suggestion
+from garkcli.order.blame import Blame
+from garkcli.order.repair import Repair
 from garkcli.reason import NO_REASON, Place, Reason, joined
 
 MOST_REPAIRS = 3
@@ -69,37 +71,24 @@ def _repairs(repairs: Sequence[Repair], names: Sequence[str]) -> Reason:
     return joined(", or ", [repair_text(x, names) for x in repairs[:MOST_REPAIRS]])
 
 
-def misprint_text(found: Misprint, names: Sequence[str]) -> Reason:
-    """Why no tolerance is proposed: an entry looks misprinted, and which."""
-    if found.residual > found.explained:
-        text = (
-            f"up to order {found.order} the residuals are at most {size(found.residual)}, the"
-            f" digits in the file explain {size(found.explained)}: an entry looks misprinted"
-        )
-    else:
-        text = (
-            f"the digits in the file explain each condition up to order {found.order}, but not all"
-            " together: an entry looks misprinted"
-        )
-    if not found.repairs:
-        return Reason(text)
-    mended = _repairs(found.repairs, names)
-    return Reason(f"{text}; order {found.order} would hold with {{}}", mended)
+def remark_text(found: Remark, names: Sequence[str], tolerance: fmpq | None) -> Reason:
+    """How many digits the numbers have, which order they would have, and which entry is off.
 
-
-def suggestion_text(found: Suggestion, tolerance: fmpq | None) -> Reason:
-    """The coefficients look rounded, or more so than they say: what to write into the file."""
-    cure = f"with the line {{}} the order is {found.order}"
-    rounding = size(found.rounding)
+    Args:
+        found: what the digits say.
+        names: of the colours.
+        tolerance: of the file.
+    """
+    order = f"{found.of.replace('-', ' ')} {found.order}"
+    if found.repairs:
+        mended = _repairs(found.repairs, names)
+        return Reason(
+            f"an entry looks misprinted: within the digits of the others {order} holds with {{}}",
+            mended,
+        )
+    assert found.exponent is not None
+    places = counted(-found.exponent, "decimal place")
+    looks = f"the coefficients look rounded to {places}"
     if tolerance is not None:
-        effect = f"rounding by {decimal(tolerance)} makes residuals up to {rounding}"
-        return Reason(f"{effect}: the tolerance is too tight; {cure}", found.line)
-    small = f"up to order {found.order} the residuals are at most {rounding}, then"
-    return Reason(
-        f"{small} {size(found.genuine)}: the coefficients look rounded; {cure}", found.line
-    )
-
-
-def size(ball: arb) -> str:
-    """A bound in two digits."""
-    return "0" if ball == 0 else str(ball.upper().str(2, radius=False))
+        looks = f"the tolerance {decimal(tolerance)} is too tight: {looks}"
+    return Reason(f"{looks}; with the line {{}} {order} holds", found.line)

@@ -10,9 +10,9 @@ from garkcli.check.outcome import Outcome
 from garkcli.exact.display import to_float
 from garkcli.frozen import replace
 from garkcli.methodfile.load import load, loads
-from garkcli.order.blame import Repair
 from garkcli.order.certificate import find_order
 from garkcli.order.conditions import all_conditions
+from garkcli.order.repair import Repair
 from garkcli.report.check import hints
 from garkcli.report.checked import REPORT
 

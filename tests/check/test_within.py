@@ -18,7 +18,6 @@ from garkcli.check.claims import verify
 from garkcli.check.deciding import analyse
 from garkcli.check.outcome import Outcome
 from garkcli.methodfile.load import loads
-from garkcli.methodfile.printed import printed_units
 from garkcli.ntrees.tree import Tree
 from garkcli.order.meant import as_meant
 from garkcli.order.recovering import Failure, Recovery
@@ -131,14 +130,19 @@ def test_conjugate_and_pair_fail_order_2_with_the_method(rows: str, tolerance: s
 def test_a_tolerance_that_is_too_tight_gets_the_one_that_would_do() -> None:
     """Gauss 2 in 8 decimals is off by 4e-9: with 1e-9 the hint says 1e-8, and that does."""
     method = loads(f"{GAUSS}tolerance: 1e-9\n")
-    found = analyse(method.tableau, LIMIT, method.tolerance, lambda: printed_units(method.printed))
+    outcome = check_method(method, LIMIT)
+    found, remark = outcome.analysis, outcome.remark
+    assert found is not None
     assert (found.order.order, found.bound) == (2, 2)
-    assert found.suggestion is not None
-    assert (found.suggestion.line, found.suggestion.order) == ("tolerance: 1e-8", 4)
-    shown = words([Outcome("f", "f", analysis=found)])
-    assert "the tolerance is too tight; with the line tolerance: 1e-8 the order is 4" in shown
-    better = analyse(method.tableau, LIMIT, found.suggestion.tolerance)
-    assert better.suggestion is None
+    assert remark is not None
+    assert (remark.line, remark.order) == ("tolerance: 1e-8", 4)
+    shown = words([outcome])
+    assert "the tolerance 1e-9 is too tight: the coefficients look rounded to 8" in shown
+    assert "with the line tolerance: 1e-8 order 4 holds" in shown
+    outcome = check_method(loads(f"{GAUSS}{remark.line}\n"), LIMIT)
+    better = outcome.analysis
+    assert better is not None
+    assert outcome.remark is None
     assert (better.order.order, better.bound, better.pair_bound) == (4, 4, 4)
     assert better.symplectic
 

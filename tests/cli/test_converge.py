@@ -305,7 +305,7 @@ ark:
     rounded, toleranced = (tmp_path / "rounded.gark.yaml", tmp_path / "toleranced.gark.yaml")
     rounded.write_text(text, encoding="utf-8")
     toleranced.write_text(f"{text}tolerance: 1e-13\n", encoding="utf-8")
-    hint = "hint: the coefficients look rounded; with the line  tolerance: 1e-13  the order is 4"
+    hint = "hint: the coefficients look rounded; with the line  tolerance: 1e-13  order 4 holds"
     alone = gark("converge", str(rounded))
     assert (alone.code, hint in alone.err) == (0, True)
     assert "conditions of order 3 are missed by little" in alone.out

@@ -62,7 +62,7 @@ RARE = {
     "garkcli.methodfile.ark_prk",
     "garkcli.methodfile.printed",
     "garkcli.order.blame",
-    "garkcli.order.suggestion",
+    "garkcli.check.remark",
 }
 """What few files need."""
 

@@ -303,7 +303,7 @@ def facts(found: Analysis) -> dict[str, Any]:
 
 def analysis(method: MethodFile) -> Analysis:
     """What a check finds, without hints."""
-    return analyse(method.tableau, LIMIT, method.tolerance, None, method.further)
+    return analyse(method.tableau, LIMIT, method.tolerance, method.further)
 
 
 def less(one: Any, other: Any) -> bool:
@@ -433,7 +433,7 @@ def misprinted(of: Case) -> Misprinted:
     claims = ", ".join(f"{key}: {value}" for key, value in true.items())
     outcome = check_method(loads(f"{of.text}expect: {{{claims}}}\n"), LIMIT)
     assert outcome.analysis is not None
-    hints = outcome.analysis.misprint, outcome.blame
+    hints = outcome.remark, outcome.blame
     repairs = [x for hint in hints if hint is not None for x in hint.repairs]
     named = tuple((x.l, x.m, x.i, x.j) for x in repairs)
     is_found = bool(named) or not all(claim.holds for claim in outcome.claims)
@@ -460,7 +460,7 @@ def rounded_method(method: MethodFile, digits: int) -> Analysis:
         colours.append(replace(colour, b=tuple(map(off, colour.b)), c=c))
     spaces = [PointSpace(next(x.c for x in colours if x.space == k)) for k in range(len(t.spaces))]
     tableau = Tableau(tuple(spaces), tuple(colours), blocks)
-    return analyse(tableau, LIMIT, fmpq(1, 2 * 10**digits), None, method.further.changed(off))
+    return analyse(tableau, LIMIT, fmpq(1, 2 * 10**digits), method.further.changed(off))
 
 
 def sums(block: Rows) -> tuple[Number, ...]:

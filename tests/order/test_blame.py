@@ -10,7 +10,8 @@ from flint import fmpq
 from garkcli import Tableau, conjugate, find_order, load
 from garkcli.check.check_file import check_file
 from garkcli.frozen import replace
-from garkcli.order.blame import Missed, Repair, blame_of
+from garkcli.order.blame import Missed, blame_of
+from garkcli.order.repair import Repair
 from garkcli.order.tolerance import within
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -112,8 +113,8 @@ def test_what_rounding_explains_has_nobody_to_blame(tmp_path: Path) -> None:
     )
     found = check_file(str(file))
     assert found.blame is None
-    assert found.analysis is not None
-    assert found.analysis.suggestion is not None
+    assert found.remark is not None
+    assert found.remark.line == "tolerance: 1e-8"
 
 
 @pytest.mark.parametrize(("key", "j"), [("conjugate-order", 0), ("pair-order", 1)])

@@ -167,16 +167,21 @@ def test_a_rounded_method_says_so(tmp_path: Path) -> None:
     found = one(tmp_path, "methods: [{A: [[0.5000000000000001]], b: [1]}]\ntolerance: 1e-14\n")
     assert (found["exact"], found["tolerance"], found["order"]) == (False, "1e-14", 2)
     assert 0 < found["order_largest_residual"] <= 1e-14
-    assert "suggestion" not in found
+    assert "remark" not in found
 
 
-def test_a_method_that_looks_rounded_gets_a_suggestion(tmp_path: Path) -> None:
-    """Residuals of the size of rounding are told apart from genuine ones, with the line to add."""
+def test_what_the_digits_say_is_in_the_report(tmp_path: Path) -> None:
+    """The line to add, or the entry that is off, with the order that the method would have."""
     found = one(tmp_path, "methods: [{A: [[0.5000000000000001]], b: [1]}]\n")
     assert (found["exact"], found["order"]) == (True, 1)
-    assert found["suggestion"]["line"].startswith("tolerance: ")
-    assert found["suggestion"]["order"] == 2
-    assert found["suggestion"]["rounding"] < 1e-14 < found["suggestion"]["genuine"]
+    line = "tolerance: 1e-15"
+    assert found["remark"] == {"of": "order", "order": 2, "line": line, "repairs": []}
+    off = "[[0.2500000000, -0.0386751346], [0.5386761346, 0.2500000000]]"
+    found = one(tmp_path, f"A: {off}\nb: [0.5, 0.5]\n")
+    assert "line" not in found["remark"]
+    assert found["remark"]["order"] == 4
+    (repair,) = found["remark"]["repairs"]
+    assert (repair["row"], repair["entry"], repair["new"]) == (2, 1, "2693375673/5000000000")
 
 
 def test_a_failing_method_is_blamed() -> None:

@@ -264,10 +264,14 @@ def test_long_decimals_fit_a_screen(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     gauss = "A: [[0.25, -0.0386751345948], [0.5386751345948, 0.25]]\nb: [0.5, 0.5]\n"
     for text, shown in (
         (DECIMALS, "a[3,1] = -0.33333333333333333 instead of -0.33333333338333333"),
-        (tight, "the tolerance is too tight; with the line tolerance: 1e-17 the order is 4"),
+        (
+            tight,
+            "the tolerance 1e-19 is too tight: the coefficients look rounded to 17 decimal places;"
+            " with the line tolerance: 1e-17 order 4 holds",
+        ),
         (
             f"{gauss}expect: {{order: 4}}",
-            "the coefficients look rounded; with the line tolerance: 1e-13 the order is 4",
+            "rounded to 13 decimal places; with the line tolerance: 1e-13 order 4 holds",
         ),
     ):
         Path("m.gark.yaml").write_text(text, encoding="utf-8")

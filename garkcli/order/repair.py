@@ -1,0 +1,61 @@
+"""A single entry of a method, and another value that would mend what is missed."""
+
+from __future__ import annotations
+
+from garkcli.exact.field import Number
+from garkcli.exact.matrix import Vector
+from garkcli.frozen import Frozen, replace
+from garkcli.tableau.tableau import Tableau
+
+
+class Entry(Frozen):
+    """One entry of a method.
+
+    ``l, m`` are the block's colours, or ``m`` is None for the weights b^{l}; ``i, j`` the entry
+    (``j`` of the weights; then ``i`` is None). All count from 0.
+    """
+
+    l: int
+    m: int | None
+    i: int | None
+    j: int
+    old: Number
+
+    def put(self, method: Tableau, value: Number) -> Tableau:
+        """The method with another value there.
+
+        Weights are changed together with those that are the same row: of colours with the same
+        stages.
+        """
+        if self.m is None or self.i is None:
+            old = method.colours[self.l]
+            b = _with_value(old.b, self.j, value)
+            colours = (
+                replace(x, b=b) if x.space == old.space and x.b == old.b else x
+                for x in method.colours
+            )
+            return replace(method, colours=tuple(colours))
+        key = method.colours[self.l].space, self.m
+        block = list(method.blocks[key])
+        block[self.i] = _with_value(block[self.i], self.j, value)
+        return replace(method, blocks={**method.blocks, key: tuple(block)})
+
+
+class Repair(Entry):
+    """An entry that restores the claimed order when it is changed alone.
+
+    ``is_embedded`` tells embedded weights from b.
+    """
+
+    new: Number
+    is_embedded: bool = False
+
+    def carried_out(self, method: Tableau) -> Tableau:
+        """The method with this entry changed."""
+        return self.put(method, self.new)
+
+
+def _with_value(row: Vector, j: int, value: Number) -> Vector:
+    changed = list(row)
+    changed[j] = value
+    return tuple(changed)
