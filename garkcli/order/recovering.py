@@ -830,8 +830,10 @@ class Recovery:
         if champion is None or not champion[0] < min(1e-2, 100 * self.radius):
             return None
         worst, place = champion
-        place.slack = 4 * float(worst)
-        return place
+        # the place may be that of a search before, which knows what it misses without slack
+        found = Place(self, place.shifts)
+        found.slack = 4 * float(worst)
+        return found
 
 
 class _Solver:
