@@ -28,6 +28,7 @@ from garkcli.tableau.forms import gark
 from garkcli.tableau.tableau import Tableau, butcher
 from tests.oracles import samples
 from tests.order.rounded_samples import in_decimals
+from tests.whole import at_most
 
 SMALL = [
     name
@@ -35,7 +36,7 @@ SMALL = [
     if not make().is_partitioned and sum(space.stages for space in make().spaces) <= 5
 ]
 GAUSS = "methods: [{A: [[0.25, -0.03867513], [0.53867513, 0.25]], b: [0.5, 0.5]}]\n"
-LIMIT = 9
+LIMIT = at_most(7, 9)
 
 
 def words(outcomes: list[Outcome]) -> str:
@@ -69,7 +70,7 @@ def assert_no_contradiction(found: Analysis) -> None:
         assert own.is_lower_bound == conjugate.is_lower_bound == both.is_lower_bound
 
 
-@settings(max_examples=15)
+@settings(max_examples=at_most(4, 15))
 @given(
     st.sampled_from(SMALL),
     st.sampled_from([3, 5, 8, 12, 16]),
@@ -82,7 +83,7 @@ def test_no_report_on_a_rounded_method_contradicts_itself(
     are as coarse as a hundredth every order holds, up to a limit that is lower.
     """
     method, tolerance = in_decimals(samples.NAMED[name](), digits), units / fmpq(10) ** digits
-    limit = LIMIT if tolerance < fmpq(1, 100) else 5
+    limit = LIMIT if tolerance < fmpq(1, 100) else at_most(3, 5)
     assert_no_contradiction(analyse(method, limit, tolerance))
 
 
@@ -178,7 +179,7 @@ def test_much_finer_tolerances_say_what_is_exactly_so(name: str) -> None:
 def test_three_digits_refute_nothing() -> None:
     """Gauss 3 cut off after three digits has order 6 within 1e-3: a report may leave it open."""
     method = in_decimals(samples.NAMED["gauss 3"](), 3)
-    found = analyse(method, LIMIT, fmpq(1, 1000))
+    found = analyse(method, at_most(6, LIMIT), fmpq(1, 1000))
     assert_no_contradiction(found)
     assert found.order.order >= 6 or found.order.witness is None
 
