@@ -6,6 +6,8 @@ import os
 from collections.abc import Sequence
 from typing import TypeVar
 
+import pytest
+
 T = TypeVar("T")
 
 IS_WHOLE = os.environ.get("GARK_WHOLE") == "1"
@@ -19,3 +21,7 @@ def sample(items: Sequence[T], every: int) -> list[T]:
 def at_most(few: int, all_: int) -> int:
     """A number of examples, or a limit, in the suite; and the larger one in ``make whole``."""
     return all_ if IS_WHOLE else few
+
+
+in_whole = pytest.mark.skipif(not IS_WHOLE, reason="it takes long: make whole")
+"""For a test, or a case of one, whose kind shorter ones stand for."""

@@ -22,6 +22,7 @@ from garkcli.stability.oscillator import oscillator_stability
 from garkcli.tableau.family import OSCILLATING
 from garkcli.tableau.tableau import Tableau
 from tests.cli.harness import gark
+from tests.whole import at_most
 
 THETA = "parameters: {t: free}\nA: [[0, 0], [1 - t, t]]\nb: [1 - t, t]\n"
 SDIRK2 = "parameters: {t: free}\nA: [[t, 0], [1 - 2*t, t]]\nb: [1/2, 1/2]\n"
@@ -172,7 +173,7 @@ def test_against_single_values(families: tuple[object, ...], wanted: Wanted) -> 
 _ENTRY = st.tuples(st.integers(-2, 2), st.integers(-2, 2))
 
 
-@settings(max_examples=20)
+@settings(max_examples=at_most(10, 20))
 @given(st.lists(_ENTRY, min_size=5, max_size=5), st.sampled_from(["a-stable", "l-stable"]))
 def test_random_families(entries: list[tuple[int, int]], wanted: Wanted) -> None:
     """Of two stages with entries linear in t, one with a pole: sets against single values."""
@@ -182,7 +183,7 @@ def test_random_families(entries: list[tuple[int, int]], wanted: Wanted) -> None
     compare(f"A: [[{a}, {b}], [{c}, {d}]]\nb: [{w}, 1 - {w}]\n", wanted)
 
 
-@settings(max_examples=12)
+@settings(max_examples=at_most(6, 12))
 @given(st.lists(_ENTRY, min_size=2, max_size=2), st.sampled_from([0, 1, 2]))
 def test_random_families_on_the_oscillator(entries: list[tuple[int, int]], b: int) -> None:
     """The same of P- and I-stability, with two entries that are linear in t."""

@@ -39,6 +39,7 @@ from tests.longtime.planets import (
     system,
     two_planets,
 )
+from tests.whole import in_whole
 
 RECTANGULAR = "methods/rectangular.gark.yaml"
 RK4_FILE = "methods/rk4.gark.yaml"
@@ -312,7 +313,7 @@ initial: {{x: 1, y: 0, px: 0, py: 0}}
 
 @pytest.mark.parametrize(
     ("y", "coupling", "h", "short"),
-    [("2", 100, fmpq(1, 10), 1000), ("2001/1000", 50, fmpq(1, 5), 300)],
+    [pytest.param("2", 100, fmpq(1, 10), 1000, marks=in_whole), ("2001/1000", 50, fmpq(1, 5), 300)],
 )
 def test_a_symplectic_method_does_not_drift_for_a_slow_oscillation(
     y: str, coupling: int, h: fmpq, short: int
@@ -527,7 +528,7 @@ def test_rotation_is_no_escape() -> None:
 def test_memory_does_not_grow_with_the_steps() -> None:
     """Three times the steps, and no more is kept."""
     sizes = []
-    for t_end in (500, 1500):
+    for t_end in (300, 900):
         tracemalloc.start()
         run(LEAPFROG, "kepler", t_end, fmpq(1, 20), points=100)
         sizes.append(tracemalloc.get_traced_memory()[1])

@@ -10,6 +10,7 @@ from garkcli.order.certificate import find_order
 from garkcli.order.constants import Norms, error_constants
 from garkcli.tableau.forms import pair
 from garkcli.tableau.tableau import Tableau
+from tests.whole import sample
 
 ABOVE = (
     (fmpq(0), fmpq(1, 3), fmpq(2, 3), fmpq(1)),
@@ -98,6 +99,7 @@ def test_a_sphere_of_least_methods() -> None:
     others = [(D, mirrored), (D, ("1", "0")), (("1", "0"), ("1", "0"))]
     for change in ("1/20", "-1/20"):
         others += [(D, (f"{along} + {change}", across)), (D, (str(along), f"{across} + {change}"))]
+    others = sample(others, 3)
     assert all(norms(found).two < norms(two(ABOVE, *other)).two for other in others)
 
 

@@ -31,6 +31,7 @@ from garkcli.tableau.embedded import NOTHING
 from tests.catalogue.catalogue import Entry, entries
 from tests.catalogue.method_files import method_file
 from tests.cli.harness import gark
+from tests.whole import IS_WHOLE, sample
 
 FSAL = ("stiffly-accurate: true", "fsal: true")
 KNOWN = {
@@ -444,7 +445,14 @@ def kind_by_name(name: str, entry: Entry) -> str:
     return "diagonally implicit" if is_implicit else "explicit"
 
 
-@pytest.mark.parametrize("name", CATALOGUE)
+LONG = {
+    *("sprk_Sofroniou_10_36", "Feagin12", "sprk_KahanLi_8_18", "sprk_SuzukiUmeno_8_16"),
+    *("sprk_McAte8_26digits", "sundials_VERNER_13_7_8"),
+}
+"""Methods of many stages, which take long."""
+
+
+@pytest.mark.parametrize("name", sample([x for x in CATALOGUE if IS_WHOLE or x not in LONG], 2))
 def test_published_methods_are_what_they_are_called(name: str) -> None:
     """Explicit and diagonally implicit methods by their names; ESDIRK methods have the γ of their
     first implicit stage; those called SA are stiffly accurate and have stage order 2.

@@ -18,6 +18,7 @@ from garkcli.exact.cells import Interval
 from garkcli.exact.roots import RealRoot
 from garkcli.methodfile.load import load
 from garkcli.stability.two_frequencies import SplitSprings, slow_interval, springs, two_frequencies
+from tests.whole import at_most
 
 NAMES = ["collocation", "interpolation", "three-colours", "four-term-combination"]
 
@@ -34,7 +35,7 @@ def has(intervals: tuple[Interval, ...], x: fmpq) -> bool:
     return False
 
 
-@settings(max_examples=12)
+@settings(max_examples=at_most(5, 12))
 @given(
     st.sampled_from(NAMES),
     st.fractions(0, 3, max_denominator=4),

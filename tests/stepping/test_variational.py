@@ -22,7 +22,7 @@ import numpy as np
 import pytest
 import sympy
 from flint import arb, fmpq
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from mpmath import mpf
 
@@ -35,6 +35,7 @@ from garkcli.tableau.forms import gark, pair, spelled_out, symplectic_pair
 from garkcli.tableau.pointwise import numeric_entries
 from garkcli.tableau.tableau import Method, Tableau
 from garkcli.transfer import collocation, interpolation, symplectic_blocks
+from tests.whole import at_most, in_whole, sample
 
 H = fmpq(1, 10)
 DIGITS = 50
@@ -373,7 +374,7 @@ def imbalances(case: Case, path: Sequence[Any]) -> tuple[float, float]:
 
 @pytest.mark.parametrize(
     ("name", "digits"),
-    [*((name, MANY) for name in CASES), *((name, FLOAT_DIGITS) for name in SOME)],
+    [*((name, MANY) for name in sample([*CASES], 2)), *((name, FLOAT_DIGITS) for name in SOME)],
 )
 def test_trajectory_makes_the_discrete_action_stationary(name: str, digits: int) -> None:
     """The discrete Euler–Lagrange equations and both discrete Legendre transforms, to round-off."""
@@ -381,7 +382,9 @@ def test_trajectory_makes_the_discrete_action_stationary(name: str, digits: int)
     assert max(imbalances(case, case.path(digits, 2))) < TOLERANCES[digits]
 
 
-@pytest.mark.parametrize("name", SOME)
+@pytest.mark.parametrize(
+    "name", [pytest.param(x, marks=in_whole) if x == "plane" else x for x in SOME]
+)
 def test_derivatives_are_those_of_the_discrete_lagrangian(name: str) -> None:
     """Central differences of L_d, and of the action as the position between two steps moves: it
     does not change.
@@ -447,6 +450,7 @@ def tableaux(draw: st.DrawFn) -> Tableau:
 
 
 @given(tableaux())
+@settings(max_examples=at_most(8, 25))
 def test_any_tableau_has_a_variational_pair(tableau: Tableau) -> None:
     """Not a matter of order or consistency: random blocks and weights, to round-off."""
     case = Case(tableau, (("one", "two", "three")[tableau.size - 1], 1))
