@@ -15,6 +15,7 @@ from garkcli.order.conditions import coupling_graph
 from garkcli.tableau.pointwise import numeric_entries
 from tests.catalogue.catalogue import entries
 from tests.catalogue.method_files import method_file
+from tests.whole import sample
 
 ENTRIES = entries()
 
@@ -24,7 +25,7 @@ def _floats(rows: Iterable[Iterable[Any]]) -> Any:
     return np.array([[float(x.str(25, radius=False)) for x in row] for row in rows])
 
 
-@pytest.mark.parametrize("name", ENTRIES)
+@pytest.mark.parametrize("name", sample([*ENTRIES], 3))
 def test_brute_force_over_the_table_in_floats(name: str) -> None:
     """Every tree of the table, in floats: residuals vanish up to the verified order, and not one
     above.

@@ -14,6 +14,7 @@ import pytest
 from garkcli.cli.main import COMMANDS
 from garkcli.files import NotAFile, begin_of
 from tests.cli.harness import ROOT, Run, gark
+from tests.whole import sample
 
 METHOD = "A: [[0, 0], [1/2, 0]]\nb: [0, 1]\n"
 FAMILY = "parameters: {t: free}\nA: [[t]]\nb: [1]\n"
@@ -76,7 +77,7 @@ main(sys.argv[2:])
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")
-@pytest.mark.parametrize("command", [*READERS, "sweep spec.yaml --rows F"])
+@pytest.mark.parametrize("command", sample([*READERS, "sweep spec.yaml --rows F"], 3))
 def test_what_passes_for_a_file_is_not_waited_for(command: str, folder: Path) -> None:
     """The system calls it a regular file, and yet it has nothing to give: a word, and no wait."""
     pipe = "pipe.jsonl" if "--rows" in command else "pipe.yaml"

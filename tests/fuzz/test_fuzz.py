@@ -33,11 +33,12 @@ from tests.fuzz.inputs import RADICALS, SIGNS, WORDS, method_file, seeds, soup
 from tests.fuzz.long_run import Cases, run
 from tests.fuzz.problem_inputs import problem_file, problem_seeds, written_problem
 from tests.oracles.draws import fractions
+from tests.whole import at_most
 
 SLOWEST = 5.0
 """Seconds of the processor that no file may take before its verdict."""
 FUZZ = settings(
-    max_examples=int(os.environ.get("GARK_FUZZ_EXAMPLES", "60")),
+    max_examples=int(os.environ.get("GARK_FUZZ_EXAMPLES", at_most(20, 60))),
     deadline=None,  # that is of a clock; ``faults_of`` has the other
     derandomize=True,
     database=None,
@@ -205,7 +206,7 @@ def offset_of_fault(text: str) -> int:
     return 0
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", range(at_most(1, 3)))
 def test_method_files(seed: int) -> None:
     """Three hundred damaged files a seed: a method or its faults, each with a place in the file,
     and soon.
@@ -222,7 +223,7 @@ def test_method_files(seed: int) -> None:
     assert 0 < refused < 300
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", range(at_most(1, 3)))
 def test_problem_files(seed: int) -> None:
     """Damaged problem files: a problem or its faults, each with a place, and soon; ``make fuzz`` has
     thousands.

@@ -30,6 +30,7 @@ from garkcli.tableau.tableau import Tableau
 from garkcli.transfer import collocation
 from tests.oracles import samples
 from tests.order.rounded_samples import gauss_lobatto, in_decimals, published, rounded
+from tests.whole import in_whole
 
 SMALL = fmpq(1, 10**30)
 
@@ -89,7 +90,9 @@ def test_exact_methods_satisfy_what_they_satisfy_exactly(name: str) -> None:
     assert is_symplectic(box) == is_symplectic(tableau)
 
 
-@pytest.mark.parametrize(("stages", "digits"), [(2, 16), (4, 30), (10, 60)])
+@pytest.mark.parametrize(
+    ("stages", "digits"), [(2, 16), (4, 30), pytest.param(10, 60, marks=in_whole)]
+)
 def test_decimals_satisfy_what_the_family_does(stages: int, digits: int) -> None:
     """B, C, D of Gauss × Lobatto IIIA in decimals are those of the families within one unit of the
     last place, and the pair is symplectic.
@@ -141,7 +144,7 @@ def test_every_rounding_keeps_what_holds(name: str, seed: int) -> None:
     "make",
     [
         lambda: in_decimals(gark([diagonal_method("gauss", 5)], {}), 20),
-        lambda: published("DP8_Hairer_853"),
+        pytest.param(lambda: published("DP8_Hairer_853"), marks=in_whole),
     ],
 )
 def test_a_change_is_met_by_larger_tolerances_only(make: Callable[[], Tableau]) -> None:

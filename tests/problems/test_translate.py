@@ -13,6 +13,7 @@ from garkcli.exact.nodes import Expression
 from garkcli.problems.straightline import function
 from garkcli.problems.translate import Translator, size_of_derivatives
 from tests.exact.test_formula import FORMULAS, NAMES
+from tests.whole import in_whole
 
 SYMBOLS = {name: sympy.Symbol(name, real=True) for name in ("x", "px", "y")}
 PLAIN = Translator(SYMBOLS, {})
@@ -114,7 +115,7 @@ def test_parameters_stand_for_their_expressions() -> None:
         "x*y*px",
         "sin(x*y)*cos(px)",
         "(x + y)**8/(1 + px**2)",
-        "*".join(f"(x + {i}*y)" for i in range(1, 9)),
+        pytest.param("*".join(f"(x + {i}*y)" for i in range(1, 9)), marks=in_whole),
         "sin(sin(sin(sin(sin(x)))))",
         "1/sqrt(x**2 + y**2) + x**4*y**3 + exp(-px)",
         "+".join(f"(x - {i}*px)**4" for i in range(9)),

@@ -30,6 +30,7 @@ from garkcli.stepping.linear import linear_step
 from garkcli.tableau.forms import gark
 from garkcli.tableau.tableau import Tableau
 from tests.cli.harness import gark as gark_command
+from tests.whole import at_most
 
 METHODS = sorted(Path("methods").glob("*.gark.yaml"))
 STEPS = st.fractions(min_value="1/40", max_value=8, max_denominator=40).map(
@@ -59,7 +60,7 @@ def contains(found: OscillatorStability, x: fmpq) -> bool:
 
 
 @pytest.mark.parametrize("path", METHODS, ids=lambda path: path.name)
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=at_most(5, 15), deadline=None)
 @given(STEPS)
 def test_step_sizes_one_by_one(path: Path, h: fmpq) -> None:
     """For single step sizes R(h) is found by solving the stages, and its powers are followed exactly."""
