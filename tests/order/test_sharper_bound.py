@@ -21,7 +21,7 @@ from garkcli.transfer import RULES, combination
 from tests.oracles import samples
 from tests.oracles.brute import brute_order
 from tests.order.sharpness import counted, drawn, table
-from tests.whole import sample
+from tests.whole import IS_WHOLE, at_most, sample
 
 DOCS = Path(__file__).parents[2] / "docs/sharper-bound.md"
 
@@ -140,10 +140,10 @@ def test_no_bound_exceeds_the_order(tableau: Tableau) -> None:
 
 
 def test_the_documented_counts() -> None:
-    """docs/sharper-bound.md has the table that counting makes: of pairs whose blocks are made by
-    rules the sharper bound is the order each time.
+    """docs/sharper-bound.md has the table that counting makes, in ``make whole``: of pairs whose blocks
+    are made by rules the sharper bound is the order each time.
     """
-    assert "\n".join(table()) in DOCS.read_text(encoding="utf-8")
-    pairs = [pair(tableau) for tableau in drawn(combine=False, count=50, seed=1)]
+    assert not IS_WHOLE or "\n".join(table()) in DOCS.read_text(encoding="utf-8")
+    pairs = [pair(tableau) for tableau in drawn(combine=False, count=at_most(20, 50), seed=1)]
     found = counted(pairs)
     assert found.sharp == found.methods > found.printed
