@@ -8,7 +8,7 @@ from random import Random
 
 import pytest
 from flint import fmpq
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from garkcli.api.calls import find_stability
@@ -71,6 +71,7 @@ def assert_no_contradiction(found: Analysis) -> None:
 
 
 @settings(max_examples=at_most(4, 15))
+@example("radau-ia 3", 5, fmpq(1, 2))
 @given(
     st.sampled_from(SMALL),
     st.sampled_from([3, 5, 8, 12, 16]),
