@@ -10,6 +10,8 @@ With the standard library alone, and no code of gark; for a method, its conjugat
   2. The listed trees of order k span all: products of a listed branch and a listed forest, of
      total order k − 1, lie in the affine hull of their ψ. ψ is affine in each branch, so by
      induction over k the hull holds ψ of every tree; conditions are affine, so all of them hold.
+     Where a vertex counts w orders, k (k − 1) ⋯ is in the place of k, and k − w of k − 1; where the
+     exact solution has no such tree, b·ψ(u) = 0, and (0, ψ) is in the place of (1, ψ).
   3. The witness has one vertex more, and its condition fails.
   4. The conjugate is that of the method: b_i b_j = b_i â_ij + b_j a_ji, as bilinear forms on
      stage values. The pair is made here, of A where positions are driven and Â where momenta are.
@@ -37,8 +39,8 @@ import json
 import re
 import sys
 from fractions import Fraction
-from itertools import chain, pairwise
-from math import prod
+from itertools import chain, pairwise, product
+from math import perm, prod
 
 MOST_BYTES, MOST_COLOURS, MOST_DEGREE = 50_000_000, 100, 60
 MOST_VALUES = 10_000  # rational numbers of a stage value, in all spaces together
@@ -47,6 +49,7 @@ MOST_NUMBERS = 4_000_000  # rational numbers of all matrices of a tableau
 MOST_BYTES_ROUNDED, MOST_DIGITS, MOST_ORDER, MOST_TREES = 5_000_000, 300, 60, 2_000
 MOST_STEPS = 10_000_000  # trees × (trees + entries of matrices) × numbers
 PRINTED = "printed", "radius", "centre", "width"
+FIELD, LINEAR = (frozenset({0, 1, 2}), 1, True), (frozenset({0, 1}), 1, True)
 
 
 class NotProved(Exception):
@@ -225,27 +228,26 @@ class Space:
 
 
 class Hull:
-    """An affine hull: rows (1, vector) in echelon form, by their pivots."""
+    """The span of rows (1, vector), or (0, vector), in echelon form, by their pivots."""
 
     def __init__(self):
         self.rows = {}
 
-    def rest(self, vector):
-        row = [Fraction(1), *vector]
+    def rest(self, row):
         for pivot, known in self.rows.items():
             factor = row[pivot]
             if factor:
                 row = [a - factor * b if b else a for a, b in zip(row, known, strict=True)]
         return row
 
-    def insert(self, vector):
-        row = self.rest(vector)
+    def insert(self, row):
+        row = self.rest(row)
         pivot = next((i for i, a in enumerate(row) if a), None)
         if pivot is not None:
             self.rows[pivot] = [a / row[pivot] for a in row]
 
-    def holds(self, vector):
-        return len(self.rows) == len(vector) + 1 or not any(self.rest(vector))
+    def holds(self, row):
+        return len(self.rows) == len(row) or not any(self.rest(row))
 
 
 def read_tree(text):
@@ -259,14 +261,6 @@ def read_tree(text):
             stack[-1].append((int(token[2:] or 1) - 1, branches))
     ((tree,),) = stack
     return tree
-
-
-def order_of(tree):
-    return 1 + sum(map(order_of, tree[1]))
-
-
-def density(tree):
-    return order_of(tree) * prod(map(density, tree[1]))
 
 
 def ordered(tree):
@@ -284,23 +278,39 @@ def forests(trees, size):
 
 
 class Tableau:
-    """By colours: what they drive, if they are linear, spaces, weights; A^{l,m} where m is seen."""
+    """By colours: what they drive, kinds of vertices, spaces, weights; A^{l,m} where m is seen.
+    A kind is (numbers of branches, 2 for more; orders that it counts; whether it is exact).
+    """
 
-    def __init__(self, field, drives, linear, spaces, weights, blocks):
-        self.field, self.drives, self.linear = field, drives, linear
+    def __init__(self, field, drives, kinds, spaces, weights, blocks):
+        self.field, self.drives, self.kinds = field, drives, kinds
         self.spaces, self.b, self.blocks, self.known = spaces, weights, blocks, {}
         self.colours = range(len(drives))
+
+    def order_of(self, tree):
+        return self.kinds[tree[0]][1] + sum(map(self.order_of, tree[1]))
+
+    def factor(self, tree):
+        """Its order, as often as the root counts, each time one less."""
+        return perm(self.order_of(tree), self.kinds[tree[0]][1])
+
+    def density(self, tree):
+        return self.factor(tree) * prod(map(self.density, tree[1]))
+
+    def exact(self, tree):
+        """1, or 0 where the exact solution has no such tree."""
+        return self.kinds[tree[0]][2] * prod(map(self.exact, tree[1]))
 
     def branch(self, l, tree):
         """What a branch adds to a vertex of colour l: A ρ ψ."""
         demand((l, tree[0]) in self.blocks, "a tree that the coupling graph does not have")
-        return apply(self.blocks[l, tree[0]], [order_of(tree) * x for x in self.psi(tree)])
+        return apply(self.blocks[l, tree[0]], [self.factor(tree) * x for x in self.psi(tree)])
 
     def psi(self, tree):
         if tree not in self.known:
             l, branches = tree
-            too_many = self.linear[l] and len(branches) > 1
-            demand(not too_many, "several branches at a vertex of a linear colour")
+            is_one = min(len(branches), 2) in self.kinds[l][0]
+            demand(is_one, "a vertex with branches that its colour does not have")
             vector = self.spaces[l].one
             for branch in branches:
                 vector = self.spaces[l].product(vector, self.branch(l, branch))
@@ -310,11 +320,17 @@ class Tableau:
     def defect(self, tree):
         """b·ψ − 1/ρ, which is 0 where the order condition holds."""
         first, *others = apply(self.b[tree[0]], self.psi(tree))
-        return [first - Fraction(1, order_of(tree)), *others]
+        return [first - Fraction(self.exact(tree), self.factor(tree)), *others]
 
     def assumed(self):
         """Colours that are linear, or free of what others drive, by words or for want of blocks."""
-        found = {"linear": [l for l in self.colours if self.linear[l]]}
+        found = {"linear": [l for l in self.colours if self.kinds[l] == LINEAR]}
+        for l in self.colours if {*self.kinds} - {FIELD, LINEAR} else ():
+            arity, weight, is_exact = self.kinds[l]
+            name = (
+                f"with branches {sorted(arity)}, weight {weight}, {'' if is_exact else 'not '}exact"
+            )
+            found.setdefault(name, []).append(l)
         for m in self.colours:
             blind = [l for l in self.colours if (l, m) not in self.blocks]
             found[f"free of what {m + 1} drives"] = blind
@@ -329,7 +345,7 @@ class Tableau:
             listed.append([[read_tree(text) for text in trees] for trees in by_colour])
             for l, trees in enumerate(listed[-1]):
                 for tree in trees:
-                    demand(tree[0] == l and order_of(tree) == k, "a tree in the wrong place")
+                    demand(tree[0] == l and self.order_of(tree) == k, "a tree in the wrong place")
                     demand(not any(self.defect(tree)), f"a condition of order {k} fails")
                 self.check_span(l, k, listed)
         demand(len(listed) == data["order"], "spanning trees of another order")
@@ -340,19 +356,27 @@ class Tableau:
     def check_span(self, l, k, listed):
         """The hull of order k holds all products of listed branches and forests."""
         space, hull = self.spaces[l], Hull()
+        arity, weight, is_exact = self.kinds[l]
         for tree in listed[k - 1][l]:
-            hull.insert(self.psi(tree))
-        demand(k > 1 or hull.holds(space.one), "the tree of one vertex is missing")
-        for j in range(1, k):
-            is_alone = j == k - 1  # one branch; of several the smallest has half the order at most
-            if not is_alone and (2 * j > k - 1 or self.linear[l]):
-                continue
-            rests = [space.one] if is_alone else [self.psi(x) for x in listed[k - j - 1][l]]
-            seen = [m for m in self.colours if (l, m) in self.blocks]
-            for branch in (x for m in seen for x in listed[j - 1][m]):
-                image = self.branch(l, branch)
-                inside = all(hull.holds(space.product(image, rest)) for rest in rests)
-                demand(inside, f"the listed trees of order {k}, colour {l + 1}, do not span")
+            hull.insert([Fraction(self.exact(tree)), *self.psi(tree)])
+        if k == weight and 0 in arity:
+            demand(hull.holds([is_exact, *space.one]), "the tree of one vertex is missing")
+        seen = [m for m in self.colours if (l, m) in self.blocks]
+
+        def branches(j):
+            trees = (x for m in seen for x in listed[j - 1][m])
+            return [(self.exact(x), self.branch(l, x)) for x in trees]
+
+        for rest in range(k - weight):
+            rests, j = [(1, space.one)], k - weight - rest
+            if rest:  # several branches, of which the smallest has half the order at most
+                rests = [(self.exact(x), self.psi(x)) for x in listed[weight + rest - 1][l]]
+                rests += [] if 1 in arity else branches(rest)
+            if (2 if rest else 1) in arity and (not rest or j <= rest):
+                for (one, image), (other, vector) in product(branches(j), rests):
+                    row = [Fraction(one * other * is_exact), *space.product(image, vector)]
+                    inside = hull.holds(row)
+                    demand(inside, f"the listed trees of order {k}, colour {l + 1}, do not span")
 
     def all_trees(self, order):
         """All trees up to an order that have a condition."""
@@ -360,22 +384,26 @@ class Tableau:
         for n in range(1, order + 1):
             smaller = known[::-1]
             for l in self.colours:
+                arity, weight, _ = self.kinds[l]
                 seen = [x for x in smaller if (l, x[1][0]) in self.blocks]
-                if self.linear[l]:
-                    seen = [x for x in seen if x[0] == n - 1]
-                for branches in forests(seen, n - 1):
-                    known.append((n, ordered((l, branches))))
-                    limit(len(known), MOST_TREES, "trees")
+                if 2 not in arity:
+                    seen = [x for x in seen if x[0] == n - weight]
+                for branches in forests(seen, n - weight) if n >= weight else ():
+                    if min(len(branches), 2) in arity:
+                        known.append((n, ordered((l, branches))))
+                        limit(len(known), MOST_TREES, "trees")
         return [tree for _, tree in known]
 
     def check_witness(self, data, k):
         tree = read_tree(data["tree"])
-        demand(order_of(tree) == k, "the witness has another order")
+        demand(self.order_of(tree) == k, "the witness has another order")
         least, most = bounds(self.defect(tree), self.field.low, self.field.high)
         demand(least > 0 or most < 0, "the witness does not fail")
-        weight = [x * Fraction(k, density(tree)) for x in apply(self.b[tree[0]], self.psi(tree))]
+        scale = Fraction(self.factor(tree), self.density(tree))
+        weight = [x * scale for x in apply(self.b[tree[0]], self.psi(tree))]
         demand(self.field.number(data["value"]) == weight, "the witness has another value")
-        demand(rational(data["required"]) == Fraction(1, density(tree)), "it requires another one")
+        required = Fraction(self.exact(tree), self.density(tree))
+        demand(rational(data["required"]) == required, "it requires another one")
 
     def pairs(self):
         """The colours l, m that the symplectic form pairs; it has a word on every block."""
@@ -386,6 +414,16 @@ class Tableau:
         return found
 
 
+def read_kind(colour):
+    """What the vertices of a colour are like."""
+    own = colour.get("vertices")
+    if own is None:
+        return LINEAR if colour["linear"] else FIELD
+    arity, weight = frozenset(own["branches"]), own["weight"]
+    demand(arity <= {0, 1, 2} and weight in range(1, 10), "vertices of no kind")
+    return arity, weight, bool(own["exact"])
+
+
 def read_tableau(field, data):
     colours, spaces, degree = data["colours"], data["spaces"], field.degree
     limit(len(colours), MOST_COLOURS, "colours")
@@ -393,7 +431,7 @@ def read_tableau(field, data):
     matrices = chain.from_iterable(x["A"] for x in data["blocks"]), (c["b"] for c in colours)
     limit(sum(map(len, chain(*matrices))) * degree**2, MOST_NUMBERS, "numbers of matrices")
     spaces = [Space(field, x) for x in spaces]
-    drives, linear = [c["drives"] for c in colours], [bool(c["linear"]) for c in colours]
+    drives, kinds = [c["drives"] for c in colours], list(map(read_kind, colours))
     places = [c["space"] - 1 for c in colours]
     demand(set(drives) in ({"y"}, {"q", "p"}), "colours drive nothing")
     demand(set(places) <= set(range(len(spaces))), "a colour without a stage space")
@@ -407,12 +445,12 @@ def read_tableau(field, data):
         shape = len(rows), {len(row) for row in rows}
         demand(shape == (spaces[k].size, {of_colours[m].size}), "a block misfits")
         blocks |= {(l, m): rows for l in places_of_k}
-    return Tableau(field, drives, linear, of_colours, weights, blocks)
+    return Tableau(field, drives, kinds, of_colours, weights, blocks)
 
 
 def check_conjugate(method, other):
     """Whether b_l(f · Â g) + b_m(A f · g) = b_l(f) b_m(g) for all stage values f, g."""
-    demand((method.drives, method.linear) == (other.drives, other.linear), "other colours")
+    demand((method.drives, method.kinds) == (other.drives, other.kinds), "other colours")
     for l, m in method.pairs() + other.pairs():
         here, there = method.spaces[l], method.spaces[m]
         is_same = (here.modulus, method.b[l]) == (other.spaces[l].modulus, other.b[l])
@@ -442,7 +480,7 @@ def pair_of(method, conjugate):
     for l, m in method.pairs() if halves == [""] else ():
         is_one = method.spaces[l] is method.spaces[m]
         demand(not is_one or method.b[l] == method.b[m], "two weights at one stage")
-    parts = ([part[l] for _, l in colours] for part in (method.linear, method.spaces, method.b))
+    parts = ([part[l] for _, l in colours] for part in (method.kinds, method.spaces, method.b))
     return Tableau(method.field, [driven for driven, _ in colours], *parts, blocks)
 
 
@@ -467,20 +505,21 @@ def prove_existence(data):
     inside = all(sum(map(abs, row)) <= 1 for row in zip(*W, strict=True))
     demand(inside, "W leaves the box around the method")
     # colours with the same stages and weights have the same conditions
-    parts = [(x["space"], x["linear"], x["b"]) for x in method["colours"]]
+    colours = zip(method["colours"], here.kinds, strict=True)
+    parts = [(x["space"], kind, x["b"]) for x, kind in colours]
     needed = (x for x in here.all_trees(order) if parts.index(parts[x[0]]) == x[0])
     demand(set(needed) <= set(trees), "a condition is left out")
     for i, tree in enumerate(trees):
         row = form(here.defect(tree)[0])
         image = [abs(sum(a * column[k] for k, a in row.slopes.items())) for column in W]
         most = abs(row.centre) + row.rest + sum(image) - image[i]
-        demand(most <= image[i], f"a condition of order {order_of(tree)} may fail")
+        demand(most <= image[i], f"a condition of order {here.order_of(tree)} may fail")
     proved = f"order {order} of one within the radii, proved by {len(trees)} trees"
     if method["witness"]:
         there, missed = read_tableau(Printed([x[:2] for x in given]), method), Form(0)
         for x in method["witness"]:
             tree = read_tree(x["tree"])
-            demand(order_of(tree) <= order + 1, "the witness has another order")
+            demand(there.order_of(tree) <= order + 1, "the witness has another order")
             missed += rational(x["factor"]) * form(there.defect(tree)[0])
         demand(abs(missed.centre) > missed.reach, "the witness may vanish")
         proved += f"; order {order + 1} of none"

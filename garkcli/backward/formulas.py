@@ -12,6 +12,7 @@ from garkcli.doing import doing
 from garkcli.errors import UsageProblem
 from garkcli.exact.field import Algebraic, Number
 from garkcli.frozen import Frozen, replace
+from garkcli.ntrees.kind import LINEAR
 from garkcli.ntrees.tree import Tree
 from garkcli.order.conditions import elementary_weight
 from garkcli.order.simplifying import is_symplectic
@@ -155,11 +156,11 @@ def _with_linear_fields(bound: Binding) -> Tableau:
     for (l, _), field in bound.fields.items():
         if not field.is_linear:
             quadratic.discard(tableau.colours[l].term)
-    colours = []
-    for colour in tableau.colours:
-        is_linear = colour.is_linear or colour.term in quadratic
-        colours.append(replace(colour, is_linear=is_linear))
-    return replace(tableau, colours=tuple(colours))
+    colours = tuple(
+        replace(colour, kind=LINEAR) if colour.term in quadratic else colour
+        for colour in tableau.colours
+    )
+    return replace(tableau, colours=colours)
 
 
 MAX_OPERATIONS = 20_000

@@ -82,6 +82,7 @@ def modified_equation(tableau: Tableau, order: int) -> ModifiedEquation:
 
     Raises:
         UsageProblem: there are too many trees.
+        MethodError: it is no GARK method.
 
     >>> from garkcli import loads
     >>> midpoint = loads("methods: [{family: gauss, stages: 1}]").tableau
@@ -89,6 +90,7 @@ def modified_equation(tableau: Tableau, order: int) -> ModifiedEquation:
     >>> [(str(u), str(b)) for u, b in equation.terms(3)]
     [('[[]_1,[]_1]_1', '-1/12'), ('[[[]_1]_1]_1', '1/12')]
     """
+    tableau.demand_fields("the modified equation")
     forest = Forest.seen_by(tableau, order)
     weights = elementary_weights(tableau, forest)
     return ModifiedEquation(tableau, forest, tuple(logarithm(forest, weights)))

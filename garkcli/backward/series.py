@@ -98,7 +98,7 @@ class Forest(Frozen):
             trees.append(Tree(root, [trees[k] for k in below]))
         cutter = _Cutter(roots, branches, numbers)
         cuts = [cutter.cuts_of(number) for number in range(len(trees))]
-        starts = [row[0] for row in table.starts]
+        starts = [table.ids(n).start for n in range(1, order + 1)]
         starts.append(len(trees))
         return cls(admissible, order, tuple(trees), tuple(cuts), numbers, tuple(starts))
 
@@ -109,7 +109,7 @@ class Forest(Frozen):
         Raises:
             UsageProblem: there are too many of them.
         """
-        return cls.of(Admissible.of(tableau.size, *coupling_graph(tableau)), order)
+        return cls.of(coupling_graph(tableau), order)
 
     def of_order(self, order: int) -> range:
         """The numbers of the trees with ``order`` vertices."""
@@ -164,7 +164,7 @@ class _Cutter(Mutable):
 
 def possible_order(tableau: Tableau, order: int) -> int:
     """The largest order up to ``order`` with few enough trees."""
-    too_many = _first_beyond_limit(Admissible.of(tableau.size, *coupling_graph(tableau)), order)
+    too_many = _first_beyond_limit(coupling_graph(tableau), order)
     if too_many is None:
         return order
     first, _ = too_many

@@ -8,8 +8,8 @@ from flint import arb
 
 from garkcli.comparison.grid import DIGITS, CellRows, Grid, Likeness, difference
 from garkcli.exact.display import to_ball
-from garkcli.frozen import Frozen
-from garkcli.ntrees.count import count_by_root
+from garkcli.frozen import Frozen, replace
+from garkcli.ntrees.count import Admissible, counts_of
 from garkcli.ntrees.tree import Tree
 from garkcli.order.conditions import Condition, conditions, coupling_graph, twin_roots
 from garkcli.order.meant import AnyTableau, printed
@@ -184,27 +184,21 @@ def conditions_met(one: AnyTableau, other: AnyTableau, orders: tuple[int, int]) 
         orders: the orders that they are known to have.
     """
     tableau = printed(one)
-    edges, linear = coupling_graph(tableau)
-    others, linear_too = coupling_graph(printed(other))
-    both = tuple(
-        tuple(x and y for x, y in zip(row, second, strict=True))
-        for row, second in zip(edges, others, strict=True)
-    )
-    graph = both, linear | linear_too
+    graph = _in_both(coupling_graph(tableau), coupling_graph(printed(other)))
     # root colours, one of each group whose conditions are the same in both methods
     twins = twin_roots(tableau)
     roots = [*twins] if twins == twin_roots(printed(other)) else [*range(tableau.size)]
     pairs: list[tuple[Condition, Condition]] = []
     reached, total = 0, 0
     for order in range(1, max(orders) + 2):
-        by_root = count_by_root(tableau.size, order, *graph)
+        by_root = counts_of(graph, order)
         total += sum(by_root[root] for root in roots)
         if total > MAX_CONDITIONS:
             break
         reached = order
         if order <= min(orders):
             continue
-        trees = list(_trees(tableau.size, order, graph, roots))
+        trees = list(_trees(graph, order, roots))
         if order <= orders[0]:
             trees = [x.tree for x in conditions(other, trees) if not x.holds]
         elif order <= orders[1]:
@@ -215,12 +209,19 @@ def conditions_met(one: AnyTableau, other: AnyTableau, orders: tuple[int, int]) 
     return Met(reached, tuple(pairs))
 
 
-_Graph = tuple[tuple[tuple[bool, ...], ...], frozenset[int]]
+def _in_both(one: Admissible, other: Admissible) -> Admissible:
+    """The trees of both of two graphs."""
+    rows = zip(one.branches, other.branches, strict=True)
+    kinds = zip(one.kinds, other.kinds, strict=True)
+    return Admissible(
+        one.colours,
+        tuple(tuple(m for m in row if m in second) for row, second in rows),
+        tuple(replace(kind, arity=kind.arity & second.arity) for kind, second in kinds),
+    )
 
 
-def _trees(colours: int, order: int, graph: _Graph, roots: Sequence[int]) -> Iterator[Tree]:
-    from garkcli.ntrees.blocks import iter_blocks  # numpy is paid for here
+def _trees(graph: Admissible, order: int, roots: Sequence[int]) -> Iterator[Tree]:
+    from garkcli.ntrees.blocks import blocks_of  # numpy is paid for here
 
-    edges, linear = graph
-    for block in iter_blocks(colours, order, edges=edges, linear=linear, roots=roots):
+    for block in blocks_of(graph, order, roots=roots):
         yield from block.trees()

@@ -83,6 +83,8 @@ def in_turn(substeps: Sequence[Substep]) -> Tableau:
         MethodError: the methods are for different vector fields, or there are too many stages.
     """
     tableaus = [substep.tableau for substep in substeps]
+    for tableau in tableaus:
+        tableau.demand_fields("a composition")
     first = tableaus[0]
     for number, other in enumerate(tableaus[1:], start=2):
         if other.size != first.size:
@@ -123,7 +125,7 @@ _CURE = "compose methods of the same form and structure"
 
 def _fields(tableau: Tableau) -> tuple[object, ...]:
     """For which vector fields a method is."""
-    return tuple((x.part, x.term, x.is_linear) for x in tableau.colours), frozenset(tableau.edges())
+    return tuple((x.part, x.term, x.kind) for x in tableau.colours), frozenset(tableau.edges())
 
 
 class _Composition:
@@ -231,6 +233,7 @@ def adjoint(tableau: Tableau) -> Tableau:
     in the opposite order, so that those of a composition stay in turn; a stage algebra is
     reflected, x → 1 − x.
     """
+    tableau.demand_fields("the adjoint method")
     turns = [_turn(space) for space in tableau.spaces]
     colours = []
     for l, colour in enumerate(tableau.colours):

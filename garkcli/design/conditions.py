@@ -195,8 +195,9 @@ class FamilyConditions(Spans):
         for l, forest in self.members(order):
             _refuse_long(self._cleared.weights[l], forest.vector)
             value = dot(self._cleared.weights[l], forest.vector)
-            required = forest.scale * self._cleared.E / fmpq(order)
-            yield Condition(Tree(l, forest.branches), value - required)
+            share = forest.required(self.tableau.colours[l].kind, order)
+            required = forest.scale * self._cleared.E * share
+            yield Condition(self.tableau.tree(l, forest.branches), value - required)
 
     def _image(self, k: int, m: int, order: int, trees: Forests) -> Forests:
         block = [*chain.from_iterable(self._cleared.blocks[k, m])]
@@ -210,7 +211,9 @@ class FamilyConditions(Spans):
 
     def _joined(self, k: int, parts: Iterable[Forests]) -> Forests:  # noqa: ARG002 -- any space
         span = CoefficientSpan()
-        return [x for x in chain.from_iterable(parts) if span.insert((x.scale, *x.vector))]
+        return [
+            x for x in chain.from_iterable(parts) if span.insert((x.scale * x.exact, *x.vector))
+        ]
 
 
 def _refuse_long(u: Iterable[object], v: Iterable[object]) -> None:

@@ -1,8 +1,8 @@
-"""Affine spans over ℚ, grown by exact elimination, and where the pivots of matrices are.
+"""Spans over ℚ, grown by exact elimination, and where the pivots of matrices are.
 
-A point joins the span when it is not an affine combination of the members: when the vector (1,
-point) is linearly independent of those before. Elimination is done for many candidates at once in
-python-flint.
+A vector joins the span when it is linearly independent of the members. Of points that are vectors
+(1, point) these are the ones that are no affine combination of those before. Elimination is done
+for many candidates at once in python-flint.
 """
 
 from __future__ import annotations
@@ -30,11 +30,12 @@ def leading_columns(reduced: fmpq_mat) -> list[int]:
     return columns
 
 
-class AffineSpan:
-    """The affine hull of the points inserted so far, in ℚⁿ with n = ``dimension``.
+class Span:
+    """The span of the vectors inserted so far, in ℚⁿ with n = ``dimension``.
 
-    >>> span = AffineSpan(2)
-    >>> span.insert([[fmpq(0), fmpq(0)], [fmpq(1), fmpq(1)], [fmpq(2), fmpq(2)]])
+    >>> span = Span(3)
+    >>> one = fmpq(1)
+    >>> span.insert([[one, 0 * one, one], [one, one, one], [one, 2 * one, one]])
     [0, 1]
     >>> span.is_full
     False
@@ -42,26 +43,24 @@ class AffineSpan:
 
     def __init__(self, dimension: int) -> None:
         self.dimension = dimension
-        self._echelon = fmpq_mat(0, dimension + 1)
+        self._echelon = fmpq_mat(0, dimension)
         self._pivots: list[int] = []
 
     def __len__(self) -> int:
-        """The number of members: one more than the affine dimension."""
+        """The number of members, which is the dimension of the span."""
         return len(self._pivots)
 
     @property
     def is_full(self) -> bool:
-        """Whether every point of ℚⁿ is in the span."""
-        return len(self) == self.dimension + 1
+        """Whether every vector of ℚⁿ is in the span."""
+        return len(self) == self.dimension
 
-    def insert(self, points: Sequence[Sequence[fmpq]]) -> list[int]:
-        """Insert ``points`` from left to right; the indices of the points that enlarged the
-        span.
-        """
+    def insert(self, vectors: Sequence[Sequence[fmpq]]) -> list[int]:
+        """Insert ``vectors`` from left to right; the indices of those that enlarged the span."""
         check_time()
-        if not points or self.is_full:
+        if not vectors or self.is_full:
             return []
-        candidates = fmpq_mat([[fmpq(1), *point] for point in points])
+        candidates = fmpq_mat(vectors)
         remainders = self._reduce(candidates).tolist()
         outside = [i for i, row in enumerate(remainders) if any(row)]
         if not outside:
@@ -74,7 +73,7 @@ class AffineSpan:
         return chosen
 
     def _reduce(self, candidates: fmpq_mat) -> fmpq_mat:
-        """Candidates minus their part along the echelon rows: zero exactly for points of the
+        """Candidates minus their part along the echelon rows: zero exactly for vectors of the
         span.
         """
         if not self._pivots:

@@ -47,6 +47,7 @@ def write_tableau_file(
         parameters: what it says of each parameter in the coefficients, such as ``tau: free``.
         further: embedded weights and dense output, written beside b.
     """
+    tableau.demand_fields("a method file")
     lines = [*(f"# {line}" for line in note.splitlines()), "gark: 1", f"name: {quoted(name)}"]
     if parameters:
         lines.append(f"parameters: {{{', '.join(parameters)}}}")

@@ -10,7 +10,7 @@ import numpy as np
 
 from garkcli.frozen import Frozen
 from garkcli.ntrees.count import Admissible, Edges
-from garkcli.ntrees.table import Columns, TreeTable, first_ids, segments_of
+from garkcli.ntrees.table import Columns, Places, TreeTable, segments_of
 from garkcli.ntrees.tree import Tree
 
 if TYPE_CHECKING:
@@ -44,13 +44,14 @@ class Block(Frozen):
 
     def trees(self) -> Iterator[Tree]:
         """The trees, one after the other."""
+        tree = self.lower.admissible.tree
         stems = self.columns.stem.tolist()
         branches = self.columns.branch.tolist()
         for stem, branch, root in zip(stems, branches, self.columns.root.tolist(), strict=True):
             if branch < 0:
-                yield Tree(root)
+                yield tree(root)
                 continue
-            yield Tree(root, [*self.lower.tree(stem).branches, self.lower.tree(branch)])
+            yield tree(root, [*self.lower.tree(stem).branches, self.lower.tree(branch)])
 
 
 def iter_blocks(
@@ -70,18 +71,26 @@ def iter_blocks(
     >>> sum(len(block) for block in iter_blocks(2, 5))
     214
     """
+    return blocks_of(Admissible.of(colours, edges, linear), order, block_size, roots)
+
+
+def blocks_of(
+    admissible: Admissible,
+    order: int,
+    block_size: int = BLOCK_SIZE,
+    roots: Collection[int] | None = None,
+) -> Iterator[Block]:
+    """The same of the trees that are meant by ``admissible``."""
     if block_size < 1:
         raise ValueError(f"a block holds at least one tree, not {block_size}")
-    admissible = Admissible.of(colours, edges, linear)
-    wanted = [root for root in range(colours) if roots is None or root in roots]
+    wanted = [root for root in range(admissible.colours) if roots is None or root in roots]
     lower = TreeTable.of(admissible, max(order - 1, 1))
-    if order == 1:
-        for root in wanted:
-            yield Block(Columns.vertices(range(root, root + 1)), lower)
-        return
-    starts = first_ids(admissible, order)
+    places = Places.of(admissible, order)
     for root in wanted:
-        for _, growth in segments_of(admissible, starts, order, lower.columns, root):
+        kind = admissible.kinds[root]
+        if order == kind.weight and kind.allows(0):
+            yield Block(Columns.vertex(root, kind), lower)
+        for _, growth in segments_of(admissible, places, order, lower.columns, root):
             size = len(growth)
             for start in range(0, size, block_size):
                 yield Block(growth.make(start, min(start + block_size, size)), lower)
@@ -152,7 +161,6 @@ def _used_by_all(table: TreeTable, bits: Column) -> Column:
     """A bit for each colour that occurs, for every tree of a table."""
     used = np.zeros(len(table), np.int64)
     for order in range(1, table.max_order + 1):
-        ids = table.ids(order)
-        here = slice(ids.start, ids.stop)
-        used[here] = _used(table.columns.part(here), bits, used)
+        ids = np.flatnonzero(table.order == order)
+        used[ids] = _used(table.columns.part(ids), bits, used)
     return used

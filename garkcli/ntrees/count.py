@@ -1,9 +1,12 @@
 """How many N-trees there are: exact counts of any order, without generating a tree.
 
-The trees of order n with root l are the forests of order n - 1 that may be on l, and forests are
-counted from trees by the Euler transform: for a forest whose trees have the counts t(1), t(2), …
+The trees of order n with root l are the forests of order n - 1 that may be on l, or n - w where a
+vertex counts w orders. Forests are counted from trees by the Euler transform: for a forest whose
+trees have the counts t(1), t(2), …
 
     n f(n) = Σ_{k=1..n} c(k) f(n - k),      c(k) = Σ_{d | k} d t(d),      f(0) = 1.
+
+Of these f(n), t(n) are one branch, and the others are several.
 
 The t(n) that c(n) needs is a sum of f(n - 1), so the convolution is one of sequences that are still
 growing. It is taken in blocks, of half the orders, a quarter, and so on, each a product of
@@ -22,9 +25,11 @@ from flint import fmpz, fmpz_poly
 
 from garkcli.errors import TreeError
 from garkcli.frozen import Frozen
+from garkcli.ntrees.kind import LINEAR, PLAIN, SEVERAL, Kind
+from garkcli.ntrees.tree import Tree
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Sequence
+    from collections.abc import Collection, Iterable, Sequence
 
 SHORT = 48
 """Orders in a block that is done one by one: products of polynomials this short gain nothing."""
@@ -38,22 +43,22 @@ Colours: TypeAlias = tuple[int, ...]
 
 
 class Admissible(Frozen):
-    """Which N-trees are meant: the colours, the edges between them, and the linear colours.
+    """Which N-trees are meant: the colours, the edges between them, and the kinds of vertices.
 
-    ``branches[l]`` are the colours, in increasing order, that may be on a vertex of colour l. A
-    vertex of a linear colour carries one branch at most: its vector field is linear in what it
-    sees.
+    ``branches[l]`` are the colours, in increasing order, that may be on a vertex of colour l, and
+    ``kinds[l]`` says how many of them, and how many orders the vertex counts. A vertex of a linear
+    colour carries one branch at most: its vector field is linear in what it sees.
     """
 
     colours: int
     branches: tuple[Colours, ...]
-    linear: frozenset[int]
+    kinds: tuple[Kind, ...]
 
     @classmethod
     def of(
         cls, colours: int, edges: Edges | None = None, linear: Collection[int] = ()
     ) -> Admissible:
-        """Check and freeze; no ``edges`` means every edge.
+        """The trees of colours of which some are linear, checked; no ``edges`` means every edge.
 
         Raises ``TreeError`` when ``edges`` is not a colours × colours matrix or a colour does not
         exist.
@@ -74,23 +79,31 @@ class Admissible(Frozen):
                 what = f"linear colour {colour}"
                 message = f"{what} is not one of the {colours} colours 0, 1, …"
                 raise TreeError(message, "colours count from 0 here", code="wrong-value")
-        return cls(colours, tuple(rows), frozenset(linear))
+        return cls(
+            colours, tuple(rows), tuple(LINEAR if l in linear else PLAIN for l in everything)
+        )
+
+    def __post_init__(self) -> None:
+        if any(kind.weight < 1 for kind in self.kinds):
+            message = "trees with vertices that count no order have no end"
+            raise TreeError(message, "their order can be decided all the same", code="wrong-value")
 
     def is_linear(self, colour: int) -> bool:
-        """Whether a vertex of this colour carries one branch at most."""
-        return colour in self.linear
+        """Whether a colour has a linear vector field: a vertex carries one branch at most."""
+        return self.kinds[colour] == LINEAR
+
+    def tree(self, root: int, branches: Iterable[Tree] = ()) -> Tree:
+        """The tree with such a root."""
+        return Tree(root, branches, self.kinds[root])
 
     @property
     def leaders(self) -> Colours:
         """For each colour the first on which the same branches may be: the trees differ in their
         roots only.
         """
-        first: dict[tuple[Colours, bool], int] = {}
-        leaders = []
-        for colour, row in enumerate(self.branches):
-            nature = row, colour in self.linear
-            leaders.append(first.setdefault(nature, colour))
-        return tuple(leaders)
+        first: dict[tuple[Colours, Kind], int] = {}
+        natures = zip(self.branches, self.kinds, strict=True)
+        return tuple(first.setdefault(nature, l) for l, nature in enumerate(natures))
 
 
 Counts: TypeAlias = tuple[int, ...]
@@ -105,8 +118,8 @@ def counts_upto(admissible: Admissible, order: int) -> list[Counts]:
     [(1, 1), (1, 2), (3, 6)]
     """
     leaders = admissible.leaders
-    forests = _forests(admissible, leaders, order)
-    of_leader: dict[int, list[int]] = {leader: [*map(int, f)] for leader, f in forests.items()}
+    growing = _grown(admissible, leaders, order)
+    of_leader = {l: [int(x.trees(n)) for n in range(1, order + 1)] for l, x in growing.items()}
     by_root = [of_leader[leader] for leader in leaders]
     return [*zip(*by_root, strict=True)]
 
@@ -121,22 +134,25 @@ def count_by_root(
     >>> count_by_root(2, 4)
     (26, 26)
     """
-    admissible = Admissible.of(colours, edges, linear)
+    return counts_of(Admissible.of(colours, edges, linear), order)
+
+
+def counts_of(admissible: Admissible, order: int) -> Counts:
+    """The number of admissible trees of one order for each root colour."""
     leaders = admissible.leaders
-    forests = _forests(admissible, leaders, order)
-    return tuple(map(int, [forests[leader][-1] for leader in leaders]))
+    growing = _grown(admissible, leaders, order)
+    return tuple(int(growing[leader].trees(order)) for leader in leaders)
 
 
-def _forests(admissible: Admissible, leaders: Sequence[int], order: int) -> dict[int, list[fmpz]]:
-    """For each leader the numbers of forests f(0), …, f(order - 1) that may be on it."""
+def _grown(admissible: Admissible, leaders: Sequence[int], order: int) -> dict[int, _Growing]:
+    """For each leader the forests of order 0, …, order - 1 that may be on it."""
     if order < 1:
         message = f"the order of a tree is at least 1, not {order}"
         raise TreeError(message, "ask for order 1 or more")
     growing: dict[int, _Growing] = {}
     for leader in dict.fromkeys(leaders):
         branches = Counter(leaders[m] for m in admissible.branches[leader])
-        is_linear = admissible.is_linear(leader)
-        growing[leader] = _Growing(order, branches, is_linear)
+        growing[leader] = _Growing(order, branches, admissible.kinds[leader])
     block = order
     while block > SHORT:
         block = (block + 1) // 2
@@ -149,15 +165,17 @@ def _forests(admissible: Admissible, leaders: Sequence[int], order: int) -> dict
                 one.grow(n, start)
         for one in growing.values():
             one.spread(end, block)
-    return {leader: one.f for leader, one in growing.items()}
+    return growing
 
 
 class _Growing:
     """The forests on a colour, f(0), f(1), …, as far as they are counted."""
 
-    def __init__(self, order: int, branches: Counter[int], is_linear: bool) -> None:
+    def __init__(self, order: int, branches: Counter[int], kind: Kind) -> None:
         self.branches = branches
-        self.is_linear = is_linear
+        self.kind = kind
+        self.has_several = SEVERAL in kind.arity
+        # of any number of branches, where there may be several; else of one at most
         self.f = [fmpz(1)]
         # the trees of each order that may be branches
         self.t = [fmpz(0)]
@@ -166,19 +184,29 @@ class _Growing:
         # the part of Σ c(k) f(n - k), 0 < k < n, of blocks that are done
         self.sums = [fmpz(0)] * order
 
+    def trees(self, n: int) -> fmpz:
+        """How many trees of order n have this root."""
+        rest = n - self.kind.weight
+        arity = self.kind.arity
+        if rest <= 0:
+            return fmpz(rest == 0 and 0 in arity)
+        if 1 in arity:
+            return self.f[rest]
+        return self.f[rest] - self.t[rest] if self.has_several else fmpz(0)
+
     def see(self, n: int, growing: dict[int, _Growing]) -> None:
-        """Note the trees of order n, each a root on a forest of n - 1 vertices."""
+        """Note the trees of order n, each a root on a smaller forest."""
         t = fmpz(0)
         for leader, many in self.branches.items():
-            t += many * growing[leader].f[n - 1]
+            t += many * growing[leader].trees(n)
         self.t.append(t)
-        if not self.is_linear:
+        if self.has_several:
             for multiple in range(n, len(self.c), n):
                 self.c[multiple] += n * t
 
     def grow(self, n: int, start: int) -> None:
         """Count the forests of n vertices; what blocks before ``start`` give is known."""
-        if self.is_linear:
+        if not self.has_several:
             self.f.append(self.t[n])
             return
         f = self.f
@@ -205,7 +233,7 @@ class _Growing:
         half = (done & -done) * block  # the largest power of two that divides ``done``
         start = end - half
         stop = min(end + half, len(self.c))
-        if self.is_linear or stop <= end:
+        if not self.has_several or stop <= end:
             return
         f = self.f
         c = self.c

@@ -38,9 +38,9 @@ class StageVectors(ABC, Generic[Vectors]):
     def __init__(self, admissible: Admissible, rows: Sequence[int]) -> None:
         self.rows = rows
         self._natures = [
-            (space, admissible.branches[l], admissible.is_linear(l)) for l, space in enumerate(rows)
+            (space, admissible.branches[l], admissible.kinds[l]) for l, space in enumerate(rows)
         ]
-        self._vectors: dict[tuple[int, object], Vectors] = {}
+        self._vectors: dict[tuple[int, object, bool], Vectors] = {}
         self._images: dict[tuple[int, int, int], Vectors] = {}
 
     def everything(self, table: TreeTable) -> Iterator[tuple[int, slice, Vectors]]:
@@ -48,10 +48,11 @@ class StageVectors(ABC, Generic[Vectors]):
         highest order are never held together.
         """
         highest = table.max_order
-        for order in range(1, max(highest, 2)):
+        kinds = table.admissible.kinds
+        for order in range(1, highest + 1):
             for l in range(table.colours):
                 ids = table.ids(order, l)
-                if ids:
+                if ids and (order < highest or order == kinds[l].weight):
                     yield l, slice(ids.start, ids.stop), self.of(table, order, l)
         for segment in table.segments:
             if segment.order == highest:
@@ -60,10 +61,16 @@ class StageVectors(ABC, Generic[Vectors]):
 
     def of(self, table: TreeTable, order: int, l: int) -> Vectors:
         """Those of the trees of an order with root colour l; there is one at least."""
-        key = order, self._natures[l]
+        return self._some(table, order, l, is_bare=False)
+
+    def _some(self, table: TreeTable, order: int, l: int, is_bare: bool) -> Vectors:
+        """Those of trees, or of bare stems."""
+        key = order, self._natures[l], is_bare
         if key not in self._vectors:
-            parts = [self._vertex(l)] if order == 1 else []
-            for segment in table.segments:
+            kind = table.admissible.kinds[l]
+            arity = kind.stems if is_bare else kind.arity
+            parts = [self._vertex(l)] if order == kind.weight and 0 in arity else []
+            for segment in table.bare if is_bare else table.segments:
                 if segment.order == order and segment.root == l:
                     parts += [vectors for _, vectors in self._pieces(table, segment)]
             self._vectors[key] = parts[0] if len(parts) == 1 else self._joined(parts)
@@ -79,7 +86,9 @@ class StageVectors(ABC, Generic[Vectors]):
 
     def stems(self, table: TreeTable, segment: Segment) -> Vectors:
         """𝒜^[stem] of all stems that a segment chooses from."""
-        return self.of(table, segment.order - segment.branch_order, segment.root)
+        order, root = segment.order - segment.branch_order, segment.root
+        is_bare = segment.stems.start not in table.ids(order, root)
+        return self._some(table, order, root, is_bare)
 
     def _pieces(self, table: TreeTable, segment: Segment) -> Iterator[tuple[slice, Vectors]]:
         space, ids = self.rows[segment.root], segment.ids

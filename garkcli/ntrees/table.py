@@ -4,7 +4,8 @@ smaller ones.
 Every tree with two vertices or more is uniquely u = stem ∘ branch: the branch is the last one of
 the root, the one with the largest id. For a given stem the admissible branches of one order and
 root colour are a contiguous range of ids, so that a whole order is made with ``repeat`` and
-``arange``.
+``arange``. Where a vertex with no branch or one is no tree, but has trees with more, the table has
+it beside the trees, as a *bare stem*.
 
 >>> table = TreeTable.upto(1, 4)
 >>> table.notation(range(len(table)), colours=False)
@@ -23,11 +24,12 @@ import numpy as np
 
 from garkcli.errors import UsageProblem, counted
 from garkcli.frozen import Frozen
-from garkcli.ntrees.count import Admissible, Edges, counts_upto
+from garkcli.ntrees.count import Admissible, Counts, Edges, counts_upto
+from garkcli.ntrees.kind import SEVERAL, Arity, Kind
 from garkcli.ntrees.tree import Tree
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Sequence
+    from collections.abc import Collection, Iterable, Iterator, Sequence
 
     from numpy.typing import DTypeLike
 
@@ -70,16 +72,16 @@ class Columns(Frozen):
         return cls(*ids, *small, *[np.empty(length, exact) for _ in range(2)])
 
     @classmethod
-    def vertices(cls, roots: range) -> Columns:
-        """The trees of order 1 with these root colours."""
-        made = cls.empty(len(roots), np.int64)
+    def vertex(cls, root: int, kind: Kind) -> Columns:
+        """The tree of a single vertex of a colour."""
+        made = cls.empty(1, np.int64)
         made.stem[:] = -1
         made.branch[:] = -1
-        made.root[:] = roots
+        made.root[:] = root
         made.multiplicity[:] = 0
-        made.order[:] = 1
+        made.order[:] = kind.weight
         made.sigma[:] = 1
-        made.gamma[:] = 1
+        made.gamma[:] = kind.integrated(kind.weight)
         return made
 
     def __len__(self) -> int:
@@ -125,13 +127,16 @@ class Segment(Frozen):
 class Growth:
     """The trees of one segment to be, counted at once and made in pieces as large as asked for.
 
-    ``lower``: the columns of all trees of lower order, at least; ``stems``, ``branches``: the ids
-    of the possible parents, of one order and root colour each.
+    ``lower``: the columns of all trees of lower order, at least; ``kind``: of the root; ``stems``,
+    ``branches``: the ids of the possible parents, of one order and root colour each.
     """
 
-    def __init__(self, lower: Columns, order: int, stems: range, branches: range) -> None:
+    def __init__(
+        self, lower: Columns, order: int, kind: Kind, stems: range, branches: range
+    ) -> None:
         self.lower = lower
         self.order = order
+        self.kind = kind
         self.stems = stems
         self._last = lower.branch[stems.start : stems.stop]
         self._begin = np.maximum(self._last, branches.start)
@@ -176,8 +181,9 @@ class Growth:
         sigma = np.repeat(lower.sigma[stems].astype(exact, copy=False), count) * lower.sigma[branch]
         sigma[repeated] *= multiplicity[repeated]
         # γ of the stem with the order of the new tree in the place of its own
-        stem_order = int(lower.order[stems.start])
-        with_order = lower.gamma[stems].astype(exact, copy=False) // stem_order * order
+        of_stem = self.kind.integrated(int(lower.order[stems.start]))
+        with_order = lower.gamma[stems].astype(exact, copy=False) // of_stem
+        with_order *= self.kind.integrated(order)
         gamma = np.repeat(with_order, count) * lower.gamma[branch]
         stem_ids = np.arange(stems.start, stems.stop)
         root = lower.root[stems.start]
@@ -294,16 +300,17 @@ class TreeTable(Frozen):
     branch.
 
     A tree's id is its position. The ids of one order and root colour are contiguous: :meth:`ids`.
-    The order of ids is the order of :class:`Tree`. The columns are read-only arrays; see
-    :class:`Columns`.
+    The order of ids is the order of :class:`Tree`. The bare stems of an order come after its trees.
+    The columns are read-only arrays; see :class:`Columns`.
     """
 
     admissible: Admissible
     max_order: int
     columns: Columns
-    # [order - 1][root]: the first id; one more entry for the end
-    starts: tuple[tuple[int, ...], ...]
+    places: Places
     segments: tuple[Segment, ...]
+    # of the bare stems
+    bare: tuple[Segment, ...]
 
     @cached_property
     def _texts(self) -> dict[bool, Texts]:
@@ -328,16 +335,19 @@ class TreeTable(Frozen):
     @classmethod
     def of(cls, admissible: Admissible, order: int) -> TreeTable:
         """Generate the table of the trees meant by ``admissible``."""
-        starts = first_ids(admissible, order)
-        size = starts[-1][-1]
+        places = Places.of(admissible, order)
+        size = places.size
         if size > MAX_TREES:
             raise _too_large(size, admissible.colours, order)
         columns = Columns.empty(size, exact_dtype(order))
-        columns.write(0, Columns.vertices(range(admissible.colours)))
         segments: list[Segment] = []
-        for n in range(2, order + 1):
-            segments += _fill(columns, admissible, starts, n)
-        return cls(admissible, order, columns.freeze(), starts, tuple(segments))
+        bare: list[Segment] = []
+        for n in range(1, order + 1):
+            for root in range(admissible.colours):
+                of_root = _Root(admissible, places, columns, n, root)
+                segments += of_root.fill(places.trees(n, root), admissible.kinds[root].arity)
+                bare += of_root.fill(places.bare(n, root), admissible.kinds[root].stems)
+        return cls(admissible, order, columns.freeze(), places, tuple(segments), tuple(bare))
 
     def __len__(self) -> int:
         return len(self.columns)
@@ -346,6 +356,18 @@ class TreeTable(Frozen):
     def colours(self) -> int:
         """The number N of colours."""
         return self.admissible.colours
+
+    @cached_property
+    def is_exact(self) -> Column:
+        """For each tree whether the exact solution has every vertex."""
+        kinds = self.admissible.kinds
+        exact = np.array([kind.is_exact for kind in kinds])[self.root]
+        if all(kind.is_exact for kind in kinds):
+            return exact
+        for order in range(1, self.max_order + 1):
+            ids = np.flatnonzero((self.order == order) & (self.stem >= 0))
+            exact[ids] &= exact[self.stem[ids]] & exact[self.branch[ids]]
+        return exact
 
     @property
     def stem(self) -> Column:
@@ -364,7 +386,7 @@ class TreeTable(Frozen):
 
     @property
     def order(self) -> Column:
-        """ρ(u), the number of vertices."""
+        """ρ(u), the number of vertices, each as often as its kind counts."""
         return self.columns.order
 
     @property
@@ -384,10 +406,7 @@ class TreeTable(Frozen):
 
     def ids(self, order: int, root: int | None = None) -> range:
         """The ids of the trees of one order, all of them or those with one root colour (from 0)."""
-        starts = self.starts[order - 1]
-        if root is None:
-            return range(starts[0], starts[-1])
-        return range(starts[root], starts[root + 1])
+        return self.places.trees(order, root)
 
     def tree(self, tree_id: int) -> Tree:
         """The tree with an id; raises ``IndexError`` when there is none."""
@@ -405,7 +424,7 @@ class TreeTable(Frozen):
                     self._branches[last] = known
             branches.append(known)
             u = int(stem[u])
-        return Tree(int(self.columns.root[u]), branches)
+        return self.admissible.tree(int(self.columns.root[u]), branches)
 
     def notation(self, ids: Iterable[int] | Column, colours: bool = True) -> list[str]:
         """Bracket text of many trees, the same as ``format_tree``, built from the texts of their
@@ -436,47 +455,102 @@ def _too_large(size: int, colours: int, order: int) -> TableTooLarge:
     )
 
 
-def first_ids(admissible: Admissible, order: int) -> tuple[tuple[int, ...], ...]:
-    """The first id of each order and root colour, as in ``TreeTable.starts``."""
-    starts: list[tuple[int, ...]] = []
-    first = 0
-    for counts in counts_upto(admissible, order):
-        starts.append(tuple(accumulate(counts, initial=first)))
-        first = starts[-1][-1]
-    return tuple(starts)
+class Places(Frozen):
+    """Where the trees of a table are: ids by order and root colour."""
+
+    # [order - 1][root]: the first id of the trees, then of the bare stems; one more entry for the
+    # end
+    starts: tuple[tuple[int, ...], ...]
+
+    @classmethod
+    def of(cls, admissible: Admissible, order: int) -> Places:
+        """Those of all trees up to an order."""
+        starts: list[tuple[int, ...]] = []
+        first = 0
+        counts = counts_upto(admissible, order)
+        for n, trees in enumerate(counts, start=1):
+            bare = [_count_bare(admissible, counts, n, root) for root in range(len(trees))]
+            starts.append(tuple(accumulate([*trees, *bare], initial=first)))
+            first = starts[-1][-1]
+        return cls(tuple(starts))
+
+    @property
+    def size(self) -> int:
+        """How many there are."""
+        return self.starts[-1][-1]
+
+    def trees(self, order: int, root: int | None = None) -> range:
+        """The ids of the trees of one order, all of them or those with one root colour."""
+        starts = self.starts[order - 1]
+        if root is None:
+            return range(starts[0], starts[len(starts) // 2])
+        return range(starts[root], starts[root + 1])
+
+    def bare(self, order: int, root: int) -> range:
+        """The ids of the bare stems."""
+        starts = self.starts[order - 1]
+        place = len(starts) // 2 + root
+        return range(starts[place], starts[place + 1])
+
+
+def _count_bare(admissible: Admissible, counts: Sequence[Counts], order: int, root: int) -> int:
+    """How many bare stems of an order have a root."""
+    kind = admissible.kinds[root]
+    rest = order - kind.weight
+    if rest <= 0:
+        return int(rest == 0 and 0 in kind.stems)
+    if 1 not in kind.stems:
+        return 0
+    return sum(counts[rest - 1][m] for m in admissible.branches[root])
+
+
+class _Root(Frozen):
+    """What becomes trees of one order and root colour; the lower orders are in the columns."""
+
+    admissible: Admissible
+    places: Places
+    lower: Columns
+    order: int
+    root: int
+
+    def growths(self, ids: range, arity: Arity) -> Iterator[tuple[Segment, Growth]]:
+        """The segments that are not empty, with what makes their trees.
+
+        Args:
+            ids: of the trees, a single vertex aside.
+            arity: how many branches they have.
+        """
+        kind = self.admissible.kinds[self.root]
+        start = ids.start
+        for branch_order in range(1, self.order - kind.weight + 1):
+            rest = self.order - branch_order
+            if (1 if rest == kind.weight else SEVERAL) not in arity:
+                continue
+            of_rest = self.places.trees(rest, self.root), self.places.bare(rest, self.root)
+            for colour in self.admissible.branches[self.root]:
+                branches = self.places.trees(branch_order, colour)
+                for stems in filter(None, of_rest):
+                    growth = Growth(self.lower, self.order, kind, stems, branches)
+                    if not len(growth):
+                        continue
+                    here = range(start, start + len(growth))
+                    start = here.stop
+                    made = self.order, self.root, branch_order, colour, here, stems, branches
+                    yield Segment(*made), growth
+
+    def fill(self, ids: range, arity: Arity) -> Iterator[Segment]:
+        """Write the trees into the columns."""
+        kind = self.admissible.kinds[self.root]
+        if ids and self.order == kind.weight:
+            self.lower.write(ids.start, Columns.vertex(self.root, kind))
+        for segment, growth in self.growths(ids, arity):
+            self.lower.write(segment.ids.start, growth.make(0, len(growth)))
+            yield segment
 
 
 def segments_of(
-    admissible: Admissible, starts: Sequence[Sequence[int]], order: int, lower: Columns, root: int
-) -> list[tuple[Segment, Growth]]:
+    admissible: Admissible, places: Places, order: int, lower: Columns, root: int
+) -> Iterator[tuple[Segment, Growth]]:
     """The segments of one order and root colour that are not empty, with what makes their trees."""
-    made = []
-    start = starts[order - 1][root]
-    for branch_order in range(1, order):
-        rest = order - branch_order
-        if rest > 1 and admissible.is_linear(root):
-            continue
-        of_rest = starts[rest - 1]
-        stems = range(of_rest[root], of_rest[root + 1])
-        firsts = starts[branch_order - 1]
-        for colour in admissible.branches[root]:
-            branches = range(firsts[colour], firsts[colour + 1])
-            growth = Growth(lower, order, stems, branches)
-            if not len(growth):
-                continue
-            ids = range(start, start + len(growth))
-            made.append((Segment(order, root, branch_order, colour, ids, stems, branches), growth))
-            start = ids.stop
-    return made
-
-
-def _fill(
-    columns: Columns, admissible: Admissible, starts: Sequence[Sequence[int]], order: int
-) -> list[Segment]:
-    """Write the trees of one order into the table; the lower orders are there already."""
-    segments = []
-    for root in range(admissible.colours):
-        for segment, growth in segments_of(admissible, starts, order, columns, root):
-            columns.write(segment.ids.start, growth.make(0, len(growth)))
-            segments.append(segment)
-    return segments
+    of_root = _Root(admissible, places, lower, order, root)
+    return of_root.growths(places.trees(order, root), admissible.kinds[root].arity)

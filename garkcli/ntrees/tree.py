@@ -7,6 +7,7 @@ from itertools import groupby
 from math import factorial, prod
 from typing import TYPE_CHECKING
 
+from garkcli.ntrees.kind import PLAIN, Kind
 from garkcli.upward import Shown, answered
 
 if TYPE_CHECKING:
@@ -23,7 +24,8 @@ class Tree(Shown):
         root: the colour l, counted from 0 as ``Tree(root, branches)`` takes it; ``colour`` is the
             same counted from 1.
         branches: the trees u_i, in one canonical order.
-        order: ρ(u), the number of vertices.
+        kind: what the root is like.
+        order: ρ(u), the number of vertices, each as often as its kind counts.
 
     >>> cherry = Tree(0, [Tree(1), Tree(1)])
     >>> cherry.order, cherry.density, cherry.symmetry
@@ -35,13 +37,14 @@ class Tree(Shown):
     2.
     """
 
-    __slots__ = ("__dict__", "branches", "order", "root")
+    __slots__ = ("__dict__", "branches", "kind", "order", "root")
 
-    def __init__(self, root: int, branches: Iterable[Tree] = ()) -> None:
+    def __init__(self, root: int, branches: Iterable[Tree] = (), kind: Kind = PLAIN) -> None:
         self.root = root
+        self.kind = kind
         ordered = sorted(branches, key=Tree.sort_key)
         self.branches: tuple[Tree, ...] = tuple(ordered)
-        self.order: int = 1 + sum(u.order for u in ordered)
+        self.order: int = kind.weight + sum(u.order for u in ordered)
 
     def sort_key(self) -> tuple[object, ...]:
         """A total order on trees, the one of the tree table's ids.
@@ -58,8 +61,13 @@ class Tree(Shown):
 
     @cached_property
     def density(self) -> int:
-        """γ(u) = ρ(u) γ(u_1) … γ(u_m)."""
-        return self.order * prod([u.density for u in self.branches])
+        """γ(u) = ρ(u) γ(u_1) … γ(u_m); of a root of weight 2 it begins with ρ(u) (ρ(u) − 1)."""
+        return self.kind.integrated(self.order) * prod([u.density for u in self.branches])
+
+    @cached_property
+    def is_exact(self) -> bool:
+        """Whether the exact solution has every vertex."""
+        return self.kind.is_exact and all(u.is_exact for u in self.branches)
 
     @cached_property
     def symmetry(self) -> int:

@@ -6,8 +6,9 @@ order and root colour is
 
     ψ(u) = Σ λ_i ψ_i + e,      Σ λ_i = 1,      Σ|λ_i| ≤ Λ,      |e| ≤ ε,      |ψ(u)| ≤ π,
 
-with one Λ for all trees, and vectors ε and π that hold entry by entry. The order condition of u is
-b_lᵀ ψ(u) = 1/ρ, and it is missed by at most
+with one Λ for all trees, and vectors ε and π that hold entry by entry. (Where the exact solution
+does not have all trees the sum is over the members that it has, and 0 of trees that it has not.)
+The order condition of u is b_lᵀ ψ(u) = 1/ρ, and it is missed by at most
 
     Λ max_i |b_lᵀ ψ_i − 1/ρ| + |b_l|ᵀ ε.
 
@@ -19,7 +20,7 @@ good or bad.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import reduce
 from itertools import chain
 from operator import add
@@ -89,23 +90,29 @@ class ApproximateSpans(OrderByOrder[_Hull]):
         with ctx.workprec(self.enclosure.bits):
             for l, b in enumerate(self.enclosure.b):
                 hull = self.of_trees(l, order)
+                kind = self.tableau.colours[l].kind
                 weights = b.entries()
-                required = arb(1) / order
                 worst = arb(0)
                 for member in hull.members:
+                    required = arb(member.required(kind, order))
                     defect = abs(scalar_product(weights, member.vector) - required)
                     worst = worst.max(defect)
-                    tree = Tree(l, member.branches)
-                    members.append((defect * order / tree.density, tree))
+                    tree = self.tableau.tree(l, member.branches)
+                    members.append((defect * kind.integrated(order) / tree.density, tree))
                 beyond = scalar_product(_absolute(weights), hull.error)
                 bound = bound.max(hull.weight * worst + beyond)
         members.sort(key=lambda x: float(x[0].mid()), reverse=True)
         return HullSizes(bound.abs_upper(), members)
 
     def _image(self, k: int, m: int, order: int, trees: _Hull) -> _Hull:
-        A = self.enclosure.A[k, m] * order
-        members = [Forest(_image(A, x.vector), (Tree(m, x.branches),)) for x in trees.members]
-        absolute = self._absolute[k, m] * order
+        kind = self.tableau.colours[m].kind
+        factor = kind.integrated(order)
+        A = self.enclosure.A[k, m] * factor
+        members = [
+            Forest(_image(A, x.vector), (Tree(m, x.branches, kind),), exact=x.exact * kind.is_exact)
+            for x in trees.members
+        ]
+        absolute = self._absolute[k, m] * factor
         return _Hull(
             members, trees.weight, _image(absolute, trees.error), _image(absolute, trees.size)
         )
@@ -116,8 +123,13 @@ class ApproximateSpans(OrderByOrder[_Hull]):
         The bush comes first: its density is the least, so that where an order fails it often shows
         it.
         """
-        products = (_product(branch, rest) for branch, rest in self._splits(k, order))
-        return self._joined(k, chain(products, [self.branches(k, order)]))
+        return self._joined(k, chain(self._products(k, order), [self.branches(k, order)]))
+
+    def _new_several(self, k: int, order: int) -> _Hull:
+        return self._joined(k, self._products(k, order))
+
+    def _products(self, k: int, order: int) -> Iterator[_Hull]:
+        return (_product(branch, rest) for branch, rest in self._splits(k, order))
 
     def _joined(self, k: int, parts: Iterable[_Hull]) -> _Hull:
         hulls = [hull for hull in parts if hull.members]
@@ -137,7 +149,7 @@ def _unit(stages: int) -> _Hull:
 
 def _product(x: _Hull, y: _Hull) -> _Hull:
     members = [
-        Forest(times(v.vector, w.vector), v.branches + w.branches)
+        Forest(times(v.vector, w.vector), v.branches + w.branches, exact=v.exact * w.exact)
         for v in x.members
         for w in y.members
     ]
@@ -148,7 +160,7 @@ def _product(x: _Hull, y: _Hull) -> _Hull:
 def _reduced(hulls: Sequence[_Hull], grain: arb) -> _Hull:
     """Few of the members of all hulls, and bounds that hold for everything in any of them."""
     members = [member for hull in hulls for member in hull.members]
-    points: Rows = [[arb(1), *member.vector] for member in members]
+    points: Rows = [[arb(member.exact), *member.vector] for member in members]
     chosen, weights = _affine_weights(points, grain)
     kept = [members[i] for i in chosen]
     misses = arb_mat(points) - weights * arb_mat([points[i] for i in chosen])
@@ -167,7 +179,7 @@ def _around(kept: Sequence[Forest], hull: _Hull, weights: Rows, misses: Rows) ->
     """The bounds of one hull around the members that are kept.
 
     ``weights`` and ``misses`` have a row for each member of the hull: its λ in the members kept,
-    and what these leave of (1, ψ).
+    and what these leave of (1, ψ), or of (0, ψ) where the exact solution has no such tree.
     """
     amount = arb(0)
     for row in weights:
@@ -188,7 +200,8 @@ def _affine_weights(points: Rows, grain: arb) -> tuple[Places, arb_mat]:
     """Which of the points (1, ψ) become members, and λ of each point in them: a row that sums to 1.
 
     The true λ solve the equations of as many coordinates as there are members, that of the ones
-    among them, so balls around the solution hold weights whose sum is exactly 1.
+    among them, so balls around the solution hold weights whose sum is exactly 1. Points (0, ψ) of
+    trees that the exact solution does not have are no different; alone they need no such equation.
     """
     chosen, columns = _pivots(arb_mat(points), grain)
     while True:
@@ -208,11 +221,13 @@ def _pivots(points: arb_mat, grain: arb) -> tuple[Places, Places]:
     """Rows far from each other's affine hull, and as many columns, by elimination with the largest
     pivots.
 
-    The first column, of ones, comes first: combinations of rows that agree in it are affine.
+    The first column comes first, with a row that has 1 in it: combinations of rows that agree in it
+    are affine. Where it is 0 everywhere the largest entry comes first.
     """
     rest = points.mid()
-    rows = [0]
-    columns = [0]
+    ones = [i for i in range(rest.nrows()) if rest[i, 0] != 0]
+    i, j = (ones[0], 0) if ones else _largest(rest)[0]
+    rows, columns = [i], [j]
     while True:
         i = rows[-1]
         j = columns[-1]
@@ -222,13 +237,18 @@ def _pivots(points: arb_mat, grain: arb) -> tuple[Places, Places]:
         rest = (rest - column * pivot_row).mid()
         if len(rows) == min(rest.nrows(), rest.ncols()):
             return rows, columns
-        sizes = [*map(float, _absolute(rest.entries()))]
-        largest = max(sizes)
+        (i, j), largest = _largest(rest)
         if largest <= float(grain):
             return rows, columns
-        i, j = divmod(sizes.index(largest), rest.ncols())
         rows.append(i)
         columns.append(j)
+
+
+def _largest(matrix: arb_mat) -> tuple[tuple[int, int], float]:
+    """Where the largest entry is, and how large."""
+    sizes = [*map(float, _absolute(matrix.entries()))]
+    largest = max(sizes)
+    return divmod(sizes.index(largest), matrix.ncols()), largest
 
 
 def _absolute(row: Sequence[arb]) -> Entries:

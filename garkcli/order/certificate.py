@@ -6,7 +6,9 @@ Instead of evaluating every tree, carry along the affine spans of the normalised
 
 in which the order condition of u reads b_lᵀ ψ(u) = 1/ρ(u). The right-hand side depends on the order
 alone and ψ is affine in each branch, so all conditions of one order hold if and only if they hold
-for a set of trees whose ψ span, and there are at most s + 1 of those a colour.
+for a set of trees whose ψ span, and there are at most s + 1 of those a colour. Where trees occur
+that the exact solution does not have, the spans are those of (ε(u), ψ(u)), with ε(u) = 0 for these
+and 1 for the others.
 ``docs/exact-order.md`` has the proof.
 """
 
@@ -19,7 +21,7 @@ from flint import fmpq
 from garkcli.doing import doing
 from garkcli.exact.field import Number, flat
 from garkcli.exact.matrix import LinearMap, dot
-from garkcli.exact.span import AffineSpan
+from garkcli.exact.span import Span
 from garkcli.frozen import Frozen
 from garkcli.ntrees.tree import Tree
 from garkcli.order.recursion import Forest, Forests, Spans
@@ -38,7 +40,7 @@ class Witness(Shown, Frozen):
     Attributes:
         tree: the tree u.
         value: b_lᵀ 𝒜^[u], exact.
-        required: 1/γ(u).
+        required: 1/γ(u), or 0 where the exact solution has no such tree.
     """
 
     tree: Tree
@@ -115,10 +117,11 @@ def _failing(tableau: Tableau, spans: StageSpans, order: int) -> Witness | None:
     is_symbol = tableau.field is not None and not tableau.field.radicals
     can_be_rounded = not is_symbol and any(isinstance(x, PointSpace) for x in tableau.spaces)
     for l, forest in spans.members(order):
-        value = dot(tableau.colours[l].b, forest.vector)
-        if value == fmpq(1, order):
+        colour = tableau.colours[l]
+        value = dot(colour.b, forest.vector)
+        if value == forest.required(colour.kind, order):
             continue
-        witness = witness_of(Tree(l, forest.branches), value)
+        witness = witness_of(tableau.tree(l, forest.branches), value)
         if largest is None and not (can_be_rounded and within(witness.residual, unnatural(order))):
             return witness
         if largest is None or _size(witness) > _size(largest):
@@ -135,7 +138,15 @@ def _size(witness: Witness) -> float:
 
 def witness_of(tree: Tree, normalised: Number, share: int = 1) -> Witness:
     """The witness whose tree has b_lᵀ ψ(u) = ``normalised`` instead of share/ρ(u)."""
-    return Witness(tree, normalised * fmpq(tree.order, tree.density), fmpq(share, tree.density))
+    value = normalised * fmpq(tree.kind.integrated(tree.order), tree.density)
+    return Witness(tree, value, required_of(tree, share))
+
+
+def required_of(tree: Tree, share: int = 1) -> fmpq:
+    """What the elementary weight of a tree should be: share/γ(u), or 0 where the exact solution has
+    no such tree.
+    """
+    return fmpq(share * tree.is_exact, tree.density)
 
 
 class StageSpans(Spans):
@@ -147,10 +158,11 @@ class StageSpans(Spans):
         self.degree = tableau.degree
 
     def _joined(self, k: int, parts: Iterable[Forests]) -> Forests:
-        span = AffineSpan(self.tableau.spaces[k].stages * self.degree)
+        span = Span(1 + self.tableau.spaces[k].stages * self.degree)
         members: list[Forest] = []
         for part in parts:
-            members += [part[i] for i in span.insert([flat(x.vector, self.degree) for x in part])]
+            rows = [(fmpq(x.exact), *flat(x.vector, self.degree)) for x in part]
+            members += [part[i] for i in span.insert(rows)]
             if span.is_full:
                 break
         return members
@@ -171,7 +183,7 @@ def all_spanning_trees(
     spans = StageSpans(tableau)
     for order in orders:
         yield tuple(
-            tuple(Tree(l, forest.branches) for forest in spans.of_trees(l, order))
+            tuple(tableau.tree(l, forest.branches) for forest in spans.of_trees(l, order))
             for l in range(tableau.size)
         )
 

@@ -10,8 +10,9 @@ from flint import fmpq
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import dot
 from garkcli.frozen import Frozen, replace
-from garkcli.ntrees.count import count_by_root
+from garkcli.ntrees.count import Admissible, counts_of
 from garkcli.ntrees.tree import Tree
+from garkcli.order.certificate import required_of
 from garkcli.order.tree_vectors import TreeVectors
 from garkcli.tableau.tableau import Colour, Tableau
 from garkcli.upward import Shown
@@ -41,8 +42,8 @@ class Condition(Shown, Frozen):
 
     @property
     def required(self) -> fmpq:
-        """1/γ(u)."""
-        return fmpq(1, self.tree.density)
+        """1/γ(u), or 0 where the exact solution has no such tree."""
+        return required_of(self.tree)
 
     @property
     def residual(self) -> Number:
@@ -62,7 +63,7 @@ class Condition(Shown, Frozen):
     @property
     def trees(self) -> tuple[Tree, ...]:
         """The tree with its own root colour and with those of its twins."""
-        return (self.tree, *[Tree(l, self.tree.branches) for l in self.twins])
+        return (self.tree, *[Tree(l, self.tree.branches, self.tree.kind) for l in self.twins])
 
     @property
     def is_coupling(self) -> bool:
@@ -86,9 +87,9 @@ def conditions(method: AnyTableau, trees: Iterable[Tree]) -> Iterator[Condition]
     """
     tableau = method if isinstance(method, Tableau) else method.tableau
     vectors = TreeVectors(tableau)
-    for tree in trees:
+    for tree in map(tableau.known, trees):
         value = dot(tableau.colours[tree.root].b, vectors.of(tree))
-        if isinstance(method, Tableau) or value == fmpq(1, tree.density):
+        if isinstance(method, Tableau) or value == required_of(tree):
             yield Condition(tree, value)
         else:
             yield Condition(tree, value, method.allowed(tree), is_met=method.meets(tree))
@@ -104,8 +105,8 @@ def elementary_weight(tableau: Tableau, tree: Tree) -> Number:
 
 
 def is_admissible(tableau: Tableau, tree: Tree) -> bool:
-    """Whether every parent sees its branches and no linear colour has two branches."""
-    if tableau.colours[tree.root].is_linear and len(tree.branches) > 1:
+    """Whether every parent sees its branches and may have as many."""
+    if not tableau.colours[tree.root].kind.allows(len(tree.branches)):
         return False
     for branch in tree.branches:
         if tableau.block(tree.root, branch.root) is None:
@@ -115,13 +116,11 @@ def is_admissible(tableau: Tableau, tree: Tree) -> bool:
     return True
 
 
-def coupling_graph(tableau: Tableau) -> tuple[tuple[tuple[bool, ...], ...], frozenset[int]]:
-    """Which trees are admissible: ``edges[l][m]`` whether colour l sees colour m, and the linear
-    colours.
-    """
+def coupling_graph(tableau: Tableau) -> Admissible:
+    """Which trees are admissible: which colours see which, and what their vertices are like."""
     colours = range(tableau.size)
-    edges = tuple(tuple(tableau.block(l, m) is not None for m in colours) for l in colours)
-    return edges, frozenset(l for l in colours if tableau.colours[l].is_linear)
+    branches = tuple(tuple(m for m in colours if tableau.block(l, m) is not None) for l in colours)
+    return Admissible(tableau.size, branches, tuple(colour.kind for colour in tableau.colours))
 
 
 def twin_roots(tableau: Tableau) -> dict[int, tuple[int, ...]]:
@@ -143,16 +142,15 @@ def twin_roots(tableau: Tableau) -> dict[int, tuple[int, ...]]:
 
 
 def _are_twins(one: Colour, other: Colour) -> bool:
-    """Whether two colours share their stages, their weights, and whether they are linear."""
-    if one.space != other.space or one.is_linear != other.is_linear:
+    """Whether two colours share their stages, their weights, and what their vertices are like."""
+    if one.space != other.space or one.kind != other.kind:
         return False
     return one.b == other.b
 
 
 def count_conditions(tableau: Tableau, order: int) -> int:
     """How many conditions of ``order`` a tableau has, those of twin roots counted once."""
-    edges, linear = coupling_graph(tableau)
-    by_root = count_by_root(tableau.size, order, edges, linear)
+    by_root = counts_of(coupling_graph(tableau), order)
     return sum(by_root[root] for root in twin_roots(tableau))
 
 
@@ -170,12 +168,7 @@ def admissible_trees(tableau: Tableau, order: int) -> Iterator[Tree]:
     """The trees of ``order`` that the coupling graph admits, one root colour of each group of
     twins.
     """
-    from garkcli.ntrees.blocks import iter_blocks  # numpy is paid for here
+    from garkcli.ntrees.blocks import blocks_of  # numpy is paid for here
 
-    edges, linear = coupling_graph(tableau)
-    twins = twin_roots(tableau)
-    blocks = iter_blocks(
-        tableau.size, order, edges=edges, linear=linear, roots=twins, block_size=1 << 14
-    )
-    for block in blocks:
+    for block in blocks_of(coupling_graph(tableau), order, 1 << 14, twin_roots(tableau)):
         yield from block.trees()

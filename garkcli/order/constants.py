@@ -15,7 +15,7 @@ from garkcli.doing import doing
 from garkcli.exact.display import to_ball, to_float
 from garkcli.exact.field import ZERO, Number
 from garkcli.frozen import Frozen
-from garkcli.ntrees.count import count_trees
+from garkcli.ntrees.count import counts_upto
 from garkcli.ntrees.tree import Tree
 from garkcli.order.conditions import all_conditions, count_conditions, coupling_graph
 from garkcli.tableau.pointwise import Cell, numeric_entries
@@ -109,11 +109,7 @@ def _constants(tableau: Tableau, order: int, share: int, most_exact: int) -> Err
             if mixed:
                 coupling.append((e, mixed))
         return ErrorConstants(order, True, _exact_norms(everything), _exact_norms(coupling))
-    edges, linear = coupling_graph(tableau)
-    trees = 0
-    for n in range(1, order + 1):
-        trees += count_trees(tableau.size, n, edges, linear)
-    if trees > MAX_TREES:
+    if sum(map(sum, counts_upto(coupling_graph(tableau), order))) > MAX_TREES:
         return None
     return _in_floats(tableau, order, share)
 
@@ -150,8 +146,7 @@ def _in_floats(tableau: Tableau, order: int, share: int) -> ErrorConstants:
     from garkcli.ntrees.stage_vectors import elementary_weights
     from garkcli.ntrees.table import TreeTable
 
-    edges, linear = coupling_graph(tableau)
-    table = TreeTable.upto(tableau.size, order, edges, linear)
+    table = TreeTable.of(coupling_graph(tableau), order)
     entries = numeric_entries(tableau, 25)
     rows = [colour.space for colour in tableau.colours]
     blocks = {}
@@ -162,8 +157,8 @@ def _in_floats(tableau: Tableau, order: int, share: int) -> ErrorConstants:
     ids = table.ids(order)
     last = slice(ids.start, ids.stop)
     values = elementary_weights(table, rows, blocks, weights)[last]
-    gamma = table.gamma[last].astype(float)
-    coefficients = np.abs((values - share / gamma) / table.sigma[last].astype(float))
+    required = share * table.is_exact[last] / table.gamma[last].astype(float)
+    coefficients = np.abs((values - required) / table.sigma[last].astype(float))
     mixes = _mixes(table)[last]
 
     def norms(chosen: Mask) -> Norms:
@@ -193,9 +188,8 @@ def _mixes(table: TreeTable) -> Mask:
     import numpy as np
 
     mixes = np.zeros(len(table), dtype=bool)
-    for n in range(2, int(table.order[-1]) + 1):
-        of_order = table.ids(n)
-        ids = slice(of_order.start, of_order.stop)
+    for n in range(2, table.max_order + 1):
+        ids = np.flatnonzero((table.order == n) & (table.stem >= 0))
         stem = table.stem[ids]
         branch = table.branch[ids]
         differs = table.root[stem] != table.root[branch]

@@ -18,7 +18,8 @@ from flint import arb, arb_mat, ctx, fmpq
 
 from garkcli.exact.display import to_float
 from garkcli.frozen import Frozen
-from garkcli.ntrees.count import Admissible, counts_upto
+from garkcli.ntrees.count import counts_upto
+from garkcli.order.certificate import required_of
 from garkcli.order.conditions import admissible_trees, coupling_graph, elementary_weight
 from garkcli.order.recovering import bounded_least_squares, exactly, excludes, scaled
 from garkcli.order.rows import FormDefects, joined, of_tree, part
@@ -93,7 +94,7 @@ def is_proved_to_exist(search: Recovery, order: int) -> bool:
     """
     place, box = search.settled, search.box
     tableau = place.exact("method")
-    admissible = Admissible.of(tableau.size, *coupling_graph(tableau))
+    admissible = coupling_graph(tableau)
     if sum(map(sum, counts_upto(admissible, order))) > tableau.size * max(len(box.numbers), FEW):
         return False
     with ctx.workprec(search.bits):
@@ -126,7 +127,7 @@ def prove_existence(search: Recovery, order: int) -> Existence | None:
 def _is_met(tableau: Tableau, tree: Tree) -> bool:
     """Whether an elementary weight is rational and as it should be."""
     weight = elementary_weight(tableau, tree)
-    return isinstance(weight, fmpq) and weight == fmpq(1, tree.density)
+    return isinstance(weight, fmpq) and weight == required_of(tree)
 
 
 def has_zero(rows: Forms, is_free: np.typing.NDArray[np.bool_]) -> bool:
@@ -181,7 +182,7 @@ def exclusion(search: Recovery, order: int) -> tuple[tuple[Tree, fmpq], ...] | N
     """
     place = search.origin
     tableau = place.exact("method")
-    admissible = Admissible.of(tableau.size, *coupling_graph(tableau))
+    admissible = coupling_graph(tableau)
     if sum(map(sum, counts_upto(admissible, order))) > MOST_TREES:
         return None
     with ctx.workprec(search.bits):
@@ -196,7 +197,7 @@ def exclusion(search: Recovery, order: int) -> tuple[tuple[Tree, fmpq], ...] | N
             largest = np.abs(y).max()
             factors = [_towards_zero(exactly(float(x / largest)), unit) for x in y]
             if excludes(rows, np.array([to_float(x) for x in factors])):
-                # rows are ρ(u) times the conditions of normalised stage vectors
+                # rows are these factors times the conditions of normalised stage vectors
                 found = zip(trees, factors, strict=True)
-                return tuple((u, x * u.order) for u, x in found if x)
+                return tuple((u, x * u.kind.integrated(u.order)) for u, x in found if x)
     return None

@@ -22,8 +22,7 @@ from flint import ctx, fmpq
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Vector, dot
 from garkcli.frozen import Frozen
-from garkcli.ntrees.tree import Tree
-from garkcli.order.certificate import StageSpans, Witness, witness_of
+from garkcli.order.certificate import StageSpans, Witness, required_of, witness_of
 from garkcli.order.conditions import count_conditions, elementary_weight
 from garkcli.order.constants import ErrorConstants, estimate_constants
 from garkcli.order.meant import AnyTableau, printed
@@ -102,7 +101,7 @@ def first_failure(
             tree = tree_missed(judge, order, share, method.grain)
             if tree is not None:
                 value = elementary_weight(judge, tree)
-                return Failure(number, Witness(tree, value, fmpq(share, tree.density)))
+                return Failure(number, Witness(tree, value, required_of(tree, share)))
     return None
 
 
@@ -118,8 +117,9 @@ def _first_exact(
             for number, functional in enumerate(functionals):
                 value = dot(functional.weights[l], forest.vector)
                 share = functional.share(order)
-                if value != fmpq(share, order):
-                    return Failure(number, witness_of(Tree(l, forest.branches), value, share))
+                if value != share * forest.required(tableau.colours[l].kind, order):
+                    tree = tableau.tree(l, forest.branches)
+                    return Failure(number, witness_of(tree, value, share))
     return None
 
 

@@ -22,7 +22,7 @@ from garkcli.deadline import check_time
 from garkcli.exact.affine import UNIT, Affine, Forms
 from garkcli.exact.display import to_float
 from garkcli.frozen import Frozen
-from garkcli.ntrees.count import Admissible, counts_upto
+from garkcli.ntrees.count import counts_upto
 from garkcli.ntrees.tree import Tree
 from garkcli.order.approximate_spans import ApproximateSpans
 from garkcli.order.certificate import DEFAULT_LIMIT
@@ -187,7 +187,7 @@ class Place:
 
     def _found_missed(self, name: str, order: int) -> list[Tree]:
         tableau, bits = self.exact(name), self.search.bits
-        admissible = Admissible.of(tableau.size, *coupling_graph(tableau))
+        admissible = coupling_graph(tableau)
         small, share = self.search.small, self.search.share(name, order)
         if not share or sum(counts_upto(admissible, order)[-1]) <= MOST_TREES:
             if name not in self._residuals:
@@ -218,8 +218,12 @@ class Place:
         tableau = self.exact(name)
         for l in twin_roots(tableau):
             for m in range(tableau.size):
-                bush = Tree(l, (Tree(m),) * (order - 1))
-                if is_admissible(tableau, bush) and not self.search.origin.may_meet(name, bush):
+                leaf = tableau.tree(m)
+                leaves, rest = divmod(order - tableau.colours[l].kind.weight, leaf.order)
+                bush = tableau.tree(l, (leaf,) * leaves)
+                if rest or not is_admissible(tableau, bush):
+                    continue
+                if not self.search.origin.may_meet(name, bush):
                     return bush
         return None
 

@@ -13,10 +13,13 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import chain
 from typing import Any, Generic, TypeAlias, TypeVar
 
+from flint import fmpq
+
 from garkcli.deadline import check_time
 from garkcli.exact.field import ONE
 from garkcli.exact.matrix import EntrywiseMap, LinearMap
 from garkcli.frozen import Frozen
+from garkcli.ntrees.kind import SEVERAL, Kind
 from garkcli.ntrees.tree import Tree
 from garkcli.tableau.tableau import Edge, Tableau
 
@@ -38,15 +41,24 @@ class OrderByOrder(ABC, Generic[Value]):
         # by stage space and order
         self._forests = {(k, 0): value for k, value in enumerate(vertices)}
         self._branches: dict[tuple[int, int], Value] = {}
+        self._several: dict[tuple[int, int], Value] = {}
 
     def of_trees(self, l: int, order: int) -> Value:
         """The value of all trees of an order with root colour l."""
         colour = self.tableau.colours[l]
-        has_one_branch = colour.is_linear and order > 1
-        under_root = self.branches if has_one_branch else self.forests
-        for lower in range(1, order - 1):  # one after the other: recursion stays flat
-            under_root(colour.space, lower)
-        return under_root(colour.space, order - 1)
+        k, kind, rest = colour.space, colour.kind, order - colour.kind.weight
+        if rest == 0 and kind.allows(0):
+            return self._forests[k, 0]
+        arity = kind.arity if rest > 0 else ()
+        if 1 in arity:
+            under_root = self.forests if SEVERAL in arity else self.branches
+        elif SEVERAL in arity:
+            under_root = self.several
+        else:
+            return self._joined(k, ())
+        for lower in range(1, rest):  # one after the other: recursion stays flat
+            under_root(k, lower)
+        return under_root(k, rest)
 
     def branches(self, k: int, order: int) -> Value:
         """The value of all branches of an order that the stages of space k see."""
@@ -65,6 +77,12 @@ class OrderByOrder(ABC, Generic[Value]):
             self._forests[k, order] = self._new_forests(k, order)
         return self._forests[k, order]
 
+    def several(self, k: int, order: int) -> Value:
+        """The value of all forests of two branches at least."""
+        if (k, order) not in self._several:
+            self._several[k, order] = self._new_several(k, order)
+        return self._several[k, order]
+
     def _splits(self, k: int, order: int) -> Iterator[tuple[Value, Value]]:
         """The smallest branch, and the forest of the others, of all forests of two branches at
         least.
@@ -75,7 +93,7 @@ class OrderByOrder(ABC, Generic[Value]):
     @abstractmethod
     def _image(self, k: int, m: int, order: int, trees: Value) -> Value:
         """The value of branches in space k, from that of the trees of an order with root colour m:
-        of order · A ψ.
+        of order · A ψ, or order (order − 1) ⋯ A ψ where its vertices count more.
         """
 
     @abstractmethod
@@ -86,6 +104,10 @@ class OrderByOrder(ABC, Generic[Value]):
     def _new_forests(self, k: int, order: int) -> Value:
         """The value of the forests of an order, from smaller ones and the branches up to it."""
 
+    @abstractmethod
+    def _new_several(self, k: int, order: int) -> Value:
+        """The value of those with two branches at least."""
+
 
 class Forest(Frozen):
     """A forest, and what it contributes to the stage vector of a tree.
@@ -94,11 +116,20 @@ class Forest(Frozen):
         vector: the product of the branches' contributions, times ``scale``.
         branches: the trees on the root.
         scale: a common denominator; 1 where entries have inverses.
+        exact: what the exact solution has in place of the vector: 1, or 0 where it has no such
+            branches.
     """
 
     vector: Sequence[Any]
     branches: tuple[Tree, ...] = ()
     scale: Any = ONE
+    exact: int = 1
+
+    def required(self, kind: Kind, order: int) -> fmpq:
+        """What the weights should make of the vector, for trees of an order with a root of a kind:
+        1/ρ where the vertex counts one order.
+        """
+        return fmpq(self.exact * kind.is_exact, kind.integrated(order))
 
 
 Forests: TypeAlias = Sequence[Forest]
@@ -132,14 +163,21 @@ class Spans(OrderByOrder[Forests]):
                 yield l, forest
 
     def _image(self, k: int, m: int, order: int, trees: Forests) -> Forests:
-        images = self._maps[k, m].images([tuple(order * y for y in x.vector) for x in trees])
+        kind = self.tableau.colours[m].kind
+        factor = kind.integrated(order)
+        images = self._maps[k, m].images([tuple(factor * y for y in x.vector) for x in trees])
         return [
-            Forest(image, (Tree(m, x.branches),), self._scale * x.scale)
+            Forest(
+                image, (Tree(m, x.branches, kind),), self._scale * x.scale, x.exact * kind.is_exact
+            )
             for image, x in zip(images, trees, strict=True)
         ]
 
     def _new_forests(self, k: int, order: int) -> Forests:
         return self._joined(k, chain([self.branches(k, order)], self._products(k, order)))
+
+    def _new_several(self, k: int, order: int) -> Forests:
+        return self._joined(k, self._products(k, order))
 
     def _products(self, k: int, order: int) -> Iterator[Forests]:
         """The smallest branch times the forest of the others, a branch at a time."""
@@ -150,7 +188,8 @@ class Spans(OrderByOrder[Forests]):
                     check_time()
                     vector = self._product(k, branch.vector, rest.vector)
                     trees = (*branch.branches, *rest.branches)
-                    batch.append(Forest(vector, trees, branch.scale * rest.scale))
+                    exact = branch.exact * rest.exact
+                    batch.append(Forest(vector, trees, branch.scale * rest.scale, exact))
                 yield batch
 
     def _product(self, k: int, u: Sequence[Any], v: Sequence[Any]) -> Sequence[Any]:

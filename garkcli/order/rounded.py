@@ -18,10 +18,10 @@ from garkcli.exact.display import decimal
 from garkcli.exact.enclosing import bits_for, midpoint
 from garkcli.exact.field import ZERO, Number
 from garkcli.frozen import Frozen, FrozenBut, replace
-from garkcli.ntrees.count import Admissible, counts_upto
+from garkcli.ntrees.count import counts_upto
 from garkcli.ntrees.tree import Tree
 from garkcli.order.approximate_spans import ApproximateSpans
-from garkcli.order.certificate import DEFAULT_LIMIT, Order, Witness, find_order
+from garkcli.order.certificate import DEFAULT_LIMIT, Order, Witness, find_order, required_of
 from garkcli.order.conditions import count_conditions, coupling_graph, elementary_weight
 from garkcli.order.recovering import Derive, Failure, Recovery
 from garkcli.order.simplifying import BoxDefects, Defects
@@ -257,7 +257,7 @@ class RoundedOrder(Shown, FrozenBut):
         tableau = self.rounded.tableau
         enclosure = enclose_tableau(tableau, self.rounded.search.bits)
         trees = TreeResiduals(tableau, enclosure)
-        admissible = Admissible.of(tableau.size, *coupling_graph(tableau))
+        admissible = coupling_graph(tableau)
         sizes = []
         for order in range(self.exact + 1, self.order + 1):
             if sum(counts_upto(admissible, order)[-1]) <= FEW_TREES:
@@ -317,7 +317,7 @@ def _most_telling(
 
 def _witness(rounded: RoundedTableau, tree: Tree) -> Witness:
     value = elementary_weight(rounded.tableau, tree)
-    return Witness(tree, value, fmpq(1, tree.density))
+    return Witness(tree, value, required_of(tree))
 
 
 def _worst(rounded: RoundedTableau, witness: Witness) -> Witness:

@@ -39,7 +39,7 @@ class Label(Frozen):
 
 def of_tree(tree: Tree, share: int = 1) -> Label:
     """The condition b_lᵀ 𝒜^[u] = share/γ(u) of a tree."""
-    return Label("tree", tree.root, k=share, tree=tree)
+    return Label("tree", tree.root, k=share * tree.is_exact, tree=tree)
 
 
 Chosen: TypeAlias = "dict[Label, list[int]]"

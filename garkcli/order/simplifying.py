@@ -178,7 +178,12 @@ def is_symplectic(method: AnyTableau) -> bool:
 
 
 def defects_of(method: AnyTableau) -> Defects:
-    """The defects of a tableau, of the one that it is taken to be where it is rounded."""
+    """The defects of a tableau, of the one that it is taken to be where it is rounded.
+
+    Raises:
+        MethodError: it is no GARK method.
+    """
+    (method if isinstance(method, Tableau) else method.tableau).demand_fields("a simplifying condition")
     if isinstance(method, Tableau):
         return Defects(method)
     if not method.search.box.numbers:

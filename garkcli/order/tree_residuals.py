@@ -10,7 +10,6 @@ from flint import arb, arb_mat, ctx
 
 from garkcli.exact.enclosing import times
 from garkcli.frozen import Frozen
-from garkcli.ntrees.count import Admissible
 from garkcli.ntrees.stage_vectors import StageVectors
 from garkcli.ntrees.table import TreeTable
 from garkcli.order.conditions import coupling_graph, twin_roots
@@ -49,8 +48,7 @@ class TreeResiduals(StageVectors[Rows]):
     def __init__(self, tableau: Tableau, enclosure: Enclosure) -> None:
         self.enclosure = enclosure
         self._roots = tuple(twin_roots(tableau))
-        edges, linear = coupling_graph(tableau)
-        self._admissible = Admissible.of(tableau.size, edges, linear)
+        self._admissible = coupling_graph(tableau)
         super().__init__(self._admissible, [colour.space for colour in tableau.colours])
 
     def sizes(self, order: int) -> Sizes:
@@ -77,11 +75,13 @@ class TreeResiduals(StageVectors[Rows]):
     def _residuals(
         self, table: TreeTable, order: int, share: int
     ) -> Iterator[tuple[arb, arb, int]]:
-        if order == 1:
-            for l in self._roots:
-                weights = self.enclosure.b[l].entries()
-                yield sum(weights, arb(-share)), arb(share), l
-            return
+        exact = table.is_exact
+        for l in self._roots:
+            kind = self._admissible.kinds[l]
+            if order == kind.weight and kind.allows(0):
+                (u,) = table.ids(order, l)
+                due = arb(share * int(exact[u])) / kind.integrated(order)
+                yield sum(self.enclosure.b[l].entries(), -due), due, u
         required: dict[int, arb] = {}
         for segment in table.segments:
             if segment.order != order or segment.root not in self._roots:
@@ -94,10 +94,11 @@ class TreeResiduals(StageVectors[Rows]):
             else:
                 where = stems * len(segment.branches) + branches
             values = self._values(table, segment)
-            trees = zip(where.tolist(), segment.ids, table.gamma[ids].tolist(), strict=True)
-            for i, u, gamma in trees:
+            # γ, or 0 of trees that the exact solution does not have
+            gammas = (table.gamma[ids] * exact[ids]).tolist()
+            for i, u, gamma in zip(where.tolist(), segment.ids, gammas, strict=True):
                 if gamma not in required:
-                    required[gamma] = share / arb(gamma)
+                    required[gamma] = share / arb(gamma) if gamma else arb(0)
                 yield values[i] - required[gamma], required[gamma], u
 
     def _values(self, table: TreeTable, segment: Segment) -> Row:

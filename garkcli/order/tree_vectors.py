@@ -33,8 +33,10 @@ class TreeVectors:
             MethodError: the coupling graph does not admit the tree.
         """
         colour = self.tableau.colours[tree.root]
-        if colour.is_linear and len(tree.branches) > 1:
+        if not colour.kind.allows(len(tree.branches)):
             message = f"colour {colour.name} is linear: its vertices have one branch at most"
+            if not colour.is_linear:
+                message = f"the vertices of colour {colour.name} have {colour.kind.branches}"
             raise MethodError(message, _CURE, code="tree-not-admissible")
         space = self.tableau.space(tree.root)
         vector = space.one

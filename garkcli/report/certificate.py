@@ -23,6 +23,8 @@ from garkcli.exact.roots import real_roots
 from garkcli.exact.traces import rational_text
 from garkcli.exact.traces import told as made_of
 from garkcli.frozen import replace
+from garkcli.ntrees.kind import FIELDS
+from garkcli.ntrees.kind import Kind as VertexKind
 from garkcli.ntrees.notation import format_tree
 from garkcli.order.certificate import Proof
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
@@ -130,11 +132,25 @@ SPACE = Section(
     optional("modulus", RATIONALS, _modulus),
     optional("between_nodes", RATIONALS, _between),
 )
+VERTICES = Section(
+    Row("branches", Kind(S.array(S.one_of({"enum": [0, 1, 2]}))), lambda kind: sorted(kind.arity)),
+    Row("weight", POSITION, "weight"),
+    Row("exact", TRUTH, "is_exact"),
+)
+
+
+def _own_kind(colour: In) -> VertexKind | None:
+    """What vertices are like where the key ``linear`` does not say it."""
+    kind: VertexKind = colour[0].kind
+    return None if kind in FIELDS else kind
+
+
 COLOUR = Section(
     Row("name", TEXT, "0.name"),
     Row("space", INDEX, "0.space"),
     Row("drives", choice("y", "q", "p"), "0.part"),
     Row("linear", TRUTH, "0.is_linear"),
+    optional("vertices", part(VERTICES), _own_kind),
     Row("b", NUMBERS, lambda x: _numbers(x[0].b, x[1])),
 )
 BLOCK = Section(

@@ -31,6 +31,7 @@ def coq_proof(proof: MethodProof) -> str:
         MethodError: a colour is linear, which the theory does not know.
     """
     tableau = proof.method.tableau
+    tableau.demand_fields("a proof for Coq")
     if any(colour.is_linear for colour in tableau.colours):
         message = "a colour has a linear vector field, which the theory of Coq does not know"
         cure = "leave `linear` out, or take --format json"

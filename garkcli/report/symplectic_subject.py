@@ -71,7 +71,7 @@ class Subject(Frozen):
         from garkcli.order.conditions import coupling_graph
 
         tableau = printed(self.method)
-        return Admissible.of(tableau.size, *coupling_graph(tableau))
+        return coupling_graph(tableau)
 
     def classes(self) -> Iterator[ConditionClass]:
         """The classes of all orders."""

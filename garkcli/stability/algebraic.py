@@ -53,6 +53,7 @@ def algebraic_stability(tableau: Tableau) -> AlgebraicStability | None:
     >>> found.weights_are_positive, found.form_is_positive
     (True, False)
     """
+    tableau.demand_fields("algebraic stability")
     if len(list(tableau.edges())) < tableau.size**2:
         return None
     grams = (tableau.space(l).gram(colour.b) for l, colour in enumerate(tableau.colours))

@@ -63,6 +63,7 @@ def _fixed(p: Multivariate, index: int, value: Number) -> Polynomial:
 
 def lines_needed(tableau: Tableau) -> int:
     """How many lines determine the numerator and the denominator."""
+    tableau.demand_fields("the stability function")
     axes = tableau.size - 1
     stages = sum(space.stages for space in tableau.spaces)
     return comb(stages + axes, axes)

@@ -8,6 +8,7 @@ from typing import Any, TypeAlias
 from garkcli.doing import doing
 from garkcli.errors import UsageProblem
 from garkcli.frozen import replace
+from garkcli.ntrees.kind import LINEAR, PLAIN
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.problem import Problem, field_of
 from garkcli.problems.righthandside import RightHandSide, clock
@@ -208,7 +209,8 @@ def visible_tableau(tableau: Tableau, fields: Fields) -> Tableau:
     for k, ((m, group), field) in enumerate(fields.items()):
         colour = tableau.colours[m]
         part: Part = "y" if group == TIME else group
-        colours.append(replace(colour, space=k, part=part, is_linear=field.is_linear))
+        kind = LINEAR if field.is_linear else PLAIN
+        colours.append(replace(colour, space=k, part=part, kind=kind))
         spaces.append(tableau.space(m))
     blocks = {}
     for k, ((l, _), field) in enumerate(fields.items()):

@@ -61,7 +61,9 @@ def conjugate(tableau: Tableau) -> Tableau:
 
     Raises:
         ZeroWeight: a conjugate would divide by zero.
+        MethodError: it is no GARK method.
     """
+    tableau.demand_fields("the symplectic conjugate")
     if tableau.is_partitioned:
         exchanged: dict[Edge, Matrix] = {}  # blocks of positions from those of momenta, and back
         for m, l in tableau.edges():

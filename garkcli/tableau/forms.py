@@ -11,6 +11,7 @@ from garkcli.errors import MethodError
 from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.matrix import Matrix, Vector, apply
 from garkcli.frozen import replace
+from garkcli.ntrees.kind import LEAF, LINEAR, PLAIN
 from garkcli.tableau.conjugate import conjugate_of
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Colour, Edge, Method, Part, Tableau
@@ -66,7 +67,8 @@ def spelled_out(
         nodes = c[l]
         if nodes is None:
             nodes = _row_sums(l, A[l], len(weights))
-        colour = Colour(str(l + 1), l, weights, nodes, l, is_linear=l in linear)
+        kind = LINEAR if l in linear else PLAIN
+        colour = Colour(str(l + 1), l, weights, nodes, l, kind=kind)
         spaces.append(PointSpace(nodes))
         colours.append(colour)
     blocks: _NewBlocks = {}
@@ -130,7 +132,7 @@ def with_linear(tableau: Tableau, names: Iterable[str]) -> Tableau:
     colours = []
     for colour in tableau.colours:
         if colour.name in names:
-            colour = replace(colour, is_linear=True)
+            colour = replace(colour, kind=LINEAR)
         colours.append(colour)
     return replace(tableau, colours=tuple(colours))
 
@@ -153,8 +155,9 @@ def symplectic_pair(tableau: Tableau, velocities: Sequence[int], forces: Sequenc
 
     Raises:
         ZeroWeight: a conjugate that is needed would divide by zero.
-        MethodError: the tableau is partitioned already.
+        MethodError: the tableau is partitioned already, or it is no GARK method.
     """
+    tableau.demand_fields("the symplectic pair")
     if tableau.is_partitioned:
         message = "the method is partitioned already"
         raise MethodError(message, "give the tableau of the positions", code="cannot-construct")
@@ -213,12 +216,15 @@ def with_time(tableau: Tableau) -> Tableau | None:
 
     With ṫ = 1 the problem is autonomous. A method evaluates f at t + c_i h, so the block of time is
     c, whatever the row sums of A are; its vector field is constant, so its vertices have no
-    branches: its stages see no colour. Where A^{l,m} 𝟙 = c^{l} for every block a vertex of time has
+    branches. Where A^{l,m} 𝟙 = c^{l} for every block a vertex of time has
     the same weight as any other leaf, and nothing changes.
 
     Returns:
         None where it has no meaning: a vector field that is linear has no time in it, and colours
         that share stages need the same nodes.
+
+    Raises:
+        MethodError: it is no GARK method.
 
     >>> from flint import fmpq
     >>> from garkcli.tableau.forms import gark
@@ -228,6 +234,7 @@ def with_time(tableau: Tableau) -> Tableau | None:
     >>> find_order(midpoint).order, find_order(with_time(midpoint)).order
     (2, 1)
     """
+    tableau.demand_fields("time beside the stages")
     nodes: dict[int, Vector] = {}
     for colour in tableau.colours:
         first = nodes.setdefault(colour.space, colour.c)
@@ -235,6 +242,6 @@ def with_time(tableau: Tableau) -> Tableau | None:
             return None
     time = tableau.size
     columns = {(k, time): tuple((c_i,) for c_i in c) for k, c in nodes.items()}
-    clock = Colour(TIME, len(tableau.spaces), (ONE,), (ZERO,), term=time)
+    clock = Colour(TIME, len(tableau.spaces), (ONE,), (ZERO,), term=time, kind=LEAF)
     spaces = (*tableau.spaces, PointSpace((ZERO,)))
     return Tableau(spaces, (*tableau.colours, clock), {**tableau.blocks, **columns})

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
 from itertools import chain
 from typing import Literal, TypeAlias
 
-from garkcli.errors import ShapeMismatch, counted
+from garkcli.errors import MethodError, ShapeMismatch, counted
 from garkcli.exact.field import Algebraic, Number, NumberField
 from garkcli.exact.matrix import Matrix, Vector, apply
 from garkcli.exact.parametric import Parametric
 from garkcli.frozen import Frozen
+from garkcli.ntrees.kind import FIELDS, LINEAR, PLAIN, Kind
+from garkcli.ntrees.tree import Tree
 from garkcli.tableau.stages import PointSpace, StageSpace
 
 Part: TypeAlias = Literal["y", "q", "p"]
@@ -32,7 +34,7 @@ class Colour(Frozen):
         c: its nodes, an element of that space. They enter B, C, D and consistency only.
         term: which term of the split, H^{l} or f^{l}, the vector field comes from, counted from 0.
         part: what the vector field drives.
-        is_linear: whether the vector field is linear, so that a vertex has one branch at most.
+        kind: what its vertices are like.
     """
 
     name: str
@@ -41,7 +43,12 @@ class Colour(Frozen):
     c: Vector
     term: int = 0
     part: Part = "y"
-    is_linear: bool = False
+    kind: Kind = PLAIN
+
+    @property
+    def is_linear(self) -> bool:
+        """Whether the vector field is linear, so that a vertex has one branch at most."""
+        return self.kind == LINEAR
 
 
 class Tableau(Frozen):
@@ -119,6 +126,35 @@ class Tableau(Frozen):
             for m in range(self.size):
                 if self.block(l, m) is not None:
                     yield l, m
+
+    def tree(self, l: int, branches: Iterable[Tree] = ()) -> Tree:
+        """The tree with a root of colour l, from 0."""
+        return Tree(l, branches, self.colours[l].kind)
+
+    def known(self, tree: Tree) -> Tree:
+        """A tree of any source, such as text, with vertices of the kinds of the colours."""
+        if self.has_fields_alone:
+            return tree
+        return self.tree(tree.root, map(self.known, tree.branches))
+
+    @cached_property
+    def has_fields_alone(self) -> bool:
+        """Whether every colour is a vector field that the stages evaluate, of any kind: then the
+        method is a GARK method.
+        """
+        return all(colour.kind in FIELDS for colour in self.colours)
+
+    def demand_fields(self, what: str) -> None:
+        """Refuse what is defined for GARK methods alone.
+
+        Raises:
+            MethodError: the vertices of a colour are of another kind.
+        """
+        for colour in self.colours:
+            if colour.kind not in FIELDS:
+                message = f"{what} is for GARK methods: colour {colour.name} is no vector field"
+                cure = "its vertices are of a kind of their own; gark knows their order conditions"
+                raise MethodError(message, cure, code="cannot-construct")
 
     @property
     def is_partitioned(self) -> bool:

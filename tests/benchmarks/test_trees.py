@@ -52,13 +52,13 @@ def test_weights() -> None:
     table's time.
     """
     tableau = pair(load(str(ROOT / "methods/collocation.gark.yaml")).tableau)
-    edges, linear = coupling_graph(tableau)
+    graph = coupling_graph(tableau)
     entries = numeric_entries(tableau)
     rows = [colour.space for colour in tableau.colours]
     blocks = {(rows[l], m): np.array(entries.A[l][m], dtype=float) for l, m in tableau.edges()}
     weights = [np.array(row, dtype=float) for row in entries.b]
-    table = TreeTable.upto(4, 7, edges, linear)
-    making = seconds(lambda: TreeTable.upto(4, 7, edges, linear), 7)
+    table = TreeTable.of(graph, 7)
+    making = seconds(lambda: TreeTable.of(graph, 7), 7)
     weighing = seconds(lambda: elementary_weights(table, rows, blocks, weights), 7)
     assert_ratio(
         "weights / table, 4 colours to order 7",

@@ -36,8 +36,7 @@ def test_brute_force_over_the_table_in_floats(name: str) -> None:
     """
     entry = ENTRIES[name]
     tableau, order = loads(method_file(entry)).tableau, entry["verified_order"]
-    edges, linear = coupling_graph(tableau)
-    table = TreeTable.upto(tableau.size, order + 1, edges, linear)
+    table = TreeTable.of(coupling_graph(tableau), order + 1)
     printed = numeric_entries(tableau, 25)
     rows = [colour.space for colour in tableau.colours]
     blocks = {(rows[l], m): _floats(printed.A[l][m] or ()) for l, m in tableau.edges()}

@@ -1,4 +1,4 @@
-"""Affine spans against the definition, one rank at a time."""
+"""Spans of points against the definition, one rank at a time."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from flint import fmpq
 from hypothesis import given
 from hypothesis import strategies as st
 
-from garkcli.exact.span import AffineSpan
+from garkcli.exact.span import Span
 
 Point = list[fmpq]
 
@@ -34,6 +34,11 @@ def affine_rank(points: list[Point]) -> int:
     return rank([[Fraction(1), *(Fraction(int(x.p), int(x.q)) for x in point)] for point in points])
 
 
+def points(group: list[Point]) -> list[Point]:
+    """Vectors (1, point), whose span is the affine one."""
+    return [[fmpq(1), *point] for point in group]
+
+
 @st.composite
 def batches(draw: st.DrawFn) -> tuple[int, list[list[Point]]]:
     """A dimension, and points of small coordinates in batches, many of them dependent."""
@@ -53,33 +58,33 @@ def batches(draw: st.DrawFn) -> tuple[int, list[list[Point]]]:
 def test_members_are_those_that_raise_the_rank(case: tuple[int, list[list[Point]]]) -> None:
     """Exactly those points join that are no affine combination of the ones before."""
     dimension, groups = case
-    span, before = AffineSpan(dimension), []
+    span, before = Span(dimension + 1), []
     for group in groups:
         joined = []
         for index, point in enumerate(group):
             if affine_rank([*before, point]) > affine_rank(before):
                 joined.append(index)
             before.append(point)
-        assert span.insert(group) == joined
+        assert span.insert(points(group)) == joined
         assert len(span) == affine_rank(before)
         assert span.is_full == (affine_rank(before) == dimension + 1)
 
 
 def test_dimension_zero() -> None:
     """A space with a single point is full after one insertion."""
-    span = AffineSpan(0)
+    span = Span(1)
     assert not span.is_full
-    assert span.insert([[], []]) == [0]
+    assert span.insert(points([[], []])) == [0]
     assert span.is_full
-    assert span.insert([[]]) == []
+    assert span.insert(points([[]])) == []
 
 
 def test_affine_is_not_linear() -> None:
     """The point 0 joins an empty span, and 2x joins the span of x, although both are linear
     combinations.
     """
-    span = AffineSpan(1)
-    assert span.insert([[fmpq(0)]]) == [0]
-    span = AffineSpan(2)
+    span = Span(2)
+    assert span.insert(points([[fmpq(0)]])) == [0]
+    span = Span(3)
     x, twice = [fmpq(1), fmpq(1)], [fmpq(2), fmpq(2)]
-    assert span.insert([x, twice, [fmpq(3), fmpq(3)]]) == [0, 1]
+    assert span.insert(points([x, twice, [fmpq(3), fmpq(3)]])) == [0, 1]

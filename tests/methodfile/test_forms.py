@@ -40,9 +40,10 @@ def tableau(text: str) -> Tableau:
 
 def graph_of(found: Tableau) -> tuple[set[tuple[int, int]], set[int]]:
     """Which colours see which, and which are linear, both counted from 0."""
-    edges, linear = coupling_graph(found)
-    N = range(found.size)
-    return {(l, m) for l in N for m in N if edges[l][m]}, set(linear)
+    graph = coupling_graph(found)
+    colours = range(found.size)
+    edges = {(l, m) for l in colours for m in graph.branches[l]}
+    return edges, {l for l in colours if graph.is_linear(l)}
 
 
 def coupled(rule: str) -> Tableau:

@@ -93,8 +93,8 @@ def one_by_one(admissible: Admissible, order: int) -> list[tuple[int, ...]]:
             t = [0, *(sum(forests[m][k] for m in admissible.branches[colour]) for k in range(n))]
             c = [sum(d * t[d] for d in range(1, k + 1) if k % d == 0) for k in range(n + 1)]
             total = sum(c[k] * forests[colour][n - k] for k in range(1, n + 1))
-            assert colour in admissible.linear or total % n == 0
-            grown.append(t[n] if colour in admissible.linear else total // n)
+            assert admissible.is_linear(colour) or total % n == 0
+            grown.append(t[n] if admissible.is_linear(colour) else total // n)
         for f, x in zip(forests, grown, strict=True):
             f.append(x)
     return [tuple(f[n] for f in forests) for n in range(order)]

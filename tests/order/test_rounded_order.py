@@ -42,7 +42,7 @@ SEEDS = st.integers(0, 2**32 - 1)
 
 def first_missed(method: RoundedTableau, limit: int) -> int:
     """The first order with a condition that rounding does not explain, tree by tree, or the limit."""
-    table = TreeTable.upto(method.tableau.size, limit, *coupling_graph(method.tableau))
+    table = TreeTable.of(coupling_graph(method.tableau), limit)
     missed = (
         x.tree.order for x in conditions(method, map(table.tree, range(len(table)))) if not x.holds
     )
@@ -51,7 +51,7 @@ def first_missed(method: RoundedTableau, limit: int) -> int:
 
 def largest_residuals(tableau: Tableau, limit: int) -> list[fmpq]:
     """The largest |residual| of each order up to ``limit``, all trees in exact rationals."""
-    table = TreeTable.upto(tableau.size, limit, *coupling_graph(tableau))
+    table = TreeTable.of(coupling_graph(tableau), limit)
     largest = [fmpq(0)] * limit
     for condition in conditions(tableau, map(table.tree, range(len(table)))):
         n = condition.tree.order - 1
@@ -231,7 +231,7 @@ def test_spans_bound_every_tree(seed: int) -> None:
 
 def max_part(tableau: Tableau, order: int) -> fmpq:
     """The largest |residual| of an order in units of what is required, 1/γ."""
-    table = TreeTable.upto(tableau.size, order, *coupling_graph(tableau))
+    table = TreeTable.of(coupling_graph(tableau), order)
     found = conditions(tableau, map(table.tree, table.ids(order)))
     return max((abs(x.residual) / x.required for x in found), default=fmpq(0))
 

@@ -146,7 +146,11 @@ def squared_error(tableau: Tableau, order: int, ring: Parameters | None) -> Quot
         tableau: entries are exact numbers, or rational functions of parameters.
         order: of the trees.
         ring: the parameters; None where all entries are numbers.
+
+    Raises:
+        MethodError: the vertices of a colour are no vector field.
     """
+    tableau.demand_fields("the sum of squared errors")
     return _Sums(Cleared.of(tableau, ring)).total(order)
 
 
@@ -221,6 +225,9 @@ class _Sums(OrderByOrder[Tensor]):
             part = multiplied(self._logarithm(k, j), self.forests(k, order - j))
             parts.append(part.times(fmpq(j, order)))
         return self._joined(k, parts)
+
+    def _new_several(self, k: int, order: int) -> Tensor:
+        return self.forests(k, order).plus(self.branches(k, order).times(fmpq(-1)))
 
     def _logarithm(self, k: int, order: int) -> Tensor:
         """L_j = Σ c_m Σ_u x_u^m over the trees u of order j/m."""

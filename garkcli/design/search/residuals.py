@@ -41,10 +41,9 @@ class Residuals:
     ) -> None:
         from garkcli.ntrees.table import TreeTable
 
-        edges, linear = coupling_graph(tableau)
         self.tableau = tableau
         self.unknowns = len(ring.names)
-        self.table = TreeTable.upto(tableau.size, order, edges, linear)
+        self.table = TreeTable.of(coupling_graph(tableau), order)
         self.blocks = {key: _functions(block, ring) for key, block in tableau.blocks.items()}
         self.weights = _functions([colour.b for colour in tableau.colours], ring)
         self.more = rational.polynomial_functions(more, ring)
@@ -56,7 +55,7 @@ class Residuals:
     def numbers_a_point(self) -> int:
         """How many numbers an evaluation holds for each point, about."""
         stages = max(space.stages for space in self.tableau.spaces)
-        lower = self.table.starts[-1][0]  # trees below the highest order
+        lower = self.table.ids(self.table.max_order).start  # trees below the highest order
         vectors = 3 * lower * stages + 2 * (len(self.table) - lower) * stages
         return (vectors + 2 * len(self)) * (self.unknowns + 1)
 
@@ -224,9 +223,10 @@ class _Evaluation(StageVectors[_Vectors]):
             gradients += slope.value * vectors.derivatives[:, i]
             for unknown, derivative in slope.derivatives:
                 gradients[:, unknown] += derivative * x
-        order = int(table.order[ids.start])
-        required = self.constant(fmpq(1, order))
+        kind = table.admissible.kinds[root]
+        integrated = kind.integrated(int(table.order[ids.start]))
         for k, number in enumerate(range(ids.start, ids.stop)):
-            scale: Any = self.constant(fmpq(int(table.gamma[number]), order))
+            scale: Any = self.constant(fmpq(int(table.gamma[number]), integrated))
+            required = self.constant(fmpq(int(table.is_exact[number]), integrated))
             values[k] = scale * values[k] - required
             gradients[k] *= scale
