@@ -16,15 +16,20 @@ stiff differential equations", Math. Comp. 33 (1979) 521; A. Sandu, M. Günther,
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from operator import add as add_numbers
-from typing import TypeAlias
+from typing import Any, TypeAlias
+
+from flint import fmpq
 
 from garkcli.errors import MethodError, ShapeMismatch
-from garkcli.exact.field import ONE, ZERO
+from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector, add, apply, apply_left, identity, multiply, solve
 from garkcli.frozen import Frozen
 from garkcli.ntrees.kind import LEAF, PLAIN, SEVERAL, Kind
+from garkcli.order.recovering import Recovery
+from garkcli.order.rounded import RoundedTableau
+from garkcli.tableau.box import Box
 from garkcli.tableau.embedded import Weights
 from garkcli.tableau.forms import TIME
 from garkcli.tableau.stages import PointSpace
@@ -170,6 +175,56 @@ def transformed(A: Matrix, C: Matrix, gamma: Vector, m: Vector) -> Rosenbrock:
     )
     full = solve(inverse, identity(s))
     return rosenbrock(multiply(A, full), full, apply_left(m, full))
+
+
+def rounded(
+    method: Rosenbrock, tolerance: fmpq, of: Callable[[Rosenbrock], Tableau]
+) -> RoundedTableau:
+    """One of the tableaus of a method whose numbers are rounded.
+
+    Args:
+        method: as it is printed.
+        tolerance: how far every number that is not 0 may be off; equal γ_ii are one number.
+        of: which tableau.
+    """
+    printed: dict[object, Number] = {}
+
+    def changed(values: Mapping[object, Any]) -> Rosenbrock:
+        """The method with values in place of the numbers, which are noted where they are new."""
+
+        def entry(place: object, x: Number) -> Any:
+            if not x:
+                return x
+            printed.setdefault(place, x)
+            return values.get(place, x)
+
+        def block(letter: str, l: int, m: int, rows: Matrix) -> Matrix:
+            return tuple(
+                tuple(
+                    entry(("γ_ii", x) if letter == "γ" and i == j else (letter, l, m, i, j), x)
+                    for j, x in enumerate(row)
+                )
+                for i, row in enumerate(rows)
+            )
+
+        def blocks(letter: str, given: Blocks) -> Blocks:
+            return tuple(
+                tuple(block(letter, l, m, rows) for m, rows in enumerate(row))
+                for l, row in enumerate(given)
+            )
+
+        return Rosenbrock(
+            blocks("α", method.alpha), blocks("γ", method.gamma), block("b", 0, 0, method.b)
+        )
+
+    changed({})
+    numbers = tuple(printed.values())
+
+    def make(values: Sequence[Any]) -> Tableau:
+        return of(changed(dict(zip(printed, values, strict=True))))
+
+    box = Box(numbers, (tolerance,) * len(numbers), make)
+    return RoundedTableau(of(method), tolerance, Recovery(box))
 
 
 def _sums(block: Matrix) -> Vector:

@@ -452,6 +452,8 @@ class Recovery:
         """Conditions that hold within the radii one by one, and not by chance."""
         defects = self.origin.defects("method")
         made = defects.tableau.made
+        if not made.has_fields_alone:
+            return {}  # the conditions are those of GARK methods
         edges = list(made.edges())
         chosen: Chosen = {}
 
