@@ -2,7 +2,8 @@
 methods).
 
 A tree is a pair ``(root, branches)`` with the branches in a fixed order, so that each tree occurs
-once.
+once. Where vertices count several orders, or the exact solution has none of them, the definition
+goes on: ``required`` integrates a vertex as often as it counts.
 """
 
 from __future__ import annotations
@@ -22,8 +23,8 @@ Plain: TypeAlias = tuple[int, tuple["Plain", ...]]
 
 
 class Trees:
-    """The admissible trees of a tableau, order by order: parents see their branches, linear ones
-    have one.
+    """The admissible trees of a tableau, order by order: parents see their branches, and have as
+    many as their kind allows.
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.tableau.forms import gark
@@ -37,18 +38,22 @@ class Trees:
         self._levels: list[list[Plain]] = []
 
     def of_order(self, order: int) -> list[Plain]:
-        """All of them with ``order`` vertices."""
+        """All of them of an order: with as many vertices, where each counts one."""
         while len(self._levels) < order:
-            size = len(self._levels)
-            roots = range(self.tableau.size)
-            self._levels.append([(l, forest) for l in roots for forest in self._forests(l, size)])
+            level: list[Plain] = []
+            for l, colour in enumerate(self.tableau.colours):
+                left = len(self._levels) + 1 - colour.kind.weight
+                if left >= 0:
+                    level += [(l, forest) for forest in self._forests(l, left)]
+            self._levels.append(level)
         return self._levels[order - 1]
 
     def _forests(self, l: int, size: int) -> list[tuple[Plain, ...]]:
         seen = {m for m in range(self.tableau.size) if self.tableau.block(l, m) is not None}
         choices = [(n, u) for n in range(1, size + 1) for u in self.of_order(n) if u[0] in seen]
-        most = 1 if self.tableau.colours[l].is_linear else size
-        return list(_multisets(choices, size, most))
+        arity = self.tableau.colours[l].kind.arity
+        most = size if 2 in arity else 1
+        return [x for x in _multisets(choices, size, most) if min(len(x), 2) in arity]
 
 
 def _multisets(
@@ -81,6 +86,26 @@ def density(u: Plain) -> int:
     for v in u[1]:
         result *= density(v)
     return result
+
+
+def required(tableau: Tableau, u: Plain) -> fmpq:
+    """What the elementary weight of a tree should be: the coefficient of the exact solution, in
+    which a forest of order n at a vertex is the integral of t^n, as often as the vertex counts.
+    """
+    return _integral(tableau, u)[1]
+
+
+def _integral(tableau: Tableau, u: Plain) -> tuple[int, fmpq]:
+    kind = tableau.colours[u[0]].kind
+    power, coefficient = 0, fmpq(1 if kind.is_exact else 0)
+    for v in u[1]:
+        order, factor = _integral(tableau, v)
+        power += order
+        coefficient *= factor
+    for _ in range(kind.weight):
+        power += 1
+        coefficient /= power
+    return power, coefficient
 
 
 def plain(tree: Tree) -> Plain:
@@ -127,7 +152,8 @@ class Weights:
 def failing(tableau: Tableau, order: int) -> list[Plain]:
     """The trees of one order whose condition fails."""
     weights = Weights(tableau)
-    return [u for u in Trees(tableau).of_order(order) if weights.weight(u) != fmpq(1, density(u))]
+    trees = Trees(tableau).of_order(order)
+    return [u for u in trees if weights.weight(u) != required(tableau, u)]
 
 
 def brute_order(tableau: Tableau, limit: int) -> int:
@@ -136,6 +162,6 @@ def brute_order(tableau: Tableau, limit: int) -> int:
     """
     trees, weights = Trees(tableau), Weights(tableau)
     for order in range(1, limit + 1):
-        if any(weights.weight(u) != fmpq(1, density(u)) for u in trees.of_order(order)):
+        if any(weights.weight(u) != required(tableau, u) for u in trees.of_order(order)):
             return order - 1
     return limit
