@@ -277,6 +277,11 @@ def forests(trees, size):
             yield from ((tree, *rest) for rest in forests(trees[i:], size - n))
 
 
+def words(kind):
+    branches = " or ".join(("no", "one", "several")[n] for n in sorted(kind[0]))
+    return f"{branches}, {kind[1]}, {'in' if kind[2] else 'not in'} the solution"
+
+
 class Tableau:
     """By colours: what they drive, kinds of vertices, spaces, weights; A^{l,m} where m is seen.
     A kind is (numbers of branches, 2 for more; orders that it counts; whether it is exact).
@@ -325,17 +330,14 @@ class Tableau:
     def assumed(self):
         """Colours that are linear, or free of what others drive, by words or for want of blocks."""
         found = {"linear": [l for l in self.colours if self.kinds[l] == LINEAR]}
-        for l in self.colours if {*self.kinds} - {FIELD, LINEAR} else ():
-            arity, weight, is_exact = self.kinds[l]
-            name = (
-                f"with branches {sorted(arity)}, weight {weight}, {'' if is_exact else 'not '}exact"
-            )
-            found.setdefault(name, []).append(l)
         for m in self.colours:
             blind = [l for l in self.colours if (l, m) not in self.blocks]
             found[f"free of what {m + 1} drives"] = blind
         shown = [f"{x}: {', '.join(str(l + 1) for l in found[x])}" for x in found if found[x]]
-        return f", where the vector field is {'; '.join(shown)}" if shown else ""
+        fields = f", where the vector field is {'; '.join(shown)}" if shown else ""
+        own = [f"{l + 1}: {words(kind)}" for l, kind in enumerate(self.kinds)]
+        is_plain = {*self.kinds} <= {FIELD, LINEAR}
+        return fields if is_plain else f"{fields}; branches, orders: {'; '.join(own)}"
 
     def prove(self, data):
         """Points 1, 2, 3. Returns the number of spanning trees."""

@@ -17,14 +17,22 @@ from types import ModuleType
 from typing import Any
 
 import pytest
+from flint import fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import garkcli
 from garkcli import find_order, load, loads
-from garkcli.check.analysis import prove_method
+from garkcli.check.analysis import MethodProof, prove_method
 from garkcli.check.deciding import analyse
+from garkcli.constructions.rosenbrock import rosenbrock
+from garkcli.errors import MethodError
+from garkcli.order.certificate import prove
+from garkcli.reason import Reason
 from garkcli.report.certificate import REPORT
+from garkcli.report.coq import coq_proof
+from garkcli.tableau.tableau import Tableau
+from tests.constructions.test_rosenbrock import RODAS3
 from tests.whole import IS_WHOLE, sample
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -552,3 +560,55 @@ def test_random_methods_are_proved(tmp_path_factory: pytest.TempPathFactory, tex
     data = json.loads(REPORT.json([prove_method(method)]))
     assert data["method"]["order"] == find_order(method).order
     assert judged(data, tmp_path_factory.mktemp("proof")) == 0
+
+
+def rosenbrock_certificate(tableau: Tableau) -> dict[str, Any]:
+    """The proof of a method of which colours are no vector fields: it has no conjugate."""
+    proof = MethodProof("ROS", prove(tableau), None, None, Reason("it is no GARK method"))
+    data = json.loads(REPORT.json([proof]))
+    assert isinstance(data, dict)
+    return data
+
+
+@pytest.mark.parametrize("name", ["tableau", "with_any_matrix", "with_old_jacobian"])
+def test_vertices_of_every_kind(name: str, tmp_path: Path) -> None:
+    """The referee proves orders of Rosenbrock and W-methods too, and notices a missing tree, a
+    condition of trees that the exact solution does not have, and other branches at a vertex.
+    """
+    half, one, zero = fmpq(1, 2), fmpq(1), fmpq(0)
+    ros2 = rosenbrock(((zero, zero), (one, zero)), ((half, zero), (-one, half)), (half, half))
+    tableau = getattr(ros2, name)
+    data = rosenbrock_certificate(tableau)
+    assert data["method"]["order"] == 2
+    assert judged(data, tmp_path) == 0
+    for by_colour in data["method"]["spanning"]:
+        for trees in by_colour:
+            for i in range(len(trees)):
+                (tree,) = trees[i : i + 1]
+                del trees[i]
+                assert judged(data, tmp_path) == 1
+                trees.insert(i, tree)
+    assert judged(data, tmp_path) == 0
+    for colour in data["method"]["colours"]:
+        if "vertices" not in colour:
+            continue
+        kept = dict(colour["vertices"])
+        wrong: list[tuple[str, Any]] = [("branches", [0, 1, 2])]
+        if kept["weight"] == 1:  # larger roots have no tree up to order 2
+            wrong += [("weight", 3), ("exact", not kept["exact"])]
+        for key, value in wrong:
+            colour["vertices"][key] = value
+            assert judged(data, tmp_path) == 1, (key, value)
+            colour["vertices"] = dict(kept)
+    assert judged(data, tmp_path) == 0
+
+
+@pytest.mark.parametrize("name", ["tableau", "with_any_matrix", "with_old_jacobian"])
+def test_witness_of_every_kind(name: str, tmp_path: Path) -> None:
+    """RODAS3: order and witness as gark has them; another required value is noticed."""
+    data = rosenbrock_certificate(getattr(RODAS3, name))
+    assert judged(data, tmp_path) == 0
+    data["method"]["witness"]["required"] = "1/7"
+    assert judged(data, tmp_path) == 1
+    with pytest.raises(MethodError, match="a proof for Coq is for GARK methods"):
+        coq_proof(MethodProof("ROS", prove(getattr(RODAS3, name)), None, None, Reason()))
