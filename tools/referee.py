@@ -423,7 +423,7 @@ def read_kind(colour):
         return LINEAR if colour["linear"] else FIELD
     arity, weight = frozenset(own["branches"]), own["weight"]
     demand(arity <= {0, 1, 2} and weight in range(1, 10), "vertices of no kind")
-    return arity, weight, bool(own["exact"])
+    return arity, weight, bool(own["in_solution"])
 
 
 def read_tableau(field, data):

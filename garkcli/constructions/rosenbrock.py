@@ -48,7 +48,7 @@ class Rosenbrock(Frozen):
     Attributes:
         alpha: α^{l,m}, of the arguments of f^{l}; shape (stages of l, stages of m).
         gamma: γ^{l,m}, beside the Jacobian of f^{l}; the same shapes.
-        b: its weights, a row a colour.
+        b: its weights, one row per colour.
     """
 
     alpha: Blocks
@@ -80,7 +80,7 @@ class Rosenbrock(Frozen):
         """Of f(t, y), with h d_i f_t added to the stages: time is a colour besides.
 
         Args:
-            c: where f is evaluated, a row a colour; by default the sums of the rows of α^{l,l}.
+            c: where f is evaluated, one row per colour; by default the sums of the rows of α^{l,l}.
             d: the weights of f_t; by default those of γ^{l,l}.
         """
         if c is None:
@@ -149,7 +149,7 @@ def rosenbrock(alpha: Matrix, gamma: Matrix, b: Vector) -> Rosenbrock:
     s = len(b)
     for letter, matrix in (("alpha", alpha), ("gamma", gamma)):
         if len(matrix) != s or {*map(len, matrix)} != {s}:
-            raise ShapeMismatch(f"{letter} is not {s} by {s}", f"b has {s} entries")
+            raise ShapeMismatch(f"{letter} is not {s} by {s}", f"b has {s} entries", code="wrong-size")
     return Rosenbrock(((alpha,),), ((gamma,),), (b,))
 
 

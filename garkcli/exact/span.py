@@ -56,7 +56,9 @@ class Span:
         return len(self) == self.dimension
 
     def insert(self, vectors: Sequence[Sequence[fmpq]]) -> list[int]:
-        """Insert ``vectors`` from left to right; the indices of those that enlarged the span."""
+        """Insert ``vectors`` from left to right; the indices of the vectors that enlarged the
+        span.
+        """
         check_time()
         if not vectors or self.is_full:
             return []

@@ -135,7 +135,7 @@ SPACE = Section(
 VERTICES = Section(
     Row("branches", Kind(S.array(S.one_of({"enum": [0, 1, 2]}))), lambda kind: sorted(kind.arity)),
     Row("weight", POSITION, "weight"),
-    Row("exact", TRUTH, "is_exact"),
+    Row("in_solution", TRUTH, "is_exact"),
 )
 
 

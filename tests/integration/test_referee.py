@@ -595,7 +595,7 @@ def test_vertices_of_every_kind(name: str, tmp_path: Path) -> None:
         kept = dict(colour["vertices"])
         wrong: list[tuple[str, Any]] = [("branches", [0, 1, 2])]
         if kept["weight"] == 1:  # larger roots have no tree up to order 2
-            wrong += [("weight", 3), ("exact", not kept["exact"])]
+            wrong += [("weight", 3), ("in_solution", not kept["in_solution"])]
         for key, value in wrong:
             colour["vertices"][key] = value
             assert judged(data, tmp_path) == 1, (key, value)
