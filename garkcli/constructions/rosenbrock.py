@@ -149,7 +149,8 @@ def rosenbrock(alpha: Matrix, gamma: Matrix, b: Vector) -> Rosenbrock:
     s = len(b)
     for letter, matrix in (("alpha", alpha), ("gamma", gamma)):
         if len(matrix) != s or {*map(len, matrix)} != {s}:
-            raise ShapeMismatch(f"{letter} is not {s} by {s}", f"b has {s} entries", code="wrong-size")
+            message = f"{letter} is not {s} by {s}"
+            raise ShapeMismatch(message, f"b has {s} entries", code="wrong-size")
     return Rosenbrock(((alpha,),), ((gamma,),), (b,))
 
 

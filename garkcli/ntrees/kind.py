@@ -4,6 +4,7 @@ solution has them.
 
 from __future__ import annotations
 
+from functools import cached_property
 from math import perm
 from typing import TypeAlias
 
@@ -43,7 +44,7 @@ class Kind(Frozen):
         """
         return perm(order, self.weight)
 
-    @property
+    @cached_property
     def stems(self) -> Arity:
         """The numbers of branches, 0 or 1, that no vertex has, and that are left of larger ones
         without their last branch.

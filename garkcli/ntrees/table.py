@@ -344,9 +344,11 @@ class TreeTable(Frozen):
         bare: list[Segment] = []
         for n in range(1, order + 1):
             for root in range(admissible.colours):
+                kind = admissible.kinds[root]
                 of_root = _Root(admissible, places, columns, n, root)
-                segments += of_root.fill(places.trees(n, root), admissible.kinds[root].arity)
-                bare += of_root.fill(places.bare(n, root), admissible.kinds[root].stems)
+                segments += of_root.fill(places.trees(n, root), kind.arity)
+                if kind.stems:
+                    bare += of_root.fill(places.bare(n, root), kind.stems)
         return cls(admissible, order, columns.freeze(), places, tuple(segments), tuple(bare))
 
     def __len__(self) -> int:
@@ -469,7 +471,10 @@ class Places(Frozen):
         first = 0
         counts = counts_upto(admissible, order)
         for n, trees in enumerate(counts, start=1):
-            bare = [_count_bare(admissible, counts, n, root) for root in range(len(trees))]
+            bare = [0] * len(trees)
+            for root, kind in enumerate(admissible.kinds):
+                if kind.stems:
+                    bare[root] = _count_bare(admissible, counts, n, root)
             starts.append(tuple(accumulate([*trees, *bare], initial=first)))
             first = starts[-1][-1]
         return cls(tuple(starts))

@@ -183,7 +183,8 @@ def defects_of(method: AnyTableau) -> Defects:
     Raises:
         MethodError: it is no GARK method.
     """
-    (method if isinstance(method, Tableau) else method.tableau).demand_fields("a simplifying condition")
+    tableau = method if isinstance(method, Tableau) else method.tableau
+    tableau.demand_fields("a simplifying condition")
     if isinstance(method, Tableau):
         return Defects(method)
     if not method.search.box.numbers:
