@@ -28,13 +28,14 @@ _ROWS = ("A", "b", "c", "embedded")
 _CURE = "load a file with load(path), or make one with from_arrays(A, b)"
 
 
-def method_of(given: AnyMethod, tolerance: object = None) -> GarkMethod:
+def method_of(given: AnyMethod, tolerance: object = None, is_any_kind: bool = False) -> GarkMethod:
     """The method that is meant, with its entries as they are printed.
 
     Args:
         given: a method, a tableau; a path, or a name of the catalogue; a tuple ``(A, b)``,
             ``(A, b, c)`` or ``(A, b, c, embedded)``, or a mapping of what ``from_arrays`` takes.
         tolerance: the rounding of arrays, where they bring none.
+        is_any_kind: whether it may be another than a GARK method.
 
     Raises:
         MethodError: it is none of these.
@@ -45,6 +46,13 @@ def method_of(given: AnyMethod, tolerance: object = None) -> GarkMethod:
     >>> method_of("rk4").name
     'the classical Runge-Kutta method'
     """
+    found = _method_of(given, tolerance)
+    if not is_any_kind:
+        found.tableau.demand_fields("this function")
+    return found
+
+
+def _method_of(given: AnyMethod, tolerance: object) -> GarkMethod:
     if isinstance(given, GarkMethod):
         return given
     if isinstance(given, Tableau):
@@ -107,20 +115,24 @@ def refuse_rounded(method: GarkMethod, derivation: str = "") -> None:
         raise MethodError(message, "give exact coefficients, without tolerance", code="rounded")
 
 
-def with_tolerance(given: AnyMethod, tolerance: object = None) -> tuple[GarkMethod, fmpq | None]:
+def with_tolerance(
+    given: AnyMethod, tolerance: object = None, is_any_kind: bool = False
+) -> tuple[GarkMethod, fmpq | None]:
     """A method with the tolerance that it is judged within: the one given, or its own."""
-    method = method_of(given, tolerance)
+    method = method_of(given, tolerance, is_any_kind)
     if tolerance is not None and (method.embedded_tolerance or method.dense_tolerance):
         # that of its further weights is another too
         method = replace(method, tableau=replace(method.tableau))
     return method, tolerance_of(method, tolerance)
 
 
-def meant_of(given: AnyMethod, tolerance: object = None) -> tuple[GarkMethod, AnyTableau]:
+def meant_of(
+    given: AnyMethod, tolerance: object = None, is_any_kind: bool = False
+) -> tuple[GarkMethod, AnyTableau]:
     """A method, and its tableau with the rounding that it is judged within: the one given, or its
     own.
     """
-    method, near = with_tolerance(given, tolerance)
+    method, near = with_tolerance(given, tolerance, is_any_kind)
     return method, as_meant(method) if tolerance is None else meant(method.tableau, near)
 
 

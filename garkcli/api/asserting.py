@@ -134,10 +134,10 @@ def _embedded(method: GarkMethod) -> GarkMethod:
         cure = "from_arrays(A, b, c, embedded), or embedded: […] in its file"
         raise MethodError(message, cure, code="arrays")
     changed = as_embedded(as_meant(method), method.embedded)
-    near, tableau = tolerance_of(changed), printed(changed)
-    if near is not None:
-        keep(tableau, near, changed)
-    return GarkMethod(tableau=tableau, name=method.name, tolerance=near)
+    if not isinstance(changed, Tableau):
+        keep(changed)
+    tolerance = tolerance_of(changed)
+    return GarkMethod(tableau=printed(changed), name=method.name, tolerance=tolerance)
 
 
 _PARTS = {

@@ -13,6 +13,7 @@ from garkcli.api.numbers import Number, Whole, colour_of, rational, rationals, w
 from garkcli.check import analysis
 from garkcli.check.analysis import MethodProof
 from garkcli.check.true_claims import TrueClaims, true_claims, usual_keys
+from garkcli.constructions.rosenbrock import is_rosenbrock, on_test_equation
 from garkcli.deadline import SECONDS
 from garkcli.errors import MethodError, UsageProblem, did_you_mean
 from garkcli.methodfile.build import MethodFile
@@ -127,7 +128,7 @@ def find_stability(
     >>> found, found.linear[0].a_stable
     (<Stability A-stable, not L-stable>, True)
     """
-    method, near = with_tolerance(method, tolerance)
+    method, near = with_tolerance(method, tolerance, is_any_kind=True)
     refuse_rounded(method)
     further = rationals(ratios, "ratios")
     if further and (near is not None or method.tableau.size != 2):
@@ -135,9 +136,13 @@ def find_stability(
         raise MethodError(message, "leave them out", code="pasted-tableau")
     if any(ratio <= 0 for ratio in further):
         raise MethodError("ratios are positive", "the axes are always there", code="option-value")
+    is_linear_alone = is_rosenbrock(method.tableau)
+    tableau = on_test_equation(method.tableau, near) if is_linear_alone else method.tableau
     if near is None:
-        return stability(method.tableau, further, seconds)
-    return stability_of_rounded(method.tableau, near)
+        found = stability(tableau, further, seconds)
+    else:
+        found = stability_of_rounded(tableau, near)
+    return found.of_linear_problems if is_linear_alone else found
 
 
 def two_springs(
@@ -198,7 +203,7 @@ def prove_method(method: AnyMethod, limit: Whole = DEFAULT_LIMIT) -> MethodProof
     >>> prove_method("rk4")
     <MethodProof order 4, conjugate 4, pair 4>
     """
-    return analysis.prove_method(method_of(method), whole(limit, "limit", 1))
+    return analysis.prove_method(method_of(method, is_any_kind=True), whole(limit, "limit", 1))
 
 
 def prove_method_exists(method: AnyMethod, limit: Whole = DEFAULT_LIMIT) -> ExistenceProof:

@@ -63,7 +63,7 @@ def find_order(
     """
     limit = whole(limit, "limit", 1)
     is_own = tolerance is None
-    method, near = with_tolerance(method, tolerance)
+    method, near = with_tolerance(method, tolerance, is_any_kind=True)
     if is_own and near is not None and method.base is not None:
         found = deciding.analyse(method.base.tableau, limit, near)
         order = found.pair_order if method.derivation == "pair" else found.conjugate_order

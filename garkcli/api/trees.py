@@ -114,7 +114,7 @@ def conditions(
     >>> [(str(x.tree), x.value, x.residual) for x in conditions("heun", ["[[],[]]", "[[[]]]"])]
     [('[[]_1,[]_1]_1', 1/2, 1/6), ('[[[]_1]_1]_1', 0, -1/6)]
     """
-    method, known_as = meant_of(method, tolerance)
+    method, known_as = meant_of(method, tolerance, is_any_kind=True)
     if isinstance(trees, (str, Tree)):
         trees = [trees]
     return by_tree.conditions(known_as, (_fitting(tree, method.tableau) for tree in trees))
@@ -134,7 +134,7 @@ def all_conditions(
     [True, True, True, True]
     """
     order = whole(order, "order", 1)
-    _, known_as = meant_of(method, tolerance)
+    _, known_as = meant_of(method, tolerance, is_any_kind=True)
     return by_tree.all_conditions(known_as, order)
 
 

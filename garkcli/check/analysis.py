@@ -146,6 +146,8 @@ class Analysis(Shown, Frozen):
 def conjugate_and_pair(method: AnyTableau) -> tuple[AnyTableau | None, AnyTableau | None, Reason]:
     """The conjugate and the symplectic pair, None where a weight is zero, and then why."""
     conjugated, both, obstacle = None, None, NO_REASON
+    if not printed(method).has_fields_alone:
+        return None, None, Reason("it is no GARK method")
     try:
         conjugated = derived(method, "conjugate")
     except ZeroWeight as error:

@@ -8,6 +8,7 @@ from garkcli.check.claims import verify
 from garkcli.check.culprit import culprit
 from garkcli.check.deciding import analyse, remark_of
 from garkcli.check.outcome import Outcome
+from garkcli.constructions.rosenbrock import is_rosenbrock
 from garkcli.errors import HasFreeParameters, MethodFileError
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.expectations import highest_order
@@ -54,6 +55,8 @@ def check_method(
         want_constants: compute the error constants too.
     """
     reach = max(limit, highest_order(method.claims) + 1)
+    if is_rosenbrock(method.tableau):
+        return _check_rosenbrock(method, reach, want_constants)
     analysis = analyse(method.tableau, reach, method.tolerance, method.further)
     first_failing = None if analysis.order.is_lower_bound else analysis.order.order + 1
     constants = None
@@ -75,4 +78,23 @@ def check_method(
         constants=constants,
         left_behind=method.left_behind,
         rules=method.rules,
+    )
+
+
+def _check_rosenbrock(method: MethodFile, limit: int, want_constants: bool) -> Outcome:
+    from garkcli.check.rosenbrock import analyse_rosenbrock  # few files are
+
+    found = analyse_rosenbrock(method.tableau, limit, method.tolerance, method.further)
+    constants = None
+    if want_constants and not found.order.is_lower_bound:
+        from garkcli.order.constants import error_constants
+
+        constants = error_constants(method.tableau, found.order.order + 1)
+    return Outcome(
+        file=method.source,
+        name=method.name,
+        claims=verify(method.claims, found),
+        text=method.text,
+        constants=constants,
+        rosenbrock=found,
     )

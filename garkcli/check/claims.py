@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from garkcli.check.analysis import Analysis
 from garkcli.check.outcome import Claim
@@ -13,15 +13,19 @@ from garkcli.properties.registry import KEYS
 from garkcli.reason import NO_REASON, Reason
 
 if TYPE_CHECKING:
+    from garkcli.check.rosenbrock import RosenbrockAnalysis, RosenbrockSubject
     from garkcli.properties.subject import Subject
 
 
-def verify(claims: tuple[ClaimText, ...], analysis: Analysis) -> tuple[Claim, ...]:
+AnyAnalysis: TypeAlias = "Analysis | RosenbrockAnalysis"
+
+
+def verify(claims: tuple[ClaimText, ...], analysis: AnyAnalysis) -> tuple[Claim, ...]:
     """Hold each claim against the truth."""
     return tuple(_held_against(claim, analysis) for claim in claims)
 
 
-def _held_against(claim: ClaimText, analysis: Analysis) -> Claim:
+def _held_against(claim: ClaimText, analysis: AnyAnalysis) -> Claim:
     if claim.key in KEYS:
         return verify_property(claim, analysis.subject)
     found = found_value(claim.key, analysis)
@@ -32,8 +36,10 @@ def _held_against(claim: ClaimText, analysis: Analysis) -> Claim:
     return claim_of(claim, shown, None if is_open else agrees(claim.value, found))
 
 
-def _why_none(key: str, analysis: Analysis) -> str:
+def _why_none(key: str, analysis: AnyAnalysis) -> str:
     """Why there is nothing of which a claim speaks."""
+    if key in OF_ROSENBROCK and isinstance(analysis, Analysis):
+        return "it is no Rosenbrock method"
     if key.startswith("embedded") and analysis.embedded is None:
         return "there are no embedded weights"
     if key.startswith("dense") and analysis.dense is None:
@@ -42,7 +48,7 @@ def _why_none(key: str, analysis: Analysis) -> str:
         return "not decided"
     if key.endswith("nonautonomous-order"):
         return "a vector field is linear, or nodes differ"
-    return "a weight is zero"
+    return "a weight is zero" if isinstance(analysis, Analysis) else "it is a Rosenbrock method"
 
 
 PLACES = {
@@ -54,20 +60,29 @@ PLACES = {
     "dense-smooth": "dense.is_smooth",
 }
 """Where an analysis has what a claim is on, if not under its name."""
+OF_DENSE = ("dense-order", "dense-continuous", "dense-smooth")
+OF_ROSENBROCK = ("w-order", "old-jacobian-order", "embedded-w-order", "embedded-old-jacobian-order")
+"""The orders that Rosenbrock methods have besides."""
 
 
-def found_value(key: str, analysis: Analysis) -> object:
+def found_value(key: str, analysis: AnyAnalysis) -> object:
     """What is true of an order, a table, or symplecticity; None where it has no meaning."""
     found: Any = analysis
-    for name in PLACES.get(key, key.replace("-", "_")).split("."):
-        found = found and getattr(found, name)
+    if not isinstance(analysis, Analysis) and key not in OF_DENSE:
+        view = analysis.view(key)
+        found = None if view is None else view[0]
+    elif key in OF_ROSENBROCK:
+        return None
+    else:
+        for name in PLACES.get(key, key.replace("-", "_")).split("."):
+            found = found and getattr(found, name)
     if hasattr(found, "is_lower_bound"):
         # an order at which nothing is known to fail is at least that large, no more
         return AtLeast(found.order) if found.is_lower_bound else found.order
     return capped(found, analysis.limit)
 
 
-def verify_property(claim: ClaimText, subject: Subject) -> Claim:
+def verify_property(claim: ClaimText, subject: Subject | RosenbrockSubject) -> Claim:
     """Hold a claim on a property against the truth."""
     verdict = subject.verdict(claim.key)
     return claim_of(claim, _found(verdict), _holds(claim, verdict, subject), verdict.reason)
@@ -81,7 +96,7 @@ def _found(verdict: Verdict) -> str:
     return claimed_text(verdict.value)
 
 
-def _holds(claim: ClaimText, verdict: Verdict, subject: Subject) -> bool | None:
+def _holds(claim: ClaimText, verdict: Verdict, subject: Subject | RosenbrockSubject) -> bool | None:
     value, wanted = verdict.value, claim.value
     if verdict.is_undecided:
         return None

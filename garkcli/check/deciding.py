@@ -43,6 +43,7 @@ def analyse(
         tolerance: the rounding of its coefficients; None for coefficients that are meant exactly.
         further: its embedded weights and its dense output.
     """
+    tableau.demand_fields("this analysis")
     method = meant(tableau, tolerance, further)
     spans = StageSpans(tableau) if further and method is tableau else None
     order = order_of(method, limit, spans)

@@ -11,7 +11,7 @@ from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.dense import DenseOrder, Slopes, dense_order, ends_at_step, slopes
 from garkcli.order.functionals import Estimator, Orders, estimator
 from garkcli.order.meant import AnyTableau, as_dense, as_embedded, printed, with_further
-from garkcli.tableau.embedded import Further
+from garkcli.tableau.embedded import DenseOutput, Further
 from garkcli.tableau.tableau import Tableau
 
 
@@ -88,10 +88,18 @@ def further_facts(
         found = estimator(with_further(method) or method, weights, orders, spans)
         embedded = EmbeddedFacts(printed(changed), other, timed_order, found)
     if dense is not None:
-        facts = DenseFacts(
-            order=dense_order(as_dense(method), dense, limit, spans),
-            degree=dense.degree,
-            ends_at_step=ends_at_step(with_further(method) or method, dense),
-            slopes=slopes(with_further(method) or method, dense),
-        )
+        facts = dense_facts(method, dense, limit, spans)
     return embedded, facts
+
+
+def dense_facts(
+    method: AnyTableau, dense: DenseOutput, limit: int, spans: StageSpans | None = None
+) -> DenseFacts:
+    """Decide what ``gark check`` reports of dense output, as ``further_facts`` does."""
+    whole = with_further(method) or method
+    return DenseFacts(
+        order=dense_order(as_dense(method), dense, limit, spans),
+        degree=dense.degree,
+        ends_at_step=ends_at_step(whole, dense),
+        slopes=slopes(whole, dense),
+    )

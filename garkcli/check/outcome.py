@@ -13,6 +13,7 @@ from garkcli.upward import Shown
 if TYPE_CHECKING:
     from garkcli.check.every_value import EveryValue
     from garkcli.check.remark import Remark
+    from garkcli.check.rosenbrock import RosenbrockAnalysis
     from garkcli.methodfile.description import BlockRule
     from garkcli.order.blame import Blame
     from garkcli.order.constants import ErrorConstants
@@ -65,6 +66,7 @@ class Outcome(Shown, Frozen):
         is_crash: whether the program failed, not the file; ``faults`` say how.
         wants_properties: whether to show all properties.
         every: what holds for every value, of a file with free parameters; it has no analysis.
+        rosenbrock: the truth about a Rosenbrock method; it has no analysis.
         left_behind: further weights of the methods that it is made from, in words.
         rules: what made blocks between diagonal methods.
     """
@@ -84,13 +86,14 @@ class Outcome(Shown, Frozen):
     needed: tuple[str, ...] = ()
     wants_properties: bool = False
     every: EveryValue | None = None
+    rosenbrock: RosenbrockAnalysis | None = None
     left_behind: tuple[str, ...] = ()
     rules: tuple[BlockRule, ...] = ()
 
     @property
-    def found(self) -> Analysis | EveryValue | None:
+    def found(self) -> Analysis | EveryValue | RosenbrockAnalysis | None:
         """What is true of the method, or for every value of its parameters; None for neither."""
-        return self.analysis or self.every
+        return self.analysis or self.every or self.rosenbrock
 
     @property
     def failed_claims(self) -> tuple[Claim, ...]:

@@ -55,7 +55,7 @@ def certificate(given: Given, output: Output) -> None:
     from garkcli.api.calls import prove_method, prove_method_exists
     from garkcli.report.certificate import REPORT
 
-    method = given.method()
+    method = given.method(is_any_kind=True)
     if output.format == "coq":
         from garkcli.report.coq import coq_proof
 

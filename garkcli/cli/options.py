@@ -388,12 +388,15 @@ class Given(SimpleNamespace):
                 found[argument] = value
         return found
 
-    def method(self, file: str = "", is_exact: bool = False) -> GarkMethod:
+    def method(
+        self, file: str = "", is_exact: bool = False, is_any_kind: bool = False
+    ) -> GarkMethod:
         """The method of FILE with the values of --set, or its conjugate or its pair.
 
         Args:
             file: another one.
             is_exact: whether the statements about it are proved.
+            is_any_kind: whether it may be another than a GARK method.
 
         Raises:
             MethodFileError: it is none.
@@ -404,6 +407,8 @@ class Given(SimpleNamespace):
         from garkcli.methodfile.load import load
 
         method: GarkMethod = load(file or self.file, self.settings)
+        if not is_any_kind:
+            method.tableau.demand_fields("this command")
         if is_exact and self.which:
             from garkcli.api.anymethod import refuse_rounded
 

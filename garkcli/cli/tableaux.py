@@ -255,6 +255,7 @@ def reduce(given: Given, output: Output) -> None:
     from garkcli.methodfile.writer import can_spell_out, tolerance_of_file, write_method
 
     method = load(given.file, given.settings)
+    method.tableau.demand_fields("this command")
     file = called(given.file)
     made = reduced(method)
     if made is None:
@@ -300,6 +301,7 @@ def convert(given: Given, output: Output) -> None:
     from garkcli.methodfile.naming import called
 
     method = load(given.file, given.settings)
+    method.tableau.demand_fields("this command")
     made = convert(method, **given.of("convert"))
     file = called(given.file)
     if made.left_out:

@@ -16,26 +16,36 @@ stiff differential equations", Math. Comp. 33 (1979) 521; A. Sandu, M. Günther,
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from operator import add as add_numbers
-from typing import Any, TypeAlias
+from operator import sub as subtract_numbers
+from typing import Literal, TypeAlias
 
 from flint import fmpq
 
 from garkcli.errors import MethodError, ShapeMismatch
-from garkcli.exact.field import ONE, ZERO, Number
-from garkcli.exact.matrix import Matrix, Vector, add, apply, apply_left, identity, multiply, solve
+from garkcli.exact.field import ONE, ZERO
+from garkcli.exact.matrix import (
+    Matrix,
+    Vector,
+    add,
+    apply,
+    apply_left,
+    identity,
+    multiply,
+    solve,
+    subtract,
+)
 from garkcli.frozen import Frozen
 from garkcli.ntrees.kind import LEAF, PLAIN, SEVERAL, Kind
-from garkcli.order.recovering import Recovery
-from garkcli.order.rounded import RoundedTableau
-from garkcli.tableau.box import Box
-from garkcli.tableau.embedded import Weights
-from garkcli.tableau.forms import TIME
+from garkcli.order.meant import AnyTableau, keep, meant, printed
+from garkcli.tableau.embedded import DenseOutput, Further, Weights
+from garkcli.tableau.forms import TIME, gark
 from garkcli.tableau.stages import PointSpace
-from garkcli.tableau.tableau import Colour, Edge, Tableau
+from garkcli.tableau.tableau import Colour, Edge, Tableau, butcher
 
 Blocks: TypeAlias = tuple[tuple[Matrix, ...], ...]
+Rows: TypeAlias = tuple[Vector, ...]
 NOT_ONE = Kind(frozenset({0, SEVERAL}))
 ONE_BRANCH = Kind(frozenset({1}))
 MATRIX = Kind(frozenset({1}), is_exact=False)
@@ -49,11 +59,33 @@ class Rosenbrock(Frozen):
         alpha: α^{l,m}, of the arguments of f^{l}; shape (stages of l, stages of m).
         gamma: γ^{l,m}, beside the Jacobian of f^{l}; the same shapes.
         b: its weights, one row per colour.
+        c: where f is evaluated, one row per colour; None for the sums of the rows of α^{l,l}.
+        d: the weights of ∂f/∂t; None for those of γ^{l,l}.
     """
 
     alpha: Blocks
     gamma: Blocks
     b: tuple[Vector, ...]
+    c: Rows | None = None
+    d: Rows | None = None
+
+    @staticmethod
+    def of(tableau: Tableau) -> Rosenbrock:
+        """The method of a tableau that one has: ``of(method.tableau) == method``, but that its
+        nodes are given.
+        """
+        N = tableau.size // 2
+
+        def blocks(first: int) -> Blocks:
+            return tuple(tuple(tableau.blocks[first + l, m] for m in range(N)) for l in range(N))
+
+        alpha, beta = blocks(0), blocks(N)
+        gamma = tuple(tuple(map(subtract, *rows)) for rows in zip(beta, alpha, strict=True))
+        nodes = tuple(colour.c for colour in tableau.colours)
+        d = tuple(
+            tuple(map(subtract_numbers, *rows)) for rows in zip(nodes[N:], nodes[:N], strict=True)
+        )
+        return Rosenbrock(alpha, gamma, tuple(x.b for x in tableau.colours[:N]), nodes[:N], d)
 
     @property
     def tableau(self) -> Tableau:
@@ -74,26 +106,38 @@ class Rosenbrock(Frozen):
             ("E", ERROR_OF_MATRIX, self.gamma),
         )
 
-    def with_time(
-        self, c: Sequence[Vector] | None = None, d: Sequence[Vector] | None = None
-    ) -> Tableau:
-        """Of f(t, y), with h d_i f_t added to the stages: time is a colour besides.
-
-        Args:
-            c: where f is evaluated, one row per colour; by default the sums of the rows of α^{l,l}.
-            d: the weights of f_t; by default those of γ^{l,l}.
-        """
-        if c is None:
-            c = [_sums(row[l]) for l, row in enumerate(self.alpha)]
-        if d is None:
-            d = [_sums(row[l]) for l, row in enumerate(self.gamma)]
+    @property
+    def with_time(self) -> Tableau:
+        """Of f(t, y), with h d_i f_t added to the stages: time is a colour besides."""
         made = self.tableau
         time = made.size
-        alone = [tuple(map(add_numbers, *rows)) for rows in zip(c, d, strict=True)]
-        blocks = {(k, time): tuple((x,) for x in row) for k, row in enumerate([*c, *alone])}
+        blocks = {(k, time): tuple((x,) for x in colour.c) for k, colour in enumerate(made.colours)}
         clock = Colour(TIME, len(made.spaces), (ONE,), (ZERO,), term=len(self.b), kind=LEAF)
         spaces = (*made.spaces, PointSpace((ZERO,)))
         return Tableau(spaces, (*made.colours, clock), {**made.blocks, **blocks})
+
+    @property
+    def diagonal(self) -> Vector:
+        """The γ_ii of all stages."""
+        blocks = [row[l] for l, row in enumerate(self.gamma)]
+        return tuple(row[i] for block in blocks for i, row in enumerate(block))
+
+    @property
+    def on_test_equation(self) -> Tableau:
+        """The Runge–Kutta method with the same R(z): A = β, which is all that linear problems tell
+        of a method of one colour.
+        """
+        return gark([butcher(self._beta[0][0], self.b[0])], {})
+
+    @property
+    def _nodes(self) -> tuple[Rows, Rows]:
+        """C and d as they are given, or as the rows say."""
+        c, d = self.c, self.d
+        if c is None:
+            c = tuple(_sums(row[l]) for l, row in enumerate(self.alpha))
+        if d is None:
+            d = tuple(_sums(row[l]) for l, row in enumerate(self.gamma))
+        return c, d
 
     @property
     def _beta(self) -> Blocks:
@@ -107,6 +151,9 @@ class Rosenbrock(Frozen):
             kinds: a letter, what vertices are like, and the blocks.
         """
         N = len(self.b)
+        c, d = self._nodes
+        alone = tuple(tuple(map(add_numbers, *rows)) for rows in zip(c, d, strict=True))
+        nodes_of = {"f": c, "f'": alone}
         spaces: list[PointSpace] = []
         colours: list[Colour] = []
         blocks: dict[Edge, Matrix] = {}
@@ -114,11 +161,41 @@ class Rosenbrock(Frozen):
             for l in range(N):
                 k = len(spaces)
                 name = letter if N == 1 else f"{letter[:1]}{l + 1}{letter[1:]}"
-                nodes = _sums(through[l][l])
+                nodes = nodes_of.get(letter, d)[l]
                 spaces.append(PointSpace(nodes))
                 colours.append(Colour(name, k, self.b[l], nodes, l, kind=kind))
                 blocks |= {(k, m): through[l][m % N] for m in range(N * len(kinds))}
         return Tableau(tuple(spaces), tuple(colours), blocks)
+
+
+def is_rosenbrock(tableau: Tableau) -> bool:
+    """Whether it is the tableau of such a method with the Jacobian."""
+    kinds = [colour.kind for colour in tableau.colours]
+    N = len(kinds) // 2
+    return bool(kinds) and kinds == [NOT_ONE] * N + [ONE_BRANCH] * N
+
+
+Which: TypeAlias = Literal["with_any_matrix", "with_old_jacobian", "with_time", "on_test_equation"]
+
+
+def seen(method: AnyTableau, which: Which) -> AnyTableau:
+    """Another tableau of the method that has this one, which is exact or rounded."""
+
+    def make(tableau: Tableau) -> Tableau:
+        found: Tableau = getattr(Rosenbrock.of(tableau), which)
+        return found
+
+    if isinstance(method, Tableau):
+        return make(method)
+    return method.derive(which.replace("_", " "), make)
+
+
+def on_test_equation(tableau: Tableau, tolerance: fmpq | None) -> Tableau:
+    """The Runge–Kutta method with the same R(z), of which ``meant`` knows what it is rounded of."""
+    found = seen(meant(tableau, tolerance), "on_test_equation")
+    if not isinstance(found, Tableau):
+        keep(found)
+    return printed(found)
 
 
 def weights_for(tableau: Tableau, b: Sequence[Vector]) -> Weights:
@@ -126,6 +203,22 @@ def weights_for(tableau: Tableau, b: Sequence[Vector]) -> Weights:
     weights; time keeps its own.
     """
     return tuple(b[colour.term] if colour.term < len(b) else colour.b for colour in tableau.colours)
+
+
+def transformed_weights(further: Further, C: Matrix, gamma: Vector) -> Further:
+    """Embedded weights and dense output of one colour as programs store them, like m = b Γ⁻¹, as
+    those of the stages k_i.
+    """
+    full = _full(C, gamma)
+    embedded, dense = further.embedded, further.dense
+    if embedded is not None:
+        embedded = tuple(apply_left(row, full) for row in embedded)
+    if dense is not None:
+        powers = [
+            [apply_left(row, full) for row in zip(*block, strict=True)] for block in dense.weights
+        ]
+        dense = DenseOutput(tuple(tuple(zip(*rows, strict=True)) for rows in powers))
+    return Further(embedded, dense)
 
 
 def rosenbrock(alpha: Matrix, gamma: Matrix, b: Vector) -> Rosenbrock:
@@ -166,66 +259,21 @@ def transformed(A: Matrix, C: Matrix, gamma: Vector, m: Vector) -> Rosenbrock:
     Raises:
         MethodError: a γ_ii is zero.
     """
+    full = _full(C, gamma)
+    return rosenbrock(multiply(A, full), full, apply_left(m, full))
+
+
+def _full(C: Matrix, gamma: Vector) -> Matrix:
+    """Γ from what programs store."""
     if not all(gamma):
         message = "a diagonal entry of gamma is 0, and the coefficients are divided by it"
         raise MethodError(message, "give alpha and gamma", code="cannot-construct")
-    s = len(m)
+    s = len(gamma)
     inverse = tuple(
         tuple((ONE / gamma[i] if i == j else ZERO) - (C[i][j] if j < i else ZERO) for j in range(s))
         for i in range(s)
     )
-    full = solve(inverse, identity(s))
-    return rosenbrock(multiply(A, full), full, apply_left(m, full))
-
-
-def rounded(
-    method: Rosenbrock, tolerance: fmpq, of: Callable[[Rosenbrock], Tableau]
-) -> RoundedTableau:
-    """One of the tableaus of a method whose numbers are rounded.
-
-    Args:
-        method: as it is printed.
-        tolerance: how far every number that is not 0 may be off; equal γ_ii are one number.
-        of: which tableau.
-    """
-    printed: dict[object, Number] = {}
-
-    def changed(values: Mapping[object, Any]) -> Rosenbrock:
-        """The method with values in place of the numbers, which are noted where they are new."""
-
-        def entry(place: object, x: Number) -> Any:
-            if not x:
-                return x
-            printed.setdefault(place, x)
-            return values.get(place, x)
-
-        def block(letter: str, l: int, m: int, rows: Matrix) -> Matrix:
-            return tuple(
-                tuple(
-                    entry(("γ_ii", x) if letter == "γ" and i == j else (letter, l, m, i, j), x)
-                    for j, x in enumerate(row)
-                )
-                for i, row in enumerate(rows)
-            )
-
-        def blocks(letter: str, given: Blocks) -> Blocks:
-            return tuple(
-                tuple(block(letter, l, m, rows) for m, rows in enumerate(row))
-                for l, row in enumerate(given)
-            )
-
-        return Rosenbrock(
-            blocks("α", method.alpha), blocks("γ", method.gamma), block("b", 0, 0, method.b)
-        )
-
-    changed({})
-    numbers = tuple(printed.values())
-
-    def make(values: Sequence[Any]) -> Tableau:
-        return of(changed(dict(zip(printed, values, strict=True))))
-
-    box = Box(numbers, (tolerance,) * len(numbers), make)
-    return RoundedTableau(of(method), tolerance, Recovery(box))
+    return solve(inverse, identity(s))
 
 
 def _sums(block: Matrix) -> Vector:

@@ -10,10 +10,17 @@ from typing import TYPE_CHECKING, Generic, TypeAlias, TypeVar
 from flint import fmpq
 from yaml.nodes import Node
 
+from garkcli.constructions.rosenbrock import (
+    Rosenbrock,
+    rosenbrock,
+    transformed,
+    transformed_weights,
+)
 from garkcli.errors import GarkError, MethodError, MethodFileError, ShapeMismatch
 from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.exact.parametric import Parametric
+from garkcli.frozen import replace
 from garkcli.methodfile import description as d
 from garkcli.methodfile.numbers import Entry, Numbers, Row
 from garkcli.methodfile.source import Source
@@ -261,6 +268,8 @@ class Builder(Generic[V]):
                 tableau = forms.separable_prk(q, p)
                 is_nystrom = description.structure == "nystrom"
                 return forms.with_linear(tableau, ["q"]) if is_nystrom else tableau
+            case d.RosenbrockText():
+                return self._at(content.node, lambda: self._rosenbrock(content).tableau)
             case d.ConstructionText():
                 for part in content.parts:  # all are built
                     self.part(part)
@@ -288,7 +297,31 @@ class Builder(Generic[V]):
         if blocks:
             degree = max(len(block[0]) for block in blocks)
             dense = DenseOutput(tuple(padded(x, degree) for x in blocks))
-        return Further(tuple(embedded) or None, dense)
+        found = Further(tuple(embedded) or None, dense)
+        content = self.text.description.content
+        if isinstance(content, d.RosenbrockText) and content.diagonal is not None:
+            return self._transformed(content, found)
+        return found
+
+    def _rosenbrock(self, text: d.RosenbrockText) -> Rosenbrock:
+        matrix, vector = self.values.matrix, self.values.vector
+        alpha, gamma, b = matrix(text.alpha), matrix(text.gamma), vector(text.b)
+        if text.diagonal is None:
+            made = rosenbrock(alpha, gamma, b)
+        else:
+            made = transformed(alpha, gamma, vector(text.diagonal), b)
+        c = None if text.c is None else (vector(text.c),)
+        return replace(made, c=c, d=None if text.d is None else (vector(text.d),))
+
+    def _transformed(self, text: d.RosenbrockText, further: Further) -> Further:
+        """The further weights at the stages of the method, with what ``e`` says."""
+        assert text.diagonal is not None
+        vector = self.values.vector
+        if text.error is not None:
+            pairs = zip(vector(text.b), vector(text.error), strict=True)
+            row = tuple(m - e for m, e in pairs)
+            further = Further((row,) * self.tableau.size, further.dense)
+        return transformed_weights(further, self.values.matrix(text.gamma), vector(text.diagonal))
 
     def _at(self, node: Node, make: Callable[[], T]) -> T:
         """The result of ``make``; what it refuses becomes a fault at ``node``."""

@@ -24,8 +24,8 @@ STRUCTURES: tuple[Structure, ...] = ("general", "semi-separable", "separable", "
 Construction: TypeAlias = Literal["compose", "adjoint", "extrapolate", "splitting", "multirate"]
 CONSTRUCTIONS: tuple[Construction, ...] = get_args(Construction)
 """The forms that make a method from others."""
-Form: TypeAlias = Literal["methods", "tableau", "ark", "prk"] | Construction
-FORMS: tuple[Form, ...] = ("methods", "tableau", "ark", "prk", *CONSTRUCTIONS)
+Form: TypeAlias = Literal["methods", "tableau", "ark", "prk", "rosenbrock"] | Construction
+FORMS: tuple[Form, ...] = ("methods", "tableau", "ark", "prk", "rosenbrock", *CONSTRUCTIONS)
 PLAIN = ("A", "b", "c")
 """The keys of a Butcher tableau that is at the top of a file."""
 BESIDE = ("embedded", "dense")
@@ -172,6 +172,32 @@ class PrkText(Frozen):
     p: ButcherText
 
 
+class RosenbrockText(Frozen):
+    """A Rosenbrock or W-method, as papers print it, or transformed, as programs store it.
+
+    Attributes:
+        node: the place in the file.
+        alpha: α; A of a transformed one.
+        gamma: γ with its diagonal; C of a transformed one.
+        b: the weights; m of a transformed one.
+        c: where f is evaluated; None where the row sums of α say it.
+        d: the weights of ∂f/∂t; None where the row sums of γ say it.
+        diagonal: the γ_ii of a transformed one, one for all or one per stage; else None.
+        error: b − b̂ of a transformed one, as far as it is given.
+        further: what is beside the weights.
+    """
+
+    node: Node
+    alpha: Rows
+    gamma: Rows
+    b: Row
+    c: Row | None = None
+    d: Row | None = None
+    diagonal: Row | None = None
+    error: Row | None = None
+    further: tuple[FurtherText, ...] = (NOTHING_FURTHER,)
+
+
 class PartText(Frozen):
     """A method that a construction is made from.
 
@@ -215,7 +241,9 @@ class ConstructionText(Frozen):
     tolerance: fmpq | None = None
 
 
-Content: TypeAlias = "MethodsText | TableauText | ArkText | PrkText | ConstructionText"
+Content: TypeAlias = (
+    "MethodsText | TableauText | ArkText | PrkText | RosenbrockText | ConstructionText"
+)
 
 
 def further_of(content: Content) -> tuple[FurtherText, ...]:

@@ -106,6 +106,14 @@ KEYS = {
             "method",
         ),
         g.Key(
+            "rosenbrock: {alpha: [[0, 0], [1, 0]], gamma: [[1/2, 0], [-1, 1/2]], b: [1/2, 1/2]}",
+            g.later("rosenbrock", "ROSENBROCK"),
+            "A Rosenbrock or W-method: linear systems with the Jacobian, or another matrix, in "
+            "place of nonlinear ones.",
+            page=f"{_PAGE}rosenbrock-rosenbrock-and-w-methods",
+            also=("ros", "row", "rosw"),
+        ),
+        g.Key(
             "compose: {of: rk4, steps: [1/2, 1/2]}",
             g.later("constructed.compose", "KIND"),
             "Substeps of methods, one after the other, the first one first.",
@@ -208,7 +216,7 @@ FORM = g.Ways(
     "the coefficients are",
     (*FORMS, "unknown", g.Together(("A", "b"), ("c",))),
     "no coefficients",
-    "give A and b, or one of the keys methods, tableau, ark, prk",
+    "give A and b, or one of the keys methods, tableau, ark, prk, rosenbrock",
 )
 """The coefficients of a method have one form; A, b and c at the top are those of a tableau."""
 _INSIDE: dict[str, str] = dict.fromkeys(

@@ -171,6 +171,11 @@ def _free(reader: Reader, description: Description) -> MethodFileError:
     """The error of a family of methods, or what else is wrong with it."""
     if reader.source.faults:
         return reader.source.error()
+    if description.form == "rosenbrock":
+        message = "a parameter of a Rosenbrock method is free"
+        cure = f"give it a value: --set {next(iter(reader.numbers.free))}=1/2"
+        reader.source.fault(description.node, message, cure, code="free-parameters")
+        return reader.source.error()
     error = reader.source.error_with(lambda: refuse_free(reader.numbers))
     free = HasFreeParameters(error.source, error.faults, error.text)
     free.reading = reader, description

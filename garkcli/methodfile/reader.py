@@ -146,6 +146,10 @@ class ContentReader(Reading):
             parts = PartReader(self.numbers, *inside, self.tolerance, structure)
             found: d.ConstructionText | None = KEYS[form].kind.read(parts, node, form)
             return found
+        if form == "rosenbrock":
+            from garkcli.methodfile.rosenbrock import rosenbrock
+
+            return rosenbrock(self, node)
         from garkcli.methodfile.ark_prk import ark, prk
 
         return ark(self, node) if form == "ark" else prk(self, node, structure)

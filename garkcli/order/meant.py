@@ -95,9 +95,9 @@ def remember(
     tableau.__dict__["box"] = tolerance, box
 
 
-def keep(tableau: Tableau, tolerance: fmpq, rounded: AnyTableau) -> None:
-    """Let ``meant`` find what a tableau is with a tolerance."""
-    tableau.__dict__.setdefault("meant", {})[tolerance] = rounded
+def keep(method: RoundedTableau) -> None:
+    """Keep of a rounded tableau that was made of another what it is a rounding of."""
+    method.tableau.__dict__.setdefault("meant", {})[method.tolerance] = method
 
 
 def with_further(method: AnyTableau) -> RoundedTableau | None:

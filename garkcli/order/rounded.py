@@ -153,7 +153,7 @@ class RoundedTableau(Frozen, eq=False):
         Raises:
             ZeroWeight: a weight that it divides by is 0.
         """
-        return self._derived("conjugate", conjugate)
+        return self.derive("conjugate", conjugate)
 
     def pair(self) -> RoundedTableau:
         """The symplectic pair (Q, P).
@@ -161,7 +161,7 @@ class RoundedTableau(Frozen, eq=False):
         Raises:
             ZeroWeight: a weight that a conjugate divides by is 0.
         """
-        return self._derived("pair", pair)
+        return self.derive("pair", pair)
 
     def with_time(self) -> RoundedTableau | None:
         """With time as its last colour, whose blocks are the nodes; None where it has no sense."""
@@ -172,7 +172,7 @@ class RoundedTableau(Frozen, eq=False):
         def derive(tableau: Tableau) -> Tableau:
             return with_time(tableau) or tableau
 
-        return self._derived("with time", derive)
+        return self.derive("with time", derive)
 
     def with_embedded(self) -> RoundedTableau | None:
         """The same stages with the embedded weights; None where no rounded number is in either."""
@@ -190,7 +190,8 @@ class RoundedTableau(Frozen, eq=False):
         tolerance = max(self.search.largest_in(f"power {power}") for power in powers)
         return replace(self, tolerance=tolerance) if tolerance else None
 
-    def _derived(self, kind: str, make: Derive) -> RoundedTableau:
+    def derive(self, kind: str, make: Derive) -> RoundedTableau:
+        """What ``make`` makes of it, whose coefficients are of the same printed numbers."""
         name, search = f"{kind} of {self.name}", self.search
         derived = make(self.tableau)
         base = search.targets[self.name]

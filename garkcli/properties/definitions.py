@@ -48,6 +48,7 @@ _HAIRER = "E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential E
 _HAIRER_II_4 = f"{_HAIRER} II.4"
 _HAIRER_II_6 = f"{_HAIRER} II.6"
 _WITH_EMBEDDED = "methods with embedded weights"
+_ROSENBROCK = "Rosenbrock methods"
 _WITH_DENSE = "methods with dense output"
 _ORDERS = (
     Definition(
@@ -132,6 +133,20 @@ _ORDERS = (
         meaning="methods without linear colours",
     ),
     Definition(
+        "w-order",
+        "The order of a Rosenbrock method with an arbitrary matrix in place of the Jacobian: that"
+        " of the W-method.",
+        "T. Steihaug, A. Wolfbrandt, Math. Comp. 33 (1979)",
+        meaning=_ROSENBROCK,
+    ),
+    Definition(
+        "old-jacobian-order",
+        "The order of a Rosenbrock method with a matrix that differs from the Jacobian by O(h),"
+        " such as the Jacobian of an earlier step.",
+        "P. Kaps, A. Ostermann, IMA J. Numer. Anal. 9 (1989)",
+        meaning=_ROSENBROCK,
+    ),
+    Definition(
         "embedded-order",
         "The order of the method with the embedded weights in place of b.",
         _HAIRER_II_4,
@@ -142,6 +157,18 @@ _ORDERS = (
         "The order on problems ẏ = f(t, y) of the method with the embedded weights in place of b.",
         _HAIRER_II_4,
         meaning=_WITH_EMBEDDED,
+    ),
+    Definition(
+        "embedded-w-order",
+        "The w-order with the embedded weights in place of b.",
+        "T. Steihaug, A. Wolfbrandt, Math. Comp. 33 (1979)",
+        meaning="Rosenbrock methods with embedded weights",
+    ),
+    Definition(
+        "embedded-old-jacobian-order",
+        "The old-jacobian-order with the embedded weights in place of b.",
+        "P. Kaps, A. Ostermann, IMA J. Numer. Anal. 9 (1989)",
+        meaning="Rosenbrock methods with embedded weights",
     ),
     Definition(
         "dense-order",

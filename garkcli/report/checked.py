@@ -28,14 +28,19 @@ def form(outcome: Outcome) -> Section:
         from garkcli.report.every import EVERY
 
         return EVERY
+    if outcome.rosenbrock is not None:
+        from garkcli.report.rosenbrock import ROSENBROCK
+
+        return ROSENBROCK
     return UNREADABLE if outcome.analysis is None else CHECKED
 
 
 def forms() -> Iterator[Section]:
     """All of them."""
     from garkcli.report.every import EVERY
+    from garkcli.report.rosenbrock import ROSENBROCK
 
-    yield from (UNREADABLE, CHECKED, EVERY)
+    yield from (UNREADABLE, CHECKED, EVERY, ROSENBROCK)
 
 
 REPORT: Report[Outcome] = Report(

@@ -249,6 +249,8 @@ def either(exact: str) -> Callable[[Any], Any]:
 
 def ssp(x: Any) -> Any:
     """The SSP coefficient."""
+    if x.is_linear_alone:
+        return None
     found = x.ssp if x.within is None else x.within.ssp
     without_nodes = Answer(None, Status(open=Reason("the nodes have no simple radicals")))
     return found or _open(x, "ssp") or without_nodes
@@ -368,6 +370,8 @@ def algebraic(x: Any) -> Answer:
         late = _open(found, "algebraic")
         if late is not None:
             return late
+        if found.is_linear_alone:
+            return Answer(None, reason=Reason("has no meaning for a Rosenbrock method"))
         if found.tolerance is None:
             return Answer(None, reason=Reason("has no meaning: colours do not see one another"))
         return kinds.truth(found.algebraic_within, open_because=ROUNDED)

@@ -142,6 +142,8 @@ class LinearStability(Frozen):
         ssp: the SSP coefficient, the vector fields of the others being 0; None where it is not
             decided.
         late: the attributes for which the time was not enough.
+        is_linear_alone: whether the method is one of these on linear problems alone, as a
+            Rosenbrock method is; there is no SSP coefficient then.
     """
 
     name: str
@@ -155,6 +157,7 @@ class LinearStability(Frozen):
     ssp: SspCoefficient | None
     within: StabilityWithin | None = None
     late: frozenset[str] = frozenset()
+    is_linear_alone: bool = False
 
     @property
     def words(self) -> str:
@@ -180,6 +183,7 @@ class Stability(Shown, Frozen):
         algebraic_within: that of the method that a rounded one is taken to be; None where that
             is not decided.
         late: the attributes for which the time was not enough; they are None.
+        is_linear_alone: whether it is that of linear problems alone.
     """
 
     tableau: Tableau
@@ -190,6 +194,15 @@ class Stability(Shown, Frozen):
     colours: Colours | None = None
     algebraic_within: bool | None = None
     late: frozenset[str] = frozenset()
+    is_linear_alone: bool = False
+
+    @property
+    def of_linear_problems(self) -> Stability:
+        """The same without what is about nonlinear problems."""
+        linear = tuple(replace(x, ssp=None, is_linear_alone=True) for x in self.linear)
+        return replace(
+            self, linear=linear, algebraic=None, algebraic_within=None, is_linear_alone=True
+        )
 
     def __repr__(self) -> str:
         if not self.linear:

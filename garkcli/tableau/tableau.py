@@ -153,7 +153,7 @@ class Tableau(Frozen):
         for colour in self.colours:
             if colour.kind not in FIELDS:
                 message = f"{what} is for GARK methods: colour {colour.name} is no vector field"
-                cure = "its vertices are of a kind of their own; gark knows their order conditions"
+                cure = "gark check, conditions, stability and certificate know such methods"
                 raise MethodError(message, cure, code="cannot-construct")
 
     @property

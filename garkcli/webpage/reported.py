@@ -116,6 +116,7 @@ def reported(
             return Reported(Outcome(source, source, faults=error.faults, text=error.text))
     else:
         method = method_of(given)
+    method.tableau.demand_fields("this page")
     if isinstance(method, MethodFile):
         about = method.reference, method.bibliography, method.description
         return Reported(check_method(method), method, *about, order, has_pictures)

@@ -17,13 +17,7 @@ from flint import arb, ctx, fmpq
 from garkcli import hamiltonian, loads
 from garkcli.backward.modified import modified_equation
 from garkcli.constructions.composition import Substep, adjoint, in_turn
-from garkcli.constructions.rosenbrock import (
-    Rosenbrock,
-    rosenbrock,
-    rounded,
-    transformed,
-    weights_for,
-)
+from garkcli.constructions.rosenbrock import Rosenbrock, rosenbrock, seen, transformed, weights_for
 from garkcli.design.conditions import FamilyConditions
 from garkcli.design.minimise.squared_error import squared_error
 from garkcli.design.search.residuals import Residuals
@@ -31,6 +25,7 @@ from garkcli.errors import MethodError
 from garkcli.exact.matrix import Vector, add, apply, dot
 from garkcli.exact.parametric import Parameters
 from garkcli.frozen import replace
+from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.writer import write_method
 from garkcli.ntrees.notation import parse_tree
 from garkcli.order import constants
@@ -43,9 +38,11 @@ from garkcli.order.conditions import (
     elementary_weight,
     is_admissible,
 )
+from garkcli.order.deciding import order_of
 from garkcli.order.dense import dense_order
 from garkcli.order.functionals import Orders, estimator
-from garkcli.order.rounded import find_order_within
+from garkcli.order.meant import as_meant
+from garkcli.order.rounded import RoundedOrder
 from garkcli.order.simplifying import is_symplectic
 from garkcli.order.tree_residuals import TreeResiduals
 from garkcli.stability.fraction import stability_fraction
@@ -197,7 +194,7 @@ def test_random_methods_with_time_three_ways() -> None:
         d = [sum(row, Fraction(0)) for row in method.gamma[0][0]]
         if dice.random() < 0.5:
             dice.choice([c, d])[-1] += Fraction(dice.choice([-1, 1]), dice.randint(2, 4))
-        timed = made(method).with_time([engine(c)], [engine(d)])
+        timed = replace(made(method), c=(engine(c),), d=(engine(d),)).with_time
         limit = replace_time(method, c, d)
         orders[assert_agreed(timed, limit, "exact", seed)] += 1
     assert {1, 2, 3} <= orders.keys()
@@ -235,11 +232,11 @@ def test_published_methods() -> None:
     """
     orders = {which: find_order(of(RODAS3)).order for which, of in TABLEAUS.items()}
     assert orders == {"exact": 3, "any": 1, "old": 2}
-    assert find_order(RODAS3.with_time()).order == 3
+    assert find_order(RODAS3.with_time).order == 3
     embedded = replace(RODAS3, b=(RODAS3_EMBEDDED,))
     assert find_order(embedded.tableau).order == 2
     assert find_order(ros3p().tableau).order == 3
-    assert find_order(ros3p().with_time()).order == 3
+    assert find_order(ros3p().with_time).order == 3
     worse = replace(ros3p(), b=(engine(fractions("1/3 1/3 1/3")[0]),))
     assert find_order(worse.tableau).order == 2
     for g in (fmpq(1, 5), fmpq(1), fmpq(2)):
@@ -254,8 +251,8 @@ def test_wrong_weights_of_time() -> None:
     """
     sums = apply(RODAS3.gamma[0][0], (fmpq(1),) * 4)
     wrong = (*sums[:3], sums[3] + fmpq(1, 2))
-    assert find_order(RODAS3.with_time(d=[wrong])).order == 1
-    assert find_order(RODAS3.with_time(d=[sums])).order == 3
+    assert find_order(replace(RODAS3, d=(wrong,)).with_time).order == 1
+    assert find_order(replace(RODAS3, d=(sums,)).with_time).order == 3
 
 
 GRK4T = """
@@ -268,25 +265,28 @@ stiff ordinary differential equations", Numer. Math. 33 (1979) 55.
 """
 
 
-def grk4t(text: str = GRK4T) -> Rosenbrock:
-    alpha, gamma, b = (engine(fractions(part)) for part in text.split("|"))
-    return rosenbrock(alpha, gamma, b[0])
+def grk4t(text: str = GRK4T) -> MethodFile:
+    alpha, gamma, b = (
+        [f"[{', '.join(row.split())}]" for row in part.split(";")] for part in text.split("|")
+    )
+    keys = f"alpha: [{', '.join(alpha)}], gamma: [{', '.join(gamma)}], b: {b[0]}"
+    return loads(f"rosenbrock: {{{keys}}}\ntolerance: 1e-11")
 
 
 def test_rounded_method() -> None:
     """GRK4T has order 4 within its digits and not 5; of f with an old Jacobian 2, of any matrix 1;
     with one digit changed 1.
     """
-    found = {
-        which: find_order_within(rounded(grk4t(), fmpq(1, 10**11), of))
-        for which, of in TABLEAUS.items()
-    }
-    assert {which: x.order for which, x in found.items()} == {"exact": 4, "any": 1, "old": 2}
-    assert all(x.witness is not None for x in found.values())
+    method = as_meant(grk4t())
+    old, w = seen(method, "with_old_jacobian"), seen(method, "with_any_matrix")
+    orders = [order_of(x) for x in (method, old, w)]
+    assert [x.order for x in orders] == [4, 2, 1]
+    assert all(x.witness is not None for x in orders)
     assert find_order(grk4t().tableau).order < 4
-    assert arb(0) < found["exact"].largest_residual < 1e-12
+    assert isinstance(orders[0], RoundedOrder)
+    assert arb(0) < orders[0].largest_residual < 1e-12
     misprint = grk4t(GRK4T.replace("0.961775150166", "0.961875150166"))
-    assert find_order_within(rounded(misprint, fmpq(1, 10**11), TABLEAUS["exact"])).order == 1
+    assert order_of(as_meant(misprint)).order == 1
 
 
 def test_conditions_of_the_book() -> None:

@@ -8,6 +8,7 @@ from flint import arb, fmpq
 from markupsafe import Markup
 
 from garkcli.check.analysis import is_pair_of_itself
+from garkcli.check.rosenbrock import RosenbrockAnalysis
 from garkcli.exact.display import to_ball, to_text
 from garkcli.exact.parametric import Parametric
 from garkcli.page.cells import Line, lines_of, parts_of, remark
@@ -38,7 +39,7 @@ _TITLES = {"": "The method", "conjugate": "The symplectic conjugate", "pair": "T
 def content(method: Reported) -> Content | None:
     """What the template is given; None where the section has nothing to say."""
     outcome = method.outcome
-    if outcome.found is None:
+    if outcome.found is None or isinstance(outcome.found, RosenbrockAnalysis):
         return None
     analysis = outcome.analysis
     if analysis is None:

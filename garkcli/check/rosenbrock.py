@@ -1,0 +1,190 @@
+"""Everything known about one Rosenbrock or W-method, as one value."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from flint import fmpq
+
+from garkcli.check.further import DenseFacts, dense_facts
+from garkcli.constructions.rosenbrock import Which, seen
+from garkcli.frozen import Frozen
+from garkcli.order.certificate import DEFAULT_LIMIT, StageSpans
+from garkcli.order.deciding import AnyOrder, order_of
+from garkcli.order.functionals import Estimator, Orders, estimator
+from garkcli.order.meant import AnyTableau, as_embedded, meant, printed, with_further
+from garkcli.order.simplifying import simplifying
+from garkcli.properties.property import Verdict
+from garkcli.properties.subject import Subject
+from garkcli.reason import Reason
+from garkcli.tableau.embedded import NOTHING, Further
+from garkcli.tableau.tableau import Tableau
+from garkcli.upward import Shown
+
+if TYPE_CHECKING:
+    from garkcli.exact.field import Number
+
+VIEWS: dict[str, Which] = {
+    "w-order": "with_any_matrix",
+    "old-jacobian-order": "with_old_jacobian",
+    "nonautonomous-order": "with_time",
+}
+"""The orders besides that with the Jacobian, by their claims."""
+OF_TEST_EQUATION = frozenset(
+    {"gamma", "a-stable", "l-stable", "real-stability", "imaginary-stability"}
+)
+"""Properties that are those of the Runge–Kutta method with A = β."""
+_NO_PROPERTY = Reason("a property of Runge–Kutta methods, which this Rosenbrock method is not")
+
+
+class RosenbrockOrders(Frozen):
+    """The orders of some weights at the stages of a Rosenbrock method.
+
+    Attributes:
+        tableau: with the Jacobian.
+        order: with the Jacobian.
+        w_order: with any matrix in its place.
+        old_jacobian_order: with a matrix that differs from it by O(h).
+        nonautonomous_order: on problems ẏ = f(t, y), with the c and d of the file.
+    """
+
+    tableau: Tableau
+    order: AnyOrder
+    w_order: AnyOrder
+    old_jacobian_order: AnyOrder
+    nonautonomous_order: AnyOrder
+
+    @classmethod
+    def of(
+        cls, method: AnyTableau, limit: int, spans: StageSpans | None = None
+    ) -> RosenbrockOrders:
+        """The orders up to a limit."""
+        order = order_of(method, limit, spans)
+        w, old, timed = (order_of(seen(method, which), limit) for which in VIEWS.values())
+        return cls(printed(method), order, w, old, timed)
+
+    def view(self, claim: str) -> tuple[AnyOrder, Tableau]:
+        """The order that a claim is on, with the tableau that has it."""
+        found: AnyOrder = getattr(self, claim.replace("-", "_"))
+        if claim == "order":
+            return found, self.tableau
+        return found, printed(seen(self.tableau, VIEWS[claim]))
+
+
+class EmbeddedOrders(Frozen):
+    """The truth about embedded weights.
+
+    Attributes:
+        orders: of the method with them for b.
+        estimator: the estimate of the error that they give.
+    """
+
+    orders: RosenbrockOrders
+    estimator: Estimator
+
+
+class RosenbrockSubject(Frozen):
+    """The properties of a Rosenbrock method.
+
+    Attributes:
+        on_test_equation: the Runge–Kutta method with the same R(z).
+    """
+
+    on_test_equation: Subject
+
+    @property
+    def rounding(self) -> fmpq:
+        """By how much the printed coefficients may be off."""
+        return self.on_test_equation.rounding
+
+    def verdict(self, key: str) -> Verdict:
+        """What is true of a property."""
+        if key not in OF_TEST_EQUATION:
+            return Verdict.meaningless(_NO_PROPERTY)
+        return self.on_test_equation.verdict(key)
+
+
+class RosenbrockAnalysis(Shown, Frozen):
+    """The truth about a Rosenbrock or W-method.
+
+    Attributes:
+        tableau: with the Jacobian.
+        orders: its orders.
+        limit: where the search for orders stopped.
+        tolerance: the rounding within which all of this holds; None where it holds exactly.
+        embedded: the truth about its embedded weights; None where it has none.
+        dense: the truth about its dense output; likewise.
+        further: these weights.
+    """
+
+    tableau: Tableau
+    orders: RosenbrockOrders
+    limit: int
+    tolerance: fmpq | None = None
+    embedded: EmbeddedOrders | None = None
+    dense: DenseFacts | None = None
+    further: Further = NOTHING
+
+    @property
+    def order(self) -> AnyOrder:
+        """With the Jacobian."""
+        return self.orders.order
+
+    @cached_property
+    def subject(self) -> RosenbrockSubject:
+        """The method whose properties are decided on demand."""
+        method = seen(meant(self.tableau, self.tolerance), "on_test_equation")
+        conditions = simplifying(method, self.limit)
+        order = self.order.order
+        return RosenbrockSubject(Subject.read(method, order, conditions, self.limit, NOTHING))
+
+    @cached_property
+    def at_infinity(self) -> Number | None:
+        """R(∞); None where R is not bounded, or rounded coefficients leave it open."""
+        inner = self.subject.on_test_equation
+        return None if inner.tolerance else inner.linear.at_infinity()
+
+    def view(self, claim: str) -> tuple[AnyOrder, Tableau] | None:
+        """The order that a claim is on, with the tableau that has it; None for other claims."""
+        whose: RosenbrockOrders | None = self.orders
+        if claim.startswith("embedded-"):
+            whose = None if self.embedded is None else self.embedded.orders
+            claim = claim.removeprefix("embedded-")
+        return whose.view(claim) if whose and claim in {"order", *VIEWS} else None
+
+    def __repr__(self) -> str:
+        found = self.orders
+        return f"<RosenbrockAnalysis order {found.order.order}, W-order {found.w_order.order}>"
+
+
+def analyse_rosenbrock(
+    tableau: Tableau,
+    limit: int = DEFAULT_LIMIT,
+    tolerance: fmpq | None = None,
+    further: Further = NOTHING,
+) -> RosenbrockAnalysis:
+    """Decide everything that ``gark check`` reports of a Rosenbrock method.
+
+    Args:
+        tableau: of the method with the Jacobian.
+        limit: where the search for orders stops.
+        tolerance: the rounding of its coefficients; None for coefficients that are meant exactly.
+        further: its embedded weights and its dense output.
+    """
+    method = meant(tableau, tolerance, further)
+    spans = StageSpans(tableau) if method is tableau else None
+    orders = RosenbrockOrders.of(method, limit, spans)
+    embedded = dense = None
+    if further.embedded is not None:
+        changed = as_embedded(method, further.embedded)
+        other = RosenbrockOrders.of(changed, limit, spans)
+        smaller = min((orders.order, other.order), key=lambda x: x.order)
+        differ = other.order.order != orders.order.order and not smaller.is_lower_bound
+        sought = Orders(smaller.order, differ, limit)
+        embedded = EmbeddedOrders(
+            other, estimator(with_further(method) or method, further.embedded, sought, spans)
+        )
+    if further.dense is not None:
+        dense = dense_facts(method, further.dense, limit, spans)
+    return RosenbrockAnalysis(tableau, orders, limit, tolerance, embedded, dense, further)

@@ -1,0 +1,159 @@
+"""YAML nodes to the form ``rosenbrock``: Rosenbrock and W-methods as papers print them, and as
+programs store them.
+"""
+
+from __future__ import annotations
+
+from yaml.nodes import Node, ScalarNode
+
+from garkcli.methodfile import description as d
+from garkcli.methodfile import grammar as g
+from garkcli.methodfile import spelled_out
+from garkcli.methodfile.numbers import Entry, Reading, Row, Rows
+from garkcli.methodfile.parameters import MATRIX, NUMBER, ROW
+
+_FORM = (
+    "give {alpha: [[0, 0], [1, 0]], gamma: [[1/2, 0], [-1, 1/2]], b: [1/2, 1/2]}, "
+    "or {transformed: {A: …, C: …, gamma: …, m: …}}"
+)
+_FORM_OF_TRANSFORMED = (
+    "give {A: [[0, 0], [2, 0]], C: [[0, 0], [-4, 0]], gamma: 1/2, m: [3/2, 1/2]}: "
+    "A = α Γ⁻¹, C = diag(1/γ) − Γ⁻¹, m = b Γ⁻¹"
+)
+_DENSE = g.defined("dense")
+_C = g.Key(
+    "c: [0, 1]",
+    ROW,
+    "Where f(t, y) is evaluated, one per stage; the row sums of α where left out.",
+    also=("nodes", "a", "ros_alpha"),
+)
+_D = g.Key(
+    "d: [1/2, -1/2]",
+    ROW,
+    "The weights of ∂f/∂t, one per stage; the row sums of γ where left out.",
+    also=("gamma_i", "ros_gamma"),
+)
+TRANSFORMED = g.mapping(
+    g.Key("A: [[0, 0], [2, 0]]", MATRIX, "The matrix α Γ⁻¹, row by row.", is_needed=True),
+    g.Key(
+        "C: [[0, 0], [-4, 0]]",
+        MATRIX,
+        "The matrix diag(1/γ) − Γ⁻¹, row by row; its diagonal is zero.",
+        is_needed=True,
+    ),
+    g.Key(
+        "gamma: 1/2",
+        g.Kind(lambda: {"anyOf": [NUMBER.schema(), ROW.schema()]}),
+        "The diagonal of Γ: one number, or one per stage.",
+        is_needed=True,
+    ),
+    g.Key("m: [3/2, 1/2]", ROW, "The weights b Γ⁻¹, one per stage.", is_needed=True),
+    g.Key(
+        "e: [1/2, 1/2]",
+        ROW,
+        "Weights of the error estimate, one per stage: m minus the embedded weights.",
+    ),
+    _C,
+    _D,
+    g.Key(
+        "dense: {degree: 1, weights: [[3/2], [1/2]]}",
+        _DENSE,
+        "Dense output at the stages of the transformed method.",
+    ),
+    form=_FORM_OF_TRANSFORMED,
+)
+"""What is under ``transformed``."""
+ROSENBROCK = g.mapping(
+    g.Key(
+        "alpha: [[0, 0], [1, 0]]",
+        MATRIX,
+        "The matrix α of the arguments of f, row by row; rows may end before the diagonal.",
+    ),
+    g.Key(
+        "gamma: [[1/2, 0], [-1, 1/2]]",
+        MATRIX,
+        "The matrix γ beside the Jacobian, with its diagonal, row by row.",
+    ),
+    g.Key("b: [1/2, 1/2]", ROW, "The weights, one per stage."),
+    _C,
+    _D,
+    g.Key(
+        "embedded: [1, 0]",
+        ROW,
+        "Embedded weights, one per stage.",
+        also=("bhat", "b_hat", "bh", "b2"),
+    ),
+    g.Key(
+        "dense: {degree: 1, weights: [[1/2], [1/2]]}",
+        _DENSE,
+        "Dense output: weights polynomial in θ without constant terms.",
+    ),
+    g.Key(
+        "transformed: {A: [[0, 0], [2, 0]], C: [[0, 0], [-4, 0]], gamma: 1/2, m: [3/2, 1/2]}",
+        TRANSFORMED,
+        "The method as programs store it, in place of alpha, gamma and b.",
+    ),
+    form=_FORM,
+    rules=(
+        g.Ways(
+            "the coefficients are",
+            (g.Together(("alpha", "gamma", "b"), ("c", "d", "embedded", "dense")), "transformed"),
+            "no coefficients",
+            _FORM,
+        ),
+    ),
+)
+"""A Rosenbrock or W-method."""
+
+
+def rosenbrock(at: Reading, node: Node) -> d.RosenbrockText | None:
+    """The form ``rosenbrock``; None where it makes no method."""
+    entries: g.Found | None = ROSENBROCK.read(at, node, "rosenbrock")
+    if entries is None or not entries.is_right:
+        return None
+    if "transformed" in entries:
+        found: g.Found = entries["transformed"]
+        return _text(at, node, found, ("A", "C", "m"), found["C"])
+    return _text(at, node, entries, ("alpha", "gamma", "b"), entries["gamma"])
+
+
+def _text(
+    at: Reading, node: Node, found: g.Found, names: tuple[str, str, str], gamma: Rows
+) -> d.RosenbrockText | None:
+    """The method with its sizes checked; ``names`` are what its matrices and weights are called."""
+    name_of_alpha, name_of_gamma, name_of_b = names
+    b: Row = found[name_of_b]
+    stages = len(b)
+    if not stages:
+        return None
+    why = f"{name_of_b} has {spelled_out.entries_of(stages)}"
+    matrices = [
+        at.numbers.fitted(rows, found.nodes[name], name, (stages, stages), why)
+        for name, rows in ((name_of_alpha, found[name_of_alpha]), (name_of_gamma, gamma))
+    ]
+    rows = {key: _row(at, found, key, stages) if key in found else None for key in ("c", "d", "e")}
+    diagonal = None
+    if name_of_gamma == "C":
+        diagonal = _diagonal(at, found.nodes["gamma"], stages)
+    further = spelled_out.further_of_method(at, found.nodes, stages)
+    return d.RosenbrockText(
+        node, matrices[0], matrices[1], b, rows["c"], rows["d"], diagonal, rows["e"], (further,)
+    )
+
+
+def _row(at: Reading, found: g.Found, name: str, stages: int) -> Row:
+    row: Row = found[name]
+    cure = "give one per stage, or leave it out"
+    spelled_out.one_each(at, found.nodes[name], name, row, "entry", "stage", stages, cure)
+    return row
+
+
+def _diagonal(at: Reading, node: Node, stages: int) -> tuple[Entry, ...]:
+    """The γ_ii, one for each stage."""
+    row = at.numbers.row(node, "gamma")
+    if isinstance(node, ScalarNode):
+        return row * stages
+    spelled_out.one_each(
+        at, node, "gamma", row, "entry", "stage", stages, "give one number, or one per stage"
+    )
+    return row

@@ -1,0 +1,127 @@
+"""``gark check`` of Rosenbrock and W-methods."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from garkcli.constructions.rosenbrock import Rosenbrock
+from garkcli.report import check as c
+from garkcli.tell import kinds
+from garkcli.tell.facts import Answer, Level, Row, Section, Status, maybe, optional
+from garkcli.tell.parts import part, parts, picture, told
+
+if TYPE_CHECKING:
+    from garkcli.tell.dialect import Plain
+
+HEADLINE, USUAL, DETAIL, DATA = Level
+
+
+def _method_words(outcome: Any, d: Plain) -> str:
+    a = outcome.rosenbrock
+    stages = a.tableau.spaces[0].stages
+    text = f"Rosenbrock, {stages} stages"
+    diagonal = set(Rosenbrock.of(a.tableau).diagonal)
+    if len(diagonal) == 1:
+        text += f", γ = {d.number(diagonal.pop())}"
+    if a.tolerance is not None:
+        return f"{text}; coefficients rounded"
+    degree = a.tableau.degree
+    field = "rational arithmetic" if degree == 1 else f"a number field of degree {degree}"
+    return f"{text}; decided in {field}"
+
+
+def _order(key: str, level: Any = USUAL, label: str = "") -> Row:
+    """An order of the method."""
+    claim = key.replace("_", "-")
+
+    def get(a: Any) -> Answer:
+        view = a.view(claim)
+        return kinds.order_answer(None if view is None else view[0])
+
+    return Row(key, kinds.ORDER, get, level, has_null=key != "order", label=label or None)
+
+
+def _truth(key: str) -> Row:
+    """A property that R(z) decides."""
+
+    def get(a: Any) -> Answer:
+        v = a.subject.verdict(key)
+        return Answer(v.value, Status(open=v.reason) if v.is_undecided else Status(), v.reason)
+
+    return maybe(key.replace("-", "_"), kinds.TRUTH, get, DATA)
+
+
+def _stability_words(a: Any, d: Plain) -> str:
+    """``A-stable, R(∞) = 0``."""
+    words = []
+    for key, name in (("a-stable", "A-stable"), ("l-stable", "L-stable")):
+        v = a.subject.verdict(key)
+        if v.is_undecided:
+            words.append(f"{name} not decided: {d.reason(v.reason)}")
+        else:
+            words.append(d.known(name if v.value else f"not {name}", Status(a.tolerance)))
+            if not v.value and key == "a-stable":
+                words[-1] += f": {d.reason(v.reason)}" if v.reason else ""
+                break
+    limit = a.at_infinity
+    if limit is not None and limit:
+        words.append(f"{d.prose('R(∞)')} = {d.number(limit)}")
+    return ", ".join(words)
+
+
+def _estimate_words(e: Any, d: Plain) -> str:
+    if e.is_zero:
+        return "zero: the embedded weights are b"
+    return "leading term not found" if e.order is None else f"of order {e.order}"
+
+
+def _witnesses(a: Any) -> list[tuple[Any, Any]]:
+    views = (a.view(claim) for claim in ("order", "w-order", "embedded-order"))
+    return [(order.witness, tableau) for order, tableau in filter(None, views) if order.witness]
+
+
+def _dense(get: Callable[[Any], Any]) -> Callable[[Any], Any]:
+    return lambda a: None if a.dense is None else get(a)
+
+
+R_OF_Z = kinds.ratio("z")
+ANALYSIS = [
+    Row("exact", kinds.TRUTH, lambda a: a.tolerance is None, DATA),
+    maybe("tolerance", kinds.TOLERANCE, level=DATA),
+    Row("colours", parts(c.COLOURS), lambda a: c.colours_of(a.tableau), DATA),
+    _order("order", HEADLINE),
+    _order("w_order", label="with any matrix"),
+    _order("old_jacobian_order", label="old Jacobian"),
+    _order("nonautonomous_order", label="order for f(t, y)"),
+    _order("embedded_order"),
+    _order("embedded_w_order", DETAIL, "embedded, any matrix"),
+    _order("embedded_old_jacobian_order", DETAIL, "embedded, old Jacobian"),
+    _order("embedded_nonautonomous_order", DETAIL, "embedded for f(t, y)"),
+    maybe("error_estimate", part(c.ESTIMATE, _estimate_words), "embedded.estimator"),
+    maybe("dense_order", kinds.COUNT, _dense(lambda a: c.dense_answer(a.dense.order, True))),
+    maybe("dense", part(c.DENSE, c.dense_words), label="dense output"),
+    Row("stability", told(_stability_words), "."),
+    _truth("a-stable"),
+    _truth("l-stable"),
+    maybe("R_infinity", kinds.EXACT, "at_infinity", DATA),
+    optional(
+        "R",
+        R_OF_Z,
+        lambda a: None if a.tolerance else a.subject.on_test_equation.linear,
+        DETAIL,
+        label="R(z)",
+    ),
+    Row("trees_that_fail", picture(c.drawn), _witnesses, DETAIL),
+]
+ROSENBROCK = Section(
+    *kinds.FILE_AND_NAME,
+    Row("ok", kinds.TRUTH, level=DATA),
+    Row("rosenbrock", kinds.TRUE, lambda _: True, DATA),
+    Row("method", told(_method_words), "."),
+    *(row.of(lambda o: o.rosenbrock) for row in ANALYSIS),
+    optional("error_constants", part(c.CONSTANTS), "constants"),
+    *c.CLAIMS,
+    title=c.title,
+    columns=c.COLUMNS,
+)

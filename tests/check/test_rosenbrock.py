@@ -1,0 +1,95 @@
+"""``gark check`` of Rosenbrock and W-methods: files as papers print them and as programs store
+them.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from garkcli import load, loads
+from garkcli.check.check_file import check_file
+from garkcli.errors import MethodError, MethodFileError
+from garkcli.tableau.embedded import Further
+
+RODAS3 = """
+rosenbrock:
+  transformed:
+    gamma: 1/2
+    A: [[], [0], [2, 0], [2, 0, 1]]
+    C: [[], [4], [1, -1], [1, -1, -8/3]]
+    m: [2, 0, 1, 1]
+    e: [0, 0, 0, 1]
+"""
+"""A. Sandu et al., Atmos. Environ. 31 (1997) 3459."""
+PRINTED = """
+rosenbrock:
+  alpha: [[], [0], [1, 0], [3/4, -1/4, 1/2]]
+  gamma: [[1/2], [1, 1/2], [-1/4, -1/4, 1/2], [1/12, 1/12, -2/3, 1/2]]
+  b: [5/6, -1/6, -1/6, 1/2]
+  embedded: [3/4, -1/4, 1/2, 0]
+"""
+CLAIMS = """
+expect: {order: 3, w-order: 1, old-jacobian-order: 2, nonautonomous-order: 3, embedded-order: 2,
+  l-stable: true}
+"""
+
+
+@pytest.mark.parametrize("text", [RODAS3, PRINTED])
+def test_claims_hold(tmp_path: Path, text: str) -> None:
+    """RODAS3 has its orders, and none is larger: in both forms."""
+    outcome = check_file(_written(tmp_path, text + CLAIMS))
+    assert outcome.exit_code == 0
+    larger = CLAIMS.replace("order: 3, w-order: 1", "order: 4, w-order: 2")
+    outcome = check_file(_written(tmp_path, text + larger))
+    assert [x.claim for x in outcome.failed_claims] == ["order", "w-order"]
+    assert outcome.exit_code == 1
+
+
+def _written(tmp_path: Path, text: str) -> str:
+    path = tmp_path / "method.gark.yaml"
+    path.write_text(text, encoding="utf-8")
+    return str(path)
+
+
+def test_both_forms_are_one_method() -> None:
+    """A = α Γ⁻¹ and the like, solved for α, γ, b and b̂, is what the paper's form says."""
+    stored, printed = loads(RODAS3), loads(PRINTED)
+    assert stored.tableau == printed.tableau
+    assert stored.further == printed.further != Further()
+
+
+def test_nodes_and_weights_of_time(tmp_path: Path) -> None:
+    """A wrong d costs the order of f(t, y) alone."""
+    text = PRINTED.replace("  b:", "  d: [1/2, 3/2, 0, 1/2]\n  b:")
+    claims = CLAIMS.replace("nonautonomous-order: 3", "nonautonomous-order: 1")
+    assert check_file(_written(tmp_path, text + claims)).exit_code == 0
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("rosenbrock: {alpha: [[0]], b: [1]}", "gamma missing beside alpha, b"),
+        ("rosenbrock: {alpha: [[0]], gamma: [[1], [0, 1]], b: [1]}", "gamma"),
+        ("rosenbrock: {transformed: {A: [[0]], C: [[0]], gamma: 0, m: [1]}}", "of gamma is 0"),
+        ("rosenbrock: {alpha: [[0]], gamma: [[1]], b: [1], c: [0, 1]}", "c has 2 entries"),
+        ("rosenbrock: {alpha: [[0]], gamma: [[g]], b: [1]}\nparameters: {g: free}", "is free"),
+        (PRINTED.replace("rosenbrock", "conjugate: true\nrosenbrock"), "conjugate"),
+    ],
+)
+def test_faults(text: str, message: str) -> None:
+    """What is wrong is said, with its place."""
+    with pytest.raises(MethodFileError, match=message):
+        loads(text)
+
+
+def test_what_is_for_others_is_refused() -> None:
+    """No answer that is true of the colours alone is given for the method."""
+    method = loads(RODAS3)
+    for name in ("conjugate", "pair"):
+        with pytest.raises(MethodError, match="GARK methods"):
+            getattr(method, name)
+    outcome_of_gark = load("rk4")
+    assert method.order == 3
+    assert outcome_of_gark.order == 4
