@@ -177,14 +177,12 @@ def analyse_rosenbrock(
     orders = RosenbrockOrders.of(method, limit, spans)
     embedded = dense = None
     if further.embedded is not None:
-        changed = as_embedded(method, further.embedded)
-        other = RosenbrockOrders.of(changed, limit, spans)
+        other = RosenbrockOrders.of(as_embedded(method, further.embedded), limit, spans)
         smaller = min((orders.order, other.order), key=lambda x: x.order)
         differ = other.order.order != orders.order.order and not smaller.is_lower_bound
         sought = Orders(smaller.order, differ, limit)
-        embedded = EmbeddedOrders(
-            other, estimator(with_further(method) or method, further.embedded, sought, spans)
-        )
+        found = estimator(with_further(method) or method, further.embedded, sought, spans)
+        embedded = EmbeddedOrders(other, found)
     if further.dense is not None:
         dense = dense_facts(method, further.dense, limit, spans)
     return RosenbrockAnalysis(tableau, orders, limit, tolerance, embedded, dense, further)

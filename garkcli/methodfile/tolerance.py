@@ -202,6 +202,8 @@ def _names(content: d.Content) -> list[tuple[str, ...]]:
             names = ["q", "p"]
         case d.TableauText(b=b) | d.ArkText(b=b):
             names = [""] * len(b)
+        case d.RosenbrockText():
+            return [()]
         case _:
             return []
     return [(str(l), name) if name else (str(l),) for l, name in enumerate(names, start=1)]
@@ -237,7 +239,9 @@ def _places(content: d.Content) -> Iterator[_Place]:
         case d.ArkText():
             for m, rows in enumerate(content.A):
                 yield from _of_rows([*rows, content.b[m]], m)
-    if isinstance(content, d.TableauText | d.ArkText):
+        case d.RosenbrockText(error=error):
+            yield from _of_rows([error or ()], 0, "embedded")
+    if isinstance(content, d.TableauText | d.ArkText | d.RosenbrockText):
         for l, further in enumerate(content.further):
             yield from _of_further(further, l)
 

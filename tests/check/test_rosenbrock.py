@@ -93,3 +93,22 @@ def test_what_is_for_others_is_refused() -> None:
     outcome_of_gark = load("rk4")
     assert method.order == 3
     assert outcome_of_gark.order == 4
+
+
+@pytest.mark.parametrize("text", [RODAS3, PRINTED])
+def test_rounded_numbers(tmp_path: Path, text: str) -> None:
+    """With digits that are off the orders are those within the tolerance, by the place of each:
+    the coefficients, and the embedded weights.
+    """
+    text = text.replace("-8/3", "-2.66667").replace("5/6", "0.83333")
+    off = text.replace("e: [0", "e: [0.01").replace("embedded: [3/4", "embedded: [0.76")
+    for tolerance in ("1e-1", "{others: 1e-4, embedded: 1e-1}"):
+        found = check_file(_written(tmp_path, f"{off}tolerance: {tolerance}\n{CLAIMS}"))
+        assert found.exit_code == 0
+    found = check_file(_written(tmp_path, f"{off}tolerance: {{others: 1e-4}}\n{CLAIMS}"))
+    assert [x.claim for x in found.failed_claims] == ["embedded-order"]
+    exact = off.replace("-2.66667", "-8/3").replace("0.83333", "5/6")
+    found = check_file(_written(tmp_path, f"{exact}tolerance: {{embedded: 1e-1}}\n{CLAIMS}"))
+    assert found.exit_code == 0
+    assert found.rosenbrock is not None
+    assert found.rosenbrock.tolerance is None
