@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 from flint import fmpq
 
 from garkcli.api.anymethod import AnyMethod, method_of, refuse_rounded, with_tolerance
-from garkcli.api.methods import analyse
 from garkcli.api.numbers import Number, Whole, colour_of, rational, rationals, whole
 from garkcli.check import analysis
 from garkcli.check.analysis import MethodProof
+from garkcli.check.deciding import analyse_any
 from garkcli.check.true_claims import TrueClaims, true_claims, usual_keys
 from garkcli.constructions.rosenbrock import is_rosenbrock, on_test_equation
 from garkcli.deadline import SECONDS
@@ -53,7 +53,7 @@ def claims_of(method: AnyMethod, keys: str | Iterable[str] = ()) -> dict[str, st
     """
     wanted = [keys] if isinstance(keys, str) else list(keys)
     refuse_unknown(wanted)
-    return dict(true_claims_of(method_of(method), wanted).claims)
+    return dict(true_claims_of(method_of(method, is_any_kind=True), wanted).claims)
 
 
 def refuse_unknown(keys: Iterable[str]) -> None:
@@ -70,7 +70,7 @@ def refuse_unknown(keys: Iterable[str]) -> None:
 def true_claims_of(method: GarkMethod, keys: Sequence[str]) -> TrueClaims:
     """What is true of some claims, of the usual ones where none are named."""
     claims = method.claims if isinstance(method, MethodFile) else ()
-    found = analyse(method, max(DEFAULT_LIMIT, highest_order(claims) + 1))
+    found = analyse_any(method, max(DEFAULT_LIMIT, highest_order(claims) + 1))
     wanted = keys or usual_keys(found)
     true = true_claims(found, wanted)
     source = method.source if isinstance(method, MethodFile) else method.name

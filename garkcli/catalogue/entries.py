@@ -88,11 +88,9 @@ def entry_of_method(read: MethodFile, file: str) -> Entry:
 def _judged(read: MethodFile, name: str, file: str) -> Entry:
     """What is found of a method."""
     from garkcli.catalogue.facts import found_of
-    from garkcli.check.deciding import analyse
-    from garkcli.order.certificate import DEFAULT_LIMIT
+    from garkcli.check.deciding import analyse_any
 
-    analysis = analyse(read.tableau, DEFAULT_LIMIT, read.tolerance, further=read.further)
-    return found_of(read, analysis, name, file)
+    return found_of(read, analyse_any(read), name, file)
 
 
 def _blank(method: Shelved) -> Entry:

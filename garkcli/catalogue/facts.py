@@ -12,9 +12,12 @@ from typing import TYPE_CHECKING, Any
 
 from garkcli.catalogue.known import fingerprint
 from garkcli.check.check_file import check_file
+from garkcli.check.claims import found_value
 from garkcli.comparison.comparison import form_of
+from garkcli.constructions.rosenbrock import is_rosenbrock
 from garkcli.errors import GarkError
 from garkcli.exact.display import decimal, to_text
+from garkcli.methodfile.expectations import AtLeast
 from garkcli.methodfile.load import loads
 from garkcli.methodfile.nodes import one_line
 from garkcli.methodfile.reading import SUFFIX, read_text
@@ -27,10 +30,9 @@ from garkcli.properties.registry import KEYS, find
 from garkcli.tableau.pointwise import in_points
 
 if TYPE_CHECKING:
-    from garkcli.check.analysis import Analysis
+    from garkcli.check.claims import AnyAnalysis
     from garkcli.check.outcome import Outcome
     from garkcli.methodfile.build import MethodFile
-    from garkcli.order.deciding import AnyOrder
     from garkcli.tableau.tableau import Tableau
 
 
@@ -49,6 +51,10 @@ _SIZES = ("p-stable", "i-stable", "real-stability", "imaginary-stability")
 _DIGITS = 4
 
 
+_ORDERS = (
+    *("order", "embedded_order", "conjugate_order", "pair_order", "nonautonomous_order"),
+    "w_order",
+)
 _UNKNOWN: Entry = {
     "name": "",
     "aliases": [],
@@ -57,11 +63,7 @@ _UNKNOWN: Entry = {
     "reference": "",
     "authors": [],
     "year": "",
-    "order": None,
-    "embedded_order": None,
-    "conjugate_order": None,
-    "pair_order": None,
-    "nonautonomous_order": None,
+    **dict.fromkeys(_ORDERS),
     "stages": None,
     "stages_by_colour": [],
     "colours": None,
@@ -103,19 +105,19 @@ def entry_of(path: str, name: str, file: str, text: str) -> Entry:
         NoMethod: it cannot be read, or a claim of it fails.
     """
     outcome = check_file(path)
-    if outcome.analysis is None or not outcome.ok:
+    analysis = outcome.analysis or outcome.rosenbrock
+    if analysis is None or not outcome.ok:
         raise NoMethod(f"{path}: {_what_fails(outcome)}", code="other-file")
-    found = found_of(loads(text, path), outcome.analysis, name, file)
-    return {**found, "digest": digest(text), "fingerprint": fingerprint(outcome.analysis.tableau)}
+    found = found_of(loads(text, path), analysis, name, file)
+    return {**found, "digest": digest(text), "fingerprint": fingerprint(analysis.tableau)}
 
 
-def found_of(method: MethodFile, analysis: Analysis, name: str, file: str) -> Entry:
+def found_of(method: MethodFile, analysis: AnyAnalysis, name: str, file: str) -> Entry:
     """What was found of a method, and what its file says of itself."""
-    embedded = analysis.embedded
     is_small = _is_small(analysis.tableau)
     sought = [key for key in KEYS if is_small or key not in _SIZES]
     verdicts = {key: analysis.subject.verdict(key) for key in sought}
-    values: Entry = {"symplectic": analysis.symplectic}
+    values: Entry = {"symplectic": found_value("symplectic", analysis)}
     open_ones = []
     for key in KEYS:
         field = find(key).field
@@ -127,11 +129,7 @@ def found_of(method: MethodFile, analysis: Analysis, name: str, file: str) -> En
             open_ones.append(field)
     return {
         **head(method, name, file),
-        "order": analysis.order.order,
-        "embedded_order": _order(None if embedded is None else embedded.order),
-        "conjugate_order": _order(analysis.conjugate_order),
-        "pair_order": _order(analysis.pair_order),
-        "nonautonomous_order": _order(analysis.nonautonomous_order),
+        **{key: _order(key, analysis) for key in _ORDERS},
         **shape(method),
         "error_constant": _error_constant(analysis),
         **values,
@@ -143,7 +141,7 @@ def _what_fails(outcome: Outcome) -> str:
     """Why a file has no place in the catalogue."""
     if outcome.faults:
         return outcome.faults[0].message
-    if outcome.analysis is None:
+    if outcome.analysis is None and outcome.rosenbrock is None:
         return "it has free parameters"
     failing = [claim for claim in outcome.claims if not claim.holds]
     return "; ".join([f"{x.claim}: expected {x.expected}, found {x.found}" for x in failing])
@@ -166,14 +164,16 @@ def head(method: MethodFile, name: str, file: str) -> Entry:
 def shape(method: MethodFile) -> Entry:
     """How many stages and colours, what such a method is called, how its numbers are given."""
     tableau = method.tableau
-    spaces = [tableau.spaces[colour.space] for colour in tableau.colours]
-    stages = [space.stages for space in spaces]
+    is_linearly_implicit = is_rosenbrock(tableau)
+    # a vector field and its Jacobian are one
+    colours = tableau.colours[: tableau.size // (2 if is_linearly_implicit else 1)]
+    stages = [tableau.spaces[colour.space].stages for colour in colours]
     rounding = method.tolerance
     return {
         "stages": max(stages),
         "stages_by_colour": stages,
-        "colours": tableau.size,
-        "kind": "prk" if tableau.is_partitioned else form_of(tableau),
+        "colours": len(colours),
+        "kind": "row" if is_linearly_implicit else _kind(tableau),
         "structure": method.structure,
         "exact": rounding is None,
         "tolerance": None if rounding is None else decimal(rounding),
@@ -182,11 +182,16 @@ def shape(method: MethodFile) -> Entry:
     }
 
 
-def _order(order: AnyOrder | None) -> int | None:
-    return None if order is None else order.order
+def _kind(tableau: Tableau) -> str:
+    return "prk" if tableau.is_partitioned else form_of(tableau)
 
 
-def _error_constant(analysis: Analysis) -> str | None:
+def _order(key: str, analysis: AnyAnalysis) -> object:
+    found = found_value(key.replace("_", "-"), analysis)
+    return found.least if isinstance(found, AtLeast) else found
+
+
+def _error_constant(analysis: AnyAnalysis) -> str | None:
     """The norm of the principal error, rounded; None where it has too many trees."""
     order = analysis.order
     if order.is_lower_bound or count_trees(analysis.tableau.size, order.order + 1) > MOST_TREES:

@@ -14,6 +14,7 @@ from garkcli.check.analysis import (
     is_pair_of_itself,
     nonautonomous,
 )
+from garkcli.constructions.rosenbrock import is_rosenbrock
 from garkcli.doing import doing
 from garkcli.frozen import replace
 from garkcli.order.certificate import DEFAULT_LIMIT, StageSpans
@@ -25,8 +26,19 @@ from garkcli.tableau.embedded import NOTHING, Further
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
+    from garkcli.check.claims import AnyAnalysis
     from garkcli.check.remark import Remark
     from garkcli.methodfile.build import MethodFile
+    from garkcli.tableau.garkmethod import GarkMethod
+
+
+def analyse_any(method: GarkMethod, limit: int = DEFAULT_LIMIT) -> AnyAnalysis:
+    """The analysis of a method of any kind; see ``analyse``."""
+    if is_rosenbrock(method.tableau):
+        from garkcli.check.rosenbrock import analyse_rosenbrock  # few methods are
+
+        return analyse_rosenbrock(method.tableau, limit, method.tolerance, method.further)
+    return analyse(method.tableau, limit, method.tolerance, method.further)
 
 
 def analyse(

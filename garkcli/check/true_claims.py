@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 from garkcli.check.analysis import Analysis
-from garkcli.check.claims import claimed_text, found_value
+from garkcli.check.claims import AnyAnalysis, claimed_text, found_value
 from garkcli.exact.polynomial_text import root_decimal, root_text
 from garkcli.frozen import Frozen
 from garkcli.methodfile.expectations import CLAIMS, AtLeast
@@ -14,6 +14,12 @@ from garkcli.properties.registry import KEYS, find
 
 ORDERS = ("order", "conjugate-order", "pair-order", "symplectic", "embedded-order", "dense-order")
 """What is always worth claiming."""
+OF_ROSENBROCK = (
+    *("order", "w-order", "old-jacobian-order", "nonautonomous-order"),
+    *("embedded-order", "embedded-w-order", "dense-order"),
+    *("a-stable", "l-stable"),
+)
+"""The same of Rosenbrock methods."""
 DIGITS = 12
 """Of numbers without simple radicals; a decimal claims no further ones."""
 
@@ -31,13 +37,15 @@ class TrueClaims(Frozen):
     file: str
     claims: Mapping[str, str]
     left: tuple[str, ...]
-    analysis: Analysis
+    analysis: AnyAnalysis
 
 
-def usual_keys(analysis: Analysis) -> list[str]:
+def usual_keys(analysis: AnyAnalysis) -> list[str]:
     """The claims that a file without any is given: orders, whether it is symplectic, its stage
     order, and those properties that a plain check decides and that it has.
     """
+    if not isinstance(analysis, Analysis):
+        return [*true_claims(analysis, OF_ROSENBROCK)]
     found = [*true_claims(analysis, ORDERS)]
     if analysis.inconsistent and analysis.nonautonomous_order is not None:
         found.append("nonautonomous-order")
@@ -49,7 +57,7 @@ def usual_keys(analysis: Analysis) -> list[str]:
     return found
 
 
-def true_claims(analysis: Analysis, keys: Iterable[str]) -> dict[str, str]:
+def true_claims(analysis: AnyAnalysis, keys: Iterable[str]) -> dict[str, str]:
     """The truth of some claims, each as it is written in YAML.
 
     Args:
@@ -70,7 +78,7 @@ def true_claims(analysis: Analysis, keys: Iterable[str]) -> dict[str, str]:
     return found
 
 
-def _text(key: str, analysis: Analysis) -> str | None:
+def _text(key: str, analysis: AnyAnalysis) -> str | None:
     if key in KEYS:
         verdict = analysis.subject.verdict(key)
         value = verdict.value

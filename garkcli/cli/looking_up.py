@@ -30,6 +30,7 @@ _COUNTS = {
     "conjugate-order": "The order of the symplectic conjugate.",
     "pair-order": "The order of the symplectic pair.",
     "nonautonomous-order": "The order for y' = f(t, y), with the printed nodes.",
+    "w-order": "The order with any matrix for the Jacobian.",
     "stages": "The stages; with several colours the largest number.",
     "colours": "The vector fields.",
 }
@@ -40,7 +41,7 @@ _TRUTHS = {
     "exact": "Methods whose coefficients are not rounded.",
 }
 LISTS = ("families", "transfer", "schemes", "splittings", "problems")
-_KINDS = ("rk", "ark", "prk", "gark", "family")
+_KINDS = ("rk", "ark", "prk", "gark", "row", "family")
 
 
 @declared("certificate", ("json", *(x for x in FORMATS if x != "json"), "coq"))
@@ -112,7 +113,7 @@ def _filters() -> list[click.Option]:
         if x.kind in ("count", "truth"):
             (counts if x.kind == "count" else truths)[x.key] = f"The property {x.key}."
     words = {
-        "kind": (_KINDS, "Runge-Kutta, additive, partitioned, or general."),
+        "kind": (_KINDS, "Runge-Kutta, additive, partitioned, general, or Rosenbrock (row)."),
         "sort": (ORDERS, "By what the list is sorted; by default the order."),
     }
     structures = "Which vector fields the problem has: general, separable, nystrom ..."

@@ -34,7 +34,7 @@ def tableau(given: Given, output: Output) -> None:
     positions and momenta as two arrays, Q and P.
     """
     try:
-        method = given.method()
+        method = given.method(is_any_kind=True)
     except HasFreeParameters as error:
         _write_family(error, given, output)
         return

@@ -37,7 +37,7 @@ from garkcli.exact.matrix import (
     subtract,
 )
 from garkcli.frozen import Frozen
-from garkcli.ntrees.kind import LEAF, PLAIN, SEVERAL, Kind
+from garkcli.ntrees.kind import LEAF, ONE_BRANCH, PLAIN, SEVERAL, Kind
 from garkcli.order.meant import AnyTableau, keep, meant, printed
 from garkcli.tableau.embedded import DenseOutput, Further, Weights
 from garkcli.tableau.forms import TIME, gark
@@ -47,7 +47,6 @@ from garkcli.tableau.tableau import Colour, Edge, Tableau, butcher
 Blocks: TypeAlias = tuple[tuple[Matrix, ...], ...]
 Rows: TypeAlias = tuple[Vector, ...]
 NOT_ONE = Kind(frozenset({0, SEVERAL}))
-ONE_BRANCH = Kind(frozenset({1}))
 MATRIX = Kind(frozenset({1}), is_exact=False)
 ERROR_OF_MATRIX = Kind(frozenset({1}), weight=2, is_exact=False)
 
@@ -121,6 +120,19 @@ class Rosenbrock(Frozen):
         """The γ_ii of all stages."""
         blocks = [row[l] for l, row in enumerate(self.gamma)]
         return tuple(row[i] for block in blocks for i, row in enumerate(block))
+
+    @property
+    def arrays(self) -> tuple[Tableau, Tableau]:
+        """Those of α with c and b, and of γ with d, as papers print them."""
+        made = []
+        for name, blocks, nodes in zip("αγ", (self.alpha, self.gamma), self._nodes, strict=True):
+            spaces = tuple(map(PointSpace, nodes))
+            names = [name] if len(self.b) == 1 else [f"{name}{l + 1}" for l in range(len(self.b))]
+            rows = zip(names, self.b, nodes, strict=True)
+            colours = tuple(Colour(x, l, b, c, l) for l, (x, b, c) in enumerate(rows))
+            edges = {(l, m): x for l, row in enumerate(blocks) for m, x in enumerate(row)}
+            made.append(Tableau(spaces, colours, edges))
+        return made[0], made[1]
 
     @property
     def on_test_equation(self) -> Tableau:

@@ -67,5 +67,7 @@ LINEAR = Kind(frozenset({0, 1}))
 """Of a vector field that is linear."""
 LEAF = Kind(frozenset({0}))
 """Of a constant one, as ṫ = 1 of time."""
+ONE_BRANCH = Kind(frozenset({1}))
+"""Of the Jacobian of a vector field at the beginning of the step."""
 FIELDS = (PLAIN, LINEAR, LEAF)
 """The kinds whose vertices are a vector field, as it is evaluated at stages."""

@@ -105,13 +105,14 @@ def ends_at_step(method: AnyTableau, dense: DenseOutput) -> bool:
     """Whether b(1) = b, entry by entry, or as far as rounding lets it be: then the output is
     continuous from step to step.
     """
-    tableau, grain = method, ZERO
     if not isinstance(method, Tableau):
-        tableau, dense, grain = method.near, method.further.dense or dense, method.grain
-    assert isinstance(tableau, Tableau)
+        search = method.search
+        search.settled  # noqa: B018 -- it adds the tableaus
+        powers = [f"power {power}" for power in range(1, dense.degree + 1)]
+        return search.origin.may_be_sum(method.name, powers)
     return all(
-        within(b - x, grain)
-        for colour, row in zip(tableau.colours, dense.at(ONE), strict=True)
+        b == x
+        for colour, row in zip(method.colours, dense.at(ONE), strict=True)
         for b, x in zip(colour.b, row, strict=True)
     )
 

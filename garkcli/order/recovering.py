@@ -23,6 +23,7 @@ from garkcli.exact.affine import UNIT, Affine, Forms
 from garkcli.exact.display import to_float
 from garkcli.frozen import Frozen
 from garkcli.ntrees.count import counts_upto
+from garkcli.ntrees.kind import ONE_BRANCH
 from garkcli.ntrees.tree import Tree
 from garkcli.order.approximate_spans import ApproximateSpans
 from garkcli.order.certificate import DEFAULT_LIMIT
@@ -33,7 +34,7 @@ from garkcli.tableau.box import Box, FormTableau
 from garkcli.tableau.conjugate import are_opposite
 from garkcli.tableau.embedded import NOTHING, Further, Weights, from_colours, with_weights
 from garkcli.tableau.enclosure import enclose_tableau
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.tableau import Edge, Tableau
 
 if TYPE_CHECKING:
     from garkcli.exact.affine import Floats
@@ -250,6 +251,15 @@ class Place:
         with _arithmetic(self.search.bits):
             return may_vanish(self._tree_row(name, tree), 0)
 
+    def may_be_sum(self, name: str, parts: Sequence[str]) -> bool:
+        """Whether the radii let the weights of a tableau be the sums of those of others."""
+        with _arithmetic(self.search.bits):
+            rows: list[Forms] = self.defects(name).tableau.b
+            for part_name in parts:
+                others = self.defects(part_name).tableau.b
+                rows = [x.minus(y, fmpq(1)) for x, y in zip(rows, others, strict=True)]
+            return all(may_vanish(row, i) for row in rows for i in range(len(row)))
+
     def _tree_row(self, name: str, tree: Tree) -> Forms:
         return self.defects(name).of(of_tree(tree))
 
@@ -452,9 +462,9 @@ class Recovery:
         """Conditions that hold within the radii one by one, and not by chance."""
         defects = self.origin.defects("method")
         made = defects.tableau.made
-        if not made.has_fields_alone:
-            return {}  # the conditions are those of GARK methods
         edges = list(made.edges())
+        if not made.has_fields_alone:  # on linear problems they are Runge–Kutta methods
+            edges = [(l, l) for l, colour in enumerate(made.colours) if colour.kind == ONE_BRANCH]
         chosen: Chosen = {}
 
         def take(label: Label, alive: set[int]) -> set[int]:
@@ -477,9 +487,11 @@ class Recovery:
             return set(says)
 
         with _arithmetic(self.bits):
-            series: list[tuple[Label, int]] = [(Label("B", l), 1) for l in range(made.size)]
-            series += [(Label("C", l, m), len(defects.tableau.b[l])) for l, m in edges]
-            series += [(Label("D", l, m), len(defects.tableau.b[m])) for l, m in edges]
+            series: list[tuple[Label, int]] = []
+            if made.has_fields_alone:
+                series += [(Label("B", l), 1) for l in range(made.size)]
+                series += [(Label("C", l, m), len(defects.tableau.b[l])) for l, m in edges]
+                series += [(Label("D", l, m), len(defects.tableau.b[m])) for l, m in edges]
             for first, count in series:
                 alive, k = set(range(count)), 0
                 # of so many numbers quadrature of no more has all conditions
@@ -490,13 +502,18 @@ class Recovery:
                     alive = take(Label(first.kind, first.l, first.m, k), alive)
             labels = [
                 label
-                for label in self._equalities()
+                for label in self._equalities(edges)
                 if all(may_vanish(defects.of(label), i) for i in self._of_diagonal(label, defects))
             ]
             labels += [Label("damping", l, k=defects.degree(l)) for l, m in edges if l == m]
-            labels += [Label("node", l, k=k) for l in range(made.size) for k in (0, 1)]
+            if made.has_fields_alone:
+                labels += [Label("node", l, k=k) for l in range(made.size) for k in (0, 1)]
+            else:
+                labels += [of_tree(u) for l, _ in edges for u in _tall(made, l)]
             for label in labels:
                 take(label, set(range(len(defects.of(label)))))
+            if not made.has_fields_alone:
+                return chosen
             for whole in (self._symplectic(defects), self._symmetric(defects)):
                 if all(
                     may_vanish(forms, i)
@@ -507,13 +524,13 @@ class Recovery:
                         take(label, set(range(len(defects.of(label)))))
         return chosen
 
-    def _equalities(self) -> Iterator[Label]:
+    def _equalities(self, edges: Sequence[Edge]) -> Iterator[Label]:
         """Rows of numbers that may be equal: a stage that is the step, one diagonal."""
         printed = self.origin.exact("method")
-        for l, m in printed.edges():
+        for l, m in edges:
             for i in range(len(printed.block(l, m) or ())):
                 yield Label("stiff", l, m, i)
-        for l in range(printed.size):
+        for l in [l for l, m in edges if l == m]:
             block = printed.block(l, l)
             diagonal = [row[i] for i, row in enumerate(block or ())]
             first = next((i for i, x in enumerate(diagonal) if x), None)
@@ -915,6 +932,15 @@ def _embedded(further: Further) -> Weights:
 
 def _power(power: int, further: Further) -> Weights:
     return further.powers[power - 1]
+
+
+def _tall(tableau: Tableau, l: int) -> Iterator[Tree]:
+    """The trees of linear problems: a leaf, and below it vertices of colour l with one branch."""
+    term = tableau.colours[l].term
+    tree = tableau.tree(next(m for m, x in enumerate(tableau.colours) if x.term == term))
+    for _ in range(tableau.spaces[tableau.colours[l].space].stages):
+        tree = tableau.tree(l, [tree])
+        yield tree
 
 
 def _both(one: System, other: System) -> System:

@@ -56,11 +56,12 @@ def render(
 def _short(outcome: Outcome, d: Plain, is_quiet: bool) -> Iterator[str]:
     """A file on a line; what fails it below."""
     if not (is_quiet and outcome.ok):
-        keys = ("order", "embedded_order", "pair_order")
+        third = "pair_order" if outcome.rosenbrock is None else "w_order"
+        keys = ("order", "embedded_order", third)
         facts = REPORT.form(outcome).named(outcome, keys)
         is_pair = outcome.analysis is not None and outcome.analysis.tableau.is_partitioned
         said = [
-            f"{key.removesuffix('_order')} {cell(facts[key], d)}"
+            f"{key.removesuffix('_order').replace('w', 'W')} {cell(facts[key], d)}"
             for key in keys
             if facts[key].value is not None and not (key == "pair_order" and is_pair)
         ]

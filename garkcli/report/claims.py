@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
+from garkcli.check.analysis import Analysis
 from garkcli.check.true_claims import TrueClaims
 from garkcli.errors import printable
 from garkcli.page.paint import folded
 from garkcli.properties.registry import KEYS
+from garkcli.report import rosenbrock
 from garkcli.report.check import ANALYSIS, SIMPLIFYING, property_rows_of, within
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Level, Row, Section
@@ -34,13 +36,15 @@ def _claim_rows(found: TrueClaims, d: Plain) -> list[tuple[str, str]]:
 
 
 _ROWS = {row.key: row for row in (*ANALYSIS, *SIMPLIFYING.rows)}
+_ROWS_OF_ROSENBROCK = {row.key: row for row in rosenbrock.ANALYSIS}
 
 
 def _how(found: TrueClaims, d: Plain) -> Iterator[tuple[str, str]]:
     """The value of each claim with what decides it."""
     a = found.analysis
+    known = _ROWS if isinstance(a, Analysis) else _ROWS_OF_ROSENBROCK
     for key, value in found.claims.items():
-        row = _ROWS.get(key.replace("-", "_"))
+        row = known.get(key.replace("-", "_"))
         if key in KEYS:
             yield from property_rows_of([(key, a.subject.verdict(key), within(a, key))], d)
         else:

@@ -65,6 +65,7 @@ PROPERTIES = [
 ]
 TRUTHS = ["symplectic", *(x.field for x in every_property() if x.kind == "truth")]
 STAGES = Kind(S.array(S.POSITION), csv=lambda xs: "; ".join(map(str, xs)))
+_KIND = choice("rk", "ark", "prk", "gark", "row", "family", None)
 METHOD = [
     _field("name", TEXT, USUAL, has_null=False),
     _field("aliases", TEXTS, USUAL, has_null=False),
@@ -81,10 +82,11 @@ METHOD = [
     _order("conjugate_order"),
     _order("pair_order"),
     _order("nonautonomous_order"),
+    _order("w_order"),
     _field("stages", POSITION),
     _field("stages_by_colour", STAGES, has_null=False),
     _field("colours", POSITION),
-    _field("kind", choice("rk", "ark", "prk", "gark", "family", None), has_null=False),
+    _field("kind", _KIND, has_null=False),
     _field("structure", TEXT),
     _field("exact", TRUTH),
     _field("tolerance", TEXT, USUAL),

@@ -9,7 +9,7 @@ from garkcli.frozen import Frozen
 from garkcli.reference import Reference
 from garkcli.report.citation import REFERENCE, of_reference
 from garkcli.report.list_methods import METHOD, TRUTHS, TYPES, Entry
-from garkcli.report.tableau import DOCUMENT
+from garkcli.report.tableau import DOCUMENT, drawn
 from garkcli.report.tableau import Shown as ShownTableau
 from garkcli.tableau.pointwise import Entries
 from garkcli.tableau.tableau import Tableau
@@ -93,7 +93,7 @@ REPORT: Report[Shown] = Report.only(
         Row("coefficients", SAID, of_reference("coefficients")),
         maybe("publication", part(REFERENCE), "reference", DATA),
         Row("tableau", part(DOCUMENT), "whole", DATA),
-        Row("tableau", drawing(lambda x, d: d.tableau(x.tableau, x.readable)), "whole"),
+        Row("tableau", drawing(drawn), "whole"),
         title=lambda x, d: d.prose(x.title),
     ),
 )

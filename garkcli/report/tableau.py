@@ -12,9 +12,11 @@ from typing import Any, NamedTuple
 from flint import arb, fmpq
 
 from garkcli.check.analysis import inconsistent_blocks
+from garkcli.constructions.rosenbrock import Rosenbrock, is_rosenbrock
 from garkcli.exact.display import to_float, to_text
 from garkcli.exact.field import Algebraic
 from garkcli.exact.parametric import Parametric
+from garkcli.frozen import replace
 from garkcli.order.meant import as_meant
 from garkcli.order.simplifying import is_symplectic
 from garkcli.page.cells import cell_text, remark
@@ -134,7 +136,7 @@ ABOUT = Section(
 
 def _about(x: Shown, d: Plain) -> list[tuple[str, str]]:
     """What a tableau is like; a document takes the tableau alone."""
-    if d.breadth == "page" or x.method is None:
+    if d.breadth == "page" or x.method is None or is_rosenbrock(x.tableau):
         return []
     # what a method of a family is depends on its parameters
     about = Section(*ABOUT.rows[:2]) if x.tableau.has_parameters else ABOUT
@@ -148,9 +150,28 @@ def _decimals(x: Shown, d: Plain) -> list[str]:
     numbers = [*chain(*entries.c, *entries.b, *chain(*(y for row in entries.A for y in row if y)))]
     is_told = d.breadth == "terminal" and not d.is_brief and not x.is_rounded
     has_others = any(isinstance(y, Algebraic) or (isinstance(y, fmpq) and y.q > 1) for y in numbers)
-    if not is_told or not has_others or x.tableau.has_parameters:
+    if not is_told or not has_others or x.tableau.has_parameters or is_rosenbrock(x.tableau):
         return []
     return d.tableau(x.tableau, entries.in_decimals(DIGITS))
+
+
+def drawn(x: Shown, d: Plain) -> list[str]:
+    """The tableau; of a Rosenbrock method the arrays of α and of γ."""
+    if not is_rosenbrock(x.tableau):
+        return d.tableau(x.tableau, x.readable)
+    lines = []
+    for number, array_of in enumerate(Rosenbrock.of(x.tableau).arrays):
+        entries = pointwise.entries(array_of, x.entries.digits)
+        if not number:  # the other one has the same weights
+            own = slice(array_of.size)
+            dense = x.entries.dense and x.entries.dense[own]
+            entries = replace(
+                entries, embedded=x.entries.embedded and x.entries.embedded[own], dense=dense
+            )
+        text = "γ, with d, the weights of ∂f/∂t" if number else "α, with c and b"
+        lines += d.sentence(d.prose(text), 0)
+        lines += d.tableau(array_of, readable(entries) if x.is_rounded else entries)
+    return lines
 
 
 FLOATS = Section(*_entries(NUMBER, lambda _, x: _float(x)))
@@ -163,7 +184,7 @@ TABLEAU = Section(
     Row("colours", parts(COLOURS), lambda x: colours_of(x.tableau), DATA),
     *via(lambda x: x.entries, _entries(NUMERAL, _numeral)),
     Row("float", part(FLOATS), "entries", DATA),
-    Row("tableau", drawing(lambda x, d: d.tableau(x.tableau, x.readable)), "."),
+    Row("tableau", drawing(drawn), "."),
     Row("decimals", drawing(_decimals), ".", DETAIL, label=""),
     title=lambda x, d: d.prose(x.name),
 )

@@ -8,10 +8,14 @@ from pathlib import Path
 
 import pytest
 
-from garkcli import load, loads
+from garkcli import claims_of, load, loads
 from garkcli.check.check_file import check_file
+from garkcli.check.deciding import analyse
 from garkcli.errors import MethodError, MethodFileError
+from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.embedded import Further
+from garkcli.tableau.forms import pair
+from tests.cli.harness import gark
 
 RODAS3 = """
 rosenbrock:
@@ -74,7 +78,10 @@ def test_nodes_and_weights_of_time(tmp_path: Path) -> None:
         ("rosenbrock: {alpha: [[0]], gamma: [[1], [0, 1]], b: [1]}", "gamma"),
         ("rosenbrock: {transformed: {A: [[0]], C: [[0]], gamma: 0, m: [1]}}", "of gamma is 0"),
         ("rosenbrock: {alpha: [[0]], gamma: [[1]], b: [1], c: [0, 1]}", "c has 2 entries"),
-        ("rosenbrock: {alpha: [[0]], gamma: [[g]], b: [1]}\nparameters: {g: free}", "is free"),
+        (
+            "rosenbrock: {alpha: [[0]], gamma: [[g]], b: [1]}\nparameters: {g: free}",
+            "of a Rosenbrock method is free",
+        ),
         (PRINTED.replace("rosenbrock", "conjugate: true\nrosenbrock"), "conjugate"),
     ],
 )
@@ -90,6 +97,13 @@ def test_what_is_for_others_is_refused() -> None:
     for name in ("conjugate", "pair"):
         with pytest.raises(MethodError, match="GARK methods"):
             getattr(method, name)
+    for refusing, what in (
+        (conjugate, "the symplectic conjugate"),
+        (pair, "the symplectic pair"),
+        (analyse, "this analysis"),
+    ):
+        with pytest.raises(MethodError, match=f"{what} is for GARK methods"):
+            refusing(method.tableau)
     outcome_of_gark = load("rk4")
     assert method.order == 3
     assert outcome_of_gark.order == 4
@@ -112,3 +126,44 @@ def test_rounded_numbers(tmp_path: Path, text: str) -> None:
     assert found.exit_code == 0
     assert found.rosenbrock is not None
     assert found.rosenbrock.tolerance is None
+
+
+def test_rounded_digits_mean_what_linear_problems_show() -> None:
+    """A last row that is b to the digits makes R(∞) = 0, and an order on linear problems beyond
+    that of the method is kept: without it |R(iy)| passes 1 by the rounding.
+    """
+    for name in ("ros34pw2", "rodas5p"):
+        found = load(name)
+        assert found.tolerance is not None
+        true = claims_of(found, ["a-stable", "l-stable", "dense-continuous"])
+        assert true == {"a-stable": "true", "l-stable": "true", "dense-continuous": "true"}
+
+
+def test_a_method_is_shown_as_papers_print_it() -> None:
+    """``gark show`` draws α with c, b and embedded weights, and γ with d."""
+    text = gark("show", "rodas3").out
+    start = text.index("α, with c and b")
+    first, second = text[start:].split("γ, with d")
+    assert (
+        first.split()[-11:]
+        == ["b", "|", "5/6", "-1/6", "-1/6", "1/2", "embedded", "|", "3/4", "-1/4", "1/2", "0"][
+            -11:
+        ]
+    )
+    assert "3/2 |    1   1/2     0    0" in second
+
+
+def test_claims_are_those_that_hold() -> None:
+    """``gark claims`` has the orders of a Rosenbrock method and its stability, and no others."""
+    assert claims_of("shampine-rosenbrock-4") == {
+        "order": "4",
+        "nonautonomous-order": "4",
+        "w-order": "1",
+        "old-jacobian-order": "2",
+        "embedded-order": "3",
+        "embedded-w-order": "1",
+        "a-stable": "true",
+        "l-stable": "false",
+    }
+    run = gark("claims", "ros3p", "-v")
+    assert "# w-order: 1, proved; order 2 fails at [[]_1]_1 by" in run.out

@@ -20,6 +20,7 @@ FOLDERS = {
     "sprk": "Symplectic partitioned methods",
     "splitting": "Splitting methods",
     "rkn": "Methods for quadratic kinetic energy",
+    "rosenbrock": "Rosenbrock and W-methods",
     "multirate": "Multirate methods",
     "found": "Found by gark",
     "errata": "Known to be wrong",
@@ -42,7 +43,7 @@ WORDS = {
     "symplectic": "symplectic",
     "symmetric": "symmetric",
 }
-OF_HEADINGS = {"erk": "explicit", "irk": "implicit"}
+OF_HEADINGS = {"erk": "explicit", "irk": "implicit", "rosenbrock": ""}
 """The type of a folder that its heading says."""
 NARROWER = {"a_stable": "l_stable", "stiffly_accurate": "fsal"}
 _EMBEDDED = re.compile(r"^  embedded-order: (\d+)$", re.MULTILINE)
@@ -84,6 +85,8 @@ def _row(entry: Entry) -> str:
         order += f"({entry['embedded_order']})"
     if entry["nonautonomous_order"] not in (None, entry["order"]):
         order += f", {entry['nonautonomous_order']} with time"
+    if entry["w_order"] is not None:
+        order += f", {entry['w_order']} with any matrix"
     error = entry["error_constant"] or ""
     cells = [f"`{entry['name']}`", stages, order]
     cells += [", ".join(_properties(entry)), error, _source(entry)]
@@ -103,7 +106,7 @@ def _source(entry: Entry) -> str:
 
 def _stages(entry: Entry) -> list[int]:
     """One number where stages are shared."""
-    if entry["kind"] in ("rk", "ark"):
+    if entry["kind"] in ("rk", "ark", "row"):
         return [entry["stages"]]
     found: list[int] = entry["stages_by_colour"]
     return found
