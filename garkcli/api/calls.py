@@ -222,4 +222,6 @@ def prove_method_exists(method: AnyMethod, limit: Whole = DEFAULT_LIMIT) -> Exis
     """
     from garkcli.check import existing  # numpy is paid for here
 
-    return existing.prove_method_exists(method_of(method), whole(limit, "limit", 1))
+    return existing.prove_method_exists(
+        method_of(method, is_any_kind=True), whole(limit, "limit", 1)
+    )

@@ -188,8 +188,8 @@ class Rounding:
 
     def _named_like(self, key: str) -> int | None:
         """The colour, counted from 1, whose name is a key that means something else."""
-        taken = {OTHERS, *d.BESIDE, *(number for number, *_ in self.names)}
-        named = (l for l, (number, *own) in enumerate(self.names, start=1) if key in own)
+        taken = {OTHERS, *d.BESIDE, *(x for names in self.names for x in names[:1])}
+        named = (l for l, names in enumerate(self.names, start=1) if key in names[1:])
         return next((l for l in named if key in taken and key != str(l)), None)
 
 

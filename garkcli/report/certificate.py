@@ -258,7 +258,7 @@ PRINTED = Section(
     Row("printed", SHORT), Row("radius", SHORT), Row("centre", SHORT), Row("width", SHORT)
 )
 OF_COLOUR = Section(
-    *COLOUR.rows[:4], Row("b", Kind(S.array(MADE)), lambda x: [made_of(a) for a in x[0].b])
+    *COLOUR.rows[:-1], Row("b", Kind(S.array(MADE)), lambda x: [made_of(a) for a in x[0].b])
 )
 OF_BLOCK = Section(
     *BLOCK.rows[:2],

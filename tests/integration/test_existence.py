@@ -14,6 +14,7 @@ from flint import fmpq
 
 import garkcli
 from garkcli import from_arrays, load, loads
+from garkcli.check.deciding import analyse_any
 from garkcli.check.existing import prove_method_exists
 from garkcli.errors import MethodError
 from garkcli.order.meant import as_meant
@@ -118,6 +119,23 @@ def test_methods_of_the_catalogue(name: str, tmp_path: Path) -> None:
         assert isinstance(near, fmpq)
         assert abs(near - x.centre) <= x.width or not x.width
         assert x.width <= x.radius / 10**6
+
+
+def test_trees_of_other_vertices(tmp_path: Path) -> None:
+    """A rounded Rosenbrock method, whose second colour has one branch a vertex: without a tree, or
+    without what its vertices are like, the proof is none.
+    """
+    method = load("ros34pw2")
+    data = json.loads(REPORT.json([prove_method_exists(method)]))
+    assert judged(data, tmp_path) == 0
+    assert data["method"]["order"] == analyse_any(method).order.order == 3
+    for key in ("vertices", "conditions"):
+        forged = deepcopy(data)
+        if key == "vertices":
+            forged["method"]["colours"][1][key] = None
+        else:
+            forged["method"][key].pop()
+        assert judged(forged, tmp_path) == 1
 
 
 def test_such_a_method_exists() -> None:
