@@ -14,6 +14,7 @@ from garkcli.conversion.sheet import CannotConvert, Sheet, each_its_own, in_one_
 from garkcli.exact.display import to_ball
 from garkcli.exact.field import ZERO
 from garkcli.frozen import Frozen, replace
+from garkcli.ntrees.kind import Kind
 from garkcli.order.tolerance import within
 from garkcli.tableau.embedded import Weights
 from garkcli.tableau.garkmethod import GarkMethod
@@ -33,7 +34,7 @@ class Grid(Frozen):
         b, c: a row per colour.
         embedded: the embedded weights, or None.
         powers: what is before θ, θ², … in the dense weights.
-        linear: for each colour whether it is linear.
+        kinds: for each colour what its vertices are like.
     """
 
     A: tuple[tuple[Block, ...], ...]
@@ -41,7 +42,7 @@ class Grid(Frozen):
     c: CellRows
     embedded: CellRows | None
     powers: tuple[CellRows, ...]
-    linear: tuple[bool, ...]
+    kinds: tuple[Kind, ...]
 
     @property
     def size(self) -> int:
@@ -77,7 +78,7 @@ class Grid(Frozen):
             c=chosen(self.c),
             embedded=embedded,
             powers=tuple(map(chosen, self.powers)),
-            linear=tuple(self.linear[l] for l in order),
+            kinds=tuple(self.kinds[l] for l in order),
         )
 
     @property
@@ -107,7 +108,7 @@ def grid_of(sheet: Sheet) -> Grid:
         c=tuple(colour.c for colour in tableau.colours),
         embedded=sheet.further.embedded,
         powers=sheet.further.powers,
-        linear=tuple(colour.is_linear for colour in tableau.colours),
+        kinds=tuple(colour.kind for colour in tableau.colours),
     )
 
 
@@ -116,8 +117,8 @@ def enclosed_grid(method: GarkMethod) -> Grid:
     cells = entries(method.tableau, DIGITS).in_decimals(DIGITS)
     powers = tuple(map(_enclosed, method.further.powers))
     embedded = None if method.embedded is None else _enclosed(method.embedded)
-    linear = tuple(colour.is_linear for colour in method.tableau.colours)
-    return Grid(cells.A, cells.b, cells.c, embedded, powers, linear)
+    kinds = tuple(colour.kind for colour in method.tableau.colours)
+    return Grid(cells.A, cells.b, cells.c, embedded, powers, kinds)
 
 
 def _enclosed(rows: Weights) -> CellRows:
@@ -176,7 +177,7 @@ class Likeness(Frozen):
 
 def have_one_shape(one: Grid, other: Grid) -> bool:
     """Whether methods have the same colours, stages and kinds of weights."""
-    if one.stages != other.stages or one.linear != other.linear:
+    if one.stages != other.stages or one.kinds != other.kinds:
         return False
     if (one.embedded is None) != (other.embedded is None):
         return False
