@@ -32,7 +32,10 @@ VIEWS: dict[str, Which] = {
 }
 """The orders besides that with the Jacobian, by their claims."""
 OF_TEST_EQUATION = frozenset(
-    {"gamma", "a-stable", "l-stable", "real-stability", "imaginary-stability"}
+    {
+        *("gamma", "a-stable", "l-stable", "p-stable", "i-stable"),
+        *("real-stability", "imaginary-stability"),
+    }
 )
 """Properties that are those of the Runge–Kutta method with A = β."""
 _NO_PROPERTY = Reason("a property of Runge–Kutta methods, which this Rosenbrock method is not")

@@ -264,12 +264,12 @@ def transformed(A: Matrix, C: Matrix, gamma: Vector, m: Vector) -> Rosenbrock:
 
     Args:
         A: shape (s, s).
-        C: shape (s, s); its lower triangle counts.
+        C: shape (s, s); zero on and above its diagonal.
         gamma: γ_ii of each stage.
         m: length s.
 
     Raises:
-        MethodError: a γ_ii is zero.
+        MethodError: a γ_ii is zero, or an entry of C that should be.
     """
     full = _full(C, gamma)
     return rosenbrock(multiply(A, full), full, apply_left(m, full))
@@ -280,10 +280,12 @@ def _full(C: Matrix, gamma: Vector) -> Matrix:
     if not all(gamma):
         message = "a diagonal entry of gamma is 0, and the coefficients are divided by it"
         raise MethodError(message, "give alpha and gamma", code="cannot-construct")
+    if any(any(row[i:]) for i, row in enumerate(C)):
+        message = "C is not zero on and above its diagonal, and diag(1/γ) − Γ⁻¹ is"
+        raise MethodError(message, "give alpha and gamma", code="cannot-construct")
     s = len(gamma)
     inverse = tuple(
-        tuple((ONE / gamma[i] if i == j else ZERO) - (C[i][j] if j < i else ZERO) for j in range(s))
-        for i in range(s)
+        tuple(ONE / gamma[i] if i == j else -C[i][j] for j in range(s)) for i in range(s)
     )
     return solve(inverse, identity(s))
 

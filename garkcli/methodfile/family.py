@@ -37,6 +37,7 @@ Moved: TypeAlias = "Callable[[Rounded], Mapping[int, Expression]]"
 """Expressions in place of the rounded numbers, by the identity of what they replace."""
 _NAME = re.compile(r"\ba[0-9_]+")
 """An entry of a block."""
+_DESIGN = "a family with free parameters"
 
 
 class FamilyFile(Family, kw_only=True):
@@ -89,7 +90,7 @@ def load_family(
 
     Raises:
         MethodFileError: every fault of the file, with positions.
-        MethodError: it has no free parameter and must have one.
+        MethodError: it has no free parameter and must have one; or it is no GARK method.
     """
     return loads_family(*read_method_text(path), settings, deadline=deadline, is_free=is_free)
 
@@ -125,7 +126,7 @@ def loads_family(
 
     Raises:
         MethodFileError: every fault of the file, with positions.
-        MethodError: it has no free parameter and must have one.
+        MethodError: it has no free parameter and must have one; or it is no GARK method.
 
     >>> family = loads_family("parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [0, 1]")
     >>> family.tableau.block(0, 0)
@@ -134,7 +135,7 @@ def loads_family(
     reader, description = described(text, source, settings)
     if is_free and not reader.numbers.free:
         # where the file or a setting has a fault, that is what is reported
-        loads(text, source, settings)
+        loads(text, source, settings).tableau.demand_fields(_DESIGN)
         raise _without_unknowns(source, settings)
     wishes = reader.wishes if is_design and reader.wishes is not None else Wishes()
     reader.numbers.entries += wishes.entries
@@ -201,6 +202,8 @@ def _family(
             moved.decide_as(made.values)
             made = Builder(made.text, moved)
     tableau, values = made.tableau, made.values
+    # parameters are sought for stability and wishes too, and those read A, not β
+    tableau.demand_fields(_DESIGN)
     ring = values.domain.ring
     source = reader.source
     meaning = meaning_of(wishes, made, source, deadline)

@@ -172,8 +172,9 @@ def _free(reader: Reader, description: Description) -> MethodFileError:
     if reader.source.faults:
         return reader.source.error()
     if description.form == "rosenbrock":
-        message = "a parameter of a Rosenbrock method is free"
-        cure = f"give it a value: --set {next(iter(reader.numbers.free))}=1/2"
+        name = next(iter(reader.numbers.free))
+        message = f"a Rosenbrock method needs numbers, and {name} is free"
+        cure = f"give it a value: --set {name}=1/2"
         reader.source.fault(description.node, message, cure, code="free-parameters")
         return reader.source.error()
     error = reader.source.error_with(lambda: refuse_free(reader.numbers))

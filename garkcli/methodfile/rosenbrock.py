@@ -17,7 +17,7 @@ _FORM = (
     "or {transformed: {A: …, C: …, gamma: …, m: …}}"
 )
 _FORM_OF_TRANSFORMED = (
-    "give {A: [[0, 0], [2, 0]], C: [[0, 0], [-4, 0]], gamma: 1/2, m: [3/2, 1/2]}: "
+    "give {A: [[0, 0], [2, 0]], C: [[0, 0], [-4, 0]], gamma: 1/2, m: [3, 1]}: "
     "A = α Γ⁻¹, C = diag(1/γ) − Γ⁻¹, m = b Γ⁻¹"
 )
 _DENSE = g.defined("dense")
@@ -47,16 +47,16 @@ TRANSFORMED = g.mapping(
         "The diagonal of Γ: one number, or one per stage.",
         is_needed=True,
     ),
-    g.Key("m: [3/2, 1/2]", ROW, "The weights b Γ⁻¹, one per stage.", is_needed=True),
+    g.Key("m: [3, 1]", ROW, "The weights b Γ⁻¹, one per stage.", is_needed=True),
     g.Key(
-        "e: [1/2, 1/2]",
+        "e: [1, 1]",
         ROW,
         "Weights of the error estimate, one per stage: m minus the embedded weights.",
     ),
     _C,
     _D,
     g.Key(
-        "dense: {degree: 1, weights: [[3/2], [1/2]]}",
+        "dense: {degree: 1, weights: [[3], [1]]}",
         _DENSE,
         "Dense output at the stages of the transformed method.",
     ),
@@ -89,7 +89,7 @@ ROSENBROCK = g.mapping(
         "Dense output: weights polynomial in θ without constant terms.",
     ),
     g.Key(
-        "transformed: {A: [[0, 0], [2, 0]], C: [[0, 0], [-4, 0]], gamma: 1/2, m: [3/2, 1/2]}",
+        "transformed: {A: [[0, 0], [2, 0]], C: [[0, 0], [-4, 0]], gamma: 1/2, m: [3, 1]}",
         TRANSFORMED,
         "The method as programs store it, in place of alpha, gamma and b.",
     ),

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from garkcli.constructions.rosenbrock import Rosenbrock
+from garkcli.errors import counted
 from garkcli.report import check as c
 from garkcli.tell import kinds
 from garkcli.tell.facts import Answer, Level, Row, Section, Status, maybe, optional
@@ -19,8 +20,7 @@ HEADLINE, USUAL, DETAIL, DATA = Level
 
 def _method_words(outcome: Any, d: Plain) -> str:
     a = outcome.rosenbrock
-    stages = a.tableau.spaces[0].stages
-    text = f"Rosenbrock, {stages} stages"
+    text = f"Rosenbrock, {counted(a.tableau.spaces[0].stages, 'stage')}"
     diagonal = set(Rosenbrock.of(a.tableau).diagonal)
     if len(diagonal) == 1:
         text += f", γ = {d.number(diagonal.pop())}"

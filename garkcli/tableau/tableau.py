@@ -150,11 +150,10 @@ class Tableau(Frozen):
         Raises:
             MethodError: the vertices of a colour are of another kind.
         """
-        for colour in self.colours:
-            if colour.kind not in FIELDS:
-                message = f"{what} is for GARK methods: colour {colour.name} is no vector field"
-                cure = "gark check, conditions, stability and certificate know such methods"
-                raise MethodError(message, cure, code="cannot-construct")
+        if not self.has_fields_alone:
+            message = f"{what} is for GARK methods, which this method is not"
+            cure = "gark check, conditions, stability and certificate know such methods"
+            raise MethodError(message, cure, code="cannot-construct")
 
     @property
     def is_partitioned(self) -> bool:

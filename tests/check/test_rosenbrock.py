@@ -12,6 +12,9 @@ from garkcli import claims_of, load, loads
 from garkcli.check.check_file import check_file
 from garkcli.check.deciding import analyse
 from garkcli.errors import MethodError, MethodFileError
+from garkcli.frozen import replace
+from garkcli.methodfile.writer import write_tableau_file
+from garkcli.ntrees.kind import PLAIN
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.embedded import Further
 from garkcli.tableau.forms import pair
@@ -77,10 +80,17 @@ def test_nodes_and_weights_of_time(tmp_path: Path) -> None:
         ("rosenbrock: {alpha: [[0]], b: [1]}", "gamma missing beside alpha, b"),
         ("rosenbrock: {alpha: [[0]], gamma: [[1], [0, 1]], b: [1]}", "gamma"),
         ("rosenbrock: {transformed: {A: [[0]], C: [[0]], gamma: 0, m: [1]}}", "of gamma is 0"),
+        ("rosenbrock: {transformed: {A: [[0]], C: [[2]], gamma: 1, m: [1]}}", "C is not zero on"),
+        (
+            RODAS3.replace("[[], [4]", "[[0, 1, 0, 0], [4, 0, 0, 0]").replace(
+                "1, -1], [1, -1, -8/3", "1, -1, 0, 0], [1, -1, -8/3, 0"
+            ),
+            "C is not zero on",
+        ),
         ("rosenbrock: {alpha: [[0]], gamma: [[1]], b: [1], c: [0, 1]}", "c has 2 entries"),
         (
             "rosenbrock: {alpha: [[0]], gamma: [[g]], b: [1]}\nparameters: {g: free}",
-            "of a Rosenbrock method is free",
+            "a Rosenbrock method needs numbers, and g is free",
         ),
         (PRINTED.replace("rosenbrock", "conjugate: true\nrosenbrock"), "conjugate"),
     ],
@@ -89,6 +99,56 @@ def test_faults(text: str, message: str) -> None:
     """What is wrong is said, with its place."""
     with pytest.raises(MethodFileError, match=message):
         loads(text)
+
+
+def test_examples_of_both_forms_are_one_method() -> None:
+    """What messages tell people to write in the one form is what they tell in the other."""
+
+    def cure(text: str) -> str:
+        with pytest.raises(MethodFileError) as caught:
+            loads(text)
+        return caught.value.faults[0].help.removeprefix("give ")
+
+    printed = cure("rosenbrock: 3").split(", or ")[0]
+    stored = cure("rosenbrock: {transformed: 3}").split(": A = ")[0]
+    method = loads(f"rosenbrock: {{transformed: {stored}}}")
+    assert method.tableau == loads(f"rosenbrock: {printed}").tableau
+    assert method.order == 2
+
+
+@pytest.mark.parametrize(
+    "options", [(), ("--l-stable",), ("--order", "2"), ("--minimise", "error")]
+)
+def test_unknowns_are_not_looked_for(tmp_path: Path, options: tuple[str, ...]) -> None:
+    """ROS2 is L-stable for γ = 1 ± √2/2: no other answer is given, which α and β as the blocks of a
+    GARK method would have.
+    """
+    text = "rosenbrock: {alpha: [[], [1]], gamma: [[g], [-2*g, g]], b: [1/2, 1/2]}"
+    run = gark("design", _written(tmp_path, f"parameters: {{g: free}}\n{text}"), *options)
+    assert run.code == 2
+    assert "for GARK methods, which this method is not" in run.err
+    run = gark("design", "ros2", *options)
+    assert (run.code, "write parameters" in run.err) == (2, False)
+
+
+def test_a_gark_method_with_the_same_blocks_is_another(tmp_path: Path) -> None:
+    """Two vector fields with the blocks α and β are no Rosenbrock method of the catalogue."""
+    tableau = load("rodas3").tableau
+    plain = tuple(replace(colour, kind=PLAIN) for colour in tableau.colours)
+    path = _written(tmp_path, write_tableau_file(replace(tableau, colours=plain), "blocks"))
+    run = gark("check", path)
+    assert "order 1, proved" in run.out
+    assert "the same as" not in run.out
+
+
+def test_linear_problems_decide_more_than_a_stability(tmp_path: Path) -> None:
+    """R(z) = (2 + z)/(2 − z) keeps oscillations: the claim and ``gark stability`` agree."""
+    text = "rosenbrock: {alpha: [[]], gamma: [[1/2]], b: [1]}\nexpect: {p-stable: true}"
+    path = _written(tmp_path, text)
+    run = gark("check", path)
+    assert run.code == 0
+    assert "Rosenbrock, 1 stage, γ = 1/2;" in run.out
+    assert "P-stable                      yes" in gark("stability", path).out
 
 
 def test_what_is_for_others_is_refused() -> None:
