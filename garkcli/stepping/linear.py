@@ -69,7 +69,11 @@ def stage_system(
         fields: L^m for each colour m, all of one shape (d, d).
         pattern: matrices that are zero only where the L^m are zero for all parameters of a problem,
             so that the unknowns are the same for all; None for the L^m themselves.
+
+    Raises:
+        MethodError: it is no GARK method.
     """
+    tableau.demand_fields("a step of gark")
     d = len(fields[0])
     if pattern is None:
         pattern = fields

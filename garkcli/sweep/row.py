@@ -108,6 +108,8 @@ def row_of(criteria: Criteria, point: Point) -> Row:
         tableau = _searched(point, row) if point.template.is_searched else _tableau(point)
         if tableau is None:
             return {**row, "kept": not criteria.conditions}
+        # a column of stages or colours would count those of α and of β
+        tableau.demand_fields("gark sweep")
         judged = Judged(tableau)
         for condition in criteria.conditions:
             value = columns()[condition.column].value(judged)

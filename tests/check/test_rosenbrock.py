@@ -131,6 +131,17 @@ def test_unknowns_are_not_looked_for(tmp_path: Path, options: tuple[str, ...]) -
     assert (run.code, "write parameters" in run.err) == (2, False)
 
 
+def test_sweeps_refuse_them(tmp_path: Path) -> None:
+    """No row counts eight stages and two colours of RODAS3, or tells its phase order."""
+    _written(tmp_path, RODAS3)
+    spec = tmp_path / "sweep.yaml"
+    spec.write_text("columns: [order, stages, colours, phase-order]\nfiles: [method.gark.yaml]\n")
+    run = gark("sweep", str(spec), cwd=tmp_path)
+    text = " ".join(run.out.split())
+    assert "1 method, 0 kept" in text
+    assert "gark sweep is for GARK methods, which this method is not" in text
+
+
 def test_a_gark_method_with_the_same_blocks_is_another(tmp_path: Path) -> None:
     """Two vector fields with the blocks α and β are no Rosenbrock method of the catalogue."""
     tableau = load("rodas3").tableau

@@ -46,6 +46,7 @@ from garkcli.order.rounded import RoundedOrder
 from garkcli.order.simplifying import is_symplectic
 from garkcli.order.tree_residuals import TreeResiduals
 from garkcli.stability.fraction import stability_fraction
+from garkcli.stability.oscillator import usual_oscillator
 from garkcli.stepping.integrator import bind
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.embedded import DenseOutput
@@ -446,7 +447,7 @@ def numbers_at(g: fmpq) -> Any:
 
 def test_what_is_for_gark_methods_says_so() -> None:
     """Conjugate, pair, simplifying conditions, compositions, steps, files and stability functions
-    are refused, with the colour that is no vector field.
+    are refused.
     """
     tableau = RODAS3.tableau
     pendulum = hamiltonian("pendulum", 1)
@@ -460,6 +461,8 @@ def test_what_is_for_gark_methods_says_so() -> None:
         lambda: modified_equation(tableau, 3),
         lambda: write_method(tableau, "RODAS3", None),
         lambda: stability_fraction(tableau),
+        lambda: usual_oscillator(tableau),
+        lambda: usual_oscillator(RODAS3.with_any_matrix),
         lambda: squared_error(tableau, 3, None),
         lambda: bind(tableau, pendulum),
     ]
