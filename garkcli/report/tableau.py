@@ -168,7 +168,9 @@ def drawn(x: Shown, d: Plain) -> list[str]:
             entries = replace(
                 entries, embedded=x.entries.embedded and x.entries.embedded[own], dense=dense
             )
-        text = "γ, with d, the weights of ∂f/∂t, and b" if number else "α, with c and b"
+        text = (
+            "γ, with d, the weights of ∂f/∂t, in place of A and c" if number else "α, with c and b"
+        )
         lines += d.sentence(d.prose(text), 0)
         lines += d.tableau(array_of, readable(entries) if x.is_rounded else entries)
     return lines
