@@ -20,7 +20,7 @@ from garkcli.version import __version__
 
 if TYPE_CHECKING:
     from garkcli.bridges.orders import Orders
-    from garkcli.constructions.multirate import Coupling
+    from garkcli.constructions.infinitesimal import Coupling
 
 Kind: TypeAlias = Literal["rk", "ark", "prk", "gark"]
 """One vector field; several that share all stages; the pair (q, p); anything else."""

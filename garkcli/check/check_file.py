@@ -57,6 +57,8 @@ def check_method(
     reach = max(limit, highest_order(method.claims) + 1)
     if is_rosenbrock(method.tableau):
         return _check_rosenbrock(method, reach, want_constants)
+    if method.tableau.exact_to is not None:
+        return _check_infinitesimal(method, reach, want_constants)
     analysis = analyse(method.tableau, reach, method.tolerance, method.further)
     first_failing = None if analysis.order.is_lower_bound else analysis.order.order + 1
     constants = None
@@ -97,4 +99,24 @@ def _check_rosenbrock(method: MethodFile, limit: int, want_constants: bool) -> O
         text=method.text,
         constants=constants,
         rosenbrock=found,
+    )
+
+
+def _check_infinitesimal(method: MethodFile, limit: int, want_constants: bool) -> Outcome:
+    from garkcli.check.infinitesimal import analyse_infinitesimal  # few files are
+
+    found = analyse_infinitesimal(method.tableau, limit, method.tolerance, method.further)
+    constants = None
+    if want_constants and not found.order.is_lower_bound:
+        from garkcli.order.constants import error_constants
+
+        constants = error_constants(method.tableau, found.order.order + 1)
+    return Outcome(
+        file=method.source,
+        name=method.name,
+        claims=verify(method.claims, found),
+        text=method.text,
+        constants=constants,
+        infinitesimal=found,
+        left_behind=method.left_behind,
     )

@@ -13,11 +13,13 @@ from garkcli.properties.registry import KEYS
 from garkcli.reason import NO_REASON, Reason
 
 if TYPE_CHECKING:
+    from garkcli.check.infinitesimal import InfinitesimalAnalysis, InfinitesimalSubject
     from garkcli.check.rosenbrock import RosenbrockAnalysis, RosenbrockSubject
     from garkcli.properties.subject import Subject
 
 
-AnyAnalysis: TypeAlias = "Analysis | RosenbrockAnalysis"
+AnyAnalysis: TypeAlias = "Analysis | RosenbrockAnalysis | InfinitesimalAnalysis"
+AnySubject: TypeAlias = "Subject | RosenbrockSubject | InfinitesimalSubject"
 
 
 def verify(claims: tuple[ClaimText, ...], analysis: AnyAnalysis) -> tuple[Claim, ...]:
@@ -38,8 +40,11 @@ def _held_against(claim: ClaimText, analysis: AnyAnalysis) -> Claim:
 
 def _why_none(key: str, analysis: AnyAnalysis) -> str:
     """Why there is nothing of which a claim speaks."""
-    if key in OF_ROSENBROCK and isinstance(analysis, Analysis):
+    kind = getattr(analysis, "kind", "a GARK method")
+    if key in OF_ROSENBROCK and kind != "a Rosenbrock method":
         return "it is no Rosenbrock method"
+    if key in OF_INFINITESIMAL and isinstance(analysis, Analysis):
+        return "it has no exact fast part"
     if key.startswith("embedded") and analysis.embedded is None:
         return "there are no embedded weights"
     if key.startswith("dense") and analysis.dense is None:
@@ -48,7 +53,7 @@ def _why_none(key: str, analysis: AnyAnalysis) -> str:
         return "not decided"
     if key.endswith("nonautonomous-order"):
         return "a vector field is linear, or nodes differ"
-    return "a weight is zero" if isinstance(analysis, Analysis) else "it is a Rosenbrock method"
+    return "a weight is zero" if isinstance(analysis, Analysis) else f"it is {kind}"
 
 
 PLACES = {
@@ -63,6 +68,8 @@ PLACES = {
 OF_DENSE = ("dense-order", "dense-continuous", "dense-smooth")
 OF_ROSENBROCK = ("w-order", "old-jacobian-order", "embedded-w-order", "embedded-old-jacobian-order")
 """The orders that Rosenbrock methods have besides."""
+OF_INFINITESIMAL = ("slow-order",)
+"""Those that multirate methods with the exact fast solution have besides."""
 
 
 def found_value(key: str, analysis: AnyAnalysis) -> object:
@@ -71,7 +78,7 @@ def found_value(key: str, analysis: AnyAnalysis) -> object:
     if not isinstance(analysis, Analysis) and key not in OF_DENSE:
         view = analysis.view(key)
         found = None if view is None else view[0]
-    elif key in OF_ROSENBROCK:
+    elif key in (*OF_ROSENBROCK, *OF_INFINITESIMAL):
         return None
     else:
         for name in PLACES.get(key, key.replace("-", "_")).split("."):
@@ -82,7 +89,7 @@ def found_value(key: str, analysis: AnyAnalysis) -> object:
     return capped(found, analysis.limit)
 
 
-def verify_property(claim: ClaimText, subject: Subject | RosenbrockSubject) -> Claim:
+def verify_property(claim: ClaimText, subject: AnySubject) -> Claim:
     """Hold a claim on a property against the truth."""
     verdict = subject.verdict(claim.key)
     return claim_of(claim, _found(verdict), _holds(claim, verdict, subject), verdict.reason)
@@ -96,7 +103,7 @@ def _found(verdict: Verdict) -> str:
     return claimed_text(verdict.value)
 
 
-def _holds(claim: ClaimText, verdict: Verdict, subject: Subject | RosenbrockSubject) -> bool | None:
+def _holds(claim: ClaimText, verdict: Verdict, subject: AnySubject) -> bool | None:
     value, wanted = verdict.value, claim.value
     if verdict.is_undecided:
         return None

@@ -38,6 +38,10 @@ def analyse_any(method: GarkMethod, limit: int = DEFAULT_LIMIT) -> AnyAnalysis:
         from garkcli.check.rosenbrock import analyse_rosenbrock  # few methods are
 
         return analyse_rosenbrock(method.tableau, limit, method.tolerance, method.further)
+    if method.tableau.exact_to is not None:
+        from garkcli.check.infinitesimal import analyse_infinitesimal  # likewise
+
+        return analyse_infinitesimal(method.tableau, limit, method.tolerance, method.further)
     return analyse(method.tableau, limit, method.tolerance, method.further)
 
 

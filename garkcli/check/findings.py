@@ -78,8 +78,8 @@ def claim_witness(outcome: Outcome, claim: str) -> Reason:
     for made in outcome.claims:
         if made.claim == claim and made.holds is not True and made.reason:
             return made.reason
-    if outcome.rosenbrock is not None:
-        view = outcome.rosenbrock.view(claim)
+    if outcome.of_other_kind is not None:
+        view = outcome.of_other_kind.view(claim)
         if view is None or view[0].witness is None:
             return NO_REASON
         return witness_text(view[0].witness, colours=True)

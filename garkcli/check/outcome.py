@@ -12,6 +12,7 @@ from garkcli.upward import Shown
 
 if TYPE_CHECKING:
     from garkcli.check.every_value import EveryValue
+    from garkcli.check.infinitesimal import InfinitesimalAnalysis
     from garkcli.check.remark import Remark
     from garkcli.check.rosenbrock import RosenbrockAnalysis
     from garkcli.methodfile.description import BlockRule
@@ -67,6 +68,7 @@ class Outcome(Shown, Frozen):
         wants_properties: whether to show all properties.
         every: what holds for every value, of a file with free parameters; it has no analysis.
         rosenbrock: the truth about a Rosenbrock method; it has no analysis.
+        infinitesimal: the truth about a multirate method with the exact fast solution; likewise.
         left_behind: further weights of the methods that it is made from, in words.
         rules: what made blocks between diagonal methods.
     """
@@ -87,13 +89,19 @@ class Outcome(Shown, Frozen):
     wants_properties: bool = False
     every: EveryValue | None = None
     rosenbrock: RosenbrockAnalysis | None = None
+    infinitesimal: InfinitesimalAnalysis | None = None
     left_behind: tuple[str, ...] = ()
     rules: tuple[BlockRule, ...] = ()
 
     @property
-    def found(self) -> Analysis | EveryValue | RosenbrockAnalysis | None:
+    def of_other_kind(self) -> RosenbrockAnalysis | InfinitesimalAnalysis | None:
+        """What is true of a method that is no GARK method; None of one that is, or of none."""
+        return self.rosenbrock or self.infinitesimal
+
+    @property
+    def found(self) -> Analysis | EveryValue | RosenbrockAnalysis | InfinitesimalAnalysis | None:
         """What is true of the method, or for every value of its parameters; None for neither."""
-        return self.analysis or self.every or self.rosenbrock
+        return self.analysis or self.every or self.of_other_kind
 
     @property
     def failed_claims(self) -> tuple[Claim, ...]:

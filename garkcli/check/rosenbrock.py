@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from flint import fmpq
 
@@ -128,6 +128,8 @@ class RosenbrockAnalysis(Shown, Frozen):
     embedded: EmbeddedOrders | None = None
     dense: DenseFacts | None = None
     further: Further = NOTHING
+
+    kind: ClassVar[str] = "a Rosenbrock method"
 
     @property
     def order(self) -> AnyOrder:

@@ -20,6 +20,8 @@ OF_ROSENBROCK = (
     *("a-stable", "l-stable"),
 )
 """The same of Rosenbrock methods."""
+OF_INFINITESIMAL = ("order", "slow-order", "nonautonomous-order", "embedded-order")
+"""The same of multirate methods with the exact fast solution."""
 DIGITS = 12
 """Of numbers without simple radicals; a decimal claims no further ones."""
 
@@ -45,7 +47,8 @@ def usual_keys(analysis: AnyAnalysis) -> list[str]:
     order, and those properties that a plain check decides and that it has.
     """
     if not isinstance(analysis, Analysis):
-        return [*true_claims(analysis, OF_ROSENBROCK)]
+        is_infinitesimal = analysis.tableau.exact_to is not None
+        return [*true_claims(analysis, OF_INFINITESIMAL if is_infinitesimal else OF_ROSENBROCK)]
     found = [*true_claims(analysis, ORDERS)]
     if analysis.inconsistent and analysis.nonautonomous_order is not None:
         found.append("nonautonomous-order")

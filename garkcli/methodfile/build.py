@@ -241,10 +241,12 @@ class Builder(Generic[V]):
         self.text = text
         self.values = values
         self._parts: dict[int, Tableau] = {}
+        self._made = Further()
         description = text.description
         self.tableau = self._tableau(description.content, description)
         if description.is_conjugate:
             self.tableau = self._at(description.node, lambda: conjugate(self.tableau))
+            self._made = Further()
 
     def _tableau(self, content: d.Content, description: d.Description) -> Tableau:
         matrix, vector = self.values.matrix, self.values.vector
@@ -273,12 +275,18 @@ class Builder(Generic[V]):
             case d.ConstructionText():
                 for part in content.parts:  # all are built
                     self.part(part)
-                return self._at(content.node, lambda: content.make(self.part, self.values))
+                made = self._at(content.node, lambda: content.make(self.part, self.values))
+                if isinstance(made, Tableau):
+                    return made
+                tableau, self._made = made
+                return tableau
 
     def part(self, part: d.PartText) -> Tableau:
         """A method that another is made from, built as if it stood alone."""
         if id(part) not in self._parts:
-            self._parts[id(part)] = Builder(part, self.values).tableau
+            tableau = Builder(part, self.values).tableau
+            self._at(part.description.node, lambda: tableau.demand_fields("a construction"))
+            self._parts[id(part)] = tableau
         return self._parts[id(part)]
 
     @cached_property
@@ -288,8 +296,8 @@ class Builder(Generic[V]):
         In a pair V^{l} and F^{l} evaluate at the same stages and have the same weights.
         """
         texts = d.further_of(self.text.description.content)
-        if not texts:  # what a construction makes has none
-            return Further()
+        if not texts:
+            return self._made
         given = [texts[colour.term] for colour in self.tableau.colours]
         embedded = [self.values.vector(x.embedded) for x in given if x.embedded is not None]
         blocks = [self.values.matrix(x.dense) for x in given if x.dense is not None]

@@ -12,6 +12,7 @@ from garkcli.frozen import Frozen, FrozenBut
 from garkcli.methodfile.numbers import Entry, Row, Rows
 from garkcli.methodfile.source import Source
 from garkcli.reference import ZANNA, Reference, Work
+from garkcli.tableau.embedded import Further
 from garkcli.tableau.tableau import Method, Tableau
 
 if TYPE_CHECKING:
@@ -221,8 +222,12 @@ class PartText(Frozen):
         return made if rounding is None else rounding.largest
 
 
-Make: TypeAlias = "Callable[[Callable[[PartText], Tableau], Values], Tableau]"
-"""A method, from what gives the tableaus of its parts and the values of its coefficients."""
+Make: TypeAlias = (
+    "Callable[[Callable[[PartText], Tableau], Values], Tableau | tuple[Tableau, Further]]"
+)
+"""A method, with its further weights where it has any, from what gives the tableaus of its parts
+and the values of its coefficients.
+"""
 
 
 class ConstructionText(Frozen):
@@ -233,12 +238,14 @@ class ConstructionText(Frozen):
         parts: the methods that it is made from.
         make: the method, from the tableaus of the parts and the values of its own coefficients.
         tolerance: the rounding of what it is made from.
+        kept: the parts whose embedded weights it takes over.
     """
 
     node: Node
     parts: tuple[PartText, ...]
     make: Make
     tolerance: fmpq | None = None
+    kept: tuple[PartText, ...] = ()
 
 
 Content: TypeAlias = (
@@ -296,7 +303,8 @@ def left_behind(content: Content) -> tuple[str, ...]:
         inside = part.description.content
         found += left_behind(inside)
         for text in further_of(inside):
-            found += ["embedded weights"] if text.embedded is not None else []
+            is_left = text.embedded is not None and part not in content.kept
+            found += ["embedded weights"] if is_left else []
             found += ["dense output"] if text.dense is not None else []
     return tuple(dict.fromkeys(found))
 

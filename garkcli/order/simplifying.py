@@ -184,7 +184,7 @@ def defects_of(method: AnyTableau) -> Defects:
         MethodError: it is no GARK method.
     """
     tableau = method if isinstance(method, Tableau) else method.tableau
-    tableau.demand_fields("a simplifying condition")
+    tableau.demand_fields("a simplifying condition", with_flow=True)
     if isinstance(method, Tableau):
         return Defects(method)
     if not method.search.box.numbers:

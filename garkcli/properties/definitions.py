@@ -147,6 +147,12 @@ _ORDERS = (
         meaning=_ROSENBROCK,
     ),
     Definition(
+        "slow-order",
+        "The order of a multirate method where the fast part is 0: that of its slow method.",
+        "A. Sandu, SIAM J. Numer. Anal. 57 (2019)",
+        meaning="multirate methods with fast: exact",
+    ),
+    Definition(
         "embedded-order",
         "The order of the method with the embedded weights in place of b.",
         _HAIRER_II_4,

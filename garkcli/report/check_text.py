@@ -56,14 +56,16 @@ def render(
 def _short(outcome: Outcome, d: Plain, is_quiet: bool) -> Iterator[str]:
     """A file on a line; what fails it below."""
     if not (is_quiet and outcome.ok):
-        third = "pair_order" if outcome.rosenbrock is None else "w_order"
+        third = "pair_order" if outcome.of_other_kind is None else "w_order"
         keys = ("order", "embedded_order", third)
         facts = REPORT.form(outcome).named(outcome, keys)
         is_pair = outcome.analysis is not None and outcome.analysis.tableau.is_partitioned
         said = [
             f"{key.removesuffix('_order').replace('w', 'W')} {cell(facts[key], d)}"
             for key in keys
-            if facts[key].value is not None and not (key == "pair_order" and is_pair)
+            if key in facts
+            and facts[key].value is not None
+            and not (key == "pair_order" and is_pair)
         ]
         not_ok = d.note("open") if outcome.is_open else d.bad("FAIL")
         mark = d.good("ok  ") if outcome.ok else not_ok

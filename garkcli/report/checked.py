@@ -32,15 +32,20 @@ def form(outcome: Outcome) -> Section:
         from garkcli.report.rosenbrock import ROSENBROCK
 
         return ROSENBROCK
+    if outcome.infinitesimal is not None:
+        from garkcli.report.infinitesimal import INFINITESIMAL
+
+        return INFINITESIMAL
     return UNREADABLE if outcome.analysis is None else CHECKED
 
 
 def forms() -> Iterator[Section]:
     """All of them."""
     from garkcli.report.every import EVERY
+    from garkcli.report.infinitesimal import INFINITESIMAL
     from garkcli.report.rosenbrock import ROSENBROCK
 
-    yield from (UNREADABLE, CHECKED, EVERY, ROSENBROCK)
+    yield from (UNREADABLE, CHECKED, EVERY, ROSENBROCK, INFINITESIMAL)
 
 
 REPORT: Report[Outcome] = Report(

@@ -234,7 +234,7 @@ def with_time(tableau: Tableau) -> Tableau | None:
     >>> find_order(midpoint).order, find_order(with_time(midpoint)).order
     (2, 1)
     """
-    tableau.demand_fields("time beside the stages")
+    tableau.demand_fields("time beside the stages", with_flow=True)
     nodes: dict[int, Vector] = {}
     for colour in tableau.colours:
         first = nodes.setdefault(colour.space, colour.c)

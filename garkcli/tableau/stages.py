@@ -236,6 +236,16 @@ class PointSpace(StageSpace):
         return _scaled_rows(tuple(ONE / b for b in weights), right)
 
 
+class Flow(PointSpace):
+    """Stages of collocation that stand for the exact solution of problems between other stages.
+
+    Attributes:
+        order: of the trees up to which conditions are those with the exact solution.
+    """
+
+    order: int
+
+
 def _scaled_rows(factors: Vector, rows: Matrix) -> Matrix:
     """The product of a diagonal matrix and another."""
     return tuple(tuple(factor * x for x in row) for factor, row in zip(factors, rows, strict=True))

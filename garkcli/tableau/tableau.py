@@ -14,7 +14,7 @@ from garkcli.exact.parametric import Parametric
 from garkcli.frozen import Frozen
 from garkcli.ntrees.kind import FIELDS, LINEAR, PLAIN, Kind
 from garkcli.ntrees.tree import Tree
-from garkcli.tableau.stages import PointSpace, StageSpace
+from garkcli.tableau.stages import Flow, PointSpace, StageSpace
 
 Part: TypeAlias = Literal["y", "q", "p"]
 """The part of the unknowns that a colour's vector field drives: all of them, positions, or
@@ -144,12 +144,28 @@ class Tableau(Frozen):
         """
         return all(colour.kind in FIELDS for colour in self.colours)
 
-    def demand_fields(self, what: str) -> None:
+    @cached_property
+    def exact_to(self) -> int | None:
+        """The order of the trees up to which its conditions are those of a method that solves
+        problems exactly; None where it has no stages that stand for such solutions.
+        """
+        return min((x.order for x in self.spaces if isinstance(x, Flow)), default=None)
+
+    def demand_fields(self, what: str, *, with_flow: bool = False) -> None:
         """Refuse what is defined for GARK methods alone.
 
+        Args:
+            what: that is.
+            with_flow: whether it is also defined where stages stand for exact solutions.
+
         Raises:
-            MethodError: the vertices of a colour are of another kind.
+            MethodError: the vertices of a colour are of another kind; or stages stand for exact
+                solutions.
         """
+        if self.exact_to is not None and not with_flow:
+            message = f"{what} is for GARK methods, and the fast part is solved exactly"
+            cure = "write a fast method and steps in place of fast: exact"
+            raise MethodError(message, cure, code="cannot-construct")
         if not self.has_fields_alone:
             message = f"{what} is for GARK methods, which this method is not"
             cure = "gark check, conditions, stability and certificate know such methods"

@@ -26,7 +26,7 @@ from garkcli.frozen import Frozen
 from garkcli.tableau.pointwise import Row
 
 if TYPE_CHECKING:
-    from garkcli.constructions.multirate import Coupling
+    from garkcli.constructions.infinitesimal import Coupling
 
 
 class Slow(Frozen):
@@ -85,6 +85,9 @@ def _coupled(payload: Payload, coupling: Coupling) -> Slow:
     """The coupling of a file: what looks at the end of its own row is implicit."""
     nothing = (ZERO,) * len(coupling.nodes)
     found: dict[str, list[Rows]] = {}
+    if coupling.matrices is None:
+        message = f"the fast problems of {payload.name} do not follow each other"
+        raise CannotExport(message, "choose a coupling without restart, and without α and γ")
     for powers in coupling.matrices:
         # row i leads from stage i to the next
         is_implicit = any(any(row[i + 1 :]) for rows in powers for i, row in enumerate(rows))

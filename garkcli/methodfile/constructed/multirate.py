@@ -2,33 +2,41 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, TypeAlias
 
 from flint import fmpq
-from yaml.nodes import Node
+from yaml.nodes import MappingNode, Node, ScalarNode
 
-from garkcli.constructions.multirate import (
-    Blocks,
+from garkcli.constructions.infinitesimal import (
     Coupling,
-    by_blocks,
-    by_rule,
+    Plan,
+    Powers,
+    following,
+    generalized,
+    infinitesimal,
     mis_coupling,
-    mri,
-    slowest_first,
+    of_step_time,
+    plan_for_flow,
+    plan_for_method,
+    plan_for_slow,
+    predicted,
+    restarted,
 )
+from garkcli.constructions.multirate import Blocks, by_blocks, by_rule, slowest_first
 from garkcli.errors import MethodError, counted
 from garkcli.exact.matrix import Matrix
 from garkcli.exact.nodes import Literal
-from garkcli.frozen import Frozen
+from garkcli.frozen import Frozen, replace
 from garkcli.methodfile import grammar as g
 from garkcli.methodfile.constructed.parts import METHOD, PartReader
-from garkcli.methodfile.description import ConstructionText, Make, PartText
+from garkcli.methodfile.description import ConstructionText, Make, PartText, further_of
 from garkcli.methodfile.load import NO_SETTINGS, built, described
 from garkcli.methodfile.numbers import Entry, Numbers, Row, Rows
 from garkcli.methodfile.parameters import MATRIX, ROW
 from garkcli.methodfile.values import Values
+from garkcli.tableau.embedded import Further
 from garkcli.tableau.forms import one_field
 from garkcli.tableau.tableau import Method, Tableau
 from garkcli.transfer import RULES
@@ -39,6 +47,9 @@ if TYPE_CHECKING:
 
 _FORM = "write for instance {mis: kutta, fast: rk4, steps: 4}"
 _FORM_OF_MRI = "write {c: [0, 1/2, 1], gamma: [[[1/2, 0], [0, 1/2]]]}"
+_FORM_OF_MIS = (
+    "write a method, or {alpha: [[], [0, 1/2]], beta: [[1/2], [0, 1/2]], gamma: [[], []]}"
+)
 _FORM_OF_COUPLING = "write slowest-first, collocation, or "
 _FORM_OF_COUPLING += "{fast-slow: [[…]], slow-fast: [[…]]}"
 MAX_STEPS = 400
@@ -46,6 +57,13 @@ MAX_STEPS = 400
 MAX_POWERS = 12
 """Most matrices of one slow part, one for each power of τ."""
 SLOWEST_FIRST = "slowest-first"
+EXACT = "exact"
+"""In place of a fast method: the exact solution of each fast problem."""
+RESTARTS = {
+    "merk": "polynomials in the time of the step, from 0 to 1",
+    "sr": "polynomials in the time of the fast problem, from 0 to 1; gamma is added after it",
+}
+"""How the forcing is given of methods whose fast problems begin at the beginning of the step."""
 _BLOCKS = ("fast-slow", "slow-fast")
 _NAMES = ("lambda", "M")
 """Which small step it is, from 1, and how many there are, in coupling matrices."""
@@ -76,6 +94,10 @@ def _powers(key: str) -> g.Kind:
     return g.list_of(MATRIX, "matrices", MAX_POWERS, f"{key}, matrix {{}}", _FORM_OF_MRI)
 
 
+_EMBEDDED = g.mapping(
+    g.Key("gamma: [[1/12, -1/3, 7/12]]", MATRIX, "Embedded rows of gamma, one for each power."),
+    g.Key("omega: [[1/12, -1/3, 7/12]]", MATRIX, "Embedded rows of omega, one for each power."),
+)
 _MRI = g.mapping(
     g.Key(
         "c: [0, 1/3, 2/3, 1]",
@@ -93,18 +115,64 @@ _MRI = g.mapping(
         _powers("omega"),
         "The coefficients of the explicit slow part beside an implicit one.",
     ),
+    g.Key(
+        "embedded: [[1/12, -1/3, 7/12]]",
+        g.either(MATRIX, MATRIX, _EMBEDDED),
+        "The rows that lead to the embedded value, one for each power; of two slow parts a "
+        "mapping.",
+    ),
+    g.Key(
+        "restart: merk",
+        g.word(lambda: RESTARTS),
+        "That every fast problem begins at the beginning of the step, and what its forcing is: "
+        f"merk, {RESTARTS['merk']}; sr, {RESTARTS['sr']}.",
+    ),
     form=_FORM_OF_MRI,
     rules=[g.Ways("", ("gamma", "omega"), "gamma missing", _FORM_OF_MRI, is_one=False)],
 )
+_GENERALIZED = g.mapping(
+    *(
+        g.Key(f"{name}: {value}", MATRIX, f"The matrix {text}.", is_needed=True)
+        for name, value, text in (
+            ("alpha", "[[], [0, 1/2]]", "α: how much of Y_j − y_n the fast problem begins with"),
+            ("beta", "[[1/2], [0, 1/2]]", "β of the slow slopes; its row sums are the widths"),
+            ("gamma", "[[], [0, 0]]", "γ: how much of Y_j − y_n is added on the way"),
+        )
+    ),
+    form=_FORM_OF_MIS,
+)
+
+
+def _is_generalized(node: Node) -> bool:
+    return isinstance(node, MappingNode) and any(key.value == "beta" for key, _ in node.value)
+
+
+_MIS = g.Kind(
+    lambda: {"anyOf": [METHOD.schema(), _GENERALIZED.schema()]},
+    lambda at, node, where: (_GENERALIZED if _is_generalized(node) else METHOD).read(
+        at, node, where
+    ),
+    _GENERALIZED.inside,
+)
+
+
+def _is_exact(node: Node) -> bool:
+    return isinstance(node, ScalarNode) and node.value == EXACT
+
+
+_FAST = g.Kind(
+    lambda: {"anyOf": [{"const": EXACT}, METHOD.schema()]},
+    lambda at, node, where: EXACT if _is_exact(node) else METHOD.read(at, node, where),
+)
 _SLOW = g.Ways("the slow part is", ("slow", "mis", "mri"), "the slow method is missing", _FORM)
 _KEYS = g.mapping(
-    g.Key("fast: rk4", METHOD, "The method of the fast part, of one colour.", is_needed=True),
     g.Key(
-        "steps: 4",
-        g.count(1, MAX_STEPS),
-        "How many small steps the fast part takes.",
+        "fast: rk4",
+        _FAST,
+        "The method of the fast part, of one colour; or exact: its exact solution.",
         is_needed=True,
     ),
+    g.Key("steps: 4", g.count(1, MAX_STEPS), "How many small steps the fast part takes."),
     g.Key("slow: kutta", METHOD, "The method of the slow part, of one colour."),
     g.Key(
         "coupling: slowest-first",
@@ -115,9 +183,9 @@ _KEYS = g.mapping(
     ),
     g.Key(
         "mis: {A: [[], [1/3], [-3/16, 15/16]], b: [1/6, 3/10, 8/15]}",
-        METHOD,
+        _MIS,
         "The slow method of multirate infinitesimal steps with a constant forcing: between two "
-        "stages the fast problem is solved by small steps.",
+        "stages the fast problem is solved; or its matrices α, β, γ.",
     ),
     g.Key(
         "mri: {c: [0, 1], gamma: [[[1]]]}",
@@ -125,7 +193,25 @@ _KEYS = g.mapping(
         "Multirate infinitesimal steps whose forcing has polynomials in time.",
     ),
     form=_FORM,
-    rules=[_SLOW, g.Beside("coupling", "coupling does not go with {way}", needs=("slow",))],
+    rules=[
+        _SLOW,
+        g.Beside("coupling", "coupling does not go with {way}", needs=("slow",)),
+        g.Beside(
+            "fast",
+            "steps missing",
+            "say how many small steps it takes, or write fast: exact",
+            needs=("steps",),
+            code="missing-key",
+            values=g.Values({"not": {"const": EXACT}}, lambda node: not _is_exact(node)),
+        ),
+        g.Beside(
+            "fast",
+            "steps does not go with fast: exact",
+            "leave it out, or name a fast method",
+            bars=("steps",),
+            values=g.Values({"const": EXACT}, _is_exact),
+        ),
+    ],
 )
 
 
@@ -133,19 +219,22 @@ class Infinitesimal(Frozen):
     """What makes a multirate infinitesimal method.
 
     Attributes:
-        fast: the fast method.
+        fast: the fast method; None for the exact solution.
         coupling: of the slow stages, from what gives tableaus and values.
         steps: small ones, between two slow stages.
     """
 
-    fast: PartText
+    fast: PartText | None
     coupling: Callable[[TableauOf, Values], Coupling]
     steps: int
 
-    def __call__(self, tableau_of: TableauOf, values: Values) -> Tableau:
-        """The method."""
-        fast = _method(tableau_of, self.fast, "fast")
-        return mri(self.coupling(tableau_of, values), fast, self.steps)
+    def __call__(self, tableau_of: TableauOf, values: Values) -> tuple[Tableau, Further]:
+        """The method, and its embedded weights."""
+        coupling = self.coupling(tableau_of, values)
+        plan_for = plan_for_flow if self.fast is None else plan_for_method
+        plan: Plan = values.once(("plan", id(self)), lambda: plan_for(coupling))
+        fast = None if self.fast is None else _method(tableau_of, self.fast, "fast")
+        return infinitesimal(coupling, plan, fast, self.steps)
 
 
 def _method(tableau_of: TableauOf, part: PartText, key: str) -> Method:
@@ -154,31 +243,71 @@ def _method(tableau_of: TableauOf, part: PartText, key: str) -> Method:
     return one_field(tableau, message + "where one of one vector field is expected")
 
 
-def _mis(found: g.Found) -> Callable[[TableauOf, Values], Coupling]:
+def _mis(part: PartText) -> Callable[[TableauOf, Values], Coupling]:
     """The coupling by a constant forcing."""
-    return lambda tableau_of, _: mis_coupling(_method(tableau_of, found["mis"], "mis"))
+
+    def coupling(tableau_of: TableauOf, values: Values) -> Coupling:
+        row = _embedded_of(part)
+        embedded = None if row is None else values.vector(row)
+        return mis_coupling(_method(tableau_of, part, "mis"), embedded)
+
+    return coupling
+
+
+def _embedded_of(part: PartText) -> Row | None:
+    """The embedded weights of a method of one colour; None of one that has none."""
+    texts = further_of(part.description.content)
+    return texts[0].embedded if len(texts) == 1 else None
+
+
+def _generalized(at: PartReader, found: g.Found) -> Callable[[TableauOf, Values], Coupling]:
+    """The coupling by α, β and γ."""
+    stages = len(found["beta"])
+    parts = [
+        _whole(at, found[key], found.nodes[key], key, stages + 1)
+        for key in ("alpha", "beta", "gamma")
+    ]
+    return lambda _, values: generalized(*map(values.matrix, parts))
 
 
 def _read(at: PartReader, found: g.Found, _: str) -> ConstructionText | None:
     """The methods, and how they are coupled."""
     before = len(at.source.faults)
+    kept: tuple[PartText, ...] = ()
     if "slow" in found:
         make = _coupled(at, found)
     else:
-        coupling = _mis(found) if "mis" in found else _polynomials(at, found["mri"])
-        make = Infinitesimal(found["fast"], coupling, found["steps"])
-    return None if len(at.source.faults) > before else at.made(found.node, make)
+        if "mri" in found:
+            coupling = _polynomials(at, found["mri"])
+        elif isinstance(found["mis"], g.Found):
+            coupling = _generalized(at, found["mis"])
+        else:
+            coupling, kept = _mis(found["mis"]), (found["mis"],)
+        fast = None if found["fast"] == EXACT else found["fast"]
+        make = Infinitesimal(fast, coupling, found.get("steps", 1))
+    if len(at.source.faults) > before:
+        return None
+    return replace(at.made(found.node, make), kept=kept)
 
 
 def _coupled(at: PartReader, found: g.Found) -> Make:
     """Two methods with a coupling by name, or by matrices."""
     coupling = found.get("coupling", SLOWEST_FIRST)
-    steps: int = found["steps"]
+    is_exact = found["fast"] == EXACT
+    if is_exact and coupling != SLOWEST_FIRST:
+        message = "multirate: fast: exact goes with mis, mri, and slow with slowest-first"
+        cure = "name a fast method and its steps"
+        at.source.fault(found.nodes["fast"], message, cure, code="not-together")
+        coupling = SLOWEST_FIRST
+    steps: int = found.get("steps", 1)
     keys = _BLOCKS if isinstance(coupling, g.Found) else ()
     matrices = [[*_small_steps(at, coupling[key], key, steps)] for key in keys]
 
     def made(tableau_of: TableauOf, values: Values) -> Tableau:
-        fast, slow = (_method(tableau_of, found[key], key) for key in ("fast", "slow"))
+        slow = _method(tableau_of, found["slow"], "slow")
+        if is_exact:
+            return predicted(slow, values.once(("plan", id(made)), lambda: plan_for_slow(slow)))
+        fast = _method(tableau_of, found["fast"], "fast")
         if coupling == SLOWEST_FIRST:
             return slowest_first(slow, fast, steps)
         if isinstance(coupling, str):
@@ -233,17 +362,88 @@ def _defined(numbers: Numbers, values: tuple[int, int]) -> Iterator[None]:
 def _polynomials(at: PartReader, found: g.Found) -> Callable[[TableauOf, Values], Coupling]:
     """Polynomial couplings between nodes, of the explicit part before the implicit one."""
     c: Row = found["c"]
-    parts = []
+    restart = found.get("restart")
+    matrices: dict[str, list[Rows]] = {}
+    rows = _embedded_rows(at, found)
     for key in ("omega", "gamma"):
         if key in found:
             each = enumerate(zip(found[key], found.nodes[key].value, strict=True), start=1)
-            parts.append([_whole(at, *x, f"{key}, matrix {k}", len(c)) for k, x in each])
+            matrices[key] = [_whole(at, *x, f"{key}, matrix {k}", len(c)) for k, x in each]
+    if restart:
+        _check_restart(at, found, matrices)
 
     def coupling(_: TableauOf, values: Values) -> Coupling:
-        matrices = tuple(tuple(map(values.matrix, part)) for part in parts)
-        return Coupling(values.vector(c), matrices)
+        nodes = values.vector(c)
+        powers = {key: tuple(map(values.matrix, x)) for key, x in matrices.items()}
+        embedded: dict[str, Powers] | None = None
+        if rows is not None:
+            embedded = {key: tuple(map(values.vector, rows.get(key, ()))) for key in powers}
+        if restart is None:
+            last = None if embedded is None else tuple(embedded.values())
+            return following(nodes, tuple(powers.values()), last)
+        if restart == "merk":
+            (forcing,) = powers.values()
+            last = None if embedded is None else tuple(embedded.values())
+            return restarted(nodes, (of_step_time(nodes[1:], forcing),), last)
+        parts = max(len(powers), 1)
+        forcing = powers.get("omega", powers.get("gamma", ()))
+        after = powers["gamma"][0] if parts > 1 else None
+        if embedded is None:
+            return restarted(nodes, (forcing,) * parts, None, after)
+        row = embedded["gamma"][0] if parts > 1 and embedded["gamma"] else None
+        return restarted(nodes, (forcing,) * parts, (embedded["omega"],) * parts, after, row)
 
     return coupling
+
+
+def _check_restart(at: PartReader, found: g.Found, matrices: Mapping[str, Sequence[Rows]]) -> None:
+    """Note what a method with restarts cannot have."""
+    restart = found["restart"]
+    if restart == "merk" and len(matrices) > 1:
+        message = "multirate, mri: restart: merk has one slow part, and omega and gamma are given"
+        at.source.fault(found.node, message, "give omega alone, or restart: sr", code="wrong-value")
+    elif restart == "sr" and "omega" not in matrices:
+        message = "multirate, mri: restart: sr has its forcing in omega"
+        at.source.fault(found.node, message, "write omega for gamma", code="missing-key")
+    elif restart == "sr" and len(matrices.get("gamma", ())) > 1:
+        message = f"multirate, mri: gamma has {len(matrices['gamma'])} matrices, and is added once"
+        cure = "restart: sr has one matrix gamma: [[[…]]]"
+        at.source.fault(found.nodes["gamma"], message, cure, code="wrong-value")
+
+
+def _embedded_rows(at: PartReader, found: g.Found) -> dict[str, Rows] | None:
+    """The embedded rows by the key of their slow part, of the length of the nodes."""
+    given = found.get("embedded")
+    if given is None:
+        return None
+    node = found.nodes["embedded"]
+    keys = [key for key in ("omega", "gamma") if key in found]
+    if not isinstance(given, g.Found):
+        if len(keys) > 1:
+            message = "multirate, mri: embedded rows of one slow part, and there are two"
+            cure = "write embedded: {omega: [[…]], gamma: [[…]]}"
+            at.source.fault(node, message, cure, code="wrong-value")
+        given, places = {keys[0]: given}, {keys[0]: node}
+    else:
+        places = dict(given.nodes)
+    rows: dict[str, Rows] = {}
+    for key, matrix in given.items():
+        name = f"embedded, {key}" if len(places) > 1 else "embedded"
+        if key not in keys:
+            message = f"multirate, mri: embedded rows of {key}, which is not given"
+            at.source.fault(places[key], message, "leave them out", code="wrong-value")
+        rows[key] = _widened(at, matrix, places[key], name, len(found["c"]))
+    return rows
+
+
+def _widened(at: PartReader, rows: Rows, node: Node, name: str, nodes: int) -> Rows:
+    """The rows with a column a node; what is left out at the right is zero."""
+    width = max(map(len, rows), default=0)
+    if width > nodes:
+        message = f"{name} has {counted(width, 'column')} for {counted(nodes, 'node')}"
+        at.source.fault(node, message, "give a column a node", code="wrong-value")
+    zero = at.numbers.written("0", node, name)
+    return tuple(row + (zero,) * (nodes - len(row)) for row in rows)
 
 
 def _whole(at: PartReader, rows: Rows, node: Node, name: str, nodes: int) -> Rows:
@@ -257,8 +457,8 @@ def _whole(at: PartReader, rows: Rows, node: Node, name: str, nodes: int) -> Row
         message = f"{name} is {len(rows)} by {width} for {counted(nodes, 'node')}"
         cure = "give a row from each node to the next, a column a node"
         at.source.fault(node, message, cure, code="wrong-value")
-    zero = at.numbers.written("0", node, name)
-    return tuple(row + (zero,) * (nodes - len(row)) for row in rows)
+        return rows
+    return _widened(at, rows, node, name, nodes)
 
 
 def _is_nonzero(entry: Entry) -> bool:

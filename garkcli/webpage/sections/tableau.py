@@ -8,7 +8,6 @@ from flint import arb, fmpq
 from markupsafe import Markup
 
 from garkcli.check.analysis import is_pair_of_itself
-from garkcli.check.rosenbrock import RosenbrockAnalysis
 from garkcli.exact.display import to_ball, to_text
 from garkcli.exact.parametric import Parametric
 from garkcli.page.cells import Line, lines_of, parts_of, remark
@@ -39,7 +38,8 @@ _TITLES = {"": "The method", "conjugate": "The symplectic conjugate", "pair": "T
 def content(method: Reported) -> Content | None:
     """What the template is given; None where the section has nothing to say."""
     outcome = method.outcome
-    if outcome.found is None or isinstance(outcome.found, RosenbrockAnalysis):
+    of_fields = outcome.analysis or outcome.every
+    if of_fields is None:
         return None
     analysis = outcome.analysis
     if analysis is None:
@@ -62,7 +62,7 @@ def content(method: Reported) -> Content | None:
             is_same = other == tableau
             table = same if is_same else _table(title, other, _entries(other, tolerance, NOTHING))
             shown.append(table)
-    obstacle = outcome.found.obstacle
+    obstacle = of_fields.obstacle
     told = Markup(Typeset().reason(obstacle)) if obstacle else ""
     return {"tables": shown, "dense": dense, "obstacle": told}
 

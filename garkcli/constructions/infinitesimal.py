@@ -1,0 +1,475 @@
+"""Multirate infinitesimal methods: between slow stages a fast problem is solved, exactly or by
+small steps of a method.
+
+    v(0) = y_n + Σ_j α_ij (Y_j − y_n),   v(1) is Y_i before its correction, and
+    dv/dτ = h d_i f(v) + Σ_j γ_ij (Y_j − y_n) + h Σ_m Σ_j Σ_k ω^m,k_ij τ^k g_m(Y_j).
+
+The first colour is f, the fast part, the others are the g_m. Collocation with n nodes in place of
+the exact solution of a fast problem changes no condition of an order p where n is large enough:
+docs/multirate.md.
+
+Sources: O. Knoth, R. Wolke, Appl. Numer. Math. 28 (1998) 327; J. Wensch, O. Knoth, A. Galant, BIT
+49 (2009) 449, with α and γ; A. Sandu, SIAM J. Numer. Anal. 57 (2019) 2300, with polynomials; R.
+Chinomona, D. Reynolds, SIAM J. Sci. Comput. 43 (2021) A3082, with two slow parts; V. T. Luan, R.
+Chinomona, D. Reynolds, SIAM J. Sci. Comput. 42 (2020) A1245, and A. Fish, D. Reynolds, S. Roberts,
+J. Comput. Appl. Math. 438 (2024) 115534, where every fast problem begins at y_n.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from functools import cached_property, lru_cache
+from itertools import pairwise
+
+from flint import fmpq
+
+from garkcli.constructions.composition import MAX_STAGES, refuse_large
+from garkcli.constructions.multirate import (
+    FAST,
+    SLOW,
+    SMALLER,
+    START,
+    Program,
+    Value,
+    of_slopes,
+    slowest_first,
+    summed,
+)
+from garkcli.errors import MethodError
+from garkcli.exact.field import ONE, ZERO, Number
+from garkcli.exact.matrix import Matrix, Vector, dot
+from garkcli.frozen import Frozen, replace
+from garkcli.order.meant import AnyTableau
+from garkcli.properties.reduction import merged
+from garkcli.tableau.embedded import NOTHING, Further, as_colours, from_colours
+from garkcli.tableau.polynomial_space import antiderivative
+from garkcli.tableau.stages import Flow, PointSpace
+from garkcli.tableau.tableau import Method, Tableau
+
+Powers = tuple[Vector, ...]
+"""Rows over the slow stages, one for each of τ⁰, τ¹, …"""
+
+
+class Interval(Frozen):
+    """One fast problem, with τ from 0 to 1.
+
+    Attributes:
+        begin: α_ij: how much of each Y_j − y_n is in the value that it begins with.
+        drift: γ_ij: how much of each is added on the way, evenly.
+        width: d_i, of the fast part.
+        forcing: for each slow part its rows.
+        after: for each slow part the row that is added at the end; empty for none.
+    """
+
+    begin: Vector
+    drift: Vector
+    width: Number
+    forcing: tuple[Powers, ...]
+    after: tuple[Vector, ...] = ()
+
+    @property
+    def rows(self) -> Iterator[tuple[int, Vector]]:
+        """The rows of slow slopes, each with its part, counted from 0."""
+        for part, powers in enumerate(self.forcing):
+            for row in powers:
+                yield part, row
+        yield from ((part, row) for part, row in enumerate(self.after) if row)
+
+
+class Coupling(Frozen):
+    """The slow stages, and the fast problems between them.
+
+    Attributes:
+        nodes: of the slow stages, from 0 to 1; the last one is the end of the step.
+        intervals: those that lead to each stage but the first.
+        embedded: that which leads to the embedded value; None without that.
+        matrices: of methods whose fast problems follow each other, for each slow part the matrices
+            of τ⁰, τ¹, …; row i leads from stage i to the next. Of others None.
+    """
+
+    nodes: Vector
+    intervals: tuple[Interval, ...]
+    embedded: Interval | None = None
+    matrices: tuple[tuple[Matrix, ...], ...] | None = None
+
+    @property
+    def parts(self) -> int:
+        """How many slow parts there are."""
+        return len(self.intervals[0].forcing)
+
+    @cached_property
+    def every(self) -> tuple[Interval, ...]:
+        """All intervals, the embedded one last."""
+        return self.intervals if self.embedded is None else (*self.intervals, self.embedded)
+
+
+def following(
+    nodes: Vector,
+    matrices: tuple[tuple[Matrix, ...], ...],
+    embedded: tuple[Powers, ...] | None = None,
+) -> Coupling:
+    """Every fast problem begins where the one before it ends; MIS, MRI-GARK, IMEX-MRI-GARK.
+
+    Args:
+        nodes: from 0 to 1, the last one for the end of the step.
+        matrices: for each slow part those of τ⁰, τ¹, …; row i leads from stage i to the next, with
+            a column for each node.
+        embedded: for each slow part the rows that lead from the last stage but one to the embedded
+            value.
+    """
+    _check_ends(nodes)
+    columns = len(nodes)
+    intervals = [
+        Interval(_unit(columns, i), _zeros(columns), end - begin, _rows(matrices, i))
+        for i, (begin, end) in enumerate(pairwise(nodes))
+    ]
+    last = None if embedded is None else replace(intervals[-1], forcing=embedded)
+    return Coupling(nodes, tuple(intervals), last, matrices)
+
+
+def mis_coupling(base: Method, embedded: Vector | None = None) -> Coupling:
+    """The constant coupling of multirate infinitesimal steps: differences of rows of a method."""
+    rows = [*base.A, base.b]
+    differences = [_difference(row, before) for before, row in pairwise(rows)]
+    last = None if embedded is None else ((_difference(embedded, base.A[-1]),),)
+    return following((*base.c, ONE), ((tuple(differences),),), last)
+
+
+def restarted(
+    nodes: Vector,
+    forcing: tuple[tuple[Matrix, ...], ...],
+    embedded: tuple[Powers, ...] | None = None,
+    after: Matrix | None = None,
+    embedded_after: Vector | None = None,
+) -> Coupling:
+    """Every fast problem begins at y_n and goes on to c_i; IMEX-MRI-SR.
+
+    Args:
+        nodes: from 0, in any order; the last one is 1.
+        forcing: for each slow part the matrices of τ⁰, τ¹, …, τ = 1 at c_i; row i leads to the
+            stage after stage i.
+        embedded: for each slow part the rows that lead to the embedded value at 1.
+        after: of the last slow part, what is added after each fast problem.
+        embedded_after: the same of the embedded value.
+    """
+    _check_ends(nodes)
+    zeros = _zeros(len(nodes))
+    before = ((),) * (len(forcing) - 1)
+
+    def interval(c: Number, powers: tuple[Powers, ...], row: Vector | None) -> Interval:
+        return Interval(zeros, zeros, c, powers, () if row is None else (*before, row))
+
+    rows = after or [None] * (len(nodes) - 1)
+    intervals = [
+        interval(c, _rows(forcing, i), row)
+        for i, (c, row) in enumerate(zip(nodes[1:], rows, strict=True))
+    ]
+    last = None if embedded is None else interval(ONE, embedded, embedded_after)
+    return Coupling(nodes, tuple(intervals), last)
+
+
+def of_step_time(nodes: Vector, matrices: tuple[Matrix, ...]) -> tuple[Matrix, ...]:
+    """Forcing by polynomials in the time of the step, θ = c_i τ, as MERK methods have it, as
+    polynomials in τ: dv/dτ has a factor c_i.
+    """
+    return tuple(
+        tuple(tuple(c ** (k + 1) * x for x in row) for c, row in zip(nodes, matrix, strict=True))
+        for k, matrix in enumerate(matrices)
+    )
+
+
+def generalized(alpha: Matrix, beta: Matrix, gamma: Matrix) -> Coupling:
+    """The methods of Wensch, Knoth and Galant; row i leads to the stage after stage i, the last one
+    to the end of the step.
+    """
+    nodes: list[Number] = [ZERO]
+    intervals = []
+    for begin, row, drift in zip(alpha, beta, gamma, strict=True):
+        width = sum(row, ZERO)
+        known = [*nodes, *_zeros(len(row) - len(nodes))]
+        nodes.append(dot(begin, known) + dot(drift, known) + width)
+        intervals.append(Interval(begin, drift, width, ((row,),)))
+    return Coupling(tuple(nodes), tuple(intervals))
+
+
+def _check_ends(nodes: Vector) -> None:
+    """Refuse nodes that are not from 0 to 1.
+
+    Raises:
+        MethodError: they are not.
+    """
+    if nodes[0]:
+        message = f"the slow stages begin at {nodes[0]}, not at 0"
+        raise MethodError(message, "take a slow method with c_1 = 0", code="cannot-construct")
+    if nodes[-1] != ONE:
+        message = f"the slow stages end at {nodes[-1]}, not at 1"
+        raise MethodError(message, "give the end of the step as last node", code="cannot-construct")
+
+
+def _zeros(columns: int) -> Vector:
+    return (ZERO,) * columns
+
+
+def _unit(columns: int, i: int) -> Vector:
+    return tuple(ONE if j == i else ZERO for j in range(columns))
+
+
+def _difference(row: Vector, before: Vector) -> Vector:
+    return (*(x - y for x, y in zip(row, before, strict=True)), ZERO)
+
+
+def _rows(matrices: tuple[tuple[Matrix, ...], ...], i: int) -> tuple[Powers, ...]:
+    return tuple(tuple(matrix[i] for matrix in powers) for powers in matrices)
+
+
+class Plan(Frozen):
+    """What is decided of a method once, by its printed numbers.
+
+    Attributes:
+        fast: for each interval the nodes of the collocation that stands for the exact solution, or
+            1 for a method; 0 where the fast part stands still.
+        stages: the slow stages whose slopes are used, counted from 0.
+        order: of the trees up to which collocation changes no condition; None for a method.
+    """
+
+    fast: tuple[int, ...]
+    stages: tuple[int, ...]
+    order: int | None = None
+
+
+def plan_for_method(coupling: Coupling) -> Plan:
+    """With small steps of a method between the slow stages."""
+    last = len(coupling.nodes) - 1
+    is_seen = any(row[-1] for interval in coupling.every for _, row in interval.rows)
+    stages = range(last + 1 if is_seen else last)
+    return Plan(tuple(1 if x.width else 0 for x in coupling.every), tuple(stages))
+
+
+def plan_for_flow(coupling: Coupling) -> Plan:
+    """With the exact solution of each fast problem.
+
+    No method has a higher order than ``highest`` says, so that collocation which keeps the trees
+    up to the next order decides the order; of a method with too many stages for that it keeps those
+    of as high an order as it can.
+    """
+    seen = {j for interval in coupling.every for _, row in interval.rows for j in _support(row)}
+    degrees = [max(1, *map(len, x.forcing)) if x.width else 0 for x in coupling.every]
+    room = max(MAX_STAGES - len(seen) - len(degrees), 0)
+    order = max(1, min(highest(coupling), room // (sum(degrees) or 1)))
+    refuse_large(sum(degrees) + len(degrees), SMALLER)
+    counts = tuple(d * order + 1 if d else 0 for d in degrees)
+    return Plan(counts, tuple(sorted(seen)), order + 1)
+
+
+def _support(row: Vector) -> list[int]:
+    return [j for j, x in enumerate(row) if x]
+
+
+def highest(coupling: Coupling) -> int:
+    """An order that the method cannot exceed, by what its slow stages see of each other.
+
+    Where the fast part is 0 it is a Runge–Kutta method. An explicit one has at most the order that
+    its longest chain of stages has: the tree without branchings that has one vertex more has
+    weight 0. One whose stages see themselves, but no later ones, has a stability function with real
+    poles and a numerator of degree s at most, hence the order s + 1 (Hairer and Wanner II, Theorem
+    IV.4.18); any other has 2 s.
+    """
+    sees: list[set[int]] = [set()]
+    for interval in coupling.every:
+        found = {j for _, row in interval.rows for j in _support(row)}
+        for row in (interval.begin, interval.drift):
+            found |= {j for i in _support(row) if i < len(sees) for j in sees[i]}
+        sees.append(found)
+    used = set().union(*sees)
+    if all(j < i for i in used for j in sees[i]):
+        length = [0] * len(sees)
+        for i, seen in enumerate(sees):
+            length[i] = 1 + max((length[j] for j in seen), default=0)
+        return max(length[len(coupling.intervals) :]) - 1
+    return len(used) + 1 if all(j <= i for i in used for j in sees[i]) else 2 * len(used)
+
+
+@lru_cache(maxsize=32)
+def collocation(stages: int) -> Method:
+    """Collocation at equidistant nodes, the last of which is 1."""
+    nodes = tuple(fmpq(k, stages) for k in range(1, stages + 1))
+    space = PointSpace(nodes)
+    integrals = [antiderivative(x) for x in space.basis_polynomials()]
+    powers = [[node**k for k in range(stages + 1)] for node in nodes]
+    A = tuple(tuple(dot(x, row) for x in integrals) for row in powers)
+    return Method("", space, A, A[-1])
+
+
+def infinitesimal(
+    coupling: Coupling, plan: Plan, fast: Method | None = None, steps: int = 1
+) -> tuple[Tableau, Further]:
+    """The method with its embedded weights.
+
+    Args:
+        coupling: of the slow stages.
+        plan: what was decided of it.
+        fast: the method of the small steps, its stages at points; None for the exact solution.
+        steps: how many of them between two slow stages that are apart in time.
+
+    Raises:
+        MethodError: there are too many stages.
+    """
+    if fast is not None:
+        refuse_large(len(coupling.every) * (steps * fast.stages + 2), SMALLER)
+    made, further = _Infinitesimal(coupling, plan, fast, steps).made()
+    if plan.order is None:
+        return from_colours(merged(as_colours(made, further)), further)
+    flow, *others = made.spaces
+    return replace(made, spaces=(Flow(flow.nodes, plan.order), *others)), further
+
+
+def plan_for_slow(slow: Method) -> Plan:
+    """For a slow method that takes the step for both parts before the fast problem."""
+    s = slow.stages
+    is_explicit = not any(x for i, row in enumerate(slow.A) for x in row[i:])
+    is_lower = not any(x for i, row in enumerate(slow.A) for x in row[i + 1 :])
+    order = s if is_explicit else s + 1 if is_lower else 2 * s
+    order = max(1, min(order, (MAX_STAGES - 2 * s - 1) // s))
+    return Plan((s * order + 1,), tuple(range(s)), order + 1)
+
+
+def predicted(slow: Method, plan: Plan) -> Tableau:
+    """The slow method takes the step for both parts; then the fast problem is solved exactly with
+    its slow slopes interpolated: a step-predictor.
+
+    Raises:
+        CoincidingNodes: two nodes of the slow method are equal.
+    """
+    assert plan.order is not None
+    made = slowest_first(slow, collocation(plan.fast[0]), 1)
+    flow, *others = made.spaces
+    return replace(made, spaces=(Flow(flow.nodes, plan.order), *others))
+
+
+def slow_part(method: AnyTableau) -> AnyTableau:
+    """The slow method by itself: what is left where the fast part is 0."""
+
+    def make(tableau: Tableau) -> Tableau:
+        slow = [m for m, colour in enumerate(tableau.colours) if colour.space == SLOW]
+        colours = tuple(replace(tableau.colours[m], space=0) for m in slow)
+        blocks = {(0, n): tableau.blocks[SLOW, m] for n, m in enumerate(slow)}
+        return Tableau((tableau.spaces[SLOW],), colours, blocks)
+
+    return make(method) if isinstance(method, Tableau) else method.derive("slow part", make)
+
+
+class _Infinitesimal:
+    """One such method, from stage to stage."""
+
+    def __init__(self, coupling: Coupling, plan: Plan, fast: Method | None, steps: int) -> None:
+        self.coupling = coupling
+        self.plan = plan
+        self.fast = fast
+        self.steps = steps
+        self.program = Program([FAST, *[SLOW] * coupling.parts])
+        self.values: list[Value] = []
+        self.places = {j: n for n, j in enumerate(plan.stages)}
+
+    def made(self) -> tuple[Tableau, Further]:
+        """The whole; slow slopes that nothing looks at are left out."""
+        self._reached(START)
+        for i, interval in enumerate(self.coupling.intervals):
+            self._reached(self._after(i, interval))
+        further = NOTHING
+        if self.coupling.embedded is not None:
+            value = self._after(len(self.coupling.intervals), self.coupling.embedded)
+            weights = self.program.tableau(value)
+            further = Further(tuple(colour.b for colour in weights.colours))
+        return self.program.tableau(self.values[-1]), further
+
+    def _reached(self, value: Value) -> None:
+        """A slow stage; its own slope is in its value already, of an implicit one."""
+        i = len(self.values)
+        if i in self.places:
+            self.program.add(SLOW, value, self.coupling.nodes[i])
+        self.values.append(value)
+
+    def _after(self, i: int, interval: Interval) -> Value:
+        """The value at the end of a fast problem."""
+        value = self._mixed(interval.begin)
+        drift = self._mixed(interval.drift)
+        count = self.plan.fast[i]
+        if not count:
+            value = summed(value, drift, self._forced(interval))
+        elif self.fast is None:
+            value = self._small_step(interval, value, drift, collocation(count), ZERO, ONE)
+        else:
+            length = fmpq(1, self.steps)
+            for n in range(self.steps):
+                begin = n * length
+                value = self._small_step(interval, value, drift, self.fast, begin, length)
+        for part, row in enumerate(interval.after):
+            value = summed(value, self._slow(part, row) if row else START)
+        return value
+
+    def _mixed(self, row: Vector) -> Value:
+        """A combination of stages, as Y_j − y_n."""
+        pairs = [(x, self.values[j]) for j, x in enumerate(row) if x]
+        scaled = [{slope: x * weight for slope, weight in value.items()} for x, value in pairs]
+        return scaled[0] if len(scaled) == 1 else summed(*scaled)
+
+    def _slow(self, part: int, row: Vector) -> Value:
+        """A combination of the slopes of one slow part, whose stages may be still to come."""
+        return {(SLOW + part, self.places[j]): x for j, x in enumerate(row) if j in self.places}
+
+    def _node(self, interval: Interval, tau: Number) -> Number:
+        """The time of the fast part."""
+        nodes = self.coupling.nodes
+        return dot(interval.begin, nodes) + tau * (dot(interval.drift, nodes) + interval.width)
+
+    def _small_step(
+        self,
+        interval: Interval,
+        value: Value,
+        drift: Value,
+        fast: Method,
+        begin: Number,
+        length: Number,
+    ) -> Value:
+        """One step of the fast method from τ = ``begin``."""
+        first = self.program.count(FAST)
+        stages = range(first, first + fast.stages)
+        times = [begin + length * c for c in fast.c]
+        for row, time in zip(fast.A, times, strict=True):
+            inner = self._moved(interval, drift, row, times, stages, length)
+            self.program.add(FAST, summed(value, inner), self._node(interval, time))
+        return summed(value, self._moved(interval, drift, fast.b, times, stages, length))
+
+    def _moved(
+        self,
+        interval: Interval,
+        drift: Value,
+        weights: Vector,
+        times: Sequence[Number],
+        stages: range,
+        length: Number,
+    ) -> Value:
+        """The fast slopes and the slow ones at their times, with the weights of the fast method."""
+        scaled = [length * w for w in weights]
+        moved = of_slopes(FAST, stages, [interval.width * w for w in scaled])
+        moments = [
+            dot(scaled, [time**k for time in times])
+            for k in range(max(map(len, interval.forcing)) or 1)
+        ]
+        along = {slope: moments[0] * weight for slope, weight in drift.items()}
+        parts = [
+            self._slow(part, tuple(moments[k] * x for x in row))
+            for part, powers in enumerate(interval.forcing)
+            for k, row in enumerate(powers)
+        ]
+        return summed(moved, along, *parts)
+
+    def _forced(self, interval: Interval) -> Value:
+        """The slow slopes with the integrals of their polynomials from 0 to 1."""
+        return summed(
+            *(
+                self._slow(part, tuple(x * fmpq(1, k + 1) for x in row))
+                for part, powers in enumerate(interval.forcing)
+                for k, row in enumerate(powers)
+            )
+        )
