@@ -105,7 +105,7 @@ def entry_of(path: str, name: str, file: str, text: str) -> Entry:
         NoMethod: it cannot be read, or a claim of it fails.
     """
     outcome = check_file(path)
-    analysis = outcome.analysis or outcome.rosenbrock
+    analysis = outcome.analysis or outcome.of_other_kind
     if analysis is None or not outcome.ok:
         raise NoMethod(f"{path}: {_what_fails(outcome)}", code="other-file")
     found = found_of(loads(text, path), analysis, name, file)
@@ -114,7 +114,7 @@ def entry_of(path: str, name: str, file: str, text: str) -> Entry:
 
 def found_of(method: MethodFile, analysis: AnyAnalysis, name: str, file: str) -> Entry:
     """What was found of a method, and what its file says of itself."""
-    is_small = _is_small(analysis.tableau)
+    is_small = analysis.tableau.exact_to is not None or _is_small(analysis.tableau)
     sought = [key for key in KEYS if is_small or key not in _SIZES]
     verdicts = {key: analysis.subject.verdict(key) for key in sought}
     values: Entry = {"symplectic": found_value("symplectic", analysis)}
@@ -141,7 +141,7 @@ def _what_fails(outcome: Outcome) -> str:
     """Why a file has no place in the catalogue."""
     if outcome.faults:
         return outcome.faults[0].message
-    if outcome.analysis is None and outcome.rosenbrock is None:
+    if outcome.analysis is None and outcome.of_other_kind is None:
         return "it has free parameters"
     failing = [claim for claim in outcome.claims if not claim.holds]
     return "; ".join([f"{x.claim}: expected {x.expected}, found {x.found}" for x in failing])
@@ -164,16 +164,18 @@ def head(method: MethodFile, name: str, file: str) -> Entry:
 def shape(method: MethodFile) -> Entry:
     """How many stages and colours, what such a method is called, how its numbers are given."""
     tableau = method.tableau
-    is_linearly_implicit = is_rosenbrock(tableau)
+    kind = _kind(tableau)
     # a vector field and its Jacobian are one
-    colours = tableau.colours[: tableau.size // (2 if is_linearly_implicit else 1)]
-    stages = [tableau.spaces[colour.space].stages for colour in colours]
+    colours = tableau.colours[: tableau.size // (2 if kind == "row" else 1)]
+    # collocation stands for an exact solution, which has no stages
+    told = colours[1:] if kind == "mri" else colours
+    stages = [tableau.spaces[colour.space].stages for colour in told]
     rounding = method.tolerance
     return {
         "stages": max(stages),
         "stages_by_colour": stages,
         "colours": len(colours),
-        "kind": "row" if is_linearly_implicit else _kind(tableau),
+        "kind": kind,
         "structure": method.structure,
         "exact": rounding is None,
         "tolerance": None if rounding is None else decimal(rounding),
@@ -183,6 +185,10 @@ def shape(method: MethodFile) -> Entry:
 
 
 def _kind(tableau: Tableau) -> str:
+    if is_rosenbrock(tableau):
+        return "row"
+    if tableau.exact_to is not None:
+        return "mri"
     return "prk" if tableau.is_partitioned else form_of(tableau)
 
 

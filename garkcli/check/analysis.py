@@ -146,7 +146,7 @@ class Analysis(Shown, Frozen):
 def conjugate_and_pair(method: AnyTableau) -> tuple[AnyTableau | None, AnyTableau | None, Reason]:
     """The conjugate and the symplectic pair, None where a weight is zero, and then why."""
     conjugated, both, obstacle = None, None, NO_REASON
-    if not printed(method).has_fields_alone:
+    if not printed(method).has_fields_alone or printed(method).exact_to is not None:
         return None, None, Reason("it is no GARK method")
     try:
         conjugated = derived(method, "conjugate")

@@ -41,7 +41,7 @@ _TRUTHS = {
     "exact": "Methods whose coefficients are not rounded.",
 }
 LISTS = ("families", "transfer", "schemes", "splittings", "problems")
-_KINDS = ("rk", "ark", "prk", "gark", "row", "family")
+_KINDS = ("rk", "ark", "prk", "gark", "row", "mri", "family")
 
 
 @declared("certificate", ("json", *(x for x in FORMATS if x != "json"), "coq"))
@@ -113,7 +113,7 @@ def _filters() -> list[click.Option]:
         if x.kind in ("count", "truth"):
             (counts if x.kind == "count" else truths)[x.key] = f"The property {x.key}."
     words = {
-        "kind": (_KINDS, "Runge-Kutta, additive, partitioned, general, or Rosenbrock (row)."),
+        "kind": (_KINDS, "Runge-Kutta, additive, partitioned, general, Rosenbrock (row), or multirate (mri)."),
         "sort": (ORDERS, "By what the list is sorted; by default the order."),
     }
     structures = "Which vector fields the problem has: general, separable, nystrom ..."

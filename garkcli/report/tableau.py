@@ -12,12 +12,14 @@ from typing import Any, NamedTuple
 from flint import arb, fmpq
 
 from garkcli.check.analysis import inconsistent_blocks
+from garkcli.constructions.infinitesimal import slow_part
+from garkcli.constructions.multirate import SLOW
 from garkcli.constructions.rosenbrock import Rosenbrock, is_rosenbrock
 from garkcli.exact.display import to_float, to_text
 from garkcli.exact.field import Algebraic
 from garkcli.exact.parametric import Parametric
 from garkcli.frozen import replace
-from garkcli.order.meant import as_meant
+from garkcli.order.meant import as_meant, printed
 from garkcli.order.simplifying import is_symplectic
 from garkcli.page.cells import cell_text, remark
 from garkcli.page.schema import DERIVATION, NUMBER, NUMERAL, Schema, array, nullable
@@ -136,7 +138,7 @@ ABOUT = Section(
 
 def _about(x: Shown, d: Plain) -> list[tuple[str, str]]:
     """What a tableau is like; a document takes the tableau alone."""
-    if d.breadth == "page" or x.method is None or is_rosenbrock(x.tableau):
+    if d.breadth == "page" or x.method is None or not _is_gark(x.tableau):
         return []
     # what a method of a family is depends on its parameters
     about = Section(*ABOUT.rows[:2]) if x.tableau.has_parameters else ABOUT
@@ -150,13 +152,25 @@ def _decimals(x: Shown, d: Plain) -> list[str]:
     numbers = [*chain(*entries.c, *entries.b, *chain(*(y for row in entries.A for y in row if y)))]
     is_told = d.breadth == "terminal" and not d.is_brief and not x.is_rounded
     has_others = any(isinstance(y, Algebraic) or (isinstance(y, fmpq) and y.q > 1) for y in numbers)
-    if not is_told or not has_others or x.tableau.has_parameters or is_rosenbrock(x.tableau):
+    if not is_told or not has_others or x.tableau.has_parameters or not _is_gark(x.tableau):
         return []
     return d.tableau(x.tableau, entries.in_decimals(DIGITS))
 
 
+def _is_gark(tableau: Tableau) -> bool:
+    return not is_rosenbrock(tableau) and tableau.exact_to is None
+
+
 def drawn(x: Shown, d: Plain) -> list[str]:
-    """The tableau; of a Rosenbrock method the arrays of α and of γ."""
+    """The tableau; of a Rosenbrock method the arrays of α and of γ, of a multirate one with the
+    exact fast solution that of the slow method.
+    """
+    if x.tableau.exact_to is not None:
+        slow = printed(slow_part(x.tableau))
+        embedded = x.entries.embedded and x.entries.embedded[SLOW:]
+        entries = replace(pointwise.entries(slow, x.entries.digits), embedded=embedded)
+        text = d.sentence(d.prose("the slow method, which is left where the fast part is 0"), 0)
+        return [*text, *d.tableau(slow, readable(entries) if x.is_rounded else entries)]
     if not is_rosenbrock(x.tableau):
         return d.tableau(x.tableau, x.readable)
     lines = []

@@ -164,6 +164,13 @@ _FAST = g.Kind(
     lambda: {"anyOf": [{"const": EXACT}, METHOD.schema()]},
     lambda at, node, where: EXACT if _is_exact(node) else METHOD.read(at, node, where),
 )
+_MRI_OR_NAME = g.Kind(
+    lambda: {"anyOf": [{"type": "string"}, _MRI.schema()]},
+    lambda at, node, where: (METHOD if isinstance(node, ScalarNode) else _MRI).read(
+        at, node, where
+    ),
+    _MRI.inside,
+)
 _SLOW = g.Ways("the slow part is", ("slow", "mis", "mri"), "the slow method is missing", _FORM)
 _KEYS = g.mapping(
     g.Key(
@@ -189,8 +196,9 @@ _KEYS = g.mapping(
     ),
     g.Key(
         "mri: {c: [0, 1], gamma: [[[1]]]}",
-        _MRI,
-        "Multirate infinitesimal steps whose forcing has polynomials in time.",
+        _MRI_OR_NAME,
+        "Multirate infinitesimal steps whose forcing has polynomials in time; or the name of a "
+        "method with such steps, whose coupling it is.",
     ),
     form=_FORM,
     rules=[
@@ -270,14 +278,33 @@ def _generalized(at: PartReader, found: g.Found) -> Callable[[TableauOf, Values]
     return lambda _, values: generalized(*map(values.matrix, parts))
 
 
+def _coupling_by_name(at: PartReader, found: g.Found) -> Callable[[TableauOf, Values], Coupling]:
+    """That of another multirate infinitesimal method."""
+    part: PartText = found["mri"]
+    at.parts.remove(part)  # its coupling is taken, not its step
+    content = part.description.content
+    make = content.make if isinstance(content, ConstructionText) else None
+    if isinstance(make, Infinitesimal):
+        at.parts.extend(x for x in content.parts if x is not make.fast)
+        return make.coupling
+    message = "multirate, mri: this method has no coupling of slow stages"
+    cure = "name a method of gark list methods --kind mri, or write mis: NAME"
+    at.source.fault(found.nodes["mri"], message, cure, code="wrong-value")
+    return lambda *_: following((), ())
+
+
 def _read(at: PartReader, found: g.Found, _: str) -> ConstructionText | None:
     """The methods, and how they are coupled."""
     before = len(at.source.faults)
     kept: tuple[PartText, ...] = ()
+    rounding = None
     if "slow" in found:
         make = _coupled(at, found)
     else:
-        if "mri" in found:
+        if isinstance(found.get("mri"), PartText):
+            coupling = _coupling_by_name(at, found)
+            rounding = found["mri"].tolerance
+        elif "mri" in found:
             coupling = _polynomials(at, found["mri"])
         elif isinstance(found["mis"], g.Found):
             coupling = _generalized(at, found["mis"])
@@ -287,7 +314,7 @@ def _read(at: PartReader, found: g.Found, _: str) -> ConstructionText | None:
         make = Infinitesimal(fast, coupling, found.get("steps", 1))
     if len(at.source.faults) > before:
         return None
-    return replace(at.made(found.node, make), kept=kept)
+    return replace(at.made(found.node, make, rounding), kept=kept)
 
 
 def _coupled(at: PartReader, found: g.Found) -> Make:
