@@ -113,7 +113,10 @@ def _filters() -> list[click.Option]:
         if x.kind in ("count", "truth"):
             (counts if x.kind == "count" else truths)[x.key] = f"The property {x.key}."
     words = {
-        "kind": (_KINDS, "Runge-Kutta, additive, partitioned, general, Rosenbrock (row), or multirate (mri)."),
+        "kind": (
+            _KINDS,
+            "Runge-Kutta, additive, partitioned, general, Rosenbrock (row), or multirate (mri).",
+        ),
         "sort": (ORDERS, "By what the list is sorted; by default the order."),
     }
     structures = "Which vector fields the problem has: general, separable, nystrom ..."

@@ -17,9 +17,11 @@ J. Comput. Appl. Math. 438 (2024) 115534, where every fast problem begins at y_n
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cached_property, lru_cache
 from itertools import pairwise
+from math import factorial
+from operator import mul
 
 from flint import fmpq
 
@@ -36,6 +38,7 @@ from garkcli.constructions.multirate import (
     summed,
 )
 from garkcli.errors import MethodError
+from garkcli.exact.display import to_float
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector, dot
 from garkcli.frozen import Frozen, replace
@@ -91,6 +94,14 @@ class Coupling(Frozen):
     intervals: tuple[Interval, ...]
     embedded: Interval | None = None
     matrices: tuple[tuple[Matrix, ...], ...] | None = None
+
+    @property
+    def rows(self) -> Iterator[Vector]:
+        """All coefficients."""
+        yield self.nodes
+        for interval in self.every:
+            yield from (interval.begin, interval.drift, (interval.width,))
+            yield from (row for _, row in interval.rows)
 
     @property
     def parts(self) -> int:
@@ -248,14 +259,16 @@ def plan_for_method(coupling: Coupling) -> Plan:
 def plan_for_flow(coupling: Coupling) -> Plan:
     """With the exact solution of each fast problem.
 
-    No method has a higher order than ``highest`` says, so that collocation which keeps the trees
-    up to the next order decides the order; of a method with too many stages for that it keeps those
-    of as high an order as it can.
+    No method has a higher order than ``highest`` says, and where rounding explains no large
+    residuals, than ``apparent_order`` says, so that collocation which keeps the trees up to the
+    next order decides the order. Elsewhere, and of a method with too many stages for that, the
+    search for the order ends there.
     """
     seen = {j for interval in coupling.every for _, row in interval.rows for j in _support(row)}
     degrees = [max(1, *map(len, x.forcing)) if x.width else 0 for x in coupling.every]
     room = max(MAX_STAGES - len(seen) - len(degrees), 0)
-    order = max(1, min(highest(coupling), room // (sum(degrees) or 1)))
+    wanted = min(highest(coupling), apparent_order(coupling, seen))
+    order = max(1, min(wanted, room // (sum(degrees) or 1)))
     refuse_large(sum(degrees) + len(degrees), SMALLER)
     counts = tuple(d * order + 1 if d else 0 for d in degrees)
     return Plan(counts, tuple(sorted(seen)), order + 1)
@@ -287,6 +300,50 @@ def highest(coupling: Coupling) -> int:
             length[i] = 1 + max((length[j] for j in seen), default=0)
         return max(length[len(coupling.intervals) :]) - 1
     return len(used) + 1 if all(j <= i for i in used for j in sees[i]) else 2 * len(used)
+
+
+_PLAIN = 1e-3
+"""Relative residuals of this size are no rounding."""
+
+
+def apparent_order(coupling: Coupling, stages: Iterable[int]) -> int:
+    """The order up to which quadrature and the tree without branchings fit, of the slow method with
+    equal slow parts, but for residuals that rounding may explain; the larger one of it and of the
+    embedded weights.
+    """
+    still = Plan((0,) * len(coupling.every), tuple(sorted(stages)))
+    made, further = _Infinitesimal(coupling, still, None, 1).made()
+    slow = [m for m, colour in enumerate(made.colours) if colour.space == SLOW]
+    A = _as_one(zip(*(made.blocks[SLOW, m] for m in slow), strict=True))
+    weights = [[made.colours[m].b for m in slow]]
+    if further.embedded is not None:
+        weights.append([further.embedded[m] for m in slow])
+    return max(_fits(A, b) for b in _as_one(weights))
+
+
+def _as_one(rows: Iterable[Iterable[Vector]]) -> list[list[float]]:
+    """The means over the slow parts, each row given for all of them."""
+    return [
+        [sum(map(to_float, column)) / len(column) for column in zip(*x, strict=True)] for x in rows
+    ]
+
+
+def _fits(A: Sequence[Sequence[float]], b: Sequence[float]) -> int:
+    """The order up to which b Aᵏ 𝟙 and b cᵏ are about what they should be."""
+
+    def times_A(v: Sequence[float]) -> list[float]:
+        return [sum(map(mul, row, v)) for row in A]
+
+    most = 2 * len(b) + 1
+    tall = bushy = [1.0] * len(b)
+    c = times_A(tall)
+    for order in range(1, most + 1):
+        exact = (1 / factorial(order), 1 / order)
+        for v, value in zip((tall, bushy), exact, strict=True):
+            if abs(sum(map(mul, b, v)) - value) > _PLAIN * value:
+                return order - 1
+        tall, bushy = times_A(tall), [*map(mul, bushy, c)]
+    return most
 
 
 @lru_cache(maxsize=32)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from itertools import chain
 from typing import TYPE_CHECKING, TypeAlias
 
 from flint import fmpq
@@ -26,8 +27,9 @@ from garkcli.constructions.infinitesimal import (
 )
 from garkcli.constructions.multirate import Blocks, by_blocks, by_rule, slowest_first
 from garkcli.errors import MethodError, counted
-from garkcli.exact.matrix import Matrix
+from garkcli.exact.matrix import Matrix, Vector
 from garkcli.exact.nodes import Literal
+from garkcli.exact.parametric import Parametric
 from garkcli.frozen import Frozen, replace
 from garkcli.methodfile import grammar as g
 from garkcli.methodfile.constructed.parts import METHOD, PartReader
@@ -239,6 +241,8 @@ class Infinitesimal(Frozen):
     def __call__(self, tableau_of: TableauOf, values: Values) -> tuple[Tableau, Further]:
         """The method, and its embedded weights."""
         coupling = self.coupling(tableau_of, values)
+        if self.fast is None:
+            _refuse_parameters(coupling.rows)
         plan_for = plan_for_flow if self.fast is None else plan_for_method
         plan: Plan = values.once(("plan", id(self)), lambda: plan_for(coupling))
         fast = None if self.fast is None else _method(tableau_of, self.fast, "fast")
@@ -249,6 +253,17 @@ def _method(tableau_of: TableauOf, part: PartText, key: str) -> Method:
     tableau = tableau_of(part)
     message = f"multirate, {key}: a method of {counted(tableau.size, 'colour')}, "
     return one_field(tableau, message + "where one of one vector field is expected")
+
+
+def _refuse_parameters(rows: Iterable[Vector]) -> None:
+    """Refuse coefficients without a value.
+
+    Raises:
+        MethodError: there is one.
+    """
+    if any(isinstance(x, Parametric) for x in chain.from_iterable(rows)):
+        message = "a parameter is free, and the fast part is solved exactly"
+        raise MethodError(message, "give it a value: --set NAME=1/2", code="free-parameters")
 
 
 def _mis(part: PartText) -> Callable[[TableauOf, Values], Coupling]:
@@ -333,6 +348,7 @@ def _coupled(at: PartReader, found: g.Found) -> Make:
     def made(tableau_of: TableauOf, values: Values) -> Tableau:
         slow = _method(tableau_of, found["slow"], "slow")
         if is_exact:
+            _refuse_parameters((*slow.A, slow.b))
             return predicted(slow, values.once(("plan", id(made)), lambda: plan_for_slow(slow)))
         fast = _method(tableau_of, found["fast"], "fast")
         if coupling == SLOWEST_FIRST:
