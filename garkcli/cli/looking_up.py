@@ -115,7 +115,7 @@ def _filters() -> list[click.Option]:
     words = {
         "kind": (
             _KINDS,
-            "Runge-Kutta, additive, partitioned, general, Rosenbrock (row), or multirate (mri).",
+            "Runge-Kutta, additive, partitioned, general, Rosenbrock (row), multirate (mri).",
         ),
         "sort": (ORDERS, "By what the list is sorted; by default the order."),
     }

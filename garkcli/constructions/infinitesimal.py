@@ -6,7 +6,7 @@ small steps of a method.
 
 The first colour is f, the fast part, the others are the g_m. Collocation with n nodes in place of
 the exact solution of a fast problem changes no condition of an order p where n is large enough:
-docs/multirate.md.
+docs/exact-order.md, section 10.
 
 Sources: O. Knoth, R. Wolke, Appl. Numer. Math. 28 (1998) 327; J. Wensch, O. Knoth, A. Galant, BIT
 49 (2009) 449, with α and γ; A. Sandu, SIAM J. Numer. Anal. 57 (2019) 2300, with polynomials; R.
@@ -331,18 +331,18 @@ def _as_one(rows: Iterable[Iterable[Vector]]) -> list[list[float]]:
 def _fits(A: Sequence[Sequence[float]], b: Sequence[float]) -> int:
     """The order up to which b Aᵏ 𝟙 and b cᵏ are about what they should be."""
 
-    def times_A(v: Sequence[float]) -> list[float]:
+    def applied(v: Sequence[float]) -> list[float]:
         return [sum(map(mul, row, v)) for row in A]
 
     most = 2 * len(b) + 1
     tall = bushy = [1.0] * len(b)
-    c = times_A(tall)
+    c = applied(tall)
     for order in range(1, most + 1):
         exact = (1 / factorial(order), 1 / order)
         for v, value in zip((tall, bushy), exact, strict=True):
             if abs(sum(map(mul, b, v)) - value) > _PLAIN * value:
                 return order - 1
-        tall, bushy = times_A(tall), [*map(mul, bushy, c)]
+        tall, bushy = applied(tall), [*map(mul, bushy, c)]
     return most
 
 

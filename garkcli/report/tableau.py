@@ -169,8 +169,8 @@ def drawn(x: Shown, d: Plain) -> list[str]:
         slow = printed(slow_part(x.tableau))
         embedded = x.entries.embedded and x.entries.embedded[SLOW:]
         entries = replace(pointwise.entries(slow, x.entries.digits), embedded=embedded)
-        text = d.sentence(d.prose("the slow method, which is left where the fast part is 0"), 0)
-        return [*text, *d.tableau(slow, readable(entries) if x.is_rounded else entries)]
+        told = d.sentence(d.prose("the slow method, which is left where the fast part is 0"), 0)
+        return [*told, *d.tableau(slow, readable(entries) if x.is_rounded else entries)]
     if not is_rosenbrock(x.tableau):
         return d.tableau(x.tableau, x.readable)
     lines = []

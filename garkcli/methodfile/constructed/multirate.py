@@ -298,8 +298,8 @@ def _coupling_by_name(at: PartReader, found: g.Found) -> Callable[[TableauOf, Va
     part: PartText = found["mri"]
     at.parts.remove(part)  # its coupling is taken, not its step
     content = part.description.content
-    make = content.make if isinstance(content, ConstructionText) else None
-    if isinstance(make, Infinitesimal):
+    if isinstance(content, ConstructionText) and isinstance(content.make, Infinitesimal):
+        make = content.make
         at.parts.extend(x for x in content.parts if x is not make.fast)
         return make.coupling
     message = "multirate, mri: this method has no coupling of slow stages"
