@@ -238,7 +238,7 @@ class Plan(Frozen):
 
     Attributes:
         fast: for each interval the nodes of the collocation that stands for the exact solution, or
-            1 for a method; 0 where the fast part stands still.
+            1 for a method; 0 where it is not there.
         stages: the slow stages whose slopes are used, counted from 0.
         order: of the trees up to which collocation changes no condition; None for a method.
     """

@@ -10,6 +10,7 @@ from garkcli.glossary import read
 ORDERS = (
     *("order", "conjugate_order", "pair_order", "nonautonomous_order"),
     *("embedded_order", "embedded_nonautonomous_order", "dense_order"),
+    "slow_order",
     *("w_order", "old_jacobian_order", "embedded_w_order", "embedded_old_jacobian_order"),
     *("stage_order", "weak_stage_order", "symplectic_order", "energy_order"),
     *("effective_order", "exact_order"),

@@ -163,7 +163,7 @@ class Tableau(Frozen):
                 solutions.
         """
         if self.exact_to is not None and not with_flow:
-            message = f"{what} is for GARK methods, and the fast part is solved exactly"
+            message = f"{what} is for GARK methods: the fast part is solved exactly"
             cure = "write a fast method and steps in place of fast: exact"
             raise MethodError(message, cure, code="cannot-construct")
         if not self.has_fields_alone:

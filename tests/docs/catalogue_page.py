@@ -43,7 +43,7 @@ WORDS = {
     "symplectic": "symplectic",
     "symmetric": "symmetric",
 }
-OF_HEADINGS = {"erk": "explicit", "irk": "implicit", "rosenbrock": ""}
+OF_HEADINGS = {"erk": "explicit", "irk": "implicit", "rosenbrock": "", "multirate": ""}
 """The type of a folder that its heading says."""
 NARROWER = {"a_stable": "l_stable", "stiffly_accurate": "fsal"}
 _EMBEDDED = re.compile(r"^  embedded-order: (\d+)$", re.MULTILINE)
@@ -106,7 +106,7 @@ def _source(entry: Entry) -> str:
 
 def _stages(entry: Entry) -> list[int]:
     """One number where stages are shared."""
-    if entry["kind"] in ("rk", "ark", "row"):
+    if entry["kind"] in ("rk", "ark", "row", "mri"):
         return [entry["stages"]]
     found: list[int] = entry["stages_by_colour"]
     return found

@@ -50,7 +50,7 @@ if TYPE_CHECKING:
 _FORM = "write for instance {mis: kutta, fast: rk4, steps: 4}"
 _FORM_OF_MRI = "write {c: [0, 1/2, 1], gamma: [[[1/2, 0], [0, 1/2]]]}"
 _FORM_OF_MIS = (
-    "write a method, or {alpha: [[], [0, 1/2]], beta: [[1/2], [0, 1/2]], gamma: [[], []]}"
+    "write a method, or {alpha: [[], [0, 1/2]], beta: [[1/2], [0, 1/2]], gamma: [[0], [0]]}"
 )
 _FORM_OF_COUPLING = "write slowest-first, collocation, or "
 _FORM_OF_COUPLING += "{fast-slow: [[…]], slow-fast: [[…]]}"
@@ -302,7 +302,7 @@ def _coupling_by_name(at: PartReader, found: g.Found) -> Callable[[TableauOf, Va
         make = content.make
         at.parts.extend(x for x in content.parts if x is not make.fast)
         return make.coupling
-    message = "multirate, mri: this method has no coupling of slow stages"
+    message = "multirate, mri: no coupling of slow stages is in this method"
     cure = "name a method of gark list methods --kind mri, or write mis: NAME"
     at.source.fault(found.nodes["mri"], message, cure, code="wrong-value")
     return lambda *_: following((), ())
@@ -337,7 +337,7 @@ def _coupled(at: PartReader, found: g.Found) -> Make:
     coupling = found.get("coupling", SLOWEST_FIRST)
     is_exact = found["fast"] == EXACT
     if is_exact and coupling != SLOWEST_FIRST:
-        message = "multirate: fast: exact goes with mis, mri, and slow with slowest-first"
+        message = "multirate: fast: exact goes with slowest-first, not with another coupling"
         cure = "name a fast method and its steps"
         at.source.fault(found.nodes["fast"], message, cure, code="not-together")
         coupling = SLOWEST_FIRST
@@ -443,15 +443,17 @@ def _check_restart(at: PartReader, found: g.Found, matrices: Mapping[str, Sequen
     """Note what a method with restarts cannot have."""
     restart = found["restart"]
     if restart == "merk" and len(matrices) > 1:
-        message = "multirate, mri: restart: merk has one slow part, and omega and gamma are given"
-        at.source.fault(found.node, message, "give omega alone, or restart: sr", code="wrong-value")
+        message = "multirate, mri: restart: merk goes with omega, not with omega and gamma"
+        cure = "give omega alone, or restart: sr"
+        at.source.fault(found.nodes["restart"], message, cure, code="not-together")
     elif restart == "sr" and "omega" not in matrices:
-        message = "multirate, mri: restart: sr has its forcing in omega"
-        at.source.fault(found.node, message, "write omega for gamma", code="missing-key")
+        message = "multirate, mri: omega missing beside restart: sr"
+        cure = "write omega for gamma: the forcing"
+        at.source.fault(found.nodes["restart"], message, cure, code="missing-key")
     elif restart == "sr" and len(matrices.get("gamma", ())) > 1:
         message = f"multirate, mri: gamma has {len(matrices['gamma'])} matrices, and is added once"
         cure = "restart: sr has one matrix gamma: [[[…]]]"
-        at.source.fault(found.nodes["gamma"], message, cure, code="wrong-value")
+        at.source.fault(found.nodes["gamma"], message, cure, code="wrong-size")
 
 
 def _embedded_rows(at: PartReader, found: g.Found) -> dict[str, Rows] | None:
@@ -463,9 +465,9 @@ def _embedded_rows(at: PartReader, found: g.Found) -> dict[str, Rows] | None:
     keys = [key for key in ("omega", "gamma") if key in found]
     if not isinstance(given, g.Found):
         if len(keys) > 1:
-            message = "multirate, mri: embedded rows of one slow part, and there are two"
-            cure = "write embedded: {omega: [[…]], gamma: [[…]]}"
-            at.source.fault(node, message, cure, code="wrong-value")
+            message = "multirate, mri, embedded: a mapping is expected here"
+            cure = "of two slow parts write embedded: {omega: [[…]], gamma: [[…]]}"
+            at.source.fault(node, message, cure, code="mapping-expected")
         given, places = {keys[0]: given}, {keys[0]: node}
     else:
         places = dict(given.nodes)
@@ -473,8 +475,8 @@ def _embedded_rows(at: PartReader, found: g.Found) -> dict[str, Rows] | None:
     for key, matrix in given.items():
         name = f"embedded, {key}" if len(places) > 1 else "embedded"
         if key not in keys:
-            message = f"multirate, mri: embedded rows of {key}, which is not given"
-            at.source.fault(places[key], message, "leave them out", code="wrong-value")
+            message = f"multirate, mri: {key} missing beside embedded rows of it"
+            at.source.fault(places[key], message, "leave them out", code="missing-key")
         rows[key] = _widened(at, matrix, places[key], name, len(found["c"]))
     return rows
 
@@ -484,7 +486,7 @@ def _widened(at: PartReader, rows: Rows, node: Node, name: str, nodes: int) -> R
     width = max(map(len, rows), default=0)
     if width > nodes:
         message = f"{name} has {counted(width, 'column')} for {counted(nodes, 'node')}"
-        at.source.fault(node, message, "give a column a node", code="wrong-value")
+        at.source.fault(node, message, "give a column a node", code="wrong-size")
     zero = at.numbers.written("0", node, name)
     return tuple(row + (zero,) * (nodes - len(row)) for row in rows)
 
