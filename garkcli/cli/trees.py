@@ -227,10 +227,16 @@ def conditions(given: Given, output: Output) -> None:
     FILE for its symplectic pair, unless it is symplectic itself.
     """
     from garkcli.order.conditions import all_conditions
+    from garkcli.order.meant import printed
     from garkcli.report.conditions import REPORT, ConditionRow, Conditions
 
-    orders = range(given.order if given.only else 1, given.order + 1)
     valued = None if given.file is None else _valued(given)
+    last: int = given.order
+    exact_to = None if valued is None else printed(valued.method).exact_to
+    if exact_to is not None and exact_to < last:
+        last = exact_to
+        output.note(f"{given.file}: with the exact fast part up to order {last}")
+    orders = range(last if given.only else 1, last + 1)
     subject = None
     colours = 0
     if given.symplectic:

@@ -100,6 +100,7 @@ def find_order(
         The largest r ≤ limit for which the conditions of all trees of order ≤ r hold.
     """
     spans = spans or StageSpans(tableau)
+    limit = min(limit, tableau.exact_to or limit)
     for order in range(1, limit + 1):
         witness = _failing(tableau, spans, order)
         if witness is not None:

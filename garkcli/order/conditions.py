@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from flint import fmpq
 
+from garkcli.errors import MethodError
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import dot
 from garkcli.frozen import Frozen, replace
@@ -83,11 +84,17 @@ def conditions(method: AnyTableau, trees: Iterable[Tree]) -> Iterator[Condition]
     """The conditions of ``trees`` for a tableau; what comes of shared branches is computed once.
 
     Raises:
-        MethodError: a tree that the coupling graph does not admit.
+        MethodError: a tree that the coupling graph does not admit, or for which collocation does
+            not stand for an exact solution.
     """
     tableau = method if isinstance(method, Tableau) else method.tableau
     vectors = TreeVectors(tableau)
+    most = tableau.exact_to
     for tree in map(tableau.known, trees):
+        if most is not None and tree.order > most:
+            message = f"the condition of a tree of order {tree.order} (limit {most})"
+            cure = "no method with this slow method has a higher order"
+            raise MethodError(message, cure, code="too-many")
         value = dot(tableau.colours[tree.root].b, vectors.of(tree))
         if isinstance(method, Tableau) or value == required_of(tree):
             yield Condition(tree, value)

@@ -290,6 +290,7 @@ def find_order_within(
         exact: what ``find_order`` gives for this tableau and limit, where that is known.
     """
     exact = exact or find_order(rounded.tableau, limit)
+    limit = min(limit, rounded.tableau.exact_to or limit)
     if exact.witness is None:
         return RoundedOrder(exact.order, rounded.tolerance, None, "", exact.order, rounded)
     if not rounded.explains(exact.witness.tree):

@@ -84,8 +84,8 @@ def test_every_claim_holds(judged: dict[str, Any]) -> None:
 
 def test_all_that_matters_is_claimed(judged: dict[str, Any]) -> None:
     """Files that are not copies of the user's claim order, symplecticity, B, C and D and the kind
-    of their stages, or the orders and the stability of Rosenbrock methods; with embedded weights
-    their order, with other nodes the order with time.
+    of their stages, or the orders and the stability of Rosenbrock methods, or the orders of
+    multirate ones; with embedded weights their order, with other nodes the order with time.
     """
     for name, found in judged.items():
         if FILES[name].name in COPIES:
@@ -94,6 +94,10 @@ def test_all_that_matters_is_claimed(judged: dict[str, Any]) -> None:
         if "rosenbrock" in found:
             assert {"order", "w-order", "old-jacobian-order"} <= keys, name
             assert {"nonautonomous-order", "a-stable", "l-stable"} <= keys, name
+        elif "multirate" in found:
+            assert {"order", "slow-order", "nonautonomous-order"} <= keys, name
+            assert ("embedded-order" in keys) == (found["embedded_order"] is not None), name
+            continue
         else:
             assert {"order", "symplectic", "B", "C", "D"} <= keys, name
             assert {"explicit", "stage-order", "symmetric"} <= keys, name
@@ -253,13 +257,13 @@ def test_a_method_of_one_colour_fits_a_glance() -> None:
     """
     count = 0
     for name, outcome in outcomes().items():
-        found = outcome.analysis or outcome.rosenbrock
+        found = outcome.analysis or outcome.of_other_kind
         assert found is not None
         text = render([outcome], Paint())
         lines = text.splitlines()
         assert max(len(line) for line in lines if len(line.split()) > 1) <= 80, name
         assert lines[0].startswith(f"{name}: order {found.order.order}"), name
-        if outcome.rosenbrock is not None:
+        if outcome.of_other_kind is not None:
             assert len(lines) <= 16, name
             continue
         if found.tableau.size > 1:
