@@ -72,6 +72,7 @@ class Bridge(Frozen):
         file: how its file has to be called to be run.
         reads_back: whether ``gark import`` reads what it writes.
         write: the file of a method, where no template writes it.
+        couples: whether it takes the coupling of slow stages, whatever solves the fast problems.
     """
 
     name: str
@@ -90,6 +91,7 @@ class Bridge(Frozen):
     file: FileName | None = None
     reads_back: bool = False
     write: Callable[[Payload], str] | None = None
+    couples: bool = False
 
     def tested(self, payload: Payload, file: str) -> Mapping[str, str]:
         """A program that runs a method, and its problem, by what is put after the stem of the

@@ -34,7 +34,9 @@ def export(given: Given, output: Output) -> None:
     if given.test and bridge.words is None:
         message = f"{bridge.name} is data, not a program"
         raise UsageProblem(message, "leave out --test", code="cannot-export")
-    payload = prepared(given.method(is_exact=True), given.digits)
+    method = given.method(is_exact=True, is_any_kind=True)
+    method.tableau.demand_fields("this command", with_flow=bridge.couples)
+    payload = prepared(method, given.digits)
     table = bridge.written(payload)
     path = Path(output.path or "")
     beside = bridge.tested(payload, path.name) if given.test else {}

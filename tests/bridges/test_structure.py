@@ -248,6 +248,24 @@ def test_the_coupling_of_a_file_is_exported() -> None:
     assert matrices["W"][0] == slow_part(payload_of(base)).matrices["W"][0]
 
 
+def test_embedded_rows_of_a_coupling_are_exported() -> None:
+    """With the exact fast solution the orders are those of the paper, and the embedded rows are
+    beside them; methods whose fast problems begin anew are refused.
+    """
+    slow = slow_part(prepared(load("mri-gark-erk45a")))
+    assert slow.order == 4
+    assert slow.embedding is not None
+    rows, order = slow.embedding
+    assert order == 3
+    assert [row[0] for row in rows["W"]] == [fmpq(-88227, 47470), fmpq(6213, 1880)]
+    text = bridges()["sundials-mri"].written(prepared(load("mri-gark-erk45a")))
+    assert "C->W[1][6][j] = dW[6 + j];" in text
+    assert "with the fast equation solved exactly" in text
+    for name in ("merk32", "imex-mri-sr21", "mis2"):
+        with pytest.raises(CannotExport, match="do not follow each other"):
+            slow_part(prepared(load(name)))
+
+
 def test_an_implicit_coupling_is_told_from_an_explicit_one() -> None:
     """A row that uses the stage it leads to is implicit, and so are the letters of its matrices."""
     implicit = SANDU.replace("[[1/3], ", "[[1/6, 1/6], ")

@@ -36,18 +36,20 @@ class Slow(Frozen):
         nodes: of its stages, the last one the new value.
         matrices: by W, explicit, or G, implicit, those of τ⁰, τ¹, …; row i leads to stage i.
         order: with the fast equation solved exactly, or as well as the file says.
-        embedding: the row that leads to the embedded value, and its order; None without it.
+        embedding: the rows that lead to the embedded value, by W or G a row for each power, and
+            its order; None without it.
     """
 
     nodes: Row
     matrices: Mapping[str, Sequence[Rows]]
     order: int
-    embedding: tuple[Row, int] | None = None
+    embedding: tuple[Mapping[str, Sequence[Row]], int] | None = None
 
 
 def values(payload: Payload, _: Sequence[Table]) -> Values:
-    """The coupling; the orders of a file's are those with its fast steps."""
-    return {"slow": slow_part(payload), "has_coupling": payload.coupling is not None}
+    """The coupling; the orders of a file's are those with its fast steps, where it has them."""
+    has_steps = payload.coupling is not None and payload.tableau.exact_to is None
+    return {"slow": slow_part(payload), "has_steps": has_steps}
 
 
 def slow_part(payload: Payload) -> Slow:
@@ -77,7 +79,7 @@ def slow_part(payload: Payload) -> Slow:
     embedding = None
     if whole.embedded is not None:
         last = _difference(whole.embedded, whole.A[-2])
-        embedding = last, min(payload.orders.embedded or 0, 2)
+        embedding = {"W": [last]}, min(payload.orders.embedded or 0, 2)
     return Slow(whole.c, {"W": [((ZERO,) * whole.stages, *increments)]}, order, embedding)
 
 
@@ -88,7 +90,9 @@ def _coupled(payload: Payload, coupling: Coupling) -> Slow:
     if coupling.matrices is None:
         message = f"the fast problems of {payload.name} do not follow each other"
         raise CannotExport(message, "choose a coupling without restart, and without α and γ")
-    for powers in coupling.matrices:
+    rows: dict[str, Sequence[Row]] = {}
+    last = coupling.embedded
+    for part, powers in enumerate(coupling.matrices):
         # row i leads from stage i to the next
         is_implicit = any(any(row[i + 1 :]) for rows in powers for i, row in enumerate(rows))
         letter = "G" if is_implicit else "W"
@@ -96,8 +100,10 @@ def _coupled(payload: Payload, coupling: Coupling) -> Slow:
             message = f"both slow parts of {payload.name} are {'im' if is_implicit else 'ex'}plicit"
             raise CannotExport(message, "MRIStep takes an explicit and an implicit one")
         found[letter] = [(nothing, *matrix) for matrix in powers]
+        rows[letter] = () if last is None else last.forcing[part]
     matrices = {letter: found[letter] for letter in "WG" if letter in found}
-    return Slow(coupling.nodes, matrices, payload.orders.effective)
+    embedding = None if last is None else (rows, payload.orders.embedded or 0)
+    return Slow(coupling.nodes, matrices, payload.orders.effective, embedding)
 
 
 def _with_value(found: Table) -> Table:
@@ -132,5 +138,6 @@ BRIDGES = (
         stages="explicit",
         style=c_style("SUN_RCONST"),
         values=values,
+        couples=True,
     ),
 )
