@@ -8,7 +8,7 @@ from flint import fmpq
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from garkcli.errors import ZeroWeight
+from garkcli.errors import MethodError, ZeroWeight
 from garkcli.exact.display import to_text
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
@@ -105,10 +105,10 @@ def shape(tableau: Tableau) -> object:
 
 
 def has_conjugate(path: Path) -> bool:
-    """Whether no weight of the file is in the way of a conjugate."""
+    """Whether it is a GARK method, and no weight of the file is in the way of a conjugate."""
     try:
         conjugate(load(str(path)).tableau)
-    except ZeroWeight:
+    except (ZeroWeight, MethodError):
         return False
     return True
 
