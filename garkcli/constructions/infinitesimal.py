@@ -88,12 +88,14 @@ class Coupling(Frozen):
         embedded: that which leads to the embedded value; None without that.
         matrices: of methods whose fast problems follow each other, for each slow part the matrices
             of τ⁰, τ¹, …; row i leads from stage i to the next. Of others None.
+        has_own_nodes: whether its coefficients make the nodes.
     """
 
     nodes: Vector
     intervals: tuple[Interval, ...]
     embedded: Interval | None = None
     matrices: tuple[tuple[Matrix, ...], ...] | None = None
+    has_own_nodes: bool = False
 
     @property
     def rows(self) -> Iterator[Vector]:
@@ -128,7 +130,6 @@ def following(
         embedded: for each slow part the rows that lead from the last stage but one to the embedded
             value.
     """
-    _check_ends(nodes)
     columns = len(nodes)
     intervals = [
         Interval(_unit(columns, i), _zeros(columns), end - begin, _rows(matrices, i))
@@ -163,7 +164,6 @@ def restarted(
         after: of the last slow part, what is added after each fast problem.
         embedded_after: the same of the embedded value.
     """
-    _check_ends(nodes)
     zeros = _zeros(len(nodes))
     before = ((),) * (len(forcing) - 1)
 
@@ -192,23 +192,34 @@ def of_step_time(nodes: Vector, matrices: tuple[Matrix, ...]) -> tuple[Matrix, .
 def generalized(alpha: Matrix, beta: Matrix, gamma: Matrix) -> Coupling:
     """The methods of Wensch, Knoth and Galant; row i leads to the stage after stage i, the last one
     to the end of the step.
+
+    Raises:
+        MethodError: α or γ uses a stage that is still to come.
     """
     nodes: list[Number] = [ZERO]
     intervals = []
     for begin, row, drift in zip(alpha, beta, gamma, strict=True):
+        for letter, values in (("alpha", begin), ("gamma", drift)):
+            if any(values[len(nodes) :]):
+                message = f"{letter}, row {len(nodes)} uses a later stage"
+                cure = "a row has the stages before its own"
+                raise MethodError(message, cure, code="cannot-construct")
         width = sum(row, ZERO)
         known = [*nodes, *_zeros(len(row) - len(nodes))]
         nodes.append(dot(begin, known) + dot(drift, known) + width)
         intervals.append(Interval(begin, drift, width, ((row,),)))
-    return Coupling(tuple(nodes), tuple(intervals))
+    return Coupling(tuple(nodes), tuple(intervals), has_own_nodes=True)
 
 
-def _check_ends(nodes: Vector) -> None:
-    """Refuse nodes that are not from 0 to 1.
+def check_ends(coupling: Coupling) -> None:
+    """Refuse nodes that are not from 0 to 1, but for those that α, β and γ make.
 
     Raises:
         MethodError: they are not.
     """
+    nodes = coupling.nodes
+    if coupling.has_own_nodes:
+        return
     if nodes[0]:
         message = f"the slow stages begin at {nodes[0]}, not at 0"
         raise MethodError(message, "take a slow method with c_1 = 0", code="cannot-construct")
@@ -253,7 +264,14 @@ def plan_for_method(coupling: Coupling) -> Plan:
     last = len(coupling.nodes) - 1
     is_seen = any(row[-1] for interval in coupling.every for _, row in interval.rows)
     stages = range(last + 1 if is_seen else last)
-    return Plan(tuple(1 if x.width else 0 for x in coupling.every), tuple(stages))
+    return Plan(_solved(coupling, [1] * len(coupling.every)), tuple(stages))
+
+
+def _solved(coupling: Coupling, counts: Sequence[int]) -> tuple[int, ...]:
+    """The counts where the fast part moves, or at the first interval where it moves nowhere."""
+    moves = [bool(x.width) for x in coupling.every]
+    moves[0] |= not any(moves)
+    return tuple(n if x else 0 for n, x in zip(counts, moves, strict=True))
 
 
 def plan_for_flow(coupling: Coupling) -> Plan:
@@ -265,13 +283,13 @@ def plan_for_flow(coupling: Coupling) -> Plan:
     search for the order ends there.
     """
     seen = {j for interval in coupling.every for _, row in interval.rows for j in _support(row)}
-    degrees = [max(1, *map(len, x.forcing)) if x.width else 0 for x in coupling.every]
+    degrees = _solved(coupling, [max(1, *map(len, x.forcing)) for x in coupling.every])
     room = max(MAX_STAGES - len(seen) - len(degrees), 0)
     wanted = min(highest(coupling), apparent_order(coupling, seen))
     order = max(1, min(wanted, room // (sum(degrees) or 1)))
     refuse_large(sum(degrees) + len(degrees), SMALLER)
     counts = tuple(d * order + 1 if d else 0 for d in degrees)
-    return Plan(counts, tuple(sorted(seen)), order + 1)
+    return Plan(counts, tuple(sorted(seen or {0})), order + 1)
 
 
 def _support(row: Vector) -> list[int]:
@@ -311,7 +329,7 @@ def apparent_order(coupling: Coupling, stages: Iterable[int]) -> int:
     equal slow parts, but for residuals that rounding may explain; the larger one of it and of the
     embedded weights.
     """
-    still = Plan((0,) * len(coupling.every), tuple(sorted(stages)))
+    still = Plan((0,) * len(coupling.every), tuple(sorted(stages)) or (0,))
     made, further = _Infinitesimal(coupling, still, None, 1).made()
     slow = [m for m, colour in enumerate(made.colours) if colour.space == SLOW]
     A = _as_one(zip(*(made.blocks[SLOW, m] for m in slow), strict=True))

@@ -117,6 +117,10 @@ def test_a_coupling_by_its_name() -> None:
         ),
         ("{mri: {c: [0, 1], gamma: [[[1]]], embedded: [[1, 0, 0]]}, fast: exact}", "3 columns"),
         ("{mis: {alpha: [[0]], beta: [[1]]}, fast: exact}", "gamma missing"),
+        (
+            "{mis: {alpha: [[0], [0]], beta: [[0], [0]], gamma: [[0, 1], [0]]}, fast: exact}",
+            "gamma, row 1 uses a later stage",
+        ),
         ("{mis: {alpha: [[0]], beta: [[1/2]], gamma: [[0]]}, fast: exact}\nname: x", ""),
     ],
 )
@@ -127,6 +131,25 @@ def test_faults(text: str, message: str) -> None:
         return
     with pytest.raises(MethodFileError, match=message):
         loads(f"multirate: {text}")
+
+
+@pytest.mark.parametrize("fast", ["exact", "kutta\n  steps: 2"])
+def test_methods_that_stand_still(fast: str) -> None:
+    """Without any slow slope, or without any time for the fast part, there is a method still, of
+    order 0.
+    """
+    for slow in (
+        "mri: {c: [0, 1], gamma: [[[0]]]}",
+        "mis: {alpha: [[0]], beta: [[0]], gamma: [[0]]}",
+        "mis: {alpha: [[0], [0]], beta: [[1], [-1, 0]], gamma: [[0], [0]]}",
+    ):
+        assert find_order(loads(f"multirate:\n  {slow}\n  fast: {fast}")).order == 0
+
+
+def test_every_number_may_be_rounded(tmp_path: Path) -> None:
+    """Where no number is a decimal, every one may be off, the last node too; the method is read."""
+    text = "multirate: {mri: {c: [0, 1], gamma: [[[1]]]}, fast: exact}\ntolerance: 1e-6\n"
+    assert check_file(written(tmp_path, f"{text}expect: {{order: 1}}")).exit_code == 0
 
 
 def test_no_construction_is_made_of_it() -> None:

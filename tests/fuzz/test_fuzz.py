@@ -153,12 +153,23 @@ VALUES |= {
         },
     ),
     "multirate": st.fixed_dictionaries(
-        {"fast": PARTS, "steps": _or_anything(st.integers(0, 3))},
+        {"fast": PARTS | st.just("exact")},
         optional={
+            "steps": _or_anything(st.integers(0, 3)),
             "slow": PARTS,
-            "mis": PARTS,
+            "mis": PARTS
+            | st.fixed_dictionaries({"beta": MATRIX}, optional={"alpha": MATRIX, "gamma": MATRIX}),
             "mri": _or_anything(
-                st.fixed_dictionaries({"c": ROW}, optional={"gamma": _rows(MATRIX)})
+                st.fixed_dictionaries(
+                    {"c": ROW},
+                    optional={
+                        "gamma": _rows(MATRIX),
+                        "omega": _rows(MATRIX),
+                        "embedded": MATRIX
+                        | st.fixed_dictionaries({}, optional={"gamma": MATRIX, "omega": MATRIX}),
+                        "restart": _or_anything(st.sampled_from(("merk", "sr"))),
+                    },
+                )
             ),
             "coupling": SCALARS
             | st.fixed_dictionaries({}, optional={"fast-slow": MATRIX, "slow-fast": MATRIX}),

@@ -14,6 +14,7 @@ from garkcli.constructions.infinitesimal import (
     Coupling,
     Plan,
     Powers,
+    check_ends,
     following,
     generalized,
     infinitesimal,
@@ -241,6 +242,7 @@ class Infinitesimal(Frozen):
     def __call__(self, tableau_of: TableauOf, values: Values) -> tuple[Tableau, Further]:
         """The method, and its embedded weights."""
         coupling = self.coupling(tableau_of, values)
+        values.once(("ends", id(self)), lambda: check_ends(coupling))
         if self.fast is None:
             _refuse_parameters(coupling.rows)
         plan_for = plan_for_flow if self.fast is None else plan_for_method
