@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from garkcli.errors import counted
 from garkcli.report import check as c
 from garkcli.tell import kinds
 from garkcli.tell.facts import Answer, Level, Row, Section, maybe, optional
@@ -17,10 +18,10 @@ HEADLINE, USUAL, DETAIL, DATA = Level
 
 def _method_words(outcome: Any, d: Plain) -> str:
     a = outcome.infinitesimal
-    parts_ = a.tableau.size - 1
-    text = f"multirate, {a.tableau.spaces[-1].stages} slow stages"
-    if parts_ > 1:
-        text += f" of {parts_} slow parts"
+    slow = a.tableau.size - 1
+    text = f"multirate, {counted(a.tableau.spaces[-1].stages, 'slow stage')}"
+    if slow > 1:
+        text += f" of {slow} slow parts"
     text += ", fast part exact"
     if a.tolerance is not None:
         return f"{text}; coefficients rounded"
