@@ -108,6 +108,11 @@ def test_a_coupling_by_its_name() -> None:
             "gamma has 2 matrices",
         ),
         (
+            "{mri: {c: [0, 1], omega: [[[1]]], gamma: [[[0]]], restart: sr, embedded: "
+            "{omega: [[1]], gamma: [[0], [1]]}}, fast: exact}",
+            "gamma has 2 rows",
+        ),
+        (
             "{mri: {c: [0, 1], omega: [[[1]]], gamma: [[[1]]], embedded: [[1]]}, fast: exact}",
             "a mapping is expected here",
         ),

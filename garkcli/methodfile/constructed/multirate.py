@@ -456,6 +456,12 @@ def _check_restart(at: PartReader, found: g.Found, matrices: Mapping[str, Sequen
         message = f"multirate, mri: gamma has {len(matrices['gamma'])} matrices, and is added once"
         cure = "restart: sr has one matrix gamma: [[[…]]]"
         at.source.fault(found.nodes["gamma"], message, cure, code="wrong-size")
+    rows = found.get("embedded")
+    count = len(rows.get("gamma", ())) if isinstance(rows, g.Found) else 0
+    if restart == "sr" and count > 1:
+        message = f"multirate, mri, embedded: gamma has {count} rows, and is added once"
+        cure = "restart: sr has one row gamma: [[…]]"
+        at.source.fault(found["embedded"].nodes["gamma"], message, cure, code="wrong-size")
 
 
 def _embedded_rows(at: PartReader, found: g.Found) -> dict[str, Rows] | None:
