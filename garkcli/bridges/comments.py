@@ -88,7 +88,8 @@ def head(payload: Payload, *notes: str) -> list[str]:
         notes: what else the target has to say.
     """
     colours = counted(payload.size, "vector field")
-    stages = ", ".join(map(str, payload.stages))
+    has_flow = payload.tableau.exact_to is not None
+    stages = ", ".join(map(str, payload.stages[has_flow:]))
     lines = [
         f"Written by gark {payload.version}.",
         f"A method for {problem_class(payload)}; {colours}, stages {stages}.",
@@ -108,6 +109,7 @@ _CLASSES = {
     "ark": "y' = {terms}, all at the same stages",
     "prk": "q' = f(q, p), p' = g(q, p)",
     "gark": "y' = {terms}, each at stages of its own",
+    "flow": "y' = {terms}, f1 fast and solved exactly",
 }
 
 
@@ -119,7 +121,8 @@ def problem_class(payload: Payload) -> str:
         return "Hamiltonian problems that are split, a pair (q, p) a term"
     names = [f"f{l}(t, y)" for l in range(1, payload.size + 1)]
     terms = " + ".join(names) if len(names) < 4 else "f1(t, y) + ... + fN(t, y)"
-    return _CLASSES[payload.kind].format(terms=terms)
+    kind = "flow" if payload.tableau.exact_to is not None else payload.kind
+    return _CLASSES[kind].format(terms=terms)
 
 
 _PARTS = {

@@ -266,11 +266,42 @@ def test_embedded_rows_of_a_coupling_are_exported() -> None:
             slow_part(prepared(load(name)))
 
 
+DECOUPLED = """
+multirate:
+  mri: {c: [0, 1, 1, 1], gamma: [[[1], [-1/2, 0, 1/2], []]]}
+  fast: exact
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("[1], ", "[1, 0, 1], ", "uses a later one"),
+        ("[1], ", "[1/2, 1/2], ", "is implicit, and has a fast problem"),
+        ("[0, 1, 1, 1]", "[0, 2, 1, 1]", "nodes of .* do not ascend"),
+    ],
+)
+def test_what_mristep_refuses_is_not_exported(old: str, new: str, message: str) -> None:
+    """``mriStep_CheckCoupling`` refuses later stages, a solve coupled with a fast problem, and
+    nodes that descend.
+    """
+    with pytest.raises(CannotExport, match=message):
+        slow_part(payload_of(DECOUPLED.replace(old, new)))
+
+
+def test_embedded_rows_of_more_powers_have_room() -> None:
+    """A matrix of zeros is beside an embedded row of a power that the method does not have."""
+    text = DECOUPLED.replace("[]]]}", "[]]], embedded: [[-1/2, 1/2], [1, -1]]}")
+    written = bridges()["sundials-mri"].written(payload_of(text))
+    assert "MRIStepCoupling_Alloc(2, 4, MRISTEP_IMPLICIT)" in written
+    assert "C->G[1][4][j] = dG[4 + j];" in written
+
+
 def test_an_implicit_coupling_is_told_from_an_explicit_one() -> None:
     """A row that uses the stage it leads to is implicit, and so are the letters of its matrices."""
-    implicit = SANDU.replace("[[1/3], ", "[[1/6, 1/6], ")
-    text = bridges()["sundials-mri"].written(payload_of(implicit))
+    text = bridges()["sundials-mri"].written(payload_of(DECOUPLED))
     assert "C->G[0][i][j] = G[4 * i + j];" in text
     assert "MRISTEP_IMPLICIT" in text
+    assert "f1 fast and solved exactly; 2 vector\n * fields, stages 2." in text
     with pytest.raises(CannotExport, match="no multirate infinitesimal step"):
         slow_part(prepared(load(str(ROOT / GENERAL[0]))))

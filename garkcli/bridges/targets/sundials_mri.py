@@ -90,6 +90,7 @@ def _coupled(payload: Payload, coupling: Coupling) -> Slow:
     if coupling.matrices is None:
         message = f"the fast problems of {payload.name} do not follow each other"
         raise CannotExport(message, "choose a coupling without restart, and without α and γ")
+    _refuse_stages(payload.name, coupling.nodes, coupling.matrices)
     rows: dict[str, Sequence[Row]] = {}
     last = coupling.embedded
     for part, powers in enumerate(coupling.matrices):
@@ -99,11 +100,33 @@ def _coupled(payload: Payload, coupling: Coupling) -> Slow:
         if letter in found:
             message = f"both slow parts of {payload.name} are {'im' if is_implicit else 'ex'}plicit"
             raise CannotExport(message, "MRIStep takes an explicit and an implicit one")
-        found[letter] = [(nothing, *matrix) for matrix in powers]
         rows[letter] = () if last is None else last.forcing[part]
+        missing = len(rows[letter]) - len(powers)  # the embedded rows may have more powers
+        zeros = (nothing,) * len(nothing)
+        found[letter] = [*((nothing, *matrix) for matrix in powers), *[zeros] * missing]
     matrices = {letter: found[letter] for letter in "WG" if letter in found}
     embedding = None if last is None else (rows, payload.orders.embedded or 0)
     return Slow(coupling.nodes, matrices, payload.orders.effective, embedding)
+
+
+def _refuse_stages(name: str, nodes: Row, parts: Sequence[Sequence[Rows]]) -> None:
+    """Refuse what MRIStep refuses as it begins.
+
+    Raises:
+        CannotExport: nodes descend, or a stage uses a later one, or itself beside a fast problem.
+    """
+    widths = [ball(combined((1, end), (-1, begin))) for begin, end in pairwise(nodes)]
+    if any(width < 0 for width in widths):
+        cure = "choose a coupling with ascending nodes"
+        raise CannotExport(f"the nodes of {name} do not ascend", cure)
+    for i, row in ((i, matrix[i]) for x in parts for matrix in x for i in range(len(widths))):
+        if any(row[i + 2 :]):
+            cure = "choose a coupling whose stages use those before them and themselves"
+            raise CannotExport(f"a stage of {name} uses a later one", cure)
+        if row[i + 1] and widths[i] > 0:
+            message = f"a stage of {name} is implicit, and has a fast problem"
+            cure = "choose a coupling with c of the stage before at every implicit stage"
+            raise CannotExport(message, cure)
 
 
 def _with_value(found: Table) -> Table:
