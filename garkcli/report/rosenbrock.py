@@ -23,7 +23,7 @@ def _method_words(outcome: Any, d: Plain) -> str:
     text = f"Rosenbrock, {counted(a.tableau.spaces[0].stages, 'stage')}"
     diagonal = set(Rosenbrock.of(a.tableau).diagonal)
     if len(diagonal) == 1:
-        text += f", γ = {d.number(diagonal.pop())}"
+        text += f", {d.prose('γ')} = {d.number(diagonal.pop())}"
     if a.tolerance is not None:
         return f"{text}; coefficients rounded"
     degree = a.tableau.degree

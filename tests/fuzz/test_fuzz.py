@@ -121,6 +121,23 @@ STEPS = SCALARS | st.fixed_dictionaries(
     {"step": SCALARS}, optional={"of": PARTS, "adjoint": SCALARS}
 )
 VALUES |= {
+    "rosenbrock": st.fixed_dictionaries(
+        {},
+        optional={
+            "alpha": MATRIX,
+            "gamma": SCALARS | MATRIX,
+            "b": ROW,
+            "c": ROW,
+            "d": ROW,
+            "embedded": ROW,
+            "transformed": _or_anything(
+                st.fixed_dictionaries(
+                    {"A": MATRIX, "C": MATRIX, "gamma": NUMBERS | ROW, "m": ROW},
+                    optional={"e": ROW},
+                )
+            ),
+        },
+    ),
     "adjoint": PARTS,
     "compose": st.fixed_dictionaries(
         {},

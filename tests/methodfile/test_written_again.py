@@ -90,7 +90,7 @@ def test_all_methods_are_read_again() -> None:
         tableau = in_points(method.tableau)
         if tableau is None or sum(space.stages for space in tableau.spaces) > STAGES:
             continue
-        if not tableau.has_fields_alone:  # it has no blocks to spell out
+        if not can_spell_out(method.tableau):
             continue
         for made in _made(tableau):
             assert _is_read_again(made, method.tolerance), path.name
