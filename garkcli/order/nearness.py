@@ -18,8 +18,8 @@ from flint import ctx, fmpq
 from garkcli.exact.affine import Affine
 from garkcli.exact.display import to_float
 from garkcli.frozen import Frozen
+from garkcli.order.bounded import orthonormal
 from garkcli.order.existence import is_proved_to_exist
-from garkcli.order.recovering import orthonormal
 
 if TYPE_CHECKING:
     from garkcli.exact.affine import Floats

@@ -18,11 +18,12 @@ from flint import arb, arb_mat, ctx, fmpq
 from garkcli.deadline import check_time
 from garkcli.errors import MethodError
 from garkcli.exact.enclosing import midpoint
-from garkcli.order.recovering import Place
+from garkcli.order.place import Place
 from garkcli.order.rows import of_tree
 
 if TYPE_CHECKING:
-    from garkcli.order.recovering import Recovery, System
+    from garkcli.order.place import System
+    from garkcli.order.recovering import Recovery
 
 BITS_OF_A_DIGIT = 3.33
 SPARE_DIGITS = 12

@@ -10,266 +10,45 @@ proves it.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
 from copy import copy
 from functools import cached_property, partial
-from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
-from flint import arb, ctx, fmpq
+from flint import arb, fmpq
 
 from garkcli.deadline import check_time
-from garkcli.exact.affine import UNIT, Affine, Forms
+from garkcli.exact.affine import Affine
 from garkcli.exact.display import to_float
+from garkcli.exact.enclosing import midpoint
 from garkcli.frozen import Frozen
-from garkcli.ntrees.count import counts_upto
-from garkcli.ntrees.kind import ONE_BRANCH
 from garkcli.ntrees.tree import Tree
-from garkcli.order.approximate_spans import ApproximateSpans
+from garkcli.order.bounded import (
+    FLOOR,
+    INDEPENDENT,
+    Solver,
+    bounded_least_squares,
+    dyadic,
+    excludes,
+    orthonormal,
+    scaled,
+)
 from garkcli.order.certificate import DEFAULT_LIMIT
-from garkcli.order.conditions import coupling_graph, is_admissible, twin_roots
-from garkcli.order.rows import Chosen, FormDefects, Label, joined, may_vanish, of_tree
-from garkcli.order.tree_residuals import TreeResiduals
-from garkcli.tableau.box import Box, FormTableau
-from garkcli.tableau.conjugate import are_opposite
+from garkcli.order.place import Derive, Place, System, arithmetic
+from garkcli.order.rows import Chosen, Label, may_vanish, of_tree
+from garkcli.order.shape import NATURAL, candidates, less, weak_rows
+from garkcli.tableau.box import Box
 from garkcli.tableau.embedded import NOTHING, Further, Weights, from_colours, with_weights
-from garkcli.tableau.enclosure import enclose_tableau
-from garkcli.tableau.tableau import Edge, Tableau
+from garkcli.tableau.tableau import Tableau
 
-if TYPE_CHECKING:
-    from garkcli.exact.affine import Floats
-
-NATURAL = 1e-3
-"""A condition that rounding can miss by more says nothing: many hold by chance."""
-NOISE = 1e-3
-"""Slopes of so many radii are what floats leave of zeros."""
-MOST_TREES = 50_000
-"""Up to so many trees of an order all are evaluated."""
-MOST_ROWS = 60
-"""Rows that one order adds at a time."""
-INDEPENDENT = 1e-6
-"""Rows that others give but for such a part add nothing to these."""
 COARSE = 1e-6
 """Slopes are renewed while radii, and what rows are missed by, are larger."""
 MOST_WEAK = 6
 """The search for a weak stage order ends there."""
 MOST_RUNS = 40
 """Runs of Newton's method until the search for more is given up."""
-COARSENING = 16.0
-"""By so many times the radii a condition moves, where it is met to second order only."""
 MAX_STEPS = 25
 MAX_SHIFT = 50.0
-END = 1 - 1e-8
-"""How far numbers are moved by first order: the rest is for what is of second order."""
-WEIGHTS = {"B": 100.0, "stiff": 10.0}
-"""What a compromise keeps first: orders need B, and a last row that is b is seldom chance."""
-RIDGE = 1e-3
-"""What a shift by its radius costs, in the compromise between rows that exclude each other."""
-MISS = 1e-9
-"""Rows that are missed by no more count as met to first order: small slopes were dropped."""
-FLOOR = 1e-10
 LOWEST_FLOOR = 1e-16
-
-SYMMETRIC = ("symmetric", "palindrome")
-WHOLE = {"symplectic": ("symplectic",), **dict.fromkeys(SYMMETRIC, SYMMETRIC)}
-"""Conditions that say something only all together: with one of a kind go those of these kinds."""
-
-Derive: TypeAlias = Callable[[Tableau], Tableau]
-"""A tableau from that of the box: its own colours, the conjugate, the pair, …"""
-System: TypeAlias = "Mapping[str, Chosen]"
-"""Rows by the name of the tableau that they are of."""
-
-
-@contextmanager
-def _arithmetic(bits: int) -> Iterator[None]:
-    """Balls of so many bits; what is beyond floats leaves all open."""
-    with ctx.workprec(bits), np.errstate(all="ignore"):
-        yield
-
-
-class Place:
-    """A method of the box, and all that is made around it.
-
-    Args:
-        search: for the box and the tableaus made from it.
-        shifts: by how much its numbers are off, in units of their radii.
-
-    Attributes:
-        slack: up to which part of what the radii can do a row counts as met: 0 where Newton's
-            method converged; else rows are met to second order only, as where varieties cross.
-    """
-
-    def __init__(self, search: Recovery, shifts: Sequence[fmpq]) -> None:
-        self.search = search
-        self.shifts = tuple(shifts)
-        self.slack = 0.0
-        self._defects: dict[str, FormDefects] = {}
-        self._values: dict[str, FormDefects] = {}
-        self._exact: dict[str, Tableau] = {}
-        self._residuals: dict[str, TreeResiduals] = {}
-        self._spans: dict[str, ApproximateSpans] = {}
-        self._missed: dict[tuple[str, int], list[Tree]] = {}
-
-    @property
-    def distance(self) -> float:
-        """By how much a number is off at most, in units of its radius."""
-        return max((abs(to_float(x)) for x in self.shifts), default=0.0)
-
-    @property
-    def is_inside(self) -> bool:
-        """Whether all its numbers are within their radii."""
-        return all(abs(x) <= 1 for x in self.shifts)
-
-    @cached_property
-    def _made(self) -> FormTableau:
-        return self.search.box.around(self.shifts)
-
-    @cached_property
-    def _method(self) -> Tableau:
-        with _arithmetic(self.search.bits):
-            return self.search.box.at(self.shifts)
-
-    @property
-    def grain(self) -> fmpq:
-        """What counts as zero of numbers that are made of its own."""
-        if not self.slack:
-            return self.search.grain
-        return max(self.search.grain, exactly(COARSENING * self.slack * self.search.radius))
-
-    @property
-    def further(self) -> Further:
-        """Its embedded weights and its dense output."""
-        return from_colours(self._method, self.search.printed_further)[1]
-
-    def exact(self, name: str) -> Tableau:
-        """A tableau of this method."""
-        if name not in self._exact:
-            with _arithmetic(self.search.bits):
-                self._exact[name] = self.search.targets[name](self._method)
-        return self._exact[name]
-
-    def defects(self, name: str) -> FormDefects:
-        """The defects of a tableau made from forms around this method."""
-        if name not in self._defects:
-            with _arithmetic(self.search.bits):
-                made = self.search.targets[name](self._made.made)
-                self._defects[name] = FormDefects(FormTableau(made, self._made.numbers))
-        return self._defects[name]
-
-    def in_balls(self, name: str) -> Tableau:
-        """A tableau with all its numbers within the radii around this method as balls."""
-        with _arithmetic(self.search.bits):
-            return self.defects(name).tableau.in_balls
-
-    def rows(self, system: System) -> Forms:
-        """The rows of a system."""
-        with _arithmetic(self.search.bits):
-            return joined([self.defects(name).rows(x) for name, x in system.items() if x])
-
-    def values(self, system: System) -> list[arb]:
-        """The centres of the rows of a system, which take less time than the rows."""
-        with _arithmetic(self.search.bits):
-            found: list[arb] = []
-            for name, chosen in system.items():
-                if name not in self._values:
-                    self._values[name] = FormDefects(FormTableau(self.exact(name), 0))
-                found += self._values[name].rows(chosen).centres if chosen else []
-            return found
-
-    def missed(self, name: str, order: int) -> list[Tree]:
-        """Trees of an order whose conditions this method does not meet, by most first; none where
-        it meets all.
-        """
-        key = name, order
-        if key not in self._missed:
-            check_time()
-            self._missed[key] = self._found_missed(name, order)
-        return self._missed[key]
-
-    def _found_missed(self, name: str, order: int) -> list[Tree]:
-        tableau, bits = self.exact(name), self.search.bits
-        admissible = coupling_graph(tableau)
-        small, share = self.search.small, self.search.share(name, order)
-        if not share or sum(counts_upto(admissible, order)[-1]) <= MOST_TREES:
-            if name not in self._residuals:
-                self._residuals[name] = TreeResiduals(tableau, enclose_tableau(tableau, bits))
-            residuals = self._residuals[name]
-            table = residuals.table(order)
-            sizes = [(abs(x), u) for x, _, u in residuals.of_order(order, share)]
-            missed = [(x, u) for x, u in sizes if not x < small]
-            missed.sort(key=lambda x: float(x[0].mid()), reverse=True)
-            trees = [table.tree(u) for _, u in missed]
-            return self._beyond_slack(name, trees, share)[:MOST_ROWS]
-        bush = self._bush_missed(name, order)
-        if bush is not None:
-            return [bush]
-        if name not in self._spans:
-            enclosure = enclose_tableau(tableau, bits)
-            self._spans[name] = ApproximateSpans(tableau, enclosure, small)
-        hulls = self._spans[name].sizes(order)
-        if hulls.bound < small:
-            return []
-        members = [tree for x, tree in hulls.members if not x < small]
-        return self._beyond_slack(name, members, share)[:MOST_ROWS]
-
-    def _bush_missed(self, name: str, order: int) -> Tree | None:
-        """A quadrature condition that no method of the box meets: one vertex with leaves of one
-        colour. Methods of high order seldom integrate better.
-        """
-        tableau = self.exact(name)
-        for l in twin_roots(tableau):
-            for m in range(tableau.size):
-                leaf = tableau.tree(m)
-                leaves, rest = divmod(order - tableau.colours[l].kind.weight, leaf.order)
-                bush = tableau.tree(l, (leaf,) * leaves)
-                if rest or not is_admissible(tableau, bush):
-                    continue
-                if not self.search.origin.may_meet(name, bush):
-                    return bush
-        return None
-
-    def _beyond_slack(self, name: str, trees: list[Tree], share: int) -> list[Tree]:
-        if not self.slack:
-            return trees
-        with _arithmetic(self.search.bits):
-            defects = self.defects(name)
-            return [u for u in trees if not self.is_met(defects.of(of_tree(u, share)), 0)]
-
-    def meets(self, name: str, tree: Tree) -> bool:
-        """Whether this method meets the condition of a tree."""
-        with _arithmetic(self.search.bits):
-            return self.is_met(self._tree_row(name, tree), 0)
-
-    def reach(self, name: str, tree: Tree) -> fmpq:
-        """How far the numbers of the box move the elementary weight of a tree at most."""
-        with _arithmetic(self.search.bits):
-            row = self._tree_row(name, tree)
-        return _exact(arb(float(row.reach[0] + row.remainders[0]))) / tree.density
-
-    def may_meet(self, name: str, tree: Tree) -> bool:
-        """Whether the radii explain that a tree is missed."""
-        with _arithmetic(self.search.bits):
-            return may_vanish(self._tree_row(name, tree), 0)
-
-    def may_be_sum(self, name: str, parts: Sequence[str]) -> bool:
-        """Whether the radii let the weights of a tableau be the sums of those of others."""
-        with _arithmetic(self.search.bits):
-            rows: list[Forms] = self.defects(name).tableau.b
-            for part_name in parts:
-                others = self.defects(part_name).tableau.b
-                rows = [x.minus(y, fmpq(1)) for x, y in zip(rows, others, strict=True)]
-            return all(may_vanish(row, i) for row in rows for i in range(len(row)))
-
-    def _tree_row(self, name: str, tree: Tree) -> Forms:
-        return self.defects(name).of(of_tree(tree))
-
-    def is_met(self, forms: Forms, i: int) -> bool:
-        """Whether a form is zero here, as far as the method is known."""
-        size = abs(forms.centres[i])
-        least = 1e-12 * self.search.radius
-        return bool(
-            size < self.search.small or size < self.slack * max(float(forms.reach[i]), least)
-        )
 
 
 class Failure(Frozen, eq=False):
@@ -444,7 +223,7 @@ class Recovery:
 
     def recover_shape(self) -> None:
         """Move to a method with the simplifying conditions that the digits speak for."""
-        chosen = self._candidates()
+        chosen = candidates(self.origin)
         for _ in range(12):
             if not chosen:
                 return
@@ -456,118 +235,14 @@ class Recovery:
                 self.place, self.shape = place, {"method": chosen}
             if place is not None and not place.slack:
                 return
-            chosen = self._less(chosen)
-
-    def _candidates(self) -> Chosen:
-        """Conditions that hold within the radii one by one, and not by chance."""
-        defects = self.origin.defects("method")
-        made = defects.tableau.made
-        edges = list(made.edges())
-        if not made.has_fields_alone:  # on linear problems they are Runge–Kutta methods
-            edges = [(l, l) for l, colour in enumerate(made.colours) if colour.kind == ONE_BRANCH]
-        chosen: Chosen = {}
-
-        def take(label: Label, alive: set[int]) -> set[int]:
-            """Which of the places alive still hold; those that say something are taken."""
-            forms = defects.of(label)
-            holds = [i for i in sorted(alive) if may_vanish(forms, i)]
-            is_natural = label.kind in WHOLE or (label.kind in "BC" and label.k == 1)
-            says = [
-                i
-                for i in holds
-                if is_natural or forms.reach[i] < NATURAL or not float(abs(forms.centres[i]))
-            ]
-            telling = [
-                i
-                for i in says
-                if NOISE * self.radius < forms.reach[i] and np.isfinite(forms.remainders[i])
-            ]
-            if telling:
-                chosen[label] = telling
-            return set(says)
-
-        with _arithmetic(self.bits):
-            series: list[tuple[Label, int]] = []
-            if made.has_fields_alone:
-                series += [(Label("B", l), 1) for l in range(made.size)]
-                series += [(Label("C", l, m), len(defects.tableau.b[l])) for l, m in edges]
-                series += [(Label("D", l, m), len(defects.tableau.b[m])) for l, m in edges]
-            for first, count in series:
-                alive, k = set(range(count)), 0
-                # of so many numbers quadrature of no more has all conditions
-                sees = len(defects.tableau.b[first.m if first.kind == "C" else first.l])
-                most = max(sees, count) if first.kind == "D" else 2 * sees
-                while alive and k < most:
-                    k += 1
-                    alive = take(Label(first.kind, first.l, first.m, k), alive)
-            labels = [
-                label
-                for label in self._equalities(edges)
-                if all(may_vanish(defects.of(label), i) for i in self._of_diagonal(label, defects))
-            ]
-            labels += [Label("damping", l, k=defects.degree(l)) for l, m in edges if l == m]
-            if made.has_fields_alone:
-                labels += [Label("node", l, k=k) for l in range(made.size) for k in (0, 1)]
-            else:
-                labels += [of_tree(u) for l, _ in edges for u in _tall(made, l)]
-            for label in labels:
-                take(label, set(range(len(defects.of(label)))))
-            if not made.has_fields_alone:
-                return chosen
-            for whole in (self._symplectic(defects), self._symmetric(defects)):
-                if all(
-                    may_vanish(forms, i)
-                    for forms in map(defects.of, whole)
-                    for i in range(len(forms))
-                ):
-                    for label in whole:
-                        take(label, set(range(len(defects.of(label)))))
-        return chosen
-
-    def _equalities(self, edges: Sequence[Edge]) -> Iterator[Label]:
-        """Rows of numbers that may be equal: a stage that is the step, one diagonal."""
-        printed = self.origin.exact("method")
-        for l, m in edges:
-            for i in range(len(printed.block(l, m) or ())):
-                yield Label("stiff", l, m, i)
-        for l in [l for l, m in edges if l == m]:
-            block = printed.block(l, l)
-            diagonal = [row[i] for i, row in enumerate(block or ())]
-            first = next((i for i, x in enumerate(diagonal) if x), None)
-            if first is not None and all(diagonal[first:]):
-                yield Label("diagonal", l, l, first)
-
-    def _of_diagonal(self, label: Label, defects: FormDefects) -> range:
-        """Which places of an equality have to hold: of a diagonal those of implicit stages."""
-        return range(label.k if label.kind == "diagonal" else 0, len(defects.of(label)))
-
-    def _symplectic(self, defects: FormDefects) -> list[Label]:
-        """Symplecticity, row by row; none where a block has no opposite."""
-        made = defects.tableau.made
-        labels = []
-        for l, m in made.edges():
-            if not are_opposite(made.colours[l], made.colours[m]):
-                continue
-            if made.block(m, l) is None:
-                return []
-            if l <= m:
-                labels += [Label("symplectic", l, m, i) for i in range(len(defects.tableau.b[l]))]
-        return labels
-
-    def _symmetric(self, defects: FormDefects) -> list[Label]:
-        """That the method with its stages in reverse is its own adjoint, row by row."""
-        b = defects.tableau.b
-        labels = [Label("palindrome", l) for l in range(len(b))]
-        for l, m in defects.tableau.made.edges():
-            labels += [Label("symmetric", l, m, i) for i in range((len(b[l]) + 1) // 2)]
-        return labels
+            chosen = less(self.origin, chosen)
 
     def _recover_weak(self) -> None:
         """Move to a method of the weak stage order that the digits speak for."""
         found: Chosen = {}
         for k in range(1, MOST_WEAK + 1):
-            fresh = {x: [0] for x in self._weak_rows(k)}
-            with _arithmetic(self.bits):
+            fresh = {x: [0] for x in weak_rows(self.place, k)}
+            with arithmetic(self.bits):
                 rows = self.origin.rows({"method": fresh}) if fresh else None
             if rows is None or not all(
                 may_vanish(rows, i) and rows.reach[i] < NATURAL for i in range(len(rows))
@@ -583,58 +258,6 @@ class Recovery:
             if self.shape is not shape or self._reach(self._reached) is not None:
                 self.place, self.shape, self.system = before
                 return
-
-    def _weak_rows(self, k: int) -> list[Label]:
-        """The conditions of weak stage order k for as many words b A ⋯ A of each last colour as
-        there are stages: more are combinations of these, for one colour by the theorem of Cayley
-        and Hamilton.
-        """
-        made = self.place.defects("method").tableau.made
-        edges = list(made.edges())
-        stages = sum(space.stages for space in made.spaces)
-        counts = dict.fromkeys(range(made.size), 0)
-        waiting: list[tuple[int, ...]] = [(l,) for l in range(made.size)]
-        labels: list[Label] = []
-        for path in waiting:  # it grows
-            l = path[-1]
-            if counts[l] == stages:
-                continue
-            counts[l] += 1
-            labels += [Label("weak", l, m, k, path=path) for p, m in edges if p == l]
-            waiting += [(*path, m) for p, m in edges if p == l]
-        return labels
-
-    def _less(self, chosen: Chosen) -> Chosen:
-        """The rows without those that the others exclude, as far as first order tells: the one
-        that a compromise of all misses by most, and what builds on it.
-        """
-        rows = self.origin.rows({"method": chosen})
-        c, G, _ = scaled(rows)
-        places = [(label, i) for label, which in chosen.items() for i in which]
-        weights = np.array([WEIGHTS.get(label.kind, 1.0) for label, _ in places])
-        miss = _compromise(weights[:, None] * G, weights * c) / weights
-        most = np.abs(miss).max()
-        worst, place = places[int(np.argmax(np.abs(miss)))]
-        label = min(
-            (
-                x
-                for (x, i), off in zip(places, np.abs(miss), strict=True)
-                if (x.kind, x.l, x.m, i) == (worst.kind, worst.l, worst.m, place)
-                and off >= most / 10
-            ),
-            key=lambda x: x.k,
-        )
-        less: Chosen = {}
-        for other, which in chosen.items():
-            is_same = (other.kind, other.l, other.m) == (label.kind, label.l, label.m)
-            kept = which
-            if other.kind in WHOLE and label.kind in WHOLE[other.kind]:
-                kept = []
-            elif is_same and other.k >= label.k:
-                kept = [i for i in which if i != place]
-            if kept:
-                less[other] = kept
-        return less
 
     # orders
 
@@ -763,7 +386,7 @@ class Recovery:
             if np.abs(miss).max(initial=0) > 1e-12 and excludes(rows, miss / scale):
                 heavy = np.argsort(-np.abs(miss))
                 return Failure(True, tuple(labels[i] for i in heavy))
-            place = self._newton(system, Place(self, [_dyadic(x, 60) for x in start]))
+            place = self._newton(system, Place(self, [dyadic(x, 60) for x in start]))
         if place is None:
             return Failure(is_proved=False)
         self.place = place
@@ -804,12 +427,12 @@ class Recovery:
         floor, cut = FLOOR, max(FLOOR, 30 * self.radius)
         best: arb | None = None
         champion: tuple[arb, Place] | None = None
-        solver: _Solver | None = None
-        with _arithmetic(self.bits):
+        solver: Solver | None = None
+        with arithmetic(self.bits):
             for step in range(MAX_STEPS):
                 check_time()
                 if solver is None:
-                    solver = _Solver(place.rows(system), self.radius, groups)
+                    solver = Solver(place.rows(system), self.radius, groups)
                     centres = solver.rows.centres
                 else:
                     centres = place.values(system)
@@ -828,7 +451,7 @@ class Recovery:
                 if step < 4 and not worst < 1e-9:
                     near = solver.nearest(parts, place.shifts, cut)
                     if near is not None:
-                        place = Place(self, [_dyadic(x, 50) for x in near])
+                        place = Place(self, [dyadic(x, 50) for x in near])
                         if self.radius > COARSE:
                             solver = None
                         continue
@@ -836,20 +459,20 @@ class Recovery:
                     if floor <= LOWEST_FLOOR and step > 9:
                         break
                     floor = LOWEST_FLOOR
-                    solver = _Solver(place.rows(system), self.radius, groups, solver.fixed)
+                    solver = Solver(place.rows(system), self.radius, groups, solver.fixed)
                 best = worst if best is None else best.min(worst)
                 change = solver.step(parts, worst, cut)
                 if not np.isfinite(change).all():
                     break
-                unit = _exact(worst)
+                unit = midpoint(worst)
                 moved = [
-                    x + unit * _dyadic(y, 50) for x, y in zip(place.shifts, change, strict=True)
+                    x + unit * dyadic(y, 50) for x, y in zip(place.shifts, change, strict=True)
                 ]
                 place = Place(self, [_rounded(x, self.bits) for x in moved])
                 if place.distance > MAX_SHIFT:
                     break
                 if relative > COARSE and self.radius > COARSE:
-                    solver = _Solver(place.rows(system), self.radius, groups, solver.fixed)
+                    solver = Solver(place.rows(system), self.radius, groups, solver.fixed)
         if champion is None or not champion[0] < min(1e-2, 100 * self.radius):
             return None
         worst, place = champion
@@ -857,73 +480,6 @@ class Recovery:
         found = Place(self, place.shifts)
         found.slack = 4 * float(worst)
         return found
-
-
-class _Solver:
-    """Steps of Newton's method with the slopes at one method.
-
-    Args:
-        rows: there.
-        radius: of the printed numbers, the largest.
-        groups: of each number the group whose numbers move together.
-        fixed: which groups stay where they are.
-    """
-
-    def __init__(
-        self, rows: Forms, radius: float, groups: Sequence[int], fixed: Floats | None = None
-    ) -> None:
-        self.rows = rows
-        self.groups = np.array(groups, int)
-        scale = np.maximum(rows.reach, 1e-12 * radius)
-        self.balls = [arb(float(x)) for x in scale]
-        self.alone = rows.slopes / scale[:, None]
-        self.slopes = together(self.alone, self.groups)
-        self.fixed = np.zeros(self.slopes.shape[1], bool) if fixed is None else fixed
-        self._inverse: Floats | None = None
-        self._cut = 0.0
-
-    def nearest(self, parts: Sequence[arb], shifts: Sequence[fmpq], cut: float) -> Floats | None:
-        """The shifts of the method nearest to the print, as far as first order tells; those that
-        reach an end are fixed there.
-        """
-        here = np.array([to_float(x) for x in shifts])
-        floats = np.array([float(x.mid()) for x in parts])
-        near = nearest(self.slopes, floats - self.alone @ here, cut)
-        if near is None:
-            return None
-        self.fixed = np.abs(near) >= END
-        self._inverse = None
-        each: Floats = near[self.groups]
-        return each
-
-    def step(self, parts: Sequence[arb], unit: arb, cut: float) -> Floats:
-        """The least change that makes all rows zero to first order, in some unit."""
-        if self._inverse is None or cut < 1e-3 * self._cut:
-            self._inverse = _pseudo_inverse(np.where(self.fixed, 0.0, self.slopes), cut)
-            self._cut = cut
-        change = -(self._inverse @ np.array([float((x / unit).mid()) for x in parts]))
-        change[self.fixed] = 0.0  # exactly
-        each: Floats = change[self.groups]
-        return each
-
-
-def together(slopes: Floats, groups: Floats) -> Floats:
-    """The slopes of groups of numbers that move together: sums of columns."""
-    count = int(groups.max(initial=-1)) + 1
-    if count == slopes.shape[1]:
-        return slopes
-    sums = np.zeros((slopes.shape[0], count))
-    for k, group in enumerate(groups):
-        sums[:, group] += slopes[:, k]
-    return sums
-
-
-def orthonormal(rows: Floats) -> Floats:
-    """An orthonormal basis of the span of rows, without directions that are rounding."""
-    norms = np.maximum(np.linalg.norm(rows, axis=1), 1e-300)
-    _, s, v = np.linalg.svd(rows / norms[:, None], full_matrices=False)
-    basis: Floats = v[: int((s > INDEPENDENT).sum())]
-    return basis
 
 
 def _embedded(further: Further) -> Weights:
@@ -934,150 +490,8 @@ def _power(power: int, further: Further) -> Weights:
     return further.powers[power - 1]
 
 
-def _tall(tableau: Tableau, l: int) -> Iterator[Tree]:
-    """The trees of linear problems: a leaf, and below it vertices of colour l with one branch."""
-    term = tableau.colours[l].term
-    tree = tableau.tree(next(m for m, x in enumerate(tableau.colours) if x.term == term))
-    for _ in range(tableau.spaces[tableau.colours[l].space].stages):
-        tree = tableau.tree(l, [tree])
-        yield tree
-
-
 def _both(one: System, other: System) -> System:
     return {name: {**one.get(name, {}), **other.get(name, {})} for name in {**one, **other}}
-
-
-def scaled(rows: Forms) -> tuple[Floats, Floats, Floats]:
-    """Centres and slopes in units of what the slopes can do, and these units."""
-    scale = np.maximum(rows.reach + rows.remainders, 1e-300)
-    return rows.middle / scale, rows.slopes / scale[:, None], scale
-
-
-def excludes(rows: Forms, y: Floats) -> bool:
-    """Whether y · rows is zero nowhere in the box: a proof that no method meets them all."""
-    count = len(rows)
-    with ctx.workprec(200):
-        centre = abs(sum((arb(float(a)) * x for a, x in zip(y, rows.centres, strict=True)), arb(0)))
-    sizes = np.abs(y)
-    slope = np.abs(y @ rows.slopes).sum() + sizes @ rows.remainders
-    lost = (
-        (count + rows.slopes.shape[1] + 8) * UNIT * (sizes @ rows.reach + sizes @ rows.remainders)
-    )
-    return bool(centre > (slope + lost) * (1 + UNIT))
-
-
-def _compromise(G: Floats, c: Floats) -> Floats:
-    """By how much rows c + G x are missed where the sum of |misses| is about least, and x_k beyond
-    ±1 is punished: least squares with weights from the step before.
-    """
-    misses, shifts = np.ones(len(c)), np.zeros(G.shape[1])
-    for _ in range(12):
-        check_time()
-        loose = 1 / np.maximum(1, np.abs(shifts)) ** 4
-        allowed = RIDGE * np.maximum(np.abs(misses), 1e-6)
-        gram = (G * loose) @ G.T
-        gram[np.diag_indices_from(gram)] += allowed
-        forces = np.linalg.solve(gram, c)
-        misses, shifts = allowed * forces, -loose * (G.T @ forces)
-    return misses
-
-
-def bounded_least_squares(G: Floats, c: Floats) -> Floats:
-    """The x with |x_k| ≤ 1 for which |c + G x| is least, by active sets (P. Stark, R. Parker,
-    *Bounded-variable least-squares*, 1995).
-    """
-    count = G.shape[1]
-    if len(G) > count:  # the same sums of squares, but for a constant
-        q, G = np.linalg.qr(G)
-        c = q.T @ c
-    x: Floats = np.clip(np.linalg.lstsq(G, -c, rcond=1e-12)[0], -1, 1)
-    bound = np.where(np.abs(x) == 1, x, 0).astype(int)  # −1, 1: at that end
-    for _ in range(3 * count + 10):
-        check_time()
-        free = bound == 0
-        if free.any():
-            right = -(c + G[:, ~free] @ x[~free])
-            wanted = np.linalg.lstsq(G[:, free], right, rcond=1e-12)[0]
-            step = wanted - x[free]
-            room = np.where(step > 0, 1 - x[free], -1 - x[free])
-            with np.errstate(all="ignore"):
-                share = np.where(step != 0, room / step, np.inf)
-            least = float(share.min(initial=np.inf))
-            if least < 1:
-                x[free] += max(least, 0.0) * step
-                places = np.flatnonzero(free)
-                for k in places[share <= least]:
-                    bound[k] = 1 if step[np.searchsorted(places, k)] > 0 else -1
-                    x[k] = bound[k]
-                continue
-            x[free] = wanted
-        slope = (G.T @ (c + G @ x)) * bound
-        worst = int(np.argmax(slope))
-        if slope[worst] <= 1e-13:
-            break
-        bound[worst] = 0
-    return x
-
-
-def nearest(J: Floats, c: Floats, cut: float) -> Floats | None:
-    """The least x with |x_k| ≤ 1 for which c + J x = 0, up to rounding; None where it is not found.
-
-    Entries beyond an end are held close to it, or at it where that is too little: numbers that lie
-    halfway between two decimals are rounded by their radius. They are let go where the others pull
-    them back.
-    """
-    for end, miss in ((END, 1e-4 * (1 - END)), (1.0, MISS), (END, MISS)):
-        x = _nearest(J, c, cut, end, miss)
-        if x is not None:
-            return np.where(np.abs(x) < END, x, np.sign(x)) if end == 1 else x
-    return None
-
-
-def _nearest(J: Floats, c: Floats, cut: float, end: float, miss: float) -> Floats | None:
-    """The same with |x_k| ≤ ``end``, where rows count as met that are missed by no more."""
-    count = J.shape[1]
-    held = np.zeros(count)
-    for _ in range(count + 20):
-        free = held == 0
-        if not free.any():
-            return None
-        inverse = _pseudo_inverse(J[:, free], cut)
-        x = held.copy()
-        x[free] = -(inverse @ (c + J @ held))
-        if np.abs(c + J @ x).max(initial=0) > miss:
-            return None
-        beyond = np.abs(x) > end
-        if beyond.any():
-            held[beyond] = end * np.sign(x[beyond])
-            continue
-        pull = J.T @ (inverse.T @ x[free]) * np.sign(held)
-        loose = (held != 0) & (pull < end * (1 - 1e-9))
-        if not loose.any():
-            return x
-        held[int(np.argmin(np.where(loose, pull, np.inf)))] = 0
-    return None
-
-
-def _pseudo_inverse(J: Floats, cut: float) -> Floats:
-    """J⁺ without singular values that are a smaller part of the largest."""
-    u, s, v = np.linalg.svd(J, full_matrices=False)
-    rank = int((s > cut * s[0]).sum())
-    inverse: Floats = (v[:rank].T / s[:rank]) @ u[:, :rank].T
-    return inverse
-
-
-def exactly(x: float) -> fmpq:
-    """A float as a fraction."""
-    return fmpq(*x.as_integer_ratio())
-
-
-def _dyadic(x: float, bits: int) -> fmpq:
-    return fmpq(int(x * 2.0**bits), 1 << bits)
-
-
-def _exact(ball: arb) -> fmpq:
-    mantissa, exponent = ball.mid().man_exp()
-    return fmpq(mantissa) * fmpq(2) ** int(exponent)
 
 
 def _rounded(x: fmpq, bits: int) -> fmpq:

@@ -23,7 +23,8 @@ from garkcli.ntrees.tree import Tree
 from garkcli.order.approximate_spans import ApproximateSpans
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, Witness, find_order, required_of
 from garkcli.order.conditions import count_conditions, coupling_graph, elementary_weight
-from garkcli.order.recovering import Derive, Failure, Recovery
+from garkcli.order.place import Derive
+from garkcli.order.recovering import Failure, Recovery
 from garkcli.order.simplifying import BoxDefects, Defects
 from garkcli.order.tolerance import NOT_FOUND
 from garkcli.order.tree_residuals import TreeResiduals

@@ -14,9 +14,11 @@ from garkcli.deadline import check_time
 from garkcli.exact.affine import Affine
 from garkcli.exact.display import to_float
 from garkcli.frozen import Frozen, replace
+from garkcli.order.bounded import FLOOR, exactly, nearest
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.conditions import conditions
-from garkcli.order.recovering import FLOOR, Place, Recovery, exactly, nearest
+from garkcli.order.place import Place
+from garkcli.order.recovering import Recovery
 from garkcli.order.repair import Repair
 from garkcli.order.rounded import RoundedTableau
 from garkcli.order.rows import of_tree
@@ -29,7 +31,7 @@ if TYPE_CHECKING:
     from garkcli.exact.field import Number
     from garkcli.exact.matrix import Matrix, Vector
     from garkcli.ntrees.tree import Tree
-    from garkcli.order.recovering import System
+    from garkcli.order.place import System
 
 MOST_NUMBERS = 300
 """Printed numbers of methods for which one is sought."""

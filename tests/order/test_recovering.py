@@ -20,9 +20,11 @@ from hypothesis import strategies as st
 
 from garkcli import loads
 from garkcli.exact.affine import Forms
+from garkcli.order.bounded import bounded_least_squares, excludes, nearest
 from garkcli.order.certificate import find_order
 from garkcli.order.meant import as_meant
-from garkcli.order.recovering import Place, Recovery, bounded_least_squares, excludes, nearest
+from garkcli.order.place import Place
+from garkcli.order.recovering import Recovery
 from garkcli.order.rounded import RoundedTableau, find_order_within
 from garkcli.order.simplifying import simplifying
 from garkcli.tableau.box import plain_box

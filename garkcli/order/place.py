@@ -1,0 +1,234 @@
+"""One method of a box: what its conditions miss there, and what the box may move them by."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from functools import cached_property
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+from flint import arb, ctx, fmpq
+
+from garkcli.deadline import check_time
+from garkcli.exact.affine import Forms
+from garkcli.exact.display import to_float
+from garkcli.exact.enclosing import midpoint
+from garkcli.ntrees.count import counts_upto
+from garkcli.ntrees.tree import Tree
+from garkcli.order.approximate_spans import ApproximateSpans
+from garkcli.order.bounded import exactly
+from garkcli.order.conditions import coupling_graph, is_admissible, twin_roots
+from garkcli.order.rows import Chosen, FormDefects, joined, may_vanish, of_tree
+from garkcli.order.tree_residuals import TreeResiduals
+from garkcli.tableau.box import FormTableau
+from garkcli.tableau.embedded import Further, from_colours
+from garkcli.tableau.enclosure import enclose_tableau
+from garkcli.tableau.tableau import Tableau
+
+if TYPE_CHECKING:
+    from garkcli.order.recovering import Recovery
+
+MOST_TREES = 50_000
+"""Up to so many trees of an order all are evaluated."""
+MOST_ROWS = 60
+"""Rows that one order adds at a time."""
+COARSENING = 16.0
+"""By so many times the radii a condition moves, where it is met to second order only."""
+
+Derive: TypeAlias = Callable[[Tableau], Tableau]
+"""A tableau from that of the box: its own colours, the conjugate, the pair, …"""
+System: TypeAlias = "Mapping[str, Chosen]"
+"""Rows by the name of the tableau that they are of."""
+
+
+@contextmanager
+def arithmetic(bits: int) -> Iterator[None]:
+    """Balls of so many bits; what is beyond floats leaves all open."""
+    with ctx.workprec(bits), np.errstate(all="ignore"):
+        yield
+
+
+class Place:
+    """A method of the box, and all that is made around it.
+
+    Args:
+        search: for the box and the tableaus made from it.
+        shifts: by how much its numbers are off, in units of their radii.
+
+    Attributes:
+        slack: up to which part of what the radii can do a row counts as met: 0 where Newton's
+            method converged; else rows are met to second order only, as where varieties cross.
+    """
+
+    def __init__(self, search: Recovery, shifts: Sequence[fmpq]) -> None:
+        self.search = search
+        self.shifts = tuple(shifts)
+        self.slack = 0.0
+        self._defects: dict[str, FormDefects] = {}
+        self._values: dict[str, FormDefects] = {}
+        self._exact: dict[str, Tableau] = {}
+        self._residuals: dict[str, TreeResiduals] = {}
+        self._spans: dict[str, ApproximateSpans] = {}
+        self._missed: dict[tuple[str, int], list[Tree]] = {}
+
+    @property
+    def distance(self) -> float:
+        """By how much a number is off at most, in units of its radius."""
+        return max((abs(to_float(x)) for x in self.shifts), default=0.0)
+
+    @property
+    def is_inside(self) -> bool:
+        """Whether all its numbers are within their radii."""
+        return all(abs(x) <= 1 for x in self.shifts)
+
+    @cached_property
+    def _made(self) -> FormTableau:
+        return self.search.box.around(self.shifts)
+
+    @cached_property
+    def _method(self) -> Tableau:
+        with arithmetic(self.search.bits):
+            return self.search.box.at(self.shifts)
+
+    @property
+    def grain(self) -> fmpq:
+        """What counts as zero of numbers that are made of its own."""
+        if not self.slack:
+            return self.search.grain
+        return max(self.search.grain, exactly(COARSENING * self.slack * self.search.radius))
+
+    @property
+    def further(self) -> Further:
+        """Its embedded weights and its dense output."""
+        return from_colours(self._method, self.search.printed_further)[1]
+
+    def exact(self, name: str) -> Tableau:
+        """A tableau of this method."""
+        if name not in self._exact:
+            with arithmetic(self.search.bits):
+                self._exact[name] = self.search.targets[name](self._method)
+        return self._exact[name]
+
+    def defects(self, name: str) -> FormDefects:
+        """The defects of a tableau made from forms around this method."""
+        if name not in self._defects:
+            with arithmetic(self.search.bits):
+                made = self.search.targets[name](self._made.made)
+                self._defects[name] = FormDefects(FormTableau(made, self._made.numbers))
+        return self._defects[name]
+
+    def in_balls(self, name: str) -> Tableau:
+        """A tableau with all its numbers within the radii around this method as balls."""
+        with arithmetic(self.search.bits):
+            return self.defects(name).tableau.in_balls
+
+    def rows(self, system: System) -> Forms:
+        """The rows of a system."""
+        with arithmetic(self.search.bits):
+            return joined([self.defects(name).rows(x) for name, x in system.items() if x])
+
+    def values(self, system: System) -> list[arb]:
+        """The centres of the rows of a system, which take less time than the rows."""
+        with arithmetic(self.search.bits):
+            found: list[arb] = []
+            for name, chosen in system.items():
+                if name not in self._values:
+                    self._values[name] = FormDefects(FormTableau(self.exact(name), 0))
+                found += self._values[name].rows(chosen).centres if chosen else []
+            return found
+
+    def missed(self, name: str, order: int) -> list[Tree]:
+        """Trees of an order whose conditions this method does not meet, by most first; none where
+        it meets all.
+        """
+        key = name, order
+        if key not in self._missed:
+            check_time()
+            self._missed[key] = self._found_missed(name, order)
+        return self._missed[key]
+
+    def _found_missed(self, name: str, order: int) -> list[Tree]:
+        tableau, bits = self.exact(name), self.search.bits
+        admissible = coupling_graph(tableau)
+        small, share = self.search.small, self.search.share(name, order)
+        if not share or sum(counts_upto(admissible, order)[-1]) <= MOST_TREES:
+            if name not in self._residuals:
+                self._residuals[name] = TreeResiduals(tableau, enclose_tableau(tableau, bits))
+            residuals = self._residuals[name]
+            table = residuals.table(order)
+            sizes = [(abs(x), u) for x, _, u in residuals.of_order(order, share)]
+            missed = [(x, u) for x, u in sizes if not x < small]
+            missed.sort(key=lambda x: float(x[0].mid()), reverse=True)
+            trees = [table.tree(u) for _, u in missed]
+            return self._beyond_slack(name, trees, share)[:MOST_ROWS]
+        bush = self._bush_missed(name, order)
+        if bush is not None:
+            return [bush]
+        if name not in self._spans:
+            enclosure = enclose_tableau(tableau, bits)
+            self._spans[name] = ApproximateSpans(tableau, enclosure, small)
+        hulls = self._spans[name].sizes(order)
+        if hulls.bound < small:
+            return []
+        members = [tree for x, tree in hulls.members if not x < small]
+        return self._beyond_slack(name, members, share)[:MOST_ROWS]
+
+    def _bush_missed(self, name: str, order: int) -> Tree | None:
+        """A quadrature condition that no method of the box meets: one vertex with leaves of one
+        colour. Methods of high order seldom integrate better.
+        """
+        tableau = self.exact(name)
+        for l in twin_roots(tableau):
+            for m in range(tableau.size):
+                leaf = tableau.tree(m)
+                leaves, rest = divmod(order - tableau.colours[l].kind.weight, leaf.order)
+                bush = tableau.tree(l, (leaf,) * leaves)
+                if rest or not is_admissible(tableau, bush):
+                    continue
+                if not self.search.origin.may_meet(name, bush):
+                    return bush
+        return None
+
+    def _beyond_slack(self, name: str, trees: list[Tree], share: int) -> list[Tree]:
+        if not self.slack:
+            return trees
+        with arithmetic(self.search.bits):
+            defects = self.defects(name)
+            return [u for u in trees if not self.is_met(defects.of(of_tree(u, share)), 0)]
+
+    def meets(self, name: str, tree: Tree) -> bool:
+        """Whether this method meets the condition of a tree."""
+        with arithmetic(self.search.bits):
+            return self.is_met(self._tree_row(name, tree), 0)
+
+    def reach(self, name: str, tree: Tree) -> fmpq:
+        """How far the numbers of the box move the elementary weight of a tree at most."""
+        with arithmetic(self.search.bits):
+            row = self._tree_row(name, tree)
+        return midpoint(arb(float(row.reach[0] + row.remainders[0]))) / tree.density
+
+    def may_meet(self, name: str, tree: Tree) -> bool:
+        """Whether the radii explain that a tree is missed."""
+        with arithmetic(self.search.bits):
+            return may_vanish(self._tree_row(name, tree), 0)
+
+    def may_be_sum(self, name: str, parts: Sequence[str]) -> bool:
+        """Whether the radii let the weights of a tableau be the sums of those of others."""
+        with arithmetic(self.search.bits):
+            rows: list[Forms] = self.defects(name).tableau.b
+            for part_name in parts:
+                others = self.defects(part_name).tableau.b
+                rows = [x.minus(y, fmpq(1)) for x, y in zip(rows, others, strict=True)]
+            return all(may_vanish(row, i) for row in rows for i in range(len(row)))
+
+    def _tree_row(self, name: str, tree: Tree) -> Forms:
+        return self.defects(name).of(of_tree(tree))
+
+    def is_met(self, forms: Forms, i: int) -> bool:
+        """Whether a form is zero here, as far as the method is known."""
+        size = abs(forms.centres[i])
+        least = 1e-12 * self.search.radius
+        return bool(
+            size < self.search.small or size < self.slack * max(float(forms.reach[i]), least)
+        )
