@@ -96,13 +96,12 @@ def test_all_that_matters_is_claimed(judged: dict[str, Any]) -> None:
             assert {"nonautonomous-order", "a-stable", "l-stable"} <= keys, name
             assert ("embedded-order" in keys) == (found["embedded_order"] is not None), name
             continue
-        elif "multirate" in found:
+        if "multirate" in found:
             assert {"order", "slow-order", "nonautonomous-order"} <= keys, name
             assert ("embedded-order" in keys) == (found["embedded_order"] is not None), name
             continue
-        else:
-            assert {"order", "symplectic", "B", "C", "D"} <= keys, name
-            assert {"explicit", "stage-order", "symmetric"} <= keys, name
+        assert {"order", "symplectic", "B", "C", "D"} <= keys, name
+        assert {"explicit", "stage-order", "symmetric"} <= keys, name
         text = FILES[name].read_text(encoding="utf-8")
         has_weights = re.search(r"^ *embedded: ", text, re.MULTILINE)
         assert ("embedded-order" in keys) == bool(has_weights), name
