@@ -10,7 +10,7 @@ from garkcli.errors import counted
 from garkcli.report import check as c
 from garkcli.tell import kinds
 from garkcli.tell.facts import Answer, Level, Row, Section, Status, maybe, optional
-from garkcli.tell.parts import part, parts, picture, told
+from garkcli.tell.parts import SAID, part, parts, picture, told
 
 if TYPE_CHECKING:
     from garkcli.tell.dialect import Plain
@@ -101,6 +101,7 @@ ANALYSIS = [
     maybe("error_estimate", part(c.ESTIMATE, _estimate_words), "embedded.estimator"),
     maybe("dense_order", kinds.COUNT, _dense(lambda a: c.dense_answer(a.dense.order, True))),
     maybe("dense", part(c.DENSE, c.dense_words), label="dense output"),
+    Row("in the trees", SAID, lambda _: "1 is f, 2 is f' or the matrix, 3 is its error or time"),
     Row("stability", told(_stability_words), "."),
     _truth("a-stable"),
     _truth("l-stable"),

@@ -188,7 +188,7 @@ def test_conditions_end_where_collocation_does(tmp_path: Path) -> None:
     assert "up to order 4" in run.err
     orders = [len(x["tree"].replace("_1", "").replace("_2", "").split("[")) for x in _rows(run.out)]
     assert max(orders) == 5
-    with pytest.raises(MethodError, match="up to order 3 are known; choose trees"):
+    with pytest.raises(MethodError, match="known up to order 3; choose trees"):
         list(conditions("merk21", ["[[[[]_1]_1]_1]_1"]))
 
 

@@ -238,3 +238,12 @@ def test_claims_are_those_that_hold() -> None:
     }
     run = gark("claims", "ros3p", "-v")
     assert "# w-order: 1, proved; order 2 fails at [[]_1]_1 by" in run.out
+
+
+def test_the_report_is_short() -> None:
+    """All orders and the stability fit twelve lines of 80 columns, which say what colours are."""
+    text = gark("check", "ros3p").out
+    assert len(text.splitlines()) <= 12
+    assert "1 is f, 2 is f' or the matrix, 3 is its error or time" in text
+    for said in ("with any matrix    1, proved", "old Jacobian       2, proved", "A-stable, not L"):
+        assert said in text
