@@ -41,8 +41,8 @@ def order(key: str) -> Callable[[Entry], Answer]:
     return lambda entry: Answer(entry[key], Status(rounding(entry)))
 
 
-def _order(key: str, level: Level = USUAL) -> Row:
-    return maybe(key, COUNT, order(key), level, line=ORDER)
+def _order(key: str, level: Level = USUAL, label: str | None = None) -> Row:
+    return maybe(key, COUNT, order(key), level, line=ORDER, label=label)
 
 
 def _size_words(text: str, d: Plain) -> str:
@@ -82,7 +82,7 @@ METHOD = [
     _order("conjugate_order"),
     _order("pair_order"),
     _order("nonautonomous_order"),
-    _order("w_order"),
+    _order("w_order", label="order with any matrix"),
     _field("stages", POSITION),
     _field("stages_by_colour", STAGES, has_null=False),
     _field("colours", POSITION),
