@@ -469,13 +469,15 @@ def sums(block: Rows) -> tuple[Number, ...]:
 
 
 def catalogued() -> Iterator[tuple[str, MethodFile]]:
-    """Methods of the catalogue with one coordinate a stage and few numbers."""
+    """GARK methods of the catalogue with one coordinate a stage and few numbers."""
     for path in sorted(DATA.glob("*/*.gark.yaml")):
         try:
             method = loads(path.read_text(encoding="utf-8"))
         except GarkError:
             continue
         t = method.tableau
+        if t.exact_to is not None or not t.has_fields_alone:
+            continue
         few = sum(1 for block in t.blocks.values() for row in block for x in row if x)
         if few <= MOST_NUMBERS and all(isinstance(x, PointSpace) for x in t.spaces):
             yield path.name.removesuffix(".gark.yaml"), method
