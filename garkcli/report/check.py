@@ -78,13 +78,37 @@ def _method_phrase(_: str, answer: Answer, d: Plain) -> str:
 
 def _method_words(outcome: Any, d: Plain) -> str:
     text = _method_phrase("", Answer(outcome), d)
-    if outcome.every is not None:
-        return text
-    degree = outcome.analysis.tableau.degree
-    if outcome.analysis.tolerance is not None:
+    return text if outcome.every is not None else with_arithmetic(text, outcome.analysis)
+
+
+def with_arithmetic(text: str, a: Any) -> str:
+    """A method in words, with the numbers that its orders are decided in."""
+    if a.tolerance is not None:
         return f"{text}; coefficients rounded"
+    degree = a.tableau.degree
     field = "rational arithmetic" if degree == 1 else f"a number field of degree {degree}"
     return f"{text}; decided in {field}"
+
+
+def viewed_order(key: str, level: Any = Level.USUAL, label: str = "") -> Row:
+    """An order of an analysis with a ``view`` for each claim."""
+    claim = key.replace("_", "-")
+
+    def get(a: Any) -> Answer:
+        view = a.view(claim)
+        return kinds.order_answer(None if view is None else view[0])
+
+    return Row(key, kinds.ORDER, get, level, has_null=key != "order", label=label or None)
+
+
+def failing(*claims: str) -> Callable[[Any], list[tuple[Any, Any]]]:
+    """The trees at which the orders of some claims end, each with its tableau."""
+
+    def get(a: Any) -> list[tuple[Any, Any]]:
+        views = filter(None, map(a.view, claims))
+        return [(order.witness, tableau) for order, tableau in views if order.witness]
+
+    return get
 
 
 METHOD = Row("method", told(_method_words, _method_phrase), ".", line="method")
@@ -676,10 +700,15 @@ CONSTANTS = Section(
 
 
 def estimate_words(e: Any, d: Plain) -> str:
+    text = estimate_phrase(e, d)
+    return text if e.is_zero else f"{text}, sum of b − embedded {kinds.EXACTS(e.sums).words(d)}"
+
+
+def estimate_phrase(e: Any, _: Plain) -> str:
+    """``of order 3``."""
     if e.is_zero:
         return "zero: the embedded weights are b"
-    order_text = "leading term not found" if e.order is None else f"of order {e.order}"
-    return f"{order_text}, sum of b − embedded {kinds.EXACTS(e.sums).words(d)}"
+    return "leading term not found" if e.order is None else f"of order {e.order}"
 
 
 ESTIMATE = Section(

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from garkcli.errors import counted
 from garkcli.report import check as c
 from garkcli.tell import kinds
-from garkcli.tell.facts import Answer, Level, Row, Section, maybe, optional
+from garkcli.tell.facts import Level, Row, Section, maybe, optional
 from garkcli.tell.parts import part, parts, picture, told
 
 if TYPE_CHECKING:
@@ -23,33 +23,7 @@ def _method_words(outcome: Any, d: Plain) -> str:
     if slow > 1:
         text += f" of {slow} slow parts"
     text += ", fast part exact"
-    if a.tolerance is not None:
-        return f"{text}; coefficients rounded"
-    degree = a.tableau.degree
-    field = "rational arithmetic" if degree == 1 else f"a number field of degree {degree}"
-    return f"{text}; decided in {field}"
-
-
-def _order(key: str, level: Any = USUAL, label: str = "") -> Row:
-    """An order of the method."""
-    claim = key.replace("_", "-")
-
-    def get(a: Any) -> Answer:
-        view = a.view(claim)
-        return kinds.order_answer(None if view is None else view[0])
-
-    return Row(key, kinds.ORDER, get, level, has_null=key != "order", label=label or None)
-
-
-def _witnesses(a: Any) -> list[tuple[Any, Any]]:
-    views = (a.view(claim) for claim in ("order", "embedded-order"))
-    return [(order.witness, tableau) for order, tableau in filter(None, views) if order.witness]
-
-
-def _estimate_words(e: Any, d: Plain) -> str:
-    if e.is_zero:
-        return "zero: the embedded weights are b"
-    return "leading term not found" if e.order is None else f"of order {e.order}"
+    return c.with_arithmetic(text, a)
 
 
 ANALYSIS = [
@@ -57,13 +31,13 @@ ANALYSIS = [
     maybe("tolerance", kinds.TOLERANCE, level=DATA),
     Row("colours", parts(c.COLOURS), lambda a: c.colours_of(a.tableau), DATA),
     Row("exact_to", kinds.POSITION, "tableau.exact_to", DATA),
-    _order("order", HEADLINE),
-    _order("slow_order", label="slow method"),
-    _order("nonautonomous_order", label="order for f(t, y)"),
-    _order("embedded_order"),
-    _order("embedded_nonautonomous_order", DETAIL, "embedded for f(t, y)"),
-    maybe("error_estimate", part(c.ESTIMATE, _estimate_words), "embedded.estimator"),
-    Row("trees_that_fail", picture(c.drawn), _witnesses, DETAIL),
+    c.viewed_order("order", HEADLINE),
+    c.viewed_order("slow_order", label="slow method"),
+    c.viewed_order("nonautonomous_order", label="order for f(t, y)"),
+    c.viewed_order("embedded_order"),
+    c.viewed_order("embedded_nonautonomous_order", DETAIL, "embedded for f(t, y)"),
+    maybe("error_estimate", part(c.ESTIMATE, c.estimate_phrase), "embedded.estimator"),
+    Row("trees_that_fail", picture(c.drawn), c.failing("order", "embedded-order"), DETAIL),
 ]
 INFINITESIMAL = Section(
     *kinds.FILE_AND_NAME,

@@ -24,22 +24,7 @@ def _method_words(outcome: Any, d: Plain) -> str:
     diagonal = set(Rosenbrock.of(a.tableau).diagonal)
     if len(diagonal) == 1:
         text += f", {d.prose('γ')} = {d.number(diagonal.pop())}"
-    if a.tolerance is not None:
-        return f"{text}; coefficients rounded"
-    degree = a.tableau.degree
-    field = "rational arithmetic" if degree == 1 else f"a number field of degree {degree}"
-    return f"{text}; decided in {field}"
-
-
-def _order(key: str, level: Any = USUAL, label: str = "") -> Row:
-    """An order of the method."""
-    claim = key.replace("_", "-")
-
-    def get(a: Any) -> Answer:
-        view = a.view(claim)
-        return kinds.order_answer(None if view is None else view[0])
-
-    return Row(key, kinds.ORDER, get, level, has_null=key != "order", label=label or None)
+    return c.with_arithmetic(text, a)
 
 
 def _truth(key: str) -> Row:
@@ -70,17 +55,6 @@ def _stability_words(a: Any, d: Plain) -> str:
     return ", ".join(words)
 
 
-def _estimate_words(e: Any, d: Plain) -> str:
-    if e.is_zero:
-        return "zero: the embedded weights are b"
-    return "leading term not found" if e.order is None else f"of order {e.order}"
-
-
-def _witnesses(a: Any) -> list[tuple[Any, Any]]:
-    views = (a.view(claim) for claim in ("order", "w-order", "embedded-order"))
-    return [(order.witness, tableau) for order, tableau in filter(None, views) if order.witness]
-
-
 def _dense(get: Callable[[Any], Any]) -> Callable[[Any], Any]:
     return lambda a: None if a.dense is None else get(a)
 
@@ -90,15 +64,15 @@ ANALYSIS = [
     Row("exact", kinds.TRUTH, lambda a: a.tolerance is None, DATA),
     maybe("tolerance", kinds.TOLERANCE, level=DATA),
     Row("colours", parts(c.COLOURS), lambda a: c.colours_of(a.tableau), DATA),
-    _order("order", HEADLINE),
-    _order("w_order", label="with any matrix"),
-    _order("old_jacobian_order", label="old Jacobian"),
-    _order("nonautonomous_order", label="order for f(t, y)"),
-    _order("embedded_order"),
-    _order("embedded_w_order", DETAIL, "embedded, any matrix"),
-    _order("embedded_old_jacobian_order", DETAIL, "embedded, old Jacobian"),
-    _order("embedded_nonautonomous_order", DETAIL, "embedded for f(t, y)"),
-    maybe("error_estimate", part(c.ESTIMATE, _estimate_words), "embedded.estimator"),
+    c.viewed_order("order", HEADLINE),
+    c.viewed_order("w_order", label="with any matrix"),
+    c.viewed_order("old_jacobian_order", label="old Jacobian"),
+    c.viewed_order("nonautonomous_order", label="order for f(t, y)"),
+    c.viewed_order("embedded_order"),
+    c.viewed_order("embedded_w_order", DETAIL, "embedded, any matrix"),
+    c.viewed_order("embedded_old_jacobian_order", DETAIL, "embedded, old Jacobian"),
+    c.viewed_order("embedded_nonautonomous_order", DETAIL, "embedded for f(t, y)"),
+    maybe("error_estimate", part(c.ESTIMATE, c.estimate_phrase), "embedded.estimator"),
     maybe("dense_order", kinds.COUNT, _dense(lambda a: c.dense_answer(a.dense.order, True))),
     maybe("dense", part(c.DENSE, c.dense_words), label="dense output"),
     Row("in the trees", SAID, lambda _: "1 is f, 2 is f' or the matrix, 3 is its error or time"),
@@ -113,7 +87,9 @@ ANALYSIS = [
         DETAIL,
         label="R(z)",
     ),
-    Row("trees_that_fail", picture(c.drawn), _witnesses, DETAIL),
+    Row(
+        "trees_that_fail", picture(c.drawn), c.failing("order", "w-order", "embedded-order"), DETAIL
+    ),
 ]
 ROSENBROCK = Section(
     *kinds.FILE_AND_NAME,
