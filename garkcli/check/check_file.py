@@ -6,10 +6,11 @@ from typing import TYPE_CHECKING
 
 from garkcli.check.claims import verify
 from garkcli.check.culprit import culprit
-from garkcli.check.deciding import analyse, remark_of
+from garkcli.check.deciding import analyse, analyse_any, remark_of
 from garkcli.check.outcome import Outcome
 from garkcli.constructions.rosenbrock import is_rosenbrock
 from garkcli.errors import HasFreeParameters, MethodFileError
+from garkcli.frozen import replace
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.expectations import highest_order
 from garkcli.methodfile.load import NO_SETTINGS, load
@@ -17,6 +18,9 @@ from garkcli.order.certificate import DEFAULT_LIMIT
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+
+    from garkcli.check.claims import AnyAnalysis
+    from garkcli.order.constants import ErrorConstants
 
 
 def check_file(
@@ -55,17 +59,9 @@ def check_method(
         want_constants: compute the error constants too.
     """
     reach = max(limit, highest_order(method.claims) + 1)
-    if is_rosenbrock(method.tableau):
-        return _check_rosenbrock(method, reach, want_constants)
-    if method.tableau.exact_to is not None:
-        return _check_infinitesimal(method, reach, want_constants)
+    if is_rosenbrock(method.tableau) or method.tableau.exact_to is not None:
+        return _check_other_kind(method, reach, want_constants)
     analysis = analyse(method.tableau, reach, method.tolerance, method.further)
-    first_failing = None if analysis.order.is_lower_bound else analysis.order.order + 1
-    constants = None
-    if want_constants and first_failing is not None:
-        from garkcli.order.constants import error_constants
-
-        constants = error_constants(method.tableau, first_failing)
     claims = verify(method.claims, analysis)
     remark = remark_of(method, analysis)
     return Outcome(
@@ -77,46 +73,32 @@ def check_method(
         text=method.text,
         blame=culprit(method, analysis, claims, reach, remark),
         remark=remark,
-        constants=constants,
+        constants=_constants(analysis) if want_constants else None,
         left_behind=method.left_behind,
         rules=method.rules,
     )
 
 
-def _check_rosenbrock(method: MethodFile, limit: int, want_constants: bool) -> Outcome:
-    from garkcli.check.rosenbrock import analyse_rosenbrock  # few files are
-
-    found = analyse_rosenbrock(method.tableau, limit, method.tolerance, method.further)
-    constants = None
-    if want_constants and not found.order.is_lower_bound:
-        from garkcli.order.constants import error_constants
-
-        constants = error_constants(method.tableau, found.order.order + 1)
-    return Outcome(
+def _check_other_kind(method: MethodFile, limit: int, want_constants: bool) -> Outcome:
+    """Check a method that is no GARK method."""
+    found = analyse_any(method, limit)
+    outcome = Outcome(
         file=method.source,
         name=method.name,
         claims=verify(method.claims, found),
         text=method.text,
-        constants=constants,
-        rosenbrock=found,
-    )
-
-
-def _check_infinitesimal(method: MethodFile, limit: int, want_constants: bool) -> Outcome:
-    from garkcli.check.infinitesimal import analyse_infinitesimal  # few files are
-
-    found = analyse_infinitesimal(method.tableau, limit, method.tolerance, method.further)
-    constants = None
-    if want_constants and not found.order.is_lower_bound:
-        from garkcli.order.constants import error_constants
-
-        constants = error_constants(method.tableau, found.order.order + 1)
-    return Outcome(
-        file=method.source,
-        name=method.name,
-        claims=verify(method.claims, found),
-        text=method.text,
-        constants=constants,
-        infinitesimal=found,
+        constants=_constants(found) if want_constants else None,
         left_behind=method.left_behind,
     )
+    if is_rosenbrock(method.tableau):
+        return replace(outcome, rosenbrock=found)
+    return replace(outcome, infinitesimal=found)
+
+
+def _constants(found: AnyAnalysis) -> ErrorConstants | None:
+    """The error constants; None where no condition is known to fail."""
+    if found.order.is_lower_bound:
+        return None
+    from garkcli.order.constants import error_constants  # numpy is paid for here
+
+    return error_constants(found.tableau, found.order.order + 1)
