@@ -126,7 +126,7 @@ def looks_rounded(method: MethodFile) -> Remark | None:
 
 
 def remark_of(method: MethodFile, analysis: Analysis) -> Remark | None:
-    """What the digits of a file say of its rounding: of the method, else of embedded weights."""
+    """The remark on the digits of a file: on the method, else on its embedded weights."""
     asked = [("order", analysis.order)]
     if analysis.embedded is not None:
         asked.append(("embedded-order", analysis.embedded.order))

@@ -95,7 +95,7 @@ class Outcome(Shown, Frozen):
 
     @property
     def of_other_kind(self) -> RosenbrockAnalysis | InfinitesimalAnalysis | None:
-        """What is true of a method that is no GARK method; None of one that is, or of none."""
+        """The analysis of a method that is no GARK method; None of one that is, or of none."""
         return self.rosenbrock or self.infinitesimal
 
     @property

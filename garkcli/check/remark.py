@@ -33,7 +33,7 @@ COARSEST = -1
 
 
 class Remark(Frozen):
-    """What the digits of a file say of its rounding.
+    """A remark on the digits of a file: the tolerance that it lacks, or the entry that is off.
 
     Attributes:
         order: that the method would have.
@@ -61,7 +61,7 @@ def remark_on(
     of: str = "order",
     limit: int = DEFAULT_LIMIT,
 ) -> Remark | None:
-    """What the digits of a method say of its rounding; None where they say no more than the file.
+    """The remark on the digits of a method; None where they say no more than the file.
 
     Args:
         tableau: the method, as it was read.
@@ -105,7 +105,7 @@ def _is_rounding(found: AnyOrder) -> bool:
 def _judged(
     rounded: RoundedTableau, of: str, found: AnyOrder, limit: int
 ) -> tuple[RoundedTableau, AnyOrder]:
-    """What has an order within the digits, with that order: the known one where they do not explain
+    """The method within its digits, and its order: the known one where they do not explain
     that it is no higher.
     """
     judged = derived(rounded, of)
@@ -130,7 +130,7 @@ def _off(
 
 
 def _most(reached: Mapping[Repair, int]) -> tuple[Repair, ...]:
-    """Those that reach most."""
+    """The repairs that give the highest order."""
     return tuple(x for x, n in reached.items() if n == max(reached.values()))
 
 

@@ -245,7 +245,7 @@ def _rows(matrices: tuple[tuple[Matrix, ...], ...], i: int) -> tuple[Powers, ...
 
 
 class Plan(Frozen):
-    """What is decided of a method once, by its printed numbers.
+    """The collocation and the slow stages of a method, chosen once by its printed numbers.
 
     Attributes:
         fast: for each interval the nodes of the collocation that stands for the exact solution, or

@@ -123,7 +123,7 @@ class Rosenbrock(Frozen):
 
     @property
     def arrays(self) -> tuple[Tableau, Tableau]:
-        """Those of α with c and b, and of γ with d, as papers print them."""
+        """The arrays of α with c and b, and of γ with d, as papers print them."""
         made = []
         for name, blocks, nodes in zip("αγ", (self.alpha, self.gamma), self._nodes, strict=True):
             spaces = tuple(map(PointSpace, nodes))
@@ -181,7 +181,7 @@ class Rosenbrock(Frozen):
 
 
 def is_rosenbrock(tableau: Tableau) -> bool:
-    """Whether it is the tableau of such a method with the Jacobian."""
+    """Whether a tableau is that of a Rosenbrock method with its Jacobian."""
     kinds = [colour.kind for colour in tableau.colours]
     N = len(kinds) // 2
     return bool(kinds) and kinds == [NOT_ONE] * N + [ONE_BRANCH] * N

@@ -62,7 +62,7 @@ TRANSFORMED = g.mapping(
     ),
     form=_FORM_OF_TRANSFORMED,
 )
-"""What is under ``transformed``."""
+"""The keys under ``transformed``."""
 ROSENBROCK = g.mapping(
     g.Key(
         "alpha: [[0, 0], [1, 0]]",

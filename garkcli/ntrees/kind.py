@@ -18,7 +18,7 @@ _WORDS = {0: "no branch", 1: "one branch", SEVERAL: "several branches"}
 
 
 class Kind(Frozen):
-    """What the vertices of a colour are like.
+    """The kind of the vertices of a colour.
 
     Attributes:
         arity: how many branches they may have.

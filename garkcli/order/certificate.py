@@ -144,7 +144,7 @@ def witness_of(tree: Tree, normalised: Number, share: int = 1) -> Witness:
 
 
 def required_of(tree: Tree, share: int = 1) -> fmpq:
-    """What the elementary weight of a tree should be: share/γ(u), or 0 where the exact solution has
+    """The elementary weight that a tree should have: share/γ(u), or 0 where the exact solution has
     no such tree.
     """
     return fmpq(share * tree.is_exact, tree.density)

@@ -1,4 +1,4 @@
-"""What gives a method its shape: simplifying conditions and the like that its digits speak for."""
+"""The shape of a method: simplifying conditions and the like that its digits speak for."""
 
 from __future__ import annotations
 

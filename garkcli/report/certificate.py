@@ -140,7 +140,7 @@ VERTICES = Section(
 
 
 def _own_kind(colour: In) -> VertexKind | None:
-    """What vertices are like where the key ``linear`` does not say it."""
+    """The kind of vertices where the key ``linear`` does not say it."""
     kind: VertexKind = colour[0].kind
     return None if kind in FIELDS else kind
 

@@ -164,7 +164,7 @@ def bind(tableau: Tableau, problem: Problem) -> Binding:
     >>> [round(x, 6) for x in integrate(made, fmpq(1, 10), 10)]
     [1.056272, -0.391965]
     """
-    tableau.demand_fields("a step of gark")
+    tableau.demand_fields("a step")
     made = stepped_terms(tableau, problem)
     split = split_into(problem, terms_of(made))
     made = with_clock(made, split)

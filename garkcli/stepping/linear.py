@@ -73,7 +73,7 @@ def stage_system(
     Raises:
         MethodError: it is no GARK method.
     """
-    tableau.demand_fields("a step of gark")
+    tableau.demand_fields("a step on a linear problem")
     d = len(fields[0])
     if pattern is None:
         pattern = fields

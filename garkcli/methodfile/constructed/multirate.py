@@ -296,7 +296,7 @@ def _generalized(at: PartReader, found: g.Found) -> Callable[[TableauOf, Values]
 
 
 def _coupling_by_name(at: PartReader, found: g.Found) -> Callable[[TableauOf, Values], Coupling]:
-    """That of another multirate infinitesimal method."""
+    """The coupling of another multirate infinitesimal method."""
     part: PartText = found["mri"]
     at.parts.remove(part)  # its coupling is taken, not its step
     content = part.description.content
