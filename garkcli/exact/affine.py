@@ -352,7 +352,9 @@ class FormMatrix:
         middle, radii, reach, rest = (x.T for x in parts) if axis else parts
         slopes = middle @ v.slopes
         to, of = self._places[axis], self._places[1 - axis]
-        np.add.at(slopes, (to, self._places[2]), self._slopes * v.middle[of])
+        where = to * self.numbers + self._places[2]
+        weights = self._slopes * v.middle[of]
+        slopes += np.bincount(where, weights, slopes.size).reshape(slopes.shape)
         unit = UNIT * (len(v) + 8)
         sizes = np.abs(middle) * (1 + UNIT) + radii
         remainders = sizes @ v.remainders + (radii + unit * sizes) @ v.reach

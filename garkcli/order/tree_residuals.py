@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import cached_property
 from itertools import chain
 from typing import TYPE_CHECKING
 
@@ -13,7 +14,7 @@ from garkcli.frozen import Frozen
 from garkcli.ntrees.stage_vectors import StageVectors
 from garkcli.ntrees.table import TreeTable
 from garkcli.order.conditions import coupling_graph, twin_roots
-from garkcli.tableau.enclosure import Enclosure, Row, Rows
+from garkcli.tableau.enclosure import Enclosure, Row
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
@@ -32,7 +33,16 @@ class Sizes(Frozen, eq=False):
     reached: arb
 
 
-class TreeResiduals(StageVectors[Rows]):
+class BallVectors(list[Row]):
+    """Stage vectors in balls, a row each."""
+
+    @cached_property
+    def matrix(self) -> arb_mat:
+        """The rows as a matrix: many products use the same."""
+        return arb_mat(self)
+
+
+class TreeResiduals(StageVectors[BallVectors]):
     """The residuals b_lᵀ 𝒜^[u] − 1/γ(u) of every admissible tree in balls, order after order.
 
     A row per tree; what orders share is kept. Trees share their branches, as in the tree table: u =
@@ -112,19 +122,19 @@ class TreeResiduals(StageVectors[Rows]):
         else:
             few = arb_mat([times(row, b) for row in self.branches(table, segment)])
             many = stems
-        return (arb_mat(many) * few.transpose()).entries()
+        return (many.matrix * few.transpose()).entries()
 
-    def _part(self, vectors: Rows, places: Column) -> Rows:
-        return [vectors[i] for i in places.tolist()]
+    def _part(self, vectors: BallVectors, places: Column) -> BallVectors:
+        return BallVectors(vectors[i] for i in places.tolist())
 
-    def _vertex(self, l: int) -> Rows:
-        return [[arb(1)] * self.enclosure.stages[self.rows[l]]]
+    def _vertex(self, l: int) -> BallVectors:
+        return BallVectors([[arb(1)] * self.enclosure.stages[self.rows[l]]])
 
-    def _image(self, space: int, m: int, vectors: Rows) -> Rows:
-        return (arb_mat(vectors) * self.enclosure.A[space, m].transpose()).tolist()
+    def _image(self, space: int, m: int, vectors: BallVectors) -> BallVectors:
+        return BallVectors((vectors.matrix * self.enclosure.A[space, m].transpose()).tolist())
 
-    def _product(self, space: int, stems: Rows, branches: Rows) -> Rows:  # noqa: ARG002
-        return list(map(times, stems, branches))
+    def _product(self, space: int, stems: BallVectors, branches: BallVectors) -> BallVectors:  # noqa: ARG002
+        return BallVectors(map(times, stems, branches))
 
-    def _joined(self, parts: list[Rows]) -> Rows:
-        return list(chain.from_iterable(parts))
+    def _joined(self, parts: list[BallVectors]) -> BallVectors:
+        return BallVectors(chain.from_iterable(parts))
