@@ -99,17 +99,13 @@ def tolerance_of(method: object, given: object = None) -> fmpq | None:
     return value or None
 
 
-def refuse_rounded(method: GarkMethod, derivation: str = "") -> None:
-    """Refuse the conjugate and the pair of rounded coefficients where something is to be proved.
-
-    Args:
-        method: the method, or its conjugate or pair already.
-        derivation: which of these is meant.
+def refuse_rounded(method: GarkMethod) -> None:
+    """Refuse to write the conjugate or the pair of rounded coefficients for other codes.
 
     Raises:
         MethodError: it is one of them: its coefficients are off by more than the tolerance.
     """
-    derivation = derivation or method.derivation
+    derivation = method.derivation
     if derivation and method.tolerance is not None:
         message = f"the coefficients are rounded, and those of the {derivation} by more"
         raise MethodError(message, "give exact coefficients, without tolerance", code="rounded")

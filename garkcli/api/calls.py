@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from flint import fmpq
 
-from garkcli.api.anymethod import AnyMethod, method_of, refuse_rounded, with_tolerance
+from garkcli.api.anymethod import AnyMethod, method_of, with_tolerance
 from garkcli.api.numbers import Number, Whole, colour_of, rational, rationals, whole
 from garkcli.check import analysis
 from garkcli.check.analysis import MethodProof
@@ -120,8 +120,7 @@ def find_stability(
         seconds: of processor time, after which the rest stays undecided; None for no limit.
 
     Raises:
-        MethodError: there are ratios for another method, or one is not positive; or it is the
-            conjugate or the pair of rounded coefficients.
+        MethodError: there are ratios for another method, or one is not positive.
         NotDecided: the time is not enough for R.
 
     >>> found = find_stability("gauss-3")
@@ -129,7 +128,6 @@ def find_stability(
     (<Stability A-stable, not L-stable>, True)
     """
     method, near = with_tolerance(method, tolerance, is_any_kind=True)
-    refuse_rounded(method)
     further = rationals(ratios, "ratios")
     if further and (near is not None or method.tableau.size != 2):
         message = "ratios are for exact methods of two colours"

@@ -10,14 +10,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from os import PathLike
 from typing import Any, Protocol, cast, overload
 
-from garkcli.api.anymethod import (
-    AnyMethod,
-    meant_of,
-    method_of,
-    refuse_rounded,
-    tableau_of,
-    with_tolerance,
-)
+from garkcli.api.anymethod import AnyMethod, meant_of, method_of, tableau_of, with_tolerance
 from garkcli.api.numbers import Number, Whole, colours_of, whole
 from garkcli.check import deciding
 from garkcli.check.analysis import Analysis
@@ -26,7 +19,7 @@ from garkcli.exact.field import ZERO
 from garkcli.order import simplifying as conditions
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.deciding import AnyOrder, order_of
-from garkcli.order.meant import as_meant, meant, tolerance_of
+from garkcli.order.meant import as_meant, meant, remember_base, tolerance_of
 from garkcli.order.simplifying import Simplifying
 from garkcli.properties.property import Verdict
 from garkcli.properties.reduction import smallest
@@ -83,16 +76,12 @@ def analyse(
         tolerance: the rounding of the coefficients; that of the method where it is not given, 0 for
             none.
 
-    Raises:
-        MethodError: it is the conjugate or the pair of rounded coefficients.
-
     >>> found = analyse("gauss-2")
     >>> found, found.bound, found.symplectic
     (<Analysis order 4, conjugate 4, pair 4>, 4, True)
     """
     limit = whole(limit, "limit", 1)
     method, near = with_tolerance(method, tolerance)
-    refuse_rounded(method)
     return deciding.analyse(method.tableau, limit, near, further=method.further)
 
 
@@ -198,6 +187,7 @@ def pair(method: AnyMethod) -> Tableau | GarkMethod:
 
 
 def _derived(method: GarkMethod, tableau: Tableau, derivation: Derivation) -> GarkMethod:
+    remember_base(tableau, method, derivation)
     return GarkMethod(
         tableau=tableau,
         name=derived_name(derivation, method.name),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from garkcli.api.anymethod import AnyMethod, method_of, refuse_rounded, tableau_of, with_tolerance
+from garkcli.api.anymethod import AnyMethod, method_of, tableau_of, with_tolerance
 from garkcli.api.numbers import Number, Whole, rational_or_none, whole
 from garkcli.api.problems import AnyProblem, hamiltonian_for
 from garkcli.backward import energy, formulas, summary
@@ -29,7 +29,6 @@ def backward_analysis(
 
     Raises:
         UsageProblem: there are too many trees.
-        MethodError: it is the conjugate or the pair of rounded coefficients.
 
     >>> found = backward_analysis("stoermer-verlet", 5)
     >>> found, found.symplectic, found.effective.order
@@ -37,7 +36,6 @@ def backward_analysis(
     """
     most = whole(max_order, "max_order", 1)
     method, near = with_tolerance(method, tolerance)
-    refuse_rounded(method)
     return summary.backward_analysis(method.tableau, most, near)
 
 

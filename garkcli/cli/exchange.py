@@ -25,6 +25,7 @@ def export(given: Given, output: Output) -> None:
     The head of the file says which orders gark proved. Decimals are correctly rounded. gark refuses
     what a target cannot hold, with the reason.
     """
+    from garkcli.api.anymethod import refuse_rounded
     from garkcli.bridges.preparing import prepared
     from garkcli.bridges.registry import bridge_named
 
@@ -34,8 +35,9 @@ def export(given: Given, output: Output) -> None:
     if given.test and bridge.words is None:
         message = f"{bridge.name} is data, not a program"
         raise UsageProblem(message, "leave out --test", code="cannot-export")
-    method = given.method(is_exact=True, is_any_kind=True)
+    method = given.method(is_any_kind=True)
     method.tableau.demand_fields("this command", with_flow=bridge.couples)
+    refuse_rounded(method)
     payload = prepared(method, given.digits)
     table = bridge.written(payload)
     path = Path(output.path or "")

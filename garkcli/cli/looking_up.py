@@ -293,13 +293,13 @@ def _meant(path: str, given: Given) -> str | GarkMethod:
     """What the page is about: a file as it is, or the conjugate or the pair of its method.
 
     Raises:
-        UsageProblem: the coefficients are rounded or have free parameters.
+        UsageProblem: the coefficients have free parameters.
         ZeroWeight: a conjugate would divide by zero.
     """
     if given.which is None:
         return path
     try:
-        return given.method(path, is_exact=True)
+        return given.method(path)
     except HasFreeParameters as error:
         from garkcli.cli.tableaux import read_family
 

@@ -388,20 +388,16 @@ class Given(SimpleNamespace):
                 found[argument] = value
         return found
 
-    def method(
-        self, file: str = "", is_exact: bool = False, is_any_kind: bool = False
-    ) -> GarkMethod:
+    def method(self, file: str = "", is_any_kind: bool = False) -> GarkMethod:
         """The method of FILE with the values of --set, or its conjugate or its pair.
 
         Args:
             file: another one.
-            is_exact: whether the statements about it are proved.
             is_any_kind: whether it may be another than a GARK method.
 
         Raises:
             MethodFileError: it is none.
             HasFreeParameters: a parameter has no value.
-            MethodError: the pair or the conjugate of rounded coefficients, where it is to be exact.
             ZeroWeight: a conjugate would divide by zero.
         """
         from garkcli.methodfile.load import load
@@ -409,10 +405,6 @@ class Given(SimpleNamespace):
         method: GarkMethod = load(file or self.file, self.settings)
         if not is_any_kind:
             method.tableau.demand_fields("this command")
-        if is_exact and self.which:
-            from garkcli.api.anymethod import refuse_rounded
-
-            refuse_rounded(method, self.which)
         return getattr(method, self.which) if self.which else method
 
     def files_meant(self, output: Output) -> list[str]:

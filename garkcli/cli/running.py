@@ -386,7 +386,7 @@ def _in_modified(given: Given, output: Output) -> int:
     from garkcli.api.problems import hamiltonian_for
     from garkcli.report.modified_energy import REPORT, ModifiedEnergyReport
 
-    method = given.method(is_exact=True)
+    method = given.method()
     if method.tolerance is not None:
         raise UsageProblem(
             "--modified: the order in it is shown for exact coefficients, not for rounded ones",
@@ -419,7 +419,7 @@ def modified(given: Given, output: Output) -> None:
     from garkcli.methodfile.naming import called
     from garkcli.report.modified import REPORT, ModifiedReport
 
-    method = given.method(is_exact=True)
+    method = given.method()
     order, formula = given.order, None
     if given.problem is not None:
         refuse_misplaced(given)

@@ -38,6 +38,9 @@ def meant(tableau: Tableau, tolerance: fmpq | None, further: Further | None = No
     """
     if not tolerance:
         return tableau
+    base, which = tableau.__dict__.get("made of", (None, ""))
+    if base is not None:
+        return derived(meant(base.tableau, tolerance, base.further), which)
     known: dict[fmpq, RoundedTableau] = tableau.__dict__.setdefault("meant", {})
     found = known.get(tolerance)
     if found is None or (further and found.search.printed_further != further):
@@ -95,6 +98,17 @@ def remember(
     tableau.__dict__["box"] = tolerance, box
 
 
+def remember_base(tableau: Tableau, base: GarkMethod, which: str) -> None:
+    """Keep what a tableau is made of: it is as uncertain as the numbers of that make it.
+
+    Args:
+        tableau: the conjugate or the pair.
+        base: the method that has it.
+        which: ``conjugate`` or ``pair``.
+    """
+    tableau.__dict__["made of"] = base, which
+
+
 def keep(method: RoundedTableau) -> None:
     """Keep of a rounded tableau that was made of another what it is a rounding of."""
     method.tableau.__dict__.setdefault("meant", {})[method.tolerance] = method
@@ -135,11 +149,7 @@ def as_dense(method: AnyTableau) -> AnyTableau:
 
 
 def as_meant(method: GarkMethod) -> AnyTableau:
-    """The tableau of a method, with its rounding where it has a tolerance; what was made of a
-    rounded method is as uncertain as that makes it.
-    """
-    if method.base is not None and method.tolerance == method.base.tolerance:
-        return derived(as_meant(method.base), method.derivation)
+    """The tableau of a method, with its rounding where it has a tolerance."""
     return meant(method.tableau, method.tolerance, method.further)
 
 

@@ -403,8 +403,13 @@ class Recovery:
         for groups in self._groups:
             found = self._iterate(system, place, groups)
             if found is not None and not found.slack:
-                return found
-            best = best or found
+                if found.is_inside:
+                    return found
+                # the rows are those of a method beyond the box: what meets them to second order
+                # is near it, and no method
+                best = None
+            elif best is None:
+                best = found
         return best
 
     @cached_property
@@ -420,7 +425,8 @@ class Recovery:
         return [alone] if tied == alone else [tied, alone]
 
     def _iterate(self, system: System, place: Place, groups: Sequence[int]) -> Place | None:
-        """A method of the box where all rows vanish, by Newton's method; None where it finds none.
+        """A method where all rows vanish, by Newton's method, or one of the box where they do to
+        second order; None where it finds none.
 
         The first steps go to the method nearest to the print, as far as first order tells.
         """
@@ -442,7 +448,7 @@ class Recovery:
                 if not is_bounded or not np.isfinite(solver.slopes).all():
                     break  # it divides by what may be zero
                 if worst < self.goal:
-                    return place if place.is_inside else None
+                    return place
                 if place.is_inside and (champion is None or worst < champion[0]):
                     champion = worst, place
                 relative = float(worst)

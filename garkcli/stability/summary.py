@@ -279,7 +279,7 @@ def stability_of_rounded(tableau: Tableau, tolerance: fmpq) -> Stability:
                 within=decided,
             )
         )
-    algebraic = algebraic_within(near, grain) if linear else None
+    algebraic = algebraic_within(near, grain)
     return Stability(tableau, tuple(linear), None, None, tolerance, algebraic_within=algebraic)
 
 

@@ -19,6 +19,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from garkcli import loads
+from garkcli.check.deciding import analyse
 from garkcli.exact.affine import Forms
 from garkcli.order.bounded import bounded_least_squares, excludes, nearest
 from garkcli.order.certificate import find_order
@@ -374,3 +375,16 @@ def test_what_is_met_to_second_order_counts_as_met_everywhere() -> None:
     assert simplifying(box, 8, "B").B == (0,)
     box.search.place.slack = 1e-8
     assert simplifying(box, 8, "B").B == (4,)
+
+
+def test_a_method_beyond_the_box_is_none_to_second_order() -> None:
+    """a[2,3] of this Gauss method is 1.08 t from the exact one, the only method of three stages with
+    order 6, which is its own conjugate: neither the method nor its conjugate has order 6 within t,
+    whichever of them is judged first.
+    """
+    text = "{A: [[0.13889, -0.03598, 0.00979], [0.30026, 0.22222, -0.02248],"
+    text += " [0.26799, 0.48042, 0.13889]], b: [0.27778, 0.44444, 0.27778], tolerance: 5e-6}"
+    method = loads(text)
+    found = analyse(method.conjugate.tableau, 6, method.tolerance)
+    assert found.conjugate_order is not None
+    assert (found.order.order, found.conjugate_order.order) == (5, 5)
