@@ -13,6 +13,8 @@ from collections.abc import Iterator
 from functools import cached_property
 from itertools import chain
 
+from flint import fmpq
+
 from garkcli.backward.modified import ModifiedEquation
 from garkcli.exact.field import ZERO, Number
 from garkcli.frozen import Frozen
@@ -113,19 +115,31 @@ class HamiltonianTerm(Frozen):
         return self.coefficient / self.tree.symmetry
 
 
-def defect(equation: ModifiedEquation, tree: FreeTree) -> bool:
-    """Whether the coefficients of the rootings of a free tree do not belong to a Hamiltonian."""
+def defect(equation: ModifiedEquation, tree: FreeTree, zero: fmpq = ZERO) -> bool:
+    """Whether the coefficients of the rootings of a free tree do not belong to a Hamiltonian.
+
+    Args:
+        equation: the coefficients.
+        tree: the free tree.
+        zero: up to which size a difference counts as none, where they are those of a method that is
+            known to many bits; they are rational then.
+    """
     expected = equation[tree.representative]
-    if not tree.has_hamiltonian and expected:
+    if not tree.has_hamiltonian and not is_zero(expected, zero):
         return True
     for rooting, sign in tree.rootings:
         for twin in tree.structure.twins(rooting):
-            if equation[twin] != expected * sign:
+            if not is_zero(equation[twin] - expected * sign, zero):
                 return True
     return False
 
 
-def symplectic_order(equation: ModifiedEquation, structure: Structure) -> int:
+def is_zero(x: Number, zero: fmpq) -> bool:
+    """Whether a number is 0, or no larger than what counts as 0 of a rational number."""
+    return not x or (zero > 0 and isinstance(x, fmpq) and abs(x) <= zero)
+
+
+def symplectic_order(equation: ModifiedEquation, structure: Structure, zero: fmpq = ZERO) -> int:
     """The order of symplecticity, up to that of the largest trees.
 
     It is the largest q for which steps satisfy MᵀJM = J + O(h^(q+1)) on all Hamiltonian problems:
@@ -135,23 +149,23 @@ def symplectic_order(equation: ModifiedEquation, structure: Structure) -> int:
     Source: A. Aubry, P. Chartier, *Pseudo-symplectic Runge–Kutta methods*, BIT 38 (1998) 439.
     """
     for n in range(1, equation.max_order + 1):
-        if any(defect(equation, tree) for tree in free_trees(structure, n)):
+        if any(defect(equation, tree, zero) for tree in free_trees(structure, n)):
             return n - 1
     return equation.max_order
 
 
 def modified_hamiltonian(
-    equation: ModifiedEquation, structure: Structure
+    equation: ModifiedEquation, structure: Structure, zero: fmpq = ZERO
 ) -> Iterator[HamiltonianTerm]:
     """The terms of the modified Hamiltonian that are not zero, up to the order of symplecticity."""
-    for n in range(1, symplectic_order(equation, structure) + 1):
+    for n in range(1, symplectic_order(equation, structure, zero) + 1):
         for tree in free_trees(structure, n):
             coefficient = equation[tree.representative]
-            if coefficient:
+            if not is_zero(coefficient, zero):
                 yield HamiltonianTerm(tree, coefficient)
 
 
-def energy_order(equation: ModifiedEquation, structure: Structure) -> int:
+def energy_order(equation: ModifiedEquation, structure: Structure, zero: fmpq = ZERO) -> int:
     """The order to which steps conserve H = Σ H^{l}, up to that of the largest trees.
 
     It is the largest r with H(y₁) = H(y₀) + O(h^(r+1)) for all Hamiltonian problems. The modified
@@ -163,7 +177,7 @@ def energy_order(equation: ModifiedEquation, structure: Structure) -> int:
     """
     for n in range(1, equation.max_order + 1):
         for tree in free_trees(structure, n + 1):
-            if tree.has_hamiltonian and _change(equation, tree):
+            if tree.has_hamiltonian and not is_zero(_change(equation, tree), zero):
                 return n - 1
     return equation.max_order
 

@@ -54,21 +54,20 @@ class BackwardAnalysis(Shown, Frozen):
         order: of the method.
         structure: of the Hamiltonian problems that it is for, or None.
         is_symplectic: whether it is by its coefficients; within the tolerance where it has one.
-        symplectic: the order of symplecticity; None without a structure or with a tolerance.
+        symplectic: the order of symplecticity; None without a structure.
         energy: the order to which steps conserve energy; None as there.
-        effective: the order up to a change of coordinates; None with a tolerance.
-        hamiltonian: the terms of the modified Hamiltonian; None where there is none, or with a
-            tolerance.
-        tolerance: the rounding of the coefficients.
+        effective: the order up to a change of coordinates.
+        hamiltonian: the terms of the modified Hamiltonian; None where there is none.
+        tolerance: the rounding of the coefficients. With one the three orders are lower bounds.
     """
 
     equation: ModifiedEquation
     order: Reached
     structure: Structure | None
     is_symplectic: bool
-    symplectic: Reached | None = None
-    energy: Reached | None = None
-    effective: Reached | None = None
+    symplectic: Reached | None
+    energy: Reached | None
+    effective: Reached
     hamiltonian: tuple[HamiltonianTerm, ...] | None = None
     tolerance: fmpq | None = None
 
@@ -85,8 +84,7 @@ def backward_analysis(
     """Decide what trees of up to ``max_order`` vertices tell of ``tableau``.
 
     With a ``tolerance`` they are those of the method that the digits are taken to be a rounding of,
-    to some digits more than are printed; nothing is decided about the other orders, which are about
-    exact zeros.
+    to some digits more than are printed; other methods within it may have larger orders.
 
     Raises:
         UsageProblem: there are too many trees.
@@ -98,18 +96,13 @@ def backward_analysis(
     """
     structure = hamiltonian_structure(tableau)
     if tolerance:
-        rounded = meant(tableau, tolerance)
-        reached = order_of(rounded, max_order)
-        order = Reached(reached.order, reached.is_lower_bound)
-        symplectic = is_symplectic(rounded)
-        equation = _nearby(rounded, max_order)
-        return BackwardAnalysis(equation, order, structure, symplectic, tolerance=tolerance)
+        return _of_rounded(meant(tableau, tolerance), max_order, structure)
     equation = modified_equation(tableau, max_order)
     shift = effective_order(equation)
     effective = Reached(shift.order, not shift.is_proved)
     order = _reached(equation.order, max_order)
     if structure is None:
-        return BackwardAnalysis(equation, order, None, False, effective=effective)
+        return BackwardAnalysis(equation, order, None, False, None, None, effective)
     proved = is_symplectic(tableau)
     found = symplectic_order(equation, structure)
     terms = None
@@ -127,19 +120,43 @@ def backward_analysis(
     )
 
 
-def _nearby(rounded: AnyTableau, max_order: int) -> ModifiedEquation:
-    """The modified equation of the method that a rounded one is taken to be."""
+def _of_rounded(
+    rounded: AnyTableau, max_order: int, structure: Structure | None
+) -> BackwardAnalysis:
+    """The same of the method that a rounded one is taken to be."""
     assert not isinstance(rounded, Tableau)
-    places = len(str((1 / rounded.tolerance).floor())) + EXTRA
+    found = order_of(rounded, max_order)
+    order = Reached(found.order, found.is_lower_bound)
+    proved = is_symplectic(rounded)
     near = changed(rounded.near, lambda x: midpoint(x) if isinstance(x, arb) else x)
-    found = modified_equation(near, max_order)
-    unit = fmpq(10) ** -places
+    equation, zero = modified_equation(near, max_order), rounded.grain
+    unit = fmpq(10) ** -(len(str((1 / rounded.tolerance).floor())) + EXTRA)
 
     def rounded_to_unit(x: Number) -> fmpq:
         assert isinstance(x, fmpq)
         return unit * (x / unit + fmpq(1, 2)).floor()
 
-    return replace(found, coefficients=tuple(map(rounded_to_unit, found.coefficients)))
+    symplectic = energy = terms = None
+    if structure is not None:
+        known = max_order if proved else symplectic_order(equation, structure, zero)
+        symplectic = Reached(known, True)
+        energy = Reached(energy_order(equation, structure, zero), True)
+    if structure is not None and proved:
+        terms = tuple(
+            replace(term, coefficient=rounded_to_unit(term.coefficient))
+            for term in modified_hamiltonian(equation, structure, zero)
+        )
+    return BackwardAnalysis(
+        equation=replace(equation, coefficients=tuple(map(rounded_to_unit, equation.coefficients))),
+        order=order,
+        structure=structure,
+        is_symplectic=proved,
+        symplectic=symplectic,
+        energy=energy,
+        effective=Reached(order.order, True),
+        hamiltonian=terms,
+        tolerance=rounded.tolerance,
+    )
 
 
 def _reached(order: int, largest: int) -> Reached:

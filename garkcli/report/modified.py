@@ -37,7 +37,6 @@ HEADLINE, USUAL, DETAIL, DATA = Level
 MOST_TERMS = 10
 """Of a table in a terminal, usually."""
 _FORMLESS = Reason("no Hamiltonian problem has its form")
-_ROUNDED = Status(open=Reason("coefficients are rounded"))
 
 
 class ModifiedReport(Frozen):
@@ -205,17 +204,14 @@ REACHED = Kind(
 )
 
 
-def _order(key: str, level: Level = HEADLINE, is_formless: bool = False) -> Row:
+def _order(key: str, level: Level = HEADLINE) -> Row:
     """An order, and whether it is a lower bound."""
 
     def get(x: BackwardAnalysis) -> Answer:
         reached = getattr(x, key.removesuffix("_order"))
-        if reached is not None:
-            within = x.tolerance if key == "order" else None
-            return Answer(reached.order, Status(within, reached.is_lower_bound))
-        if x.tolerance is not None or not is_formless:
-            return Answer(None, _ROUNDED, level=USUAL if level == HEADLINE else DATA)
-        return Answer(None, reason=_FORMLESS)
+        if reached is None:
+            return Answer(None, reason=_FORMLESS)
+        return Answer(reached.order, Status(x.tolerance, reached.is_lower_bound))
 
     return maybe(key, REACHED, get, level)
 
@@ -247,8 +243,8 @@ MODIFIED = Section(
         [
             _order("order"),
             Row("symplectic", TRUTH, _symplectic, HEADLINE),
-            _order("symplectic_order", USUAL, is_formless=True),
-            _order("energy_order", is_formless=True),
+            _order("symplectic_order", USUAL),
+            _order("energy_order"),
             _order("effective_order"),
         ],
     ),

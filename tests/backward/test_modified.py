@@ -34,6 +34,7 @@ from garkcli.transfer import interpolation
 from tests.oracles import series
 from tests.oracles.brute import Weights, plain
 from tests.oracles.samples import everywhere
+from tests.order.random_rounded import Rounding, listed
 
 Field: TypeAlias = dict[series.Component, fmpq_mpoly]
 """A polynomial for each component."""
@@ -281,3 +282,23 @@ def test_a_rounded_method_has_the_coefficients_of_one_that_it_may_be() -> None:
     found, wanted = dict(rounded.terms(5)), dict(exact.terms(5))
     assert set(found) == set(wanted)
     assert all(abs(found[u] - wanted[u]) < fmpq(1, 10**14) for u in wanted)
+
+
+@pytest.mark.parametrize("name", ["gauss-2", "radau-iia-2", "rk4", "ralston-2", "lobatto-iiic-2"])
+def test_orders_of_a_rounded_method_are_those_that_it_has(name: str) -> None:
+    """The energy, symplectic and effective order of a method in twelve decimals are bounds that the
+    exact method has; the first two are no less.
+    """
+    method = load(name)
+    exact = backward_analysis(method, 5)
+    write = Rounding(12)
+    text = f"{{A: {listed(method.A, write)}, b: {listed(method.b, write)}, tolerance: 5e-13}}"
+    found = backward_analysis(loads(text), 5)
+    assert found.is_symplectic == exact.is_symplectic
+    for one, other in ((found.symplectic, exact.symplectic), (found.energy, exact.energy)):
+        assert one is not None
+        assert other is not None
+        assert (one.order, one.is_lower_bound) == (other.order, True)
+    assert found.effective.order == exact.order.order <= exact.effective.order
+    trees = [[term.tree.representative for term in x.hamiltonian or ()] for x in (found, exact)]
+    assert trees[0] == trees[1]

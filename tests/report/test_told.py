@@ -385,7 +385,7 @@ def test_a_modified_equation_says_in_every_format_how_its_orders_are_known(forma
     assert "at least 4" in text
     rounded = gark("modified", ROUNDED, "-n", "4", "--format", format).out
     assert "order at least 4 within 1e-14" in rounded
-    assert "not decided: coefficients are rounded" in rounded
+    assert "effective order at least 4 within 1e-14" in rounded
 
 
 @pytest.mark.parametrize("format", ["text", "markdown", "latex"])
