@@ -13,7 +13,7 @@ from flint import arb, ctx, fmpq
 
 from garkcli.doing import doing
 from garkcli.errors import UsageProblem
-from garkcli.exact.display import to_float
+from garkcli.exact.display import BITS_OF_A_DIGIT, to_float
 from garkcli.frozen import Frozen, Mutable, replace
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.mass import enclosed
@@ -26,7 +26,6 @@ from garkcli.problems.righthandside import (
     steepness,
 )
 from garkcli.stepping.integrator import Integrator, StepFailed, Stepper, bind
-from garkcli.tableau.pointwise import BITS_OF_A_DIGIT
 
 MAX_TRIED = 10_000
 """Steps from which on a step that fails is the fault of the problem."""

@@ -12,13 +12,13 @@ from garkcli.check.deciding import analyse
 from garkcli.conversion.sheet import CannotConvert, Sheet
 from garkcli.design.search.proposing import PRECISION, exact_form
 from garkcli.exact.affine import Affine
-from garkcli.exact.display import plain_decimal
+from garkcli.exact.display import BITS_OF_A_DIGIT, plain_decimal
 from garkcli.exact.enclosing import midpoint
 from garkcli.exact.field import ONE, Number
 from garkcli.frozen import Frozen, replace
 from garkcli.methodfile.writer import Written
 from garkcli.order.meant import as_meant, with_further
-from garkcli.order.polishing import BITS_OF_A_DIGIT, SPARE_DIGITS, polished
+from garkcli.order.polishing import SPARE_DIGITS, polished
 from garkcli.tableau.embedded import from_colours
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.stages import PointSpace

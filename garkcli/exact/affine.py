@@ -15,9 +15,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
-from flint import arb, arb_mat, ctx, fmpq
+from flint import arb, arb_mat, fmpq
 
-from garkcli.exact.display import to_ball, to_float
+from garkcli.exact.display import digits_here, to_ball, to_float
 from garkcli.exact.enclosing import scalar_product
 from garkcli.exact.field import Algebraic
 
@@ -28,7 +28,6 @@ if TYPE_CHECKING:
 
     Floats: TypeAlias = NDArray[np.float64]
 
-DIGITS_OF_A_BIT = 0.302
 UNIT = 2.0**-50
 """Eight units in the last place of a float: more than the rounding of a few operations."""
 LEAST = 1e-300
@@ -164,7 +163,7 @@ class Affine:
 def constant(number: Any) -> arb:
     """A number to the bits of the context."""
     if isinstance(number, Algebraic):
-        return to_ball(number, int(ctx.prec * DIGITS_OF_A_BIT))
+        return to_ball(number, digits_here())
     return arb(number)
 
 

@@ -15,6 +15,11 @@ from garkcli.exact.parametric import Parametric
 _LONG_DENOMINATOR = 10000
 _SMALL = fmpq(1, 1000)
 
+BITS_OF_A_DIGIT = 3.33
+"""Bits of a decimal digit, log2(10) rounded up."""
+DIGITS_OF_A_BIT = 0.302
+"""Decimal digits of a bit, log10(2) rounded up."""
+
 
 def to_text(number: Number) -> str:
     """The number as a method file writes it, for instance ``1/2 - sqrt(3)/6``."""
@@ -89,7 +94,12 @@ def to_balls(numbers: Iterable[Number], digits: int) -> list[arb]:
 
 
 def _bits(digits: int) -> int:
-    return int(digits * 3.33) + 8
+    return int(digits * BITS_OF_A_DIGIT) + 8
+
+
+def digits_here() -> int:
+    """Decimal digits of the current precision."""
+    return int(ctx.prec * DIGITS_OF_A_BIT)
 
 
 def to_ball(number: Number | arb, digits: int = 17) -> arb:

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 
 from flint import arb, ctx, fmpq, fmpz
 
+from garkcli.exact.display import BITS_OF_A_DIGIT
 from garkcli.exact.domain import square_free
 from garkcli.exact.field import Number
 from garkcli.exact.multivariate import Multivariate
@@ -15,8 +16,6 @@ from garkcli.exact.roots import RealRoot
 
 LONG_COEFFICIENT = 24
 """Characters beyond which nobody reads a rational number."""
-BITS_A_DIGIT = 3.33
-"""Bits of a decimal digit, log2(10) rounded up."""
 
 
 def integral(polynomials: Sequence[Polynomial]) -> list[Polynomial]:
@@ -62,7 +61,7 @@ def polynomial_decimals(p: Polynomial, variable: str, digits: int = 8) -> str:
     '0.14285714*z + 1'
     """
     terms: list[tuple[Number | str, str]] = []
-    with ctx.workprec(int(digits * BITS_A_DIGIT) + 64):
+    with ctx.workprec(int(digits * BITS_OF_A_DIGIT) + 64):
         for k, a in reversed([*enumerate(p.coefficients)]):
             number: Number | str = a
             if isinstance(a, fmpq) and a:
@@ -159,7 +158,7 @@ def root_in_short(root: RealRoot) -> str:
 
 def root_decimal(root: RealRoot, digits: int) -> str:
     """A root rounded to significant digits, zeros at the end left out."""
-    return ball_decimal(root.ball(int(digits * BITS_A_DIGIT) + 40), digits)
+    return ball_decimal(root.ball(int(digits * BITS_OF_A_DIGIT) + 40), digits)
 
 
 def ball_decimal(ball: arb, digits: int) -> str:

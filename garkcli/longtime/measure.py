@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from flint import arb, ctx
 
 from garkcli.errors import UsageProblem
-from garkcli.exact.display import to_float
+from garkcli.exact.display import BITS_OF_A_DIGIT, to_float
 from garkcli.problems.hamiltonian import FLOAT_DIGITS, Hamiltonian
 from garkcli.problems.problem import (
     Problem,
@@ -49,7 +49,7 @@ class Measure:
         self.names = conserved_names(problem)
         self.digits = digits
         self.has_energy = isinstance(problem, Hamiltonian)
-        self._bits = 0 if digits <= FLOAT_DIGITS else ceil(3.33 * digits) + 48
+        self._bits = 0 if digits <= FLOAT_DIGITS else ceil(BITS_OF_A_DIGIT * digits) + 48
         self._function: Callable[..., list[Any]] = self._precisely(
             lambda: quantities_function(problem, digits)
         )

@@ -17,6 +17,7 @@ from flint import arb, arb_mat, ctx, fmpq
 
 from garkcli.deadline import check_time
 from garkcli.errors import MethodError
+from garkcli.exact.display import BITS_OF_A_DIGIT
 from garkcli.exact.enclosing import midpoint
 from garkcli.order.place import Place
 from garkcli.order.rows import of_tree
@@ -25,7 +26,6 @@ if TYPE_CHECKING:
     from garkcli.order.place import System
     from garkcli.order.recovering import Recovery
 
-BITS_OF_A_DIGIT = 3.33
 SPARE_DIGITS = 12
 """So many digits more are computed than are wanted."""
 AT_AN_END = 1 - 1e-6

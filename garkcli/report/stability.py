@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 from flint import arb, ctx
 
+from garkcli.exact.display import BITS_OF_A_DIGIT
 from garkcli.exact.multivariate import Multivariate
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import (
-    BITS_A_DIGIT,
     ball_decimal,
     integral,
     integral_scale,
@@ -73,7 +73,7 @@ class StabilityReport(Frozen):
 
 def _decimals(value: Callable[[int], arb], digits: int) -> str:
     """A number in decimals, from its balls."""
-    bits, before = int(digits * BITS_A_DIGIT) + 64, ctx.prec
+    bits, before = int(digits * BITS_OF_A_DIGIT) + 64, ctx.prec
     try:
         ctx.prec = bits
         return ball_decimal(value(bits), digits)

@@ -14,8 +14,8 @@ from typing import Any
 
 from flint import arb, ctx, fmpq
 
-from garkcli.exact.display import to_ball
-from garkcli.exact.enclosing import bits_for as bits_for
+from garkcli.exact.display import digits_here, to_ball
+from garkcli.exact.enclosing import bits_for
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.exact.roots import sign
@@ -144,7 +144,7 @@ def algebraic_within(tableau: Tableau, tolerance: fmpq) -> bool | None:
 def rounded_balls(row: Vector, tolerance: fmpq) -> list[arb]:
     """Coefficients with their rounding; zeros are structure."""
     rounding = arb(0, arb(tolerance).upper())
-    digits = int(ctx.prec * 0.302)
+    digits = digits_here()
     return [to_ball(x, digits) + rounding if x else arb(0) for x in row]
 
 

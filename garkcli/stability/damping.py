@@ -21,7 +21,7 @@ from typing import Any, TypeAlias
 from flint import arb, ctx, fmpq
 
 from garkcli.exact.cells import between
-from garkcli.exact.display import to_ball
+from garkcli.exact.display import BITS_OF_A_DIGIT, to_ball
 from garkcli.exact.enclosing import cauchy_index, root_count
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.multivariate import Exponents, Multivariate
@@ -73,7 +73,6 @@ def _turned(
     return real, imaginary[:degree]
 
 
-BITS_A_DIGIT = 3.33
 BITS = 192
 """Precision of the balls; where it is not enough, a point is decided exactly."""
 
@@ -289,7 +288,7 @@ class _Enclosed(Frozen):
 
 
 def _in_balls(p: Multivariate) -> list[_Terms]:
-    digits = int(BITS / BITS_A_DIGIT)
+    digits = int(BITS / BITS_OF_A_DIGIT)
     return [
         [(j, k, to_ball(x, digits)) for (j, k), x in coefficient.terms]
         for coefficient in p.by_last()

@@ -11,14 +11,15 @@ from collections.abc import Sequence
 
 from flint import arb, arb_mat, arb_poly, ctx, fmpq
 
-from garkcli.exact.display import to_ball
+from garkcli.exact.display import digits_here, to_ball
+from garkcli.exact.enclosing import bits_for
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.exact.polynomial import squared_on_axis
 from garkcli.exact.roots import sign
 from garkcli.frozen import Frozen, replace
 from garkcli.graph import components
-from garkcli.stability.algebraic import bits_for, rounded_balls, snapped
+from garkcli.stability.algebraic import rounded_balls, snapped
 from garkcli.stability.ball_polynomials import (
     UNLIMITED,
     Bounds,
@@ -75,22 +76,16 @@ def fraction_within(tableau: Tableau, shares: Sequence[Number], tolerance: fmpq)
     return BallFraction(P, denominator)
 
 
-def _digits() -> int:
-    return int(ctx.prec * 0.302)
-
-
 def _ones(row: Vector) -> Vector:
     return tuple(ONE if x else ZERO for x in row)
 
 
 def _widened(row: Vector, counts: Vector, tolerance: fmpq) -> list[arb]:
     """Sums of ``counts`` coefficients with their rounding; what is a sum of none is zero."""
-    sums = []
+    digits, sums = digits_here(), []
     for x, count in zip(row, counts, strict=True):
-        radius = to_ball(count, _digits()) * arb(tolerance)
-        sums.append(
-            to_ball(x, _digits()) + arb(0, radius.upper()) if count else to_ball(x, _digits())
-        )
+        radius = to_ball(count, digits) * arb(tolerance)
+        sums.append(to_ball(x, digits) + arb(0, radius.upper()))
     return sums
 
 
@@ -138,7 +133,7 @@ def ssp_within(tableau: Tableau, shares: Sequence[Number], tolerance: fmpq) -> B
     driven = [share for share in shares if share]
     for share, part in zip(driven, parts, strict=True):
         wide = arb_mat([rounded_balls(row, tolerance) for row in part])
-        whole += wide * to_ball(share, _digits())
+        whole += wide * to_ball(share, digits_here())
         columns = wide.transpose().tolist()
         vectors += [column for column in columns if not all(x.is_zero() for x in column)]
     denominator = _reciprocal(pattern, -whole)

@@ -8,7 +8,7 @@ from typing import Any, TypeAlias, cast
 
 from flint import arb, arb_mat, ctx, fmpq
 
-from garkcli.exact.display import to_balls
+from garkcli.exact.display import DIGITS_OF_A_BIT, to_balls
 from garkcli.exact.field import ZERO, Number
 from garkcli.frozen import Frozen, replace
 from garkcli.tableau.pointwise import Cell, numeric_entries
@@ -23,10 +23,6 @@ end at 308.
 """
 GUARD_OF_ENTRIES = 32
 """Bits that entries are enclosed more finely than the arithmetic that uses them."""
-
-
-DIGITS_OF_A_BIT = 0.302
-"""Decimal digits of a bit, log10(2) rounded up."""
 
 
 class Enclosure(Frozen):

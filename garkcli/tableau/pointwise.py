@@ -14,7 +14,7 @@ from flint import arb, arb_mat, ctx
 
 from garkcli.doing import doing
 from garkcli.errors import LimitExceeded
-from garkcli.exact.display import to_ball
+from garkcli.exact.display import BITS_OF_A_DIGIT, to_ball
 from garkcli.exact.domain import Domain
 from garkcli.exact.field import Number, with_radicals
 from garkcli.exact.matrix import Matrix, Vector, apply, apply_left, identity, multiply
@@ -35,8 +35,6 @@ Cell: TypeAlias = Number | arb
 Row: TypeAlias = tuple[Cell, ...]
 Block: TypeAlias = tuple[Row, ...] | None
 """The entries of a block; None where it does not exist."""
-BITS_OF_A_DIGIT = 3.33
-"""Bits of a decimal digit, log2(10) rounded up."""
 
 
 class Entries(Frozen):
