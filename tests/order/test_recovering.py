@@ -17,6 +17,7 @@ import pytest
 from flint import arb, fmpq
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from scipy.optimize import lsq_linear
 
 from garkcli import loads
 from garkcli.check.deciding import analyse
@@ -254,6 +255,20 @@ def test_two_rows_that_exclude_each_other() -> None:
     x = nearest(loose.slopes, loose.middle, 1e-10)
     assert x is not None
     assert np.allclose(x, (1, 0.5), atol=1e-7)
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_least_squares_within_bounds_are_those_of_scipy(seed: int) -> None:
+    """Rows of random numbers, more and fewer than unknowns, of which many end at a bound: the sum
+    of squares is the least that scipy's ``lsq_linear`` finds.
+    """
+    dice = np.random.default_rng(seed)
+    G = dice.normal(size=(int(dice.integers(1, 7)), int(dice.integers(1, 7))))
+    c = dice.normal(size=len(G)) * 3
+    x = bounded_least_squares(G, c)
+    assert np.abs(x).max() <= 1
+    least = lsq_linear(G, -c, (-1, 1), method="bvls", tol=1e-14).cost
+    assert np.sum((c + G @ x) ** 2) / 2 == pytest.approx(least, rel=1e-9, abs=1e-12)
 
 
 def test_a_certificate_counts_remainders() -> None:
