@@ -142,6 +142,7 @@ def source(path: Path) -> Source | None:
     pairs = [(l, m) for l in range(t.size) for m in range(t.size)]
     if (
         t.size > 2
+        or not t.has_fields_alone
         or len(t.spaces) != t.size
         or not all(isinstance(x, PointSpace) for x in t.spaces)
         or any(colour.part != "y" or colour.is_linear for colour in t.colours)

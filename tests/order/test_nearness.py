@@ -50,6 +50,25 @@ def test_one_entry_is_far_off() -> None:
     assert nearness_of(THREE_EIGHTHS.replace("{b3}", "0.375")).suspect is None
 
 
+def test_an_entry_of_dense_output_is_far_off() -> None:
+    """The coefficient of θ³ in the last weight of an interpolant, 0.7 t off, with and without
+    embedded weights before it.
+    """
+    for embedded in ("", "embedded: [0.25, 0.25, 0.25, 0.25]\n"):
+        third = "0.666666666667"
+        text = f"""
+tolerance: 1e-9
+A: [[], [1/2], [0, 1/2], [0, 0, 1]]
+b: [0.166666666667, 0.333333333333, 0.333333333333, 0.166666666667]
+{embedded}dense:
+  degree: 3
+  weights: [[1, -1.5, {third}], [0, 1, -{third}], [0, 1, -{third}], [0, -0.5, 0.6666666673667]]
+"""
+        found = nearness_of(text)
+        assert found.entry == Entry("dense", 0, None, 2, 3)
+        assert found.distance == fmpq(7, 10)
+
+
 def test_two_numbers_of_one_sum_are_no_suspects() -> None:
     """Where conditions see a sum alone, either number may be the wrong one; the same shift of a
     number that stands alone is told.
