@@ -172,7 +172,7 @@ def _candidate(search: Recovery, system: System, rows: Forms, k: int) -> _Candid
         size, miss = float(own @ own), float(np.abs(c).max())
         if size < LEAST or not miss < SLOWEST * before:
             return None
-        x = nearest(_without(others, own), _without(c, own), FLOOR)
+        x = nearest(without(others, own), without(c, own), FLOOR)
         step = -float(own @ (c if x is None else c + others @ x)) / size
         shift += exactly(step)  # beyond the digits of a float
         # what is of second order, and what floats leave of the step, is within the rounding
@@ -191,7 +191,7 @@ def _candidate(search: Recovery, system: System, rows: Forms, k: int) -> _Candid
     return None
 
 
-def _without(rows: Floats, direction: Floats) -> Floats:
+def without(rows: Floats, direction: Floats) -> Floats:
     """The rows, or one column, less what lies in a direction of their space."""
     rest: Floats = rows - np.multiply.outer(direction, direction @ rows) / (direction @ direction)
     return rest

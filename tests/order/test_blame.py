@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from flint import fmpq
 
-from garkcli import Tableau, conjugate, find_order, load
+from garkcli import Tableau, conjugate, find_order, load, loads
 from garkcli.check.check_file import check_file
 from garkcli.frozen import replace
 from garkcli.order.blame import Missed, blame_of
@@ -64,6 +64,26 @@ def test_single_wrong_weight() -> None:
     blame = blame_of(replace(tableau, colours=colours), Missed(1, 4))
     assert blame is not None
     assert [(x.l, x.m, x.j, x.new) for x in blame.repairs] == [(1, None, 1, fmpq(2, 3))]
+
+
+def test_entries_that_mend_one_condition_of_two_hide_no_wrong_one() -> None:
+    """Merson's method with the stage of weight 0 last, whose row has 1/3 for 1/6: two conditions of
+    order 4 fail. Entries of earlier rows make the first hold, and not the second.
+    """
+    text = """
+A:
+  - [0, 0, 0, 0, 0]
+  - [1/3, 0, 0, 0, 0]
+  - [1/8, 0, 0, 0, 3/8]
+  - [1/2, 0, 2, 0, -3/2]
+  - [1/6, 1/3, 0, 0, 0]
+b: [1/6, 0, 2/3, 1/6, 0]
+"""
+    wrong = loads(text).tableau
+    assert find_order(wrong).order == 3
+    blame = blame_of(wrong, Missed(4, 4))
+    assert blame is not None
+    assert Repair(0, 0, 4, 1, fmpq(1, 3), fmpq(1, 6)) in blame.repairs
 
 
 def test_right_method_has_no_repair_for_more() -> None:

@@ -29,6 +29,7 @@ from garkcli.order.place import Place
 from garkcli.order.recovering import Recovery
 from garkcli.order.rounded import RoundedTableau, find_order_within
 from garkcli.order.simplifying import simplifying
+from garkcli.order.suspects import without
 from garkcli.tableau.box import plain_box
 from garkcli.tableau.forms import gark
 from garkcli.tableau.tableau import Tableau, butcher
@@ -269,6 +270,43 @@ def test_least_squares_within_bounds_are_those_of_scipy(seed: int) -> None:
     assert np.abs(x).max() <= 1
     least = lsq_linear(G, -c, (-1, 1), method="bvls", tol=1e-14).cost
     assert np.sum((c + G @ x) ** 2) / 2 == pytest.approx(least, rel=1e-9, abs=1e-12)
+
+
+def test_rows_without_a_direction_are_orthogonal_to_it() -> None:
+    """Of rows and of one column nothing is left in a direction, and all that is across it."""
+    dice = np.random.default_rng(1)
+    rows, direction = dice.normal(size=(5, 3)), dice.normal(size=5)
+    for part in (rows, rows[:, 0]):
+        left = without(part, direction)
+        assert np.allclose(direction @ left, 0)
+        across = np.linalg.svd(direction[None, :])[2][1:]
+        assert np.allclose(across @ left, across @ part)
+
+
+SIMPSON = "A: [[], [1/2], [1/4, 1/4], [0, 0, 1]], b: [1/6, 1/3, 1/3, 1/6]"
+"""Quadrature of order 4 in nodes of Simpson's rule, and other conditions of order 3 fail."""
+
+
+@pytest.mark.parametrize("order", [1, 2, 3, 4])
+def test_what_is_missed_is_seen_by_spans_as_by_trees(
+    order: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Orders with many trees are judged by spans: these miss an order where its trees do, also one
+    whose quadrature conditions hold.
+    """
+    texts = (
+        "A: [[], [0.5], [0, 0.5], [0, 0, 1]], b: [0.166667, 0.333333, 0.333333, 0.166667]",
+        SIMPSON.replace("1/6, 1/3, 1/3, 1/6", "0.166667, 0.333333, 0.333333, 0.166667"),
+    )
+    for text in texts:
+        box = as_meant(loads(f"{{{text}, tolerance: 5e-7}}"))
+        assert isinstance(box, RoundedTableau)
+        listed = box.search.settled.missed("method", order)
+        monkeypatch.setattr("garkcli.order.place.MOST_TREES", 0)
+        spanned = Place(box.search, box.search.settled.shifts).missed("method", order)
+        monkeypatch.undo()
+        assert bool(listed) == bool(spanned)
+        assert not any(box.meets(tree) for tree in spanned)
 
 
 def test_a_certificate_counts_remainders() -> None:
