@@ -53,7 +53,7 @@ _DIGITS = 4
 
 _ORDERS = (
     *("order", "embedded_order", "conjugate_order", "pair_order", "nonautonomous_order"),
-    "w_order",
+    *("w_order", "index_1_order"),
 )
 _UNKNOWN: Entry = {
     "name": "",

@@ -49,6 +49,8 @@ def _why_none(key: str, analysis: AnyAnalysis) -> str:
         return "there are no embedded weights"
     if key.startswith("dense") and analysis.dense is None:
         return "there is no dense output"
+    if key in OF_DAE:
+        return "alpha + gamma is singular"
     if key == "dense-smooth":
         return "not decided"
     if key.endswith("nonautonomous-order"):
@@ -66,7 +68,12 @@ PLACES = {
 }
 """Where an analysis has what a claim is on, if not under its name."""
 OF_DENSE = ("dense-order", "dense-continuous", "dense-smooth")
-OF_ROSENBROCK = ("w-order", "old-jacobian-order", "embedded-w-order", "embedded-old-jacobian-order")
+OF_DAE = ("index-1-order", "index-1-y-order", "index-1-z-order", "embedded-index-1-order")
+"""The orders of Rosenbrock methods on differential-algebraic equations."""
+OF_ROSENBROCK = (
+    *("w-order", "old-jacobian-order", "embedded-w-order", "embedded-old-jacobian-order"),
+    *OF_DAE,
+)
 """The orders that Rosenbrock methods have besides."""
 OF_INFINITESIMAL = ("slow-order",)
 """Those that multirate methods with the exact fast solution have besides."""

@@ -9,7 +9,8 @@ from flint import fmpq
 
 from garkcli.check.further import DenseFacts, dense_facts
 from garkcli.constructions.rosenbrock import Which, seen
-from garkcli.frozen import Frozen
+from garkcli.exact.matrix import SingularMatrixError
+from garkcli.frozen import Frozen, replace
 from garkcli.order.certificate import DEFAULT_LIMIT, StageSpans
 from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.functionals import Estimator, Orders, estimator
@@ -31,6 +32,12 @@ VIEWS: dict[str, Which] = {
     "nonautonomous-order": "with_time",
 }
 """The orders besides that with the Jacobian, by their claims."""
+DAE_VIEWS: dict[str, Which] = {
+    "index-1-order": "on_dae",
+    "index-1-y-order": "on_dae_in_y",
+    "index-1-z-order": "on_dae_in_z",
+}
+"""Those on differential-algebraic equations, which need an inverse of α + γ."""
 OF_TEST_EQUATION = frozenset(
     {
         *("gamma", "a-stable", "l-stable", "p-stable", "i-stable"),
@@ -45,14 +52,14 @@ class RosenbrockOrders(Frozen):
     """The orders of some weights at the stages of a Rosenbrock method.
 
     Attributes:
-        tableau: with the Jacobian.
+        method: with the Jacobian.
         order: with the Jacobian.
         w_order: with any matrix in its place.
         old_jacobian_order: with a matrix that differs from it by O(h).
         nonautonomous_order: on problems ẏ = f(t, y), with the c and d of the file.
     """
 
-    tableau: Tableau
+    method: AnyTableau
     order: AnyOrder
     w_order: AnyOrder
     old_jacobian_order: AnyOrder
@@ -65,14 +72,50 @@ class RosenbrockOrders(Frozen):
         """The orders up to a limit."""
         order = order_of(method, limit, spans)
         w, old, timed = (order_of(seen(method, which), limit) for which in VIEWS.values())
-        return cls(printed(method), order, w, old, timed)
+        alone = method if isinstance(method, Tableau) else method.aside()
+        return cls(alone, order, w, old, timed)
 
-    def view(self, claim: str) -> tuple[AnyOrder, Tableau]:
-        """The order that a claim is on, with the tableau that has it."""
-        found: AnyOrder = getattr(self, claim.replace("-", "_"))
-        if claim == "order":
-            return found, self.tableau
-        return found, printed(seen(self.tableau, VIEWS[claim]))
+    @cached_property
+    def index_1_order(self) -> AnyOrder | None:
+        """On ẏ = f(y, z), 0 = g(y, z) of index 1: the largest p with an error O(h^(p+1)) of a step
+        in y, and O(h^p) in z; None where α + γ has no inverse.
+        """
+        return self._on_dae("on_dae")
+
+    @cached_property
+    def index_1_y_order(self) -> AnyOrder | None:
+        """The largest p with O(h^(p+1)) in y."""
+        return self._on_dae("on_dae_in_y")
+
+    @cached_property
+    def index_1_z_order(self) -> AnyOrder | None:
+        """The same in z."""
+        return self._on_dae("on_dae_in_z")
+
+    def _on_dae(self, which: Which) -> AnyOrder | None:
+        """It is no larger than the order of the method, whose trees are some of those of DAEs; of a
+        rounded method that of one within the rounding with the same order.
+        """
+        order, method = self.order, self.method
+        try:
+            method = seen(method if isinstance(method, Tableau) else method.aside(), which)
+        except SingularMatrixError:
+            return None
+        found = order_of(method, order.order)
+        if found.order < order.order:
+            return found
+        told = (name for name in ("witness", "undecided") if hasattr(order, name))
+        return replace(found, **{name: getattr(order, name) for name in told})
+
+    def view(self, claim: str) -> tuple[AnyOrder, Tableau] | None:
+        """The order that a claim is on, with the tableau that has it; None where there is none."""
+        found: AnyOrder | None = getattr(self, claim.replace("-", "_"))
+        if found is None:
+            return None
+        tableau = printed(self.method)
+        if claim != "order":
+            tableau = printed(seen(tableau, {**VIEWS, **DAE_VIEWS}[claim]))
+        return found, tableau
 
 
 class EmbeddedOrders(Frozen):
@@ -156,7 +199,8 @@ class RosenbrockAnalysis(Shown, Frozen):
         if claim.startswith("embedded-"):
             whose = None if self.embedded is None else self.embedded.orders
             claim = claim.removeprefix("embedded-")
-        return whose.view(claim) if whose and claim in {"order", *VIEWS} else None
+        is_known = claim in {"order", *VIEWS, *DAE_VIEWS}
+        return whose.view(claim) if whose and is_known else None
 
     def __repr__(self) -> str:
         found = self.orders

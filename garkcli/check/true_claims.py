@@ -15,7 +15,7 @@ from garkcli.properties.registry import KEYS, find
 ORDERS = ("order", "conjugate-order", "pair-order", "symplectic", "embedded-order", "dense-order")
 """What is always worth claiming."""
 OF_ROSENBROCK = (
-    *("order", "w-order", "old-jacobian-order", "nonautonomous-order"),
+    *("order", "w-order", "old-jacobian-order", "nonautonomous-order", "index-1-order"),
     *("embedded-order", "embedded-w-order", "dense-order"),
     *("a-stable", "l-stable"),
 )

@@ -31,6 +31,7 @@ _COUNTS = {
     "pair-order": "The order of the symplectic pair.",
     "nonautonomous-order": "The order for y' = f(t, y), with the printed nodes.",
     "w-order": "The order with any matrix for the Jacobian.",
+    "index-1-order": "The order on index-1 DAEs.",
     "stages": "The stages; with several colours the largest number.",
     "colours": "The vector fields.",
 }

@@ -27,6 +27,7 @@ from garkcli.errors import MethodError, ShapeMismatch
 from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.matrix import (
     Matrix,
+    SingularMatrixError,
     Vector,
     add,
     apply,
@@ -49,6 +50,8 @@ Rows: TypeAlias = tuple[Vector, ...]
 NOT_ONE = Kind(frozenset({0, SEVERAL}))
 MATRIX = Kind(frozenset({1}), is_exact=False)
 ERROR_OF_MATRIX = Kind(frozenset({1}), weight=2, is_exact=False)
+CONSTRAINT = Kind(frozenset({SEVERAL}), weight=0)
+"""Of g in 0 = g(y, z), which is solved for z."""
 
 
 class Rosenbrock(Frozen):
@@ -114,6 +117,44 @@ class Rosenbrock(Frozen):
         clock = Colour(TIME, len(made.spaces), (ONE,), (ZERO,), term=len(self.b), kind=LEAF)
         spaces = (*made.spaces, PointSpace((ZERO,)))
         return Tableau(spaces, (*made.colours, clock), {**made.blocks, **blocks})
+
+    @property
+    def on_dae(self) -> Tableau:
+        """On ẏ = f(y, z), 0 = g(y, z) of index 1: order p has the conditions of y up to p, and those
+        of z up to p − 1. A vertex of g has several branches and counts no order.
+
+        Raises:
+            SingularMatrixError: β = α + γ has no inverse, so that z is not determined.
+        """
+        return self._on_dae(late=1)
+
+    @property
+    def on_dae_in_y(self) -> Tableau:
+        """The same with the conditions of y alone."""
+        return self._on_dae(late=None)
+
+    @property
+    def on_dae_in_z(self) -> Tableau:
+        """The same with the conditions of z, which include those of y up to the same order."""
+        return self._on_dae(late=0)
+
+    def _on_dae(self, late: int | None) -> Tableau:
+        made = self.tableau
+        (((alpha,),), ((beta,),)), g = (self.alpha, self._beta), made.size
+        stages, c = len(beta), made.colours[0].c
+        inverse = solve(beta, identity(stages))
+        seen_by_f = multiply(alpha, inverse)
+        weights = apply_left(self.b[0], inverse)
+        constraint = Colour("g", g, weights, c, term=1, kind=CONSTRAINT, late=late)
+        blocks = {
+            (0, g): seen_by_f,
+            (1, g): identity(stages),
+            (g, 0): alpha,
+            (g, 1): alpha,
+            (g, g): seen_by_f,
+        }
+        spaces = (*made.spaces, PointSpace(c))
+        return Tableau(spaces, (*made.colours, constraint), {**made.blocks, **blocks})
 
     @property
     def diagonal(self) -> Vector:
@@ -187,11 +228,18 @@ def is_rosenbrock(tableau: Tableau) -> bool:
     return bool(kinds) and kinds == [NOT_ONE] * N + [ONE_BRANCH] * N
 
 
-Which: TypeAlias = Literal["with_any_matrix", "with_old_jacobian", "with_time", "on_test_equation"]
+Which: TypeAlias = Literal[
+    *("with_any_matrix", "with_old_jacobian", "with_time", "on_test_equation"),
+    *("on_dae", "on_dae_in_y", "on_dae_in_z"),
+]
 
 
 def seen(method: AnyTableau, which: Which) -> AnyTableau:
-    """Another tableau of the method that has this one, which is exact or rounded."""
+    """Another tableau of the method that has this one, which is exact or rounded.
+
+    Raises:
+        SingularMatrixError: there is none on a DAE, as z is not determined.
+    """
 
     def make(tableau: Tableau) -> Tableau:
         found: Tableau = getattr(Rosenbrock.of(tableau), which)

@@ -166,23 +166,22 @@ def written_order(tree: Tree) -> list[Tree]:
     return sorted(tree.branches, key=lambda u: -u.order)
 
 
-def format_tree(tree: Tree, colours: bool = True) -> str:
+def format_tree(tree: Tree, colours: bool | Sequence[str] = True) -> str:
     """Bracket notation, which ``parse_tree`` reads again; ``colours=False`` leaves the colours
-    out.
+    out, and names stand for their numbers.
 
     >>> format_tree(Tree(0, [Tree(1), Tree(0, [Tree(1)])]))
     '[[[]_2]_1,[]_2]_1'
     >>> format_tree(Tree(0, [Tree(0), Tree(0)]), colours=False)
     '[[],[]]'
+    >>> format_tree(Tree(0, [Tree(1)]), colours=["f", "g"])
+    '[[]_g]_f'
     """
     inside = ",".join([format_tree(u, colours) for u in written_order(tree)])
-    if not colours:
-        return f"[{inside}]"
-    number = tree.root + 1
-    return f"[{inside}]_{number}"
+    return f"[{inside}]_{_name(tree, colours)}" if colours else f"[{inside}]"
 
 
-def format_latex(tree: Tree, colours: bool = True) -> str:
+def format_latex(tree: Tree, colours: bool | Sequence[str] = True) -> str:
     r"""The paper's notation: τ^{[l]} for a single vertex of colour l, [u_1, …, u_m]^{[l]} for the
     rest.
 
@@ -194,10 +193,12 @@ def format_latex(tree: Tree, colours: bool = True) -> str:
     if branches:
         inside = ",".join(branches)
         text = f"[{inside}]"
-    if not colours:
-        return text
-    number = tree.root + 1
-    return f"{text}^{{[{number}]}}"
+    return f"{text}^{{[{_name(tree, colours)}]}}" if colours else text
+
+
+def _name(tree: Tree, colours: bool | Sequence[str]) -> str:
+    """The name of the colour of a root: its number from 1 where there is none."""
+    return str(tree.root + 1) if isinstance(colours, bool) else colours[tree.root]
 
 
 def vertex_letters(tree: Tree) -> tuple[str, ...]:

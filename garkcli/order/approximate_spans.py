@@ -89,16 +89,20 @@ class ApproximateSpans(OrderByOrder[_Hull]):
         members: list[tuple[arb, Tree]] = []
         with ctx.workprec(self.enclosure.bits):
             for l, b in enumerate(self.enclosure.b):
-                hull = self.of_trees(l, order)
-                kind = self.tableau.colours[l].kind
+                colour = self.tableau.colours[l]
+                if colour.late is None:
+                    continue
+                own = order - colour.late
+                hull = self.of_trees(l, own)
+                kind = colour.kind
                 weights = b.entries()
                 worst = arb(0)
                 for member in hull.members:
-                    required = arb(member.required(kind, order))
+                    required = arb(member.required(kind, own))
                     defect = abs(scalar_product(weights, member.vector) - required)
                     worst = worst.max(defect)
                     tree = self.tableau.tree(l, member.branches)
-                    members.append((defect * kind.integrated(order) / tree.density, tree))
+                    members.append((defect * kind.integrated(own) / tree.density, tree))
                 beyond = scalar_product(_absolute(weights), hull.error)
                 bound = bound.max(hull.weight * worst + beyond)
         members.sort(key=lambda x: float(x[0].mid()), reverse=True)

@@ -120,7 +120,7 @@ def _failing(tableau: Tableau, spans: StageSpans, order: int) -> Witness | None:
     for l, forest in spans.members(order):
         colour = tableau.colours[l]
         value = dot(colour.b, forest.vector)
-        if value == forest.required(colour.kind, order):
+        if value == forest.required(colour.kind, order - (colour.late or 0)):
             continue
         witness = witness_of(tableau.tree(l, forest.branches), value)
         if largest is None and not (can_be_rounded and within(witness.residual, unnatural(order))):

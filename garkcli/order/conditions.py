@@ -130,15 +130,22 @@ def coupling_graph(tableau: Tableau) -> Admissible:
     return Admissible(tableau.size, branches, tuple(colour.kind for colour in tableau.colours))
 
 
+def are_few(tableau: Tableau, order: int, most: int) -> bool:
+    """Whether the trees of an order can be listed, and are no more than ``most``."""
+    return tableau.is_listed and sum(counts_of(coupling_graph(tableau), order)) <= most
+
+
 def twin_roots(tableau: Tableau) -> dict[int, tuple[int, ...]]:
     """The first of each group of colours whose conditions are identical as roots, with the whole
-    group.
+    group; without colours that have none.
 
     Colours that share stages and weights, as V^l and F^l of the symplectic pair, give every tree
     the same elementary weight when they are its root.
     """
     groups: dict[int, tuple[int, ...]] = {}
     for l, colour in enumerate(tableau.colours):
+        if colour.late is None:
+            continue
         for first in groups:
             if _are_twins(colour, tableau.colours[first]):
                 groups[first] += (l,)

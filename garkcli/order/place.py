@@ -14,11 +14,10 @@ from garkcli.deadline import check_time
 from garkcli.exact.affine import Forms
 from garkcli.exact.display import to_float
 from garkcli.exact.enclosing import midpoint
-from garkcli.ntrees.count import counts_upto
 from garkcli.ntrees.tree import Tree
 from garkcli.order.approximate_spans import ApproximateSpans
 from garkcli.order.bounded import exactly
-from garkcli.order.conditions import coupling_graph, is_admissible, twin_roots
+from garkcli.order.conditions import are_few, is_admissible, twin_roots
 from garkcli.order.rows import Chosen, FormDefects, joined, may_vanish, of_tree
 from garkcli.order.tree_residuals import TreeResiduals
 from garkcli.tableau.box import FormTableau
@@ -150,9 +149,8 @@ class Place:
 
     def _found_missed(self, name: str, order: int) -> list[Tree]:
         tableau, bits = self.exact(name), self.search.bits
-        admissible = coupling_graph(tableau)
         small, share = self.search.small, self.search.share(name, order)
-        if not share or sum(counts_upto(admissible, order)[-1]) <= MOST_TREES:
+        if not share or are_few(tableau, order, MOST_TREES):
             if name not in self._residuals:
                 self._residuals[name] = TreeResiduals(tableau, enclose_tableau(tableau, bits))
             residuals = self._residuals[name]
@@ -181,10 +179,12 @@ class Place:
         tableau = self.exact(name)
         for l in twin_roots(tableau):
             for m in range(tableau.size):
-                leaf = tableau.tree(m)
-                leaves, rest = divmod(order - tableau.colours[l].kind.weight, leaf.order)
-                bush = tableau.tree(l, (leaf,) * leaves)
-                if rest or not is_admissible(tableau, bush):
+                leaf, colour = tableau.tree(m), tableau.colours[l]
+                left = order - (colour.late or 0) - colour.kind.weight
+                if left < 0 or not leaf.order or left % leaf.order:
+                    continue
+                bush = tableau.tree(l, (leaf,) * (left // leaf.order))
+                if not is_admissible(tableau, bush):
                     continue
                 if not self.search.origin.may_meet(name, bush):
                     return bush

@@ -139,6 +139,14 @@ class Recovery:
         other.bits = max(self.bits, bits)
         return other
 
+    def aside(self) -> Recovery:
+        """The same search from here on, which moves a method of its own and leaves this one."""
+        other = copy(self)
+        for name in ("_orders", "_places", "_reached", "_powers"):
+            setattr(other, name, dict(getattr(self, name)))
+        other._runs = 0
+        return other
+
     def missed_at(self, place: Place) -> dict[str, list[Tree]]:
         """The trees of all orders that were reached whose conditions a method misses, by the name
         of the tableau.

@@ -157,10 +157,13 @@ class Spans(OrderByOrder[Forests]):
         self._scale = scale
 
     def members(self, order: int) -> Iterator[tuple[int, Forest]]:
-        """For each root colour, forests whose trees span those of all trees of an order."""
-        for l in range(self.tableau.size):
-            for forest in self.of_trees(l, order):
-                yield l, forest
+        """For each root colour, forests whose trees span those of all trees whose conditions an
+        order asks for.
+        """
+        for l, colour in enumerate(self.tableau.colours):
+            if colour.late is not None:
+                for forest in self.of_trees(l, order - colour.late):
+                    yield l, forest
 
     def _image(self, k: int, m: int, order: int, trees: Forests) -> Forests:
         kind = self.tableau.colours[m].kind

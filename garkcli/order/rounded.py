@@ -18,11 +18,10 @@ from garkcli.exact.display import decimal
 from garkcli.exact.enclosing import bits_for, midpoint
 from garkcli.exact.field import ZERO, Number
 from garkcli.frozen import Frozen, FrozenBut, replace
-from garkcli.ntrees.count import counts_upto
 from garkcli.ntrees.tree import Tree
 from garkcli.order.approximate_spans import ApproximateSpans
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, Witness, find_order, required_of
-from garkcli.order.conditions import count_conditions, coupling_graph, elementary_weight
+from garkcli.order.conditions import are_few, count_conditions, elementary_weight
 from garkcli.order.place import Derive
 from garkcli.order.recovering import Failure, Recovery
 from garkcli.order.simplifying import BoxDefects, Defects
@@ -191,6 +190,10 @@ class RoundedTableau(Frozen, eq=False):
         tolerance = max(self.search.largest_in(f"power {power}") for power in powers)
         return replace(self, tolerance=tolerance) if tolerance else None
 
+    def aside(self) -> RoundedTableau:
+        """The same, whose further orders are those of a method of its own within the rounding."""
+        return replace(self, search=self.search.aside())
+
     def derive(self, kind: str, make: Derive) -> RoundedTableau:
         """What ``make`` makes of it, whose coefficients are of the same printed numbers."""
         name, search = f"{kind} of {self.name}", self.search
@@ -259,10 +262,9 @@ class RoundedOrder(Shown, FrozenBut):
         tableau = self.rounded.tableau
         enclosure = enclose_tableau(tableau, self.rounded.search.bits)
         trees = TreeResiduals(tableau, enclosure)
-        admissible = coupling_graph(tableau)
         sizes = []
         for order in range(self.exact + 1, self.order + 1):
-            if sum(counts_upto(admissible, order)[-1]) <= FEW_TREES:
+            if are_few(tableau, order, FEW_TREES):
                 sizes.append(trees.sizes(order).bound)
             else:
                 spans = ApproximateSpans(tableau, enclosure, arb(self.tolerance))
@@ -328,7 +330,9 @@ def _worst(rounded: RoundedTableau, witness: Witness) -> Witness:
     many.
     """
     order, tableau = witness.tree.order, rounded.tableau
-    if not rounded.search.box.numbers or count_conditions(tableau, order) > FEW_WITNESSES:
+    if not rounded.search.box.numbers or not tableau.is_listed:
+        return witness
+    if count_conditions(tableau, order) > FEW_WITNESSES:
         return witness
     missed = rounded.search.origin.missed(rounded.name, order)
     worst = next((u for u in missed if not rounded.explains(u)), None)

@@ -49,6 +49,8 @@ _HAIRER_II_4 = f"{_HAIRER} II.4"
 _HAIRER_II_6 = f"{_HAIRER} II.6"
 _WITH_EMBEDDED = "methods with embedded weights"
 _ROSENBROCK = "Rosenbrock methods"
+_ON_DAES = "Rosenbrock methods with α + γ that has an inverse"
+_ROCHE = "M. Roche, Numer. Math. 52 (1988)"
 _WITH_DENSE = "methods with dense output"
 _ORDERS = (
     Definition(
@@ -147,6 +149,28 @@ _ORDERS = (
         meaning=_ROSENBROCK,
     ),
     Definition(
+        "index-1-order",
+        "The order of a Rosenbrock method on differential-algebraic equations y' = f(y, z), 0 ="
+        " g(y, z) of index 1: the largest p such that a step has errors O(h^(p+1)) in y and O(h^p)"
+        " in z. If |R(∞)| < 1 the method converges with order p in both.",
+        _ROCHE,
+        meaning=_ON_DAES,
+    ),
+    Definition(
+        "index-1-y-order",
+        "The largest p such that a step on y' = f(y, z), 0 = g(y, z) has an error O(h^(p+1)) in"
+        " y.",
+        _ROCHE,
+        meaning=_ON_DAES,
+    ),
+    Definition(
+        "index-1-z-order",
+        "The largest p such that a step on y' = f(y, z), 0 = g(y, z) has an error O(h^(p+1)) in"
+        " z.",
+        _ROCHE,
+        meaning=_ON_DAES,
+    ),
+    Definition(
         "slow-order",
         "The order of a multirate method where the fast part is 0: that of its slow method.",
         "A. Sandu, SIAM J. Numer. Anal. 57 (2019)",
@@ -175,6 +199,12 @@ _ORDERS = (
         "The old-jacobian-order with the embedded weights in place of b.",
         "P. Kaps, A. Ostermann, IMA J. Numer. Anal. 9 (1989)",
         meaning="Rosenbrock methods with embedded weights",
+    ),
+    Definition(
+        "embedded-index-1-order",
+        "The index-1-order with the embedded weights in place of b.",
+        _ROCHE,
+        meaning=f"{_ON_DAES}, with embedded weights",
     ),
     Definition(
         "dense-order",

@@ -96,7 +96,10 @@ def viewed_order(key: str, level: Any = Level.USUAL, label: str = "") -> Row:
 
     def get(a: Any) -> Answer:
         view = a.view(claim)
-        return kinds.order_answer(None if view is None else view[0])
+        if view is None:
+            return Answer(None)
+        order, tableau = view
+        return replace(kinds.order_answer(order), names=[x.name for x in tableau.colours])
 
     return Row(key, kinds.ORDER, get, level, has_null=key != "order", label=label or None)
 
@@ -106,7 +109,8 @@ def failing(*claims: str) -> Callable[[Any], list[tuple[Any, Any]]]:
 
     def get(a: Any) -> list[tuple[Any, Any]]:
         views = filter(None, map(a.view, claims))
-        return [(order.witness, tableau) for order, tableau in views if order.witness]
+        found = {order.witness: tableau for order, tableau in views if order.witness}
+        return [*found.items()]
 
     return get
 
@@ -193,7 +197,8 @@ def drawn(found: Any, d: Plain) -> list[str]:
     room = d.width - 2
     for witness, tableau in found:
         names = [colour.name for colour in tableau.colours]
-        tree = format_tree(witness.tree, len(names) > 1)
+        is_named = not tableau.has_fields_alone
+        tree = format_tree(witness.tree, names if is_named else len(names) > 1)
         value, required = d.number(witness.value), d.number(witness.required)
         lines += folded(f"{tree}: {value} instead of {required}", room, "  ")
         if names != [str(l + 1) for l in range(len(names))]:

@@ -83,6 +83,7 @@ METHOD = [
     _order("pair_order"),
     _order("nonautonomous_order"),
     _order("w_order", label="order with any matrix"),
+    _order("index_1_order", label="order on index-1 DAEs"),
     _field("stages", POSITION),
     _field("stages_by_colour", STAGES, has_null=False),
     _field("colours", POSITION),

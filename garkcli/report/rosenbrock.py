@@ -59,23 +59,30 @@ def _dense(get: Callable[[Any], Any]) -> Callable[[Any], Any]:
     return lambda a: None if a.dense is None else get(a)
 
 
+IN_THE_TREES = (
+    "f' is f with one branch; W the matrix, with one; E the error of the Jacobian, with one, which "
+    "counts two orders; t time; g with several branches, which counts none"
+)
 R_OF_Z = kinds.ratio("z")
 ANALYSIS = [
     Row("exact", kinds.TRUTH, lambda a: a.tolerance is None, DATA),
     maybe("tolerance", kinds.TOLERANCE, level=DATA),
     Row("colours", parts(c.COLOURS), lambda a: c.colours_of(a.tableau), DATA),
     c.viewed_order("order", HEADLINE),
-    c.viewed_order("w_order", label="with any matrix"),
-    c.viewed_order("old_jacobian_order", label="old Jacobian"),
+    c.viewed_order("w_order", label="with any matrix W"),
+    c.viewed_order("old_jacobian_order", label="old Jacobian f' + hE"),
     c.viewed_order("nonautonomous_order", label="order for f(t, y)"),
+    c.viewed_order("index_1_order", label="index 1, 0 = g(y, z)"),
+    c.viewed_order("index_1_y_order", DETAIL, "index 1, error in y"),
+    c.viewed_order("index_1_z_order", DETAIL, "index 1, error in z"),
     c.viewed_order("embedded_order"),
-    c.viewed_order("embedded_w_order", DETAIL, "embedded, any matrix"),
-    c.viewed_order("embedded_old_jacobian_order", DETAIL, "embedded, old Jacobian"),
+    c.viewed_order("embedded_w_order", DETAIL, "embedded, any W"),
+    c.viewed_order("embedded_old_jacobian_order", DETAIL, "embedded, f' + hE"),
     c.viewed_order("embedded_nonautonomous_order", DETAIL, "embedded for f(t, y)"),
+    c.viewed_order("embedded_index_1_order", DETAIL, "embedded, index 1"),
     maybe("error_estimate", part(c.ESTIMATE, c.estimate_phrase), "embedded.estimator"),
     maybe("dense_order", kinds.COUNT, _dense(lambda a: c.dense_answer(a.dense.order, True))),
     maybe("dense", part(c.DENSE, c.dense_words), label="dense output"),
-    Row("in the trees", SAID, lambda _: "1 is f, 2 is f' or the matrix, 3 is its error or time"),
     Row("stability", told(_stability_words), "."),
     _truth("a-stable"),
     _truth("l-stable"),
@@ -88,8 +95,12 @@ ANALYSIS = [
         label="R(z)",
     ),
     Row(
-        "trees_that_fail", picture(c.drawn), c.failing("order", "w-order", "embedded-order"), DETAIL
+        "trees_that_fail",
+        picture(c.drawn),
+        c.failing("order", "w-order", "index-1-order", "embedded-order"),
+        DETAIL,
     ),
+    Row("in the trees", SAID, lambda _: IN_THE_TREES, DETAIL),
 ]
 ROSENBROCK = Section(
     *kinds.FILE_AND_NAME,

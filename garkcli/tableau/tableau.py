@@ -35,6 +35,8 @@ class Colour(Frozen):
         term: which term of the split, H^{l} or f^{l}, the vector field comes from, counted from 0.
         part: what the vector field drives.
         kind: what its vertices are like.
+        late: by how many orders more than it has a tree with such a root counts, of those whose
+            conditions an order asks for; None where none does, as the step has no such weights.
     """
 
     name: str
@@ -44,6 +46,7 @@ class Colour(Frozen):
     term: int = 0
     part: Part = "y"
     kind: Kind = PLAIN
+    late: int | None = 0
 
     @property
     def is_linear(self) -> bool:
@@ -143,6 +146,11 @@ class Tableau(Frozen):
         method is a GARK method.
         """
         return all(colour.kind in FIELDS for colour in self.colours)
+
+    @cached_property
+    def is_listed(self) -> bool:
+        """Whether every vertex counts an order: trees with others are not listed."""
+        return all(colour.kind.weight for colour in self.colours)
 
     @cached_property
     def exact_to(self) -> int | None:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import islice, zip_longest
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, Self, TypeAlias
 
 from flint import arb, fmpq
 
@@ -26,7 +26,7 @@ from garkcli.exact.polynomial_text import (
     root_decimal,
     root_text,
 )
-from garkcli.frozen import Mutable, field
+from garkcli.frozen import Mutable, field, replace
 from garkcli.ntrees.notation import format_tree
 from garkcli.page.paint import Paint, folded, indented, shown_width
 from garkcli.page.plain import inert
@@ -122,6 +122,7 @@ class Plain(Mutable):
         digits: of decimals.
         width: of the terminal.
         colours: names of the colours of a method; where there is one it is not named.
+        names: of the colours in trees, where they are not numbers.
         parameter: the free parameter, where there is one.
         paint: colour or none.
         is_brief: whether decimals stand for roots and polynomials.
@@ -134,6 +135,7 @@ class Plain(Mutable):
     digits: int = 12
     width: int = 80
     colours: Sequence[str] = ("1",)
+    names: Sequence[str] = ()
     parameter: str = ""
     paint: Paint = field(default_factory=Paint)
     is_brief: bool = True
@@ -278,8 +280,12 @@ class Plain(Mutable):
     def tree(self, tree: Tree | str) -> str:
         """A tree in brackets, or these; with one colour that is not named."""
         if not isinstance(tree, str):
-            tree = format_tree(tree, self.has_colours(tree))
+            tree = format_tree(tree, self.names or self.has_colours(tree))
         return self.code(tree)
+
+    def naming(self, names: Sequence[str]) -> Self:
+        """The same with names for the colours in trees."""
+        return replace(self, names=tuple(names)) if names else self
 
     def has_colours(self, tree: Tree) -> bool:
         """Whether the colours of a tree are named."""
@@ -295,7 +301,7 @@ class Plain(Mutable):
 
     def failure(self, witness: Witness, is_rounded: bool = False) -> str:
         """The tree whose condition fails, and by how much; told once."""
-        condition = (witness.tree, to_text(witness.residual))
+        condition = (format_tree(witness.tree, self.names or True), to_text(witness.residual))
         if condition in self.told:
             return f"order {witness.tree.order} fails as above"
         self.told.append(condition)

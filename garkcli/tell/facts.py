@@ -76,6 +76,7 @@ class Answer(Frozen):
         reason: why it is so.
         level: where it is reported, if not where its row says.
         more: what its kind needs besides, such as a witness.
+        names: of the colours in trees, where they are not numbers.
     """
 
     value: Any
@@ -83,6 +84,7 @@ class Answer(Frozen):
     reason: Reason = NO_REASON
     level: Level | None = None
     more: Any = None
+    names: Sequence[str] = ()
 
 
 Words: TypeAlias = "Callable[[Any, Plain], str]"

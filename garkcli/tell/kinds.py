@@ -189,6 +189,7 @@ def order_answer(found: AnyOrder | None) -> Answer:
 def _order_words(answer: Answer, d: Plain) -> str:
     """``4, proved; order 5 fails at [[[[[]]]]] by -1/120``."""
     found, status = answer.value, answer.status
+    d = d.naming(answer.names)
     text = d.known(str(found.order), status)
     if status.within is None and not status.at_least:
         text += ", proved"

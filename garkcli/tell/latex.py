@@ -125,7 +125,7 @@ class Latex(Plain):
 
     def tree(self, tree: Tree | str) -> str:
         found = parse_tree(tree) if isinstance(tree, str) else tree
-        return f"${format_latex(found, self.has_colours(found))}$"
+        return f"${format_latex(found, self.names or self.has_colours(found))}$"
 
     def code(self, text: str) -> str:
         return rf"\texttt{{{self.prose(text)}}}"
