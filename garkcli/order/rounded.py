@@ -261,10 +261,10 @@ class RoundedOrder(Shown, FrozenBut):
             return zeros
         tableau = self.rounded.tableau
         enclosure = enclose_tableau(tableau, self.rounded.search.bits)
-        trees = TreeResiduals(tableau, enclosure)
+        trees = TreeResiduals(tableau, enclosure) if tableau.is_listed else None
         sizes = []
         for order in range(self.exact + 1, self.order + 1):
-            if are_few(tableau, order, FEW_TREES):
+            if trees and are_few(tableau, order, FEW_TREES):
                 sizes.append(trees.sizes(order).bound)
             else:
                 spans = ApproximateSpans(tableau, enclosure, arb(self.tolerance))

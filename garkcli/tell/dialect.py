@@ -299,14 +299,19 @@ class Plain(Mutable):
         """A picture of a tree in a cell, where the output has such."""
         return ""
 
-    def failure(self, witness: Witness, is_rounded: bool = False) -> str:
-        """The tree whose condition fails, and by how much; told once."""
+    def failure(
+        self, witness: Witness, is_rounded: bool = False, order: int | None = None
+    ) -> str:
+        """The tree whose condition fails, and by how much, told once; with the order that asks for
+        it, where that is not the tree's.
+        """
+        order = order or witness.tree.order
         condition = (format_tree(witness.tree, self.names or True), to_text(witness.residual))
         if condition in self.told:
-            return f"order {witness.tree.order} fails as above"
+            return f"order {order} fails as above"
         self.told.append(condition)
         residual = to_decimal(witness.residual, 4) if is_rounded else self.number(witness.residual)
-        return f"order {witness.tree.order} fails at {self.tree(witness.tree)} by {residual}"
+        return f"order {order} fails at {self.tree(witness.tree)} by {residual}"
 
     def table(self, rows: Sequence[Sequence[int | None]], limit: int) -> str:
         """The numbers of all blocks."""

@@ -199,7 +199,8 @@ def _order_words(answer: Answer, d: Plain) -> str:
         return f"{text}; order {found.order + 1} is not decided: {d.reason(status.open)}"
     if found.witness is None:
         return f"{text}: no further was looked"
-    return f"{text}; {d.failure(found.witness, status.within is not None)}"
+    is_rounded = status.within is not None
+    return f"{text}; {d.failure(found.witness, is_rounded, found.order + 1)}"
 
 
 def order_cell(found: AnyOrder, d: Plain) -> str:
