@@ -43,7 +43,7 @@ def witness_text(witness: Witness, colours: bool) -> Reason:
     return _told(witness, Code(format_tree(witness.tree, colours)))
 
 
-def dense_witness_text(found: DenseWitness, colours: bool) -> Reason:
+def dense_witness_text(found: DenseWitness, colours: bool | Sequence[str]) -> Reason:
     """Which power of θ in the condition of which tree is not what it should be."""
     tree = Code(format_tree(found.witness.tree, colours))
     power = Formula(f"θ^{found.power}", rf"\theta^{{{found.power}}}")

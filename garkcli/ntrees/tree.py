@@ -7,7 +7,7 @@ from itertools import groupby
 from math import factorial, prod
 from typing import TYPE_CHECKING
 
-from garkcli.ntrees.kind import PLAIN, Kind
+from garkcli.ntrees.kind import FIELDS, PLAIN, Kind
 from garkcli.upward import Shown, answered
 
 if TYPE_CHECKING:
@@ -68,6 +68,11 @@ class Tree(Shown):
     def is_exact(self) -> bool:
         """Whether the exact solution has every vertex."""
         return self.kind.is_exact and all(u.is_exact for u in self.branches)
+
+    @cached_property
+    def is_of_fields(self) -> bool:
+        """Whether every vertex is a vector field that stages evaluate, of whatever kind."""
+        return all(u.kind in FIELDS for u in self.vertices())
 
     @cached_property
     def symmetry(self) -> int:

@@ -691,16 +691,21 @@ NORMS = Section(
 def _constants_words(c: Any, d: Plain) -> str:
     how = "" if c.is_exact else " in floats"
     text = f"of order {c.order}{how}: {_norms_words(c.all, d)}"
-    if len(d.colours) > 1:
+    if len(d.colours) > 1 and of_fields(c):
         text += f"; of coupling trees {_norms_words(c.coupling, d)}"
     return text
+
+
+def of_fields(c: Any) -> bool:
+    """Whether all colours are vector fields of their own, which may be coupled."""
+    return c.all.worst is None or c.all.worst.is_of_fields
 
 
 CONSTANTS = Section(
     Row("order", kinds.POSITION),
     Row("exact", kinds.TRUTH, "is_exact", DATA),
     Row("all", part(NORMS)),
-    Row("coupling", part(NORMS)),
+    Row("coupling", part(NORMS), lambda c: c.coupling if of_fields(c) else None, has_null=True),
 )
 
 
@@ -745,13 +750,18 @@ def dense_order(a: Any) -> Any:
     return None if a.dense is None else dense_answer(a.dense.order, a.tableau.size > 1)
 
 
-def dense_answer(found: DenseOrder, has_colours: bool) -> Answer:
-    """An order of dense output as a value with its status."""
+def dense_answer(found: DenseOrder, colours: bool | Sequence[str]) -> Answer:
+    """An order of dense output as a value with its status.
+
+    Args:
+        found: the order.
+        colours: whether trees have colours, or the names of these.
+    """
     is_open = Reason(found.undecided) if found.undecided else NO_REASON
     status = Status(found.tolerance, found.is_lower_bound, is_open)
     if found.witness is None:
         return Answer(found.order, status)
-    reason = dense_witness_text(found.witness, has_colours)
+    reason = dense_witness_text(found.witness, colours)
     return Answer(found.order, status, reason, more=found.witness.witness)
 
 

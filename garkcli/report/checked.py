@@ -17,6 +17,8 @@ def _signs(outcome: Outcome) -> dict[str, Any]:
     if found is None:
         return {}
     names = {"colours": [colour.name for colour in found.tableau.colours]}
+    if outcome.rosenbrock is not None:
+        names["names"] = names["colours"]
     if outcome.every is None:
         return names
     return {**names, "parameter": next(iter(outcome.every.parameters), "")}

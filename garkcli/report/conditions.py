@@ -7,6 +7,7 @@ from functools import cache
 
 from flint import fmpq
 
+from garkcli.constructions.rosenbrock import is_rosenbrock
 from garkcli.errors import counted
 from garkcli.exact.display import decimal, decimal_latex, shortest, to_decimal, to_latex
 from garkcli.exact.parametric import Parametric
@@ -150,7 +151,12 @@ class Conditions(Mutable):
         if self.subject is not None:
             return self.subject.legend
         legend = numbered(self.colours)
-        return f"colours: {legend}" if legend else ""
+        if not legend:
+            return ""
+        blocks = ""
+        if self.valued is not None and is_rosenbrock(self.valued.tableau):
+            blocks = "; A{1,1} = A{1,2} is α, A{2,1} = A{2,2} is β = α + γ"
+        return f"colours: {legend}{blocks}"
 
     @property
     def summary(self) -> str:
@@ -224,13 +230,20 @@ def _in_words(row: ConditionRow, d: Plain) -> str:
     lines = [f"{row.text(len(d.colours) > 1)}   {_multiplicity(row)}".rstrip()]
     condition = row.condition
     if condition is not None and not (condition.is_exact and d.is_brief):
-        kind = "coupling" if condition.is_coupling else "diagonal"
-        kind = f"  ({kind} condition)" if len(d.colours) > 1 else ""
+        kind = _kind(condition)
+        kind = f"  ({kind} condition)" if kind and len(d.colours) > 1 else ""
         off = "" if condition.is_exact else f", off by {_number(condition, 'residual', d)}"
         lines.append(f"is {_number(condition, 'value', d)}{off}{kind}")
     if row.members:
         lines.append("  ".join(map(d.tree, row.members)))
     return "\n".join(lines)
+
+
+def _kind(condition: Condition) -> str | None:
+    """Whether colours are coupled; None where they are no vector fields of their own."""
+    if not condition.tree.is_of_fields:
+        return None
+    return "coupling" if condition.is_coupling else "diagonal"
 
 
 def _multiplicity(row: ConditionRow) -> str:
@@ -274,8 +287,9 @@ _VALUES = (
     Row(
         "kind",
         choice("coupling", "diagonal"),
-        lambda x: "coupling" if x.condition.is_coupling else "diagonal",
+        lambda x: _kind(x.condition),
         DATA,
+        has_null=True,
     ),
     optional("multiplicity", POSITION, lambda x: len(x.condition.trees), DATA),
 )

@@ -81,7 +81,7 @@ ANALYSIS = [
     c.viewed_order("embedded_nonautonomous_order", DETAIL, "embedded for f(t, y)"),
     c.viewed_order("embedded_index_1_order", DETAIL, "embedded, index 1"),
     maybe("error_estimate", part(c.ESTIMATE, c.estimate_phrase), "embedded.estimator"),
-    maybe("dense_order", kinds.COUNT, _dense(lambda a: c.dense_answer(a.dense.order, True))),
+    maybe("dense_order", kinds.COUNT, _dense(lambda a: c.dense_answer(a.dense.order, [x.name for x in a.tableau.colours]))),
     maybe("dense", part(c.DENSE, c.dense_words), label="dense output"),
     Row("stability", told(_stability_words), "."),
     _truth("a-stable"),

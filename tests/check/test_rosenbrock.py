@@ -231,19 +231,49 @@ def test_claims_are_those_that_hold() -> None:
         "nonautonomous-order": "4",
         "w-order": "1",
         "old-jacobian-order": "2",
+        "index-1-order": "2",
         "embedded-order": "3",
         "embedded-w-order": "1",
         "a-stable": "true",
         "l-stable": "false",
     }
     run = gark("claims", "ros3p", "-v")
-    assert "# w-order: 1, proved; order 2 fails at [[]_1]_1 by" in run.out
+    assert "# w-order: 1, proved; order 2 fails at [[]_f]_f by" in run.out
 
 
 def test_the_report_is_short() -> None:
-    """All orders and the stability fit twelve lines of 80 columns, which say what colours are."""
+    """All orders and the stability fit twelve lines of 80 columns; trees have the names of what
+    their vertices are, so that [[]_f]_E is no tree of f alone.
+    """
     text = gark("check", "ros3p").out
     assert len(text.splitlines()) <= 12
-    assert "1 is f, 2 is f' or the matrix, 3 is its error or time" in text
-    for said in ("with any matrix    1, proved", "old Jacobian       2, proved", "A-stable, not L"):
+    for said in (
+        "order 3, proved; order 4 fails at [[[]_f]_f',[]_f]_f",
+        "with any matrix W     1, proved; order 2 fails at [[]_f]_f",
+        "old Jacobian f' + hE  2, proved; order 3 fails at [[]_f]_E",
+        "index 1, 0 = g(y, z)  3, proved; order 4 fails as above",
+        "A-stable, not L-stable, R(∞) = 1 - sqrt(3)",
+    ):
         assert said in text
+    in_full = gark("check", "ros3p", "-v").out
+    assert "index 1, error in z   2, proved; order 3 fails at [[[]_f]_f',[]_f]_g" in in_full
+    assert "f' is f with one branch" in in_full
+
+
+def test_conditions_say_which_blocks_are_alpha() -> None:
+    """``gark conditions`` names α and β, and calls no condition of f and f' coupling."""
+    text = gark("conditions", "ros3p").out
+    assert "A{1,1} = A{1,2} is α, A{2,1} = A{2,2} is β = α + γ" in " ".join(text.split())
+    assert "coupling" not in text
+    assert "diagonal" not in text
+    assert "coupling" in gark("conditions", "mri-gark-erk33a").out
+
+
+def test_orders_on_daes(tmp_path: Path) -> None:
+    """Claims on index 1 hold and larger ones fail; a singular α + γ has none, and says why."""
+    path = _written(tmp_path, f"{RODAS3}expect: {{index-1-order: 3, index-1-z-order: 4}}\n")
+    outcome = check_file(path)
+    assert [(x.claim, x.found) for x in outcome.failed_claims] == [("index-1-z-order", "3")]
+    text = "rosenbrock: {alpha: [[0]], gamma: [[0]], b: [1]}\nexpect: {index-1-order: 1}"
+    (claim,) = check_file(_written(tmp_path, text)).failed_claims
+    assert claim.found == "none: alpha + gamma is singular"

@@ -50,8 +50,10 @@ class Trees:
 
     def _forests(self, l: int, size: int) -> list[tuple[Plain, ...]]:
         seen = {m for m in range(self.tableau.size) if self.tableau.block(l, m) is not None}
-        choices = [(n, u) for n in range(1, size + 1) for u in self.of_order(n) if u[0] in seen]
         arity = self.tableau.colours[l].kind.arity
+        # a vertex that counts no order has several branches: each is of a smaller order
+        largest = size if arity & {0, 1} else size - 1
+        choices = [(n, u) for n in range(1, largest + 1) for u in self.of_order(n) if u[0] in seen]
         most = size if 2 in arity else 1
         return [x for x in _multisets(choices, size, most) if min(len(x), 2) in arity]
 
