@@ -13,13 +13,15 @@ from garkcli.api.anymethod import method_of
 from garkcli.api.methods import conjugate, find_order, pair
 from garkcli.check.claims import agrees
 from garkcli.check.findings import repair_text, witness_text
+from garkcli.constructions.rosenbrock import Which, is_rosenbrock, seen
 from garkcli.errors import MethodError, ZeroWeight
+from garkcli.exact.matrix import SingularMatrixError
 from garkcli.frozen import Frozen
 from garkcli.methodfile.expectations import AtLeast
 from garkcli.order.blame import Missed, blame_of
 from garkcli.order.certificate import DEFAULT_LIMIT, Order
 from garkcli.order.deciding import AnyOrder
-from garkcli.order.meant import as_embedded, as_meant, keep, meant, printed, tolerance_of
+from garkcli.order.meant import AnyTableau, as_embedded, as_meant, keep, meant, printed, tolerance_of
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.tableau import Tableau
 
@@ -36,6 +38,8 @@ def assert_order(
     embedded: Wanted = None,
     conjugate: Wanted = None,
     pair: Wanted = None,
+    w: Wanted = None,
+    index_1: Wanted = None,
     tolerance: Any = None,
 ) -> None:
     """Fail unless a method has an order, and say why it has not.
@@ -50,6 +54,8 @@ def assert_order(
         embedded: the order of its embedded weights.
         conjugate: the order of its symplectic conjugate.
         pair: the order of the symplectic pair.
+        w: the order of a Rosenbrock method with any matrix for the Jacobian.
+        index_1: its order on differential-algebraic equations of index 1.
         tolerance: the rounding of the coefficients; that of the method where it is not given, 0 for
             none.
 
@@ -60,6 +66,7 @@ def assert_order(
         MethodFileError: a file cannot be read as a method.
 
     >>> assert_order("rk4", 4, conjugate=4)
+    >>> assert_order("ros3p", 3, embedded=2, w=1, index_1=3)
     >>> assert_order(([[0, 0], [1, 0]], ["1/2", "1/2"]), 3)
     Traceback (most recent call last):
     ...
@@ -67,8 +74,9 @@ def assert_order(
       fails at order 3: [[[]]]: 0 instead of 1/6, off by -1/6
     """
     __tracebackhide__ = True
-    found = method_of(method, tolerance)
+    found = method_of(method, tolerance, is_any_kind=True)
     wanted = {"order": order, "embedded": embedded, "conjugate": conjugate, "pair": pair}
+    wanted |= {"w": w, "index_1": index_1}
     asked = {key: value for key, value in wanted.items() if value is not None}
     if not asked:
         raise MethodError("no order is given", "assert_order(method, 4)", code="arrays")
@@ -93,15 +101,17 @@ def find_orders(method: Any, limit: int = DEFAULT_LIMIT) -> dict[str, int | str]
     >>> find_orders("rk4")
     {'order': 4, 'conjugate': 4, 'pair': 4}
     >>> assert_order("rk4", **find_orders("rk4"))
+    >>> find_orders("ros2")
+    {'order': 2, 'embedded': 1, 'w': 2, 'index_1': 2}
     """
-    asked = method_of(method)
+    asked = method_of(method, is_any_kind=True)
     orders: dict[str, int | str] = {}
     for key, part in _PARTS.items():
-        if key == "embedded" and asked.embedded is None:
+        if not part.exists(asked):
             continue
         try:
             found = find_order(part.of(asked), limit)
-        except ZeroWeight:
+        except (ZeroWeight, SingularMatrixError):
             continue
         orders[key] = found.order
         if found.is_lower_bound:
@@ -115,11 +125,13 @@ class _Part(Frozen):
     Attributes:
         words: what it is called after the name of the method.
         of: the method whose order it is.
+        exists: whether a method has it, but for weights that are 0.
         which: ``conjugate`` or ``pair`` of the tableau whose entries are to blame; else empty.
     """
 
     words: str
     of: Callable[[GarkMethod], GarkMethod]
+    exists: Callable[[GarkMethod], bool]
     which: str = ""
 
 
@@ -133,18 +145,47 @@ def _embedded(method: GarkMethod) -> GarkMethod:
         message = f"{_called(method)} has no embedded weights"
         cure = "from_arrays(A, b, c, embedded), or embedded: […] in its file"
         raise MethodError(message, cure, code="arrays")
-    changed = as_embedded(as_meant(method), method.embedded)
+    return _made(method, as_embedded(as_meant(method), method.embedded))
+
+
+def _made(method: GarkMethod, changed: AnyTableau) -> GarkMethod:
+    """What was made of a method, with its rounding."""
     if not isinstance(changed, Tableau):
         keep(changed)
     tolerance = tolerance_of(changed)
     return GarkMethod(tableau=printed(changed), name=method.name, tolerance=tolerance)
 
 
+def _seen(which: Which) -> Callable[[GarkMethod], GarkMethod]:
+    """A Rosenbrock method with another matrix, or on other problems."""
+
+    def of(method: GarkMethod) -> GarkMethod:
+        if not _is_rosenbrock(method):
+            message = f"{_called(method)} is no Rosenbrock method"
+            raise MethodError(message, "leave out w and index_1", code="arrays")
+        return _made(method, seen(as_meant(method), which))
+
+    return of
+
+
+def _is_rosenbrock(method: GarkMethod) -> bool:
+    return is_rosenbrock(method.tableau)
+
+
+def _is_plain(method: GarkMethod) -> bool:
+    """Whether it has a conjugate and a pair."""
+    return method.tableau.has_fields_alone and method.tableau.exact_to is None
+
+
 _PARTS = {
-    "order": _Part("", lambda method: method),
-    "embedded": _Part(" with its embedded weights", _embedded),
-    "conjugate": _Part(", conjugated,", conjugate, "conjugate"),
-    "pair": _Part(" as a symplectic pair", pair, "pair"),
+    "order": _Part("", lambda method: method, lambda _: True),
+    "embedded": _Part(
+        " with its embedded weights", _embedded, lambda method: method.embedded is not None
+    ),
+    "conjugate": _Part(", conjugated,", conjugate, _is_plain, "conjugate"),
+    "pair": _Part(" as a symplectic pair", pair, _is_plain, "pair"),
+    "w": _Part(" with any matrix", _seen("with_any_matrix"), _is_rosenbrock),
+    "index_1": _Part(" on DAEs of index 1", _seen("on_dae"), _is_rosenbrock),
 }
 
 
@@ -164,6 +205,9 @@ def _failure(method: GarkMethod, part: _Part, value: Any, tolerance: Any) -> Ite
     except ZeroWeight as error:
         yield f"{name} has no order: {error.message}"
         return
+    except SingularMatrixError:
+        yield f"{name} has no order: alpha + gamma is singular"
+        return
     found = find_order(derived, max(DEFAULT_LIMIT, least + 1), tolerance)
     reached = AtLeast(found.order) if found.is_lower_bound else found.order
     if agrees(wanted, reached):
@@ -173,6 +217,10 @@ def _failure(method: GarkMethod, part: _Part, value: Any, tolerance: Any) -> Ite
     if found.order >= least or found.witness is None:
         return
     tableau = derived.tableau
+    if not _is_plain(derived):
+        names = [colour.name for colour in tableau.colours]
+        yield f"  {witness_text(found.witness, names)}"
+        return
     yield f"  {witness_text(found.witness, tableau.size > 1)}"
     # embedded weights are the weights of the derived tableau
     own = method.tableau if part.which else tableau

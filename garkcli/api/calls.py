@@ -96,7 +96,7 @@ def with_claims(method: AnyMethod, keys: str | Iterable[str] = ()) -> str:
       order: 1
       symplectic: false
     """
-    found = method_of(method)
+    found = method_of(method, is_any_kind=True)
     if not isinstance(found, MethodFile):
         message = f"{found!r} has no text"
         raise MethodError(message, "give what load, loads or from_arrays return", code="other-file")

@@ -13,7 +13,7 @@ from typing import Any, Protocol, cast, overload
 from garkcli.api.anymethod import AnyMethod, meant_of, method_of, tableau_of, with_tolerance
 from garkcli.api.numbers import Number, Whole, colours_of, whole
 from garkcli.check import deciding
-from garkcli.check.analysis import Analysis
+from garkcli.check.claims import AnyAnalysis
 from garkcli.errors import MethodError, UsageProblem, did_you_mean
 from garkcli.exact.field import ZERO
 from garkcli.order import simplifying as conditions
@@ -67,7 +67,7 @@ def find_order(
 
 def analyse(
     method: AnyMethod, limit: Whole = DEFAULT_LIMIT, tolerance: Number | None = None
-) -> Analysis:
+) -> AnyAnalysis:
     """Decide everything that ``gark check`` reports; up to the order ``limit``.
 
     Args:
@@ -76,13 +76,24 @@ def analyse(
         tolerance: the rounding of the coefficients; that of the method where it is not given, 0 for
             none.
 
+    Returns:
+        An ``Analysis`` of a GARK method. That of a Rosenbrock method has ``order``, ``w_order``,
+        ``old_jacobian_order``, ``nonautonomous_order``, ``index_1_order``, ``index_1_y_order``,
+        ``index_1_z_order``, ``at_infinity``; that of a multirate one with ``fast: exact``
+        ``order``, ``slow_order``, ``nonautonomous_order``. Each has ``embedded`` too.
+
     >>> found = analyse("gauss-2")
     >>> found, found.bound, found.symplectic
     (<Analysis order 4, conjugate 4, pair 4>, 4, True)
+    >>> found = analyse("ros3p")
+    >>> found, found.w_order, found.index_1_order
+    (<RosenbrockAnalysis order 3, W-order 1>, <Order 1>, <Order 3>)
+    >>> analyse("mri-gark-erk33a")
+    <InfinitesimalAnalysis order 3, slow 3>
     """
     limit = whole(limit, "limit", 1)
-    method, near = with_tolerance(method, tolerance)
-    return deciding.analyse(method.tableau, limit, near, further=method.further)
+    method, near = with_tolerance(method, tolerance, is_any_kind=True)
+    return deciding.analyse_any_tableau(method.tableau, limit, near, method.further)
 
 
 def simplifying(

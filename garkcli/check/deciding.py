@@ -34,15 +34,25 @@ if TYPE_CHECKING:
 
 def analyse_any(method: GarkMethod, limit: int = DEFAULT_LIMIT) -> AnyAnalysis:
     """The analysis of a method of any kind; see ``analyse``."""
-    if is_rosenbrock(method.tableau):
+    return analyse_any_tableau(method.tableau, limit, method.tolerance, method.further)
+
+
+def analyse_any_tableau(
+    tableau: Tableau,
+    limit: int = DEFAULT_LIMIT,
+    tolerance: fmpq | None = None,
+    further: Further = NOTHING,
+) -> AnyAnalysis:
+    """The analysis of a tableau of any kind; see ``analyse``."""
+    if is_rosenbrock(tableau):
         from garkcli.check.rosenbrock import analyse_rosenbrock  # few methods are
 
-        return analyse_rosenbrock(method.tableau, limit, method.tolerance, method.further)
-    if method.tableau.exact_to is not None:
+        return analyse_rosenbrock(tableau, limit, tolerance, further)
+    if tableau.exact_to is not None:
         from garkcli.check.infinitesimal import analyse_infinitesimal  # likewise
 
-        return analyse_infinitesimal(method.tableau, limit, method.tolerance, method.further)
-    return analyse(method.tableau, limit, method.tolerance, method.further)
+        return analyse_infinitesimal(tableau, limit, tolerance, further)
+    return analyse(tableau, limit, tolerance, further)
 
 
 def analyse(

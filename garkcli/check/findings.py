@@ -38,8 +38,9 @@ _LONG = 60
 """Characters of value and residual beyond which a witness is shown in decimals."""
 
 
-def witness_text(witness: Witness, colours: bool) -> Reason:
-    """Which condition fails, and by how much; ``colours`` where there are several."""
+def witness_text(witness: Witness, colours: bool | Sequence[str]) -> Reason:
+    """Which condition fails, and by how much; ``colours`` where there are several, or their names.
+    """
     return _told(witness, Code(format_tree(witness.tree, colours)))
 
 

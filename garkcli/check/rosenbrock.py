@@ -129,6 +129,11 @@ class EmbeddedOrders(Frozen):
     orders: RosenbrockOrders
     estimator: Estimator
 
+    @property
+    def order(self) -> AnyOrder:
+        """With the Jacobian."""
+        return self.orders.order
+
 
 class RosenbrockSubject(Frozen):
     """The properties of a Rosenbrock method.
@@ -178,6 +183,36 @@ class RosenbrockAnalysis(Shown, Frozen):
     def order(self) -> AnyOrder:
         """With the Jacobian."""
         return self.orders.order
+
+    @property
+    def w_order(self) -> AnyOrder:
+        """With any matrix in place of the Jacobian."""
+        return self.orders.w_order
+
+    @property
+    def old_jacobian_order(self) -> AnyOrder:
+        """With a matrix that differs from the Jacobian by O(h)."""
+        return self.orders.old_jacobian_order
+
+    @property
+    def nonautonomous_order(self) -> AnyOrder:
+        """On problems ẏ = f(t, y), with the c and d of the file."""
+        return self.orders.nonautonomous_order
+
+    @property
+    def index_1_order(self) -> AnyOrder | None:
+        """On DAEs of index 1: errors O(h^(p+1)) of a step in y, and O(h^p) in z."""
+        return self.orders.index_1_order
+
+    @property
+    def index_1_y_order(self) -> AnyOrder | None:
+        """The largest p with O(h^(p+1)) in y."""
+        return self.orders.index_1_y_order
+
+    @property
+    def index_1_z_order(self) -> AnyOrder | None:
+        """The same in z."""
+        return self.orders.index_1_z_order
 
     @cached_property
     def subject(self) -> RosenbrockSubject:
