@@ -21,7 +21,15 @@ from garkcli.methodfile.expectations import AtLeast
 from garkcli.order.blame import Missed, blame_of
 from garkcli.order.certificate import DEFAULT_LIMIT, Order
 from garkcli.order.deciding import AnyOrder
-from garkcli.order.meant import AnyTableau, as_embedded, as_meant, keep, meant, printed, tolerance_of
+from garkcli.order.meant import (
+    AnyTableau,
+    as_embedded,
+    as_meant,
+    keep,
+    meant,
+    printed,
+    tolerance_of,
+)
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.tableau import Tableau
 

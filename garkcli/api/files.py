@@ -215,7 +215,8 @@ def compare(one: AnyMethod, other: AnyMethod, limit: Whole = DEFAULT_LIMIT) -> C
     >>> compare(([[0, 0], [1, 0]], ["1/2", "1/2"]), ([[0, 1], [0, 0]], [0.5, 0.5]))
     <Comparison same>
     """
-    return comparison.compare(method_of(one), method_of(other), whole(limit, "limit", 1))
+    first, second = (method_of(x, is_any_kind=True) for x in (one, other))
+    return comparison.compare(first, second, whole(limit, "limit", 1))
 
 
 def convert(

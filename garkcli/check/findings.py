@@ -39,8 +39,7 @@ _LONG = 60
 
 
 def witness_text(witness: Witness, colours: bool | Sequence[str]) -> Reason:
-    """Which condition fails, and by how much; ``colours`` where there are several, or their names.
-    """
+    """Which condition fails, and by how much; with the colours of trees, or their names."""
     return _told(witness, Code(format_tree(witness.tree, colours)))
 
 

@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from math import isclose
 from typing import Literal, TypeAlias
 
 from flint import fmpq
 
 from garkcli.check.analysis import Analysis
-from garkcli.check.deciding import analyse
+from garkcli.check.claims import AnyAnalysis
+from garkcli.check.deciding import analyse_any
 from garkcli.comparison.differences import BlockGap, Met, block_gaps, conditions_met
 from garkcli.comparison.grid import Likeness
 from garkcli.comparison.sameness import Sameness, find_sameness, views_of
+from garkcli.constructions.rosenbrock import is_rosenbrock
 from garkcli.doing import doing
+from garkcli.errors import MethodError
 from garkcli.exact.field import ZERO
-from garkcli.frozen import Frozen
+from garkcli.frozen import Frozen, replace
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.deciding import AnyOrder
 from garkcli.order.meant import meant
@@ -159,6 +162,10 @@ def compare(one: GarkMethod, other: GarkMethod, limit: int = DEFAULT_LIMIT) -> C
         other: another.
         limit: where the search for orders stops.
 
+    Raises:
+        MethodError: one is a Rosenbrock method, or a multirate one with ``fast: exact``, and the
+            other is not.
+
     >>> from garkcli.methodfile.load import loads
     >>> heun = loads("{A: [[0, 0], [1, 0]], b: [1/2, 1/2]}")
     >>> turned = loads("{A: [[0, 1], [0, 0]], b: [0.5, 0.5]}")
@@ -166,17 +173,22 @@ def compare(one: GarkMethod, other: GarkMethod, limit: int = DEFAULT_LIMIT) -> C
     >>> found, found.sameness.stages
     (<Comparison same>, ((1, 0),))
     """
+    forms = form_of(one.tableau), form_of(other.tableau)
+    if forms[0] != forms[1] and {*forms} & {*OF_OTHER_KINDS}:
+        message = "methods of different kinds have no entries in common"
+        raise MethodError(message, "compare methods of one kind", code="other-file")
     allowed = (one.tolerance or ZERO) + (other.tolerance or ZERO)
     views = views_of(one, other)
     gaps: tuple[BlockGap, ...] = ()
     if views.one.size == views.other.size:
-        gaps = tuple(block_gaps(views.one, views.other, Likeness(allowed)))
+        found = block_gaps(views.one, views.other, Likeness(allowed))
+        gaps = tuple(OF_OTHER_KINDS.get(forms[0], iter)(found))
     answer = find_sameness(one, other, views, allowed)
     same = answer.sameness
     if same is not None and same.is_plain and not same.step_only:
         # what enclosures left open, where the methods are known to agree
         gaps = tuple(x for x in gaps if not all(y.is_open for y in x.gaps))
-    first, second = _analysed(one, limit), _analysed(other, limit)
+    first, second = analyse_any(one, limit), analyse_any(other, limit)
     met = None
     if same is None and views.one.size == views.other.size:
         known_as = [meant(x.tableau, x.tolerance) for x in (first, second)]
@@ -189,24 +201,25 @@ def compare(one: GarkMethod, other: GarkMethod, limit: int = DEFAULT_LIMIT) -> C
         )
         if _differ(pair):
             different.append(pair)
-    if first.symplectic != second.symplectic:
-        verdicts = Verdict(first.symplectic), Verdict(second.symplectic)
-        different.append(PropertyPair("symplectic", *verdicts, tolerances))
+    if isinstance(first, Analysis) and isinstance(second, Analysis):
+        orders = _orders(first, second)
+        if first.symplectic != second.symplectic:
+            verdicts = Verdict(first.symplectic), Verdict(second.symplectic)
+            different.append(PropertyPair("symplectic", *verdicts, tolerances))
+    else:
+        orders = tuple(
+            OrderPair(name, *(_viewed(x, claim) for x in (first, second)))
+            for claim, name in VIEWED.items()
+        )
     return Comparison(
         one=one,
         other=other,
-        forms=(form_of(one.tableau), form_of(other.tableau)),
+        forms=forms,
         gaps=gaps,
         sameness=same,
         obstacle=answer.obstacle,
         allowed=allowed,
-        orders=(
-            OrderPair("order", first.order, second.order),
-            OrderPair(WITH_TIME, first.nonautonomous_order, second.nonautonomous_order),
-            OrderPair("order of the embedded weights", _of_embedded(first), _of_embedded(second)),
-            OrderPair("order of the conjugate", first.conjugate_order, second.conjugate_order),
-            OrderPair("order of the pair", first.pair_order, second.pair_order),
-        ),
+        orders=orders,
         met=met,
         properties=tuple(different),
     )
@@ -216,12 +229,63 @@ def _linear(method: GarkMethod) -> tuple[bool, ...]:
     return tuple(colour.is_linear for colour in method.tableau.colours)
 
 
-def _analysed(method: GarkMethod, limit: int) -> Analysis:
-    return analyse(method.tableau, limit, method.tolerance, further=method.further)
+def _orders(first: Analysis, second: Analysis) -> tuple[OrderPair, ...]:
+    return (
+        OrderPair("order", first.order, second.order),
+        OrderPair(WITH_TIME, first.nonautonomous_order, second.nonautonomous_order),
+        OrderPair("order of the embedded weights", _of_embedded(first), _of_embedded(second)),
+        OrderPair("order of the conjugate", first.conjugate_order, second.conjugate_order),
+        OrderPair("order of the pair", first.pair_order, second.pair_order),
+    )
+
+
+VIEWED = {
+    "order": "order",
+    "w-order": "order with any matrix",
+    "old-jacobian-order": "order with an old Jacobian",
+    "slow-order": "order of the slow method",
+    "nonautonomous-order": WITH_TIME,
+    "index-1-order": "order on index-1 DAEs",
+    "embedded-order": "order of the embedded weights",
+}
+"""The orders of methods that are no GARK methods, by their claims."""
+
+
+def _viewed(analysis: AnyAnalysis, claim: str) -> AnyOrder | None:
+    assert not isinstance(analysis, Analysis)
+    view = analysis.view(claim)
+    return None if view is None else view[0]
+
+
+def _of_rosenbrock(gaps: Iterable[BlockGap]) -> Iterator[BlockGap]:
+    """As α, β = α + γ, b, c and c + d: each is in the tableau of f and f' twice."""
+    for gap in gaps:
+        if gap.seen is not None:
+            if gap.seen == 0:
+                yield replace(gap, kind=("alpha", "beta")[gap.colour])
+        elif gap.colour == 0:
+            yield gap
+        elif gap.kind == "c":
+            yield replace(gap, kind="c + d")
+
+
+def _of_slow_parts(gaps: Iterable[BlockGap]) -> Iterator[BlockGap]:
+    """Without what stands for the exact solution."""
+    return (gap for gap in gaps if gap.colour and gap.seen != 0)
+
+
+OF_OTHER_KINDS = {"row": _of_rosenbrock, "mri": _of_slow_parts}
+"""The entries of methods that are no GARK methods, from those of their tableaus."""
 
 
 def form_of(tableau: Tableau) -> str:
-    """What kind of tableau it is: rk, ark, gark, prk, or pair for other partitioned ones."""
+    """What kind of tableau it is: rk, ark, gark, prk, or pair for other partitioned ones; row for
+    a Rosenbrock method, mri for a multirate one with the exact fast part.
+    """
+    if is_rosenbrock(tableau):
+        return "row"
+    if tableau.exact_to is not None:
+        return "mri"
     if [colour.part for colour in tableau.colours] == ["q", "p"]:
         return "prk"
     if tableau.is_partitioned:

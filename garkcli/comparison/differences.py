@@ -42,7 +42,8 @@ class BlockGap(Frozen):
     """A block, or a row of weights or nodes, that differs.
 
     Attributes:
-        kind: ``A``, ``b``, ``c``, ``embedded`` or ``dense``.
+        kind: ``A``, ``b``, ``c``, ``embedded`` or ``dense``; ``alpha``, ``beta`` and ``c + d`` of
+            Rosenbrock methods.
         colour: the colour whose stages it belongs to, from 0.
         seen: of a block the colour that they see, from 0; None otherwise.
         power: of dense weights the power of θ; 0 otherwise.
@@ -190,7 +191,8 @@ def conditions_met(one: AnyTableau, other: AnyTableau, orders: tuple[int, int]) 
     roots = [*twins] if twins == twin_roots(printed(other)) else [*range(tableau.size)]
     pairs: list[tuple[Condition, Condition]] = []
     reached, total = 0, 0
-    for order in range(1, max(orders) + 2):
+    ends = [x.exact_to for x in (tableau, printed(other)) if x.exact_to is not None]
+    for order in range(1, min([max(orders) + 1, *ends]) + 1):
         by_root = counts_of(graph, order)
         total += sum(by_root[root] for root in roots)
         if total > MAX_CONDITIONS:

@@ -27,7 +27,6 @@ from garkcli.errors import MethodError, ShapeMismatch
 from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.matrix import (
     Matrix,
-    SingularMatrixError,
     Vector,
     add,
     apply,
@@ -120,8 +119,8 @@ class Rosenbrock(Frozen):
 
     @property
     def on_dae(self) -> Tableau:
-        """On ẏ = f(y, z), 0 = g(y, z) of index 1: order p has the conditions of y up to p, and those
-        of z up to p − 1. A vertex of g has several branches and counts no order.
+        """On ẏ = f(y, z), 0 = g(y, z) of index 1: order p has the conditions of y up to p, and
+        those of z up to p − 1. A vertex of g has several branches and counts no order.
 
         Raises:
             SingularMatrixError: β = α + γ has no inverse, so that z is not determined.
@@ -229,8 +228,13 @@ def is_rosenbrock(tableau: Tableau) -> bool:
 
 
 Which: TypeAlias = Literal[
-    *("with_any_matrix", "with_old_jacobian", "with_time", "on_test_equation"),
-    *("on_dae", "on_dae_in_y", "on_dae_in_z"),
+    "with_any_matrix",
+    "with_old_jacobian",
+    "with_time",
+    "on_test_equation",
+    "on_dae",
+    "on_dae_in_y",
+    "on_dae_in_z",
 ]
 
 

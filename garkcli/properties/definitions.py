@@ -158,15 +158,13 @@ _ORDERS = (
     ),
     Definition(
         "index-1-y-order",
-        "The largest p such that a step on y' = f(y, z), 0 = g(y, z) has an error O(h^(p+1)) in"
-        " y.",
+        "The largest p such that a step on y' = f(y, z), 0 = g(y, z) has an error O(h^(p+1)) in y.",
         _ROCHE,
         meaning=_ON_DAES,
     ),
     Definition(
         "index-1-z-order",
-        "The largest p such that a step on y' = f(y, z), 0 = g(y, z) has an error O(h^(p+1)) in"
-        " z.",
+        "The largest p such that a step on y' = f(y, z), 0 = g(y, z) has an error O(h^(p+1)) in z.",
         _ROCHE,
         meaning=_ON_DAES,
     ),

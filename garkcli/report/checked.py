@@ -61,9 +61,17 @@ REPORT: Report[Outcome] = Report(
 )
 
 
+OF_ANALYSES = {
+    "Analysis": "analysis",
+    "RosenbrockAnalysis": "rosenbrock",
+    "InfinitesimalAnalysis": "infinitesimal",
+}
+"""Where an outcome has the analysis of a method."""
+
+
 def whole(found: Any, name: str) -> Outcome:
     """What the report says of an outcome, or of an analysis by a name."""
-    from garkcli.check.analysis import Analysis
     from garkcli.check.outcome import Outcome
 
-    return Outcome(name, name, analysis=found) if isinstance(found, Analysis) else found
+    kind = OF_ANALYSES.get(type(found).__name__)
+    return Outcome(name, name, **{kind: found}) if kind else found

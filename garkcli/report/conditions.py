@@ -284,13 +284,7 @@ _VALUES = (
     _numeral("required", DATA),
     _numeral("residual", DETAIL),
     Row("holds", Kind(S.FLAG, lambda x, _: x.holds, _state), "condition"),
-    Row(
-        "kind",
-        choice("coupling", "diagonal"),
-        lambda x: _kind(x.condition),
-        DATA,
-        has_null=True,
-    ),
+    Row("kind", choice("coupling", "diagonal"), lambda x: _kind(x.condition), DATA, has_null=True),
     optional("multiplicity", POSITION, lambda x: len(x.condition.trees), DATA),
 )
 _CLASS = (

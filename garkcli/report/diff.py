@@ -18,6 +18,7 @@ from garkcli.properties.registry import KEYS
 from garkcli.reason import Reason
 from garkcli.report.check import rounding, verdict_words
 from garkcli.tableau.garkmethod import GarkMethod
+from garkcli.tableau.tableau import Tableau
 from garkcli.tell import kinds
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, maybe
@@ -32,6 +33,8 @@ FORMS = {
     "gark": "a GARK method",
     "prk": "a partitioned method",
     "pair": "a symplectic pair",
+    "row": "a Rosenbrock method",
+    "mri": "a multirate method with the exact fast part",
 }
 """The forms of methods, as people call them."""
 RELATIONS = {
@@ -203,10 +206,14 @@ def every_gap(x: Compared) -> list[Gap]:
 
 
 NAMES = {"embedded": "embedded weights", "dense": "dense output"}
+OF_ROSENBROCK = {"alpha": "α", "beta": "β = α + γ", "c + d": "c + d"}
 
 
 def _block_words(gap: Gap, d: Plain) -> str:
     block = gap.block
+    if d.names:  # f and f' have one row
+        name = {**NAMES, **OF_ROSENBROCK}.get(block.kind, block.kind)
+        return d.prose(name + (f", θ^{block.power}" if block.power else ""))
     colours = [block.colour] if block.seen is None else [block.colour, block.seen]
     if block.kind not in NAMES:
         return d.block(block.kind, colours)
@@ -254,7 +261,7 @@ ENTRIES = Section(
     Row("undecided", kinds.TRUTH, "is_open"),
 )
 BLOCK = Section(
-    Row("kind", kinds.choice("A", "b", "c", "embedded", "dense")),
+    Row("kind", kinds.choice("A", "b", "c", "embedded", "dense", *OF_ROSENBROCK)),
     Row("colour", kinds.INDEX),
     maybe("seen", kinds.INDEX),
     maybe("power", kinds.POSITION, lambda x: x.power or None),
@@ -304,6 +311,10 @@ METHOD = Section(
 def _method_words(x: Method, d: Plain) -> str:
     stages = ", ".join(map(str, x.method.stages))
     about = f"{counted(x.method.tableau.size, 'colour')}, stages {stages}"
+    if x.form == "row":
+        about = f"Rosenbrock, {counted(x.method.stages[0], 'stage')}"
+    elif x.form == "mri":
+        about = f"multirate, {counted(x.method.stages[-1], 'slow stage')}, fast part exact"
     name = x.method.name
     return d.prose(f"{name}: {about}" if name and name != x.file else about)
 
@@ -352,8 +363,13 @@ REPORT: Report[Compared] = Report.only(
         Row("half_known", shown(PROPERTY, 2), _properties(False), label="decided of one alone"),
         title=lambda x, d: " against ".join(map(d.prose, x.files)),
     ),
-    lambda x: {"colours": [colour.name for colour in x.found.one.tableau.colours]},
+    lambda x: _signs(x.found.one.tableau),
 )
+
+
+def _signs(tableau: Tableau) -> dict[str, Any]:
+    names = [colour.name for colour in tableau.colours]
+    return {"colours": names, "names": [] if tableau.has_fields_alone else names}
 
 
 def whole(found: Comparison, _: str) -> Compared:

@@ -22,6 +22,8 @@ TOLD_BY = {
     "backward.BackwardAnalysis": "modified",
     "backward.ModifiedRun": "modified_energy",
     "check.Analysis": "checked",
+    "check.RosenbrockAnalysis": "checked",
+    "check.InfinitesimalAnalysis": "checked",
     "check.ExistenceProof": "certificate",
     "check.MethodProof": "certificate",
     "check.Outcome": "checked",

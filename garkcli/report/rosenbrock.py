@@ -63,6 +63,12 @@ IN_THE_TREES = (
     "f' is f with one branch; W the matrix, with one; E the error of the Jacobian, with one, which "
     "counts two orders; t time; g with several branches, which counts none"
 )
+
+
+def _names(a: Any) -> list[str]:
+    return [colour.name for colour in a.tableau.colours]
+
+
 R_OF_Z = kinds.ratio("z")
 ANALYSIS = [
     Row("exact", kinds.TRUTH, lambda a: a.tolerance is None, DATA),
@@ -81,7 +87,7 @@ ANALYSIS = [
     c.viewed_order("embedded_nonautonomous_order", DETAIL, "embedded for f(t, y)"),
     c.viewed_order("embedded_index_1_order", DETAIL, "embedded, index 1"),
     maybe("error_estimate", part(c.ESTIMATE, c.estimate_phrase), "embedded.estimator"),
-    maybe("dense_order", kinds.COUNT, _dense(lambda a: c.dense_answer(a.dense.order, [x.name for x in a.tableau.colours]))),
+    maybe("dense_order", kinds.COUNT, _dense(lambda a: c.dense_answer(a.dense.order, _names(a)))),
     maybe("dense", part(c.DENSE, c.dense_words), label="dense output"),
     Row("stability", told(_stability_words), "."),
     _truth("a-stable"),

@@ -299,9 +299,7 @@ class Plain(Mutable):
         """A picture of a tree in a cell, where the output has such."""
         return ""
 
-    def failure(
-        self, witness: Witness, is_rounded: bool = False, order: int | None = None
-    ) -> str:
+    def failure(self, witness: Witness, is_rounded: bool = False, order: int | None = None) -> str:
         """The tree whose condition fails, and by how much, told once; with the order that asks for
         it, where that is not the tree's.
         """

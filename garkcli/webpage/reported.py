@@ -10,6 +10,7 @@ from flint import fmpq
 
 from garkcli.api.anymethod import method_of
 from garkcli.api.methods import analyse
+from garkcli.check.analysis import Analysis
 from garkcli.check.check_file import check_method
 from garkcli.check.every_value import check_every
 from garkcli.check.outcome import Outcome
@@ -121,5 +122,7 @@ def reported(
         about = method.reference, method.bibliography, method.description
         return Reported(check_method(method), method, *about, order, has_pictures)
     name = method.name or "the method"
-    outcome = Outcome(name, name, analysis=analyse(method))
+    found = analyse(method)
+    assert isinstance(found, Analysis)
+    outcome = Outcome(name, name, analysis=found)
     return Reported(outcome, method, wanted_order=order, has_pictures=has_pictures)

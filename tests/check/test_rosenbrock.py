@@ -8,9 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from garkcli import claims_of, load, loads
+from garkcli import analyse as analyse_in_python
+from garkcli import assert_order, claims_of, find_orders, load, loads, with_claims
 from garkcli.check.check_file import check_file
 from garkcli.check.deciding import analyse
+from garkcli.check.rosenbrock import RosenbrockAnalysis
 from garkcli.errors import MethodError, MethodFileError
 from garkcli.frozen import replace
 from garkcli.methodfile.writer import write_tableau_file
@@ -55,6 +57,7 @@ def test_claims_hold(tmp_path: Path, text: str) -> None:
 
 
 def _written(tmp_path: Path, text: str) -> str:
+    tmp_path.mkdir(exist_ok=True)
     path = tmp_path / "method.gark.yaml"
     path.write_text(text, encoding="utf-8")
     return str(path)
@@ -277,3 +280,49 @@ def test_orders_on_daes(tmp_path: Path) -> None:
     text = "rosenbrock: {alpha: [[0]], gamma: [[0]], b: [1]}\nexpect: {index-1-order: 1}"
     (claim,) = check_file(_written(tmp_path, text)).failed_claims
     assert claim.found == "none: alpha + gamma is singular"
+
+
+def test_python_takes_them() -> None:
+    """``analyse`` has the orders as attributes, and orders are asserted as those of other methods:
+    each holds, and one more fails with its tree.
+    """
+    found = analyse_in_python("ros3p")
+    assert isinstance(found, RosenbrockAnalysis)
+    orders = found.order, found.w_order, found.old_jacobian_order, found.nonautonomous_order
+    assert [x.order for x in orders] == [3, 1, 2, 3]
+    on_daes = found.index_1_order, found.index_1_y_order, found.index_1_z_order
+    assert [x and x.order for x in on_daes] == [3, 3, 2]
+    assert found.embedded is not None
+    assert found.embedded.order.order == 2
+    wanted = find_orders("ros3p")
+    assert wanted == {"order": 3, "embedded": 2, "w": 1, "index_1": 3}
+    assert_order("ros3p", **wanted)
+    for key, order in wanted.items():
+        with pytest.raises(AssertionError, match=rf"not {int(order) + 1}\n  fails at order .*_f"):
+            assert_order("ros3p", **{key: int(order) + 1})
+    assert find_orders("rodas4") == {"order": 4, "embedded": 3, "w": 1, "index_1": 4}
+    assert "index_1" not in find_orders("lassp-34")
+    with pytest.raises(AssertionError, match="alpha \\+ gamma is singular"):
+        assert_order("lassp-34", index_1=1)
+    with pytest.raises(MethodError, match="no Rosenbrock method"):
+        assert_order("rk4", w=4)
+    assert "\nexpect: {w-order: 1}" in with_claims(loads(RODAS3), "w-order").replace(
+        "expect:\n  w-order: 1", "expect: {w-order: 1}"
+    )
+
+
+def test_two_are_compared(tmp_path: Path) -> None:
+    """``gark diff`` finds one method in both of its forms, tells α and β apart where an entry is
+    another, and refuses methods of different kinds.
+    """
+    forms = [_written(tmp_path / name, text) for name, text in (("a", RODAS3), ("b", PRINTED))]
+    run = gark("diff", *forms)
+    assert (run.code, "identical" in run.out) == (0, True)
+    other = PRINTED.replace("[3/4, -1/4, 1/2]]\n  gamma", "[3/4, -1/4, 1/4]]\n  gamma")
+    run = gark("diff", forms[0], _written(tmp_path / "c", other))
+    assert run.code == 1
+    said = " ".join(run.out.split())
+    assert "α 1 of 16 row 4, entry 3 1/2 1/4 -1/4" in said
+    assert "β = α + γ 1 of 16 row 4, entry 3 -1/6 -5/12 -1/4" in said
+    run = gark("diff", forms[0], "rk4")
+    assert (run.code, "different kinds" in run.err) == (2, True)

@@ -94,7 +94,6 @@ def orders(alpha: Rows, gamma: Rows, b: Sequence[Fraction], limit: int) -> tuple
         )
 
     y, z = (
-        next((n for n in range(1, limit + 1) if not holds(root, n)), limit + 1) - 1
-        for root in "yz"
+        next((n for n in range(1, limit + 1) if not holds(root, n)), limit + 1) - 1 for root in "yz"
     )
     return y, z
