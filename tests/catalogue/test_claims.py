@@ -94,6 +94,7 @@ def test_all_that_matters_is_claimed(judged: dict[str, Any]) -> None:
         if "rosenbrock" in found:
             assert {"order", "w-order", "old-jacobian-order"} <= keys, name
             assert {"nonautonomous-order", "a-stable", "l-stable"} <= keys, name
+            assert ("index-1-order" in keys) == (found["index_1_order"] is not None), name
             assert ("embedded-order" in keys) == (found["embedded_order"] is not None), name
             continue
         if "multirate" in found:

@@ -9,8 +9,19 @@ from pathlib import Path
 
 import pytest
 
-from garkcli import claims_of, conditions, find_order, load, loads
+from garkcli import analyse as analyse_in_python
+from garkcli import (
+    assert_order,
+    claims_of,
+    compare,
+    conditions,
+    find_order,
+    find_orders,
+    load,
+    loads,
+)
 from garkcli.check.check_file import check_file
+from garkcli.check.infinitesimal import InfinitesimalAnalysis
 from garkcli.errors import MethodError, MethodFileError
 from garkcli.frozen import replace
 from garkcli.tableau.stages import PointSpace
@@ -212,3 +223,20 @@ def test_merk54_has_order_5() -> None:
     """All conditions of order 5 hold, of the embedded value those of order 4, and no more."""
     true = claims_of("merk54", ["order", "embedded-order", "slow-order"])
     assert true == {"order": "5", "slow-order": "5", "embedded-order": "4"}
+
+
+def test_python_and_diff_take_them() -> None:
+    """``analyse`` and ``assert_order`` have the order with the exact fast part; ``gark diff`` tells
+    of slow entries alone, as collocation stands for the fast ones.
+    """
+    found = analyse_in_python("mri-gark-erk33a")
+    assert isinstance(found, InfinitesimalAnalysis)
+    assert (found.order.order, found.slow_order.order) == (3, 3)
+    assert find_orders("mri-gark-erk33a") == {"order": 3, "embedded": 2}
+    assert_order("mri-gark-erk33a", 3, embedded=2)
+    with pytest.raises(AssertionError, match="order 3, not 4"):
+        assert_order("mri-gark-erk33a", 4)
+    compared = compare("mri-gark-erk33a", "mri-gark-erk22a")
+    assert compared.relation == "different"
+    assert {x.colour for x in compared.gaps} == {1}
+    assert compare("mri-gark-erk33a", "mri-gark-erk33a").relation == "identical"

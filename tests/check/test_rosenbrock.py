@@ -306,9 +306,7 @@ def test_python_takes_them() -> None:
         assert_order("lassp-34", index_1=1)
     with pytest.raises(MethodError, match="no Rosenbrock method"):
         assert_order("rk4", w=4)
-    assert "\nexpect: {w-order: 1}" in with_claims(loads(RODAS3), "w-order").replace(
-        "expect:\n  w-order: 1", "expect: {w-order: 1}"
-    )
+    assert "expect:\n  w-order: 1\n" in with_claims(loads(RODAS3), "w-order")
 
 
 def test_two_are_compared(tmp_path: Path) -> None:
