@@ -85,20 +85,27 @@ class RosenbrockOrders(Frozen):
     @cached_property
     def index_1_y_order(self) -> AnyOrder | None:
         """The largest p with O(h^(p+1)) in y."""
-        return self._on_dae("on_dae_in_y")
+        return self.index_1_order and self._on_dae("on_dae_in_y")
 
     @cached_property
     def index_1_z_order(self) -> AnyOrder | None:
         """The same in z."""
-        return self._on_dae("on_dae_in_z")
+        return self.index_1_y_order and self._on_dae("on_dae_in_z")
+
+    @cached_property
+    def _aside(self) -> AnyTableau:
+        """The method; of a rounded one, one within the rounding that DAEs alone move: it has all
+        orders on them, found one after the other, so that none contradicts another.
+        """
+        return self.method if isinstance(self.method, Tableau) else self.method.aside()
 
     def _on_dae(self, which: Which) -> AnyOrder | None:
         """It is no larger than the order of the method, whose trees are some of those of DAEs; of a
         rounded method that of one within the rounding with the same order.
         """
-        order, method = self.order, self.method
+        order = self.order
         try:
-            method = seen(method if isinstance(method, Tableau) else method.aside(), which)
+            method = seen(self._aside, which)
         except SingularMatrixError:
             return None
         found = order_of(method, order.order)

@@ -269,17 +269,16 @@ def weights_for(tableau: Tableau, b: Sequence[Vector]) -> Weights:
     return tuple(b[colour.term] if colour.term < len(b) else colour.b for colour in tableau.colours)
 
 
-def transformed_weights(further: Further, C: Matrix, gamma: Vector) -> Further:
+def transformed_weights(further: Further, gamma: Matrix) -> Further:
     """Embedded weights and dense output of one colour as programs store them, like m = b Γ⁻¹, as
     those of the stages k_i.
     """
-    full = _full(C, gamma)
     embedded, dense = further.embedded, further.dense
     if embedded is not None:
-        embedded = tuple(apply_left(row, full) for row in embedded)
+        embedded = tuple(apply_left(row, gamma) for row in embedded)
     if dense is not None:
         powers = [
-            [apply_left(row, full) for row in zip(*block, strict=True)] for block in dense.weights
+            [apply_left(row, gamma) for row in zip(*block, strict=True)] for block in dense.weights
         ]
         dense = DenseOutput(tuple(tuple(zip(*rows, strict=True)) for rows in powers))
     return Further(embedded, dense)

@@ -242,6 +242,7 @@ class Builder(Generic[V]):
         self.values = values
         self._parts: dict[int, Tableau] = {}
         self._made = Further()
+        self._gamma: Matrix = ()  # Γ of a transformed method, which is solved for once
         description = text.description
         self.tableau = self._tableau(description.content, description)
         if description.is_conjugate:
@@ -318,18 +319,18 @@ class Builder(Generic[V]):
             made = rosenbrock(alpha, gamma, b)
         else:
             made = transformed(alpha, gamma, vector(text.diagonal), b)
+            ((self._gamma,),) = made.gamma
         c = None if text.c is None else (vector(text.c),)
         return replace(made, c=c, d=None if text.d is None else (vector(text.d),))
 
     def _transformed(self, text: d.RosenbrockText, further: Further) -> Further:
         """The further weights at the stages of the method, with what ``e`` says."""
-        assert text.diagonal is not None
         vector = self.values.vector
         if text.error is not None:
             pairs = zip(vector(text.b), vector(text.error), strict=True)
             row = tuple(m - e for m, e in pairs)
             further = Further((row,) * self.tableau.size, further.dense)
-        return transformed_weights(further, self.values.matrix(text.gamma), vector(text.diagonal))
+        return transformed_weights(further, self._gamma)
 
     def _at(self, node: Node, make: Callable[[], T]) -> T:
         """The result of ``make``; what it refuses becomes a fault at ``node``."""

@@ -33,6 +33,7 @@ from garkcli.tell.parts import part, parts, picture, rows_of, told
 
 if TYPE_CHECKING:
     from garkcli.check.every_family import EveryFamily
+    from garkcli.ntrees.tree import Tree
     from garkcli.order.dense import DenseOrder
     from garkcli.properties.pattern import Shape
     from garkcli.tell.dialect import Plain
@@ -202,10 +203,14 @@ def drawn(found: Any, d: Plain) -> list[str]:
         value, required = d.number(witness.value), d.number(witness.required)
         lines += folded(f"{tree}: {value} instead of {required}", room, "  ")
         if names != [str(l + 1) for l in range(len(names))]:
-            used = sorted(witness.tree.colours)
-            lines.append(f"colour {', '.join(f'{l + 1} is {d.prose(names[l])}' for l in used)}")
+            lines.append(d.prose(named_colours(witness.tree, names)))
         lines += d.drawing(draw_text(witness.tree, len(names) > 1, room))
     return lines
+
+
+def named_colours(tree: Tree, names: Sequence[str]) -> str:
+    """``colour 1 is f, 3 is g``, of a drawing with numbers."""
+    return f"colour {', '.join(f'{l + 1} is {names[l]}' for l in sorted(tree.colours))}"
 
 
 # B, C, D and the bounds

@@ -150,13 +150,10 @@ class Conditions(Mutable):
         """The names of the colours, where their numbers are not their names."""
         if self.subject is not None:
             return self.subject.legend
+        if self.valued is not None:
+            return legend_of(self.valued.tableau)
         legend = numbered(self.colours)
-        if not legend:
-            return ""
-        blocks = ""
-        if self.valued is not None and is_rosenbrock(self.valued.tableau):
-            blocks = "; A{1,1} = A{1,2} is α, A{2,1} = A{2,2} is β = α + γ"
-        return f"colours: {legend}{blocks}"
+        return f"colours: {legend}" if legend else ""
 
     @property
     def summary(self) -> str:
@@ -167,6 +164,19 @@ class Conditions(Mutable):
         if self.subject is None:
             return ", ".join(filter(None, [counted(self.count, "condition"), verdict]))
         return "; ".join(filter(None, [self.subject.summary, verdict]))
+
+
+def legend_of(tableau: Tableau) -> str:
+    """The names of the colours of a tableau, and of the blocks of a Rosenbrock method; empty where
+    the names are the numbers.
+    """
+    legend = numbered([colour.name for colour in tableau.colours])
+    if not legend:
+        return ""
+    blocks = ""
+    if is_rosenbrock(tableau):
+        blocks = "; A{1,1} = A{1,2} is α, A{2,1} = A{2,2} is β = α + γ"
+    return f"colours: {legend}{blocks}"
 
 
 def _verdict(failed: int, valued: Valued) -> str:

@@ -97,7 +97,7 @@ def _around_zero(
 
     def words(found: Any, d: Plain) -> str:
         if isinstance(found, Bounds):
-            return d.bounds(found, bounds)
+            return nowhere if found.high == 0 else d.bounds(found, d.prose(bounds))
         first = found[0] if found else None
         if first is None or first.is_point or first.start is None or first.start.exact != 0:
             return nowhere

@@ -161,32 +161,39 @@ def _is_gark(tableau: Tableau) -> bool:
     return not is_rosenbrock(tableau) and tableau.exact_to is None
 
 
-def drawn(x: Shown, d: Plain) -> list[str]:
-    """The tableau; of a Rosenbrock method the arrays of α and of γ, of a multirate one with the
-    exact fast solution that of the slow method.
+OF_SLOW = "the slow method, which is left where the fast part is 0"
+OF_ROSENBROCK = "α, with c and b", "γ, with d, the weights of ∂f/∂t, in place of A and c"
+"""What the tableaus of methods that are no GARK methods are."""
+
+
+def shown_parts(tableau: Tableau, whole: Entries) -> list[tuple[str, Tableau, Entries]]:
+    """The tableaus that people see of a method, each with what it is: of a Rosenbrock method the
+    arrays of α and of γ, of a multirate one with the exact fast solution that of the slow method.
     """
-    if x.tableau.exact_to is not None:
-        slow = printed(slow_part(x.tableau))
-        embedded = x.entries.embedded and x.entries.embedded[SLOW:]
-        entries = replace(pointwise.entries(slow, x.entries.digits), embedded=embedded)
-        told = d.sentence(d.prose("the slow method, which is left where the fast part is 0"), 0)
-        return [*told, *d.tableau(slow, readable(entries) if x.is_rounded else entries)]
-    if not is_rosenbrock(x.tableau):
-        return d.tableau(x.tableau, x.readable)
-    lines = []
-    for number, array_of in enumerate(Rosenbrock.of(x.tableau).arrays):
-        entries = pointwise.entries(array_of, x.entries.digits)
-        if not number:  # the other one has the same weights
+    if tableau.exact_to is not None:
+        slow = printed(slow_part(tableau))
+        embedded = whole.embedded and whole.embedded[SLOW:]
+        entries = replace(pointwise.entries(slow, whole.digits), embedded=embedded)
+        return [(OF_SLOW, slow, entries)]
+    if not is_rosenbrock(tableau):
+        return [("", tableau, whole)]
+    found: list[tuple[str, Tableau, Entries]] = []
+    for text, array_of in zip(OF_ROSENBROCK, Rosenbrock.of(tableau).arrays, strict=True):
+        entries = pointwise.entries(array_of, whole.digits)
+        if not found:  # the other one has the same weights
             own = slice(array_of.size)
-            dense = x.entries.dense and x.entries.dense[own]
-            entries = replace(
-                entries, embedded=x.entries.embedded and x.entries.embedded[own], dense=dense
-            )
-        text = (
-            "γ, with d, the weights of ∂f/∂t, in place of A and c" if number else "α, with c and b"
-        )
-        lines += d.sentence(d.prose(text), 0)
-        lines += d.tableau(array_of, readable(entries) if x.is_rounded else entries)
+            embedded, dense = whole.embedded and whole.embedded[own], whole.dense
+            entries = replace(entries, embedded=embedded, dense=dense and dense[own])
+        found.append((text, array_of, entries))
+    return found
+
+
+def drawn(x: Shown, d: Plain) -> list[str]:
+    """The tableaus of a method."""
+    lines = []
+    for text, tableau, entries in shown_parts(x.tableau, x.entries):
+        lines += d.sentence(d.prose(text), 0) if text else []
+        lines += d.tableau(tableau, readable(entries) if x.is_rounded else entries)
     return lines
 
 

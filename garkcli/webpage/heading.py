@@ -28,11 +28,19 @@ def heading(method: Reported) -> Content:
     return {
         "title": outcome.name,
         "file": outcome.file,
-        "about": words(METHOD.fact(outcome), Plain()) if outcome.is_read else "",
+        "about": _about(outcome) if outcome.is_read else "",
         "verdict": Markup(verdict),
         "mark": _mark(outcome),
         "description": method.description,
     }
+
+
+def _about(outcome: Outcome) -> str:
+    """What kind of method it is, of how many stages."""
+    if outcome.of_other_kind is None:
+        return words(METHOD.fact(outcome), Plain())
+    row = next(x for x in REPORT.form(outcome).rows if x.key == METHOD.key)
+    return Markup(words(row.fact(outcome), Typeset()))
 
 
 def _mark(outcome: Outcome) -> str:
@@ -40,14 +48,15 @@ def _mark(outcome: Outcome) -> str:
 
 
 def _found(outcome: Outcome) -> str:
-    """The order and whether the method is symplectic, as ``gark check`` tells it."""
+    """The order and whether the method is symplectic, or A-stable, as ``gark check`` tells it."""
     d = Typeset(**REPORT.signs(outcome))
-    facts = REPORT.form(outcome).named(outcome, ("order", "symplectic"))
+    facts = REPORT.form(outcome).named(outcome, ("order", "symplectic", "stability"))
     if outcome.every is not None:
         parameters = ", ".join(map(d.expression, outcome.every.parameters))
         return f"Order {cell(facts['order'], d)} of {parameters}."
-    said, symplectic = phrase(facts["order"], d), phrase(facts["symplectic"], d)
-    return f"{said[:1].upper()}{said[1:]}. {symplectic[:1].upper()}{symplectic[1:]}."
+    facts = {key: x for key, x in facts.items() if x.is_something}
+    said = [words(x, d) if key == "stability" else phrase(x, d) for key, x in facts.items()]
+    return " ".join(f"{x[:1].upper()}{x[1:]}." for x in said)
 
 
 def claims_text(outcome: Outcome) -> str:
@@ -81,15 +90,15 @@ COLUMNS = {
 
 def comparison_row(method: Reported) -> Content:
     """A method among others: its numbers, as ``gark check`` has them."""
-    outcome, tableau = method.outcome, method.tableau
+    outcome = method.outcome
     cells: dict[str, str] = dict.fromkeys(COLUMNS, "–")
     d = REPORT.dialect(outcome, "text")
     facts = REPORT.form(outcome).named(outcome, COLUMNS.values())
     for column, key in COLUMNS.items():
         if key in facts and facts[key].value is not None:
             cells[column] = cell(facts[key], d)
-    if tableau is not None:
-        cells["stages"] = ", ".join([str(tableau.space(l).stages) for l in range(tableau.size)])
+    if method.stages:
+        cells["stages"] = ", ".join(map(str, method.stages))
     if outcome.analysis is not None:
         cells["symmetric"] = cell(truth("symmetric").fact(outcome.analysis), d)
     mark = "none" if outcome.makes_no_claim else _mark(outcome)

@@ -78,7 +78,8 @@ def render(methods: Sequence[Reported]) -> str:
         for number, x in enumerate(methods, 1)
     ]
     compared = [comparison_row(x) for x in methods] if has_several else []
-    sizes = [x.tableau.size for x in methods if x.tableau is not None]
+    # trees of the pair have twice the colours, those with time, g or a matrix no more than one more
+    sizes = [2 * x.tableau.size + 1 for x in methods if x.tableau is not None]
     script = _static("page.js")
     page = _environment().get_template("page.html")
     return page.render(

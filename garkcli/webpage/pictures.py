@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from garkcli.api.runs import converge, long_run
+from garkcli.constructions.rosenbrock import is_rosenbrock, on_test_equation
 from garkcli.convergence.convergence import in_common, seeing_problem
 from garkcli.errors import GarkError
 from garkcli.frozen import Frozen
@@ -26,6 +27,7 @@ from garkcli.stability.summary import directions
 from garkcli.stepping.fields import with_joined_terms
 from garkcli.stepping.integrator import StepFailed
 from garkcli.tableau.garkmethod import GarkMethod, word_for
+from garkcli.tableau.tableau import Tableau
 from garkcli.tell.dialect import Plain
 
 MOST = len(ON_ANY)
@@ -65,6 +67,21 @@ class NotDrawn(Exception):
     """
 
 
+def _is_gark(method: GarkMethod) -> bool:
+    return method.tableau.has_fields_alone and method.tableau.exact_to is None
+
+
+def _of_stability(method: GarkMethod) -> Tableau | None:
+    """What has the R(z) of a method: of a Rosenbrock method a Runge–Kutta method; None of one with
+    an exact fast part.
+    """
+    if _is_gark(method):
+        return method.tableau
+    if is_rosenbrock(method.tableau):
+        return on_test_equation(method.tableau, method.tolerance)
+    return None
+
+
 def pictures(method: GarkMethod) -> list[Picture]:
     """All pictures of a method. One that is expected and is not there has no SVG, and a note that
     says why.
@@ -74,6 +91,8 @@ def pictures(method: GarkMethod) -> list[Picture]:
     """
     drawn = []
     for name, (title, draw) in PICTURES.items():
+        if name != "region" and not _is_gark(method):
+            continue
         try:
             drawn.append(_picture(name, *draw(method)))
         except NotDrawn as error:
@@ -107,9 +126,11 @@ def _picture(name: str, panel: Panel, note: str) -> Picture:
 
 def _region(method: GarkMethod) -> tuple[Panel, str]:
     """The regions |R(z)| ≤ 1: of all colours alike, and of each alone with the others at 0."""
-    tableau = method.tableau
-    found = directions(tableau)
-    if not found:
+    tableau = _of_stability(method)
+    found = [] if tableau is None else directions(tableau)
+    if tableau is None or not found:
+        if not _is_gark(method):
+            raise NotDrawn("")
         raise NotDrawn(
             "There is no stability function: colours drive positions or momenta only, or do not "
             "see one another."
@@ -216,9 +237,9 @@ def _regions(methods: Sequence[GarkMethod]) -> tuple[Panel, str]:
     named = []
     without = []
     for method in methods:
-        tableau = method.tableau
-        found = directions(tableau)
-        if found:
+        tableau = _of_stability(method)
+        found = [] if tableau is None else directions(tableau)
+        if tableau is not None and found:
             named.append((method.name, stability_function(tableau, found[0][1])))
         else:
             without.append(method.name)
@@ -231,7 +252,7 @@ def _regions(methods: Sequence[GarkMethod]) -> tuple[Panel, str]:
 
 def _comparison(methods: Sequence[GarkMethod]) -> tuple[Panel, str]:
     """The errors on the problem that sees the most trees of all of them."""
-    small = [x for x in methods if not _is_large(x)]
+    small = [x for x in methods if _is_gark(x) and not _is_large(x)]
     if len(small) < 2:
         raise NotDrawn("")
     tableaus = [x.tableau for x in small]

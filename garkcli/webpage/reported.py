@@ -10,10 +10,10 @@ from flint import fmpq
 
 from garkcli.api.anymethod import method_of
 from garkcli.api.methods import analyse
-from garkcli.check.analysis import Analysis
 from garkcli.check.check_file import check_method
 from garkcli.check.every_value import check_every
 from garkcli.check.outcome import Outcome
+from garkcli.constructions.multirate import SLOW
 from garkcli.errors import HasFreeParameters, MethodFileError
 from garkcli.frozen import Frozen
 from garkcli.methodfile.bibliography import reference_of
@@ -21,6 +21,7 @@ from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.load import NO_SETTINGS, load
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.reference import Reference
+from garkcli.report.checked import whole
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.tableau import Tableau
 
@@ -71,11 +72,28 @@ class Reported(Frozen):
         return None if every is None else every.parameters[0]
 
     @property
+    def stages(self) -> tuple[int, ...]:
+        """How many stages each colour has: of a Rosenbrock method f, of a multirate one with the
+        exact fast part the slow parts.
+        """
+        if self.tableau is None:
+            return ()
+        stages = tuple(self.tableau.space(l).stages for l in range(self.tableau.size))
+        if self.outcome.rosenbrock is not None:
+            return stages[: len(stages) // 2]
+        return stages if self.outcome.infinitesimal is None else stages[SLOW:]
+
+    @property
+    def has_names(self) -> bool:
+        """Whether the colours of its trees have names: it is a Rosenbrock method."""
+        return self.outcome.rosenbrock is not None
+
+    @property
     def is_slow(self) -> bool:
         """Whether its stability takes long: of many stages, with irrational or rounded numbers."""
         if self.tableau is None:
             return False
-        stages = sum(space.stages for space in self.tableau.spaces)
+        stages = sum(self.stages)
         is_rational = self.tableau.degree == 1 and self.tolerance is None
         return stages > MOST_STAGES and not is_rational
 
@@ -116,13 +134,10 @@ def reported(
             source = error.source
             return Reported(Outcome(source, source, faults=error.faults, text=error.text))
     else:
-        method = method_of(given)
-    method.tableau.demand_fields("this page")
+        method = method_of(given, is_any_kind=True)
     if isinstance(method, MethodFile):
         about = method.reference, method.bibliography, method.description
         return Reported(check_method(method), method, *about, order, has_pictures)
     name = method.name or "the method"
-    found = analyse(method)
-    assert isinstance(found, Analysis)
-    outcome = Outcome(name, name, analysis=found)
+    outcome = whole(analyse(method), name)
     return Reported(outcome, method, wanted_order=order, has_pictures=has_pictures)

@@ -44,6 +44,18 @@ def test_a_convergence_test_is_a_table_and_a_picture() -> None:
     assert pictures(still._repr_html_()) == []
 
 
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [("ros3p", "index 1, 0 = g(y, z)"), ("mri-gark-erk33a", "slow method"), ("rk4", "pair")],
+)
+def test_an_analysis_of_every_kind_is_shown(name: str, said: str) -> None:
+    """The headline of the check and its rows, well-formed."""
+    html = garkcli.analyse(name)._repr_html_()
+    ET.fromstring(html)
+    assert "proved; order " in html
+    assert said in html
+
+
 def test_a_long_run_is_a_table_and_a_picture() -> None:
     """A row an invariant; what is exactly conserved has no picture."""
     run = garkcli.long_run(VERLET, "pendulum", 50, "1/10")

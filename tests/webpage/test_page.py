@@ -48,7 +48,9 @@ FAILING = "tests/examples/failing/collocation-misprinted.gark.yaml"
 UNREADABLE = "tests/examples/invalid/many-faults.gark.yaml"
 METHODS = ["rk4", RECTANGULAR, VERLET, DENSE, ROUNDED, MULTIRATE]
 """Of one colour, of two, for positions and momenta, with more weights, rounded, made of others."""
-ALL = [*METHODS, FAMILY, FAILING, UNREADABLE]
+OF_OTHER_KINDS = ["ros3p", "grk4t", "mri-gark-erk33a"]
+"""Rosenbrock methods, exact and rounded, and a multirate one with the exact fast part."""
+ALL = [*METHODS, FAMILY, FAILING, UNREADABLE, *OF_OTHER_KINDS]
 HOSTILE = """<script>alert(1)</script>"><img src=x onerror=alert(2)></style></title>{{ 7*7 }}"""
 
 
@@ -177,6 +179,70 @@ def test_orders_are_those_of_the_check(method: str) -> None:
         assert f" Symplectic{near}." in text_of(page(method))
     if not exact:
         assert f"within {data['tolerance']}" in text_of(found[""][1])
+
+
+@pytest.mark.parametrize("method", OF_OTHER_KINDS)
+def test_methods_of_other_kinds_have_pages(method: str) -> None:
+    """Every order that the check finds is there, with its number and the names of its tree; the
+    conditions are those of their command; what such methods do not have is left out.
+    """
+    data, found = checked(method), section(method, "orders")
+    cards = [x for x in elements(found, "div") if x.get("class") in ("order", "order main")]
+    orders = [key for key in data if key.endswith("order") and data[key] is not None]
+    assert len(orders) == len(cards) == (12 if "w_order" in data else 5)
+    near = data["tolerance"]
+    numbers = [text_of(next(elements(x, "strong"))) for x in elements(found, "h3")]
+    told = [f"{data[key]} within {near}" if near else str(data[key]) for key in orders]
+    assert sorted(numbers) == sorted(told)
+    said = text_of(found)
+    if "w_order" in data:
+        assert "colour 1 is f, 3 is E" in said
+        assert "]_g, order " in said
+        assert "condition " not in said  # blocks of W, E and g have no names
+    run = json.loads(gark("conditions", method, "--order", "2", "--format", "json").out)
+    (table,) = elements(section(method, "conditions"), "table")
+    lines = [*elements(next(elements(table, "tbody")), "tr")]
+    assert [x.get("data-root") for x in lines] == [str(x["root"]) for x in run["conditions"]]
+    names = [text_of(x) for x in elements(page(method), "h2")]
+    has = {"Simplifying assumptions": False, "Stability": "w_order" in data, "Tableau": True}
+    for title, is_there in has.items():
+        assert any(x.startswith(title) for x in names) == is_there
+
+
+def test_a_rosenbrock_method_has_its_arrays_and_its_region() -> None:
+    """α and γ under their names, the first with the embedded weights; R(z) drawn, and no steps. A
+    multirate method with the exact fast part has the tableau of its slow method and no picture.
+    """
+    tables = [*elements(section("ros3p", "tableau"), "table")]
+    titles = [text_of(x) for x in elements(section("ros3p", "tableau"), "h3")]
+    assert titles == ["α, with c and b", "γ, with d, the weights of ∂f/∂t, in place of A and c"]
+    weights, more = ([*elements(next(elements(t, "tfoot")), "tr")] for t in tables)
+    assert [number_of(x) for x in [*elements(weights[1], "math")][1:]] == ["(1)/(3)"] * 3
+    assert (len(weights), len(more)) == (2, 1)
+    corner = next(elements(next(elements(tables[1], "tbody")), "math"))
+    assert number_of(corner) == "(1)/(2)+((sqrt(3)))/(6)"
+    drawn = read(report_page("ros3p", "mri-gark-erk33a", "rk4", order=1))
+    names = [x.get("id") or "" for x in elements(drawn, "figure")]
+    assert [x for x in names if x.startswith("m1")] == ["m1-pictures-region"]
+    assert not [x for x in names if x.startswith("m2")]
+    assert "m3-pictures-convergence" in names
+    (compared,) = [x for x in elements(drawn, "table") if "method" in text_of(x[0])][:1]
+    rows = [[text_of(x) for x in row] for row in rows_of(compared)]
+    assert [row[2] for row in rows] == ["3", "3", "4"]
+    assert [row[-1] for row in rows] == ["3", "3", "4"]
+    method = garkcli.load("ros3p")
+    assert "index 1" in report_page(replace(method, name="mine"), order=1, pictures=False)
+
+
+def test_every_dot_is_drawn(tmp_path: Path) -> None:
+    """Trees with time have a colour more than the method."""
+    file = tmp_path / "shifted.gark.yaml"
+    file.write_text("A: [[0, 0], [1, 0]]\nb: [1/2, 1/2]\nc: [0, 1/2]\n")
+    root = read(report_page(str(file), order=1, pictures=False))
+    ids = {x.get("id") for x in elements(root)}
+    used = {x.get("href") or "" for x in elements(root, "use")}
+    assert {x.removeprefix("#") for x in used} <= ids
+    assert "#dot2" in used
 
 
 def test_the_witness_is_exact() -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from shlex import quote
 
 from garkcli.exact.display import decimal
@@ -11,7 +11,7 @@ from garkcli.methodfile.build import MethodFile
 from garkcli.ntrees.notation import format_tree
 from garkcli.order.conditions import Condition, all_conditions, count_conditions
 from garkcli.order.meant import meant
-from garkcli.report.conditions import ConditionRow, is_parametric, row_of
+from garkcli.report.conditions import ConditionRow, is_parametric, legend_of, row_of
 from garkcli.tableau.garkmethod import derivation_of
 from garkcli.tableau.tableau import Tableau
 from garkcli.tell.dialect import Plain
@@ -42,12 +42,13 @@ def content(method: Reported) -> Content | None:
     if tableau is None:
         return None
     listed = _listed(method, tableau, _wanted(method))
-    rows = list(_rows(listed.rows, tableau.size > 1))
+    names = [colour.name for colour in tableau.colours]
+    rows = list(_rows(listed.rows, names if method.has_names else tableau.size > 1))
     states = {row["state"] for row in rows}
     roots = sorted({row["root"] for row in rows})
-    names = [colour.name for colour in tableau.colours]
     return {
         "rows": rows,
+        "legend": legend_of(tableau) if method.has_names else "",
         "upto": listed.upto,
         "left_out": listed.left_out,
         "orders": range(1, listed.upto + 1),
@@ -82,6 +83,7 @@ def _wanted(method: Reported) -> int:
 def _listed(method: Reported, tableau: Tableau, wanted: int) -> Listed:
     """Whole orders as long as there is room."""
     rows: list[Condition] = []
+    wanted = min(wanted, tableau.exact_to or wanted)
     for n in range(1, wanted + 1):
         count = count_conditions(tableau, n)
         if len(rows) + count > method.most_conditions:
@@ -90,12 +92,13 @@ def _listed(method: Reported, tableau: Tableau, wanted: int) -> Listed:
     return Listed(rows, wanted, 0)
 
 
-def _rows(found: list[Condition], has_colours: bool) -> Iterator[Content]:
+def _rows(found: list[Condition], colours: bool | Sequence[str]) -> Iterator[Content]:
     """What ``gark conditions`` says of each, with the tree drawn and the formulas typeset."""
+    has_colours = bool(colours)
     for condition in found:
         row = ConditionRow(condition.tree, False, condition)
         data = row_of(has_values=True).data(row, Plain())
-        name = format_tree(condition.tree, has_colours)
+        name = format_tree(condition.tree, colours)
         title = f"tree of order {condition.tree.order}, {name}"
         yield {
             **data,

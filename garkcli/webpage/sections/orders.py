@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from markupsafe import Markup
 
 from garkcli.check.outcome import Outcome
 from garkcli.ntrees.notation import format_tree
 from garkcli.order.certificate import Witness
-from garkcli.report.check import hints
+from garkcli.report.check import hints, named_colours
 from garkcli.report.checked import REPORT
 from garkcli.tell.facts import Level
 from garkcli.tell.outputs import cell, label, words
@@ -18,7 +18,14 @@ from garkcli.webpage.reported import Content, Reported
 from garkcli.webpage.tree_picture import tree_picture
 
 WITH_TIME = ("nonautonomous_order", "embedded_nonautonomous_order")
-ORDERS = ("order", "embedded_order", "dense_order", "conjugate_order", "pair_order", *WITH_TIME)
+OF_OTHER_KINDS = (
+    *("w_order", "old_jacobian_order", "index_1_order", "index_1_y_order", "index_1_z_order"),
+    *("embedded_w_order", "embedded_old_jacobian_order", "embedded_index_1_order", "slow_order"),
+)
+ORDERS = (
+    *("order", "embedded_order", "dense_order", "conjugate_order", "pair_order"),
+    *(*WITH_TIME, *OF_OTHER_KINDS),
+)
 """The rows of ``gark check`` that are reported here: exact orders, those within a tolerance, of
 every value of parameters, of dense output.
 """
@@ -50,7 +57,7 @@ def _orders(outcome: Outcome) -> Iterator[Content]:
         is_with_time = key in WITH_TIME
         if key not in ORDERS or not fact.is_something:
             continue
-        if is_with_time and fact.level > Level.USUAL:
+        if is_with_time and fact.level > Level.USUAL and not outcome.of_other_kind:
             continue
         note = facts.get(NOTES.get(key, ""))
         notes = [] if note is None else [Markup(f"{label(note, d)}: {words(note, d)}.")]
@@ -59,7 +66,11 @@ def _orders(outcome: Outcome) -> Iterator[Content]:
             text = Markup("On {} with the nodes as printed; the last colour is time.")
             notes.append(text.format(problem))
         witness = fact.answer.more or getattr(fact.value, "witness", None)
-        has_colours = len(d.colours) > 1 or key == "pair_order" or is_with_time
+        has_colours: bool | Sequence[str] = len(d.colours) > 1
+        if d.names:
+            has_colours = fact.answer.names or d.names
+        elif key == "pair_order" or is_with_time:
+            has_colours = True
         shown = None
         if witness is not None and (where := (str(witness.tree), str(witness.residual))) not in met:
             met.add(where)
@@ -73,15 +84,19 @@ def _orders(outcome: Outcome) -> Iterator[Content]:
         }
 
 
-def _witness(witness: Witness, has_colours: bool) -> Content:
-    """The condition that fails: its tree drawn, written, and as a formula."""
-    name = format_tree(witness.tree, has_colours)
-    title = f"tree of order {witness.tree.order}, {name}"
+def _witness(witness: Witness, colours: bool | Sequence[str]) -> Content:
+    """The condition that fails: its tree drawn, written, and as a formula; of trees whose colours
+    have names with these, and without a formula, as blocks have no names.
+    """
+    tree, names = witness.tree, () if isinstance(colours, bool) else colours
+    name = format_tree(tree, colours)
+    title = f"tree of order {tree.order}, {name}"
     return {
-        "order": witness.tree.order,
+        "order": tree.order,
         "tree": name,
-        "picture": tree_picture(witness.tree, title, has_colours),
-        "condition": typeset_condition(witness.tree, has_colours),
+        "legend": named_colours(tree, names) if names else "",
+        "picture": tree_picture(tree, title, bool(colours)),
+        "condition": "" if names else typeset_condition(tree, bool(colours)),
         "value": typeset_number(witness.value),
         "required": typeset_number(witness.required),
         "residual": typeset_number(witness.residual),

@@ -6,6 +6,7 @@ from markupsafe import Markup
 
 from garkcli.check.every_facts import fact_reason
 from garkcli.check.outcome import Outcome
+from garkcli.check.rosenbrock import OF_TEST_EQUATION
 from garkcli.properties.property import Verdict
 from garkcli.properties.registry import KEYS, every_property
 from garkcli.report.check import CHECKED, verdict_words, within
@@ -19,14 +20,17 @@ from garkcli.webpage.reported import Content, Reported
 def content(method: Reported) -> Content | None:
     """What the template is given; None where the section has nothing to say."""
     outcome = method.outcome
-    if outcome.found is None:
+    if outcome.found is None or outcome.infinitesimal is not None:
         return None
+    keys = [*KEYS]
+    if outcome.rosenbrock is not None:
+        keys = [key for key in KEYS if key in OF_TEST_EQUATION]
     slow: list[str] = []
     if method.is_slow and outcome.every is None:
         slow = [one.key for one in every_property() if not one.is_cheap]
     return {
-        "lines": _lines(outcome) if outcome.every is None else [],
-        "verdicts": [_verdict(outcome, key) for key in KEYS if key not in slow],
+        "lines": _lines(outcome) if outcome.analysis is not None else [],
+        "verdicts": [_verdict(outcome, key) for key in keys if key not in slow],
         "left_out": slow,
         "file": outcome.file,
     }
@@ -43,12 +47,13 @@ def _lines(outcome: Outcome) -> list[tuple[Markup, Markup]]:
 def _verdict(outcome: Outcome, key: str) -> Content:
     """A property, what is true of it, and why."""
     d = Typeset()
-    if outcome.analysis is None:
-        assert outcome.every is not None
+    if outcome.every is not None:
         fact = fact_reason(outcome.every.verdict(key), outcome.every.parameters[0])
         return {"key": key, "text": Markup(fact.words(d)), "why": "", "mark": "value"}
-    verdict = outcome.analysis.subject.verdict(key)
-    text = Markup(d.known(verdict_words(verdict).words(d), Status(within(outcome.analysis, key))))
+    analysis = outcome.analysis or outcome.rosenbrock
+    assert analysis is not None
+    verdict = analysis.subject.verdict(key)
+    text = Markup(d.known(verdict_words(verdict).words(d), Status(within(analysis, key))))
     why = Markup("" if verdict.value is True else d.reason(verdict.reason))
     return {"key": key, "text": text, "why": why, "mark": _mark(verdict)}
 

@@ -20,7 +20,7 @@ _LEVELS = 6
 
 def content(method: Reported) -> Content | None:
     """What the template is given; None where the section has nothing to say."""
-    whole: Any = method.outcome.found
+    whole: Any = method.outcome.analysis or method.outcome.every
     if whole is None:
         return None
     found, told = whole.simplifying, whole  # the bounds as far as the order bears them out

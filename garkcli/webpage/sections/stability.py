@@ -20,7 +20,7 @@ def content(method: Reported) -> Content | None:
     file = method.outcome.file
     if method.free is not None:
         return {"free": method.free, "file": file}
-    if method.method is None:
+    if method.method is None or method.outcome.infinitesimal is not None:
         return None
     if method.is_slow:
         return {"file": file, "near": ""}

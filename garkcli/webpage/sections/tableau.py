@@ -13,6 +13,7 @@ from garkcli.exact.parametric import Parametric
 from garkcli.page.cells import Line, lines_of, parts_of, remark
 from garkcli.page.tableau_latex import dense_polynomials
 from garkcli.page.tableau_text import readable
+from garkcli.report.tableau import shown_parts
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.embedded import NOTHING, Further
 from garkcli.tableau.forms import pair
@@ -38,6 +39,8 @@ _TITLES = {"": "The method", "conjugate": "The symplectic conjugate", "pair": "T
 def content(method: Reported) -> Content | None:
     """What the template is given; None where the section has nothing to say."""
     outcome = method.outcome
+    if outcome.of_other_kind is not None:
+        return _of_other_kind(method)
     of_fields = outcome.analysis or outcome.every
     if of_fields is None:
         return None
@@ -65,6 +68,20 @@ def content(method: Reported) -> Content | None:
     obstacle = of_fields.obstacle
     told = Markup(Typeset().reason(obstacle)) if obstacle else ""
     return {"tables": shown, "dense": dense, "obstacle": told}
+
+
+def _of_other_kind(method: Reported) -> Content:
+    """The tableaus of a method that is no GARK method, as ``gark tableau`` has them."""
+    shown = method.method
+    assert shown is not None
+    whole = entries(shown.tableau, _DIGITS).beside(shown.further)
+    tables: list[Content] = []
+    dense: list[tuple[Markup, Markup]] = []
+    for title, tableau, own in shown_parts(shown.tableau, whole):
+        found = own if method.tolerance is None else readable(own)
+        tables.append(_table(title, tableau, found))
+        dense += [(typeset(left), typeset(right)) for left, right in dense_polynomials(found)]
+    return {"tables": tables, "dense": dense, "obstacle": ""}
 
 
 def _of_family(method: Reported) -> Iterator[Content]:
