@@ -52,7 +52,8 @@ class RosenbrockOrders(Frozen):
     """The orders of some weights at the stages of a Rosenbrock method.
 
     Attributes:
-        method: with the Jacobian.
+        method: with the Jacobian; of a rounded one a search of its own, which the orders on DAEs
+            move in turn, so that none contradicts another.
         order: with the Jacobian.
         w_order: with any matrix in its place.
         old_jacobian_order: with a matrix that differs from it by O(h).
@@ -80,39 +81,35 @@ class RosenbrockOrders(Frozen):
         """On ẏ = f(y, z), 0 = g(y, z) of index 1: the largest p with an error O(h^(p+1)) of a step
         in y, and O(h^p) in z; None where α + γ has no inverse.
         """
-        return self._on_dae("on_dae")
+        return self._on_dae("on_dae", self.order)
 
     @cached_property
     def index_1_y_order(self) -> AnyOrder | None:
-        """The largest p with O(h^(p+1)) in y."""
-        return self.index_1_order and self._on_dae("on_dae_in_y")
+        """The largest p with O(h^(p+1)) in y: between that of both and that of the method."""
+        both = self.index_1_order
+        if both is None or both.order == self.order.order:
+            return both
+        return self._on_dae("on_dae_in_y", self.order)
 
     @cached_property
     def index_1_z_order(self) -> AnyOrder | None:
-        """The same in z."""
-        return self.index_1_y_order and self._on_dae("on_dae_in_z")
+        """The same in z, which has the conditions of both: one less than that of both, or it."""
+        both, _ = self.index_1_order, self.index_1_y_order  # a rounded method is moved in turn
+        return both and self._on_dae("on_dae_in_z", both)
 
-    @cached_property
-    def _aside(self) -> AnyTableau:
-        """The method; of a rounded one, one within the rounding that DAEs alone move: it has all
-        orders on them, found one after the other, so that none contradicts another.
+    def _on_dae(self, which: Which, most: AnyOrder) -> AnyOrder | None:
+        """It is no larger than another order, whose trees are some of its own, and which ends it
+        where it is as large: that of the method has the trees without g.
         """
-        return self.method if isinstance(self.method, Tableau) else self.method.aside()
-
-    def _on_dae(self, which: Which) -> AnyOrder | None:
-        """It is no larger than the order of the method, whose trees are some of those of DAEs; of a
-        rounded method that of one within the rounding with the same order.
-        """
-        order = self.order
         try:
-            method = seen(self._aside, which)
+            method = seen(self.method, which)
         except SingularMatrixError:
             return None
-        found = order_of(method, order.order)
-        if found.order < order.order:
+        found = order_of(method, most.order)
+        if found.order < most.order:
             return found
-        told = (name for name in ("witness", "undecided") if hasattr(order, name))
-        return replace(found, **{name: getattr(order, name) for name in told})
+        told = (name for name in ("witness", "undecided") if hasattr(most, name))
+        return replace(found, **{name: getattr(most, name) for name in told})
 
     def view(self, claim: str) -> tuple[AnyOrder, Tableau] | None:
         """The order that a claim is on, with the tableau that has it; None where there is none."""

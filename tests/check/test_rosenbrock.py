@@ -282,6 +282,25 @@ def test_orders_on_daes(tmp_path: Path) -> None:
     assert claim.found == "none: alpha + gamma is singular"
 
 
+def test_orders_on_daes_of_rounded_numbers_fit_each_other() -> None:
+    """That of both components is at most that of the method, that of y between the two, that of z
+    it or one less, whichever is asked for first; what follows from another is not searched for.
+    """
+    names = ("index_1_order", "index_1_y_order", "index_1_z_order")
+    for method, wanted in {"ros3prl2": (3, 3, 2), "grk4t": (2, 3, 1)}.items():
+        found = [check_file(method).rosenbrock, check_file(method).rosenbrock]
+        told = []
+        for analysis, asked in zip(found, (names, names[::-1]), strict=True):
+            assert analysis is not None
+            orders = {name: getattr(analysis, name) for name in asked}
+            told.append([orders[name] for name in names])
+        assert told[0] == told[1]
+        both, of_y, of_z = told[0]
+        assert (both.order, of_y.order, of_z.order) == wanted
+        assert both.tolerance == of_y.tolerance == of_z.tolerance == found[0].tolerance
+        assert (of_y is both) == (both.order == found[0].order.order)
+
+
 def test_python_takes_them() -> None:
     """``analyse`` has the orders as attributes, and orders are asserted as those of other methods:
     each holds, and one more fails with its tree.
