@@ -191,13 +191,19 @@ class Recovery:
         own, further = from_colours(whole, self.printed_further)
         return with_weights(own, weights(further))
 
-    def note(self, name: str, order: int, missed: Tree) -> None:
+    def note(self, name: str, order: int, missed: Tree) -> bool:
         """Keep the order of a tableau whose digits meet all conditions up to there as they are
-        printed, and a tree of the next order that no method of the box meets.
+        printed, and a tree of the next order that no method of the box meets; not where the method
+        that was found for other orders misses them, which is returned.
         """
+        if self.place is not self.origin and name not in self._reached:
+            with np.errstate(all="ignore"):
+                if any(self.place.missed(name, q) for q in range(1, order + 1)):
+                    return False
         failure = Failure(True, ((name, of_tree(missed)),))
         self._orders.setdefault(name, (order, failure, [missed], order + 1))
         self._reached.setdefault(name, order)
+        return True
 
     def order_of(self, name: str, limit: int) -> tuple[int, Failure | None, list[Tree]]:
         """The order of a tableau, as ``recover_order`` has it; each is found once."""

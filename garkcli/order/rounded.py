@@ -296,8 +296,9 @@ def find_order_within(
     limit = min(limit, rounded.tableau.exact_to or limit)
     if exact.witness is None:
         return RoundedOrder(exact.order, rounded.tolerance, None, "", exact.order, rounded)
-    if not rounded.explains(exact.witness.tree):
-        rounded.search.note(rounded.name, exact.order, exact.witness.tree)
+    if not rounded.explains(exact.witness.tree) and rounded.search.note(
+        rounded.name, exact.order, exact.witness.tree
+    ):
         worst = _worst(rounded, exact.witness)
         return RoundedOrder(exact.order, rounded.tolerance, worst, "", exact.order, rounded)
     order, failure, missed = rounded.search.order_of(rounded.name, limit)

@@ -301,6 +301,23 @@ def test_orders_on_daes_of_rounded_numbers_fit_each_other() -> None:
         assert (of_y is both) == (both.order == found[0].order.order)
 
 
+def test_digits_that_have_an_order_alone_leave_the_others(tmp_path: Path) -> None:
+    """These digits have W-order 2 as they are printed, and the method with order 3 within the
+    rounding has not: the W-order is that of the method, and does not keep the orders for f(t, y)
+    and on DAEs from being found.
+    """
+    text = """
+rosenbrock: {alpha: [[], [1.0]], gamma: [[0.1], [-0.2, 0.1]], b: [0.5, 0.5]}
+tolerance: 0.2
+"""
+    found = check_file(_written(tmp_path, text)).rosenbrock
+    assert found is not None
+    assert found.order.order == found.nonautonomous_order.order == 3
+    assert found.w_order.order == 1
+    assert found.index_1_order is not None
+    assert found.index_1_order.order == 2
+
+
 def test_python_takes_them() -> None:
     """``analyse`` has the orders as attributes, and orders are asserted as those of other methods:
     each holds, and one more fails with its tree.
