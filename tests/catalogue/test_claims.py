@@ -24,7 +24,7 @@ from garkcli.report.check_text import render
 from garkcli.report.checked import REPORT
 from garkcli.tableau.pointwise import numeric_entries
 from tests.report.test_told import latex_faults
-from tests.whole import IS_WHOLE, sample
+from tests.whole import IS_WHOLE, at_most, sample
 
 ROOT = Path(__file__).resolve().parents[2]
 DATA = ROOT / "garkcli" / "catalogue" / "data"
@@ -45,10 +45,10 @@ MISPRINTED = {
 }
 """Files with a misprint, each with the method that is right."""
 SAMPLE = {
-    *sample([name for name in ALL if name not in LONG], 4),
+    *sample([name for name in ALL if name not in LONG], 12),
     *(x for pair in MISPRINTED.items() for x in (pair[0], *pair[1]) if x not in LONG),
 }
-"""Every fourth file that does not take long, and those with a misprint."""
+"""Every twelfth file that does not take long, and those with a misprint."""
 FILES = {name: path for name, path in ALL.items() if name in SAMPLE or IS_WHOLE}
 TABLE = Path(__file__).parent / "verified_orders.csv"
 """Orders of methods and of their embedded methods, from all trees in 260-bit arithmetic."""
@@ -273,7 +273,7 @@ def test_a_method_of_one_colour_fits_a_glance() -> None:
         count += 1
         assert len(lines) <= 12, name
         assert "{1" not in text, name
-    assert count > (150 if IS_WHOLE else 40)
+    assert count > at_most(10, 150)
 
 
 def test_latex_of_every_method_can_be_set() -> None:

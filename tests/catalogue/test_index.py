@@ -16,6 +16,7 @@ from garkcli.methodfile.load import described
 from garkcli.methodfile.naming import every_shelf
 from garkcli.methodfile.shelves import Package
 from tests.cli.harness import gark
+from tests.whole import sample
 
 ROOT = Path(__file__).resolve().parents[2]
 DATA = ROOT / "garkcli" / "catalogue" / "data"
@@ -49,7 +50,7 @@ def test_it_is_made_from_the_files_as_they_are() -> None:
 def test_it_says_what_the_files_claim() -> None:
     """Claims are checked elsewhere; of some files what is claimed is in the index as found."""
     compared = 0
-    some = list(FILES.items())[::10]
+    some = sample(list(FILES.items())[::10], 3)
     for name, path in some:
         text = path.read_text(encoding="utf-8")
         _, description = described(text, name, {})

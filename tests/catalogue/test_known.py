@@ -15,6 +15,7 @@ from garkcli.check.check_file import check_method
 from garkcli.comparison.comparison import compare
 from garkcli.methodfile.load import load, loads
 from tests.cli.harness import gark
+from tests.whole import sample
 
 ROOT = Path(__file__).resolve().parents[2]
 INDEX = ROOT / "garkcli" / "catalogue" / "index.json"
@@ -22,8 +23,8 @@ RK4 = "{A: [[], [1/2], [0, 1/2], [0, 0, 1]], b: [1/6, 1/3, 1/3, 1/6]}"
 
 
 def known(text: str) -> Known | None:
-    """What a file is told."""
-    outcome = check_method(loads(text))
+    """What a file is told, whatever its order is."""
+    outcome = check_method(loads(text), limit=2)
     assert outcome.analysis is not None
     return find_known(outcome.analysis, outcome.text)
 
@@ -109,7 +110,7 @@ def test_huge_coefficients_have_a_fingerprint() -> None:
 def test_fingerprints_of_the_index() -> None:
     """Each is that of its file; those of methods with other steps are rarely near each other."""
     methods = json.loads(INDEX.read_text(encoding="utf-8"))["methods"]
-    for entry in methods[::6]:
+    for entry in sample(methods, 25):
         file = INDEX.parent / "data" / entry["file"]
         assert abs(fingerprint(load(str(file)).tableau) - entry["fingerprint"]) < 1e-8, file
     numbers = sorted(x["fingerprint"] for x in methods)

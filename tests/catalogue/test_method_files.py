@@ -25,7 +25,7 @@ def _floats(rows: Iterable[Iterable[Any]]) -> Any:
     return np.array([[float(x.str(25, radius=False)) for x in row] for row in rows])
 
 
-@pytest.mark.parametrize("name", sample([*ENTRIES], 3))
+@pytest.mark.parametrize("name", sample([*ENTRIES], 4))
 def test_brute_force_over_the_table_in_floats(name: str) -> None:
     """Every tree of the table, in floats: residuals vanish up to the verified order, and not one
     above.

@@ -26,6 +26,7 @@ from garkcli.errors import MethodError, MethodFileError
 from garkcli.frozen import replace
 from garkcli.tableau.stages import PointSpace
 from tests.cli.harness import gark
+from tests.whole import in_whole
 
 ERK33 = """\
 multirate:
@@ -219,6 +220,7 @@ def test_the_search_ends_where_collocation_does() -> None:
     assert found.order == 2
 
 
+@in_whole
 def test_merk54_has_order_5() -> None:
     """All conditions of order 5 hold, of the embedded value those of order 4, and no more."""
     true = claims_of("merk54", ["order", "embedded-order", "slow-order"])

@@ -21,7 +21,7 @@ from garkcli.page.paint import Paint
 from garkcli.report.check_text import render
 from tests.catalogue.method_files import method_file
 from tests.order.rounded_samples import ENTRIES, EXACT, ROUNDED, gauss_lobatto, published
-from tests.whole import at_most, sample
+from tests.whole import IS_WHOLE, at_most, in_whole, sample
 
 LIMIT = 12
 """Above all orders of the methods here."""
@@ -52,6 +52,7 @@ def test_exact_methods_get_none(name: str) -> None:
     assert remark(method_file(ENTRIES[name])) is None
 
 
+@in_whole
 def test_float64_coefficients() -> None:
     """The eighth-order method of Dormand and Prince in double precision: residuals below 10⁻¹⁵ up
     to order 8.
@@ -61,7 +62,9 @@ def test_float64_coefficients() -> None:
     assert (found.order, found.line) == (8, "tolerance: 1e-14")
 
 
-@pytest.mark.parametrize(("stages", "digits", "order"), [(2, 10, 4), (3, 30, 6)])
+@pytest.mark.parametrize(
+    ("stages", "digits", "order"), [(2, 10, 4), pytest.param(3, 30, 6, marks=in_whole)]
+)
 def test_decimals_of_gauss_and_lobatto(stages: int, digits: int, order: int) -> None:
     """A pair of methods in decimals of their own length."""
     t = gauss_lobatto(stages, digits)
@@ -158,7 +161,16 @@ LONG = {
 """Methods of the highest orders, whose orders ``test_rounded_order.py`` has; they take seconds."""
 
 
-@pytest.mark.parametrize("name", sample([x for x in ROUNDED if x not in LONG], 4))
+SLOW = {
+    *("sciml_KenCarp5", "sciml_ARS343", "sundials_ESDIRK43I6L2SA_6_3_4"),
+    *("sundials_VERNER_10_6_7", "sprk_Yoshida6_14digits", "sundials_ARK437L2SA"),
+}
+"""Those that take a second."""
+
+
+@pytest.mark.parametrize(
+    "name", [x for x in sample([x for x in ROUNDED if x not in LONG], 4) if IS_WHOLE or x not in SLOW]
+)
 def test_rounded_methods_get_a_line_that_gives_their_order(name: str) -> None:
     """Files of rounded methods without their tolerance: none looks misprinted, as its digits
     explain its residuals; the order proposed is the verified one, and with the line added it is
@@ -175,7 +187,10 @@ def test_rounded_methods_get_a_line_that_gives_their_order(name: str) -> None:
     )
 
 
-@pytest.mark.parametrize("name", ["sundials_VERNER_10_6_7", "sundials_KVAERNO_4_2_3"])
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param("sundials_VERNER_10_6_7", marks=in_whole), "sundials_KVAERNO_4_2_3"],
+)
 @pytest.mark.parametrize("seed", range(at_most(1, 3)))
 def test_a_wrong_digit_in_a_published_method(name: str, seed: int) -> None:
     """A digit of A changed in the 11th place is never taken for rounding, and it is named."""

@@ -4,6 +4,7 @@ import io
 import os
 from contextlib import redirect_stderr, redirect_stdout
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from unittest.mock import patch
 
@@ -64,6 +65,12 @@ def gark(
         finally:
             os.chdir(before)
     return Run(code, _written(out), _written(err))
+
+
+@cache
+def gark_once(*arguments: str) -> Run:
+    """A run on files that stay as they are: one for all tests of it."""
+    return gark(*arguments)
 
 
 def _stream(encoding: str) -> io.TextIOWrapper | io.StringIO:

@@ -14,6 +14,7 @@ import pytest
 from garkcli.check.baseline import MAX_BYTES
 from tests.cli.harness import ROOT, Run, gark
 from tests.had import needs_fork
+from tests.whole import in_whole
 
 SLOW = "radicals-of-large-degree"
 """An unreadable example that takes seconds to be refused."""
@@ -203,7 +204,11 @@ def one_by_one() -> Run:
 @pytest.mark.parametrize(
     ("options", "paths"),
     [
-        (("--format", "json"), ("tests/examples/failing", *QUICK, "nowhere")),
+        pytest.param(
+            ("--format", "json"),
+            ("tests/examples/failing", *QUICK, "nowhere"),
+            marks=in_whole,
+        ),
         (
             ("--format", "text", "-v", "--error-constants"),
             ("tests/examples/failing", "tests/examples/invalid/octal.gark.yaml"),

@@ -12,6 +12,7 @@ from jsonschema import Draft7Validator
 
 from garkcli.errors import UNKNOWN
 from tests.cli.harness import ROOT, gark
+from tests.whole import in_whole
 
 COLLOCATION = "methods/collocation.gark.yaml"
 INTERPOLATION = "methods/interpolation.gark.yaml"
@@ -33,6 +34,7 @@ def test_several_methods_side_by_side() -> None:
     assert all(x["agrees"] for x in results)
 
 
+@in_whole
 def test_different_terms_have_the_same_sum() -> None:
     """The random H is that of the method with most terms, whatever the order of the files; others
     add terms up.
@@ -120,7 +122,7 @@ def test_problem_file_for_several() -> None:
     assert (broken.code, broken.out) == (2, "")
 
 
-@pytest.mark.parametrize("problem", ["oscillator", "kepler"])
+@pytest.mark.parametrize("problem", ["oscillator", pytest.param("kepler", marks=in_whole)])
 @pytest.mark.parametrize("files", [(RECTANGULAR,), (RECTANGULAR, VERLET)])
 def test_work_in_every_format(problem: str, files: tuple[str, ...]) -> None:
     """Evaluations and time are in the table, in JSON and in CSV."""
@@ -141,6 +143,7 @@ def test_work_in_every_format(problem: str, files: tuple[str, ...]) -> None:
     assert all(int(row["evaluations"]) >= int(row["steps"]) > 0 for row in rows)
 
 
+@in_whole
 def test_work_keeps_coarse_steps() -> None:
     """Large errors are asked for as well when costs are compared: the ladder begins with longer
     steps.
@@ -207,7 +210,7 @@ def test_options_that_do_not_go_together(said: str, arguments: tuple[str, ...]) 
 LOGISTIC = "{variables: [y], rhs: {y: y*(1 - y)}, initial: {y: %s}}"
 
 
-@pytest.mark.parametrize("method", ["rk4", "forward-euler"])
+@pytest.mark.parametrize("method", [pytest.param("rk4", marks=in_whole), "forward-euler"])
 def test_nothing_seen_confirms_nothing(method: str) -> None:
     """On an equilibrium no method makes an error, whatever its order is: undecided, exit code 3, also
     where it is one of several. A start beside it has an order to be seen.

@@ -13,6 +13,7 @@ from garkcli.page.plaintext import plain_text
 from garkcli.report.modified import REPORT
 from garkcli.report.schemas import report_schema
 from tests.cli.harness import gark
+from tests.whole import in_whole
 
 VERLET = "methods/stoermer-verlet.gark.yaml"
 RECTANGULAR = "methods/rectangular.gark.yaml"
@@ -169,6 +170,7 @@ def test_a_problem_file_and_the_pair() -> None:
     assert "  px^2/2 + py^2/2 - 1/sqrt(x^2 + y^2)" in text
 
 
+@in_whole
 def test_a_problem_sees_fewer_trees_than_the_pair_has() -> None:
     """Four colours have too many trees of seven vertices, the pendulum sees few of them: the formula
     goes further than the orders are looked for.

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.harness import Run, gark
+from tests.cli.harness import Run, gark_once
 from tests.examples.snapshots import assert_recorded
 
 SNAPSHOTS = Path(__file__).parent / "snapshots"
@@ -89,7 +89,7 @@ def test_a_run_is_as_recorded(name: str) -> None:
     """Exit code, stdout and stderr are what they were when someone last read them, with no
     colour.
     """
-    run = gark(*RUNS[name])
+    run = gark_once(*RUNS[name])
     assert "\x1b" not in run.out + run.err
     assert_recorded(SNAPSHOTS / f"{name}.txt", record(RUNS[name], run))
 
@@ -97,7 +97,7 @@ def test_a_run_is_as_recorded(name: str) -> None:
 @pytest.mark.parametrize("name", [name for name in RUNS if name not in SOURCES])
 def test_a_run_fits_the_terminal(name: str) -> None:
     """No line of the report is wider than 80 columns, file names apart."""
-    run = gark(*RUNS[name])
+    run = gark_once(*RUNS[name])
     lines = [line for line in (run.out + run.err).splitlines() if ".gark.yaml" not in line]
     assert [line for line in lines if len(line) > 80] == []
 

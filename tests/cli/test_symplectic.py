@@ -19,6 +19,7 @@ from garkcli.ntrees.symplectic import KINDS, Kind, structure_of, superfluous_cla
 from garkcli.report.symplectic_subject import subject_of_method
 from garkcli.tableau.forms import pair, with_linear
 from tests.cli.harness import ROOT, gark
+from tests.whole import in_whole
 
 COLLOCATION = "methods/collocation.gark.yaml"
 VERLET = "methods/stoermer-verlet.gark.yaml"
@@ -201,6 +202,7 @@ def test_conditions_of_a_kind_are_those_of_its_classes() -> None:
     assert found["conditions"][-1]["condition"].endswith(f"= 1/{found['conditions'][-1]['gamma']}")
 
 
+@in_whole
 def test_collocation_satisfies_all_classes_to_order_four() -> None:
     """The pair of collocation holds in all 130 classes up to order 4 and fails in all 662 of order
     5.
@@ -220,6 +222,7 @@ def test_collocation_satisfies_all_classes_to_order_four() -> None:
     assert gark(*CONDITIONS, COLLOCATION, "-n", "4", "--failing").out.endswith("; all hold\n")
 
 
+@in_whole
 def test_classes_that_fail_are_those_of_conditions_that_fail() -> None:
     """Where some conditions of order 5 hold and some fail, the failing classes have the failing
     conditions.

@@ -16,6 +16,7 @@ from garkcli.cli.main import COMMANDS
 from garkcli.page.paint import folded
 from garkcli.page.plaintext import broken, plain_line, plain_text
 from tests.cli.harness import gark
+from tests.whole import in_whole
 
 RUNS = [
     ("list",),
@@ -27,7 +28,11 @@ RUNS = [
     ("conditions", "--symplectic", "-n", "6"),
     ("conditions", "-N", "2", "-n", "4", "--coloured"),
     ("conditions", "methods/rectangular.gark.yaml", "-n", "5"),
-    ("conditions", "methods/collocation.gark.yaml", "-n", "5", "--pair", "--failing"),
+    pytest.param(
+        ("conditions", "methods/collocation.gark.yaml", "-n", "5", "--pair", "--failing"),
+        marks=in_whole,
+    ),
+    ("conditions", "methods/stoermer-verlet.gark.yaml", "-n", "3", "--pair", "--failing"),
     *((command, "--help") for command in COMMANDS),
 ]
 OF_FILES = [
@@ -43,7 +48,9 @@ OF_FILES = [
     ("stability", "methods/ark-ars222.gark.yaml"),
     ("stability", "methods/rectangular.gark.yaml"),
     ("converge", "methods/stoermer-verlet.gark.yaml"),
-    ("converge", "methods/rk4.gark.yaml", "methods/ark-ars222.gark.yaml"),
+    pytest.param(
+        ("converge", "methods/rk4.gark.yaml", "methods/ark-ars222.gark.yaml"), marks=in_whole
+    ),
     ("energy", "methods/rectangular.gark.yaml"),
 ]
 

@@ -48,6 +48,7 @@ from garkcli.methodfile.family import loads_family
 from garkcli.order.certificate import find_order
 from garkcli.order.hulls import hulls
 from garkcli.order.weak_stages import weak_stage_order
+from tests.whole import in_whole
 
 SDIRK2 = "parameters: {g: free}\nA: [[g, 0], [1 - 2*g, g]]\nb: [1/2, 1/2]\n"
 RANGE3 = "parameters: {a: free}\nA: [[0, 0, 0], [2*a, 0, 0], [0, 1/2, 0]]\nb: [0, 0, 1]\n"
@@ -184,7 +185,13 @@ def test_no_engine_works_after_the_deadline(engine: Callable[[], object]) -> Non
         engine()
 
 
-@pytest.mark.parametrize("engine", ENGINES)
+LONG = {"minimise by trial", "stable in a plane", "stable on two springs"}
+"""Those that take a second, twice."""
+
+
+@pytest.mark.parametrize(
+    "engine", [pytest.param(*x.values, id=x.id, marks=[in_whole] * (x.id in LONG)) for x in ENGINES]
+)
 def test_no_engine_works_past_the_deadline(
     engine: Callable[[], object], monkeypatch: pytest.MonkeyPatch
 ) -> None:

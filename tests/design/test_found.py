@@ -19,6 +19,7 @@ from garkcli.stability.oscillator import oscillator_stability
 from garkcli.tableau.forms import pair
 from garkcli.tableau.tableau import Tableau
 from tests.catalogue.catalogue import entries, tableau
+from tests.whole import in_whole
 
 FOUND = Path(__file__).resolve().parents[2] / "methods" / "found"
 ASKS = FOUND / "asks"
@@ -92,6 +93,7 @@ def squares(s: fmpq, t: fmpq) -> fmpq:
     )
 
 
+@in_whole
 def test_the_least_principal_error() -> None:
     """The sum of squares is the printed polynomial; the finds have the values that the page has.
 
@@ -214,6 +216,7 @@ def test_the_polynomials_of_the_family_of_transfers_are_all() -> None:
     assert Ideal(family.ring).with_zeros(listed).dimension == 2
 
 
+@in_whole
 def test_the_errors_of_gauss_2_and_lobatto_4() -> None:
     """The table of the page: the least error of all, and that of the P-stable pairs, exactly."""
     least = load(FOUND.parent / "symplectic-gauss-lobatto4.gark.yaml").tableau

@@ -43,7 +43,7 @@ from garkcli.report.rendering import render
 from garkcli.tableau.forms import pair
 from garkcli.tableau.pointwise import numeric_entries
 from tests.cli.harness import gark
-from tests.whole import sample
+from tests.whole import in_whole, sample
 
 TAU = """parameters: {tau: free}
 methods:
@@ -110,7 +110,7 @@ def test_squared_errors_without_trees(path: str, is_pair: bool, most: int) -> No
     [
         ("rk4", False, 4),
         ("sdirk-23", False, 3),  # it has sqrt(3)
-        ("methods/collocation.gark.yaml", True, 4),
+        pytest.param("methods/collocation.gark.yaml", True, 4, marks=in_whole),
     ],
 )
 def test_a_method_without_unknowns(path: str, is_pair: bool, order: int) -> None:
@@ -235,7 +235,11 @@ def test_unknown_entries() -> None:
 
 
 @pytest.mark.parametrize(
-    ("whose", "objective"), [("method", "error"), ("method", "error-coupling"), ("pair", "error")]
+    ("whose", "objective"), [
+        ("method", "error"),
+        pytest.param("method", "error-coupling", marks=in_whole),
+        pytest.param("pair", "error", marks=in_whole),
+    ]
 )
 def test_free_transfer(whose: Whose, objective: str) -> None:
     """Where a τ is left: at rational τ beside the minimiser the list of all trees has larger
@@ -565,7 +569,7 @@ ONE_LINE = {
 
 @pytest.mark.parametrize(
     ("objective", "name"),
-    sample([*product(["-imaginary-interval", "-real-interval", "-ssp"], ONE_LINE)], 2),
+    sample([*product(["-imaginary-interval", "-real-interval", "-ssp"], ONE_LINE)], 4),
 )
 def test_no_rational_parameter_is_better(name: str, objective: str) -> None:
     """The greatest value of one parameter is that of all methods: by the ordinary engine none of

@@ -25,6 +25,7 @@ from garkcli.tableau.tableau import Tableau
 from garkcli.transfer import legendre
 from tests.oracles import samples
 from tests.order.random_pairs import member as block_of
+from tests.whole import in_whole
 
 
 def unknown(*methods: tuple[str, int]) -> Family:
@@ -107,6 +108,7 @@ def test_the_dimension_of_all_transfers(methods: tuple[tuple[str, int], ...], or
     assert find_order(pair(tableau)).order == order
 
 
+@in_whole
 def test_a_pair_order_that_is_wanted() -> None:
     """It goes by the criterion too: the dimension of the theorem, a random method whose pair has
     the order by the certificate, and words for real values. Up to order 2 and for unknown weights
@@ -176,6 +178,7 @@ def squared_error(tableau: Tableau, order: int) -> float:
     return float(found.all.two) ** 2
 
 
+@in_whole
 def test_the_least_error_of_gauss_2_and_lobatto_4() -> None:
     """√(31811/2332800), of all methods with order 4; at random other transfers it is larger by all
     trees, and the exact coefficients are those of the Legendre transfer.

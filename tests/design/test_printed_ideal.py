@@ -22,6 +22,7 @@ from garkcli.exact.parametric import Parameters
 from garkcli.methodfile.family import loads_family
 from garkcli.problems.draw import Draw
 from tests.cli.harness import gark
+from tests.whole import in_whole
 
 ATTACKED = """parameters: {x: free, y: free, z: free, w: free}
 A: [[0, 0, 0], ["x**2 + 1/y", 0, 0], [0, "z", 0]]
@@ -188,6 +189,7 @@ def test_elimination_by_weights() -> None:
     assert ideal.closure.dimension == ideal.dimension == 1
 
 
+@in_whole
 def test_a_large_set_is_said_with_what_is_not_zero() -> None:
     """Where elimination is large, the polynomials are cleared of the denominator: an implicit-explicit
     family of four stages with R(∞) = 0, γ ≠ 0; the method of the gallery is a zero of all.
@@ -201,6 +203,7 @@ def test_a_large_set_is_said_with_what_is_not_zero() -> None:
     assert len(step.polynomials) > 8
 
 
+@in_whole
 def test_denominators_that_are_numbers_are_not_said() -> None:
     """√5 and 5 ± √5 divide coefficients of Lobatto IIIA with four stages. They are not zero, and
     nothing but 3 = √3² and 5 = √5² is said of numbers alone.

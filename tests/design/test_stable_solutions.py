@@ -31,6 +31,7 @@ from garkcli.methodfile.load import loads
 from garkcli.report.schemas import report_schema
 from garkcli.stability.linear import is_a_stable, is_l_stable, stability_function
 from tests.cli.harness import gark
+from tests.whole import in_whole
 
 SDIRK = "parameters: {g: free}\nA: [[g, 0], [1 - 2*g, g]]\nb: [1/2, 1/2]\n"
 THREE = "unknown: {stages: 3, shape: sdirk}\ndesign: {order: 4, a-stable: true}\n"
@@ -161,6 +162,7 @@ def test_what_is_open_bounds_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     assert least.extent == "found"
 
 
+@in_whole
 def test_a_search_for_stable_methods(tmp_path: Path) -> None:
     """Each find is A-stable and its file claims it; one start leads to a method that is not."""
     path, folder = tmp_path / "family.yaml", tmp_path / "found"
@@ -215,6 +217,7 @@ def test_implicit_explicit_methods_with_an_l_stable_part() -> None:
     assert is_l_stable(R)
 
 
+@in_whole
 def test_the_best_implicit_explicit_method_with_an_l_stable_part() -> None:
     """e43 is free besides gamma: where gamma is written down as the root that is L-stable there is
     one solution, the same.
@@ -349,13 +352,14 @@ design: {order: 2, a-stable: true}
             "method",
             "g",
         ),
-        (
+        pytest.param(
             "parameters: {t1: free, t2: free}\nmethods: [gauss-2, gauss-3]\n"
             "transfer: {interpolation: t1, conjugate-collocation: t2, legendre: 1 - t1 - t2}\n"
             "design: {p-stable: true}",
             4,
             "pair",
             "t1 - 2/3*t2",
+            marks=in_whole,
         ),
     ],
 )

@@ -22,7 +22,7 @@ from garkcli.stability.oscillator import oscillator_stability
 from garkcli.tableau.family import OSCILLATING
 from garkcli.tableau.tableau import Tableau
 from tests.cli.harness import gark
-from tests.whole import at_most
+from tests.whole import at_most, in_whole
 
 THETA = "parameters: {t: free}\nA: [[0, 0], [1 - t, t]]\nb: [1 - t, t]\n"
 SDIRK2 = "parameters: {t: free}\nA: [[t, 0], [1 - 2*t, t]]\nb: [1/2, 1/2]\n"
@@ -112,8 +112,8 @@ def test_what_the_file_wants_as_well(text: str, known: list[object]) -> None:
     ("families", "wanted"),
     [
         (("gauss", 1, "lobatto-iiia", 2), [("1", "1", True, True)]),
-        (("gauss", 2, "lobatto-iiia", 3), [("1", "1", True, True)]),
-        (("gauss", 2, "lobatto-iiia", 4), [("1", "1", True, True)]),
+        pytest.param(("gauss", 2, "lobatto-iiia", 3), [("1", "1", True, True)], marks=in_whole),
+        pytest.param(("gauss", 2, "lobatto-iiia", 4), [("1", "1", True, True)], marks=in_whole),
     ],
 )
 def test_combinations_that_are_p_stable(families: tuple[object, ...], wanted: list[object]) -> None:
@@ -151,8 +151,8 @@ def contains(values: StableValues, t: fmpq) -> bool:
     "families",
     [
         ("gauss", 1, "lobatto-iiia", 2),
-        ("radau-iia", 2, "lobatto-iiia", 3),
-        ("gauss", 2, "lobatto-iiia", 4),
+        pytest.param(("radau-iia", 2, "lobatto-iiia", 3), marks=in_whole),
+        pytest.param(("gauss", 2, "lobatto-iiia", 4), marks=in_whole),
     ],
 )
 def test_against_single_values(families: tuple[object, ...], wanted: Wanted) -> None:
@@ -173,7 +173,7 @@ def test_against_single_values(families: tuple[object, ...], wanted: Wanted) -> 
 _ENTRY = st.tuples(st.integers(-2, 2), st.integers(-2, 2))
 
 
-@settings(max_examples=at_most(10, 20))
+@settings(max_examples=at_most(5, 20))
 @given(st.lists(_ENTRY, min_size=5, max_size=5), st.sampled_from(["a-stable", "l-stable"]))
 def test_random_families(entries: list[tuple[int, int]], wanted: Wanted) -> None:
     """Of two stages with entries linear in t, one with a pole: sets against single values."""
@@ -183,7 +183,7 @@ def test_random_families(entries: list[tuple[int, int]], wanted: Wanted) -> None
     compare(f"A: [[{a}, {b}], [{c}, {d}]]\nb: [{w}, 1 - {w}]\n", wanted)
 
 
-@settings(max_examples=at_most(6, 12))
+@settings(max_examples=at_most(2, 12))
 @given(st.lists(_ENTRY, min_size=2, max_size=2), st.sampled_from([0, 1, 2]))
 def test_random_families_on_the_oscillator(entries: list[tuple[int, int]], b: int) -> None:
     """The same of P- and I-stability, with two entries that are linear in t."""
@@ -287,6 +287,7 @@ transfer: {{interpolation: "{SEVENTH}", collocation: "1 - ({SEVENTH})"}}
 """
 
 
+@in_whole
 def test_a_value_inside_that_is_not_decided(tmp_path: Path) -> None:
     """With τ = 1 + p(t)², P-stable for every t as it is for τ ≥ 1, the root of p of degree 7 is not
     decided: it is no part of the set, in text and JSON, and "exactly" is not said.
@@ -380,7 +381,9 @@ SUM = "parameters: {a: free, b: free}\nA: [[a - 2*b, 0], [1 - 2*a + 4*b, a - 2*b
 @pytest.mark.parametrize(
     ("text", "wanted", "told"),
     [
-        (THREE_RULES, "p-stable", "P-stable for exactly t1 = 1 + 2/3*t2"),
+        pytest.param(
+            THREE_RULES, "p-stable", "P-stable for exactly t1 = 1 + 2/3*t2", marks=in_whole
+        ),
         (SUM, "a-stable", "A-stable for exactly 1/4 ≤ a - 2*b"),
         (
             SUM,

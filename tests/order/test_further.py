@@ -34,6 +34,7 @@ from garkcli.tableau.tableau import Tableau
 from tests.oracles import samples
 from tests.oracles.brute import Trees, Weights, brute_order, density, order_of, plain
 from tests.oracles.series import random_problem, series_order, step
+from tests.whole import at_most
 
 T = TypeVar("T")
 PAIRS = json.loads((Path(__file__).parent / "pairs.json").read_text())
@@ -374,7 +375,7 @@ def outputs(draw: st.DrawFn) -> tuple[Tableau, DenseOutput]:
 
 
 @given(outputs())
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=at_most(8, 25), deadline=None)
 def test_random_dense_output_has_the_order_of_its_values(
     drawn: tuple[Tableau, DenseOutput],
 ) -> None:

@@ -15,6 +15,7 @@ from garkcli.exact.matrix import Vector, apply
 from garkcli.ntrees.tree import Tree
 from garkcli.order.hulls import Hull, hulls
 from garkcli.tableau.tableau import Tableau
+from tests.whole import in_whole
 
 METHODS = ["rk4", "gauss-2", "stoermer-verlet", "ars-222", "symplectic-gauss-lobatto4"]
 
@@ -80,6 +81,7 @@ def test_the_file_states_what_coq_has_to_prove() -> None:
     assert "is_conjugate" not in partitioned
 
 
+@in_whole
 def test_the_polynomial_of_theta_has_integer_coefficients_for_coq() -> None:
     """McLachlan and Atela's θ has denominators up to 6^24: the file takes 6θ."""
     text = certificate(load("mclachlan-atela-3"), format="coq")

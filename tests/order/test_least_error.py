@@ -10,7 +10,7 @@ from garkcli.order.certificate import find_order
 from garkcli.order.constants import Norms, error_constants
 from garkcli.tableau.forms import pair
 from garkcli.tableau.tableau import Tableau
-from tests.whole import sample
+from tests.whole import in_whole, sample
 
 ABOVE = (
     (fmpq(0), fmpq(1, 3), fmpq(2, 3), fmpq(1)),
@@ -86,6 +86,7 @@ def squared(tableau: Tableau) -> fmpq:
     return found
 
 
+@in_whole
 def test_a_sphere_of_least_methods() -> None:
     """β > 0 and two dimensions: D and its mirror image have one error, all around have a larger one."""
     squares = basis(*ABOVE)[1]
@@ -103,6 +104,7 @@ def test_a_sphere_of_least_methods() -> None:
     assert all(norms(found).two < norms(two(ABOVE, *other)).two for other in others)
 
 
+@in_whole
 def test_no_multiple_of_q_is_least() -> None:
     """β < 0: with D = c q for all edges E is a quartic in c; D = c q + z and c q − z are below it."""
     points = [fmpq(n, 2) for n in range(4, 9)]

@@ -17,6 +17,7 @@ from garkcli.order.meant import as_meant
 from garkcli.order.nearness import Entry, Nearness, far_alone
 from garkcli.order.rounded import RoundedTableau
 from tests.cli.harness import gark
+from tests.whole import sample
 
 THREE_EIGHTHS = """
 tolerance: 1e-9
@@ -83,7 +84,7 @@ def test_rounding_is_no_suspect() -> None:
     """Methods of the catalogue that are rounded to fewer digits have no suspects: rounding moves all
     numbers alike.
     """
-    for name in ("kvaerno-3", "cash-4-2", "ark-324"):
+    for name in sample(["cash-4-2", "kvaerno-3", "ark-324"], 3):
         method = load(name)
         found = analyse(method.tableau, tolerance=method.tolerance, further=method.further)
         assert found.nearness is not None

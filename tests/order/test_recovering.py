@@ -48,6 +48,7 @@ from tests.order.random_rounded import (
     misprinted,
     source,
 )
+from tests.whole import at_most, in_whole, sample
 
 ZERO = 1e-33
 """What counts as zero: M* is known to 120 bits at least."""
@@ -94,7 +95,7 @@ def ids(case: tuple[str, str, int, str]) -> str:
     return f"{case[0]} {case[1]} {case[2]}".replace(" ", "-")
 
 
-@pytest.mark.parametrize("case", CASES, ids=ids)
+@pytest.mark.parametrize("case", sample(CASES, 2), ids=ids)
 def test_no_true_order_is_refuted(case: tuple[str, str, int, str]) -> None:
     """What is true of the exact method is true within the rounding, order of the method, its
     conjugate, its pair, its embedded weights and dense output, B, C, D, symplecticity; and from six
@@ -135,7 +136,7 @@ class Own:
         ]
 
 
-@pytest.mark.parametrize("case", CASES, ids=ids)
+@pytest.mark.parametrize("case", sample(CASES, 2), ids=ids)
 def test_recovered_numbers_have_the_order_by_another_program(
     case: tuple[str, str, int, str],
 ) -> None:
@@ -192,7 +193,7 @@ def test_what_is_made_of_recovered_numbers(kind: str) -> None:
     ("kind", "names", "digits", "wrong"),
     [
         ("plain", "rk4", 4, 2),
-        ("plain", "lobatto-iiic-3", 12, 10),
+        pytest.param("plain", "lobatto-iiic-3", 12, 10, marks=in_whole),
         ("two colours", "imex-gark-2a", 6, 3),
         ("embedded", "bogacki-shampine-3", 10, 9),
     ],
@@ -346,7 +347,7 @@ def pairwise(tableau: Tableau, radius: fmpq) -> RoundedTableau:
 
 
 @given(st.integers(0, 2**32 - 1))
-@settings(max_examples=20)
+@settings(max_examples=at_most(8, 20))
 @example(275)
 def test_orders_that_fail_fail_everywhere(seed: int) -> None:
     """Random weights with a radius each at exact stages: the conditions are linear in them. Where an

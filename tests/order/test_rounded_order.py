@@ -70,9 +70,13 @@ def assert_witness(found: RoundedOrder) -> None:
     assert found.witness.tree.order == found.order + 1
 
 
-LONG = {"sprk_Sofroniou_10_36", "Feagin12", "sprk_McAte8_26digits", "sprk_SuzukiUmeno_8_16"}
+LONG = {
+    *("sprk_Sofroniou_10_36", "Feagin12", "sprk_McAte8_26digits", "sprk_SuzukiUmeno_8_16"),
+    *("sprk_KahanLi_8_18", "sundials_ARK548L2SAb", "sundials_VERNER_16_8_9", "sciml_KenCarp5"),
+    *("Feagin10", "sciml_KenCarp4"),
+}
 """Methods of many stages, which take long."""
-CATALOGUE = ROUNDED if IS_WHOLE else [name for name in ROUNDED if name not in LONG][::2]
+CATALOGUE = ROUNDED if IS_WHOLE else [name for name in ROUNDED if name not in LONG][::3]
 
 
 @pytest.mark.parametrize("name", [*CATALOGUE, *sample(EXACT[::3], 3)])
@@ -92,11 +96,11 @@ def power_of_ten(rounding: float) -> fmpq:
 
 
 def test_conjugates_and_pairs_of_the_catalogue_are_decided() -> None:
-    """Wherever they exist; a pair has no higher order than the method and its conjugate. Every third
+    """Wherever they exist; a pair has no higher order than the method and its conjugate. Every sixth
     method, all of them in ``make whole``.
     """
     decided = 0
-    for name in sample(list(ENTRIES), 3):
+    for name in sample(list(ENTRIES), 6):
         entry = ENTRIES[name]
         box = RoundedTableau.within(published(name), power_of_ten(entry["rounding"]))
         try:
@@ -107,11 +111,11 @@ def test_conjugates_and_pairs_of_the_catalogue_are_decided() -> None:
         assert not any(x.undecided for x in orders)
         assert orders[0].order <= min(orders[1].order, orders[2].order)
         decided += 1
-    assert decided > at_most(10, 30)
+    assert decided > at_most(5, 30)
 
 
 @given(SEEDS)
-@settings(max_examples=at_most(10, 25))
+@settings(max_examples=at_most(6, 25))
 def test_orders_are_those_of_every_tree(seed: int) -> None:
     """Random graphs and rounded named methods, tolerances of all sizes: the order is that of the
     conditions of the method that is recovered, one by one.
@@ -130,9 +134,9 @@ def test_orders_are_those_of_every_tree(seed: int) -> None:
         assert all(bound >= size for bound, size in zip(found.sizes, exact, strict=False))
 
 
-@pytest.mark.parametrize("name", ["rk4", "kutta", "gauss 3", "lobatto-iiic 3", "radau-iia 3"])
+@pytest.mark.parametrize("name", sample(["kutta", "rk4", "gauss 3", "lobatto-iiic 3", "radau-iia 3"], 3))
 @given(seed=SEEDS, exponent=st.integers(3, 20))
-@settings(max_examples=at_most(3, 6))
+@settings(max_examples=at_most(2, 6))
 def test_every_rounding_keeps_the_order(name: str, seed: int, exponent: int) -> None:
     """Whatever a method is rounded to within t, it has its order within t, and so have its
     conjugate and its pair.
@@ -189,6 +193,7 @@ def test_thirds_with_five_digits() -> None:
     assert order_within(tableau, fmpq(3, 10**6)).order == 0
 
 
+@in_whole
 def test_a_perturbed_coefficient_lowers_the_order() -> None:
     """The weights decide order 1, a late coefficient a later order, a change below the tolerance
     nothing.
@@ -212,7 +217,7 @@ def test_a_perturbed_coefficient_lowers_the_order() -> None:
 
 
 @given(SEEDS)
-@settings(max_examples=at_most(10, 25))
+@settings(max_examples=at_most(5, 25))
 def test_spans_bound_every_tree(seed: int) -> None:
     """Whatever the grain, the bound is not below the largest residual, and members reach it or
     less.
@@ -253,7 +258,7 @@ def test_spans_are_sharp_where_all_is_known() -> None:
         (2, 16, 16, 4),
         (3, 30, 28, 6),
         (4, 30, 26, 8),
-        (6, 30, 24, 12),
+        pytest.param(6, 30, 24, 12, marks=in_whole),
         pytest.param(10, 60, 45, 20, marks=in_whole),
     ],
 )

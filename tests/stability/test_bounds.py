@@ -23,6 +23,7 @@ from garkcli.stability.ssp import ssp_coefficient
 from garkcli.stability.within import stability_within
 from garkcli.tableau.tableau import Tableau
 from tests.oracles.draws import fractions
+from tests.whole import at_most
 
 TOLERANCE = fmpq(1, 10**10)
 GRAIN = fmpq(1, 1 << 150)
@@ -79,7 +80,7 @@ def explicit(draw: st.DrawFn) -> tuple[list[list[str]], list[str]]:
     return A, [str(draw(ENTRY)) for _ in range(s)]
 
 
-@settings(max_examples=30)
+@settings(max_examples=at_most(12, 30))
 @given(explicit())
 def test_every_method_is_between_its_bounds(entries: tuple[list[list[str]], list[str]]) -> None:
     """Real interval, SSP and algebraic stability, exactly and in balls."""

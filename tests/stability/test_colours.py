@@ -28,6 +28,7 @@ from garkcli.stability.summary import several_colours
 from garkcli.tableau.pointwise import in_points
 from garkcli.tableau.tableau import Tableau
 from tests.oracles.draws import fractions
+from tests.whole import at_most
 
 ENTRY = fractions(-2, 2, 4).map(str)
 IMEX_EULER = "ark: {A: [[[0, 0], [1, 0]], [[0, 0], [0, 1]]], b: [[1, 0], [0, 1]]}"
@@ -114,7 +115,7 @@ def common_factor_degree(R: Fraction) -> int:
     return int(P.gcd(Q).total_degree())
 
 
-@settings(max_examples=8)
+@settings(max_examples=at_most(3, 8))
 @given(coupled())
 def test_lowest_terms(tableau: Tableau) -> None:
     """No common factor is left, and the doubled method has the fraction of the method itself."""
@@ -243,7 +244,7 @@ def value_at(p: Multivariate, points: list[Complex]) -> Complex:
 THIRDS = fractions(-3, 3, 3).map(lambda x: fmpq(x.numerator, x.denominator))
 
 
-@settings(max_examples=60)
+@settings(max_examples=at_most(25, 60))
 @given(pairs(), THIRDS, THIRDS, THIRDS)
 def test_parts_are_those_of_complex_numbers(tableau: Tableau, a: fmpq, b: fmpq, y: fmpq) -> None:
     """P(a + ib, iy) and Q by complex arithmetic, exactly; E is the difference of their squares."""

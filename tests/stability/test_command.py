@@ -13,7 +13,7 @@ from jsonschema import Draft7Validator
 from garkcli import report_schema
 from garkcli.cli.main import gark, main
 from garkcli.errors import GarkError, NotDecided
-from tests.whole import sample
+from tests.whole import in_whole, sample
 
 METHODS = sorted(str(path) for path in Path("methods").glob("*.gark.yaml"))
 
@@ -94,10 +94,12 @@ def test_refusals(arguments: list[str], message: str) -> None:
     [
         ["methods/rk4.gark.yaml"],
         ["methods/rk4.gark.yaml", "--order-star"],
-        ["methods/ark-ars222.gark.yaml"],
-        ["methods/rk4.gark.yaml", "methods/collocation.gark.yaml"],
+        pytest.param(["methods/ark-ars222.gark.yaml"], marks=in_whole),
+        pytest.param(["methods/rk4.gark.yaml", "methods/collocation.gark.yaml"], marks=in_whole),
         ["methods/rectangular.gark.yaml", "methods/stoermer-verlet.gark.yaml"],
-        ["methods/three-colours.gark.yaml", "--slow", "1/4", "--fast", "2"],
+        pytest.param(
+            ["methods/three-colours.gark.yaml", "--slow", "1/4", "--fast", "2"], marks=in_whole
+        ),
     ],
     ids=["region", "order star", "colours", "several", "traces", "springs"],
 )
@@ -110,6 +112,7 @@ def test_pictures(arguments: list[str], tmp_path: Path) -> None:
     assert "┤" in run(*arguments, "-v").output
 
 
+@in_whole
 def test_nothing_to_draw(tmp_path: Path) -> None:
     """Rounding leaves the oscillator open, and one colour has no linear test equation."""
     result = run("yoshida-8a", "--plot", str(tmp_path / "picture.svg"))

@@ -35,7 +35,7 @@ def has(intervals: tuple[Interval, ...], x: fmpq) -> bool:
     return False
 
 
-@settings(max_examples=at_most(5, 12))
+@settings(max_examples=at_most(3, 12))
 @given(
     st.sampled_from(NAMES),
     st.fractions(0, 3, max_denominator=4),
