@@ -34,9 +34,7 @@ CHANGES = [
     pytest.param("tsitouras-5", "1/66", "1/67", marks=in_whole),
     ("tr-bdf2", "1/3 - sqrt(2)/12", "1/3 - sqrt(2)/13"),
     ("verner-8", "embedded: [1083", "embedded: [1093"),
-    pytest.param(
-        "ark-548", "embedded: [-975461918565", "embedded: [-975461918465", marks=in_whole
-    ),
+    pytest.param("ark-548", "embedded: [-975461918565", "embedded: [-975461918465", marks=in_whole),
     # coefficients of compositions
     pytest.param("yoshida-6c", "1.4477", "1.4478", marks=in_whole),
     pytest.param("blanes-moan-s-10", "0.14881", "0.14882", marks=in_whole),

@@ -169,7 +169,8 @@ SLOW = {
 
 
 @pytest.mark.parametrize(
-    "name", [x for x in sample([x for x in ROUNDED if x not in LONG], 4) if IS_WHOLE or x not in SLOW]
+    "name",
+    [x for x in sample([x for x in ROUNDED if x not in LONG], 4) if IS_WHOLE or x not in SLOW],
 )
 def test_rounded_methods_get_a_line_that_gives_their_order(name: str) -> None:
     """Files of rounded methods without their tolerance: none looks misprinted, as its digits
@@ -188,8 +189,7 @@ def test_rounded_methods_get_a_line_that_gives_their_order(name: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "name",
-    [pytest.param("sundials_VERNER_10_6_7", marks=in_whole), "sundials_KVAERNO_4_2_3"],
+    "name", [pytest.param("sundials_VERNER_10_6_7", marks=in_whole), "sundials_KVAERNO_4_2_3"]
 )
 @pytest.mark.parametrize("seed", range(at_most(1, 3)))
 def test_a_wrong_digit_in_a_published_method(name: str, seed: int) -> None:

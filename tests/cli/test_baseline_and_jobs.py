@@ -205,9 +205,7 @@ def one_by_one() -> Run:
     ("options", "paths"),
     [
         pytest.param(
-            ("--format", "json"),
-            ("tests/examples/failing", *QUICK, "nowhere"),
-            marks=in_whole,
+            ("--format", "json"), ("tests/examples/failing", *QUICK, "nowhere"), marks=in_whole
         ),
         (
             ("--format", "text", "-v", "--error-constants"),

@@ -235,11 +235,12 @@ def test_unknown_entries() -> None:
 
 
 @pytest.mark.parametrize(
-    ("whose", "objective"), [
+    ("whose", "objective"),
+    [
         ("method", "error"),
         pytest.param("method", "error-coupling", marks=in_whole),
         pytest.param("pair", "error", marks=in_whole),
-    ]
+    ],
 )
 def test_free_transfer(whose: Whose, objective: str) -> None:
     """Where a τ is left: at rational τ beside the minimiser the list of all trees has larger

@@ -212,7 +212,12 @@ def test_starts_are_the_same_everywhere() -> None:
 
 @pytest.mark.parametrize(
     ("text", "order", "starts"),
-    [(SDIRK2, 3, 10), (RADICAL, 3, 10), (explicit(3), 3, 5), pytest.param(explicit(4), 4, 8, marks=in_whole)],
+    [
+        (SDIRK2, 3, 10),
+        (RADICAL, 3, 10),
+        (explicit(3), 3, 5),
+        pytest.param(explicit(4), 4, 8, marks=in_whole),
+    ],
     ids=["sdirk", "radical", "explicit 3", "explicit 4"],
 )
 def test_finds_are_methods(text: str, order: int, starts: int, tmp_path: Path) -> None:

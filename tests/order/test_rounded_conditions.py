@@ -91,7 +91,8 @@ def test_exact_methods_satisfy_what_they_satisfy_exactly(name: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("stages", "digits"), [(2, 16), *(pytest.param(*x, marks=in_whole) for x in ((4, 30), (10, 60)))]
+    ("stages", "digits"),
+    [(2, 16), *(pytest.param(*x, marks=in_whole) for x in ((4, 30), (10, 60)))],
 )
 def test_decimals_satisfy_what_the_family_does(stages: int, digits: int) -> None:
     """B, C, D of Gauss × Lobatto IIIA in decimals are those of the families within one unit of the

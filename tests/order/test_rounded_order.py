@@ -134,7 +134,9 @@ def test_orders_are_those_of_every_tree(seed: int) -> None:
         assert all(bound >= size for bound, size in zip(found.sizes, exact, strict=False))
 
 
-@pytest.mark.parametrize("name", sample(["kutta", "rk4", "gauss 3", "lobatto-iiic 3", "radau-iia 3"], 3))
+@pytest.mark.parametrize(
+    "name", sample(["kutta", "rk4", "gauss 3", "lobatto-iiic 3", "radau-iia 3"], 3)
+)
 @given(seed=SEEDS, exponent=st.integers(3, 20))
 @settings(max_examples=at_most(2, 6))
 def test_every_rounding_keeps_the_order(name: str, seed: int, exponent: int) -> None:

@@ -587,10 +587,7 @@ expect: {p-stable: true, WHAT}
 
 @pytest.mark.parametrize(
     ("other", "code", "answers"),
-    [
-        pytest.param("order: 2", 3, [None, True], marks=in_whole),
-        ("order: 3", 1, [None, False]),
-    ],
+    [pytest.param("order: 2", 3, [None, True], marks=in_whole), ("order: 3", 1, [None, False])],
 )
 def test_an_undecided_claim_neither_holds_nor_fails(
     other: str, code: int, answers: list[bool | None]
