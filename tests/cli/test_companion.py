@@ -12,7 +12,7 @@ import pytest
 
 import garkcli
 from garkcli.cli.main import COMMANDS
-from tests.cli.harness import gark
+from tests.cli.harness import gark, gark_once
 from tests.whole import in_whole
 
 COLLOCATION = "methods/collocation.gark.yaml"

@@ -7,7 +7,7 @@ from random import Random
 
 import pytest
 from flint import fmpq
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garkcli.exact.display import to_decimal
