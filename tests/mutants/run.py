@@ -2,8 +2,8 @@
 
     python -m tests.mutants.run [--count N] [--seed N] [--rooms NAME[,NAME…]] [--again]
 
-A change is made in a copy of the repository, in ``.mutants``. The tests that run its line are run
-until one fails, those of its own room first, and the fastest first.
+A change is made in a copy of the repository, in ``.mutants``. The tests of ``make whole`` that run
+its line are run until one fails, those of its own room first, and the fastest first.
 """
 
 from __future__ import annotations
@@ -139,12 +139,15 @@ def copy(name: str) -> Path:
 def pytest_in(
     tree: Path, said: Path, plugin: str, *arguments: str, **variables: str
 ) -> subprocess.Popen[bytes]:
-    """A run of pytest in a copy, as the leader of its processes; what it prints is kept."""
+    """A run of pytest in a copy, as the leader of its processes; what it prints is kept.
+
+    No sample is taken: a case of ``make whole`` kills as many as one of the suite.
+    """
     command = [sys.executable, "-m", "pytest", "-p", f"tests.mutants.{plugin}", *arguments]
     return subprocess.Popen(
         command,
         cwd=tree,
-        env={**os.environ, "PYTHONPATH": str(tree), **variables},
+        env={**os.environ, "PYTHONPATH": str(tree), "GARK_WHOLE": "1", **variables},
         stdin=subprocess.DEVNULL,
         stdout=said.open("wb"),
         stderr=subprocess.STDOUT,

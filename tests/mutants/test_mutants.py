@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from itertools import pairwise
+from pathlib import Path
 
 import pytest
 
@@ -17,7 +18,7 @@ from tests.mutants.places import (
     span,
     without_meaning,
 )
-from tests.mutants.run import Record, stages
+from tests.mutants.run import Record, pytest_in, stages
 
 TEXT = '''\
 """A file."""
@@ -53,6 +54,17 @@ def test_what_has_no_meaning_is_left_alone() -> None:
             if not any(first <= start < last for first, last in spared):
                 left.add(node.value)
     assert left == {3, 2, 1, 5, 4, 7, 8, 9}
+
+
+def test_mutants_are_judged_by_all_tests(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where tests are recorded and where they judge, none is left out as in the suite."""
+    runs: list[dict[str, str]] = []
+    monkeypatch.delenv("GARK_WHOLE", raising=False)
+    monkeypatch.setattr("subprocess.Popen", lambda *_, env, **__: runs.append(env))
+    for plugin in ("recording", "choosing"):
+        pytest_in(tmp_path, tmp_path / "said.txt", plugin, GARK_RECORD="x")
+    assert [run["GARK_WHOLE"] for run in runs] == ["1", "1"]
+    assert all(run["GARK_RECORD"] == "x" for run in runs)
 
 
 def test_columns_are_those_of_characters() -> None:
