@@ -281,7 +281,7 @@ def test_a_short_decimal_is_exact_among_long_ones(place: int, tmp_path: Path) ->
     path.write_text(table, encoding="utf-8")
     assert gark("audit", str(path)).code == 0
     literals = list(LONG.finditer(table))
-    for literal in literals[:: len(literals) // 3]:
+    for literal in sample(literals[:: len(literals) // 3], 3):
         number = literal[1]
         digits = [i for i, x in enumerate(number) if x.isdigit()]
         first = next(k for k, i in enumerate(digits) if number[i] != "0")

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.harness import gark
-from tests.whole import sample
+from tests.whole import in_whole, sample
 
 NESTED = """
 from fractions import Fraction as F
@@ -146,7 +146,9 @@ def test_an_exact_method_is_imported_as_exact() -> None:
     assert run.out.endswith("expect: {order: 8, embedded-order: 7}\n")
 
 
-@pytest.mark.parametrize("name", ["ssp-53-nodepy", "ssp-53", "tsitouras-5"])
+@pytest.mark.parametrize(
+    "name", ["ssp-53-nodepy", "ssp-53", pytest.param("tsitouras-5", marks=in_whole)]
+)
 def test_decimals_that_became_fractions(name: str) -> None:
     """JSON has the decimals of a rounded method as fractions, which are as rounded as before."""
     text = gark("export", name, "--to", "json").out

@@ -14,6 +14,7 @@ from garkcli.bridges.readers.registry import all_readers, find_tables, reader_na
 from garkcli.sources import allowance
 from garkcli.sources.found import MAX_LENGTH
 from tests.cli.harness import gark
+from tests.whole import in_whole
 
 SOURCES = sorted((Path(__file__).parent / "sources").iterdir())
 LONG = 5_000
@@ -102,7 +103,9 @@ AUDITED = {
 """Tables of a strange size or shape, with a word of what is said of them."""
 
 
-@pytest.mark.parametrize("name", AUDITED)
+@pytest.mark.parametrize(
+    "name", [pytest.param(x, marks=[in_whole] * (x == "many_names.py")) for x in AUDITED]
+)
 def test_strange_tables_are_audited(name: str, tmp_path: Path) -> None:
     """Numbers beyond floats, rows that lack blocks, arrays anew among many names: no internal
     fault, and no long work.
@@ -247,6 +250,7 @@ def test_the_command_says_what_is_missing(name: str) -> None:
     assert run.err.startswith("gark: no table is found in -")
 
 
+@in_whole
 def test_the_command_names_the_line_at_which_a_source_is_too_large() -> None:
     """Exit code 2, the line and the limit."""
     run = gark("import", "-", "--from", "python", stdin=GROWING["python"])

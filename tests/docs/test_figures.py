@@ -13,6 +13,7 @@ import pytest
 
 from garkcli.cli.options import command_of
 from tests.cli.harness import gark
+from tests.whole import in_whole
 
 ROOT = Path(__file__).resolve().parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -26,6 +27,7 @@ def size(path: Path) -> tuple[int, int]:
     return width, height
 
 
+@in_whole
 def test_the_figure_is_drawn_anew(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The script beside it makes the figure of the paper."""
     folder = ROOT / "docs" / "figures"

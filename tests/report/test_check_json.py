@@ -20,7 +20,7 @@ ROOT = Path(__file__).parents[2]
 SCHEMA = REPORT.schema
 VALIDATOR = Draft7Validator(SCHEMA)
 READABLE = sample(
-    sorted([*ROOT.glob("methods/*.gark.yaml"), *ROOT.glob("tests/examples/valid/*.gark.yaml")]), 3
+    sorted([*ROOT.glob("methods/*.gark.yaml"), *ROOT.glob("tests/examples/valid/*.gark.yaml")]), 6
 )
 FAILING = sorted(ROOT.glob("tests/examples/failing/*.gark.yaml"))
 INVALID = ROOT / "tests/examples/invalid"

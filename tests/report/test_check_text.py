@@ -15,6 +15,7 @@ from garkcli.order.constants import error_constants
 from garkcli.page.paint import Paint, aligned, beside
 from garkcli.report.check_text import render
 from garkcli.report.hints import blame_text
+from tests.whole import in_whole
 
 ESCAPE = re.compile(r"\x1b\[[0-9;]*m")
 
@@ -171,6 +172,7 @@ def test_columns_line_up() -> None:
     assert beside(["a", "bcd"], ["x"]) == ["a     x", "bcd"]
 
 
+@in_whole
 def test_long_requirements_are_shortened() -> None:
     """Where the value is shown in decimals, a required value of many digits is too; no line is
     wider than 80 columns but a tree that is.

@@ -32,7 +32,7 @@ def report(*arguments: str, stdin: str = "") -> dict[str, Any]:
     return dict(file)
 
 
-@pytest.mark.parametrize("path", sample(METHODS, 2), ids=lambda x: x.name)
+@pytest.mark.parametrize("path", sample(METHODS, 4), ids=lambda x: x.name)
 def test_every_property_of_every_method(path: Path) -> None:
     """Text of 80 columns and JSON by its schema; both tell the same as the call in Python."""
     text = gark("check", str(path), "--properties")
