@@ -13,6 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garkcli.methodfile import composing
+from tests.whole import at_most
 
 # The suite starts gark some hundred times: byte code is kept, whatever the environment says.
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
@@ -23,7 +24,11 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 # the same examples every time: what passes here passes there; see docs/contributing/fuzzing.md
 IS_RANDOM = os.environ.get("GARK_RANDOM_EXAMPLES") == "1"
 settings.register_profile(
-    "gark", deadline=None, max_examples=25, derandomize=not IS_RANDOM, print_blob=IS_RANDOM
+    "gark",
+    deadline=None,
+    max_examples=at_most(10, 25),
+    derandomize=not IS_RANDOM,
+    print_blob=IS_RANDOM,
 )
 settings.load_profile("gark")
 

@@ -19,6 +19,7 @@ from garkcli.errors import MethodError
 from garkcli.exact.display import to_text
 from garkcli.families.registry import BY_STAGES
 from tests.oracles.draws import fractions
+from tests.whole import at_most
 
 FRACTIONS = fractions(-3, 3, 12)
 
@@ -32,7 +33,7 @@ def arrays(draw: st.DrawFn) -> tuple[list[list[Fraction]], list[Fraction]]:
 
 
 @given(arrays())
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=at_most(10, 25), deadline=None)
 def test_arrays_are_the_file_that_says_the_same(
     given_arrays: tuple[list[list[Fraction]], list[Fraction]],
 ) -> None:
@@ -46,7 +47,7 @@ def test_arrays_are_the_file_that_says_the_same(
 
 
 @given(arrays())
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=at_most(10, 25), deadline=None)
 def test_entries_go_round(given_arrays: tuple[list[list[Fraction]], list[Fraction]]) -> None:
     """A, b and c of the method are the numbers that were given, and make it again."""
     A, b = given_arrays

@@ -35,6 +35,7 @@ from garkcli.order.certificate import find_order as exact_order
 from garkcli.problems.oscillator import Oscillator
 from garkcli.tableau import forms
 from garkcli.transfer import RULES
+from tests.whole import in_whole
 
 GAUSS = loads("methods: [{family: gauss, stages: 2}]")
 ROUNDED = loads(
@@ -197,7 +198,7 @@ def test_the_example_of_a_file_on_disk(tmp_path: Path) -> None:
     assert isinstance(loaded, GarkMethod)
 
 
-@pytest.mark.parametrize("name", ["rk4", "collocation"])
+@pytest.mark.parametrize("name", ["rk4", pytest.param("collocation", marks=in_whole)])
 def test_a_method_answers_by_itself(name: str, tmp_path: Path) -> None:
     """What the functions find, asked of one colour and of several alike."""
     method = load(name)

@@ -35,6 +35,7 @@ from tests.oracles import series
 from tests.oracles.brute import Weights, plain
 from tests.oracles.samples import everywhere
 from tests.order.random_rounded import Rounding, listed
+from tests.whole import at_most
 
 Field: TypeAlias = dict[series.Component, fmpq_mpoly]
 """A polynomial for each component."""
@@ -210,7 +211,7 @@ COEFFICIENTS = st.integers(0, 10**9).map(_random_coefficients)
 
 
 @given(COEFFICIENTS)
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=at_most(8, 20), deadline=None)
 def test_logarithm_and_exponential(b: list[fmpq]) -> None:
     """They undo each other."""
     assert logarithm(FOREST, exponential(b)) == b
@@ -218,7 +219,7 @@ def test_logarithm_and_exponential(b: list[fmpq]) -> None:
 
 
 @given(COEFFICIENTS, COEFFICIENTS, COEFFICIENTS)
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=at_most(8, 20), deadline=None)
 def test_the_product_is_pre_lie(a: list[fmpq], b: list[fmpq], c: list[fmpq]) -> None:
     """(a ◁ b) ◁ c − a ◁ (b ◁ c) is symmetric in b and c: the second derivative of a field along two
     others.

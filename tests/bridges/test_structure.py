@@ -21,6 +21,7 @@ from garkcli.methodfile.load import load, loads
 from garkcli.order.certificate import find_order
 from garkcli.tableau.forms import additive
 from tests.cli.harness import ROOT
+from tests.whole import at_most
 
 COEFFICIENTS = st.lists(st.fractions(-2, 2, max_denominator=9), min_size=2, max_size=4)
 GENERAL = [
@@ -89,7 +90,7 @@ def _listed(x: object) -> str:
     return str(x)
 
 
-@settings(max_examples=30)
+@settings(max_examples=at_most(10, 30))
 @given(COEFFICIENTS, COEFFICIENTS)
 def test_compositions_are_found_again(kicks: list[object], drifts: list[object]) -> None:
     """From the two matrices come the kicks and drifts that they were made of, whichever vanish."""

@@ -17,6 +17,7 @@ from garkcli.methodfile.family import loads_family
 from garkcli.methodfile.load import loads
 from tests.check.test_every_value import LIMIT, checked
 from tests.cli.harness import gark
+from tests.whole import at_most
 
 BOX = """parameters:
   s: {free: true, range: [1/4, 1/2]}
@@ -99,7 +100,7 @@ NUMBERS = st.integers(-3, 3)
 ENDS = st.tuples(st.none() | st.integers(-4, -1), st.none() | st.integers(1, 4))
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=at_most(12, 40), deadline=None)
 @given(st.lists(NUMBERS, min_size=9, max_size=9), ENDS, ENDS, st.data())
 def test_zeros_within_ranges_are_not_lost(
     coefficients: list[int],

@@ -24,6 +24,7 @@ from garkcli.page.paint import Paint
 from garkcli.report.check_text import render
 from garkcli.report.checked import REPORT
 from tests.cli.harness import gark
+from tests.whole import in_whole
 
 SDIRK = "parameters: {g: free}\nA: [[g, 0], [1 - 2*g, g]]\nb: [1/2, 1/2]\n"
 TAU = """parameters: {tau: free}
@@ -36,7 +37,7 @@ WEIGHT = "parameters: {w: free}\nA: [[0, 0], [1/(2*w), 0]]\nb: [1 - w, w]\n"
 LIMIT = 12
 
 
-@pytest.fixture(scope="module", params=[SDIRK, TAU, WEIGHT])
+@pytest.fixture(scope="module", params=[SDIRK, pytest.param(TAU, marks=in_whole), WEIGHT])
 def found(request: pytest.FixtureRequest) -> tuple[str, EveryValue]:
     """A file of one parameter with what holds for every value."""
     text = request.param

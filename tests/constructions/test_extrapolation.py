@@ -11,6 +11,7 @@ from garkcli.methodfile.family import loads_family
 from garkcli.methodfile.load import loads
 from garkcli.tableau.forms import gark
 from tests.oracles.series import series_order
+from tests.whole import in_whole
 
 MIDPOINT = "{family: gauss, stages: 1}"
 VERLET = "{splitting: {scheme: strang}}"
@@ -53,6 +54,7 @@ def test_the_families_are_extrapolations(sequence: str) -> None:
         assert made.tableau == gark([family], {})
 
 
+@in_whole
 def test_rounded_methods_are_extrapolated_within_their_tolerance() -> None:
     """The order of a rounded base is the one within its tolerance."""
     base = f"{{compose: {{of: {MIDPOINT}, scheme: yoshida-6}}}}"
@@ -69,9 +71,10 @@ def test_rounded_methods_are_extrapolated_within_their_tolerance() -> None:
             "{A: [[0.25, -0.0386751345948129], [0.5386751345948129, 0.25]], b: [0.5, 0.5]}",
             "{family: gauss, stages: 2}",
         ),
-        (
+        pytest.param(
             "{adjoint: {A: [[], [0.6666666666666667]], b: [0.25, 0.75]}}",
             "{adjoint: {A: [[], [2/3]], b: [1/4, 3/4]}}",
+            marks=in_whole,
         ),
     ],
 )

@@ -30,7 +30,7 @@ from tests.cli.harness import ROOT, gark
 from tests.conversion.renumbered import orders_of, renumbered
 from tests.methodfile.test_further import further_of
 from tests.methodfile.test_writer import tableaus
-from tests.whole import sample
+from tests.whole import at_most, sample
 
 METHODS = sorted((ROOT / "methods").glob("*.gark.yaml"))
 CATALOGUE = entries()
@@ -83,7 +83,7 @@ def rows(method: GarkMethod) -> list[tuple[tuple[Number, ...], ...]]:
 
 
 @given(st.data())
-@settings(max_examples=30)
+@settings(max_examples=at_most(10, 30))
 def test_a_form_is_the_same_method(data: st.DataObject) -> None:
     """Whatever the tableau, each form that is not refused has the same elementary weights."""
     tableau = data.draw(tableaus())
@@ -162,7 +162,7 @@ def test_there_and_back(name: str) -> None:
 
 
 @given(st.data())
-@settings(max_examples=25)
+@settings(max_examples=at_most(8, 25))
 def test_the_canonical_form_knows_no_numbering(data: st.DataObject) -> None:
     """Stages renumbered, one of them twice, one more without influence: the same file."""
     tableau = data.draw(tableaus())

@@ -22,6 +22,7 @@ from garkcli.order.polishing import polished
 from garkcli.order.rounded import RoundedTableau
 from garkcli.order.rows import Label
 from tests.cli.harness import gark
+from tests.whole import in_whole
 
 TR_BDF2 = """
 tolerance: 1e-13
@@ -92,7 +93,7 @@ def test_radicals_of_a_rounded_method() -> None:
     assert all(claim.holds for claim in check_method(made).claims)
 
 
-@pytest.mark.parametrize("digits", [3, 50, 200])
+@pytest.mark.parametrize("digits", [3, 50, pytest.param(200, marks=in_whole)])
 def test_digits_are_those_of_the_exact_numbers(digits: int) -> None:
     """Each decimal is the one nearest to its number, computed from √2 in balls, and the tolerance
     is a unit of the last digit.
@@ -145,7 +146,7 @@ def test_numbers_stay_at_their_ends() -> None:
     assert abs(made.b[1] * made.c[1] - fmpq(1, 2)) < fmpq(1, 10**29)
 
 
-@pytest.mark.parametrize("text", [FAMILY, FURTHER])
+@pytest.mark.parametrize("text", [FAMILY, pytest.param(FURTHER, marks=in_whole)])
 def test_digits_do_not_depend_on_the_start(text: str) -> None:
     """Wherever floats lead the search to, give or take 1e-9 t, the same digits are written."""
     found = search_of(text)
@@ -175,6 +176,7 @@ def test_further_weights_are_written_too() -> None:
     assert all(abs(x - y) <= fmpq(1, 10**9) + fmpq(1, 10**30) for x, y in pairs)
 
 
+@in_whole
 def test_claims_of_long_compositions_stay() -> None:
     """Each row of sums is longer than the one before, and each number is printed many times: all
     that was true of the method is found again within its new digits, its symmetry too.

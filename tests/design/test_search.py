@@ -31,7 +31,7 @@ from garkcli.methodfile.family import FamilyFile
 from garkcli.order.conditions import elementary_weight
 from garkcli.report.schemas import report_schema
 from tests.cli.harness import gark
-from tests.whole import in_whole
+from tests.whole import at_most, in_whole
 
 SDIRK2 = "parameters: {g: free}\nA: [[g, 0], [1 - 2*g, g]]\nb: [1/2, 1/2]\n"
 RATIONAL = "parameters: {t: free, u: free}\nA: [[1/(1 + t**2), u], [t*u, u/t]]\nb: [1/t, 1 - 1/t]\n"
@@ -407,7 +407,7 @@ def test_krawczyk_needs_a_zero() -> None:
     st.fractions(-9, 9, max_denominator=99),
     st.sampled_from([2, 3, 5, 7]),
 )
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=at_most(10, 25), deadline=None)
 def test_recognition(p: Any, q: Any, radicand: int) -> None:
     """Numbers p and p + q √n are known again by their digits, in one field."""
     bits = 512

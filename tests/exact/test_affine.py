@@ -14,6 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garkcli.exact.affine import Affine, FormMatrix, Forms
+from tests.whole import at_most
 
 SEEDS = st.integers(0, 2**32 - 1)
 NUMBERS = 4
@@ -89,7 +90,7 @@ def assert_encloses(form: Any, values: Sequence[fmpq], at: Sequence[Point]) -> b
 
 
 @given(SEEDS)
-@settings(max_examples=150)
+@settings(max_examples=at_most(50, 150))
 def test_expressions_are_enclosed(seed: int) -> None:
     """+, −, *, / and powers of printed numbers, at corners and inside, in exact fractions."""
     dice = Random(seed)
@@ -143,7 +144,7 @@ def multiplied(one: Sequence[fmpq], other: Sequence[fmpq]) -> list[fmpq]:
 
 
 @given(SEEDS)
-@settings(max_examples=50)
+@settings(max_examples=at_most(15, 50))
 def test_rows_and_matrices_are_enclosed(seed: int) -> None:
     """Products, shares, differences, scalar products, A v, wᵀ A, rows and columns of a matrix, in
     exact fractions; forms with remainders go through all of it.

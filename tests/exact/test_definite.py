@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garkcli.exact.projection import kept_sign
+from tests.whole import at_most
 
 CONTEXT = fmpq_mpoly_ctx.get(["x", "y", "z"], Ordering.lex)
 X, Y, Z = CONTEXT.gens()
@@ -48,7 +49,7 @@ COEFFICIENTS = st.lists(st.integers(-3, 3), min_size=9, max_size=9)
 GRID = [fmpq(a, 4) for a in range(-12, 13)]
 
 
-@settings(max_examples=60)
+@settings(max_examples=at_most(20, 60))
 @given(COEFFICIENTS)
 def test_two_variables_are_always_decided(numbers: list[int]) -> None:
     """A polynomial of degree 2 in each of two has both signs where no sign is said, and never the

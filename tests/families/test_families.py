@@ -18,6 +18,7 @@ from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau
 from tests.oracles.brute import brute_order
 from tests.oracles.points import method_at, numbers
+from tests.whole import in_whole
 
 TEXTBOOK = {
     ("gauss", 1): ("1/2", "1/2", "1"),
@@ -317,6 +318,7 @@ def test_ssp2(s: int) -> None:
     assert find_order(gark([method], {})).order == brute_order(gark([method], {}), 3) == 2
 
 
+@in_whole
 def test_many_stages() -> None:
     """Twenty stages are as exact as two: Gauss has order 40, and the certificate says at least when
     it stops.

@@ -33,7 +33,7 @@ from garkcli.report.certificate import REPORT
 from garkcli.report.coq import coq_proof
 from garkcli.tableau.tableau import Tableau
 from tests.constructions.test_rosenbrock import RODAS3
-from tests.whole import IS_WHOLE, sample
+from tests.whole import IS_WHOLE, at_most, sample
 
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / "tools" / "referee.py"
@@ -552,7 +552,7 @@ def _additive(draw: st.DrawFn) -> str:
     return f"ark: {{A: [{', '.join(blocks)}], b: [{', '.join(weights)}]}}\n"
 
 
-@settings(max_examples=20)
+@settings(max_examples=at_most(8, 20))
 @given(_additive())
 def test_random_methods_are_proved(tmp_path_factory: pytest.TempPathFactory, text: str) -> None:
     """Whatever the method is, the referee agrees with its order, conjugate and pair."""

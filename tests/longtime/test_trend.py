@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from garkcli.longtime.trend import LEAST, Trend, Trends
+from tests.whole import at_most
 
 Floats = NDArray[np.float64]
 N = 2000
@@ -40,7 +41,7 @@ def oscillation(parts: list[tuple[float, float, float]]) -> Floats:
 
 
 @given(waves, st.floats(-1, 1))
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=at_most(30, 100), deadline=None)
 def test_slope_of_a_line_through_oscillations(
     parts: list[tuple[float, float, float]], slope: float
 ) -> None:
@@ -56,7 +57,7 @@ def test_slope_of_a_line_through_oscillations(
 
 
 @given(waves)
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=at_most(30, 100), deadline=None)
 def test_oscillations_do_not_drift(parts: list[tuple[float, float, float]]) -> None:
     """No slope beyond its uncertainty, and none of the other trends but by a beat slower than the
     run.
@@ -75,7 +76,7 @@ def test_oscillations_do_not_drift(parts: list[tuple[float, float, float]]) -> N
     st.floats(0, 2),
     st.floats(20, 300),
 )
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=at_most(30, 100), deadline=None)
 def test_slow_modulation_is_no_drift(
     depth: float, periods: float, phase: float, offset: float, frequency: float
 ) -> None:
@@ -100,7 +101,7 @@ def test_three_findings(slope: float, finding: str) -> None:
         st.tuples(st.floats(0.01, 1), st.floats(150, 900), st.floats(0, 6)), min_size=1, max_size=5
     )
 )
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=at_most(30, 100), deadline=None)
 def test_uncertainty_of_fast_oscillations_is_tiny(parts: list[tuple[float, float, float]]) -> None:
     """Hundreds of oscillations in the run: a drift of a millionth of their height is found, where
     they do not beat.
@@ -115,7 +116,7 @@ def test_uncertainty_of_fast_oscillations_is_tiny(parts: list[tuple[float, float
 
 
 @given(st.integers(0, 10**6), st.floats(1e-12, 1e12))
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=at_most(30, 100), deadline=None)
 def test_noise_has_an_uncertainty(seed: int, size: float) -> None:
     """Of noise and a wave the uncertainty is a few standard deviations of the slope, not a small
     part of one.
@@ -135,7 +136,7 @@ def test_noise_hardly_ever_drifts() -> None:
 
 
 @given(waves, st.floats(-1, 1), st.lists(st.integers(1, N), max_size=6))
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=at_most(15, 50), deadline=None)
 def test_pieces_make_no_difference(
     parts: list[tuple[float, float, float]], slope: float, cuts: list[int]
 ) -> None:

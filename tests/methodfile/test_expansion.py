@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 from garkcli.errors import MethodFileError
 from garkcli.methodfile.expansion import _fraction, too_long
 from garkcli.methodfile.problem import loads_problem
+from tests.whole import at_most
 
 v, x, y = sympy.symbols("v x y")
 FORMULAS = st.recursive(
@@ -40,7 +41,7 @@ def problem(lagrangian: str, variables: list[str]) -> str:
 
 
 @given(FORMULAS, FORMULAS)
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=at_most(20, 60), deadline=None)
 def test_terms_are_not_underestimated(numerator: Any, denominator: Any) -> None:
     """A polynomial has at most so many terms; nor does it matter that it is divided by another
     one.

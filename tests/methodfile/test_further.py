@@ -21,6 +21,7 @@ from garkcli.tableau.embedded import DenseOutput, Further, with_weights
 from garkcli.tableau.pointwise import entries
 from garkcli.tableau.tableau import Tableau
 from tests.methodfile.test_writer import rationals, tableaus
+from tests.whole import at_most
 
 VALID = Path(__file__).parents[1] / "examples" / "valid"
 TWO = "{A: [[0, 0], [1, 0]], b: [1/2, 1/2]"
@@ -182,7 +183,7 @@ def further_of(draw: st.DrawFn, stages: list[int], degree: int) -> Further:
 
 
 @given(st.data())
-@settings(max_examples=40)
+@settings(max_examples=at_most(12, 40))
 def test_a_written_file_has_the_same_further_weights(data: st.DataObject) -> None:
     """Whatever the tableau, embedded weights and dense output survive writing and reading."""
     tableau = data.draw(tableaus())
@@ -257,7 +258,7 @@ def test_a_family_keeps_them_as_functions_of_its_parameters() -> None:
 
 
 @given(tableaus())
-@settings(max_examples=20)
+@settings(max_examples=at_most(8, 20))
 def test_a_tableau_with_its_own_weights_is_itself(tableau: Tableau) -> None:
     """Putting b in place of b changes nothing, and other weights change nothing else."""
     own = tuple(colour.b for colour in tableau.colours)

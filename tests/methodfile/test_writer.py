@@ -21,7 +21,7 @@ from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.forms import separable_prk, spelled_out, with_linear
 from garkcli.tableau.pointwise import in_points
 from garkcli.tableau.tableau import Tableau
-from tests.whole import sample
+from tests.whole import at_most, sample
 
 ROOT = Path(__file__).parents[2]
 FILES = [
@@ -62,7 +62,7 @@ def test_a_spelled_out_file_loads_as_the_same_tableau(tableau: Tableau, name: st
 
 
 @given(st.data())
-@settings(max_examples=25)
+@settings(max_examples=at_most(10, 25))
 def test_a_partitioned_file_loads_as_the_same_tableau(data: st.DataObject) -> None:
     """Rectangular parts of a separable or Nyström method come back with their nodes."""
     s, t = data.draw(st.integers(1, 3)), data.draw(st.integers(1, 3))

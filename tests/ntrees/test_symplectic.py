@@ -35,6 +35,7 @@ from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.forms import gark, pair, spelled_out, symplectic_pair, with_linear
 from garkcli.tableau.tableau import Tableau
 from garkcli.transfer import collocation
+from tests.whole import in_whole
 
 LISTED: list[tuple[Structure, int]] = [
     (structure_of("pair", 1), 7),
@@ -263,7 +264,7 @@ def mixed(velocities: list[int], forces: list[int]) -> Tableau:
     ("kind", "colours", "make", "order"),
     [
         ("pair", 1, lobatto_pair, 4),
-        ("pair", 2, lambda: mixed([0, 1], [0, 1]), 4),
+        pytest.param("pair", 2, lambda: mixed([0, 1], [0, 1]), 4, marks=in_whole),
         ("semi-separable", 2, lambda: mixed([0], [0, 1]), 4),
         ("separable", 2, lambda: mixed([0], [1]), 4),
         ("nystrom", 2, lambda: with_linear(mixed([0], [1]), ["V1"]), 4),

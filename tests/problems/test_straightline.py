@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from garkcli.problems.straightline import FUNCTIONS, code_of, function
 from tests.oracles.draws import fractions
+from tests.whole import at_most
 
 X = sympy.symbols("x y z", positive=True)
 DIGITS = 40
@@ -43,7 +44,7 @@ EXPRESSIONS = st.recursive(
 POINTS = st.tuples(*[st.integers(1, 40).map(lambda k: fmpq(k, 16))] * 3)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=at_most(20, 60), deadline=None)
 @given(st.lists(EXPRESSIONS, min_size=1, max_size=4), POINTS)
 def test_values_are_those_of_sympy(expressions: list[Any], point: tuple[fmpq, ...]) -> None:
     """Several expressions at once, in 40 digits, and in floats where no part of one is large."""

@@ -13,7 +13,7 @@ from garkcli.exact.nodes import Expression
 from garkcli.problems.straightline import function
 from garkcli.problems.translate import Translator, size_of_derivatives
 from tests.exact.test_formula import FORMULAS, NAMES
-from tests.whole import in_whole
+from tests.whole import at_most, in_whole
 
 SYMBOLS = {name: sympy.Symbol(name, real=True) for name in ("x", "px", "y")}
 PLAIN = Translator(SYMBOLS, {})
@@ -24,7 +24,7 @@ def translated(text: str) -> sympy.Expr:
     return PLAIN.translate(parse_formula(text))
 
 
-@settings(deadline=None, max_examples=80)
+@settings(deadline=None, max_examples=at_most(20, 80))
 @given(FORMULAS)
 def test_values_stay(expression: Expression) -> None:
     """Translated, differentiated once by nothing, and written as code for balls, a formula has the

@@ -564,7 +564,7 @@ def test_semidefinite_forms() -> None:
 
 
 @given(methods(), st.lists(ENTRY, min_size=4, max_size=4))
-@settings(max_examples=25)
+@settings(max_examples=at_most(10, 25))
 def test_a_stage_without_influence_does_not_hide_the_symmetry(
     method: tuple[Rows, list[Fraction]], row: list[Fraction]
 ) -> None:

@@ -92,7 +92,7 @@ def value_of_a_step(tableau: Tableau, z: list[fmpq]) -> Number:
     return total
 
 
-@settings(max_examples=20)
+@settings(max_examples=at_most(8, 20))
 @given(coupled() | pairs(), st.data())
 def test_the_fraction_is_what_a_step_gives(tableau: Tableau, data: st.DataObject) -> None:
     """P(z) = Q(z) R(z) at rational points where the stage equations are solved one by one."""
@@ -299,7 +299,7 @@ def test_rays_of_known_pairs_by_steps(name: str, real: float, imaginary: float) 
             assert largest_modulus(tableau, pair, direction * (length + 1e-3)) > 1 + 1e-4
 
 
-@settings(max_examples=25)
+@settings(max_examples=at_most(10, 25))
 @given(pairs(), st.integers(-12, 4), st.integers(0, 8))
 def test_damped_points_against_many_samples(tableau: Tableau, a: int, b: int) -> None:
     """A γ > 0 has its poles to the right: the imaginary axis decides, and a grid on it agrees."""
@@ -373,7 +373,7 @@ def test_an_explicit_and_an_implicit_colour_are_told_apart() -> None:
     assert imex_pair(both, stability_fraction(both)) is None
 
 
-@settings(max_examples=25)
+@settings(max_examples=at_most(10, 25))
 @given(pairs(), st.sampled_from([(1, 0), (0, 1), (1, 1), (1, 2)]))
 def test_additive_radii_by_floating_point(tableau: Tableau, direction: tuple[int, int]) -> None:
     """Below the radius all conditions of both colours hold; just above it one of them fails."""

@@ -17,6 +17,7 @@ from garkcli.tableau.forms import gark
 from garkcli.tableau.pointwise import in_points
 from garkcli.tableau.tableau import Tableau
 from tests.oracles.draws import fractions
+from tests.whole import at_most
 
 SSP_10_4 = (
     "methods: [{A: ["
@@ -133,7 +134,7 @@ def explicit(draw: st.DrawFn) -> Tableau:
     return loads(f"methods: [{{A: {A}, b: {b}}}]").tableau
 
 
-@settings(max_examples=40)
+@settings(max_examples=at_most(12, 40))
 @given(explicit())
 def test_the_conditions_by_floating_point(tableau: Tableau) -> None:
     """A little below the radius all entries are positive, a little above one is not."""

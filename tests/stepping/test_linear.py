@@ -38,6 +38,7 @@ from garkcli.tableau.forms import (
 )
 from garkcli.tableau.tableau import Tableau
 from garkcli.transfer import collocation
+from tests.whole import at_most
 
 H = fmpq(1, 3)
 ONE = fmpq(1)
@@ -191,7 +192,7 @@ def test_other_methods_are_not_symplectic(name: str) -> None:
     assert determinant(linear_step(tableau, default(tableau)).at(H)) != 1
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=at_most(8, 25), deadline=None)
 @given(st.fractions(0, 1, max_denominator=9), st.fractions(-1, 2, max_denominator=9))
 def test_one_method_on_all_terms_does_not_see_the_split(kinetic: object, potential: object) -> None:
     """Gauss 2 twice is Gauss 2, whatever the shares."""

@@ -20,6 +20,7 @@ from garkcli.stepping.integrator import Stepper, bind, integrate, trajectory
 from garkcli.tableau.forms import gark, pair, separable_prk, symplectic_pair
 from garkcli.tableau.tableau import Tableau
 from garkcli.transfer import collocation
+from tests.whole import at_most
 
 GAUSS, LOBATTO = (diagonal_method("gauss", 2), diagonal_method("lobatto-iiia", 3))
 COUPLED = gark(
@@ -119,7 +120,7 @@ def test_cyclic_variable_has_balls_too() -> None:
     assert ends[1][3] == 1
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=at_most(8, 20), deadline=None)
 @given(st.integers(1, 12))
 def test_compositions_cost_what_their_steps_cost(parts: int) -> None:
     """Several leapfrog steps in one method: the same numbers as one after the other, and a text of

@@ -18,6 +18,7 @@ from garkcli.tableau.forms import gark, with_time
 from garkcli.tableau.tableau import Tableau, butcher
 from tests.oracles import samples
 from tests.oracles.brute import brute_order
+from tests.whole import at_most
 
 DEGREE = 5
 """Powers of h up to which steps are compared."""
@@ -82,7 +83,7 @@ METHODS = [
 ]
 
 
-@settings(max_examples=25)
+@settings(max_examples=at_most(10, 25))
 @given(st.sampled_from(METHODS), st.integers(0, 2**32 - 1))
 def test_the_order_is_that_of_steps_as_power_series(
     coefficients: tuple[str, str], seed: int

@@ -39,6 +39,7 @@ from tests.oracles import samples
 from tests.oracles.draws import fractions
 from tests.oracles.points import at_points, method_at, numbers, value
 from tests.oracles.stages import product
+from tests.whole import in_whole
 
 NODES = numbers("1/2 - sqrt(3)/6, 1/2 + sqrt(3)/6", "0, 1/2, 1", "1/3, 1", "0, 2/3", "0, 1")
 """Over ℚ(√3), the nodes of Gauss 2, Lobatto 3, Radau IIA 2, Radau IA 2, Lobatto 2."""
@@ -192,7 +193,7 @@ def test_nodes_are_as_precise_as_asked() -> None:
         coordinates_at_nodes(diagonal_method("gauss", 40).space)
 
 
-@pytest.mark.parametrize("tolerance", [fmpq(0), fmpq(1, 10**12)])
+@pytest.mark.parametrize("tolerance", [fmpq(0), pytest.param(fmpq(1, 10**12), marks=in_whole)])
 def test_many_stages_are_soon_checked(tolerance: fmpq) -> None:
     """Gauss with 60 stages: B, C and D to order 60 in seconds of the processor, with and without
     tolerance.
