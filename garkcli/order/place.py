@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import cached_property
+from itertools import islice
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
@@ -158,8 +159,7 @@ class Place:
             sizes = [(abs(x), u) for x, _, u in residuals.of_order(order, share)]
             missed = [(x, u) for x, u in sizes if not x < small]
             missed.sort(key=lambda x: float(x[0].mid()), reverse=True)
-            trees = [table.tree(u) for _, u in missed]
-            return self._beyond_slack(name, trees, share)[:MOST_ROWS]
+            return self._beyond_slack(name, (table.tree(u) for _, u in missed), share)
         bush = self._bush_missed(name, order)
         if bush is not None:
             return [bush]
@@ -169,8 +169,8 @@ class Place:
         hulls = self._spans[name].sizes(order)
         if hulls.bound < small:
             return []
-        members = [tree for x, tree in hulls.members if not x < small]
-        return self._beyond_slack(name, members, share)[:MOST_ROWS]
+        members = (tree for x, tree in hulls.members if not x < small)
+        return self._beyond_slack(name, members, share)
 
     def _bush_missed(self, name: str, order: int) -> Tree | None:
         """A quadrature condition that no method of the box meets: one vertex with leaves of one
@@ -190,12 +190,13 @@ class Place:
                     return bush
         return None
 
-    def _beyond_slack(self, name: str, trees: list[Tree], share: int) -> list[Tree]:
+    def _beyond_slack(self, name: str, trees: Iterable[Tree], share: int) -> list[Tree]:
         if not self.slack:
-            return trees
+            return [*islice(trees, MOST_ROWS)]
         with arithmetic(self.search.bits):
             defects = self.defects(name)
-            return [u for u in trees if not self.is_met(defects.of(of_tree(u, share)), 0)]
+            beyond = (u for u in trees if not self.is_met(defects.of(of_tree(u, share)), 0))
+            return [*islice(beyond, MOST_ROWS)]
 
     def meets(self, name: str, tree: Tree) -> bool:
         """Whether this method meets the condition of a tree."""

@@ -22,10 +22,12 @@ from scipy.optimize import lsq_linear
 from garkcli import loads
 from garkcli.check.deciding import analyse
 from garkcli.exact.affine import Forms
+from garkcli.ntrees.table import TreeTable
 from garkcli.order.bounded import bounded_least_squares, excludes, nearest
 from garkcli.order.certificate import find_order
+from garkcli.order.conditions import conditions, coupling_graph
 from garkcli.order.meant import as_meant
-from garkcli.order.place import Place
+from garkcli.order.place import MOST_ROWS, Place
 from garkcli.order.recovering import Recovery
 from garkcli.order.rounded import RoundedTableau, find_order_within
 from garkcli.order.simplifying import simplifying
@@ -442,3 +444,31 @@ def test_a_method_beyond_the_box_is_none_to_second_order() -> None:
     found = analyse(method.conjugate.tableau, 6, method.tolerance)
     assert found.conjugate_order is not None
     assert (found.order.order, found.conjugate_order.order) == (5, 5)
+
+
+@pytest.mark.parametrize("slack", [0.0, 1e-30])
+def test_trees_are_made_of_the_conditions_that_are_taken(
+    slack: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of thousands of conditions that fail as many trees are made as there are rows, those missed by
+    most; a place that gives its conditions slack has the same.
+    """
+    box = as_meant(
+        loads("{tolerance: 1e-6, A: [[0.25, -0.03867513], [0.53867513, 0.25]], b: [0.4, 0.6]}")
+    )
+    assert isinstance(box, RoundedTableau)
+    search = box.search
+    place = Place(search, [fmpq(0)] * len(search.box.numbers))
+    monkeypatch.setattr(place, "slack", slack)
+    made: list[int] = []
+    whole = TreeTable.tree
+    monkeypatch.setattr(TreeTable, "tree", lambda table, u: made.append(u) or whole(table, u))
+    found = place.missed("method", 10)
+    assert len(found) == MOST_ROWS
+    monkeypatch.undo()
+    tableau = place.exact("method")
+    table = TreeTable.of(coupling_graph(tableau), 10)
+    every = [abs(x.residual) for x in conditions(tableau, map(table.tree, table.ids(10)))]
+    taken = [abs(x.residual) for x in conditions(tableau, found)]
+    assert taken == sorted(every, reverse=True)[:MOST_ROWS]
+    assert len(made) < len(every) / 2
