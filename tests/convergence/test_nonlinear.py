@@ -26,6 +26,7 @@ from garkcli.tableau.tableau import Tableau
 from garkcli.transfer import interpolation
 from tests.cli.harness import ROOT, gark
 from tests.stepping.test_step import RECTANGULAR, RK4, coupled
+from tests.whole import in_whole
 
 VERLET = str(ROOT / "methods" / "stoermer-verlet.gark.yaml")
 COLLOCATION = str(ROOT / "methods" / "collocation.gark.yaml")
@@ -58,6 +59,7 @@ def test_observed_order_is_the_exact_one(tableau: Tableau, name: str, order: int
     assert result.agrees
 
 
+@in_whole
 def test_order_twelve_is_seen() -> None:
     """Gauss 6 × Lobatto IIIA 7 on generic, from h = 1/8: errors of 1e-25 have slope 12."""
     tableau = pair(coupled(6, 7))
@@ -207,6 +209,7 @@ def test_small_error_constant_needs_tiny_steps() -> None:
     assert result.verdict == "agree"
 
 
+@in_whole
 def test_exact_solution_has_no_error() -> None:
     """A stone that falls: rk4 makes no error, and there is no order to be seen; a start at rest
     stays there, whatever the method is. Neither confirms an order.

@@ -13,7 +13,7 @@ from garkcli.methodfile.problem import loads_problem
 from garkcli.problems.builtin import hamiltonian
 from garkcli.stepping.integrator import StepFailed
 from tests.listener import Listener
-from tests.whole import sample
+from tests.whole import in_whole, sample
 
 
 def test_period_of_kepler() -> None:
@@ -97,6 +97,7 @@ def test_collision_has_no_solution(digits: int, monkeypatch: pytest.MonkeyPatch)
         Reference(problem, fmpq(2)).to(digits)
 
 
+@in_whole
 def test_a_solution_that_ends_is_told_when() -> None:
     """q̈ = 4q³ leaves every bound at ∫ dq/√(2q⁴ − 1) from 1 to ∞, 0.7531…: that is told, no step
     size.

@@ -16,6 +16,7 @@ import pytest
 
 import garkcli
 from tests.cli.harness import ROOT
+from tests.whole import in_whole
 
 PACKAGE = Path(garkcli.__file__).parent
 RK4 = "A: [[0, 0, 0, 0], [1/2, 0, 0, 0], [0, 1/2, 0, 0], [0, 0, 1, 0]]\nb: [1/6, 1/3, 1/3, 1/6]\n"
@@ -106,6 +107,7 @@ def test_a_family_is_one_file(copy: Copy) -> None:
     assert '"gaussian"' in schema
 
 
+@in_whole
 def test_a_property_is_a_function_and_a_word(copy: Copy) -> None:
     """Reports, claims, the catalogue, its filters, comparisons and explanations have it."""
     assert "`garkcli/properties/claimed`" in row("property, which files may claim")
@@ -155,6 +157,7 @@ def test_a_target_is_a_file_and_a_template(copy: Copy) -> None:
     assert "b = " in exported
 
 
+@in_whole
 def test_a_problem_is_an_entry(copy: Copy) -> None:
     """The list and every command that runs problems have it."""
     assert "`garkcli/problems/builtin.py`" in row("problem")
