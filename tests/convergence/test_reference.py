@@ -116,6 +116,7 @@ def test_a_solution_that_ends_is_told_when() -> None:
     assert "final time before 0.75" in (told.value.help or "")
 
 
+@in_whole
 def test_what_is_not_smooth_is_seen_by_its_error() -> None:
     """At t = 0 sqrt(t) has no derivative: the error falls like the power 3/2 of the step, and far
     fewer steps than are allowed tell that these would not do.

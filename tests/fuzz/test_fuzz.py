@@ -332,8 +332,9 @@ def test_faults_of_the_loader_are_found() -> None:
 def test_the_long_run_in_short(are_problems: bool) -> None:
     """Its first cases: each has a verdict, and the same text whenever it is asked for."""
     cases = Cases(1, are_problems)
-    found = run(cases, range(40))
-    assert [case.number for case in found] == [*range(40)]
+    numbers = range(at_most(15, 40))
+    found = run(cases, numbers)
+    assert [case.number for case in found] == [*numbers]
     assert {case.kind for case in found} == {"loaded", "refused"}
     assert cases.reader()(7) == cases.reader()(7) != cases.reader()(8)
 

@@ -23,7 +23,7 @@ from garkcli.check import deciding
 from garkcli.errors import MethodFileError
 from tests.cli.harness import ROOT, Run
 from tests.cli.harness import gark as call
-from tests.whole import IS_WHOLE
+from tests.whole import IS_WHOLE, in_whole
 
 resource = pytest.importorskip("resource", reason="no limits on processes here")
 
@@ -297,7 +297,9 @@ def big_explicit(stages: int, entry: str) -> str:
     return f"methods:\n- A: [{', '.join(rows)}]\n  b: [{weights}]\n"
 
 
-@pytest.mark.parametrize(("stages", "entry"), [(300, "1/300"), (100, "'cbrt(2)/100'")])
+@pytest.mark.parametrize(
+    ("stages", "entry"), [(300, "1/300"), pytest.param(100, "'cbrt(2)/100'", marks=in_whole)]
+)
 def test_a_big_method_is_answered_or_refused(stages: int, entry: str, tmp_path: Path) -> None:
     """Hundreds of explicit stages, rational or not: an order or a refusal, in 15 seconds of work and
     500 MB.

@@ -146,7 +146,7 @@ def test_refused_soon(name: str) -> None:
     assert any(message in fault.message for fault in caught.value.faults)
 
 
-@pytest.mark.parametrize("name", sample([*READ], 2))
+@pytest.mark.parametrize("name", sample([*READ], 3))
 def test_read_soon(name: str) -> None:
     """Large, but within the limits."""
     before = time.process_time()

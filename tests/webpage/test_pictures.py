@@ -20,6 +20,7 @@ from garkcli.plots.plane import Point, outlines
 from garkcli.plots.scene import linear_marks, shortened
 from garkcli.plots.svg import STYLE, colour
 from garkcli.webpage.pictures import Picture, compared_pictures, pictures
+from tests.whole import in_whole
 
 MOST_CHARACTERS = 60_000
 RK4 = [[0, 0, 0, 0], ["1/2", 0, 0, 0], [0, "1/2", 0, 0], [0, 0, 1, 0]]
@@ -311,6 +312,7 @@ def test_circles_are_told_from_noise() -> None:
     assert str(nested[0].get("d")).count("M") == 1
 
 
+@in_whole
 def test_several_methods_are_in_one_picture() -> None:
     """Regions and errors of the first four, told apart by dashes and named; large methods and
     those without a region are left out, and one method alone has no picture with others.
