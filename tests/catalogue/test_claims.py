@@ -5,9 +5,11 @@ reports that fit a screen: a sample in the suite, all in ``make whole``.
 from __future__ import annotations
 
 import csv
+import json
 import re
 from decimal import Decimal
 from functools import cache
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -64,9 +66,17 @@ def outcomes() -> dict[str, Outcome]:
 
 
 @cache
-def methods() -> dict[str, MethodFile]:
-    """Each file as it is read, by its name."""
-    return {name: load(str(path)) for name, path in ALL.items()}
+def method_of(name: str) -> MethodFile:
+    """A file as it is read."""
+    return load(str(ALL[name]))
+
+
+def alike() -> list[str]:
+    """Files whose fingerprint in the index another one has; in ``make whole`` all files."""
+    text = (DATA.parent / "index.json").read_text(encoding="utf-8")
+    places = sorted((x["fingerprint"], x["name"]) for x in json.loads(text)["methods"])
+    pairs = [(x, y) for (p, x), (q, y) in pairwise(places) if q - p < 1e-7]
+    return [*ALL] if IS_WHOLE else sorted({name for names in pairs for name in names})
 
 
 @pytest.fixture(scope="module")
@@ -157,7 +167,8 @@ def test_no_method_is_there_twice() -> None:
     for the twins, which differ in something else.
     """
     found: dict[object, set[str]] = {}
-    for name, method in methods().items():
+    for name in alike():
+        method = method_of(name)
         printed = numeric_entries(method.tableau, 15)
         blocks = [_sorted(block) for row in printed.A for block in row]
         weights = [sorted(map(_rounded, row)) for row in printed.b]
@@ -165,7 +176,7 @@ def test_no_method_is_there_twice() -> None:
         found.setdefault(key, set()).add(name)
     again = [names for names in found.values() if len(names) > 1]
     assert sorted(map(sorted, again)) == sorted(map(sorted, TWINS))
-    assert len(found) >= 200
+    assert len(found) >= at_most(10, 200)
 
 
 def _rounded(x: Any) -> float:
@@ -243,13 +254,13 @@ def test_references_say_where_the_digits_are_from() -> None:
 def test_publications_have_one_doi() -> None:
     """Most files have the DOI of their publication, without an address, the same in all of them."""
     known: dict[tuple[str, str], set[str]] = {}
-    for method in methods().values():
-        book = method.bibliography
+    for name in sample([*ALL], 6):
+        book = method_of(name).bibliography
         if book:
             known.setdefault((book.title, book.year), set()).add(book.doi)
     assert all(len(dois) == 1 for dois in known.values())
     found = {doi for dois in known.values() for doi in dois if doi}
-    assert len(found) >= 65
+    assert len(found) >= at_most(10, 65)
     assert [x for x in found if not re.fullmatch(r"10\.\d{4}/\S+", x)] == []
 
 
