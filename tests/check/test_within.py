@@ -37,7 +37,7 @@ SMALL = [
     if not make().is_partitioned and sum(space.stages for space in make().spaces) <= 5
 ]
 GAUSS = "methods: [{A: [[0.25, -0.03867513], [0.53867513, 0.25]], b: [0.5, 0.5]}]\n"
-LIMIT = at_most(7, 9)
+LIMIT = at_most(5, 9)
 
 
 def words(outcomes: list[Outcome]) -> str:

@@ -355,6 +355,7 @@ def test_a_fault_in_one_file_stops_nothing(tmp_path: Path, monkeypatch: pytest.M
     assert run.out.count("found 4") == 2
 
 
+@in_whole
 def test_more_workers_than_a_system_waits_for() -> None:
     """``-j 256`` takes as many workers as Windows can wait for, and no more than there are files."""
     from garkcli.crew.processes import MOST_WORKERS

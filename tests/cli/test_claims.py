@@ -29,7 +29,7 @@ def put(folder: Path, text: str) -> str:
     return str(path)
 
 
-@pytest.mark.parametrize("path", sample(METHODS, 2), ids=lambda x: x.name.split(".")[0])
+@pytest.mark.parametrize("path", sample(METHODS, 4), ids=lambda x: x.name.split(".")[0])
 def test_everything_claimed_is_true(path: Path, tmp_path: Path) -> None:
     """All claims of --all, written into a method of the paper, hold there, and a second time
     nothing is changed.

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import json
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ import pytest
 import garkcli
 from garkcli.cli.main import COMMANDS
 from tests.cli.harness import gark, gark_once
-from tests.whole import in_whole
+from tests.whole import in_whole, sample
 
 COLLOCATION = "methods/collocation.gark.yaml"
 ROUNDED = """
@@ -233,8 +234,10 @@ tolerance: 5e-9
 """
 
 
-@pytest.mark.parametrize("command", ["stability", "modified"])
-@pytest.mark.parametrize("option", ["--conjugate", "--pair"])
+@pytest.mark.parametrize(
+    ("option", "command"),
+    sample([*product(["--conjugate", "--pair"], ["stability", "modified"])], 3),
+)
 def test_of_rounded_ones_it_is_that_of_one_method(
     command: str, option: str, tmp_path: Path
 ) -> None:

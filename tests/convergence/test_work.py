@@ -16,6 +16,7 @@ from garkcli.problems.oscillator import terms_of
 from garkcli.stepping.integrator import Stepper, bind, integrate
 from garkcli.tableau.forms import gark, pair
 from tests.stepping.test_step import RECTANGULAR, RK4, coupled
+from tests.whole import in_whole
 
 
 def test_explicit_method_is_counted_by_hand() -> None:
@@ -65,6 +66,7 @@ def test_digits_cost_evaluations() -> None:
     assert costs[1].evaluations > costs[0].evaluations
 
 
+@in_whole
 def test_time_is_measured_where_floats_reach() -> None:
     """Gauss 3 × Lobatto IIIA 4 leaves the range of floats: its last rows have counts and no
     time.

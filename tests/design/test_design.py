@@ -144,6 +144,7 @@ def test_explicit_methods_of_three_stages() -> None:
     assert one.solution.values == {"a32": fmpq(2, 3), "b2": 0, "b3": fmpq(3, 4)}
 
 
+@in_whole
 def test_splitting_of_four_stages() -> None:
     """All real splittings of order 4 with four maps a part: Forest's and Ruth's, both ways."""
     names = [f"{letter}{i}" for letter in "ab" for i in range(1, 5)]

@@ -178,6 +178,7 @@ def test_a_problem_is_an_entry(copy: Copy) -> None:
     assert "swing" in followed
 
 
+@in_whole
 def test_a_format_of_check_is_a_function_and_a_line(copy: Copy) -> None:
     """The option has it."""
     assert "`garkcli/report/check_formats.py`" in row("format of `gark check`")

@@ -158,7 +158,7 @@ OTHERS = [said.replace(HOLE, "x") for kind in KINDS for said in kind.says]
 
 
 @pytest.mark.parametrize("kind", KINDS, ids=lambda x: x.code)
-@settings(max_examples=at_most(2, 5))
+@settings(max_examples=at_most(1, 5))
 @given(said=st.sampled_from(OTHERS), around=st.sampled_from(AROUND))
 def test_what_is_quoted_has_no_say(kind: FaultKind, said: str, around: str) -> None:
     """A message keeps its code when what it quotes of a file reads like another message."""

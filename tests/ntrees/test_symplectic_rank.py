@@ -210,7 +210,7 @@ def sizes(made: Structure, stages: tuple[int, ...]) -> Iterator[int]:
                 yield s[term] * s[made.colours[m][0]]
 
 
-@pytest.mark.parametrize(("made", "order", "stages", "classes"), sample(CASES, 2))
+@pytest.mark.parametrize(("made", "order", "stages", "classes"), sample(CASES, 4))
 def test_rank_is_the_number_of_classes(
     made: Structure, order: int, stages: tuple[int, ...], classes: int
 ) -> None:

@@ -34,7 +34,7 @@ from garkcli.tableau.tableau import Tableau
 from tests.oracles import samples
 from tests.oracles.brute import Trees, Weights, brute_order, density, order_of, plain
 from tests.oracles.series import random_problem, series_order, step
-from tests.whole import at_most
+from tests.whole import at_most, sample
 
 T = TypeVar("T")
 PAIRS = json.loads((Path(__file__).parent / "pairs.json").read_text())
@@ -135,7 +135,7 @@ def symmetry(u: object) -> int:
     return result
 
 
-@pytest.mark.parametrize("name", EXACT)
+@pytest.mark.parametrize("name", sample(EXACT, 3))
 def test_rounding_within_a_tolerance_changes_no_order(
     name: str, judged: dict[str, tuple[MethodFile, Analysis]]
 ) -> None:

@@ -268,6 +268,7 @@ def test_wanted() -> None:
     assert {name: str(x) for name, x in one.solution.values.items()}["a22"] == "1/2"
 
 
+@in_whole
 def test_too_many_products() -> None:
     """Of several colours with many stages the one that is stiff has to be named."""
     text = "unknown: {stages: 8, shape: imex}\ndesign: {order: 1, weak-stage-order: 2}\n"
