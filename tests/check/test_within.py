@@ -183,7 +183,7 @@ def test_three_digits_refute_nothing(stages: int) -> None:
     """Gauss methods cut off after three digits have their order within 1e-3: a report may leave it
     open.
     """
-    method = in_decimals(samples.NAMED[f"gauss {stages}"](), 3)
+    method = in_decimals(gark([samples.method(f"gauss {stages}")], {}), 3)
     found = analyse(method, LIMIT, fmpq(1, 1000))
     assert_no_contradiction(found)
     assert found.order.order >= 2 * stages or found.order.witness is None

@@ -374,7 +374,7 @@ def imbalances(case: Case, path: Sequence[Any]) -> tuple[float, float]:
 
 @pytest.mark.parametrize(
     ("name", "digits"),
-    [*((name, MANY) for name in sample([*CASES], 2)), *((name, FLOAT_DIGITS) for name in SOME)],
+    [*((name, MANY) for name in sample([*CASES], 4)), *((name, FLOAT_DIGITS) for name in SOME)],
 )
 def test_trajectory_makes_the_discrete_action_stationary(name: str, digits: int) -> None:
     """The discrete Euler–Lagrange equations and both discrete Legendre transforms, to round-off."""
