@@ -238,6 +238,7 @@ def test_standard_input_among_many() -> None:
     assert two.returncode == 1
 
 
+@in_whole
 def test_as_many_as_there_are_processors() -> None:
     """``-j 0`` gives the report of ``-j 1``; fewer than none are a usage error."""
     alone, many = one_by_one(), process("methods", "-j", "0")

@@ -228,6 +228,7 @@ def test_nothing_seen_confirms_nothing(method: str) -> None:
     assert gark("converge", method, *rest, stdin=LOGISTIC % "1/2").code == 0
 
 
+@in_whole
 def test_no_error_confirms_nothing() -> None:
     """A polynomial that the method solves exactly: the order that it has is not the one it shows."""
     fall = "{variables: [x, v], rhs: {x: v, v: -1}, initial: {x: 0, v: 1}}"

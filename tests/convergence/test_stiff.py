@@ -125,6 +125,7 @@ def row(name: str) -> list[str]:
     return [name, *numbers, *(shown(name, *test) for test in TESTS)]
 
 
+@in_whole
 def test_the_page_is_measured() -> None:
     """The table of docs/stiff-problems.md, cell by cell: some rows, in ``make whole`` all;
     GARK_UPDATE_SNAPSHOTS writes it.

@@ -87,6 +87,7 @@ def row(what: str) -> str:
     return found.rpartition("| `tests/")[0]
 
 
+@in_whole
 def test_a_family_is_one_file(copy: Copy) -> None:
     """Method files, the list, the explanation, the schema and the suggestion have it."""
     assert "`garkcli/families/NAME.py`" in row("family of methods")

@@ -25,8 +25,8 @@ EMPTY = (
     "howto-stiff",
 )
 """Pages that begin in an empty folder; the others use what a checkout has."""
-LONG = ("rk-1214", "pep-756", "kencarp-5", "fehlberg-9")
-"""Methods of many stages, whose commands take long: they are run in ``make whole``, and where pages
+LONG = ("rk-1214", "pep-756", "kencarp-5", "fehlberg-9", "no-resonance")
+"""Words of commands that take long: they are run in ``make whole``, and where pages
 are renewed.
 """
 IS_RENEWED = os.environ.get("GARK_UPDATE_SNAPSHOTS") == "1"

@@ -273,8 +273,9 @@ def test_what_is_damaged_was_good() -> None:
     none.
     """
     assert not any(faults_of(text, loads_problem) for text in problem_seeds())
-    good = sum(not faults_of(written_problem(Random(seed)), loads_problem) for seed in range(40))
-    assert 8 < good < 32
+    count = at_most(15, 40)
+    good = sum(not faults_of(written_problem(Random(seed)), loads_problem) for seed in range(count))
+    assert count < 5 * good < 4 * count
 
 
 MISDEEDS = {

@@ -33,7 +33,7 @@ from garkcli.report.certificate import REPORT
 from garkcli.report.coq import coq_proof
 from garkcli.tableau.tableau import Tableau
 from tests.constructions.test_rosenbrock import RODAS3
-from tests.whole import IS_WHOLE, at_most, sample
+from tests.whole import IS_WHOLE, at_most, in_whole, sample
 
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / "tools" / "referee.py"
@@ -429,6 +429,7 @@ def test_a_small_file_does_not_fill_the_memory(
     assert peak < 200_000_000
 
 
+@in_whole
 def test_matrices_do_not_fill_the_memory(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

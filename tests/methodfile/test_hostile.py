@@ -536,7 +536,10 @@ def test_an_interrupt_leaves_no_file(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("arguments", ["check methods -v -j 2", "trees -N 3 -n 8 --format csv"])
+@pytest.mark.parametrize(
+    "arguments",
+    [pytest.param("check methods -v -j 2", marks=in_whole), "trees -N 3 -n 8 --format csv"],
+)
 def test_a_reader_that_goes_away(arguments: str) -> None:
     """``| head -1`` of any long report ends quietly, with a line on stdout and nothing on
     stderr.

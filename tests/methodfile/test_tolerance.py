@@ -24,6 +24,7 @@ from garkcli.order.dense import DenseOrder
 from garkcli.order.meant import as_meant
 from garkcli.order.rounded import RoundedOrder
 from garkcli.tableau.tableau import Tableau
+from tests.whole import in_whole
 
 RK4 = "A: [[], [0.5], [0, 0.5], [0, 0, 1]]\nb: [1/6, 1/3, 1/3, 1/6]\n"
 EMBEDDED = f"{RK4}embedded: [0.166666666667, 0.333333333333, 0.333333333333, 0.166666666667]\n"
@@ -343,6 +344,7 @@ def test_where_stages_are_joined_each_coefficient_is_rounded(
     assert (rounded.tableau.space(0).stages, len(rounded.search.box.numbers)) == (stages, numbers)
 
 
+@in_whole
 def test_exports_name_the_order_on_problems_with_time_that_check_names() -> None:
     """Order 2 has b₂ = 1/2, and b₂ c₂ = 1/2 with a c₂ that is exact and not 1 fails. Were the
     exact numbers rounded too, both would hold.

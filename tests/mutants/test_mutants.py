@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 from itertools import pairwise
 from pathlib import Path
+from typing import IO
 
 import pytest
 
@@ -60,7 +61,12 @@ def test_mutants_are_judged_by_all_tests(tmp_path: Path, monkeypatch: pytest.Mon
     """Where tests are recorded and where they judge, none is left out as in the suite."""
     runs: list[dict[str, str]] = []
     monkeypatch.delenv("GARK_WHOLE", raising=False)
-    monkeypatch.setattr("subprocess.Popen", lambda *_, env, **__: runs.append(env))
+
+    def started(*_: object, env: dict[str, str], stdout: IO[bytes], **__: object) -> None:
+        stdout.close()
+        runs.append(env)
+
+    monkeypatch.setattr("subprocess.Popen", started)
     for plugin in ("recording", "choosing"):
         pytest_in(tmp_path, tmp_path / "said.txt", plugin, GARK_RECORD="x")
     assert [run["GARK_WHOLE"] for run in runs] == ["1", "1"]

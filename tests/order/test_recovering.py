@@ -433,6 +433,7 @@ def test_what_is_met_to_second_order_counts_as_met_everywhere() -> None:
     assert simplifying(box, 8, "B").B == (4,)
 
 
+@in_whole
 def test_a_method_beyond_the_box_is_none_to_second_order() -> None:
     """a[2,3] of this Gauss method is 1.08 t from the exact one, the only method of three stages with
     order 6, which is its own conjugate: neither the method nor its conjugate has order 6 within t,

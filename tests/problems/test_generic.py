@@ -17,6 +17,7 @@ from garkcli.problems.hamiltonian import vector_field
 from garkcli.problems.vectorfield import GROUPS, symbols
 from garkcli.stepping.integrator import bind, integrate
 from garkcli.tableau.forms import gark
+from tests.whole import in_whole
 
 PROBLEM = hamiltonian("generic", 2)
 Y = (*symbols(PROBLEM.variables, "q"), *symbols(PROBLEM.variables, "p"))
@@ -84,6 +85,7 @@ def differential(tree: Tree) -> Any:
     return tensor
 
 
+@in_whole
 def test_no_elementary_differential_vanishes() -> None:
     """All 4-coloured trees of order up to 4, of which there are 4, 16, 104 and 752.
 

@@ -37,7 +37,7 @@ from garkcli.sweep.store import RowStore
 from garkcli.tableau.forms import pair
 from tests.cli.harness import gark
 from tests.had import needs_fifos, needs_locks
-from tests.whole import at_most
+from tests.whole import at_most, in_whole
 
 SPEC = """name: small
 methods:
@@ -324,6 +324,7 @@ def test_reports(spec: Path) -> None:
     assert "more with -v" not in gark(*resumed, "markdown", "-v").out
 
 
+@in_whole
 def test_the_plot(spec: Path) -> None:
     """A point for each method that is kept, and one more for those of the front; the same bytes
     every time; what cannot be drawn is refused before the work.
