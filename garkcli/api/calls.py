@@ -13,6 +13,7 @@ from garkcli.check import analysis
 from garkcli.check.analysis import MethodProof
 from garkcli.check.deciding import analyse_any
 from garkcli.check.true_claims import TrueClaims, true_claims, usual_keys
+from garkcli.constructions.nystrom import is_nystrom, partitioned
 from garkcli.constructions.rosenbrock import is_rosenbrock, on_test_equation
 from garkcli.deadline import SECONDS
 from garkcli.errors import MethodError, UsageProblem, did_you_mean
@@ -136,6 +137,8 @@ def find_stability(
         raise MethodError("ratios are positive", "the axes are always there", code="option-value")
     is_linear_alone = is_rosenbrock(method.tableau)
     tableau = on_test_equation(method.tableau, near) if is_linear_alone else method.tableau
+    if is_nystrom(tableau):
+        tableau = partitioned(tableau, near)
     if near is None:
         found = stability(tableau, further, seconds)
     else:

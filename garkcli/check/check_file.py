@@ -8,6 +8,7 @@ from garkcli.check.claims import verify
 from garkcli.check.culprit import culprit
 from garkcli.check.deciding import analyse, analyse_any, remark_of
 from garkcli.check.outcome import Outcome
+from garkcli.constructions.nystrom import is_nystrom
 from garkcli.constructions.rosenbrock import is_rosenbrock
 from garkcli.errors import HasFreeParameters, MethodFileError
 from garkcli.frozen import replace
@@ -59,7 +60,7 @@ def check_method(
         want_constants: compute the error constants too.
     """
     reach = max(limit, highest_order(method.claims) + 1)
-    if is_rosenbrock(method.tableau) or method.tableau.exact_to is not None:
+    if not method.tableau.is_gark:
         return _check_other_kind(method, reach, want_constants)
     analysis = analyse(method.tableau, reach, method.tolerance, method.further)
     claims = verify(method.claims, analysis)
@@ -92,6 +93,8 @@ def _check_other_kind(method: MethodFile, limit: int, want_constants: bool) -> O
     )
     if is_rosenbrock(method.tableau):
         return replace(outcome, rosenbrock=found)
+    if is_nystrom(method.tableau):
+        return replace(outcome, nystrom=found)
     return replace(outcome, infinitesimal=found)
 
 

@@ -14,12 +14,13 @@ from garkcli.reason import NO_REASON, Reason
 
 if TYPE_CHECKING:
     from garkcli.check.infinitesimal import InfinitesimalAnalysis, InfinitesimalSubject
+    from garkcli.check.nystrom import NystromAnalysis, NystromSubject
     from garkcli.check.rosenbrock import RosenbrockAnalysis, RosenbrockSubject
     from garkcli.properties.subject import Subject
 
 
-AnyAnalysis: TypeAlias = "Analysis | RosenbrockAnalysis | InfinitesimalAnalysis"
-AnySubject: TypeAlias = "Subject | RosenbrockSubject | InfinitesimalSubject"
+AnyAnalysis: TypeAlias = "Analysis | RosenbrockAnalysis | NystromAnalysis | InfinitesimalAnalysis"
+AnySubject: TypeAlias = "Subject | RosenbrockSubject | NystromSubject | InfinitesimalSubject"
 
 
 def verify(claims: tuple[ClaimText, ...], analysis: AnyAnalysis) -> tuple[Claim, ...]:
@@ -43,7 +44,9 @@ def _why_none(key: str, analysis: AnyAnalysis) -> str:
     kind = getattr(analysis, "kind", "a GARK method")
     if key in OF_ROSENBROCK and kind != "a Rosenbrock method":
         return "it is no Rosenbrock method"
-    if key in OF_INFINITESIMAL and isinstance(analysis, Analysis):
+    if key in OF_NYSTROM and kind != "a Nyström method":
+        return "it is no Nyström method"
+    if key in OF_INFINITESIMAL and kind != "a multirate method with the exact fast part":
         return "it has no exact fast part"
     if key.startswith("embedded") and analysis.embedded is None:
         return "there are no embedded weights"
@@ -75,6 +78,10 @@ OF_ROSENBROCK = (
     *OF_DAE,
 )
 """The orders that Rosenbrock methods have besides."""
+OF_NYSTROM = (
+    *("position-order", "velocity-order", "embedded-position-order", "embedded-velocity-order"),
+)
+"""Those that Nyström methods have besides."""
 OF_INFINITESIMAL = ("slow-order",)
 """Those that multirate methods with the exact fast solution have besides."""
 
@@ -85,7 +92,7 @@ def found_value(key: str, analysis: AnyAnalysis) -> object:
     if not isinstance(analysis, Analysis) and key not in OF_DENSE:
         view = analysis.view(key)
         found = None if view is None else view[0]
-    elif key in (*OF_ROSENBROCK, *OF_INFINITESIMAL):
+    elif key in (*OF_ROSENBROCK, *OF_NYSTROM, *OF_INFINITESIMAL):
         return None
     else:
         for name in PLACES.get(key, key.replace("-", "_")).split("."):

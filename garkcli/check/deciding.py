@@ -14,6 +14,7 @@ from garkcli.check.analysis import (
     is_pair_of_itself,
     nonautonomous,
 )
+from garkcli.constructions.nystrom import is_nystrom
 from garkcli.constructions.rosenbrock import is_rosenbrock
 from garkcli.doing import doing
 from garkcli.frozen import replace
@@ -48,6 +49,10 @@ def analyse_any_tableau(
         from garkcli.check.rosenbrock import analyse_rosenbrock  # few methods are
 
         return analyse_rosenbrock(tableau, limit, tolerance, further)
+    if is_nystrom(tableau):
+        from garkcli.check.nystrom import analyse_nystrom  # likewise
+
+        return analyse_nystrom(tableau, limit, tolerance, further)
     if tableau.exact_to is not None:
         from garkcli.check.infinitesimal import analyse_infinitesimal  # likewise
 

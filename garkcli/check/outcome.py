@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from garkcli.check.analysis import Analysis
 from garkcli.errors import Fault, counted, printable
@@ -13,11 +13,14 @@ from garkcli.upward import Shown
 if TYPE_CHECKING:
     from garkcli.check.every_value import EveryValue
     from garkcli.check.infinitesimal import InfinitesimalAnalysis
+    from garkcli.check.nystrom import NystromAnalysis
     from garkcli.check.remark import Remark
     from garkcli.check.rosenbrock import RosenbrockAnalysis
     from garkcli.methodfile.description import BlockRule
     from garkcli.order.blame import Blame
     from garkcli.order.constants import ErrorConstants
+
+    OtherAnalysis: TypeAlias = RosenbrockAnalysis | NystromAnalysis | InfinitesimalAnalysis
 
 
 class Claim(Frozen):
@@ -68,6 +71,7 @@ class Outcome(Shown, Frozen):
         wants_properties: whether to show all properties.
         every: what holds for every value, of a file with free parameters; it has no analysis.
         rosenbrock: the truth about a Rosenbrock method; it has no analysis.
+        nystrom: the truth about a Nyström method; likewise.
         infinitesimal: the truth about a multirate method with the exact fast solution; likewise.
         left_behind: further weights of the methods that it is made from, in words.
         rules: what made blocks between diagonal methods.
@@ -89,17 +93,18 @@ class Outcome(Shown, Frozen):
     wants_properties: bool = False
     every: EveryValue | None = None
     rosenbrock: RosenbrockAnalysis | None = None
+    nystrom: NystromAnalysis | None = None
     infinitesimal: InfinitesimalAnalysis | None = None
     left_behind: tuple[str, ...] = ()
     rules: tuple[BlockRule, ...] = ()
 
     @property
-    def of_other_kind(self) -> RosenbrockAnalysis | InfinitesimalAnalysis | None:
+    def of_other_kind(self) -> OtherAnalysis | None:
         """The analysis of a method that is no GARK method; None of one that is, or of none."""
-        return self.rosenbrock or self.infinitesimal
+        return self.rosenbrock or self.nystrom or self.infinitesimal
 
     @property
-    def found(self) -> Analysis | EveryValue | RosenbrockAnalysis | InfinitesimalAnalysis | None:
+    def found(self) -> Analysis | EveryValue | OtherAnalysis | None:
         """What is true of the method, or for every value of its parameters; None for neither."""
         return self.analysis or self.every or self.of_other_kind
 

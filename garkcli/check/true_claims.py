@@ -20,8 +20,19 @@ OF_ROSENBROCK = (
     *("a-stable", "l-stable"),
 )
 """The same of Rosenbrock methods."""
+OF_NYSTROM = (
+    *("order", "position-order", "velocity-order"),
+    *("embedded-order", "embedded-position-order", "embedded-velocity-order"),
+)
+"""The same of Nyström methods."""
 OF_INFINITESIMAL = ("order", "slow-order", "nonautonomous-order", "embedded-order")
 """The same of multirate methods with the exact fast solution."""
+OF_OTHER_KINDS = {
+    "a Rosenbrock method": OF_ROSENBROCK,
+    "a Nyström method": OF_NYSTROM,
+    "a multirate method with the exact fast part": OF_INFINITESIMAL,
+}
+"""The same of methods that are no GARK methods, by kind."""
 DIGITS = 12
 """Of numbers without simple radicals; a decimal claims no further ones."""
 
@@ -47,8 +58,7 @@ def usual_keys(analysis: AnyAnalysis) -> list[str]:
     order, and those properties that a plain check decides and that it has.
     """
     if not isinstance(analysis, Analysis):
-        is_infinitesimal = analysis.tableau.exact_to is not None
-        return [*true_claims(analysis, OF_INFINITESIMAL if is_infinitesimal else OF_ROSENBROCK)]
+        return [*true_claims(analysis, OF_OTHER_KINDS[analysis.kind])]
     found = [*true_claims(analysis, ORDERS)]
     if analysis.inconsistent and analysis.nonautonomous_order is not None:
         found.append("nonautonomous-order")

@@ -192,7 +192,7 @@ class FamilyConditions(Spans):
             NotDecided: the time was not enough; they may be requested again.
             TooManyTerms: they are too long.
         """
-        for l, forest in self.members(order):
+        for l, forest in self.members(order, self.tableau.roots):
             _refuse_long(self._cleared.weights[l], forest.vector)
             value = dot(self._cleared.weights[l], forest.vector)
             share = forest.required(self.tableau.colours[l].kind, order)

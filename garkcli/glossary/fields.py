@@ -10,7 +10,8 @@ from garkcli.glossary import read
 ORDERS = (
     *("order", "conjugate_order", "pair_order", "nonautonomous_order"),
     *("embedded_order", "embedded_nonautonomous_order", "dense_order"),
-    "slow_order",
+    *("slow_order", "position_order", "velocity_order"),
+    *("embedded_position_order", "embedded_velocity_order"),
     *("w_order", "old_jacobian_order", "embedded_w_order", "embedded_old_jacobian_order"),
     *("index_1_order", "index_1_y_order", "index_1_z_order", "embedded_index_1_order"),
     *("stage_order", "weak_stage_order", "symplectic_order", "energy_order"),

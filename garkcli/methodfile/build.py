@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Generic, TypeAlias, TypeVar
 from flint import fmpq
 from yaml.nodes import Node
 
+from garkcli.constructions.nystrom import Nystrom, nystrom, weights_of
 from garkcli.constructions.rosenbrock import (
     Rosenbrock,
     rosenbrock,
@@ -273,6 +274,8 @@ class Builder(Generic[V]):
                 return forms.with_linear(tableau, ["q"]) if is_nystrom else tableau
             case d.RosenbrockText():
                 return self._at(content.node, lambda: self._rosenbrock(content).tableau)
+            case d.NystromText():
+                return self._at(content.node, lambda: self._nystrom(content).tableau)
             case d.ConstructionText():
                 for part in content.parts:  # all are built
                     self.part(part)
@@ -299,6 +302,9 @@ class Builder(Generic[V]):
         texts = d.further_of(self.text.description.content)
         if not texts:
             return self._made
+        if isinstance(self.text.description.content, d.NystromText):
+            bbar, b = (self.values.vector(x.embedded or ()) for x in texts)
+            return Further(weights_of(bbar, b))
         given = [texts[colour.term] for colour in self.tableau.colours]
         embedded = [self.values.vector(x.embedded) for x in given if x.embedded is not None]
         blocks = [self.values.matrix(x.dense) for x in given if x.dense is not None]
@@ -322,6 +328,12 @@ class Builder(Generic[V]):
             ((self._gamma,),) = made.gamma
         c = None if text.c is None else (vector(text.c),)
         return replace(made, c=c, d=None if text.d is None else (vector(text.d),))
+
+    def _nystrom(self, text: d.NystromText) -> Nystrom:
+        matrix, vector = self.values.matrix, self.values.vector
+        A = None if text.A is None else matrix(text.A)
+        c = vector(text.c) if A is None or text.c is not None else butcher(A, vector(text.b)).c
+        return nystrom(matrix(text.Abar), A, c, vector(text.bbar), vector(text.b))
 
     def _transformed(self, text: d.RosenbrockText, further: Further) -> Further:
         """The further weights at the stages of the method, with what ``e`` says."""

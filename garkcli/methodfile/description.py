@@ -25,8 +25,13 @@ STRUCTURES: tuple[Structure, ...] = ("general", "semi-separable", "separable", "
 Construction: TypeAlias = Literal["compose", "adjoint", "extrapolate", "splitting", "multirate"]
 CONSTRUCTIONS: tuple[Construction, ...] = get_args(Construction)
 """The forms that make a method from others."""
-Form: TypeAlias = Literal["methods", "tableau", "ark", "prk", "rosenbrock"] | Construction
-FORMS: tuple[Form, ...] = ("methods", "tableau", "ark", "prk", "rosenbrock", *CONSTRUCTIONS)
+Form: TypeAlias = (
+    Literal["methods", "tableau", "ark", "prk", "rosenbrock", "nystrom"] | Construction
+)
+FORMS: tuple[Form, ...] = (
+    *("methods", "tableau", "ark", "prk", "rosenbrock", "nystrom"),
+    *CONSTRUCTIONS,
+)
 PLAIN = ("A", "b", "c")
 """The keys of a Butcher tableau that is at the top of a file."""
 BESIDE = ("embedded", "dense")
@@ -199,6 +204,39 @@ class RosenbrockText(Frozen):
     further: tuple[FurtherText, ...] = (NOTHING_FURTHER,)
 
 
+class NystromText(Frozen):
+    """A Nyström method.
+
+    Attributes:
+        node: the place in the file.
+        Abar: Ā.
+        A: None where g depends on q alone.
+        c: None where the row sums of A say it.
+        bbar: the weights of the step in q.
+        b: those of the step in q′.
+        embedded: the embedded ones of both, each None where they are those of the method; None
+            where there are none.
+    """
+
+    node: Node
+    Abar: Rows
+    A: Rows | None
+    c: Row | None
+    bbar: Row
+    b: Row
+    embedded: tuple[Row | None, Row | None] | None = None
+
+    @property
+    def further(self) -> tuple[FurtherText, ...]:
+        """What is beside the weights of each step."""
+        if self.embedded is None:
+            return ()
+        return tuple(
+            FurtherText(row or own)
+            for row, own in zip(self.embedded, (self.bbar, self.b), strict=True)
+        )
+
+
 class PartText(Frozen):
     """A method that a construction is made from.
 
@@ -249,7 +287,7 @@ class ConstructionText(Frozen):
 
 
 Content: TypeAlias = (
-    "MethodsText | TableauText | ArkText | PrkText | RosenbrockText | ConstructionText"
+    "MethodsText | TableauText | ArkText | PrkText | RosenbrockText | NystromText| ConstructionText"
 )
 
 

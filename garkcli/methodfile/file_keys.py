@@ -114,6 +114,13 @@ KEYS = {
             also=("ros", "row", "rosw"),
         ),
         g.Key(
+            "nystrom: {Abar: [[], [1/2]], c: [0, 1], bbar: [1/2, 0], b: [1/2, 1/2]}",
+            g.later("nystrom", "NYSTROM"),
+            "A Nyström method for q″ = g(q, q′), or g(q) without A.",
+            page=f"{_PAGE}nystrom-nyström-methods",
+            also=("rkn", "rkng"),
+        ),
+        g.Key(
             "compose: {of: rk4, steps: [1/2, 1/2]}",
             g.later("constructed.compose", "KIND"),
             "Substeps of methods, one after the other, the first one first.",
@@ -216,7 +223,7 @@ FORM = g.Ways(
     "the coefficients are",
     (*FORMS, "unknown", g.Together(("A", "b"), ("c",))),
     "no coefficients",
-    "give A and b, or one of the keys methods, tableau, ark, prk, rosenbrock",
+    "give A and b, or one of the keys methods, tableau, ark, prk, rosenbrock, nystrom",
 )
 """The coefficients of a method have one form; A, b and c at the top are those of a tableau."""
 _INSIDE: dict[str, str] = dict.fromkeys(

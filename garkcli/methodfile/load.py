@@ -14,7 +14,7 @@ from garkcli.errors import Fault, HasFreeParameters, MethodFileError
 from garkcli.files import STDIN
 from garkcli.methodfile.bibliography import reference_of
 from garkcli.methodfile.build import Builder, MethodFile, V, part_of
-from garkcli.methodfile.description import Description, left_behind, rules_of_blocks, works_of
+from garkcli.methodfile.description import Description, Form, left_behind, rules_of_blocks, works_of
 from garkcli.methodfile.finding import find_files
 from garkcli.methodfile.naming import is_both, read_argument
 from garkcli.methodfile.nodes import one_line
@@ -167,13 +167,18 @@ def works_in(text: str, source: str) -> tuple[Work, ...]:
     return (own,) if own[0] else works_of(described(text, source, NO_SETTINGS)[1])
 
 
+_OTHER_KINDS: dict[Form, str] = {"rosenbrock": "Rosenbrock", "nystrom": "Nyström"}
+"""What messages call the methods of forms that are for no GARK methods."""
+
+
 def _free(reader: Reader, description: Description) -> MethodFileError:
     """The error of a family of methods, or what else is wrong with it."""
     if reader.source.faults:
         return reader.source.error()
-    if description.form == "rosenbrock":
+    kind = _OTHER_KINDS.get(description.form)
+    if kind is not None:
         name = next(iter(reader.numbers.free))
-        message = f"a Rosenbrock method needs numbers, and {name} is free"
+        message = f"a {kind} method needs numbers, and {name} is free"
         cure = f"give it a value: --set {name}=1/2"
         reader.source.fault(description.node, message, cure, code="free-parameters")
         return reader.source.error()

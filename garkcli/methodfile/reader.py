@@ -150,6 +150,10 @@ class ContentReader(Reading):
             from garkcli.methodfile.rosenbrock import rosenbrock
 
             return rosenbrock(self, node)
+        if form == "nystrom":
+            from garkcli.methodfile.nystrom import nystrom
+
+            return nystrom(self, node)
         from garkcli.methodfile.ark_prk import ark, prk
 
         return ark(self, node) if form == "ark" else prk(self, node, structure)

@@ -158,7 +158,7 @@ def can_spell_out(tableau: Tableau) -> bool:
     """Whether a spelled-out file says everything about ``tableau``: a GARK tableau, or a
     partitioned pair.
     """
-    if not tableau.has_fields_alone or tableau.exact_to is not None:
+    if not tableau.is_gark:
         return False
     return not tableau.is_partitioned or _is_prk(tableau)
 

@@ -88,14 +88,11 @@ class ApproximateSpans(OrderByOrder[_Hull]):
         bound = arb(0)
         members: list[tuple[arb, Tree]] = []
         with ctx.workprec(self.enclosure.bits):
-            for l, b in enumerate(self.enclosure.b):
-                colour = self.tableau.colours[l]
-                if colour.late is None:
-                    continue
-                own = order - colour.late
+            for l, late in self.tableau.roots.items():
+                own = order - late
                 hull = self.of_trees(l, own)
-                kind = colour.kind
-                weights = b.entries()
+                kind = self.tableau.colours[l].kind
+                weights = self.enclosure.b[l].entries()
                 worst = arb(0)
                 for member in hull.members:
                     required = arb(member.required(kind, own))

@@ -117,7 +117,7 @@ def _failing(tableau: Tableau, spans: StageSpans, order: int) -> Witness | None:
     # design stands for by its polynomial alone
     is_symbol = tableau.field is not None and not tableau.field.radicals
     can_be_rounded = not is_symbol and any(isinstance(x, PointSpace) for x in tableau.spaces)
-    for l, forest in spans.members(order):
+    for l, forest in spans.members(order, tableau.roots):
         colour = tableau.colours[l]
         value = dot(colour.b, forest.vector)
         if value == forest.required(colour.kind, order - (colour.late or 0)):

@@ -143,9 +143,8 @@ def twin_roots(tableau: Tableau) -> dict[int, tuple[int, ...]]:
     the same elementary weight when they are its root.
     """
     groups: dict[int, tuple[int, ...]] = {}
-    for l, colour in enumerate(tableau.colours):
-        if colour.late is None:
-            continue
+    for l in tableau.roots:
+        colour = tableau.colours[l]
         for first in groups:
             if _are_twins(colour, tableau.colours[first]):
                 groups[first] += (l,)

@@ -113,7 +113,7 @@ def _first_exact(
 ) -> Failure | None:
     spans = spans or StageSpans(tableau)
     for order in orders:
-        for l, forest in spans.members(order):
+        for l, forest in spans.members(order, tableau.roots):
             for number, functional in enumerate(functionals):
                 value = dot(functional.weights[l], forest.vector)
                 share = functional.share(order)

@@ -156,14 +156,16 @@ class Spans(OrderByOrder[Forests]):
         self._maps = maps
         self._scale = scale
 
-    def members(self, order: int) -> Iterator[tuple[int, Forest]]:
-        """For each root colour, forests whose trees span those of all trees whose conditions an
-        order asks for.
+    def members(self, order: int, roots: Mapping[int, int]) -> Iterator[tuple[int, Forest]]:
+        """Forests whose trees span those of all trees whose conditions an order asks for.
+
+        Args:
+            order: the order.
+            roots: as in ``Tableau.roots``.
         """
-        for l, colour in enumerate(self.tableau.colours):
-            if colour.late is not None:
-                for forest in self.of_trees(l, order - colour.late):
-                    yield l, forest
+        for l, late in roots.items():
+            for forest in self.of_trees(l, order - late):
+                yield l, forest
 
     def _image(self, k: int, m: int, order: int, trees: Forests) -> Forests:
         kind = self.tableau.colours[m].kind

@@ -51,6 +51,8 @@ _WITH_EMBEDDED = "methods with embedded weights"
 _ROSENBROCK = "Rosenbrock methods"
 _ON_DAES = "Rosenbrock methods with α + γ that has an inverse"
 _ROCHE = "M. Roche, Numer. Math. 52 (1988)"
+_NYSTROM = "Nyström methods"
+_HAIRER_II_14 = f"{_HAIRER} II.14"
 _WITH_DENSE = "methods with dense output"
 _ORDERS = (
     Definition(
@@ -169,6 +171,20 @@ _ORDERS = (
         meaning=_ON_DAES,
     ),
     Definition(
+        "position-order",
+        "The order of the step in q of a Nyström method: q_1 differs from the exact solution by"
+        " O(h^(p+1)). The order is the smaller one of this and the velocity order.",
+        _HAIRER_II_14,
+        meaning=_NYSTROM,
+    ),
+    Definition(
+        "velocity-order",
+        "The order of the step in q′ of a Nyström method: q′_1 differs from the exact solution by"
+        " O(h^(p+1)).",
+        _HAIRER_II_14,
+        meaning=_NYSTROM,
+    ),
+    Definition(
         "slow-order",
         "The order of a multirate method where the fast part is 0: that of its slow method.",
         "A. Sandu, SIAM J. Numer. Anal. 57 (2019)",
@@ -185,6 +201,18 @@ _ORDERS = (
         "The order on problems ẏ = f(t, y) of the method with the embedded weights in place of b.",
         _HAIRER_II_4,
         meaning=_WITH_EMBEDDED,
+    ),
+    Definition(
+        "embedded-position-order",
+        "The position order with the embedded weights in place of b̄ and b.",
+        _HAIRER_II_14,
+        meaning="Nyström methods with embedded weights",
+    ),
+    Definition(
+        "embedded-velocity-order",
+        "The velocity order with the embedded weights in place of b̄ and b.",
+        _HAIRER_II_14,
+        meaning="Nyström methods with embedded weights",
     ),
     Definition(
         "embedded-w-order",

@@ -110,8 +110,11 @@ def failing(*claims: str) -> Callable[[Any], list[tuple[Any, Any]]]:
 
     def get(a: Any) -> list[tuple[Any, Any]]:
         views = filter(None, map(a.view, claims))
-        found = {order.witness: tableau for order, tableau in views if order.witness}
-        return [*found.items()]
+        found: list[tuple[Any, Any]] = []
+        for order, tableau in views:
+            if order.witness and order.witness not in [x for x, _ in found]:
+                found.append((order.witness, tableau))
+        return found
 
     return get
 

@@ -34,6 +34,10 @@ def form(outcome: Outcome) -> Section:
         from garkcli.report.rosenbrock import ROSENBROCK
 
         return ROSENBROCK
+    if outcome.nystrom is not None:
+        from garkcli.report.nystrom import NYSTROM
+
+        return NYSTROM
     if outcome.infinitesimal is not None:
         from garkcli.report.infinitesimal import INFINITESIMAL
 
@@ -45,9 +49,10 @@ def forms() -> Iterator[Section]:
     """All of them."""
     from garkcli.report.every import EVERY
     from garkcli.report.infinitesimal import INFINITESIMAL
+    from garkcli.report.nystrom import NYSTROM
     from garkcli.report.rosenbrock import ROSENBROCK
 
-    yield from (UNREADABLE, CHECKED, EVERY, ROSENBROCK, INFINITESIMAL)
+    yield from (UNREADABLE, CHECKED, EVERY, ROSENBROCK, NYSTROM, INFINITESIMAL)
 
 
 REPORT: Report[Outcome] = Report(

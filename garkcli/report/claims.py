@@ -6,11 +6,14 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from garkcli.check.analysis import Analysis
+from garkcli.check.infinitesimal import InfinitesimalAnalysis
+from garkcli.check.nystrom import NystromAnalysis
+from garkcli.check.rosenbrock import RosenbrockAnalysis
 from garkcli.check.true_claims import TrueClaims
 from garkcli.errors import printable
 from garkcli.page.paint import folded
 from garkcli.properties.registry import KEYS
-from garkcli.report import infinitesimal, rosenbrock
+from garkcli.report import infinitesimal, nystrom, rosenbrock
 from garkcli.report.check import ANALYSIS, SIMPLIFYING, property_rows_of, within
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Level, Row, Section
@@ -36,18 +39,20 @@ def _claim_rows(found: TrueClaims, d: Plain) -> list[tuple[str, str]]:
 
 
 _ROWS = {row.key: row for row in (*ANALYSIS, *SIMPLIFYING.rows)}
-_ROWS_OF_ROSENBROCK = {row.key: row for row in rosenbrock.ANALYSIS}
-_ROWS_OF_INFINITESIMAL = {row.key: row for row in infinitesimal.ANALYSIS}
+_ROWS_OF_OTHER_KINDS = {
+    analysis.kind: {row.key: row for row in rows}
+    for analysis, rows in (
+        (RosenbrockAnalysis, rosenbrock.ANALYSIS),
+        (NystromAnalysis, nystrom.ANALYSIS),
+        (InfinitesimalAnalysis, infinitesimal.ANALYSIS),
+    )
+}
 
 
 def _how(found: TrueClaims, d: Plain) -> Iterator[tuple[str, str]]:
     """The value of each claim with what decides it."""
     a = found.analysis
-    known = _ROWS_OF_ROSENBROCK
-    if isinstance(a, Analysis):
-        known = _ROWS
-    elif a.tableau.exact_to is not None:
-        known = _ROWS_OF_INFINITESIMAL
+    known = _ROWS if isinstance(a, Analysis) else _ROWS_OF_OTHER_KINDS[a.kind]
     for key, value in found.claims.items():
         row = known.get(key.replace("-", "_"))
         if key in KEYS:

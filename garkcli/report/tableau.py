@@ -14,6 +14,7 @@ from flint import arb, fmpq
 from garkcli.check.analysis import inconsistent_blocks
 from garkcli.constructions.infinitesimal import slow_part
 from garkcli.constructions.multirate import SLOW
+from garkcli.constructions.nystrom import Nystrom, is_nystrom
 from garkcli.constructions.rosenbrock import Rosenbrock, is_rosenbrock
 from garkcli.exact.display import to_float, to_text
 from garkcli.exact.field import Algebraic
@@ -138,7 +139,7 @@ ABOUT = Section(
 
 def _about(x: Shown, d: Plain) -> list[tuple[str, str]]:
     """What a tableau is like; a document takes the tableau alone."""
-    if d.breadth == "page" or x.method is None or not _is_gark(x.tableau):
+    if d.breadth == "page" or x.method is None or not x.tableau.is_gark:
         return []
     # what a method of a family is depends on its parameters
     about = Section(*ABOUT.rows[:2]) if x.tableau.has_parameters else ABOUT
@@ -152,38 +153,47 @@ def _decimals(x: Shown, d: Plain) -> list[str]:
     numbers = [*chain(*entries.c, *entries.b, *chain(*(y for row in entries.A for y in row if y)))]
     is_told = d.breadth == "terminal" and not d.is_brief and not x.is_rounded
     has_others = any(isinstance(y, Algebraic) or (isinstance(y, fmpq) and y.q > 1) for y in numbers)
-    if not is_told or not has_others or x.tableau.has_parameters or not _is_gark(x.tableau):
+    if not is_told or not has_others or x.tableau.has_parameters or not x.tableau.is_gark:
         return []
     return d.tableau(x.tableau, entries.in_decimals(DIGITS))
 
 
 def _is_gark(tableau: Tableau) -> bool:
-    return not is_rosenbrock(tableau) and tableau.exact_to is None
+    return tableau.is_gark and tableau.exact_to is None
 
 
 OF_SLOW = "the slow method, which is left where the fast part is 0"
 OF_ROSENBROCK = "α, with c and b", "γ, with d, the weights of ∂f/∂t, in place of A and c"
+OF_NYSTROM = "Ā, with c and b̄", "A, with c and b"
+OF_POSITIONS = OF_NYSTROM[0], "b, with 0 in place of A: g depends on q alone"
 """What the tableaus of methods that are no GARK methods are."""
 
 
 def shown_parts(tableau: Tableau, whole: Entries) -> list[tuple[str, Tableau, Entries]]:
     """The tableaus that people see of a method, each with what it is: of a Rosenbrock method the
-    arrays of α and of γ, of a multirate one with the exact fast solution that of the slow method.
+    arrays of α and of γ, of a Nyström method those of Ā and of A, of a multirate one with the exact
+    fast solution that of the slow method.
     """
     if tableau.exact_to is not None:
         slow = printed(slow_part(tableau))
         embedded = whole.embedded and whole.embedded[SLOW:]
         entries = replace(pointwise.entries(slow, whole.digits), embedded=embedded)
         return [(OF_SLOW, slow, entries)]
-    if not is_rosenbrock(tableau):
+    if is_nystrom(tableau):
+        method = Nystrom.of(tableau)
+        texts = OF_POSITIONS if method.A is None else OF_NYSTROM
+        arrays, own = method.arrays, (slice(0, 1), slice(1, 2))
+    elif is_rosenbrock(tableau):
+        texts, arrays = OF_ROSENBROCK, Rosenbrock.of(tableau).arrays
+        own = slice(arrays[0].size), slice(0)  # the other one has the same weights
+    else:
         return [("", tableau, whole)]
     found: list[tuple[str, Tableau, Entries]] = []
-    for text, array_of in zip(OF_ROSENBROCK, Rosenbrock.of(tableau).arrays, strict=True):
+    for text, array_of, rows in zip(texts, arrays, own, strict=True):
         entries = pointwise.entries(array_of, whole.digits)
-        if not found:  # the other one has the same weights
-            own = slice(array_of.size)
-            embedded, dense = whole.embedded and whole.embedded[own], whole.dense
-            entries = replace(entries, embedded=embedded, dense=dense and dense[own])
+        if rows.stop:
+            embedded, dense = whole.embedded and whole.embedded[rows], whole.dense
+            entries = replace(entries, embedded=embedded, dense=dense and dense[rows])
         found.append((text, array_of, entries))
     return found
 

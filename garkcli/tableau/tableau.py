@@ -115,6 +115,12 @@ class Tableau(Frozen):
         """N, the number of colours."""
         return len(self.colours)
 
+    @property
+    def roots(self) -> dict[int, int]:
+        """The colours, from 0, whose trees have conditions, and how late these count."""
+        lates = ((l, colour.late) for l, colour in enumerate(self.colours))
+        return {l: late for l, late in lates if late is not None}
+
     def space(self, colour: int) -> StageSpace:
         """The stage space of a colour, from 0."""
         return self.spaces[self.colours[colour].space]
@@ -158,6 +164,13 @@ class Tableau(Frozen):
         problems exactly; None where it has no stages that stand for such solutions.
         """
         return min((x.order for x in self.spaces if isinstance(x, Flow)), default=None)
+
+    @property
+    def is_gark(self) -> bool:
+        """Whether all its commands have a meaning: its colours are fields, and no stage stands for
+        an exact solution.
+        """
+        return self.has_fields_alone and self.exact_to is None
 
     def demand_fields(self, what: str, *, with_flow: bool = False) -> None:
         """Refuse what is defined for GARK methods alone.

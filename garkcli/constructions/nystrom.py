@@ -1,0 +1,190 @@
+"""Nyström methods for q″ = g(q, q′), or g(q), as tableaus.
+
+    g_i = g(q + c_i h q′ + h² Σ_j ā_ij g_j, q′ + h Σ_j a_ij g_j),
+    q_1 = q + h q′ + h² Σ_i b̄_i g_i,        q′_1 = q′ + h Σ_i b_i g_i.
+
+A vertex of g has branches of three kinds: on q it sees q′, a leaf with the column c, and g through
+Ā, which counts two orders; on q′ it sees g through A, which counts one. The first two colours share
+the stages; their weights are b̄, of the step in q, and b, of that in q′. The conditions are those of
+``garkcli.order``; docs/exact-order.md proves it, section 11.
+
+Source: E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, II.14.
+"""
+
+from __future__ import annotations
+
+from typing import Literal, TypeAlias
+
+from flint import fmpq
+
+from garkcli.errors import ShapeMismatch
+from garkcli.exact.field import ONE, ZERO
+from garkcli.exact.matrix import Matrix, Vector
+from garkcli.frozen import Frozen, replace
+from garkcli.ntrees.kind import LEAF, PLAIN, Kind
+from garkcli.order.meant import AnyTableau, keep, meant, printed
+from garkcli.tableau.embedded import Weights
+from garkcli.tableau.forms import with_linear
+from garkcli.tableau.stages import PointSpace
+from garkcli.tableau.tableau import Colour, Edge, Tableau
+
+TWICE = Kind(weight=2)
+"""Of a force that is integrated twice."""
+KINDS = (TWICE, PLAIN, LEAF)
+NAMES = ("q", "q'", "q'0")
+"""The colours: g in positions, g in velocities, the velocity at the beginning of the step."""
+POSITIONS, VELOCITIES, START = range(3)
+
+
+class Nystrom(Frozen):
+    """A Nyström method.
+
+    Attributes:
+        Abar: ā_ij, through which positions see g; shape (s, s).
+        A: a_ij, through which velocities do; None where g depends on q alone.
+        c: the nodes: how much of h q′ is in the positions; time takes the same.
+        bbar: b̄_i, the weights of the step in q.
+        b: those of the step in q′.
+    """
+
+    Abar: Matrix
+    A: Matrix | None
+    c: Vector
+    bbar: Vector
+    b: Vector
+
+    @staticmethod
+    def of(tableau: Tableau) -> Nystrom:
+        """The method of a tableau that one has: ``of(method.tableau) == method``."""
+        blocks = tableau.blocks
+        c = tuple(row[0] for row in blocks[0, START])
+        bbar, b = (tableau.colours[l].b for l in (POSITIONS, VELOCITIES))
+        return Nystrom(blocks[0, POSITIONS], blocks.get((0, VELOCITIES)), c, bbar, b)
+
+    @property
+    def tableau(self) -> Tableau:
+        """Its colours are g in q, g in q′, and q′ at the beginning of the step."""
+        spaces = (PointSpace(self.c), PointSpace((ZERO,)))
+        rows = ((0, self.bbar, self.c), (0, self.b, self.c), (1, (ONE,), (ZERO,)))
+        colours = tuple(
+            Colour(name, k, b, c, term=l, kind=kind)
+            for l, (name, kind, (k, b, c)) in enumerate(zip(NAMES, KINDS, rows, strict=True))
+        )
+        blocks: dict[Edge, Matrix] = {(0, POSITIONS): self.Abar}
+        if self.A is not None:
+            blocks[0, VELOCITIES] = self.A
+        blocks[0, START] = tuple((x,) for x in self.c)
+        return Tableau(spaces, colours, blocks)
+
+    @property
+    def in_positions(self) -> Tableau:
+        """With the conditions of the step in q alone."""
+        return _without(self.tableau, VELOCITIES)
+
+    @property
+    def in_velocities(self) -> Tableau:
+        """With the conditions of the step in q′ alone."""
+        return _without(self.tableau, POSITIONS)
+
+    @property
+    def partitioned(self) -> Tableau:
+        """The same method for q̇ = p, ṗ = g(q) as a partitioned one.
+
+        The velocities p are evaluated at the beginning, with each row of Ā, and with b̄:
+        q + c_i h q′ + h² Σ_j ā_ij g_j = q + (c_i − 1) h p + h (p + h Σ_j ā_ij g_j).
+        """
+        s = len(self.b)
+        zeros = (ZERO,) * s
+        last = (*(ZERO for _ in range(s + 1)), ONE)
+        of_positions = tuple(
+            (x - 1, *(fmpq(int(i == j)) for j in range(s)), ZERO) for i, x in enumerate(self.c)
+        )
+        of_velocities = (zeros, *self.Abar, self.bbar)
+        sums = tuple(sum(row, start=ZERO) for row in of_velocities)
+        colours = (Colour("q", 0, last, sums, 0, "q"), Colour("p", 1, self.b, self.c, 1, "p"))
+        spaces = (PointSpace(sums), PointSpace(self.c))
+        blocks = {(0, 1): of_velocities, (1, 0): of_positions}
+        return with_linear(Tableau(spaces, colours, blocks), ["q"])
+
+    @property
+    def arrays(self) -> tuple[Tableau, Tableau]:
+        """The arrays of Ā with c and b̄, and of A with b, as papers print them; A is zero where
+        there is none.
+        """
+
+        def array(name: str, A: Matrix, b: Vector) -> Tableau:
+            colour = Colour(name, 0, b, self.c)
+            return Tableau((PointSpace(self.c),), (colour,), {(0, 0): A})
+
+        nothing = tuple((ZERO,) * len(self.b) for _ in self.b)
+        A = nothing if self.A is None else self.A
+        return array("Ā", self.Abar, self.bbar), array("A", A, self.b)
+
+
+def _without(tableau: Tableau, l: int) -> Tableau:
+    colours = list(tableau.colours)
+    colours[l] = replace(colours[l], late=None)
+    return replace(tableau, colours=tuple(colours))
+
+
+def is_nystrom(tableau: Tableau) -> bool:
+    """Whether a tableau is that of a Nyström method."""
+    return tuple(colour.kind for colour in tableau.colours) == KINDS
+
+
+Which: TypeAlias = Literal["in_positions", "in_velocities", "partitioned"]
+
+
+def seen(method: AnyTableau, which: Which) -> AnyTableau:
+    """Another tableau of the method that has this one, which is exact or rounded."""
+
+    def make(tableau: Tableau) -> Tableau:
+        found: Tableau = getattr(Nystrom.of(tableau), which)
+        return found
+
+    if isinstance(method, Tableau):
+        return make(method)
+    return method.derive(which.replace("_", " "), make)
+
+
+def partitioned(tableau: Tableau, tolerance: fmpq | None) -> Tableau:
+    """The partitioned method for q̇ = p, ṗ = g(q), of which ``meant`` knows what it is rounded of."""
+    found = seen(meant(tableau, tolerance), "partitioned")
+    if not isinstance(found, Tableau):
+        keep(found)
+    return printed(found)
+
+
+def weights_of(bbar: Vector, b: Vector) -> Weights:
+    """A row per colour from those of the steps in q and in q′, such as embedded ones."""
+    return bbar, b, (ONE,)
+
+
+def nystrom(Abar: Matrix, A: Matrix | None, c: Vector, bbar: Vector, b: Vector) -> Nystrom:
+    """A Nyström method.
+
+    Args:
+        Abar: shape (s, s).
+        A: shape (s, s); None where g depends on q alone.
+        c: length s.
+        bbar: length s.
+        b: length s.
+
+    Raises:
+        ShapeMismatch: they do not fit each other.
+
+    >>> from flint import fmpq
+    >>> from garkcli.order.certificate import find_order
+    >>> half, one, zero = fmpq(1, 2), fmpq(1), fmpq(0)
+    >>> A = ((zero, zero), (half, zero))
+    >>> verlet = nystrom(A, None, (zero, one), (half, zero), (half, half))
+    >>> find_order(verlet.tableau)
+    <Order 2>
+    """
+    s = len(b)
+    sizes = [("c", [c]), ("bbar", [bbar]), ("Abar", Abar), ("A", A or Abar)]
+    for letter, rows in sizes:
+        if {*map(len, rows)} != {s} or (letter[0] == "A" and len(rows) != s):
+            shape = f"{s} by {s}" if letter[0] == "A" else f"of length {s}"
+            raise ShapeMismatch(f"{letter} is not {shape}", f"b has {s} entries", code="wrong-size")
+    return Nystrom(Abar, A, c, bbar, b)

@@ -1,0 +1,112 @@
+"""YAML nodes to the form ``nystrom``: Nyström methods for q″ = g(q, q′), or g(q)."""
+
+from __future__ import annotations
+
+from yaml.nodes import Node
+
+from garkcli.methodfile import description as d
+from garkcli.methodfile import grammar as g
+from garkcli.methodfile import spelled_out
+from garkcli.methodfile.numbers import Reading, Row, Rows
+from garkcli.methodfile.parameters import MATRIX, ROW
+
+_FORM = "give {Abar: [[], [1/2]], c: [0, 1], bbar: [1/2, 0], b: [1/2, 1/2]}, with A for g(q, q′)"
+_FORM_OF_EMBEDDED = "give {bbar: [1/2, 0], b: [1, 0]}, or one of them"
+_OF_STAGES = "give one per stage"
+EMBEDDED = g.mapping(
+    g.Key(
+        "bbar: [1/2, 0]",
+        ROW,
+        "Embedded weights of the step in q, one per stage; bbar itself where they are left out.",
+        also=("b_bar", "Bbar"),
+    ),
+    g.Key(
+        "b: [1, 0]",
+        ROW,
+        "Embedded weights of the step in q′, one per stage; b itself where they are left out.",
+    ),
+    form=_FORM_OF_EMBEDDED,
+)
+"""The keys under ``embedded``."""
+NYSTROM = g.mapping(
+    g.Key(
+        "Abar: [[], [1/2]]",
+        MATRIX,
+        "The matrix Ā through which positions see g, row by row; rows may end before the diagonal.",
+        is_needed=True,
+        also=("A_bar", "abar", "a_bar"),
+    ),
+    g.Key(
+        "A: [[], [1]]",
+        MATRIX,
+        "The matrix through which velocities see g, row by row; left out where g depends on q "
+        "alone.",
+    ),
+    g.Key(
+        "c: [0, 1]",
+        ROW,
+        "How much of h q′ is in the position of each stage, and where time is; the row sums of A "
+        "where it is left out.",
+        also=("nodes",),
+    ),
+    g.Key(
+        "bbar: [1/2, 0]",
+        ROW,
+        "The weights of the step in q, one per stage.",
+        is_needed=True,
+        also=("b_bar", "Bbar"),
+    ),
+    g.Key("b: [1/2, 1/2]", ROW, "The weights of the step in q′, one per stage.", is_needed=True),
+    g.Key(
+        "embedded: {bbar: [1/2, 0], b: [1, 0]}",
+        EMBEDDED,
+        "Embedded weights of both steps, or of one of them.",
+        also=("bhat", "b_hat", "bh"),
+    ),
+    form=_FORM,
+    rules=(
+        g.Ways(
+            "the nodes are",
+            ("A", "c"),
+            "no nodes",
+            "give c, how much of h q′ is in the position of each stage",
+            is_one=False,
+        ),
+    ),
+)
+"""A Nyström method."""
+
+
+def nystrom(at: Reading, node: Node) -> d.NystromText | None:
+    """The form ``nystrom``; None where it makes no method."""
+    found: g.Found | None = NYSTROM.read(at, node, "nystrom")
+    if found is None or not found.is_right or not found["b"]:
+        return None
+    b: Row = found["b"]
+    stages = len(b)
+    why = f"b has {spelled_out.entries_of(stages)}"
+
+    def matrix(key: str) -> Rows | None:
+        if key not in found:
+            return None
+        return at.numbers.fitted(found[key], found.nodes[key], key, (stages, stages), why)
+
+    def row(entries: g.Found, key: str, name: str) -> Row | None:
+        if key not in entries:
+            return None
+        given: Row = entries[key]
+        place = entries.nodes[key]
+        spelled_out.one_each(at, place, name, given, "entry", "stage", stages, _OF_STAGES)
+        return given
+
+    Abar = matrix("Abar")
+    bbar = row(found, "bbar", "bbar")
+    if not Abar or not bbar:
+        return None
+    embedded = None
+    if "embedded" in found:
+        inside: g.Found = found["embedded"]
+        embedded = row(inside, "bbar", "embedded, bbar"), row(inside, "b", "embedded, b")
+        if embedded == (None, None):
+            at.source.fault(inside.node, "embedded is empty", _FORM_OF_EMBEDDED, code="empty")
+    return d.NystromText(node, Abar, matrix("A"), row(found, "c", "c"), bbar, b, embedded)

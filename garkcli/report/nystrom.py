@@ -1,0 +1,56 @@
+"""``gark check`` of Nyström methods."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from garkcli.constructions.nystrom import Nystrom
+from garkcli.errors import counted
+from garkcli.report import check as c
+from garkcli.tell import kinds
+from garkcli.tell.facts import Level, Row, Section, maybe, optional
+from garkcli.tell.parts import SAID, part, parts, picture, told
+
+if TYPE_CHECKING:
+    from garkcli.tell.dialect import Plain
+
+HEADLINE, USUAL, DETAIL, DATA = Level
+
+
+def _method_words(outcome: Any, d: Plain) -> str:
+    a = outcome.nystrom
+    force = "g(q)" if Nystrom.of(a.tableau).A is None else "g(q, q′)"
+    text = d.prose(f"Nyström for q″ = {force}, {counted(a.tableau.spaces[0].stages, 'stage')}")
+    return c.with_arithmetic(text, a)
+
+
+ANALYSIS = [
+    Row("exact", kinds.TRUTH, lambda a: a.tolerance is None, DATA),
+    maybe("tolerance", kinds.TOLERANCE, level=DATA),
+    Row("colours", parts(c.COLOURS), lambda a: c.colours_of(a.tableau), DATA),
+    c.viewed_order("order", HEADLINE),
+    c.viewed_order("position_order", label="order of q"),
+    c.viewed_order("velocity_order", label="order of q′"),
+    c.viewed_order("embedded_order"),
+    c.viewed_order("embedded_position_order", label="embedded, q"),
+    c.viewed_order("embedded_velocity_order", label="embedded, q′"),
+    maybe("error_estimate", part(c.ESTIMATE, c.estimate_phrase), "embedded.estimator"),
+    Row("in the trees", SAID, lambda _: "1 is g in q, 2 is g in q′, 3 is q′ as it begins"),
+    Row(
+        "trees_that_fail",
+        picture(c.drawn),
+        c.failing("order", "position-order", "velocity-order", "embedded-order"),
+        DETAIL,
+    ),
+]
+NYSTROM = Section(
+    *kinds.FILE_AND_NAME,
+    Row("ok", kinds.TRUTH, level=DATA),
+    Row("nystrom", kinds.TRUE, lambda _: True, DATA),
+    Row("method", told(_method_words), "."),
+    *(row.of(lambda o: o.nystrom) for row in ANALYSIS),
+    optional("error_constants", part(c.CONSTANTS), "constants"),
+    *c.CLAIMS,
+    title=c.title,
+    columns=c.COLUMNS,
+)
