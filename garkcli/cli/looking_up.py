@@ -42,7 +42,7 @@ _TRUTHS = {
     "exact": "Methods whose coefficients are not rounded.",
 }
 LISTS = ("families", "transfer", "schemes", "splittings", "problems")
-_KINDS = ("rk", "ark", "prk", "gark", "row", "mri", "family")
+_KINDS = ("rk", "ark", "prk", "gark", "row", "rkn", "mri", "family")
 
 
 @declared("certificate", ("json", *(x for x in FORMATS if x != "json"), "coq"))
@@ -116,7 +116,8 @@ def _filters() -> list[click.Option]:
     words = {
         "kind": (
             _KINDS,
-            "Runge-Kutta, additive, partitioned, general, Rosenbrock (row), multirate (mri).",
+            "Runge-Kutta, additive, partitioned, general, Rosenbrock (row), Nyström (rkn), "
+            "multirate (mri).",
         ),
         "sort": (ORDERS, "By what the list is sorted; by default the order."),
     }

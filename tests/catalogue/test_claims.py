@@ -95,7 +95,7 @@ def test_every_claim_holds(judged: dict[str, Any]) -> None:
 def test_all_that_matters_is_claimed(judged: dict[str, Any]) -> None:
     """Files that are not copies of the user's claim order, symplecticity, B, C and D and the kind
     of their stages, or the orders and the stability of Rosenbrock methods, or the orders of
-    multirate ones; with embedded weights their order, with other nodes the order with time.
+    Nyström and multirate ones; with embedded weights their order, with other nodes the order with time.
     """
     for name, found in judged.items():
         if FILES[name].name in COPIES:
@@ -105,6 +105,10 @@ def test_all_that_matters_is_claimed(judged: dict[str, Any]) -> None:
             assert {"order", "w-order", "old-jacobian-order"} <= keys, name
             assert {"nonautonomous-order", "a-stable", "l-stable"} <= keys, name
             assert ("index-1-order" in keys) == (found["index_1_order"] is not None), name
+            assert ("embedded-order" in keys) == (found["embedded_order"] is not None), name
+            continue
+        if "nystrom" in found:
+            assert {"order", "position-order", "velocity-order"} <= keys, name
             assert ("embedded-order" in keys) == (found["embedded_order"] is not None), name
             continue
         if "multirate" in found:

@@ -20,6 +20,7 @@ FOLDERS = {
     "sprk": "Symplectic partitioned methods",
     "splitting": "Splitting methods",
     "rkn": "Methods for quadratic kinetic energy",
+    "nystrom": "Nyström methods",
     "rosenbrock": "Rosenbrock and W-methods",
     "multirate": "Multirate methods",
     "found": "Found by gark",
@@ -43,7 +44,10 @@ WORDS = {
     "symplectic": "symplectic",
     "symmetric": "symmetric",
 }
-OF_HEADINGS = {"erk": "explicit", "irk": "implicit", "rosenbrock": "", "multirate": ""}
+OF_HEADINGS = {
+    **{"erk": "explicit", "irk": "implicit"},
+    **dict.fromkeys(("nystrom", "rosenbrock", "multirate"), ""),
+}
 """The type of a folder that its heading says."""
 NARROWER = {"a_stable": "l_stable", "stiffly_accurate": "fsal"}
 _EMBEDDED = re.compile(r"^  embedded-order: (\d+)$", re.MULTILINE)
@@ -106,7 +110,7 @@ def _source(entry: Entry) -> str:
 
 def _stages(entry: Entry) -> list[int]:
     """One number where stages are shared."""
-    if entry["kind"] in ("rk", "ark", "row", "mri"):
+    if entry["kind"] in ("rk", "ark", "row", "mri", "rkn"):
         return [entry["stages"]]
     found: list[int] = entry["stages_by_colour"]
     return found

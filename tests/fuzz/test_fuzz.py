@@ -121,6 +121,13 @@ STEPS = SCALARS | st.fixed_dictionaries(
     {"step": SCALARS}, optional={"of": PARTS, "adjoint": SCALARS}
 )
 VALUES |= {
+    "nystrom": st.fixed_dictionaries(
+        {},
+        optional={
+            **{"Abar": MATRIX, "A": MATRIX, "c": ROW, "bbar": ROW, "b": ROW},
+            "embedded": _or_anything(st.fixed_dictionaries({}, optional={"bbar": ROW, "b": ROW})),
+        },
+    ),
     "rosenbrock": st.fixed_dictionaries(
         {},
         optional={
