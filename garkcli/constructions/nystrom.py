@@ -148,7 +148,7 @@ def seen(method: AnyTableau, which: Which) -> AnyTableau:
 
 
 def partitioned(tableau: Tableau, tolerance: fmpq | None) -> Tableau:
-    """The partitioned method for q̇ = p, ṗ = g(q), of which ``meant`` knows what it is rounded of."""
+    """The same for q̇ = p, ṗ = g(q); ``meant`` knows what it is rounded of."""
     found = seen(meant(tableau, tolerance), "partitioned")
     if not isinstance(found, Tableau):
         keep(found)
@@ -182,9 +182,9 @@ def nystrom(Abar: Matrix, A: Matrix | None, c: Vector, bbar: Vector, b: Vector) 
     <Order 2>
     """
     s = len(b)
-    sizes = [("c", [c]), ("bbar", [bbar]), ("Abar", Abar), ("A", A or Abar)]
-    for letter, rows in sizes:
-        if {*map(len, rows)} != {s} or (letter[0] == "A" and len(rows) != s):
-            shape = f"{s} by {s}" if letter[0] == "A" else f"of length {s}"
-            raise ShapeMismatch(f"{letter} is not {shape}", f"b has {s} entries", code="wrong-size")
+    sizes = (("Abar", Abar, s), ("A", A or Abar, s), ("c", (c,), 1), ("bbar", (bbar,), 1))
+    for letter, rows, count in sizes:
+        if len(rows) != count or {*map(len, rows)} != {s}:
+            message = f"{letter} is not {count} by {s}"
+            raise ShapeMismatch(message, f"b has {s} entries", code="wrong-size")
     return Nystrom(Abar, A, c, bbar, b)

@@ -17,6 +17,7 @@ from garkcli.methodfile.load import loads
 from garkcli.methodfile.writer import (
     can_spell_out,
     tolerance_of_file,
+    write_form,
     write_method,
     write_tableau_file,
 )
@@ -119,7 +120,14 @@ def convert(
     name = UNNAMED if method.name in ("", source) else method.name
     if goal.makes_another:
         name = derived_name(goal.name, name)
-    if found is None:
+    if goal.printed is not None:
+        if method.tolerance is not None:
+            message = f"whether rounded coefficients have the form {to} is not decided"
+            raise CannotConvert(message, "--to recovered --recognise may make them exact")
+        form, keys = goal.printed(sheet.tableau)
+        tolerance = tolerance_of_file(method, sheet.further)
+        text = write_form(form, keys, sheet.tableau, name, tolerance, sheet.further)
+    elif found is None:
         tolerance = tolerance_of_file(method, sheet.further)
         text = write_method(sheet.tableau, name, tolerance, sheet.further)
     else:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
+from garkcli.conversion.printed import Printed, in_2n, in_registers, in_shu_osher
 from garkcli.conversion.sheet import (
     CannotConvert,
     Place,
@@ -19,7 +20,7 @@ from garkcli.frozen import Frozen, field, replace
 from garkcli.properties.reduction import merged, reduced
 from garkcli.tableau.forms import pair
 from garkcli.tableau.garkmethod import GarkMethod
-from garkcli.tableau.tableau import Part
+from garkcli.tableau.tableau import Part, Tableau
 
 
 class Target(Frozen):
@@ -32,6 +33,7 @@ class Target(Frozen):
         claims: what the claims of the method become, by their keys; without it each claim that
             holds of the result stays.
         makes_another: whether the result is another method, made from this one.
+        printed: its coefficients as few registers print them; None where a tableau is written.
     """
 
     name: str
@@ -39,6 +41,7 @@ class Target(Frozen):
     convert: Callable[[GarkMethod], Sheet]
     claims: Mapping[str, str] = field(default_factory=dict)
     makes_another: bool = False
+    printed: Callable[[Tableau], Printed] | None = None
 
 
 def as_gark(method: GarkMethod) -> Sheet:
@@ -183,6 +186,22 @@ TARGETS: Mapping[str, Target] = {
             as_pair,
             {"pair-order": "order", "pair-bound": "bound", "pair-sharp-bound": "sharp-bound"},
             makes_another=True,
+        ),
+        Target("2N", "low storage: two registers of Williamson", sheet_of, printed=in_2n),
+        *(
+            Target(
+                f"{n}R",
+                f"low storage: {n} registers of van der Houwen",
+                sheet_of,
+                printed=in_registers(n),
+            )
+            for n in range(2, 6)
+        ),
+        Target(
+            "shu-osher",
+            "the form of Shu and Osher with the SSP coefficient, without negative numbers",
+            sheet_of,
+            printed=in_shu_osher,
         ),
         Target("canonical", "reduced, spelled out, its stages sorted", as_canonical),
         Target(RECOVERED, "of a rounded method the one that its digits mean", sheet_of),

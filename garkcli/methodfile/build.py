@@ -11,6 +11,7 @@ from flint import fmpq
 from yaml.nodes import Node
 
 from garkcli.constructions.nystrom import Nystrom, nystrom, weights_of
+from garkcli.constructions.registers import as_butcher
 from garkcli.constructions.rosenbrock import (
     Rosenbrock,
     rosenbrock,
@@ -272,6 +273,8 @@ class Builder(Generic[V]):
                 tableau = forms.separable_prk(q, p)
                 is_nystrom = description.structure == "nystrom"
                 return forms.with_linear(tableau, ["q"]) if is_nystrom else tableau
+            case d.RegistersText():
+                return self._at(content.node, lambda: self._registers(content, description))
             case d.RosenbrockText():
                 return self._at(content.node, lambda: self._rosenbrock(content).tableau)
             case d.NystromText():
@@ -328,6 +331,16 @@ class Builder(Generic[V]):
             ((self._gamma,),) = made.gamma
         c = None if text.c is None else (vector(text.c),)
         return replace(made, c=c, d=None if text.d is None else (vector(text.d),))
+
+    def _registers(self, text: d.RegistersText, description: d.Description) -> Tableau:
+        numbers = [
+            self.values.matrix(x) if isinstance(x[0], tuple) else self.values.vector(x)
+            for x in text.numbers
+        ]
+        rounding = description.rounding
+        grain = 0 if rounding is None else rounding.largest
+        c = None if text.c is None else self.values.vector(text.c)
+        return forms.gark([as_butcher(text.scheme, numbers, c, grain)], {})
 
     def _nystrom(self, text: d.NystromText) -> Nystrom:
         matrix, vector = self.values.matrix, self.values.vector

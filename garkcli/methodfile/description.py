@@ -26,10 +26,11 @@ Construction: TypeAlias = Literal["compose", "adjoint", "extrapolate", "splittin
 CONSTRUCTIONS: tuple[Construction, ...] = get_args(Construction)
 """The forms that make a method from others."""
 Form: TypeAlias = (
-    Literal["methods", "tableau", "ark", "prk", "rosenbrock", "nystrom"] | Construction
+    Literal["methods", "tableau", "ark", "prk", "shu-osher", "low-storage", "rosenbrock", "nystrom"]
+    | Construction
 )
 FORMS: tuple[Form, ...] = (
-    *("methods", "tableau", "ark", "prk", "rosenbrock", "nystrom"),
+    *("methods", "tableau", "ark", "prk", "shu-osher", "low-storage", "rosenbrock", "nystrom"),
     *CONSTRUCTIONS,
 )
 PLAIN = ("A", "b", "c")
@@ -178,6 +179,24 @@ class PrkText(Frozen):
     p: ButcherText
 
 
+class RegistersText(Frozen):
+    """A method as codes with few registers print it.
+
+    Attributes:
+        node: the place in the file.
+        scheme: ``shu-osher``, or the form of ``low-storage``.
+        numbers: its rows and matrices, in the order of the scheme.
+        c: the nodes, where the file gives them.
+        further: what is beside the weights.
+    """
+
+    node: Node
+    scheme: str
+    numbers: tuple[Row | Rows, ...]
+    c: Row | None = None
+    further: tuple[FurtherText, ...] = (NOTHING_FURTHER,)
+
+
 class RosenbrockText(Frozen):
     """A Rosenbrock or W-method, as papers print it, or transformed, as programs store it.
 
@@ -287,7 +306,8 @@ class ConstructionText(Frozen):
 
 
 Content: TypeAlias = (
-    "MethodsText | TableauText | ArkText | PrkText | RosenbrockText | NystromText| ConstructionText"
+    "MethodsText | TableauText | ArkText | PrkText | RegistersText | RosenbrockText | NystromText"
+    " | ConstructionText"
 )
 
 

@@ -106,6 +106,20 @@ KEYS = {
             "method",
         ),
         g.Key(
+            "shu-osher: {alpha: [[1], [1/2, 1/2]], beta: [[1], [0, 1/2]]}",
+            g.later("registers", "SHU_OSHER"),
+            "An explicit method in the form of Shu and Osher.",
+            page=f"{_PAGE}shu-osher-and-low-storage-as-programs-print-them",
+            also=("shu_osher", "shuosher"),
+        ),
+        g.Key(
+            "low-storage: {form: 2N, A: [0, -1], B: [1, 1/2]}",
+            g.later("registers", "LOW_STORAGE"),
+            "An explicit method as codes with few registers print it: 2N, 2R, 3R, 2C, 2S, 3S*.",
+            page=f"{_PAGE}shu-osher-and-low-storage-as-programs-print-them",
+            also=("low_storage", "lowstorage"),
+        ),
+        g.Key(
             "rosenbrock: {alpha: [[0, 0], [1, 0]], gamma: [[1/2, 0], [-1, 1/2]], b: [1/2, 1/2]}",
             g.later("rosenbrock", "ROSENBROCK"),
             "A Rosenbrock or W-method: linear systems with the Jacobian, or another matrix, in "
@@ -223,7 +237,8 @@ FORM = g.Ways(
     "the coefficients are",
     (*FORMS, "unknown", g.Together(("A", "b"), ("c",))),
     "no coefficients",
-    "give A and b, or one of the keys methods, tableau, ark, prk, rosenbrock, nystrom",
+    "give A and b, or one of the keys methods, tableau, ark, prk, shu-osher, "
+    "low-storage, rosenbrock, nystrom",
 )
 """The coefficients of a method have one form; A, b and c at the top are those of a tableau."""
 _INSIDE: dict[str, str] = dict.fromkeys(

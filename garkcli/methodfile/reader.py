@@ -150,6 +150,10 @@ class ContentReader(Reading):
             from garkcli.methodfile.rosenbrock import rosenbrock
 
             return rosenbrock(self, node)
+        if form in ("shu-osher", "low-storage"):
+            from garkcli.methodfile.registers import low_storage, shu_osher
+
+            return (shu_osher if form == "shu-osher" else low_storage)(self, node)
         if form == "nystrom":
             from garkcli.methodfile.nystrom import nystrom
 

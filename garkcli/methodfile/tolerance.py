@@ -202,7 +202,7 @@ def _names(content: d.Content) -> list[tuple[str, ...]]:
             names = ["q", "p"]
         case d.TableauText(b=b) | d.ArkText(b=b):
             names = [""] * len(b)
-        case d.RosenbrockText() | d.NystromText():
+        case d.RegistersText() | d.RosenbrockText() | d.NystromText():
             return [()]
         case _:
             return []
@@ -244,7 +244,7 @@ def _places(content: d.Content) -> Iterator[_Place]:
         case d.NystromText():
             for row in content.embedded or ():
                 yield from _of_rows([row or ()], 0, "embedded")
-    if isinstance(content, d.TableauText | d.ArkText | d.RosenbrockText):
+    if isinstance(content, d.TableauText | d.ArkText | d.RegistersText | d.RosenbrockText):
         for l, further in enumerate(content.further):
             yield from _of_further(further, l)
 

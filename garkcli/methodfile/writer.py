@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import chain
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from flint import arb, fmpq
 
 from garkcli.exact.display import decimal, plain_decimal, to_ball, to_text
 from garkcli.exact.expression import read_decimal
 from garkcli.exact.field import Number
-from garkcli.exact.matrix import Matrix, Vector
+from garkcli.exact.matrix import Matrix, Vector, apply
 from garkcli.frozen import replace
 from garkcli.methodfile.description import block_name
 from garkcli.tableau.embedded import NOTHING, Further
@@ -93,6 +93,42 @@ def write_method(
     """The same with decimals where coefficients are rounded."""
     text = to_text if tolerance is None else _decimal_text
     return write_tableau_file(tableau, name, tolerance, text=text, further=further)
+
+
+def write_form(
+    form: str,
+    keys: Mapping[str, Any],
+    tableau: Tableau,
+    name: str,
+    tolerance: Written | None = None,
+    further: Further = NOTHING,
+) -> str:
+    """A method file of one colour in a form of its own.
+
+    Args:
+        form: its key.
+        keys: what is under it: words, rows and matrices of exact numbers.
+        tableau: of the method; its nodes are written where they are not the row sums of A.
+        name: what the file calls the method.
+        tolerance: the rounding of further weights.
+        further: embedded weights and dense output.
+    """
+    text = to_text if tolerance is None else _decimal_text
+    lines = ["gark: 1", f"name: {quoted(name)}", f"{form}:"]
+    for key, value in keys.items():
+        if isinstance(value, str):
+            lines.append(f"  {key}: {value}")
+        elif isinstance(value[0], tuple):
+            lines += [f"  {key}:", *_items(value, 4, text)]
+        else:
+            lines.append(f"  {key}: {_row(value, text)}")
+    colour = tableau.colours[0]
+    if apply(tableau.blocks[0, 0], tableau.spaces[0].one) != colour.c:
+        lines.append(f"  c: {_row(colour.c, text)}")
+    lines += [x.removeprefix("  ") for x in _further_of_part(further, 0, text)]
+    if tolerance is not None:
+        lines.append(f"tolerance: {_tolerance(tolerance)}")
+    return "\n".join(lines) + "\n"
 
 
 def write_rounded(tableau: Tableau, entries: Entries, name: str, further: Further = NOTHING) -> str:

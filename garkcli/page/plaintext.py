@@ -11,7 +11,7 @@ PHRASES = {" · ": " * ", "½": "1/2 "}
 """Signs that read differently among others than alone; they come first."""
 SIGNS = {
     # letters and operators; A^ would look like a power
-    "Â": "Ahat", "ℚ": "Q", "𝟙": " 1", "ᵀ": "^T", "∀": "for all", "∂": "d", "∫": "int ",
+    "Â": "Ahat", "Ā": "Abar", "ℚ": "Q", "𝟙": " 1", "ᵀ": "^T", "∀": "for all", "∂": "d", "∫": "int ",
     "⌊": "floor(", "⌋": ")", "√": "sqrt", "⊙": ".*", "⊗": "(x)", "×": "x", "·": ".", "±": "+-",
     "½": "1/2", "⅓": "1/3", "¼": "1/4", "⁄": "/", "∕": "/", "÷": "/", "°": "deg", "−": "-",
     "≤": "<=", "≥": ">=", "≠": "!=", "≈": "~", "∈": "in", "∞": "inf", "∎": "[]", "∑": "sum ",
@@ -25,6 +25,7 @@ SIGNS = {
     # punctuation
     "–": "-", "\N{HYPHEN}": "-", "\N{HORIZONTAL BAR}": "--", "—": "--", "…": "...", "⋯": "...",
     "•": "*", "“": '"', "”": '"', "‘": "'", "’": "'", "\N{NO-BREAK SPACE}": " ",
+    "\N{PRIME}": "'", "\N{DOUBLE PRIME}": "''",
     "\N{REPLACEMENT CHARACTER}": "?",
     # trees and plots, one column each
     "●": "o", "○": "o", "─": "-", "│": "|", "█": "#", "▒": "%", "░": "=", "└": "`", "┘": "'",

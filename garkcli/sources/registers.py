@@ -1,6 +1,6 @@
 """Low-storage, Shu–Osher and Nyström coefficients of a source as tables of Runge–Kutta methods.
 
-The algebra is that of ``garkcli.conversion.registers``, done twice: with the numbers as they are
+The algebra is that of ``garkcli.constructions.registers``, done twice: with the numbers as they are
 printed, and with balls around them. An entry that rounding moves is written with as many digits as
 it has.
 """
@@ -13,7 +13,7 @@ from typing import Any, TypeAlias
 
 from flint import arb, ctx, fmpq
 
-from garkcli.conversion.registers import (
+from garkcli.constructions.registers import (
     FORMS,
     Steps,
     nystrom,
@@ -21,8 +21,7 @@ from garkcli.conversion.registers import (
     three_registers,
     van_der_houwen,
 )
-from garkcli.conversion.sheet import CannotConvert
-from garkcli.errors import ExpressionError
+from garkcli.errors import ExpressionError, MethodError
 from garkcli.exact.display import to_ball, to_decimal
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
@@ -92,7 +91,7 @@ def converted(form: str, *printed: Nested) -> Converted:
         balls = [_ball(x) + arb(0, arb(units.get(x, 0)).abs_upper()) for x in values]
         try:
             exact, rounded = (_steps(form, _nested(printed, iter(x))) for x in (values, balls))
-        except CannotConvert as error:
+        except MethodError as error:
             raise Unreadable(error.message) from None
         for i, (start, ball) in enumerate(zip(exact.starts, rounded.starts, strict=True), start=1):
             if start != 1 and not abs(_ball(start - 1)) <= 10 * ball.rad():

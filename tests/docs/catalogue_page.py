@@ -45,7 +45,8 @@ WORDS = {
     "symmetric": "symmetric",
 }
 OF_HEADINGS = {
-    **{"erk": "explicit", "irk": "implicit"},
+    "erk": "explicit",
+    "irk": "implicit",
     **dict.fromkeys(("nystrom", "rosenbrock", "multirate"), ""),
 }
 """The type of a folder that its heading says."""

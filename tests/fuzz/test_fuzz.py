@@ -121,10 +121,21 @@ STEPS = SCALARS | st.fixed_dictionaries(
     {"step": SCALARS}, optional={"of": PARTS, "adjoint": SCALARS}
 )
 VALUES |= {
+    "shu-osher": st.fixed_dictionaries(
+        {}, optional={"alpha": MATRIX, "beta": MATRIX, "c": ROW, "embedded": ROW}
+    ),
+    "low-storage": st.fixed_dictionaries(
+        {"form": SCALARS | st.sampled_from(["2N", "2C", "2R", "3R", "2S", "3S*"])},
+        optional={
+            "A": ROW | MATRIX,
+            **dict.fromkeys(("B", "b", "gamma1", "gamma2", "gamma3", "delta", "beta", "c"), ROW),
+        },
+    ),
     "nystrom": st.fixed_dictionaries(
         {},
         optional={
-            **{"Abar": MATRIX, "A": MATRIX, "c": ROW, "bbar": ROW, "b": ROW},
+            **dict.fromkeys(("Abar", "A"), MATRIX),
+            **dict.fromkeys(("c", "bbar", "b"), ROW),
             "embedded": _or_anything(st.fixed_dictionaries({}, optional={"bbar": ROW, "b": ROW})),
         },
     ),

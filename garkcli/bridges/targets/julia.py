@@ -13,7 +13,7 @@ from garkcli.bridges.radicals import Radicals
 from garkcli.bridges.registry import DENSE, EMBEDDED, EVERYTHING, Bridge
 from garkcli.bridges.structure import Table
 from garkcli.bridges.texts import Values
-from garkcli.conversion.registers import in_two_registers
+from garkcli.constructions.registers import in_two_registers
 from garkcli.exact.field import Algebraic
 from garkcli.exact.nodes import Literal, Root
 from garkcli.tableau.pointwise import Cell

@@ -11,10 +11,15 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeAlias
 
-from garkcli.conversion.sheet import CannotConvert
-from garkcli.exact.display import to_ball
+from flint import fmpq
+
+from garkcli.errors import MethodError
+from garkcli.exact.display import to_ball, to_decimal
+from garkcli.exact.field import Algebraic
+from garkcli.exact.matrix import Vector
 from garkcli.frozen import Frozen
 from garkcli.order.tolerance import within
+from garkcli.tableau.tableau import Method, butcher
 
 Numbers: TypeAlias = Sequence[Any]
 """Exact numbers or balls; whole numbers among them."""
@@ -68,11 +73,11 @@ def _whole(row: Numbers, stages: int, first: int) -> Numbers:
     """A row of so many numbers, where the first one is left out as all know it.
 
     Raises:
-        CannotConvert: it has another length.
+        MethodError: it has another length.
     """
     full = [first, *row] if len(row) == stages - 1 else row
     if len(full) != stages:
-        raise CannotConvert(f"a row of {len(row)} for {stages} stages")
+        raise MethodError(f"a row of {len(row)} for {stages} stages", code="cannot-convert")
     return full
 
 
@@ -186,24 +191,85 @@ def shu_osher(alpha: Sequence[Numbers], beta: Sequence[Numbers]) -> Steps:
         beta: the same.
 
     Raises:
-        CannotConvert: a value needs a later one.
+        MethodError: a value needs a later one.
     """
     if alpha and beta and all(x == 0 for x in (*alpha[0], *beta[0])):
         alpha, beta = alpha[1:], beta[1:]
     stages = len(alpha)
     if len(beta) != stages:
-        raise CannotConvert(f"alpha has {stages} rows, beta has {len(beta)}")
+        message = f"alpha has {stages} rows, beta has {len(beta)}"
+        raise MethodError(message, code="cannot-convert")
     made = _Registers(stages)
     values, slopes = [made.y], [made.slope(made.y)]
     for i, rows in enumerate(zip(alpha, beta, strict=True), start=1):
         if any(x != 0 for row in rows for x in row[i:]):
-            raise CannotConvert("a value needs a later one: the method is implicit")
+            message = "a value needs a later one: the method is implicit"
+            raise MethodError(message, code="cannot-convert")
         a, b = ([*row[:i], *[0] * (i - len(row))] for row in rows)
         terms = [*zip(a, values, strict=True), *zip(b, slopes, strict=True)]
         values.append(_sum((1 - sum(a), made.y), *terms))
         if i < stages:
             slopes.append(made.slope(values[i]))
     return made.steps(values[-1])
+
+
+def diagonals(A: Sequence[Any], b: Numbers) -> Steps:
+    """2R, 3R, … as they are printed: the diagonals below the main one, each as long as it is; one
+    of them may be a row of numbers.
+    """
+    rows = A if isinstance(A[0], Sequence) else [A]
+    full = []
+    for below, row in enumerate(rows, start=1):
+        if len(row) not in (len(b) - below, len(b)):
+            message = f"diagonal {below} has {len(row)} entries for {len(b)} stages"
+            raise MethodError(message, f"give {len(b) - below}", code="wrong-size")
+        full.append([*[0] * (len(b) - len(row)), *row])
+    return van_der_houwen(b, *full)
+
+
+def two_s(gamma1: Numbers, gamma2: Numbers, delta: Numbers, beta: Numbers) -> Steps:
+    """2S: 3S* without the value at the beginning."""
+    return three_registers(gamma1, gamma2, [0] * len(beta), delta, beta)
+
+
+OF_FILES: Mapping[str, Callable[..., Steps]] = {
+    "shu-osher": shu_osher,
+    "2N": two_registers,
+    "2C": lambda A, b: ahead(b, A),
+    **dict.fromkeys(("2R", "3R", "4R", "5R"), diagonals),
+    "2S": two_s,
+    "3S*": three_registers,
+}
+"""Schemes as method files have them."""
+
+
+def as_butcher(
+    scheme: str, numbers: Sequence[Any], c: Vector | None = None, grain: Any = 0
+) -> Method:
+    """The Runge–Kutta method of a scheme.
+
+    Args:
+        scheme: a name of ``OF_FILES``.
+        numbers: its coefficients.
+        c: the nodes; None for the row sums.
+        grain: by how much these may be off.
+
+    Raises:
+        MethodError: they make none, or a stage does not begin at the value before the step.
+    """
+    made = OF_FILES[scheme](*numbers)
+    for i, start in enumerate(made.starts, start=1):
+        off = start - 1
+        if isinstance(off, int | fmpq | Algebraic) and not within(off, 100 * grain):
+            where = f"stage {i}" if i <= len(made.b) else "the step"
+            message = f"{where} begins at {to_decimal(start, 8)} y, not at y"
+            cure = "the factors of the registers belong to another scheme, or one is misprinted"
+            raise MethodError(message, cure, code="cannot-construct")
+
+    def row(numbers: Numbers) -> Vector:
+        return tuple(fmpq(x) if isinstance(x, int) else x for x in numbers)
+
+    return butcher(tuple(map(row, made.A)), row(made.b), c)
 
 
 FORMS: Mapping[str, Callable[[Numbers, Numbers], Steps]] = {

@@ -13,7 +13,7 @@ from flint import fmpq
 from hypothesis import given
 from hypothesis import strategies as st
 
-from garkcli.conversion.registers import (
+from garkcli.constructions.registers import (
     Steps,
     ahead,
     in_two_registers,
@@ -24,7 +24,7 @@ from garkcli.conversion.registers import (
     two_registers,
     van_der_houwen,
 )
-from garkcli.conversion.sheet import CannotConvert
+from garkcli.errors import MethodError
 from garkcli.methodfile.load import loads
 from garkcli.order.certificate import find_order
 
@@ -154,11 +154,11 @@ def test_several_diagonals() -> None:
 
 def test_what_is_no_such_method() -> None:
     """Rows of other lengths, and values that need later ones."""
-    with pytest.raises(CannotConvert, match="a row of 1 for 3 stages"):
+    with pytest.raises(MethodError, match="a row of 1 for 3 stages"):
         two_registers([fmpq(1)], exact(B2N))
-    with pytest.raises(CannotConvert, match="alpha has 3 rows, beta has 2"):
+    with pytest.raises(MethodError, match="alpha has 3 rows, beta has 2"):
         shu_osher(exact(ALPHA), exact(SHU[:2]))
-    with pytest.raises(CannotConvert, match="implicit"):
+    with pytest.raises(MethodError, match="implicit"):
         shu_osher([[fmpq(1), fmpq(1)]], [[fmpq(1), fmpq(0)]])
 
 

@@ -1,0 +1,119 @@
+"""Explicit methods in the forms that codes with few registers print, where they have them; decided
+exactly.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any, TypeAlias
+
+from flint import fmpq
+
+from garkcli.constructions.registers import in_two_registers
+from garkcli.conversion.sheet import CannotConvert
+from garkcli.exact.field import ZERO, Number
+from garkcli.exact.matrix import Matrix, Vector
+from garkcli.stability.ssp import ssp_coefficient
+from garkcli.tableau.tableau import Tableau
+
+Printed: TypeAlias = "tuple[str, Mapping[str, Any]]"
+"""The key of the form with its keys: words, rows and matrices."""
+
+
+def explicit(tableau: Tableau, form: str) -> tuple[Matrix, Vector]:
+    """A and b of an explicit method of one colour.
+
+    Raises:
+        CannotConvert: it is another method.
+    """
+    if tableau.size != 1 or tableau.is_partitioned or tableau.colours[0].is_linear:
+        raise CannotConvert(f"{form} is a form of methods of one colour", "--to gark has several")
+    A, b = tableau.blocks[0, 0], tableau.colours[0].b
+    if any(x for i, row in enumerate(A) for x in row[i:]):
+        message = f"{form} is a form of explicit methods, and this one is implicit"
+        raise CannotConvert(message, "--to spelled-out has every method")
+    return A, b
+
+
+def in_2n(tableau: Tableau) -> Printed:
+    """Williamson's 2N.
+
+    Raises:
+        CannotConvert: the method has none.
+    """
+    A, b = explicit(tableau, "2N")
+    found = in_two_registers(A, b)
+    if isinstance(found, int):
+        message = f"no 2N form: stage by stage the slopes of {found} and {found + 1} do not enter"
+        message += " in one ratio"
+        raise CannotConvert(message, "--to spelled-out has every method")
+    factors, weights = found
+    return "low-storage", {"form": "2N", "A": tuple(map(_number, factors)), "B": tuple(weights)}
+
+
+def in_registers(registers: int) -> Callable[[Tableau], Printed]:
+    """Van der Houwen's with so many registers: below that many diagonals less one a column has the
+    weight of its stage.
+    """
+    form = f"{registers}R"
+
+    def convert(tableau: Tableau) -> Printed:
+        A, b = explicit(tableau, form)
+        for i, row in enumerate(A):
+            for j in range(i - registers + 1):
+                if row[j] != b[j]:
+                    message = f"no {form} form: a[{i + 1},{j + 1}] is not b[{j + 1}]"
+                    cure = "more registers, or --to spelled-out, which has every method"
+                    raise CannotConvert(message, cure)
+        rows = tuple(
+            tuple(A[i][i - below] for i in range(below, len(b))) for below in range(1, registers)
+        )
+        if not all(rows):
+            few = f"{len(b)} stages need" if len(b) > 1 else "1 stage needs"
+            raise CannotConvert(f"no {form} form: {few} fewer registers", "--to spelled-out")
+        return "low-storage", {"form": form, "A": rows[0] if registers == 2 else rows, "b": b}
+
+    return convert
+
+
+def in_shu_osher(tableau: Tableau) -> Printed:
+    """The canonical form of Shu and Osher, whose numbers are not negative: with the SSP coefficient
+    r and K = (A; bᵀ), α = r K (I + r K)⁻¹ and β = α/r.
+
+    Source: S. Gottlieb, D. Ketcheson, C.-W. Shu, *Strong Stability Preserving Runge–Kutta and
+    Multistep Time Discretizations*, 3.3.
+
+    Raises:
+        CannotConvert: r is 0, or no number with simple radicals.
+    """
+    A, b = explicit(tableau, "shu-osher")
+    found = ssp_coefficient(tableau)
+    root = None if found is None else found.value
+    r = None if root is None else root.exact
+    if r is None:
+        message = "no exact Shu–Osher form: the SSP coefficient is no number with simple radicals"
+        raise CannotConvert(message, "--to spelled-out has every method")
+    if not r:
+        message = "no Shu–Osher form without negative numbers: the SSP coefficient is 0"
+        raise CannotConvert(message, "--to spelled-out has every method")
+    try:
+        rows: list[list[Number]] = []
+        for i, row in enumerate([*A, b]):
+            known = range(min(i, len(b)))
+            made: list[Number] = []
+            for j in known:
+                others = (row[k] * rows[k][j] for k in known if j < k)
+                made.append(row[j] - r * sum(others, start=ZERO))
+            rows.append(made)
+        beta = tuple(map(tuple, rows[1:]))
+        return "shu-osher", {
+            "alpha": tuple(tuple(r * x for x in row) for row in beta),
+            "beta": beta,
+        }
+    except TypeError:  # numbers of two fields
+        message = "no exact Shu–Osher form: the SSP coefficient is in another number field"
+        raise CannotConvert(message, "--to spelled-out has every method") from None
+
+
+def _number(x: Any) -> Number:
+    return fmpq(x) if isinstance(x, int) else x

@@ -1,0 +1,161 @@
+"""YAML nodes to the forms ``shu-osher`` and ``low-storage``: methods as codes with few registers
+print them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from yaml.nodes import Node, ScalarNode, SequenceNode
+
+from garkcli.errors import counted
+from garkcli.methodfile import description as d
+from garkcli.methodfile import grammar as g
+from garkcli.methodfile import spelled_out
+from garkcli.methodfile.numbers import Reading
+from garkcli.methodfile.parameters import MATRIX, ROW
+
+KEYS_OF_FORMS: Mapping[str, tuple[str, ...]] = {
+    "2N": ("A", "B"),
+    "2C": ("A", "b"),
+    "2R": ("A", "b"),
+    "3R": ("A", "b"),
+    "4R": ("A", "b"),
+    "5R": ("A", "b"),
+    "2S": ("gamma1", "gamma2", "delta", "beta"),
+    "3S*": ("gamma1", "gamma2", "gamma3", "delta", "beta"),
+}
+"""The coefficients of each scheme, that with an entry per stage last."""
+_FORM_OF_SHU_OSHER = (
+    "give {alpha: [[1], [3/4, 1/4]], beta: [[1], [0, 1/4]]}: a row for each value but the first"
+)
+_FORM = "give {form: 2N, A: [0, -5/9, -153/128], B: [1/3, 15/16, 8/15]}"
+_DENSE = g.defined("dense")
+_FURTHER = (
+    g.Key(
+        "c: [0, 1]",
+        ROW,
+        "The nodes, one per stage; the row sums of A where they are left out.",
+        also=("nodes",),
+    ),
+    g.Key(
+        "embedded: [1, 0]",
+        ROW,
+        "Embedded weights, one per stage, as of a Butcher tableau.",
+        also=("bhat", "b_hat", "bh"),
+    ),
+    g.Key(
+        "dense: {degree: 1, weights: [[1/2], [1/2]]}",
+        _DENSE,
+        "Dense output: weights polynomial in θ without constant terms.",
+    ),
+)
+SHU_OSHER = g.mapping(
+    g.Key(
+        "alpha: [[1], [1/2, 1/2]]",
+        MATRIX,
+        "How much of each value is in the next ones: a row for each value but the first, the end "
+        "of the step last. What is missing from 1 is the value at the beginning.",
+        is_needed=True,
+    ),
+    g.Key(
+        "beta: [[1], [0, 1/2]]",
+        MATRIX,
+        "How much of each slope times h is in them.",
+        is_needed=True,
+    ),
+    *_FURTHER,
+    form=_FORM_OF_SHU_OSHER,
+)
+"""The form of Shu and Osher."""
+_A = g.Kind(lambda: {"anyOf": [ROW.schema(), MATRIX.schema()]})
+LOW_STORAGE = g.mapping(
+    g.Key(
+        "form: 2N",
+        g.word(lambda: KEYS_OF_FORMS),
+        "The scheme: 2N of Williamson, 2R, 3R, … of van der Houwen, 2C, 2S and 3S* of Ketcheson.",
+        is_needed=True,
+    ),
+    g.Key(
+        "A: [0, -5/9, -153/128]",
+        _A,
+        "Of 2N the factors of the increment; of 2C and 2R the diagonal below the main one; of 3R "
+        "and more a row for each diagonal.",
+    ),
+    g.Key("B: [1/3, 15/16, 8/15]", ROW, "Of 2N how much of the increment is added, per stage."),
+    g.Key("b: [1/6, 2/3, 1/6]", ROW, "Of 2C, 2R, 3R, … the weights, one per stage."),
+    g.Key("gamma1: [0, 1/2]", ROW, "Of 2S and 3S* the factors of the first register."),
+    g.Key("gamma2: [1, 1/2]", ROW, "Of 2S and 3S* those of the second register."),
+    g.Key("gamma3: [0, 0]", ROW, "Of 3S* those of the value at the beginning."),
+    g.Key("delta: [1, 1]", ROW, "Of 2S and 3S* how much the second register takes of the first."),
+    g.Key("beta: [1, 1/2]", ROW, "Of 2S and 3S* the factors of the slopes, one per stage."),
+    *_FURTHER,
+    form=_FORM,
+)
+"""A low-storage scheme."""
+
+
+def shu_osher(at: Reading, node: Node) -> d.RegistersText | None:
+    """The form ``shu-osher``; None where it makes no method."""
+    found: g.Found | None = SHU_OSHER.read(at, node, "shu-osher")
+    if found is None or not found.is_right:
+        return None
+    stages = len(found["alpha"]) - _begins_with_zeros(found.nodes)
+    return _text(at, node, "shu-osher", found, (found["alpha"], found["beta"]), stages)
+
+
+def _begins_with_zeros(nodes: Mapping[str, Node]) -> bool:
+    """Whether there is a first row for the value at the beginning, which is empty or zeros."""
+
+    def is_zero(node: Node) -> bool:
+        row = node.value[0] if isinstance(node, SequenceNode) and node.value else node
+        return isinstance(row, SequenceNode) and all(
+            isinstance(x, ScalarNode) and x.value.strip("0") in ("", ".") for x in row.value
+        )
+
+    return is_zero(nodes["alpha"]) and is_zero(nodes["beta"])
+
+
+def low_storage(at: Reading, node: Node) -> d.RegistersText | None:
+    """The form ``low-storage``; None where it makes no method."""
+    found: g.Found | None = LOW_STORAGE.read(at, node, "low-storage")
+    if found is None or not found.is_right:
+        return None
+    form = found["form"]
+    wanted = KEYS_OF_FORMS[form]
+    known = {key for keys in KEYS_OF_FORMS.values() for key in keys}
+    cure = f"{form} has {', '.join(wanted)}"
+    for key in found.nodes:
+        if key in known and key not in wanted:
+            message = f"low-storage: {form} has no {key}"
+            at.source.fault(found.nodes[key], message, cure, code="not-together")
+            return None
+    missing = [key for key in wanted if key not in found.nodes]
+    if missing:
+        message = f"low-storage: {form} needs {' and '.join(missing)}"
+        at.source.fault(node, message, cure, code="missing-key")
+        return None
+    numbers: list[Any] = [found[key] for key in wanted]
+    if "A" in wanted:
+        place = found.nodes["A"]
+        if form in ("3R", "4R", "5R"):
+            rows = at.numbers.matrix(place, "A")
+            if len(rows) != int(form[0]) - 1:
+                message = f"low-storage: A of {form} has {counted(len(rows), 'diagonal')}"
+                at.source.fault(place, message, f"give {int(form[0]) - 1}", code="wrong-size")
+                return None
+            numbers[0] = rows
+        else:
+            numbers[0] = at.numbers.row(place, "A")
+    return _text(at, node, form, found, tuple(numbers), len(found[wanted[-1]]))
+
+
+def _text(
+    at: Reading, node: Node, scheme: str, found: g.Found, numbers: tuple[Any, ...], stages: int
+) -> d.RegistersText | None:
+    c = found.get("c")
+    if c is not None and not spelled_out.nodes_fit(at, found.nodes["c"], "c", c, stages):
+        return None
+    further = spelled_out.further_of_method(at, found.nodes, stages)
+    return d.RegistersText(node, scheme, numbers, c, (further,))
