@@ -14,6 +14,7 @@ from garkcli.catalogue.known import fingerprint
 from garkcli.check.check_file import check_file
 from garkcli.check.claims import found_value
 from garkcli.comparison.comparison import form_of
+from garkcli.constructions.nprk import is_nprk
 from garkcli.constructions.nystrom import is_nystrom
 from garkcli.constructions.rosenbrock import is_rosenbrock
 from garkcli.errors import GarkError
@@ -188,6 +189,8 @@ def shape(method: MethodFile) -> Entry:
 def _kind(tableau: Tableau) -> str:
     if is_rosenbrock(tableau):
         return "row"
+    if is_nprk(tableau):
+        return "nprk"
     if is_nystrom(tableau):
         return "rkn"
     if tableau.exact_to is not None:

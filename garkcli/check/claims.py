@@ -14,13 +14,18 @@ from garkcli.reason import NO_REASON, Reason
 
 if TYPE_CHECKING:
     from garkcli.check.infinitesimal import InfinitesimalAnalysis, InfinitesimalSubject
+    from garkcli.check.nprk import NprkAnalysis, NprkSubject
     from garkcli.check.nystrom import NystromAnalysis, NystromSubject
     from garkcli.check.rosenbrock import RosenbrockAnalysis, RosenbrockSubject
     from garkcli.properties.subject import Subject
 
 
-AnyAnalysis: TypeAlias = "Analysis | RosenbrockAnalysis | NystromAnalysis | InfinitesimalAnalysis"
-AnySubject: TypeAlias = "Subject | RosenbrockSubject | NystromSubject | InfinitesimalSubject"
+AnyAnalysis: TypeAlias = (
+    "Analysis | RosenbrockAnalysis | NystromAnalysis | NprkAnalysis | InfinitesimalAnalysis"
+)
+AnySubject: TypeAlias = (
+    "Subject | RosenbrockSubject | NystromSubject | NprkSubject | InfinitesimalSubject"
+)
 
 
 def verify(claims: tuple[ClaimText, ...], analysis: AnyAnalysis) -> tuple[Claim, ...]:

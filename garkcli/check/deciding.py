@@ -14,6 +14,7 @@ from garkcli.check.analysis import (
     is_pair_of_itself,
     nonautonomous,
 )
+from garkcli.constructions.nprk import is_nprk
 from garkcli.constructions.nystrom import is_nystrom
 from garkcli.constructions.rosenbrock import is_rosenbrock
 from garkcli.doing import doing
@@ -49,6 +50,10 @@ def analyse_any_tableau(
         from garkcli.check.rosenbrock import analyse_rosenbrock  # few methods are
 
         return analyse_rosenbrock(tableau, limit, tolerance, further)
+    if is_nprk(tableau):
+        from garkcli.check.nprk import analyse_nprk  # likewise
+
+        return analyse_nprk(tableau, limit, tolerance, further)
     if is_nystrom(tableau):
         from garkcli.check.nystrom import analyse_nystrom  # likewise
 

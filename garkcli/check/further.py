@@ -11,7 +11,7 @@ from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.dense import DenseOrder, Slopes, dense_order, ends_at_step, slopes
 from garkcli.order.functionals import Estimator, Orders, estimator
 from garkcli.order.meant import AnyTableau, as_dense, as_embedded, printed, with_further
-from garkcli.tableau.embedded import DenseOutput, Further
+from garkcli.tableau.embedded import DenseOutput, Further, Weights
 from garkcli.tableau.tableau import Tableau
 
 
@@ -82,14 +82,34 @@ def further_facts(
         changed = as_embedded(method, weights)
         other = order_of(changed, limit, spans)
         timed_order = nonautonomous(changed, other, inconsistent, limit)
-        smaller = other if other.order < order.order else order
-        differ = other.order != order.order and not smaller.is_lower_bound
-        orders = Orders(smaller.order, differ, limit)
-        found = estimator(with_further(method) or method, weights, orders, spans)
+        found = estimate(method, weights, (order, other), limit, spans)
         embedded = EmbeddedFacts(printed(changed), other, timed_order, found)
     if dense is not None:
         facts = dense_facts(method, dense, limit, spans)
     return embedded, facts
+
+
+def estimate(
+    method: AnyTableau,
+    weights: Weights,
+    orders: tuple[AnyOrder, AnyOrder],
+    limit: int,
+    spans: StageSpans | None = None,
+) -> Estimator:
+    """The estimate of the error that embedded weights give.
+
+    Args:
+        method: the tableau, with its rounding where it is rounded.
+        weights: a row per colour.
+        orders: of the method and with these weights.
+        limit: where the search for orders stops.
+        spans: of the stage vectors, where some are known.
+    """
+    order, other = orders
+    smaller = other if other.order < order.order else order
+    differ = other.order != order.order and not smaller.is_lower_bound
+    sought = Orders(smaller.order, differ, limit)
+    return estimator(with_further(method) or method, weights, sought, spans)
 
 
 def dense_facts(

@@ -7,12 +7,13 @@ from typing import ClassVar
 
 from flint import fmpq
 
+from garkcli.check.further import estimate
 from garkcli.constructions.nystrom import Which, seen
 from garkcli.frozen import Frozen
 from garkcli.order.certificate import DEFAULT_LIMIT, StageSpans
 from garkcli.order.deciding import AnyOrder, order_of
-from garkcli.order.functionals import Estimator, Orders, estimator
-from garkcli.order.meant import AnyTableau, as_embedded, meant, printed, with_further
+from garkcli.order.functionals import Estimator
+from garkcli.order.meant import AnyTableau, as_embedded, meant, printed
 from garkcli.order.simplifying import simplifying
 from garkcli.properties.property import Verdict
 from garkcli.properties.subject import Subject
@@ -163,9 +164,6 @@ def analyse_nystrom(
     embedded = None
     if further.embedded is not None:
         other = NystromOrders.of(as_embedded(method, further.embedded), limit, spans)
-        smaller = min((orders.order, other.order), key=lambda x: x.order)
-        differ = other.order.order != orders.order.order and not smaller.is_lower_bound
-        sought = Orders(smaller.order, differ, limit)
-        found = estimator(with_further(method) or method, further.embedded, sought, spans)
+        found = estimate(method, further.embedded, (orders.order, other.order), limit, spans)
         embedded = EmbeddedOrders(other, found)
     return NystromAnalysis(tableau, orders, limit, tolerance, embedded, further)

@@ -13,6 +13,7 @@ from garkcli.upward import Shown
 if TYPE_CHECKING:
     from garkcli.check.every_value import EveryValue
     from garkcli.check.infinitesimal import InfinitesimalAnalysis
+    from garkcli.check.nprk import NprkAnalysis
     from garkcli.check.nystrom import NystromAnalysis
     from garkcli.check.remark import Remark
     from garkcli.check.rosenbrock import RosenbrockAnalysis
@@ -20,7 +21,9 @@ if TYPE_CHECKING:
     from garkcli.order.blame import Blame
     from garkcli.order.constants import ErrorConstants
 
-    OtherAnalysis: TypeAlias = RosenbrockAnalysis | NystromAnalysis | InfinitesimalAnalysis
+    OtherAnalysis: TypeAlias = (
+        RosenbrockAnalysis | NystromAnalysis | NprkAnalysis | InfinitesimalAnalysis
+    )
 
 
 class Claim(Frozen):
@@ -72,6 +75,7 @@ class Outcome(Shown, Frozen):
         every: what holds for every value, of a file with free parameters; it has no analysis.
         rosenbrock: the truth about a Rosenbrock method; it has no analysis.
         nystrom: the truth about a Nyström method; likewise.
+        nprk: the truth about a nonlinearly partitioned method; likewise.
         infinitesimal: the truth about a multirate method with the exact fast solution; likewise.
         left_behind: further weights of the methods that it is made from, in words.
         rules: what made blocks between diagonal methods.
@@ -94,6 +98,7 @@ class Outcome(Shown, Frozen):
     every: EveryValue | None = None
     rosenbrock: RosenbrockAnalysis | None = None
     nystrom: NystromAnalysis | None = None
+    nprk: NprkAnalysis | None = None
     infinitesimal: InfinitesimalAnalysis | None = None
     left_behind: tuple[str, ...] = ()
     rules: tuple[BlockRule, ...] = ()
@@ -101,7 +106,7 @@ class Outcome(Shown, Frozen):
     @property
     def of_other_kind(self) -> OtherAnalysis | None:
         """The analysis of a method that is no GARK method; None of one that is, or of none."""
-        return self.rosenbrock or self.nystrom or self.infinitesimal
+        return self.rosenbrock or self.nystrom or self.nprk or self.infinitesimal
 
     @property
     def found(self) -> Analysis | EveryValue | OtherAnalysis | None:

@@ -30,6 +30,7 @@ OF_INFINITESIMAL = ("order", "slow-order", "nonautonomous-order", "embedded-orde
 OF_OTHER_KINDS = {
     "a Rosenbrock method": OF_ROSENBROCK,
     "a Nyström method": OF_NYSTROM,
+    "a nonlinearly partitioned method": ("order", "embedded-order"),
     "a multirate method with the exact fast part": OF_INFINITESIMAL,
 }
 """The same of methods that are no GARK methods, by kind."""

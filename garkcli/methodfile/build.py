@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Generic, TypeAlias, TypeVar
 from flint import fmpq
 from yaml.nodes import Node
 
+from garkcli.constructions.nprk import nprk
 from garkcli.constructions.nystrom import Nystrom, nystrom, weights_of
 from garkcli.constructions.registers import as_butcher
 from garkcli.constructions.rosenbrock import (
@@ -277,6 +278,8 @@ class Builder(Generic[V]):
                 return self._at(content.node, lambda: self._registers(content, description))
             case d.RosenbrockText():
                 return self._at(content.node, lambda: self._rosenbrock(content).tableau)
+            case d.NprkText():
+                return self._at(content.node, lambda: self._nprk(content))
             case d.NystromText():
                 return self._at(content.node, lambda: self._nystrom(content).tableau)
             case d.ConstructionText():
@@ -341,6 +344,14 @@ class Builder(Generic[V]):
         grain = 0 if rounding is None else rounding.largest
         c = None if text.c is None else self.values.vector(text.c)
         return forms.gark([as_butcher(text.scheme, numbers, c, grain)], {})
+
+    def _nprk(self, text: d.NprkText) -> Tableau:
+        matrix = self.values.matrix
+        embedded = None if text.embedded is None else matrix(text.embedded)
+        tableau, row = nprk([*map(matrix, text.a)], matrix(text.b), embedded)
+        if row is not None:
+            self._made = Further((row,) * tableau.size)
+        return tableau
 
     def _nystrom(self, text: d.NystromText) -> Nystrom:
         matrix, vector = self.values.matrix, self.values.vector

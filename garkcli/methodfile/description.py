@@ -25,14 +25,11 @@ STRUCTURES: tuple[Structure, ...] = ("general", "semi-separable", "separable", "
 Construction: TypeAlias = Literal["compose", "adjoint", "extrapolate", "splitting", "multirate"]
 CONSTRUCTIONS: tuple[Construction, ...] = get_args(Construction)
 """The forms that make a method from others."""
-Form: TypeAlias = (
-    Literal["methods", "tableau", "ark", "prk", "shu-osher", "low-storage", "rosenbrock", "nystrom"]
-    | Construction
-)
-FORMS: tuple[Form, ...] = (
-    *("methods", "tableau", "ark", "prk", "shu-osher", "low-storage", "rosenbrock", "nystrom"),
-    *CONSTRUCTIONS,
-)
+OwnForm: TypeAlias = Literal[
+    "methods", "tableau", "ark", "prk", "shu-osher", "low-storage", "rosenbrock", "nystrom", "nprk"
+]
+Form: TypeAlias = OwnForm | Construction
+FORMS: tuple[Form, ...] = (*get_args(OwnForm), *CONSTRUCTIONS)
 PLAIN = ("A", "b", "c")
 """The keys of a Butcher tableau that is at the top of a file."""
 BESIDE = ("embedded", "dense")
@@ -256,6 +253,27 @@ class NystromText(Frozen):
         )
 
 
+class NprkText(Frozen):
+    """A nonlinearly partitioned method; rows and matrices may end early, zeros follow.
+
+    Attributes:
+        node: the place in the file.
+        a: a matrix for each stage.
+        b: the weights.
+        embedded: embedded ones; None where there are none.
+    """
+
+    node: Node
+    a: tuple[Rows, ...]
+    b: Rows
+    embedded: Rows | None = None
+
+    @property
+    def further(self) -> tuple[FurtherText, ...]:
+        """What is beside the weights, which the tableau is made with."""
+        return ()
+
+
 class PartText(Frozen):
     """A method that a construction is made from.
 
@@ -307,7 +325,7 @@ class ConstructionText(Frozen):
 
 Content: TypeAlias = (
     "MethodsText | TableauText | ArkText | PrkText | RegistersText | RosenbrockText | NystromText"
-    " | ConstructionText"
+    " | NprkText | ConstructionText"
 )
 
 

@@ -135,6 +135,12 @@ KEYS = {
             also=("rkn", "rkng"),
         ),
         g.Key(
+            "nprk: {a: [[], [[], [1]]], b: [[], [1]]}",
+            g.later("nprk", "NPRK"),
+            "A nonlinearly partitioned method for F(y, y).",
+            page=f"{_PAGE}nprk-nonlinearly-partitioned-methods",
+        ),
+        g.Key(
             "compose: {of: rk4, steps: [1/2, 1/2]}",
             g.later("constructed.compose", "KIND"),
             "Substeps of methods, one after the other, the first one first.",
@@ -238,7 +244,7 @@ FORM = g.Ways(
     (*FORMS, "unknown", g.Together(("A", "b"), ("c",))),
     "no coefficients",
     "give A and b, or one of the keys methods, tableau, ark, prk, shu-osher, "
-    "low-storage, rosenbrock, nystrom",
+    "low-storage, rosenbrock, nystrom, nprk",
 )
 """The coefficients of a method have one form; A, b and c at the top are those of a tableau."""
 _INSIDE: dict[str, str] = dict.fromkeys(

@@ -167,7 +167,11 @@ def works_in(text: str, source: str) -> tuple[Work, ...]:
     return (own,) if own[0] else works_of(described(text, source, NO_SETTINGS)[1])
 
 
-_OTHER_KINDS: dict[Form, str] = {"rosenbrock": "Rosenbrock", "nystrom": "Nyström"}
+_OTHER_KINDS: dict[Form, str] = {
+    "rosenbrock": "Rosenbrock",
+    "nystrom": "Nyström",
+    "nprk": "nonlinearly partitioned",
+}
 """What messages call the methods of forms that are for no GARK methods."""
 
 

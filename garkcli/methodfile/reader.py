@@ -154,6 +154,10 @@ class ContentReader(Reading):
             from garkcli.methodfile.registers import low_storage, shu_osher
 
             return (shu_osher if form == "shu-osher" else low_storage)(self, node)
+        if form == "nprk":
+            from garkcli.methodfile.nprk import nprk
+
+            return nprk(self, node)
         if form == "nystrom":
             from garkcli.methodfile.nystrom import nystrom
 

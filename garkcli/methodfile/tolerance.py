@@ -202,7 +202,7 @@ def _names(content: d.Content) -> list[tuple[str, ...]]:
             names = ["q", "p"]
         case d.TableauText(b=b) | d.ArkText(b=b):
             names = [""] * len(b)
-        case d.RegistersText() | d.RosenbrockText() | d.NystromText():
+        case d.RegistersText() | d.RosenbrockText() | d.NystromText() | d.NprkText():
             return [()]
         case _:
             return []
@@ -241,6 +241,8 @@ def _places(content: d.Content) -> Iterator[_Place]:
                 yield from _of_rows([*rows, content.b[m]], m)
         case d.RosenbrockText(error=error):
             yield from _of_rows([error or ()], 0, "embedded")
+        case d.NprkText():
+            yield from _of_rows(content.embedded or (), 0, "embedded")
         case d.NystromText():
             for row in content.embedded or ():
                 yield from _of_rows([row or ()], 0, "embedded")

@@ -25,11 +25,13 @@ class Kind(Frozen):
         weight: how many orders a vertex counts: as often the exact solution is integrated at it.
         is_exact: whether the exact solution has such vertices. Otherwise the elementary weights of
             trees with one should be 0.
+        is_field: whether the colour is a vector field, and not an argument of one.
     """
 
     arity: Arity = ANY
     weight: int = 1
     is_exact: bool = True
+    is_field: bool = True
 
     def allows(self, branches: int) -> bool:
         """Whether a vertex may have so many branches."""
@@ -69,5 +71,7 @@ LEAF = Kind(frozenset({0}))
 """Of a constant one, as ṫ = 1 of time."""
 ONE_BRANCH = Kind(frozenset({1}))
 """Of the Jacobian of a vector field at the beginning of the step."""
+ARGUMENT = Kind(is_field=False)
+"""Of one of several arguments of a vector field: where its branch is."""
 FIELDS = (PLAIN, LINEAR, LEAF)
 """The kinds whose vertices are a vector field, as it is evaluated at stages."""

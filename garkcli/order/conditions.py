@@ -156,7 +156,7 @@ def twin_roots(tableau: Tableau) -> dict[int, tuple[int, ...]]:
 
 def _are_twins(one: Colour, other: Colour) -> bool:
     """Whether two colours share their stages, their weights, and what their vertices are like."""
-    if one.space != other.space or one.kind != other.kind:
+    if (one.space, one.kind, one.late) != (other.space, other.kind, other.late):
         return False
     return one.b == other.b
 

@@ -38,6 +38,10 @@ def form(outcome: Outcome) -> Section:
         from garkcli.report.nystrom import NYSTROM
 
         return NYSTROM
+    if outcome.nprk is not None:
+        from garkcli.report.nprk import NPRK
+
+        return NPRK
     if outcome.infinitesimal is not None:
         from garkcli.report.infinitesimal import INFINITESIMAL
 
@@ -49,10 +53,11 @@ def forms() -> Iterator[Section]:
     """All of them."""
     from garkcli.report.every import EVERY
     from garkcli.report.infinitesimal import INFINITESIMAL
+    from garkcli.report.nprk import NPRK
     from garkcli.report.nystrom import NYSTROM
     from garkcli.report.rosenbrock import ROSENBROCK
 
-    yield from (UNREADABLE, CHECKED, EVERY, ROSENBROCK, NYSTROM, INFINITESIMAL)
+    yield from (UNREADABLE, CHECKED, EVERY, ROSENBROCK, NYSTROM, NPRK, INFINITESIMAL)
 
 
 REPORT: Report[Outcome] = Report(

@@ -7,13 +7,14 @@ from typing import NamedTuple
 
 from garkcli.check.analysis import Analysis
 from garkcli.check.infinitesimal import InfinitesimalAnalysis
+from garkcli.check.nprk import NprkAnalysis
 from garkcli.check.nystrom import NystromAnalysis
 from garkcli.check.rosenbrock import RosenbrockAnalysis
 from garkcli.check.true_claims import TrueClaims
 from garkcli.errors import printable
 from garkcli.page.paint import folded
 from garkcli.properties.registry import KEYS
-from garkcli.report import infinitesimal, nystrom, rosenbrock
+from garkcli.report import infinitesimal, nprk, nystrom, rosenbrock
 from garkcli.report.check import ANALYSIS, SIMPLIFYING, property_rows_of, within
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Level, Row, Section
@@ -44,6 +45,7 @@ _ROWS_OF_OTHER_KINDS = {
     for analysis, rows in (
         (RosenbrockAnalysis, rosenbrock.ANALYSIS),
         (NystromAnalysis, nystrom.ANALYSIS),
+        (NprkAnalysis, nprk.ANALYSIS),
         (InfinitesimalAnalysis, infinitesimal.ANALYSIS),
     )
 }

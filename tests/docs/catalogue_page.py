@@ -21,6 +21,7 @@ FOLDERS = {
     "splitting": "Splitting methods",
     "rkn": "Methods for quadratic kinetic energy",
     "nystrom": "Nyström methods",
+    "nprk": "Nonlinearly partitioned methods",
     "rosenbrock": "Rosenbrock and W-methods",
     "multirate": "Multirate methods",
     "found": "Found by gark",
@@ -47,7 +48,7 @@ WORDS = {
 OF_HEADINGS = {
     "erk": "explicit",
     "irk": "implicit",
-    **dict.fromkeys(("nystrom", "rosenbrock", "multirate"), ""),
+    **dict.fromkeys(("nystrom", "nprk", "rosenbrock", "multirate"), ""),
 }
 """The type of a folder that its heading says."""
 NARROWER = {"a_stable": "l_stable", "stiffly_accurate": "fsal"}
@@ -111,7 +112,7 @@ def _source(entry: Entry) -> str:
 
 def _stages(entry: Entry) -> list[int]:
     """One number where stages are shared."""
-    if entry["kind"] in ("rk", "ark", "row", "mri", "rkn"):
+    if entry["kind"] in ("rk", "ark", "row", "mri", "rkn", "nprk"):
         return [entry["stages"]]
     found: list[int] = entry["stages_by_colour"]
     return found

@@ -131,6 +131,9 @@ VALUES |= {
             **dict.fromkeys(("B", "b", "gamma1", "gamma2", "gamma3", "delta", "beta", "c"), ROW),
         },
     ),
+    "nprk": st.fixed_dictionaries(
+        {}, optional={"a": st.lists(MATRIX, max_size=3), "b": MATRIX, "embedded": MATRIX}
+    ),
     "nystrom": st.fixed_dictionaries(
         {},
         optional={

@@ -1,0 +1,68 @@
+"""Nonlinearly partitioned Runge–Kutta methods for ẏ = F(y, y) as tableaus.
+
+    Y_i = y + h Σ_jk a_ijk F(Y_j, Y_k),        y_1 = y + h Σ_jk b_jk F(Y_j, Y_k).
+
+The stages of the tableau are the pairs (j, k) at which F is evaluated. A branch is in the first or
+in the second argument of F, which its colour says: it is seen through the rows of a for Y_j, or
+those for Y_k. The conditions are those of ``garkcli.order``; docs/exact-order.md proves it, section
+12.
+
+Sources: T. Buvoli, B. S. Southworth, "A new class of Runge–Kutta methods for nonlinearly
+partitioned systems", arXiv 2401.04859; B. K. Tran, B. S. Southworth, T. Buvoli, "Order conditions
+for nonlinearly partitioned Runge–Kutta methods", arXiv 2401.12427.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from garkcli.exact.field import ZERO, Number
+from garkcli.exact.matrix import Matrix, Vector
+from garkcli.ntrees.kind import ARGUMENT
+from garkcli.tableau.stages import PointSpace
+from garkcli.tableau.tableau import Colour, Tableau
+
+Tensor = Sequence[Matrix]
+"""``a[i][j][k]``; rows and matrices may end early, zeros follow."""
+
+
+def nprk(a: Tensor, b: Matrix, embedded: Matrix | None = None) -> tuple[Tableau, Vector | None]:
+    """The tableau of a method, its stages the pairs that are used.
+
+    Args:
+        a: a matrix for each stage.
+        b: a row for each first argument.
+        embedded: further weights of the same shape.
+
+    Returns:
+        the tableau, and the embedded weights at its stages.
+
+    >>> from flint import fmpq
+    >>> from garkcli.order.certificate import find_order
+    >>> semi_implicit_euler, _ = nprk([[], [[], [fmpq(1)]]], [[], [fmpq(1)]])
+    >>> find_order(semi_implicit_euler)
+    <Order 1>
+    """
+    s = range(len(a))
+    parts = [*a, b] if embedded is None else [*a, b, embedded]
+    pairs = [(j, k) for j in s for k in s if any(_entry(x, j, k) != 0 for x in parts)] or [(0, 0)]
+    rows = [tuple(_entry(x, j, k) for j, k in pairs) for x in parts]
+    nodes = [sum(row, start=ZERO) for row in rows]
+    weights = rows[len(a)]
+    space = PointSpace(tuple(nodes[j] for j, _ in pairs))
+    colours = tuple(
+        Colour(str(m + 1), 0, weights, tuple(nodes[x[m]] for x in pairs), kind=ARGUMENT)
+        for m in range(2)
+    )
+    blocks = {(0, m): tuple(rows[x[m]] for x in pairs) for m in range(2)}
+    further = None if embedded is None else rows[-1]
+    return Tableau((space,), colours, blocks), further
+
+
+def _entry(matrix: Matrix, j: int, k: int) -> Number:
+    return matrix[j][k] if j < len(matrix) and k < len(matrix[j]) else ZERO
+
+
+def is_nprk(tableau: Tableau) -> bool:
+    """Whether a tableau is that of a nonlinearly partitioned method."""
+    return all(colour.kind == ARGUMENT for colour in tableau.colours)

@@ -1,0 +1,52 @@
+"""YAML nodes to the form ``nprk``: nonlinearly partitioned methods for ẏ = F(y, y)."""
+
+from __future__ import annotations
+
+from yaml.nodes import Node
+
+from garkcli.errors import counted
+from garkcli.methodfile import description as d
+from garkcli.methodfile import grammar as g
+from garkcli.methodfile.numbers import Reading, Rows
+
+_FORM = "give {a: [[], [[], [1]]], b: [[], [1]]}: a matrix for each stage, and one of weights"
+_MATRIX = g.Kind(lambda: {"type": "array", "items": {"type": "array"}})
+NPRK = g.mapping(
+    g.Key(
+        "a: [[], [[], [1]]]",
+        g.Kind(lambda: {"type": "array", "minItems": 1, "items": _MATRIX.schema()}),
+        "The numbers a_ijk: for each stage i a matrix, row j for the first argument of F, column k "
+        "for the second; rows and matrices may end early, zeros follow.",
+        is_needed=True,
+    ),
+    g.Key("b: [[], [1]]", _MATRIX, "The weights b_jk, in the same way.", is_needed=True),
+    g.Key("embedded: [[1]]", _MATRIX, "Embedded weights, in the same way.", also=("bhat",)),
+    form=_FORM,
+)
+"""A nonlinearly partitioned method."""
+
+
+def nprk(at: Reading, node: Node) -> d.NprkText | None:
+    """The form ``nprk``; None where it makes no method."""
+    found: g.Found | None = NPRK.read(at, node, "nprk")
+    if found is None or not found.is_right:
+        return None
+    stages = at.source.items(found["a"], "a", _FORM)
+    a = [_matrix(at, x, f"a, stage {i}", len(stages)) for i, x in enumerate(stages, start=1)]
+    b = _matrix(at, found["b"], "b", len(stages))
+    embedded = None
+    if "embedded" in found:
+        embedded = _matrix(at, found["embedded"], "embedded", len(stages))
+    return d.NprkText(node, tuple(a), b, embedded)
+
+
+def _matrix(at: Reading, node: Node, where: str, stages: int) -> Rows:
+    items = at.source.items(node, where, _FORM)
+    rows = at.numbers.matrix(node, where) if items else ()
+    longest = max([len(rows), *map(len, rows)], default=0)
+    if longest > stages:
+        message = (
+            f"{where} has {counted(longest, 'entry', 'entries')} for {counted(stages, 'stage')}"
+        )
+        at.source.fault(node, message, "a has a matrix for each stage", code="wrong-size")
+    return rows

@@ -1,0 +1,45 @@
+"""``gark check`` of nonlinearly partitioned methods."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from garkcli.errors import counted
+from garkcli.report import check as c
+from garkcli.tell import kinds
+from garkcli.tell.facts import Level, Row, Section, maybe, optional
+from garkcli.tell.parts import SAID, part, parts, picture, told
+
+if TYPE_CHECKING:
+    from garkcli.tell.dialect import Plain
+
+HEADLINE, USUAL, DETAIL, DATA = Level
+
+
+def _method_words(outcome: Any, _: Plain) -> str:
+    a = outcome.nprk
+    pairs = counted(a.tableau.spaces[0].stages, "pair")
+    return c.with_arithmetic(f"nonlinearly partitioned, {pairs} of stages", a)
+
+
+ANALYSIS = [
+    Row("exact", kinds.TRUTH, lambda a: a.tolerance is None, DATA),
+    maybe("tolerance", kinds.TOLERANCE, level=DATA),
+    Row("colours", parts(c.COLOURS), lambda a: c.colours_of(a.tableau), DATA),
+    c.viewed_order("order", HEADLINE),
+    c.viewed_order("embedded_order"),
+    maybe("error_estimate", part(c.ESTIMATE, c.estimate_phrase), "embedded.estimator"),
+    Row("in the trees", SAID, lambda _: "1 and 2 are the arguments of F that branches are in"),
+    Row("trees_that_fail", picture(c.drawn), c.failing("order", "embedded-order"), DETAIL),
+]
+NPRK = Section(
+    *kinds.FILE_AND_NAME,
+    Row("ok", kinds.TRUTH, level=DATA),
+    Row("nprk", kinds.TRUE, lambda _: True, DATA),
+    Row("method", told(_method_words), "."),
+    *(row.of(lambda o: o.nprk) for row in ANALYSIS),
+    optional("error_constants", part(c.CONSTANTS), "constants"),
+    *c.CLAIMS,
+    title=c.title,
+    columns=c.COLUMNS,
+)
