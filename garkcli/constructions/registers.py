@@ -15,7 +15,7 @@ from flint import fmpq
 
 from garkcli.errors import MethodError
 from garkcli.exact.display import to_ball, to_decimal
-from garkcli.exact.field import Algebraic
+from garkcli.exact.field import ONE, Algebraic
 from garkcli.exact.matrix import Vector
 from garkcli.frozen import Frozen
 from garkcli.order.tolerance import within
@@ -259,8 +259,8 @@ def as_butcher(
     """
     made = OF_FILES[scheme](*numbers)
     for i, start in enumerate(made.starts, start=1):
-        off = start - 1
-        if isinstance(off, int | fmpq | Algebraic) and not within(off, 100 * grain):
+        off = start - ONE
+        if isinstance(off, fmpq | Algebraic) and not within(off, 100 * grain):
             where = f"stage {i}" if i <= len(made.b) else "the step"
             message = f"{where} begins at {to_decimal(start, 8)} y, not at y"
             cure = "the factors of the registers belong to another scheme, or one is misprinted"

@@ -356,7 +356,7 @@ class Builder(Generic[V]):
     def _nystrom(self, text: d.NystromText) -> Nystrom:
         matrix, vector = self.values.matrix, self.values.vector
         A = None if text.A is None else matrix(text.A)
-        c = vector(text.c) if A is None or text.c is not None else butcher(A, vector(text.b)).c
+        c = vector(text.c or ()) if A is None or text.c else butcher(A, vector(text.b)).c
         return nystrom(matrix(text.Abar), A, c, vector(text.bbar), vector(text.b))
 
     def _transformed(self, text: d.RosenbrockText, further: Further) -> Further:

@@ -25,6 +25,8 @@ import garkcli
 from garkcli import find_order, load, loads
 from garkcli.check.analysis import MethodProof, prove_method
 from garkcli.check.deciding import analyse
+from garkcli.constructions.nprk import nprk
+from garkcli.constructions.nystrom import nystrom
 from garkcli.constructions.rosenbrock import rosenbrock
 from garkcli.errors import MethodError
 from garkcli.order.certificate import prove
@@ -602,6 +604,28 @@ def test_vertices_of_every_kind(name: str, tmp_path: Path) -> None:
             assert judged(data, tmp_path) == 1, (key, value)
             colour["vertices"] = dict(kept)
     assert judged(data, tmp_path) == 0
+
+
+def test_vertices_that_are_integrated_twice(tmp_path: Path) -> None:
+    """The referee proves order 2 of Verlet's method as a Nyström method, and order 2 of a
+    nonlinearly partitioned one; it notices a missing tree and another weight.
+    """
+    half, one, zero = fmpq(1, 2), fmpq(1), fmpq(0)
+    square = ((zero, zero), (half, zero))
+    verlet = nystrom(square, None, (zero, one), (half, zero), (half, half)).tableau
+    midpoint, _ = nprk([[], [[zero, half]]], [[], [zero, one]])
+    for tableau in (verlet, midpoint):
+        data = rosenbrock_certificate(tableau)
+        assert data["method"]["order"] == 2
+        assert judged(data, tmp_path) == 0
+        trees = next(x for x in data["method"]["spanning"][1] if x)
+        (tree,) = trees[:1]
+        del trees[:1]
+        assert judged(data, tmp_path) == 1
+        trees.insert(0, tree)
+    data = rosenbrock_certificate(verlet)
+    data["method"]["colours"][0]["vertices"]["weight"] = 1
+    assert judged(data, tmp_path) == 1
 
 
 @pytest.mark.parametrize("name", ["tableau", "with_any_matrix", "with_old_jacobian"])
