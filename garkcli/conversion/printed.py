@@ -44,8 +44,7 @@ def in_2n(tableau: Tableau) -> Printed:
     A, b = explicit(tableau, "2N")
     found = in_two_registers(A, b)
     if isinstance(found, int):
-        message = f"no 2N form: stage by stage the slopes of {found} and {found + 1} do not enter"
-        message += " in one ratio"
+        message = f"no 2N form: the slopes of stages {found} and {found + 1} enter in no one ratio"
         raise CannotConvert(message, "--to spelled-out has every method")
     factors, weights = found
     return "low-storage", {"form": "2N", "A": tuple(map(_number, factors)), "B": tuple(weights)}

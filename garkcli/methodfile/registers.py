@@ -73,7 +73,7 @@ _A = g.Kind(lambda: {"anyOf": [ROW.schema(), MATRIX.schema()]})
 LOW_STORAGE = g.mapping(
     g.Key(
         "form: 2N",
-        g.word(lambda: KEYS_OF_FORMS),
+        g.word(lambda: tuple(KEYS_OF_FORMS)),
         "The scheme: 2N of Williamson, 2R, 3R, … of van der Houwen, 2C, 2S and 3S* of Ketcheson.",
         is_needed=True,
     ),
