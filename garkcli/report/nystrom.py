@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from garkcli.tell.dialect import Plain
 
 HEADLINE, USUAL, DETAIL, DATA = Level
+IN_THE_TREES = "q is g in the step of q, q' is g in that of q′, q'0 is q′ as it begins"
 
 
 def _method_words(outcome: Any, d: Plain) -> str:
@@ -35,7 +36,7 @@ ANALYSIS = [
     c.viewed_order("embedded_position_order", label="embedded, q"),
     c.viewed_order("embedded_velocity_order", label="embedded, q′"),
     maybe("error_estimate", part(c.ESTIMATE, c.estimate_phrase), "embedded.estimator"),
-    Row("in the trees", SAID, lambda _: "1 is g in q, 2 is g in q′, 3 is q′ as it begins"),
+    Row("in the trees", SAID, lambda _: IN_THE_TREES, DETAIL),
     Row(
         "trees_that_fail",
         picture(c.drawn),

@@ -137,7 +137,7 @@ def test_the_report_and_the_arrays(tmp_path: Path) -> None:
     """
     text = gark("check", _written(tmp_path, FINE)).out
     assert len(text.splitlines()) <= 14
-    assert "order of q      5, proved; order 6 fails at [[[]_1]_1]_1 by 1/21600" in text
+    assert "order of q      5, proved; order 6 fails at [[[]_q]_q]_q by 1/21600" in text
     assert "order of q′     4, proved; order 5 fails as above" in text
     shown = gark("show", _written(tmp_path, FINE)).out
     first, second = shown[shown.index("Ā, with c and b̄") :].split("A, with c and b")[-2:]
