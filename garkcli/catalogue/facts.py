@@ -14,9 +14,6 @@ from garkcli.catalogue.known import fingerprint
 from garkcli.check.check_file import check_file
 from garkcli.check.claims import found_value
 from garkcli.comparison.comparison import form_of
-from garkcli.constructions.nprk import is_nprk
-from garkcli.constructions.nystrom import is_nystrom
-from garkcli.constructions.rosenbrock import is_rosenbrock
 from garkcli.errors import GarkError
 from garkcli.exact.display import decimal, to_text
 from garkcli.methodfile.expectations import AtLeast
@@ -167,8 +164,9 @@ def shape(method: MethodFile) -> Entry:
     """How many stages and colours, what such a method is called, how its numbers are given."""
     tableau = method.tableau
     kind = _kind(tableau)
-    # a vector field and its Jacobian are one
-    colours = tableau.colours[: tableau.size // (2 if kind == "row" else 1)]
+    # of these kinds several colours are one vector field: it and its Jacobian, or its arguments
+    fields = {"row": tableau.size // 2, "rkn": 1, "nprk": 1}.get(kind, tableau.size)
+    colours = tableau.colours[:fields]
     # collocation stands for an exact solution, which has no stages
     told = colours[1:] if kind == "mri" else colours
     stages = [tableau.spaces[colour.space].stages for colour in told]
@@ -187,14 +185,6 @@ def shape(method: MethodFile) -> Entry:
 
 
 def _kind(tableau: Tableau) -> str:
-    if is_rosenbrock(tableau):
-        return "row"
-    if is_nprk(tableau):
-        return "nprk"
-    if is_nystrom(tableau):
-        return "rkn"
-    if tableau.exact_to is not None:
-        return "mri"
     return "prk" if tableau.is_partitioned else form_of(tableau)
 
 

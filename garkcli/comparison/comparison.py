@@ -14,6 +14,8 @@ from garkcli.check.deciding import analyse_any
 from garkcli.comparison.differences import BlockGap, Met, block_gaps, conditions_met
 from garkcli.comparison.grid import Likeness
 from garkcli.comparison.sameness import Sameness, find_sameness, views_of
+from garkcli.constructions.nprk import is_nprk
+from garkcli.constructions.nystrom import POSITIONS, START, is_nystrom
 from garkcli.constructions.rosenbrock import is_rosenbrock
 from garkcli.doing import doing
 from garkcli.errors import MethodError
@@ -163,8 +165,8 @@ def compare(one: GarkMethod, other: GarkMethod, limit: int = DEFAULT_LIMIT) -> C
         limit: where the search for orders stops.
 
     Raises:
-        MethodError: one is a Rosenbrock method, or a multirate one with ``fast: exact``, and the
-            other is not.
+        MethodError: one is a Rosenbrock, Nyström or nonlinearly partitioned method, or a multirate
+            one with ``fast: exact``, and the other is not.
 
     >>> from garkcli.methodfile.load import loads
     >>> heun = loads("{A: [[0, 0], [1, 0]], b: [1/2, 1/2]}")
@@ -243,6 +245,8 @@ VIEWED = {
     "order": "order",
     "w-order": "order with any matrix",
     "old-jacobian-order": "order with an old Jacobian",
+    "position-order": "order of q",
+    "velocity-order": "order of q′",
     "slow-order": "order of the slow method",
     "nonautonomous-order": WITH_TIME,
     "index-1-order": "order on index-1 DAEs",
@@ -274,16 +278,47 @@ def _of_slow_parts(gaps: Iterable[BlockGap]) -> Iterator[BlockGap]:
     return (gap for gap in gaps if gap.colour and gap.seen != 0)
 
 
-OF_OTHER_KINDS = {"row": _of_rosenbrock, "mri": _of_slow_parts}
+_IN_POSITIONS = {"A": "Abar", "b": "bbar", "embedded": "embedded bbar"}
+
+
+def _of_nystrom(gaps: Iterable[BlockGap]) -> Iterator[BlockGap]:
+    """As Ā, A, c, b̄ and b: the matrices and the nodes are in the tableau of q and q′ twice."""
+    for gap in gaps:
+        if gap.seen is not None:
+            if gap.colour == POSITIONS and gap.seen != START:
+                is_bar = gap.seen == POSITIONS
+                yield replace(gap, kind="Abar") if is_bar else gap
+        elif gap.colour == POSITIONS:
+            yield replace(gap, kind=_IN_POSITIONS.get(gap.kind, gap.kind))
+        elif gap.kind != "c":
+            yield gap
+
+
+def _of_arguments(gaps: Iterable[BlockGap]) -> Iterator[BlockGap]:
+    """Blocks and weights of the first argument: those of the second are the same."""
+    return (gap for gap in gaps if gap.colour == 0 or gap.kind == "c")
+
+
+OF_OTHER_KINDS = {
+    "row": _of_rosenbrock,
+    "rkn": _of_nystrom,
+    "nprk": _of_arguments,
+    "mri": _of_slow_parts,
+}
 """The entries of methods that are no GARK methods, from those of their tableaus."""
 
 
 def form_of(tableau: Tableau) -> str:
     """What kind of tableau it is: rk, ark, gark, prk, or pair for other partitioned ones; row for
-    a Rosenbrock method, mri for a multirate one with the exact fast part.
+    a Rosenbrock method, rkn for a Nyström method, nprk for a nonlinearly partitioned one, mri for
+    a multirate one with the exact fast part.
     """
     if is_rosenbrock(tableau):
         return "row"
+    if is_nystrom(tableau):
+        return "rkn"
+    if is_nprk(tableau):
+        return "nprk"
     if tableau.exact_to is not None:
         return "mri"
     if [colour.part for colour in tableau.colours] == ["q", "p"]:

@@ -43,7 +43,7 @@ class BlockGap(Frozen):
 
     Attributes:
         kind: ``A``, ``b``, ``c``, ``embedded`` or ``dense``; ``alpha``, ``beta`` and ``c + d`` of
-            Rosenbrock methods.
+            Rosenbrock methods; ``Abar``, ``bbar`` and ``embedded bbar`` of Nyström methods.
         colour: the colour whose stages it belongs to, from 0.
         seen: of a block the colour that they see, from 0; None otherwise.
         power: of dense weights the power of θ; 0 otherwise.

@@ -50,9 +50,10 @@ def nprk(a: Tensor, b: Matrix, embedded: Matrix | None = None) -> tuple[Tableau,
     nodes = [sum(row, start=ZERO) for row in rows]
     weights = rows[len(a)]
     space = PointSpace(tuple(nodes[j] for j, _ in pairs))
+    # the colour of a root says nothing: each tree has one condition
     colours = tuple(
-        Colour(str(m + 1), 0, weights, tuple(nodes[x[m]] for x in pairs), kind=ARGUMENT)
-        for m in range(2)
+        Colour(str(m + 1), 0, weights, tuple(nodes[x[m]] for x in pairs), kind=ARGUMENT, late=late)
+        for m, late in enumerate((0, None))
     )
     blocks = {(0, m): tuple(rows[x[m]] for x in pairs) for m in range(2)}
     further = None if embedded is None else rows[-1]

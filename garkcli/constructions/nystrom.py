@@ -21,16 +21,16 @@ from garkcli.errors import ShapeMismatch
 from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.frozen import Frozen, replace
-from garkcli.ntrees.kind import LEAF, PLAIN, Kind
+from garkcli.ntrees.kind import ARGUMENT, LEAF, Kind
 from garkcli.order.meant import AnyTableau, keep, meant, printed
 from garkcli.tableau.embedded import Weights
 from garkcli.tableau.forms import with_linear
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Colour, Edge, Tableau
 
-TWICE = Kind(weight=2)
+TWICE = Kind(weight=2, is_field=False)
 """Of a force that is integrated twice."""
-KINDS = (TWICE, PLAIN, LEAF)
+KINDS = (TWICE, ARGUMENT, LEAF)
 NAMES = ("q", "q'", "q'0")
 """The colours: g in positions, g in velocities, the velocity at the beginning of the step."""
 POSITIONS, VELOCITIES, START = range(3)

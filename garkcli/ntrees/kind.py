@@ -72,6 +72,6 @@ LEAF = Kind(frozenset({0}))
 ONE_BRANCH = Kind(frozenset({1}))
 """Of the Jacobian of a vector field at the beginning of the step."""
 ARGUMENT = Kind(is_field=False)
-"""Of one of several arguments of a vector field: where its branch is."""
+"""Of a vector field that has several arguments, one of which such a branch is in."""
 FIELDS = (PLAIN, LINEAR, LEAF)
 """The kinds whose vertices are a vector field, as it is evaluated at stages."""

@@ -176,7 +176,8 @@ def _in_floats(tableau: Tableau, order: int, share: int) -> ErrorConstants:
             worst_value=None,
         )
 
-    return ErrorConstants(order, False, norms(np.ones(len(ids), dtype=bool)), norms(mixes))
+    own = np.isin(table.root[last], [*tableau.roots])
+    return ErrorConstants(order, False, norms(own), norms(mixes & own))
 
 
 def _floats(row: Iterable[Cell]) -> list[float]:

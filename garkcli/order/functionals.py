@@ -117,7 +117,8 @@ def _first_exact(
             for number, functional in enumerate(functionals):
                 value = dot(functional.weights[l], forest.vector)
                 share = functional.share(order)
-                if value != share * forest.required(tableau.colours[l].kind, order):
+                own = order - tableau.roots[l]
+                if value != share * forest.required(tableau.colours[l].kind, own):
                     tree = tableau.tree(l, forest.branches)
                     return Failure(number, witness_of(tree, value, share))
     return None

@@ -696,7 +696,7 @@ NORMS = Section(
 )
 
 
-def _constants_words(c: Any, d: Plain) -> str:
+def constants_words(c: Any, d: Plain) -> str:
     how = "" if c.is_exact else " in floats"
     text = f"of order {c.order}{how}: {_norms_words(c.all, d)}"
     if len(d.colours) > 1 and of_fields(c):
@@ -733,7 +733,7 @@ ESTIMATE = Section(
     maybe("order", kinds.POSITION),
     Row("zero", kinds.TRUTH, "is_zero"),
     Row("sums", kinds.EXACTS),
-    maybe("leading_term", part(CONSTANTS, _constants_words), "constants"),
+    maybe("leading_term", part(CONSTANTS, constants_words), "constants"),
 )
 DENSE_WITNESS = Section(
     Row("order", kinds.POSITION, "witness.tree.order"),
@@ -1027,7 +1027,7 @@ CHECKED = Section(
     LEFT_BEHIND,
     optional("every_property", parts(VERDICT), every_property, DATA),
     optional("blame", part(BLAME), level=DATA),
-    optional("error_constants", part(CONSTANTS, _constants_words), "constants"),
+    optional("error_constants", part(CONSTANTS, constants_words), "constants"),
     optional("remark", part(REMARK), level=DATA),
     optional("same_as", part(SAME_AS, _known_words), _known(is_same=True)),
     optional("differs_from", part(DIFFERS_FROM, _known_words), _known(is_same=False)),

@@ -17,7 +17,7 @@ def _signs(outcome: Outcome) -> dict[str, Any]:
     if found is None:
         return {}
     names = {"colours": [colour.name for colour in found.tableau.colours]}
-    if outcome.rosenbrock is not None:
+    if not found.tableau.has_fields_alone:
         names["names"] = names["colours"]
     if outcome.every is None:
         return names
@@ -74,6 +74,8 @@ REPORT: Report[Outcome] = Report(
 OF_ANALYSES = {
     "Analysis": "analysis",
     "RosenbrockAnalysis": "rosenbrock",
+    "NystromAnalysis": "nystrom",
+    "NprkAnalysis": "nprk",
     "InfinitesimalAnalysis": "infinitesimal",
 }
 """Where an outcome has the analysis of a method."""

@@ -7,6 +7,8 @@ from functools import cache
 
 from flint import fmpq
 
+from garkcli.constructions.nprk import is_nprk
+from garkcli.constructions.nystrom import is_nystrom
 from garkcli.constructions.rosenbrock import is_rosenbrock
 from garkcli.errors import counted
 from garkcli.exact.display import decimal, decimal_latex, shortest, to_decimal, to_latex
@@ -18,6 +20,7 @@ from garkcli.order.conditions import Condition
 from garkcli.order.meant import AnyTableau, printed, tolerance_of
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.paint import numbered
+from garkcli.report import nprk, nystrom
 from garkcli.report.symplectic_subject import SUBJECT, Subject
 from garkcli.report.trees import DATA, DETAIL, SIZES, TREES, pictures
 from garkcli.tableau.tableau import Tableau
@@ -167,16 +170,25 @@ class Conditions(Mutable):
 
 
 def legend_of(tableau: Tableau) -> str:
-    """The names of the colours of a tableau, and of the blocks of a Rosenbrock method; empty where
-    the names are the numbers.
+    """The names of the colours of a tableau, and what they and the blocks of a method are that is
+    no GARK method; empty where the names are the numbers.
     """
-    legend = numbered([colour.name for colour in tableau.colours])
-    if not legend:
-        return ""
-    blocks = ""
+    about = numbered([colour.name for colour in tableau.colours]), *_about_colours(tableau)
+    told = "; ".join(filter(None, about))
+    return f"colours: {told}" if told else ""
+
+
+def _about_colours(tableau: Tableau) -> Iterator[str]:
     if is_rosenbrock(tableau):
-        blocks = "; A{1,1} = A{1,2} is α, A{2,1} = A{2,2} is β = α + γ"
-    return f"colours: {legend}{blocks}"
+        yield "A{1,1} = A{1,2} is α, A{2,1} = A{2,2} is β = α + γ"
+    elif is_nprk(tableau):
+        yield nprk.IN_THE_TREES
+        yield "a stage is a pair (j, k); A{1,1} has the rows a_j, A{1,2} the rows a_k"
+    elif is_nystrom(tableau):
+        yield nystrom.IN_THE_TREES
+        blocks = "A{1,1} = A{2,1} is Ā", "A{1,2} = A{2,2} is A", "A{1,3} = A{2,3} is c"
+        has_A = (0, 1) in tableau.blocks
+        yield ", ".join(blocks if has_A else blocks[::2])
 
 
 def _verdict(failed: int, valued: Valued) -> str:

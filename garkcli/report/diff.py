@@ -10,6 +10,7 @@ from flint import arb
 from garkcli.check.findings import value_text
 from garkcli.comparison.comparison import WITH_TIME, Comparison
 from garkcli.comparison.differences import BlockGap, EntryGap
+from garkcli.constructions.nprk import is_nprk
 from garkcli.errors import counted
 from garkcli.exact.display import decimal, to_text
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
@@ -34,6 +35,8 @@ FORMS = {
     "prk": "a partitioned method",
     "pair": "a symplectic pair",
     "row": "a Rosenbrock method",
+    "rkn": "a Nyström method",
+    "nprk": "a nonlinearly partitioned method",
     "mri": "a multirate method with the exact fast part",
 }
 """The forms of methods, as people call them."""
@@ -206,13 +209,16 @@ def every_gap(x: Compared) -> list[Gap]:
 
 
 NAMES = {"embedded": "embedded weights", "dense": "dense output"}
-OF_ROSENBROCK = {"alpha": "α", "beta": "β = α + γ", "c + d": "c + d"}
+OF_OTHER_KINDS = {
+    **{"alpha": "α", "beta": "β = α + γ", "c + d": "c + d"},
+    **{"Abar": "Ā", "bbar": "b̄", "embedded bbar": "embedded b̄"},
+}
 
 
 def _block_words(gap: Gap, d: Plain) -> str:
     block = gap.block
     if d.names:  # f and f' have one row
-        name = {**NAMES, **OF_ROSENBROCK}.get(block.kind, block.kind)
+        name = {**NAMES, **OF_OTHER_KINDS}.get(block.kind, block.kind)
         return d.prose(name + (f", θ^{block.power}" if block.power else ""))
     colours = [block.colour] if block.seen is None else [block.colour, block.seen]
     if block.kind not in NAMES:
@@ -261,7 +267,7 @@ ENTRIES = Section(
     Row("undecided", kinds.TRUTH, "is_open"),
 )
 BLOCK = Section(
-    Row("kind", kinds.choice("A", "b", "c", "embedded", "dense", *OF_ROSENBROCK)),
+    Row("kind", kinds.choice("A", "b", "c", "embedded", "dense", *OF_OTHER_KINDS)),
     Row("colour", kinds.INDEX),
     maybe("seen", kinds.INDEX),
     maybe("power", kinds.POSITION, lambda x: x.power or None),
@@ -313,6 +319,11 @@ def _method_words(x: Method, d: Plain) -> str:
     about = f"{counted(x.method.tableau.size, 'colour')}, stages {stages}"
     if x.form == "row":
         about = f"Rosenbrock, {counted(x.method.stages[0], 'stage')}"
+    elif x.form == "rkn":
+        about = f"Nyström, {counted(x.method.stages[0], 'stage')}"
+    elif x.form == "nprk":
+        pairs = counted(x.method.stages[0], "pair")
+        about = f"nonlinearly partitioned, {pairs} of stages"
     elif x.form == "mri":
         about = f"multirate, {counted(x.method.stages[-1], 'slow stage')}, fast part exact"
     name = x.method.name
@@ -369,7 +380,8 @@ REPORT: Report[Compared] = Report.only(
 
 def _signs(tableau: Tableau) -> dict[str, Any]:
     names = [colour.name for colour in tableau.colours]
-    return {"colours": names, "names": [] if tableau.has_fields_alone else names}
+    is_plain = tableau.has_fields_alone or is_nprk(tableau)  # whose names are numbers
+    return {"colours": names, "names": [] if is_plain else names}
 
 
 def whole(found: Comparison, _: str) -> Compared:

@@ -46,7 +46,7 @@ INFINITESIMAL = Section(
     Row("method", told(_method_words), "."),
     *(row.of(lambda o: o.infinitesimal) for row in ANALYSIS),
     c.LEFT_BEHIND,
-    optional("error_constants", part(c.CONSTANTS), "constants"),
+    optional("error_constants", part(c.CONSTANTS, c.constants_words), "constants"),
     *c.CLAIMS,
     title=c.title,
     columns=c.COLUMNS,

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from garkcli.tell.dialect import Plain
 
 HEADLINE, USUAL, DETAIL, DATA = Level
+IN_THE_TREES = "1 and 2 are the arguments of F that branches are in"
 
 
 def _method_words(outcome: Any, _: Plain) -> str:
@@ -29,7 +30,7 @@ ANALYSIS = [
     c.viewed_order("order", HEADLINE),
     c.viewed_order("embedded_order"),
     maybe("error_estimate", part(c.ESTIMATE, c.estimate_phrase), "embedded.estimator"),
-    Row("in the trees", SAID, lambda _: "1 and 2 are the arguments of F that branches are in"),
+    Row("in the trees", SAID, lambda _: IN_THE_TREES),
     Row("trees_that_fail", picture(c.drawn), c.failing("order", "embedded-order"), DETAIL),
 ]
 NPRK = Section(
@@ -38,7 +39,7 @@ NPRK = Section(
     Row("nprk", kinds.TRUE, lambda _: True, DATA),
     Row("method", told(_method_words), "."),
     *(row.of(lambda o: o.nprk) for row in ANALYSIS),
-    optional("error_constants", part(c.CONSTANTS), "constants"),
+    optional("error_constants", part(c.CONSTANTS, c.constants_words), "constants"),
     *c.CLAIMS,
     title=c.title,
     columns=c.COLUMNS,

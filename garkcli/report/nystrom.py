@@ -50,7 +50,7 @@ NYSTROM = Section(
     Row("nystrom", kinds.TRUE, lambda _: True, DATA),
     Row("method", told(_method_words), "."),
     *(row.of(lambda o: o.nystrom) for row in ANALYSIS),
-    optional("error_constants", part(c.CONSTANTS), "constants"),
+    optional("error_constants", part(c.CONSTANTS, c.constants_words), "constants"),
     *c.CLAIMS,
     title=c.title,
     columns=c.COLUMNS,

@@ -23,6 +23,8 @@ TOLD_BY = {
     "backward.ModifiedRun": "modified_energy",
     "check.Analysis": "checked",
     "check.RosenbrockAnalysis": "checked",
+    "check.NystromAnalysis": "checked",
+    "check.NprkAnalysis": "checked",
     "check.InfinitesimalAnalysis": "checked",
     "check.ExistenceProof": "certificate",
     "check.MethodProof": "certificate",

@@ -32,7 +32,8 @@ SIGNS = {
         "→": r"\to", "↔": r"\leftrightarrow", "·": r"\cdot", "⊙": r"\odot", "×": r"\times",
         "±": r"\pm", "‖": r"\|", "√": r"\surd", "∂": r"\partial", "∫": r"\int", "Σ": r"\sum",
         "Π": r"\prod", "…": r"\dots", "⋯": r"\cdots", "𝒜": r"\mathcal A", "ℓ": r"\ell",
-        "Â": r"\hat A", "ẏ": r"\dot y", "<": "<", ">": ">",
+        "Â": r"\hat A", "Ā": r"\bar A", "ẏ": r"\dot y", "<": "<", ">": ">",
+        "\N{PRIME}": r"^\prime", "\N{DOUBLE PRIME}": r"^{\prime\prime}",
     }.items()},
     "\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}",
     **{sign: f"\\{sign}" for sign in "&%#_{}$"},
@@ -41,6 +42,7 @@ _ABOVE = {
     "\N{COMBINING CIRCUMFLEX ACCENT}": "hat",
     "\N{COMBINING TILDE}": "tilde",
     "\N{COMBINING DIAERESIS}": "ddot",
+    "\N{COMBINING MACRON}": "bar",
 }
 _SIGN = re.compile(f"[A-Za-z][{''.join(_ABOVE)}]|[^A-Za-z0-9 ]")
 

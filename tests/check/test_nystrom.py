@@ -6,8 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from garkcli import claims_of, load, loads
+from garkcli import analyse, claims_of, compare, load, loads, render
 from garkcli.api.calls import find_stability
+from garkcli.catalogue.facts import shape
 from garkcli.check.check_file import check_file
 from garkcli.errors import MethodError, MethodFileError
 from tests.cli.harness import gark
@@ -144,6 +145,51 @@ def test_the_report_and_the_arrays(tmp_path: Path) -> None:
     assert "19/180" in first
     assert "-243/128" in second
     assert "g depends on q alone" in gark("show", _written(tmp_path, VERLET)).out
+
+
+def test_trees_have_names_in_every_report(tmp_path: Path) -> None:
+    """Error constants name the vertices and say nothing of coupled fields, as there is one;
+    ``gark conditions`` says what the colours and the blocks are, without A where there is none.
+    """
+    path = _written(tmp_path, FINE)
+    text = " ".join(gark("check", path, "--error-constants").out.split())
+    assert "of order 5: 2-norm 0.0058575, largest 0.00208333 at [[[[]_q']_q']_q',[]_q']_q'" in text
+    assert "coupling" not in text
+    told = " ".join(gark("conditions", path, "--order", "2").out.split())
+    assert "q'0 is q′ as it begins; A{1,1} = A{2,1} is Ā, A{1,2} = A{2,2} is A, A{1,3}" in told
+    other = _written(tmp_path, VERLET)
+    told = " ".join(gark("conditions", other, "--order", "2").out.split())
+    assert "A{1,1} = A{2,1} is Ā, A{1,3} = A{2,3} is c order" in told
+
+
+def test_differences(tmp_path: Path) -> None:
+    """``gark diff`` names the matrices and rows once, and refuses methods of another kind."""
+    found = gark("diff", "fine-34", "fine-34-misprint")
+    assert found.code == 1
+    text = " ".join(found.out.split())
+    assert "Nyström, 5 stages" in text
+    assert "of q 5 against 2; of q′ 4 against 1" in text
+    assert text.count("row 4, entry 2") == 1
+    changed = FINE.replace("19/180", "20/180").replace("116/1395", "0").replace("2/81", "2/80")
+    other = _written(tmp_path, changed)
+    gaps = compare(load("fine-34"), load(other)).gaps
+    assert [x.kind for x in gaps] == ["Abar", "bbar", "embedded bbar"]
+    refused = gark("diff", "fine-34", "rk4")
+    assert refused.code == 2
+    assert "methods of different kinds" in refused.err
+
+
+def test_python_renders_what_is_found() -> None:
+    """What ``analyse`` returns is printed as ``gark check`` prints it."""
+    assert "order of q′     4, proved" in render(analyse("fine-34"))
+
+
+def test_one_number_of_stages() -> None:
+    """The list, ``gark show`` and the index have the stages of g, once."""
+    (line,) = (x for x in gark("list", "methods", "--kind", "rkn").out.splitlines() if "1210" in x)
+    assert line.split()[:4] == ["dprkn-1210", "12(10)", "17", "rkn"]
+    assert "rkn, 1 colour, stages 5\n" in gark("show", "fine-34").out
+    assert shape(load("fine-34"))["stages_by_colour"] == [5]
 
 
 def test_misprint_of_a_program() -> None:

@@ -10,12 +10,15 @@ from pathlib import Path
 from random import Random
 
 import pytest
+from flint import fmpq
 
-from garkcli import claims_of, load, loads
+from garkcli import all_conditions, analyse, claims_of, load, loads, render
 from garkcli.check.check_file import check_file, check_method
 from garkcli.constructions.nprk import nprk
 from garkcli.errors import MethodError, MethodFileError
 from garkcli.order.certificate import find_order
+from garkcli.order.constants import _in_floats, error_constants
+from tests.cli.harness import gark
 from tests.constructions.test_rosenbrock import RUNGE_KUTTA, engine
 from tests.oracles import nprk_series as series
 from tests.oracles.brute import brute_order
@@ -89,6 +92,33 @@ def test_arguments_at_different_stages() -> None:
         assert found.order == series.order(a, mixed, 5) == order
     assert found.witness is not None
     assert {x.root for x in found.witness.tree.branches} == {0, 1}
+
+
+def test_each_tree_counts_once() -> None:
+    """Euler's method F(y, y) misses y'' = F_1 F + F_2 F, two trees, by 1/2 each: what the root's
+    colour would be says nothing. Exact norms and floats agree.
+    """
+    tableau, _ = nprk([[]], [[fmpq(1)]])
+    found = error_constants(tableau, 2)
+    assert found is not None
+    assert (found.all.trees, found.all.two_squared) == (2, fmpq(1, 2))
+    in_floats = _in_floats(tableau, 2, 1)
+    assert (in_floats.all.trees, in_floats.all.two) == (2, found.all.two)
+    assert len(list(all_conditions(tableau, 2))) == 2
+    text = gark("conditions", "imex-nprk-42b", "--order", "3").out
+    assert "times" not in text
+    assert "1 and 2 are the arguments of F that branches are in" in text
+    assert "10 conditions, 7 fail" in text
+
+
+def test_reports_name_the_pairs() -> None:
+    """``gark diff`` and ``gark show`` have the pairs of stages once; Python renders the report."""
+    text = gark("diff", "imex-nprk-42b", "imex-nprk-42a").out
+    assert "nonlinearly partitioned, 2 pairs of stages" in text
+    assert [x for x in ("b{1}", "b{2}") if x in text] == ["b{1}"]
+    assert gark("diff", "imex-nprk-42b", "rk4").code == 2
+    assert "nprk, 1 colour, stages 2\n" in gark("show", "imex-nprk-42b").out
+    assert "2 pairs of stages" in render(analyse("imex-nprk-42b"))
 
 
 def test_files(tmp_path: Path) -> None:

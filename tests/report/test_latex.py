@@ -44,7 +44,7 @@ def test_each_sign_of_the_glossary_has_a_form_in_latex() -> None:
         if sign > "\u017f" and sign not in "–—"
     }
     assert not left
-    assert Latex().prose("b̂ μ ∫ Störmer") == r"$\hat b$ $\mu$ $\int$ Störmer"
+    assert Latex().prose("b̂ b̄ μ ∫ Störmer") == r"$\hat b$ $\bar b$ $\mu$ $\int$ Störmer"
 
 
 def unbalanced(text: str) -> Iterator[str]:
