@@ -210,8 +210,12 @@ def every_gap(x: Compared) -> list[Gap]:
 
 NAMES = {"embedded": "embedded weights", "dense": "dense output"}
 OF_OTHER_KINDS = {
-    **{"alpha": "α", "beta": "β = α + γ", "c + d": "c + d"},
-    **{"Abar": "Ā", "bbar": "b̄", "embedded bbar": "embedded b̄"},
+    "alpha": "α",
+    "beta": "β = α + γ",
+    "c + d": "c + d",
+    "Abar": "Ā",
+    "bbar": "b̄",
+    "embedded bbar": "embedded b̄",
 }
 
 
