@@ -13,7 +13,7 @@ from typing import Any, TypeAlias
 
 from flint import fmpq
 
-from garkcli.errors import MethodError
+from garkcli.errors import MethodError, counted
 from garkcli.exact.display import to_ball, to_decimal
 from garkcli.exact.field import ONE, Algebraic
 from garkcli.exact.matrix import Vector
@@ -77,7 +77,8 @@ def _whole(row: Numbers, stages: int, first: int) -> Numbers:
     """
     full = [first, *row] if len(row) == stages - 1 else row
     if len(full) != stages:
-        raise MethodError(f"a row of {len(row)} for {stages} stages", code="cannot-convert")
+        message = f"a row of {len(row)} for {counted(stages, 'stage')}"
+        raise MethodError(message, code="cannot-convert")
     return full
 
 
@@ -197,7 +198,7 @@ def shu_osher(alpha: Sequence[Numbers], beta: Sequence[Numbers]) -> Steps:
         alpha, beta = alpha[1:], beta[1:]
     stages = len(alpha)
     if len(beta) != stages:
-        message = f"alpha has {stages} rows, beta has {len(beta)}"
+        message = f"alpha has {counted(stages, 'row')}, beta has {len(beta)}"
         raise MethodError(message, code="cannot-convert")
     made = _Registers(stages)
     values, slopes = [made.y], [made.slope(made.y)]
@@ -221,7 +222,8 @@ def diagonals(A: Sequence[Any], b: Numbers) -> Steps:
     full = []
     for below, row in enumerate(rows, start=1):
         if len(row) not in (len(b) - below, len(b)):
-            message = f"diagonal {below} has {len(row)} entries for {len(b)} stages"
+            entries, stages = counted(len(row), "entry", "entries"), counted(len(b), "stage")
+            message = f"diagonal {below} has {entries} for {stages}"
             raise MethodError(message, f"give {len(b) - below}", code="wrong-size")
         full.append([*[0] * (len(b) - len(row)), *row])
     return van_der_houwen(b, *full)

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from operator import ge
+
 from garkcli.check.claims import verify
 from garkcli.check.deciding import analyse
-from garkcli.conversion.recovered import Recovered, is_as_good, recovered
+from garkcli.conversion.printed import InForm
+from garkcli.conversion.recovered import Recovered, is_as_good, orders_of, recovered
 from garkcli.conversion.sheet import CannotConvert, Place, Sheet, arranged
 from garkcli.conversion.targets import RECOVERED, TARGETS, Target
 from garkcli.doing import doing
 from garkcli.errors import MethodFileError, UsageProblem, did_you_mean
+from garkcli.exact.display import decimal
 from garkcli.frozen import Frozen, replace
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.carried import claim_lines, lines_of
@@ -22,6 +26,7 @@ from garkcli.methodfile.writer import (
     write_tableau_file,
 )
 from garkcli.order.certificate import DEFAULT_LIMIT
+from garkcli.order.tolerance import within
 from garkcli.tableau.garkmethod import GarkMethod, derived_name
 
 
@@ -51,6 +56,8 @@ def padded(sheet: Sheet, stages: int) -> Sheet:
 KEPT = ("description", "reference")
 """What a file says of its method whatever form it has."""
 UNNAMED = "a method"
+WIDER = (1, 10, 100, 1000)
+"""How much farther numbers of a form may be off than the entries that they are made of."""
 
 
 class Converted(Frozen):
@@ -121,12 +128,7 @@ def convert(
     if goal.makes_another:
         name = derived_name(goal.name, name)
     if goal.printed is not None:
-        if method.tolerance is not None:
-            message = f"whether rounded coefficients have the form {to} is not decided"
-            raise CannotConvert(message, "--to recovered --recognise may make them exact")
-        form, keys = goal.printed(sheet.tableau)
-        tolerance = tolerance_of_file(method, sheet.further)
-        text = write_form(form, keys, sheet.tableau, name, tolerance, sheet.further)
+        text = _printed(goal, goal.printed, method, sheet, name)
     elif found is None:
         tolerance = tolerance_of_file(method, sheet.further)
         text = write_method(sheet.tableau, name, tolerance, sheet.further)
@@ -137,6 +139,29 @@ def convert(
     if not isinstance(method, MethodFile):
         return Converted(loads(text), (), loses_further)
     return replace(_claimed(text, method, goal), loses_further=loses_further)
+
+
+def _printed(goal: Target, form: InForm, method: GarkMethod, sheet: Sheet, name: str) -> str:
+    """The file in a form of few registers. Of a rounded method each number of the form may be off
+    by so much that no order falls, and no entry of A and b is farther off.
+    """
+    own = method.tolerance
+    key, keys = form(sheet.tableau, own)
+    tolerance = tolerance_of_file(method, sheet.further)
+    if own is None:
+        return write_form(key, keys, sheet.tableau, name, tolerance, sheet.further)
+    orders = orders_of(method)
+    for wider in WIDER:
+        allowed = own * wider
+        written = {**tolerance, "others": allowed} if isinstance(tolerance, dict) else allowed
+        text = write_form(key, keys, sheet.tableau, name, written, sheet.further)
+        made = loads(text)
+        pairs = zip(made.tableau.rows, sheet.tableau.rows, strict=True)
+        gaps = (x - y for rows in pairs for x, y in zip(*rows, strict=True))
+        if all(within(x, allowed) for x in gaps) and all(map(ge, orders_of(made), orders)):
+            return text
+    message = f"an order falls where numbers of the form {goal.name} are off by {decimal(allowed)}"
+    raise CannotConvert(message, "--to spelled-out has every method")
 
 
 def _written(found: Recovered, name: str) -> str:

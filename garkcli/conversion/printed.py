@@ -4,20 +4,25 @@ exactly.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeAlias
 
 from flint import fmpq
 
 from garkcli.constructions.registers import in_two_registers
 from garkcli.conversion.sheet import CannotConvert
+from garkcli.exact.display import to_ball
+from garkcli.exact.enclosing import midpoint
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector
+from garkcli.order.tolerance import within
 from garkcli.stability.ssp import ssp_coefficient
 from garkcli.tableau.tableau import Tableau
 
 Printed: TypeAlias = "tuple[str, Mapping[str, Any]]"
 """The key of the form with its keys: words, rows and matrices."""
+InForm: TypeAlias = "Callable[[Tableau, fmpq | None], Printed]"
+"""Of a tableau and the rounding of its numbers, None for exact ones."""
 
 
 def explicit(tableau: Tableau, form: str) -> tuple[Matrix, Vector]:
@@ -28,21 +33,26 @@ def explicit(tableau: Tableau, form: str) -> tuple[Matrix, Vector]:
     """
     if tableau.size != 1 or tableau.is_partitioned or tableau.colours[0].is_linear:
         raise CannotConvert(f"{form} is a form of methods of one colour", "--to gark has several")
-    A, b = tableau.blocks[0, 0], tableau.colours[0].b
+    b = tableau.colours[0].b
+    A = tableau.blocks.get((0, 0), tuple((ZERO,) * len(b) for _ in b))
     if any(x for i, row in enumerate(A) for x in row[i:]):
         message = f"{form} is a form of explicit methods, and this one is implicit"
         raise CannotConvert(message, "--to spelled-out has every method")
     return A, b
 
 
-def in_2n(tableau: Tableau) -> Printed:
+def in_2n(tableau: Tableau, tolerance: fmpq | None = None) -> Printed:
     """Williamson's 2N.
 
     Raises:
-        CannotConvert: the method has none.
+        CannotConvert: the method has none, exactly or within the tolerance.
     """
     A, b = explicit(tableau, "2N")
     found = in_two_registers(A, b)
+    if isinstance(found, int) and tolerance:
+        found = in_two_registers(A, b, tolerance)
+        if not isinstance(found, int):
+            found = _rounded(found[0], tolerance), _rounded(found[1], tolerance)
     if isinstance(found, int):
         message = f"no 2N form: the slopes of stages {found} and {found + 1} enter in no one ratio"
         raise CannotConvert(message, "--to spelled-out has every method")
@@ -50,17 +60,17 @@ def in_2n(tableau: Tableau) -> Printed:
     return "low-storage", {"form": "2N", "A": tuple(map(_number, factors)), "B": tuple(weights)}
 
 
-def in_registers(registers: int) -> Callable[[Tableau], Printed]:
+def in_registers(registers: int) -> InForm:
     """Van der Houwen's with so many registers: below that many diagonals less one a column has the
     weight of its stage.
     """
     form = f"{registers}R"
 
-    def convert(tableau: Tableau) -> Printed:
+    def convert(tableau: Tableau, tolerance: fmpq | None) -> Printed:
         A, b = explicit(tableau, form)
         for i, row in enumerate(A):
             for j in range(i - registers + 1):
-                if row[j] != b[j]:
+                if not within(row[j] - b[j], tolerance or ZERO):
                     message = f"no {form} form: a[{i + 1},{j + 1}] is not b[{j + 1}]"
                     cure = "more registers, or --to spelled-out, which has every method"
                     raise CannotConvert(message, cure)
@@ -75,9 +85,9 @@ def in_registers(registers: int) -> Callable[[Tableau], Printed]:
     return convert
 
 
-def in_shu_osher(tableau: Tableau) -> Printed:
+def in_shu_osher(tableau: Tableau, _: fmpq | None = None) -> Printed:
     """The canonical form of Shu and Osher, whose numbers are not negative: with the SSP coefficient
-    r and K = (A; bᵀ), α = r K (I + r K)⁻¹ and β = α/r.
+    r and K = (A; bᵀ), α = r K (I + r K)⁻¹ and β = α/r; r is that of the digits as printed.
 
     Source: S. Gottlieb, D. Ketcheson, C.-W. Shu, *Strong Stability Preserving Runge–Kutta and
     Multistep Time Discretizations*, 3.3.
@@ -112,6 +122,14 @@ def in_shu_osher(tableau: Tableau) -> Printed:
     except TypeError:  # numbers of two fields
         message = "no exact Shu–Osher form: the SSP coefficient is in another number field"
         raise CannotConvert(message, "--to spelled-out has every method") from None
+
+
+def _rounded(numbers: Sequence[Any], tolerance: fmpq) -> list[Number]:
+    """Numbers with one digit more than a tolerance has."""
+    digits = len(str((1 / tolerance).floor()))
+    unit = fmpq(10) ** -digits
+    near = (midpoint(to_ball(_number(x), 2 * digits)) for x in numbers)
+    return [unit * (x / unit + fmpq(1, 2)).floor() for x in near]
 
 
 def _number(x: Any) -> Number:

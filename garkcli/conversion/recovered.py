@@ -183,12 +183,15 @@ def _numbers(sheet: Sheet) -> Iterator[Number]:
 
 def is_as_good(made: GarkMethod, found: Recovered) -> bool:
     """Whether a method has all orders of the recovered one."""
-    analysis = analyse(made.tableau, tolerance=made.tolerance, further=made.further)
-    return all(map(ge, _orders(analysis), found.orders))
+    return all(map(ge, orders_of(made), found.orders))
+
+
+def orders_of(method: GarkMethod) -> list[int]:
+    """The orders of a method, its conjugate, its pair, its embedded weights and dense output."""
+    return _orders(analyse(method.tableau, tolerance=method.tolerance, further=method.further))
 
 
 def _orders(a: Analysis) -> list[int]:
-    """The orders of a method, its conjugate, its pair, its embedded weights and dense output."""
     found: list[AnyOrder | DenseOrder | None] = [a.order, a.conjugate_order, a.pair_order]
     found.append(None if a.embedded is None else a.embedded.order)
     found.append(None if a.dense is None else a.dense.order)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from garkcli.conversion.printed import Printed, in_2n, in_registers, in_shu_osher
+from garkcli.conversion.printed import InForm, in_2n, in_registers, in_shu_osher
 from garkcli.conversion.sheet import (
     CannotConvert,
     Place,
@@ -20,7 +20,7 @@ from garkcli.frozen import Frozen, field, replace
 from garkcli.properties.reduction import merged, reduced
 from garkcli.tableau.forms import pair
 from garkcli.tableau.garkmethod import GarkMethod
-from garkcli.tableau.tableau import Part, Tableau
+from garkcli.tableau.tableau import Part
 
 
 class Target(Frozen):
@@ -41,7 +41,7 @@ class Target(Frozen):
     convert: Callable[[GarkMethod], Sheet]
     claims: Mapping[str, str] = field(default_factory=dict)
     makes_another: bool = False
-    printed: Callable[[Tableau], Printed] | None = None
+    printed: InForm | None = None
 
 
 def as_gark(method: GarkMethod) -> Sheet:

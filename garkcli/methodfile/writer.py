@@ -123,7 +123,9 @@ def write_form(
         else:
             lines.append(f"  {key}: {_row(value, text)}")
     colour = tableau.colours[0]
-    if apply(tableau.blocks[0, 0], tableau.spaces[0].one) != colour.c:
+    block = tableau.block(0, 0)
+    sums = apply(block, tableau.spaces[0].one) if block else (fmpq(0),) * len(colour.c)
+    if sums != colour.c:
         lines.append(f"  c: {_row(colour.c, text)}")
     lines += [x.removeprefix("  ") for x in _further_of_part(further, 0, text)]
     if tolerance is not None:

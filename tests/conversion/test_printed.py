@@ -12,6 +12,7 @@ from garkcli.check.check_file import check_method
 from garkcli.conversion.convert import convert
 from garkcli.conversion.sheet import CannotConvert
 from garkcli.errors import MethodFileError
+from garkcli.exact.display import to_decimal
 from garkcli.tableau.tableau import Tableau
 
 CARPENTER_KENNEDY = """
@@ -123,7 +124,8 @@ def test_random_methods_round_trip() -> None:
         ("rk4", "shu-osher", "the SSP coefficient is 0"),
         ("gauss-2", "2N", "explicit methods, and this one is implicit"),
         ("ars-222", "2R", "of methods of one colour"),
-        ("carpenter-kennedy-4", "2N", "rounded coefficients have the form 2N is not decided"),
+        ("ssp-54", "2N", "no 2N form: the slopes of stages 3 and 4"),
+        ("ssp-54", "shu-osher", "no exact Shu–Osher form"),
         ("forward-euler", "2R", "1 stage needs fewer registers"),
     ],
 )
@@ -133,16 +135,60 @@ def test_what_has_no_such_form(method: str, to: str, why: str) -> None:
         convert(load(method), to)
 
 
+def test_rounded_methods_have_forms_too() -> None:
+    """Carpenter and Kennedy's method comes back with the numbers that they print. From A and b in
+    16 digits its factors have 16, within a tolerance that leaves the order 4: the same method;
+    with one entry off by more than its tolerance there is no form.
+    """
+    made = convert(load("carpenter-kennedy-4"), "2N").method
+    assert made.tolerance == fmpq(1, 10**24)
+    assert made.tableau == load("carpenter-kennedy-4").tableau
+    published = loads(CARPENTER_KENNEDY)
+    A, (colour,) = published.tableau.blocks[0, 0], published.tableau.colours
+    rows = [", ".join("0" if not x else to_decimal(x, 16) for x in row) for row in (*A, colour.b)]
+    text = f"A: [[{'], ['.join(rows[:-1])}]]\nb: [{rows[-1]}]"
+    rounded = loads(f"{text}\ntolerance: 1e-15")
+    found = convert(rounded, "2N").method
+    assert found.tolerance is not None
+    assert fmpq(1, 10**15) <= found.tolerance <= fmpq(1, 10**12)
+    assert found.order == 4
+    assert _distance(found.tableau, published.tableau) <= found.tolerance
+    moved = text.replace("A: [[0, 0, 0, 0, 0], [0.1", "A: [[0, 0, 0, 0, 0], [0.2")
+    assert moved != text
+    with pytest.raises(CannotConvert, match="no 2N form"):
+        convert(loads(f"{moved}\ntolerance: 1e-15"), "2N")
+
+
+def test_rounded_entries_that_are_one_number() -> None:
+    """Wray's method with a_31 in other digits than b_1 has two registers, within the tolerance;
+    with fewer digits allowed it has not.
+    """
+    text = "A: [[], [0.53333], [0.25001, 0.41667]]\nb: [0.25, 0, 0.75]\ntolerance: "
+    made = convert(loads(f"{text}2e-5"), "2R").method
+    assert (made.form, made.order) == ("low-storage", 3)
+    assert made.b[0] == made.A[2][0] == fmpq(1, 4)
+    with pytest.raises(CannotConvert, match=r"a\[3,1\] is not b\[1\]"):
+        convert(loads(f"{text}5e-6"), "2R")
+
+
+def test_no_slope_that_a_stage_sees() -> None:
+    """A colour that does not see itself has a matrix of zeros."""
+    method = loads("tableau: {A: [[null]], b: [[1/3, 2/3]]}")
+    assert (0, 0) not in method.tableau.blocks
+    made = convert(method, "2N").method
+    assert made.tableau.colours[0].b == method.tableau.colours[0].b
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [
         ("low-storage: {form: 2N, A: [0]}", "2N needs B"),
         ("low-storage: {form: 2N, A: [0], B: [1], b: [1]}", "2N has no b"),
-        ("low-storage: {form: 2N, A: [0, 1, 2], B: [1]}", "a row of 3 for 1 stages"),
+        ("low-storage: {form: 2N, A: [0, 1, 2], B: [1]}", "a row of 3 for 1 stage\\n"),
         ("low-storage: {form: 3R, A: [[1, 2]], b: [1, 2, 3]}", "A of 3R has 1 diagonal"),
         ("low-storage: {form: 2R, A: [1, 2, 3, 4], b: [1, 2]}", "diagonal 1 has 4 entries"),
         ("low-storage: {form: 4X, A: [1], B: [1]}", "4X"),
-        ("shu-osher: {alpha: [[1]], beta: [[1], [1]]}", "alpha has 1 rows, beta has 2"),
+        ("shu-osher: {alpha: [[1]], beta: [[1], [1]]}", "alpha has 1 row, beta has 2"),
         ("shu-osher: {alpha: [[1, 1]], beta: [[1, 0]]}", "the method is implicit"),
         (
             "low-storage: {form: 2S, gamma1: [0, 1/2], gamma2: [1, 1], delta: [1, 0], beta: [1, 1]}",
