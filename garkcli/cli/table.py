@@ -169,7 +169,9 @@ conditions --order -n n 1..100 default=4 = all_conditions.order | Every order up
 conditions --sort words=tree,worst default=tree
     | Order of the rows; worst: the largest residual first.
 
-convert --to words=forms = convert.to | The form of the result.
+convert --to FORM words=forms = convert.to
+    | The form of the result: spelled-out, gark, ark, prk, pair, canonical, recovered, reduced,
+    2N, 2R, 3R, 4R, 5R or shu-osher.
 --stages N 1..1000 = convert.stages
 convert --digits N 1..1000 = convert.digits
 convert --recognise = convert.is_recognising

@@ -9,11 +9,13 @@ from flint import fmpq
 
 from garkcli import load, loads
 from garkcli.check.check_file import check_method
+from garkcli.cli.options import forms
 from garkcli.conversion.convert import convert
 from garkcli.conversion.sheet import CannotConvert
 from garkcli.errors import MethodFileError
 from garkcli.exact.display import to_decimal
 from garkcli.tableau.tableau import Tableau
+from tests.cli.harness import gark
 
 CARPENTER_KENNEDY = """
 tolerance: 1e-24
@@ -169,6 +171,13 @@ def test_rounded_entries_that_are_one_number() -> None:
     assert made.b[0] == made.A[2][0] == fmpq(1, 4)
     with pytest.raises(CannotConvert, match=r"a\[3,1\] is not b\[1\]"):
         convert(loads(f"{text}5e-6"), "2R")
+
+
+def test_the_help_lists_every_form() -> None:
+    """The line of ``--to`` has all words that it takes."""
+    text = gark("convert", "--help").out
+    told = text[text.index("--to FORM") : text.index("--stages")].replace(",", " ").split()
+    assert [x for x in forms() if x not in "".join(told) and f"{x}." not in told] == []
 
 
 def test_no_slope_that_a_stage_sees() -> None:
