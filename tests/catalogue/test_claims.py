@@ -157,7 +157,8 @@ def test_misprinted_tables_have_lost_order(judged: dict[str, Any]) -> None:
         if name not in FILES:
             continue
         bad, good = judged[name], judged[right]
-        assert bad["nonautonomous_order"] < good["nonautonomous_order"]
+        key = "order" if "nystrom" in bad else "nonautonomous_order"
+        assert bad[key] < good[key]
 
 
 TWINS = [
@@ -284,7 +285,8 @@ def test_a_method_of_one_colour_fits_a_glance() -> None:
         assert max(len(line) for line in lines if len(line.split()) > 1) <= 80, name
         assert lines[0].startswith(f"{name}: order {found.order.order}"), name
         if outcome.of_other_kind is not None:
-            assert len(lines) <= 16, name
+            of_one_word = sum(len(line.split()) == 1 for line in lines)
+            assert len(lines) <= 16 + of_one_word, name
             continue
         if found.tableau.size > 1:
             continue
