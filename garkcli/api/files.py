@@ -230,7 +230,8 @@ def convert(
 
     Args:
         method: whatever ``method_of`` takes.
-        to: the form: spelled-out, gark, ark, prk, pair, canonical or recovered.
+        to: the form: spelled-out, gark, ark, prk, pair, canonical or recovered; of a Rosenbrock
+            method printed or transformed.
         stages: how many each colour gets at least, by stages in front that do nothing.
         digits: with recovered: digits after the point; by default 50, more if the tolerance has.
         is_recognising: with recovered: exact numbers for decimals if no order falls.
@@ -248,7 +249,8 @@ def convert(
     """
     many = None if stages is None else whole(stages, "stages", 1)
     places = None if digits is None else whole(digits, "digits", 1)
-    return conversion.convert(method_of(method), to, many, places, is_recognising)
+    found = method_of(method, is_any_kind=True)
+    return conversion.convert(found, to, many, places, is_recognising)
 
 
 def path_of(given: object) -> str:

@@ -301,7 +301,6 @@ def convert(given: Given, output: Output) -> None:
     from garkcli.methodfile.naming import called
 
     method = load(given.file, given.settings)
-    method.tableau.demand_fields("this command")
     made = convert(method, **given.of("convert"))
     file = called(given.file)
     if made.left_out:
@@ -316,7 +315,7 @@ def convert(given: Given, output: Output) -> None:
 
 def _against(first: MethodFile, second: GarkMethod, output: Output) -> str:
     """With details, what a method is to the one in the file below, as a comment."""
-    if output.verbosity <= 0:
+    if output.verbosity <= 0 or not first.tableau.has_fields_alone:
         return ""
     from garkcli.comparison.comparison import compare
     from garkcli.methodfile.naming import called

@@ -36,10 +36,10 @@ from garkcli.exact.matrix import (
     solve,
     subtract,
 )
-from garkcli.frozen import Frozen
+from garkcli.frozen import Frozen, replace
 from garkcli.ntrees.kind import LEAF, ONE_BRANCH, PLAIN, SEVERAL, Kind
 from garkcli.order.meant import AnyTableau, keep, meant, printed
-from garkcli.tableau.embedded import DenseOutput, Further, Weights
+from garkcli.tableau.embedded import NOTHING, DenseOutput, Further, Weights
 from garkcli.tableau.forms import TIME, gark
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Colour, Edge, Tableau, butcher
@@ -87,6 +87,13 @@ class Rosenbrock(Frozen):
             tuple(map(subtract_numbers, *rows)) for rows in zip(nodes[N:], nodes[:N], strict=True)
         )
         return Rosenbrock(alpha, gamma, tuple(x.b for x in tableau.colours[:N]), nodes[:N], d)
+
+    @property
+    def without_row_sums(self) -> Rosenbrock:
+        """The same method without the c and d that its rows say."""
+        plain = replace(self, c=None, d=None)
+        c, d = plain.nodes
+        return replace(self, c=None if self.c == c else self.c, d=None if self.d == d else self.d)
 
     @property
     def tableau(self) -> Tableau:
@@ -165,7 +172,7 @@ class Rosenbrock(Frozen):
     def arrays(self) -> tuple[Tableau, Tableau]:
         """The arrays of α with c and b, and of γ with d, as papers print them."""
         made = []
-        for name, blocks, nodes in zip("αγ", (self.alpha, self.gamma), self._nodes, strict=True):
+        for name, blocks, nodes in zip("αγ", (self.alpha, self.gamma), self.nodes, strict=True):
             spaces = tuple(map(PointSpace, nodes))
             names = [name] if len(self.b) == 1 else [f"{name}{l + 1}" for l in range(len(self.b))]
             rows = zip(names, self.b, nodes, strict=True)
@@ -182,8 +189,8 @@ class Rosenbrock(Frozen):
         return gark([butcher(self._beta[0][0], self.b[0])], {})
 
     @property
-    def _nodes(self) -> tuple[Rows, Rows]:
-        """C and d as they are given, or as the rows say."""
+    def nodes(self) -> tuple[Rows, Rows]:
+        """The c and d as they are given, or as the rows say."""
         c, d = self.c, self.d
         if c is None:
             c = tuple(_sums(row[l]) for l, row in enumerate(self.alpha))
@@ -203,7 +210,7 @@ class Rosenbrock(Frozen):
             kinds: a letter, what vertices are like, and the blocks.
         """
         N = len(self.b)
-        c, d = self._nodes
+        c, d = self.nodes
         alone = tuple(tuple(map(add_numbers, *rows)) for rows in zip(c, d, strict=True))
         nodes_of = {"f": c, "f'": alone}
         spaces: list[PointSpace] = []
@@ -273,12 +280,17 @@ def transformed_weights(further: Further, gamma: Matrix) -> Further:
     """Embedded weights and dense output of one colour as programs store them, like m = b Γ⁻¹, as
     those of the stages k_i.
     """
+    return _times(further, gamma)
+
+
+def _times(further: Further, matrix: Matrix) -> Further:
+    """Each row of weights times a matrix."""
     embedded, dense = further.embedded, further.dense
     if embedded is not None:
-        embedded = tuple(apply_left(row, gamma) for row in embedded)
+        embedded = tuple(apply_left(row, matrix) for row in embedded)
     if dense is not None:
         powers = [
-            [apply_left(row, gamma) for row in zip(*block, strict=True)] for block in dense.weights
+            [apply_left(row, matrix) for row in zip(*block, strict=True)] for block in dense.weights
         ]
         dense = DenseOutput(tuple(tuple(zip(*rows, strict=True)) for rows in powers))
     return Further(embedded, dense)
@@ -324,6 +336,56 @@ def transformed(A: Matrix, C: Matrix, gamma: Vector, m: Vector) -> Rosenbrock:
     """
     full = _full(C, gamma)
     return rosenbrock(multiply(A, full), full, apply_left(m, full))
+
+
+class Stored(Frozen):
+    """A method of one colour as programs store it; see ``transformed``.
+
+    Attributes:
+        A: α Γ⁻¹.
+        C: diag(1/γ_ii) − Γ⁻¹.
+        gamma: the γ_ii.
+        m: b Γ⁻¹.
+        further: its embedded weights and its dense output, at the stages of this form.
+    """
+
+    A: Matrix
+    C: Matrix
+    gamma: Vector
+    m: Vector
+    further: Further = NOTHING
+
+
+def stored(method: Rosenbrock, further: Further = NOTHING) -> Stored:
+    """A method of one colour as programs store it.
+
+    Args:
+        method: of one colour, its γ lower triangular.
+        further: its embedded weights and its dense output.
+
+    Raises:
+        MethodError: γ is not lower triangular, or a γ_ii is zero.
+
+    >>> from flint import fmpq
+    >>> half, one, zero = fmpq(1, 2), fmpq(1), fmpq(0)
+    >>> ros2 = rosenbrock(((zero, zero), (one, zero)), ((half, zero), (-one, half)), (half, half))
+    >>> found = stored(ros2)
+    >>> found.A, found.C, found.m
+    (((0, 0), (2, 0)), ((0, 0), (-4, 0)), (3, 1))
+    """
+    alpha, gamma, b = method.alpha[0][0], method.gamma[0][0], method.b[0]
+    cure = "its coefficients are divided by the diagonal: write alpha, gamma and b"
+    if any(any(row[i + 1 :]) for i, row in enumerate(gamma)):
+        message = "gamma is not lower triangular, and programs solve for a stage at a time"
+        raise MethodError(message, cure, code="cannot-construct")
+    if not all(method.diagonal):
+        message = "a diagonal entry of gamma is 0, and programs divide by it"
+        raise MethodError(message, cure, code="cannot-construct")
+    s = len(b)
+    inverse = solve(gamma, identity(s))
+    C = tuple(tuple(-x if j < i else ZERO for j, x in enumerate(inverse[i])) for i in range(s))
+    m = apply_left(b, inverse)
+    return Stored(multiply(alpha, inverse), C, method.diagonal, m, _times(further, inverse))
 
 
 def _full(C: Matrix, gamma: Vector) -> Matrix:

@@ -5,9 +5,11 @@ from __future__ import annotations
 from operator import ge
 
 from garkcli.check.claims import verify
-from garkcli.check.deciding import analyse
+from garkcli.check.deciding import analyse_any
+from garkcli.constructions.rosenbrock import is_rosenbrock
 from garkcli.conversion.printed import InForm
 from garkcli.conversion.recovered import Recovered, is_as_good, orders_of, recovered
+from garkcli.conversion.rosenbrock import FORMS, text_in_form
 from garkcli.conversion.sheet import CannotConvert, Place, Sheet, arranged
 from garkcli.conversion.targets import RECOVERED, TARGETS, Target
 from garkcli.doing import doing
@@ -108,12 +110,16 @@ def convert(
     if to not in TARGETS:
         raise UsageProblem(f"no form {to!r}", did_you_mean(to, TARGETS), code="unknown-word")
     goal = TARGETS[to]
-    found = None
-    if to == RECOVERED:
-        found = recovered(method, digits, is_recognising)
-    elif digits is not None or is_recognising:
+    if to != RECOVERED and (digits is not None or is_recognising):
         message = f"the form {to} has the numbers of the file"
         raise UsageProblem(message, "leave out digits", code="not-together")
+    source = method.source if isinstance(method, MethodFile) else ""
+    name = UNNAMED if method.name in ("", source) else method.name
+    if is_rosenbrock(method.tableau):
+        _refuse_forms(to, stages)
+        return _converted(text_in_form(method, to, name), method, goal)
+    method.tableau.demand_fields("another form")
+    found = recovered(method, digits, is_recognising) if to == RECOVERED else None
     sheet = goal.convert(method) if found is None else found.sheet
     if stages is not None:
         sheet = padded(sheet, stages)
@@ -123,8 +129,6 @@ def convert(
             " this partitioned method",
             "--to gark has all of its colours",
         )
-    source = method.source if isinstance(method, MethodFile) else ""
-    name = UNNAMED if method.name in ("", source) else method.name
     if goal.makes_another:
         name = derived_name(goal.name, name)
     if goal.printed is not None:
@@ -134,11 +138,29 @@ def convert(
         text = write_method(sheet.tableau, name, tolerance, sheet.further)
     else:
         text = _written(replace(found, sheet=sheet), name)
-    text = _with_head(text, method)
     loses_further = bool(method.further) and not sheet.further
+    return replace(_converted(text, method, goal), loses_further=loses_further)
+
+
+def _converted(text: str, method: GarkMethod, goal: Target) -> Converted:
+    """The file with what the one before says of its method, and what still holds of it."""
+    text = _with_head(text, method)
     if not isinstance(method, MethodFile):
-        return Converted(loads(text), (), loses_further)
-    return replace(_claimed(text, method, goal), loses_further=loses_further)
+        return Converted(loads(text))
+    return _claimed(text, method, goal)
+
+
+def _refuse_forms(to: str, stages: int | None) -> None:
+    """Refuse what Rosenbrock methods do not have.
+
+    Raises:
+        CannotConvert: it is that.
+    """
+    cure = f"--to {' or --to '.join(FORMS[1:])}"
+    if to not in FORMS:
+        raise CannotConvert(f"a Rosenbrock method has no form {to}", cure)
+    if stages is not None:
+        raise CannotConvert("a stage of a Rosenbrock method has a γ, which is not 0", cure)
 
 
 def _printed(goal: Target, form: InForm, method: GarkMethod, sheet: Sheet, name: str) -> str:
@@ -213,5 +235,5 @@ def _failing(method: MethodFile) -> set[str]:
     if not method.claims:
         return set()
     reach = max(DEFAULT_LIMIT, highest_order(method.claims) + 1)
-    analysis = analyse(method.tableau, reach, method.tolerance, further=method.further)
+    analysis = analyse_any(method, reach)
     return {claim.claim for claim in verify(method.claims, analysis) if not claim.holds}

@@ -118,7 +118,7 @@ def recovered(
             exact[value] = str(value)
             return value
         middle = midpoint(value) if isinstance(value, arb) else value
-        near = _nearest(middle, unit)
+        near = nearest(middle, unit)
         if is_recognising and near not in found:
             text = _recognised(middle, many)
             if text is not None:
@@ -134,14 +134,14 @@ def recovered(
     return Recovered(sheet, unit, exact, shortest, tuple(_orders(analysis)), is_exact)
 
 
-def _nearest(x: fmpq, unit: fmpq) -> fmpq:
+def nearest(x: fmpq, unit: fmpq) -> fmpq:
     """The multiple of a unit that is nearest to a number."""
     return unit * (x / unit + fmpq(1, 2)).floor()
 
 
 def _recognised(x: fmpq, digits: int) -> str | None:
     """An exact number that so many digits speak for; all that are known agree with it."""
-    near = plain_decimal(_nearest(x, fmpq(10) ** -DIGITS_OF_A_ROOT))
+    near = plain_decimal(nearest(x, fmpq(10) ** -DIGITS_OF_A_ROOT))
     found = exact_form(x, digits, near)
     if found is None:
         return None

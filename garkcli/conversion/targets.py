@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from garkcli.conversion.printed import InForm, in_2n, in_registers, in_shu_osher
+from garkcli.conversion.rosenbrock import PRINTED, TRANSFORMED
 from garkcli.conversion.sheet import (
     CannotConvert,
     Place,
@@ -171,6 +172,15 @@ def as_canonical(method: GarkMethod) -> Sheet:
     return shared(smaller) or smaller
 
 
+def as_rosenbrock(_: GarkMethod) -> Sheet:
+    """No GARK method has the forms of Rosenbrock methods.
+
+    Raises:
+        CannotConvert: always.
+    """
+    raise CannotConvert("this form is for Rosenbrock methods", "--to spelled-out has all numbers")
+
+
 RECOVERED = "recovered"
 """The form that other numbers are written in than the file has."""
 TARGETS: Mapping[str, Target] = {
@@ -205,6 +215,8 @@ TARGETS: Mapping[str, Target] = {
         ),
         Target("canonical", "reduced, spelled out, its stages sorted", as_canonical),
         Target(RECOVERED, "of a rounded method the one that its digits mean", sheet_of),
+        Target(PRINTED, "of a Rosenbrock method alpha, gamma and b", as_rosenbrock),
+        Target(TRANSFORMED, "of a Rosenbrock method A, C and m of programs", as_rosenbrock),
     )
 }
 """Every form by name."""

@@ -59,6 +59,13 @@ def parameter_names(text: str, source: str) -> list[str]:
     return [] if parameters is None else [str(name.value) for name, _ in parameters.value]
 
 
+def is_transformed(method: MethodFile) -> bool:
+    """Whether the file of a Rosenbrock method has it as programs store it."""
+    root = Source(method.source, method.text).compose()
+    form = None if root is None else _mapping_under(root, "rosenbrock")
+    return form is not None and _mapping_under(form, "transformed") is not None
+
+
 def _entries(method: MethodFile) -> list[tuple[Node, Node]]:
     root = Source(method.source, method.text).compose()
     assert root is not None

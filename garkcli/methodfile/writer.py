@@ -59,11 +59,12 @@ def write_tableau_file(
         linear = [str(l) for l, x in enumerate(tableau.colours, start=1) if x.is_linear]
         lines += [f"linear: [{', '.join(linear)}]"] if linear else []
     if tolerance is not None:
-        lines.append(f"tolerance: {_tolerance(tolerance)}")
+        lines.append(f"tolerance: {tolerance_text(tolerance)}")
     return "\n".join(lines) + "\n"
 
 
-def _tolerance(written: Written) -> str:
+def tolerance_text(written: Written) -> str:
+    """The value of the key ``tolerance``."""
     if isinstance(written, fmpq):
         return decimal(written)
     return f"{{{', '.join(f'{key}: {decimal(t)}' for key, t in written.items())}}}"
@@ -129,7 +130,7 @@ def write_form(
         lines.append(f"  c: {_row(colour.c, text)}")
     lines += [x.removeprefix("  ") for x in _further_of_part(further, 0, text)]
     if tolerance is not None:
-        lines.append(f"tolerance: {_tolerance(tolerance)}")
+        lines.append(f"tolerance: {tolerance_text(tolerance)}")
     return "\n".join(lines) + "\n"
 
 
@@ -308,9 +309,17 @@ def _prk(tableau: Tableau, text: NumberText, further: Further) -> list[str]:
 
 
 def _row(numbers: Sequence[Number], text: NumberText) -> str:
-    # the comma of root(x, n) would end an entry in brackets
-    items = [quoted(x) if "," in x else x for x in map(text, numbers)]
-    return f"[{', '.join(items)}]"
+    return row_text(map(text, numbers))
+
+
+def row_text(numbers: Iterable[str]) -> str:
+    """Numbers in brackets."""
+    return f"[{', '.join(map(number_text, numbers))}]"
+
+
+def number_text(number: str) -> str:
+    """A number that may stand in brackets, where the comma of root(x, n) would end it."""
+    return quoted(number) if "," in number else number
 
 
 def quoted(text: str) -> str:

@@ -1,0 +1,227 @@
+"""Rosenbrock methods as papers print them, and as programs store them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from operator import sub
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from flint import fmpq
+
+from garkcli.constructions.rosenbrock import Rosenbrock, stored
+from garkcli.conversion.recovered import nearest
+from garkcli.conversion.sheet import CannotConvert
+from garkcli.errors import MethodError
+from garkcli.exact.affine import Affine
+from garkcli.exact.display import plain_decimal, to_ball, to_text
+from garkcli.exact.enclosing import midpoint
+from garkcli.exact.field import ZERO, Number
+from garkcli.exact.matrix import Vector
+from garkcli.methodfile.build import MethodFile
+from garkcli.methodfile.carried import is_transformed
+from garkcli.methodfile.writer import (
+    number_text,
+    quoted,
+    row_text,
+    tolerance_of_file,
+    tolerance_text,
+)
+from garkcli.order.meant import as_meant, with_further
+from garkcli.tableau.embedded import Further, from_colours
+from garkcli.tableau.garkmethod import GarkMethod
+
+if TYPE_CHECKING:
+    from garkcli.methodfile.writer import Written
+    from garkcli.order.rounded import RoundedTableau
+    from garkcli.tableau.tableau import Tableau
+
+PRINTED = "printed"
+"""The form with α, γ and b."""
+TRANSFORMED = "transformed"
+"""The form with A, C, γ_ii and m."""
+FORMS = ("spelled-out", PRINTED, TRANSFORMED)
+"""The forms of Rosenbrock methods, by the words of ``--to``."""
+_Parts: TypeAlias = "dict[str, tuple[Vector, ...]]"
+"""Rows by their keys in the file; of a vector one row."""
+_Texts: TypeAlias = "Mapping[str, Sequence[Sequence[str]]]"
+_MATRICES = {"alpha", "gamma", "A", "C", "dense"}
+_NOISE = 2.0**-40
+"""Shares of a radius below this come from the arithmetic with forms alone."""
+_SPARE = 100
+"""Into so many units of its last place a tolerance is divided."""
+
+
+def text_in_form(method: GarkMethod, to: str, name: str) -> str:
+    """The file of a Rosenbrock method of one colour in one of its forms.
+
+    Exact numbers stay exact. Where decimals become others, these get two digits more than the
+    tolerance, which is then that of the new numbers: all methods that the old file admits are
+    within it.
+
+    Args:
+        method: it.
+        to: one of ``FORMS``.
+        name: what the file calls it.
+
+    Raises:
+        CannotConvert: it has no such form.
+    """
+    if method.tableau.size > 2:
+        message = "a method file has Rosenbrock methods of one colour, and this one has more"
+        raise CannotConvert(message, "gark tableau has all of its arrays")
+    own = TRANSFORMED if isinstance(method, MethodFile) and is_transformed(method) else PRINTED
+    wanted = own if to == "spelled-out" else to
+    try:
+        parts = _parts(method.tableau, method.further, wanted)
+    except MethodError as error:
+        raise CannotConvert(error.message, error.help) from None
+    rounded = with_further(as_meant(method))
+    tolerance: Written | None = None
+    if rounded is None:
+        texts: _Texts = {key: [list(map(to_text, row)) for row in parts[key]] for key in parts}
+    else:
+        places = _Places(rounded, wanted, tuple(parts), is_other=wanted != own)
+        texts = {key: list(places.texts(key, rows)) for key, rows in parts.items()}
+        tolerance = places.tolerance if wanted != own else tolerance_of_file(method, method.further)
+    return _file(texts, wanted, name, tolerance)
+
+
+def _parts(tableau: Tableau, further: Further, form: str) -> _Parts:
+    """What a file of a form says, c and d where the rows do not say them."""
+    method = Rosenbrock.of(tableau).without_row_sums
+    if form == TRANSFORMED:
+        made = stored(method, further)
+        further = made.further
+        diagonal = made.gamma[:1] if len(set(made.gamma)) == 1 else made.gamma
+        parts = {"gamma": (diagonal,), "A": made.A, "C": made.C, "m": (made.m,)}
+        if further.embedded is not None:
+            parts["e"] = (tuple(map(sub, made.m, further.embedded[0])),)
+    else:
+        parts = {"alpha": method.alpha[0][0], "gamma": method.gamma[0][0], "b": method.b}
+        if further.embedded is not None:
+            parts["embedded"] = further.embedded[:1]
+    if method.c is not None:
+        parts["c"] = method.c
+    if method.d is not None:
+        parts["d"] = method.d
+    if further.dense is not None:
+        parts["dense"] = further.dense.weights[0]
+    return parts
+
+
+class _Places:
+    """The numbers of a form as forms of the rounded numbers that they are made of.
+
+    Args:
+        rounded: the method with its further weights.
+        form: that is written.
+        keys: of what is written.
+        is_other: whether it is another form than that of the file.
+    """
+
+    def __init__(
+        self, rounded: RoundedTableau, form: str, keys: Sequence[str], is_other: bool
+    ) -> None:
+        search = rounded.search
+        around = search.box.around([ZERO] * len(search.box.numbers)).made
+        every = _parts(*from_colours(around, search.printed_further), form)
+        self._forms = {key: every[key] for key in keys}
+        self._noise = _NOISE * float(min(search.box.radii, default=ZERO))
+        self._is_other = is_other
+        self._radii = {
+            key: max((self._radius(x) for row in rows for x in row), default=0.0)
+            for key, rows in self._forms.items()
+        }
+        self._rounded: set[str] = set()
+        self._units = {key: _unit(self.largest(key)) for key in self._forms}
+
+    def _radius(self, x: Any) -> float:
+        return x.reach if isinstance(x, Affine) and x.reach > self._noise else 0.0
+
+    def largest(self, key: str) -> float:
+        """The largest radius of the numbers that share a tolerance with those of a key."""
+        kind = _kind(key)
+        return max(x for other, x in self._radii.items() if _kind(other) == kind)
+
+    @property
+    def tolerance(self) -> Written | None:
+        """By how much the numbers that were written may be off, by keys of ``tolerance``."""
+        found = {}
+        for key in self._forms:
+            if _kind(key) in self._rounded:
+                found[_kind(key)] = _rounded_up(self.largest(key), self._units[key])
+        if set(found.values()) == {found.get("others")}:
+            return found["others"]
+        return found or None
+
+    def texts(self, key: str, rows: Sequence[Vector]) -> Iterator[list[str]]:
+        """The numbers of a key as they are written."""
+        for row, forms in zip(rows, self._forms[key], strict=True):
+            # equal γ_ii are written once, and each has a form
+            yield [self._text(key, *pair) for pair in zip(row, forms, strict=False)]
+
+    def _text(self, key: str, x: Number, form: Any) -> str:
+        if not self._radius(form):
+            return to_text(x)
+        if self._is_other:
+            unit = self._units[key]
+            known = x if isinstance(x, fmpq) else midpoint(to_ball(x, len(str(unit.q)) + 20))
+            x = nearest(known, unit)
+        if not x:
+            return "0"
+        self._rounded.add(_kind(key))
+        text = plain_decimal(x) if isinstance(x, fmpq) else to_text(x)
+        # a whole number would be exact
+        return f"{text}.0" if text.lstrip("-").isdecimal() else text
+
+
+def _kind(key: str) -> str:
+    """The key of ``tolerance`` for the numbers of a key."""
+    return {"e": "embedded"}.get(key, key if key in {"embedded", "dense"} else "others")
+
+
+def _unit(radius: float) -> fmpq:
+    """The unit of the last place for numbers that may be off by a radius."""
+    unit = fmpq(1)
+    while radius and float(unit.p) / float(unit.q) * _SPARE > radius:
+        unit /= 10
+    return unit
+
+
+def _rounded_up(radius: float, unit: fmpq) -> fmpq:
+    """A radius and the rounding to a unit, in two digits."""
+    whole = fmpq(*radius.as_integer_ratio()) + unit / 2
+    step = unit * 10
+    return step * -((-whole / step).floor())
+
+
+def _file(texts: _Texts, form: str, name: str, tolerance: Written | None) -> str:
+    lines = ["gark: 1", f"name: {quoted(name)}", "rosenbrock:"]
+    indent = "  "
+    if form == TRANSFORMED:
+        lines.append("  transformed:")
+        indent = "    "
+    for key, rows in texts.items():
+        is_matrix = key in _MATRICES and not (key == "gamma" and form == TRANSFORMED)
+        if not is_matrix:
+            (row,) = rows
+            is_number = key == "gamma" and len(row) == 1
+            lines.append(f"{indent}{key}: {number_text(row[0]) if is_number else row_text(row)}")
+            continue
+        lines.append(f"{indent}{key}:")
+        if key == "dense":
+            lines += [f"{indent}  degree: {len(rows[0])}", f"{indent}  weights:"]
+            lines += [f"{indent}  - {row_text(row)}" for row in rows]
+        else:
+            lines += [f"{indent}  - {row_text(row)}" for row in _lower(rows)]
+    if tolerance is not None:
+        lines.append(f"tolerance: {tolerance_text(tolerance)}")
+    return "\n".join(lines) + "\n"
+
+
+def _lower(rows: Sequence[Sequence[str]]) -> Iterator[Sequence[str]]:
+    """The rows of a triangular matrix up to the last entry that it may have; of another all."""
+    for behind in (0, 1):
+        if all(x == "0" for i, row in enumerate(rows) for x in row[i + behind :]):
+            return (row[: i + behind] for i, row in enumerate(rows))
+    return iter(rows)
