@@ -108,6 +108,7 @@ _CLASSES = {
     "rk": "y' = f(t, y)",
     "ark": "y' = {terms}, all at the same stages",
     "prk": "q' = f(q, p), p' = g(q, p)",
+    "row": "y' = f(t, y) with its Jacobian, linearly implicit",
     "gark": "y' = {terms}, each at stages of its own",
     "flow": "y' = {terms}, f1 fast and solved exactly",
 }

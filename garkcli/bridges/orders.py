@@ -5,11 +5,12 @@ from __future__ import annotations
 from flint import fmpq
 
 from garkcli.check.analysis import inconsistent_blocks, nonautonomous
+from garkcli.constructions.rosenbrock import Which, is_rosenbrock, seen
 from garkcli.exact.display import decimal
 from garkcli.frozen import Frozen
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.deciding import order_of
-from garkcli.order.meant import as_embedded, meant, tolerance_of
+from garkcli.order.meant import AnyTableau, as_embedded, meant, tolerance_of
 from garkcli.tableau.embedded import Weights
 from garkcli.tableau.tableau import Tableau
 
@@ -23,6 +24,7 @@ class Orders(Frozen):
         embedded: the order with the embedded weights; None without them.
         nonautonomous: the order for y' = f(t, y) with the nodes as they are, where nodes are not
             the row sums; None where it is the order, or has no meaning.
+        w_order: of a Rosenbrock method with any matrix for its Jacobian; else None.
         tolerance: within which the conditions are met; None where they hold exactly.
         embedded_tolerance: the same of those of the embedded weights.
     """
@@ -33,6 +35,7 @@ class Orders(Frozen):
     nonautonomous: int | None = None
     tolerance: fmpq | None = None
     embedded_tolerance: fmpq | None = None
+    w_order: int | None = None
 
     @property
     def effective(self) -> int:
@@ -49,6 +52,8 @@ class Orders(Frozen):
         """
         least = "at least " if self.is_lower_bound else ""
         text = f"order {least}{self.order}"
+        if self.w_order is not None:
+            text += f", order {self.w_order} with any matrix for the Jacobian"
         if self.embedded is not None:
             text += f", embedded order {self.embedded}"
             if self.embedded_tolerance != self.tolerance:
@@ -73,6 +78,8 @@ def find_orders(tableau: Tableau, embedded: Weights | None, tolerance: fmpq | No
         tolerance: the rounding of its coefficients; None where they are exact.
     """
     method = meant(tableau, tolerance)
+    if is_rosenbrock(tableau):
+        return _of_rosenbrock(method, embedded)
     order = order_of(method)
     timed = nonautonomous(method, order, inconsistent_blocks(method), DEFAULT_LIMIT)
     with_nodes = None if timed is None or timed.order == order.order else timed.order
@@ -81,3 +88,23 @@ def find_orders(tableau: Tableau, embedded: Weights | None, tolerance: fmpq | No
         changed = as_embedded(method, embedded)
         other, near = order_of(changed).order, tolerance_of(changed)
     return Orders(order.order, order.is_lower_bound, other, with_nodes, tolerance, near)
+
+
+def _of_rosenbrock(method: AnyTableau, embedded: Weights | None) -> Orders:
+    """The orders of a Rosenbrock method."""
+    order = order_of(method)
+    views: tuple[Which, Which] = ("with_any_matrix", "with_time")
+    w_order, timed = (order_of(seen(method, x)) for x in views)
+    other, near = None, tolerance_of(method)
+    if embedded is not None:
+        changed = as_embedded(method, embedded)
+        other, near = order_of(changed).order, tolerance_of(changed)
+    return Orders(
+        order.order,
+        order.is_lower_bound,
+        other,
+        None if timed.order == order.order else timed.order,
+        tolerance_of(method),
+        near,
+        w_order.order,
+    )

@@ -21,9 +21,12 @@ from garkcli.version import __version__
 if TYPE_CHECKING:
     from garkcli.bridges.orders import Orders
     from garkcli.constructions.infinitesimal import Coupling
+    from garkcli.constructions.rosenbrock import Rosenbrock
 
-Kind: TypeAlias = Literal["rk", "ark", "prk", "gark"]
-"""One vector field; several that share all stages; the pair (q, p); anything else."""
+Kind: TypeAlias = Literal["rk", "ark", "prk", "gark", "row"]
+"""One vector field; several that share all stages; the pair (q, p); any other GARK method; a
+Rosenbrock method.
+"""
 
 Part: TypeAlias = tuple[int, int | str, Sequence[Row]]
 """An array: its colour and, of a block, the colour that it sees, from 1; its rows."""
@@ -52,6 +55,7 @@ class Payload(Frozen, eq=False, kw_only=True):
         digits: of every number, where they were requested.
         moved_within: how far they are from those of the file at most, where these have fewer
             digits; None where they are the same.
+        rosenbrock: of a Rosenbrock method, whose α, b and c are A, b and c; else None.
         coupling: between the slow stages of a multirate infinitesimal method.
         derivation: whether it is the conjugate or the pair of what a file gives.
         version: of gark.
@@ -74,6 +78,7 @@ class Payload(Frozen, eq=False, kw_only=True):
     reference: str = ""
     digits: int | None = None
     moved_within: fmpq | None = None
+    rosenbrock: Rosenbrock | None = None
     coupling: Coupling | None = None
     derivation: Derivation = ""
     version: str = __version__

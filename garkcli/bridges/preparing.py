@@ -11,6 +11,7 @@ from flint import arb, fmpq
 from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.orders import find_orders
 from garkcli.bridges.payload import Kind, Payload
+from garkcli.constructions.rosenbrock import Rosenbrock, is_rosenbrock
 from garkcli.doing import doing
 from garkcli.errors import MethodError, printable
 from garkcli.exact.display import to_float
@@ -19,10 +20,12 @@ from garkcli.frozen import replace
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.constructed.multirate import coupling_of
 from garkcli.properties.family_entries import is_nonzero_at, nodes_of
+from garkcli.tableau.embedded import DenseOutput
+from garkcli.tableau.forms import gark
 from garkcli.tableau.garkmethod import GarkMethod, derived_name
 from garkcli.tableau.pointwise import Block, Cell, Entries, Row, entries, in_points
 from garkcli.tableau.polynomial_space import PolynomialSpace
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.tableau import Tableau, butcher
 
 EXTRA = 120
 """Digits of enclosures beyond those that are written: nines and zeros show rounding."""
@@ -51,20 +54,25 @@ def prepared(method: GarkMethod, digits: int | None = None) -> Payload:
         raise CannotExport(message, "give each a value: --set NAME=VALUE", code="free-parameters")
     printed, method = method, _with_digits(method, file, digits)
     moved_within = None if method is printed else _tolerance(printed)
-    tableau = method.tableau
-    found = _entries(tableau, digits)
+    tableau, row = method.tableau, None
+    orders = find_orders(tableau, method.embedded, method.tolerance)
     embedded, dense = method.embedded, method.dense
+    if is_rosenbrock(tableau):
+        row = Rosenbrock.of(tableau)
+        embedded, dense = embedded and embedded[:1], dense and DenseOutput(dense.weights[:1])
+        tableau = gark([butcher(row.alpha[0][0], row.b[0], row.nodes[0][0])], {})
+    found = _entries(tableau, digits)
     return Payload(
         name=printable(
             derived_name(method.derivation, _name(file)) if method.derivation else _name(file)
         ),
-        kind=kind_of(tableau),
+        kind=kind_of(tableau) if row is None else "row",
         tableau=in_points(tableau) or tableau,
         A=found.A,
         b=found.b,
         c=found.c,
         is_exact=found.is_exact,
-        orders=find_orders(tableau, embedded, method.tolerance),
+        orders=orders,
         embedded=embedded,
         dense=None if dense is None else dense.weights,
         tolerance=method.tolerance,
@@ -74,6 +82,7 @@ def prepared(method: GarkMethod, digits: int | None = None) -> Payload:
         reference=printable(str(file.reference)),
         digits=digits,
         moved_within=moved_within,
+        rosenbrock=row,
         coupling=coupling_of(file) if not method.derivation else None,
         derivation=method.derivation,
     )
@@ -96,6 +105,10 @@ def _with_digits(method: GarkMethod, file: MethodFile, digits: int | None) -> Ga
     places = digits + max(0, -math.floor(math.log10(min(sizes, default=1.0))))
     if fmpq(10) ** -places >= tolerance:
         return method
+    if is_rosenbrock(method.tableau):
+        message = f"{method.name} is rounded to fewer digits, and of a Rosenbrock method gark does"
+        message += " not recover more"
+        raise CannotExport(message, "leave out --digits")
     # files that are exact do without
     from garkcli.api.methods import conjugate, pair
     from garkcli.conversion.convert import convert

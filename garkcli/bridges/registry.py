@@ -12,6 +12,7 @@ from typing import Literal, TypeAlias
 from garkcli.bridges import targets
 from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.comments import problem_class
+from garkcli.bridges.linear_stages import printed_stages
 from garkcli.bridges.numbers import DECIMALS, Style
 from garkcli.bridges.payload import Kind, Payload
 from garkcli.bridges.structure import (
@@ -73,6 +74,8 @@ class Bridge(Frozen):
         reads_back: whether ``gark import`` reads what it writes.
         write: the file of a method, where no template writes it.
         couples: whether it takes the coupling of slow stages, whatever solves the fast problems.
+        linear: what its template for Rosenbrock methods, ``NAME-row.SUFFIX.jinja``, has beyond what
+            all have; raises ``CannotExport`` with the reason and the cure.
     """
 
     name: str
@@ -92,6 +95,7 @@ class Bridge(Frozen):
     reads_back: bool = False
     write: Callable[[Payload], str] | None = None
     couples: bool = False
+    linear: Callable[[Payload], Values] = lambda payload: {"linear": printed_stages(payload)}
 
     def tested(self, payload: Payload, file: str) -> Mapping[str, str]:
         """A program that runs a method, and its problem, by what is put after the stem of the
@@ -106,6 +110,9 @@ class Bridge(Frozen):
         """
         if self.words is None:
             return {}
+        if payload.kind == "row":
+            message = "there is no program that tries Rosenbrock methods"
+            raise CannotExport(message, "leave out --test; --to numpy and c have a step")
         if self.file and not (re.fullmatch(self.file.pattern, file) and file.isprintable()):
             message = f"{self.file.why} by the name of its file, and {file} is none"
             raise CannotExport(message, self.file.cure)
@@ -126,7 +133,8 @@ class Bridge(Frozen):
         given = self._given(payload)
         if self.write is not None:
             return self.write(payload)
-        return text_of(self.name + self.suffix, payload, self.style, given)
+        form = "-row" if payload.kind == "row" else ""
+        return text_of(f"{self.name}{form}{self.suffix}", payload, self.style, given)
 
     def _given(self, payload: Payload) -> Values:
         """What the templates of the target have of a method.
@@ -137,6 +145,9 @@ class Bridge(Frozen):
         if payload.kind not in self.kinds:
             message = f"{self.name} has no {_KINDS[payload.kind]}"
             raise CannotExport(message, _others(payload), code="unknown-word")
+        if payload.kind == "row":
+            left_out = _left_out(payload, self.lacks)
+            return {"left_out": left_out, **({} if self.write else self.linear(payload))}
         fields: Sequence[int] = range(payload.size)
         if payload.kind == "prk" and self.is_split:
             given = {"steps": self._steps(payload), "tables": [], "fields": fields}
@@ -215,6 +226,7 @@ _KINDS = {
     "ark": "methods for several vector fields that share their stages",
     "prk": "methods for a pair (q, p)",
     "gark": "methods whose vector fields have stages of their own",
+    "row": "Rosenbrock methods",
 }
 
 

@@ -28,6 +28,7 @@ def export(given: Given, output: Output) -> None:
     from garkcli.api.anymethod import refuse_rounded
     from garkcli.bridges.preparing import prepared
     from garkcli.bridges.registry import bridge_named
+    from garkcli.constructions.rosenbrock import is_rosenbrock
 
     bridge = bridge_named(given.to)
     if output.path is not None:
@@ -36,7 +37,8 @@ def export(given: Given, output: Output) -> None:
         message = f"{bridge.name} is data, not a program"
         raise UsageProblem(message, "leave out --test", code="cannot-export")
     method = given.method(is_any_kind=True)
-    method.tableau.demand_fields("this command", with_flow=bridge.couples)
+    if not is_rosenbrock(method.tableau):
+        method.tableau.demand_fields("this command", with_flow=bridge.couples)
     refuse_rounded(method)
     payload = prepared(method, given.digits)
     table = bridge.written(payload)

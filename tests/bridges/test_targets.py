@@ -51,15 +51,28 @@ dense: {degree: 2, weights: [[1, -1/2], [0, 1/2]]}
 """
 OF_DENSE = ("c", "csv", "fortran", "json", "matlab", "numpy", "petsc", "scipy", "torchdiffeq")
 OF_SDIRK = ("diffrax", "irksome", "mathematica", "nodepy", "petsc", "sundials", "tempus")
+ROS2 = """\
+name: ROS2
+rosenbrock:
+  alpha: [[], [1]]
+  gamma: [[1/2], [-1, 1/2]]
+  b: [1/2, 1/2]
+  embedded: [1, 0]
+  dense: {degree: 2, weights: [[1, -1/2], [0, 1/2]]}
+"""
+OF_ROS2 = ("c", "json", "kpp", "numpy", "ordinarydiffeq", "petsc")
 RECORDED = [
     *[(target, "ralston-euler", RALSTON) for target in OF_RALSTON],
     *[(target, "midpoints", MIDPOINTS) for target in OF_MIDPOINTS],
     *[(target, "stoermer-verlet", VERLET) for target in OF_VERLET],
     *[(target, "dense", DENSE) for target in OF_DENSE],
     *[(target, "sdirk", SDIRK) for target in OF_SDIRK],
+    *[(target, "ros2", ROS2) for target in OF_ROS2],
 ]
 RECORDED_IDS = [f"{target}-{name}" for target, name, _ in RECORDED]
-PROGRAMS = [x for x in RECORDED if x[1] != "dense" and bridges()[x[0]].words is not None]
+PROGRAMS = [
+    x for x in RECORDED if x[1] not in {"dense", "ros2"} and bridges()[x[0]].words is not None
+]
 PROGRAM_IDS = [f"{target}-{name}" for target, name, _ in PROGRAMS]
 
 

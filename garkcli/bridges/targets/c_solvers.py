@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from garkcli.bridges.linear_stages import printed_stages
 from garkcli.bridges.numbers import c_style
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.registry import EVERYTHING, Bridge
@@ -35,6 +36,13 @@ def _of_ts(_: Payload, tables: Sequence[Table]) -> Values:
     return {"tables": [nothing, found]}
 
 
+def _of_rosw(payload: Payload) -> Values:
+    """The solver sums the rows itself."""
+    found = printed_stages(payload)
+    lost = [] if found.has_row_sums else ["c and d, which are the row sums there"]
+    return {"linear": found, "left_out": lost}
+
+
 BRIDGES = (
     # it takes f at t for the first stage where that is explicit, whatever its node is
     Bridge(
@@ -53,8 +61,8 @@ BRIDGES = (
     ),
     Bridge(
         name="petsc",
-        summary="C for PETSc TS: RK, ARKIMEX, basic symplectic",
-        kinds=EVERYTHING,
+        summary="C for PETSc TS: RK, ARKIMEX, ROSW, basic symplectic",
+        kinds=(*EVERYTHING, "row"),
         suffix=".c",
         style=c_style("PetscRealConstant"),
         stages="lower",
@@ -62,6 +70,7 @@ BRIDGES = (
         is_split=True,
         lacks=(),
         values=_of_ts,
+        linear=_of_rosw,
         words=WORDS,
         reads_back=True,
     ),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import Any
+from typing import Any, Literal
 
 from flint import fmpq
 
@@ -58,7 +58,7 @@ def _array(name: str) -> Callable[[Payload], Any]:
 
     def texts(payload: Payload) -> Any:
         found = getattr(payload, name)
-        if payload.kind == "rk" and found is not None:
+        if payload.kind in {"rk", "row"} and found is not None:
             found = found[0][0] if name == "A" else found[0]
         return _texts(payload, found)
 
@@ -70,6 +70,15 @@ def _texts(payload: Payload, cells: Any) -> Any:
     if isinstance(cells, tuple):
         return [_texts(payload, x) for x in cells]
     return None if cells is None else payload.number(cells, style_of(payload))
+
+
+def _linear(payload: Payload, name: Literal["alpha", "gamma", "d"]) -> Any:
+    """The texts of an array that Rosenbrock methods alone have."""
+    method = payload.rosenbrock
+    if method is None:
+        return None
+    found = method.nodes[1][0] if name == "d" else getattr(method, name)[0][0]
+    return _texts(payload, found)
 
 
 _COLOUR: Record[Colour] = Record(
@@ -99,6 +108,7 @@ _REPORT: Record[Payload] = Record(
     Field("order", COUNT, lambda x: x.orders.order),
     Field("embedded_order", nullable(COUNT), lambda x: x.orders.embedded),
     Field("nonautonomous_order", nullable(COUNT), lambda x: x.orders.nonautonomous),
+    Field("w_order", COUNT, lambda x: x.orders.w_order, is_optional=True),
     Field("tolerance", nullable(TEXT), lambda x: _decimal(x.tolerance)),
     Field("embedded_tolerance", nullable(TEXT), lambda x: _decimal(x.embedded_tolerance)),
     Field("dense_tolerance", nullable(TEXT), lambda x: _decimal(x.dense_tolerance)),
@@ -107,7 +117,15 @@ _REPORT: Record[Payload] = Record(
     Field("exact", FLAG, lambda x: x.is_exact and x.digits is None),
     _COLOUR.every("colours", lambda x: x.tableau.colours),
     Field("c", _ONE_ROW, _array("c")),
-    Field("A", one_of(_MATRIX, array(array(nullable(_MATRIX)))), _array("A")),
+    Field(
+        "A",
+        one_of(_MATRIX, array(array(nullable(_MATRIX)))),
+        lambda x: None if x.rosenbrock else _array("A")(x),
+        is_optional=True,
+    ),
+    Field("alpha", _MATRIX, lambda x: _linear(x, "alpha"), is_optional=True),
+    Field("gamma", _MATRIX, lambda x: _linear(x, "gamma"), is_optional=True),
+    Field("d", _NUMBERS, lambda x: _linear(x, "d"), is_optional=True),
     Field("b", _ONE_ROW, _array("b")),
     Field("embedded", _ONE_ROW, _array("embedded"), is_optional=True),
     Field("dense", one_of(_MATRIX, array(_MATRIX)), _array("dense"), is_optional=True),
@@ -136,7 +154,7 @@ BRIDGES = (
     Bridge(
         name="json",
         summary="JSON, every number as exact text",
-        kinds=EVERYTHING,
+        kinds=(*EVERYTHING, "row"),
         suffix=".json",
         write=_json,
         reads_back=True,

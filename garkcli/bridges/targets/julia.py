@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from flint import fmpq
 
 from garkcli.bridges.cannot import CannotExport
+from garkcli.bridges.linear_stages import program_stages
 from garkcli.bridges.numbers import Style
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.radicals import Radicals
@@ -14,7 +15,7 @@ from garkcli.bridges.registry import DENSE, EMBEDDED, EVERYTHING, Bridge
 from garkcli.bridges.structure import Table
 from garkcli.bridges.texts import Values
 from garkcli.constructions.registers import in_two_registers
-from garkcli.exact.field import Algebraic
+from garkcli.exact.field import ZERO, Algebraic
 from garkcli.exact.nodes import Literal, Root
 from garkcli.tableau.pointwise import Cell
 
@@ -78,6 +79,22 @@ def low_storage(payload: Payload, tables: Sequence[Table]) -> Values:
     raise CannotExport(message, "julia and ordinarydiffeq have all explicit methods")
 
 
+_ROWS_OF_H = 4
+"""So many rows of the interpolant its solvers add up."""
+
+
+def _rodas(payload: Payload) -> Values:
+    """The coefficients of a RodasTableau, with at least two rows of the interpolant, or none."""
+    program = program_stages(payload)
+    rows, zeros = program.interpolant, (ZERO,) * len(program.c)
+    lost = [DENSE] if payload.dense and (rows is None or len(rows) > _ROWS_OF_H) else []
+    if rows is None or lost:
+        rows = ()
+    elif len(rows) < 2:
+        rows = (*rows, *[zeros] * (2 - len(rows)))
+    return {"program": program, "interpolant": rows, "left_out": lost}
+
+
 BRIDGES = (
     Bridge(
         name="julia",
@@ -89,7 +106,9 @@ BRIDGES = (
     ),
     Bridge(
         name="ordinarydiffeq",
-        summary="Julia: ExplicitRKTableau of OrdinaryDiffEq, explicit methods",
+        summary="Julia: ExplicitRKTableau and RodasTableau of OrdinaryDiffEq",
+        kinds=("rk", "row"),
+        linear=_rodas,
         suffix=".jl",
         style=JULIA,
         stages="explicit",

@@ -36,7 +36,7 @@ BRIDGES = (
     Bridge(
         name="c",
         summary="a C header with constant arrays",
-        kinds=EVERYTHING,
+        kinds=(*EVERYTHING, "row"),
         suffix=".h",
         style=c_style("GARK_REAL_C"),
         lacks=(),
@@ -94,7 +94,7 @@ BRIDGES = (
     Bridge(
         name="numpy",
         summary="a Python module with NumPy arrays",
-        kinds=EVERYTHING,
+        kinds=(*EVERYTHING, "row"),
         suffix=".py",
         style=PYTHON,
         lacks=(),

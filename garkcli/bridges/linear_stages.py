@@ -1,0 +1,157 @@
+"""Rosenbrock methods as targets have them: stage after stage, printed or transformed."""
+
+from __future__ import annotations
+
+from operator import sub
+from typing import Any
+
+from garkcli.bridges.cannot import CannotExport
+from garkcli.bridges.payload import Payload
+from garkcli.bridges.structure import Rows
+from garkcli.constructions.rosenbrock import Rosenbrock, Stored, stored
+from garkcli.errors import MethodError
+from garkcli.exact.field import Number
+from garkcli.exact.matrix import Matrix, Vector
+from garkcli.frozen import Frozen
+from garkcli.tableau.embedded import DenseOutput, Further
+from garkcli.tableau.pointwise import Row
+
+
+class LinearStages(Frozen):
+    """A method whose stages are computed one after the other.
+
+    Attributes:
+        alpha: shape (s, s), zero on and above the diagonal.
+        gamma: shape (s, s), zero above the diagonal.
+        b: the weights.
+        c: where f is evaluated.
+        d: the weights of ∂f/∂t.
+        embedded: the embedded weights; None without them.
+        dense: the coefficients of θ, θ², … of each b_i(θ); None without them.
+        has_row_sums: whether c and d are the sums of the rows.
+    """
+
+    alpha: Rows
+    gamma: Rows
+    b: Vector
+    c: Vector
+    d: Vector
+    embedded: Row | None
+    dense: Rows | None
+    has_row_sums: bool
+
+
+def printed_stages(payload: Payload) -> LinearStages:
+    """The stages of a Rosenbrock method as papers print them.
+
+    Raises:
+        CannotExport: a stage needs a later one.
+    """
+    method = _of(payload)
+    alpha, gamma = method.alpha[0][0], method.gamma[0][0]
+    stages = range(len(alpha))
+    if any(any(alpha[i][i:]) or any(gamma[i][i + 1 :]) for i in stages):
+        message = f"a stage of {payload.name} needs a later one, and programs solve one at a time"
+        raise CannotExport(message, "--to json has any method")
+    embedded = None if payload.embedded is None else payload.embedded[0]
+    dense = None if payload.dense is None else payload.dense[0]
+    (c,), (d,) = method.nodes
+    plain = method.without_row_sums
+    has_row_sums = plain.c is None and plain.d is None
+    return LinearStages(alpha, gamma, method.b[0], c, d, embedded, dense, has_row_sums)
+
+
+class Program(Frozen):
+    """A method as programs store it, with one γ for all stages.
+
+    Attributes:
+        stored: A, C and m.
+        gamma: γ.
+        c: where f is evaluated.
+        d: the weights of ∂f/∂t.
+        error: m − m̂; None without embedded weights.
+        interpolant: rows H_1, H_2, … with b(θ) = θ m + θ (1 − θ) (H_1 + θ H_2 + …); None without
+            dense output, or where it does not end at m.
+        is_new: of each stage, whether it evaluates f at another place than the stage before.
+    """
+
+    stored: Stored
+    gamma: Number
+    c: Vector
+    d: Vector
+    error: Vector | None
+    interpolant: Rows | None
+    is_new: tuple[bool, ...]
+
+    @property
+    def lower_A(self) -> list[tuple[int, int, Number]]:  # noqa: N802 -- the name it has everywhere
+        """The entries of A below the diagonal with their places from 1, row by row."""
+        return _lower(self.stored.A)
+
+    @property
+    def lower_C(self) -> list[tuple[int, int, Number]]:  # noqa: N802 -- likewise
+        """Those of C."""
+        return _lower(self.stored.C)
+
+
+def program_stages(payload: Payload) -> Program:
+    """The stages of a Rosenbrock method as programs store them.
+
+    Raises:
+        CannotExport: it has no such form, or several γ_ii.
+    """
+    printed_stages(payload)
+    further: Any = payload  # whose weights are numbers, as no family has been put in
+    dense = None if payload.dense is None else DenseOutput(further.dense)
+    try:
+        found = stored(_of(payload), Further(further.embedded, dense))
+    except MethodError as error:
+        raise CannotExport(error.message, _OTHERS) from None
+    if len(set(found.gamma)) > 1:
+        message = f"{payload.name} has several γ_ii, and this code factors one matrix"
+        raise CannotExport(message, _OTHERS)
+    embedded = found.further.embedded
+    (c,), (d,) = _of(payload).nodes
+    is_new = [
+        i == 0 or (tuple(row[:i]), c[i]) != (tuple(found.A[i - 1][:i]), c[i - 1])
+        for i, row in enumerate(found.A)
+    ]
+    return Program(
+        found,
+        found.gamma[0],
+        c,
+        d,
+        None if embedded is None else tuple(map(sub, found.m, embedded[0])),
+        _interpolant(found),
+        tuple(is_new),
+    )
+
+
+_OTHERS = "--to numpy, c and json have any Rosenbrock method"
+
+
+def _of(payload: Payload) -> Rosenbrock:
+    assert payload.rosenbrock is not None
+    return payload.rosenbrock
+
+
+def _lower(matrix: Matrix) -> list[tuple[int, int, Number]]:
+    rows = enumerate(matrix, start=1)
+    return [(i, j, x) for i, row in rows for j, x in enumerate(row[: i - 1], start=1)]
+
+
+def _interpolant(found: Stored) -> Rows | None:
+    """The dense output, divided by θ (1 − θ) after θ m is subtracted."""
+    if found.further.dense is None:
+        return None
+    powers = [*zip(*found.further.dense.weights[0], strict=True)]
+    total: Vector = tuple(-x for x in found.m)
+    rows = []
+    for power in powers:
+        total = tuple(x + y for x, y in zip(total, power, strict=True))
+        rows.append(total)
+    if any(rows.pop()):
+        return None
+    while rows and not any(rows[-1]):
+        rows.pop()
+    return tuple(rows)
