@@ -60,7 +60,7 @@ def converge(
     (1, True)
     """
     is_own = tolerance is None
-    method, near = with_tolerance(method, tolerance)
+    method, near = with_tolerance(method, tolerance, is_any_kind=True)
     tableau = method.tableau
     order = None
     if near is not None and is_own and method.base is not None:

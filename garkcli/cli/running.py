@@ -97,7 +97,7 @@ def _one(path: str, given: Given, output: Output) -> int:
     name = path
     try:
         problems = Problems(given)
-        method = given.method(path)
+        method = given.method(path, is_any_kind=True)
         name = method.name
         problems.prepare([method.tableau], output)
         result = problems.tested(method)
@@ -144,7 +144,7 @@ def _several(paths: Sequence[str], given: Given, output: Output) -> int:
 def _loaded(path: str, given: Given) -> GarkMethod | Entry:
     """The method that steps, or what its failure leaves."""
     try:
-        return given.method(path)
+        return given.method(path, is_any_kind=True)
     except GarkError as error:
         return _failed(path, path, error)
 

@@ -171,7 +171,7 @@ conditions --sort words=tree,worst default=tree
 
 convert --to FORM words=forms = convert.to
     | The form of the result: spelled-out, gark, ark, prk, pair, canonical, recovered, reduced,
-    2N, 2R, 3R, 4R, 5R or shu-osher.
+    2N, 2R, 3R, 4R, 5R or shu-osher; of a Rosenbrock method printed or transformed.
 --stages N 1..1000 = convert.stages
 convert --digits N 1..1000 = convert.digits
 convert --recognise = convert.is_recognising

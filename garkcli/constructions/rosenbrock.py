@@ -37,16 +37,15 @@ from garkcli.exact.matrix import (
     subtract,
 )
 from garkcli.frozen import Frozen, replace
-from garkcli.ntrees.kind import LEAF, ONE_BRANCH, PLAIN, SEVERAL, Kind
+from garkcli.ntrees.kind import NOT_ONE, ONE_BRANCH, PLAIN, Kind
 from garkcli.order.meant import AnyTableau, keep, meant, printed
 from garkcli.tableau.embedded import NOTHING, DenseOutput, Further, Weights
-from garkcli.tableau.forms import TIME, gark
+from garkcli.tableau.forms import beside_clock, gark
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Colour, Edge, Tableau, butcher
 
 Blocks: TypeAlias = tuple[tuple[Matrix, ...], ...]
 Rows: TypeAlias = tuple[Vector, ...]
-NOT_ONE = Kind(frozenset({0, SEVERAL}))
 MATRIX = Kind(frozenset({1}), is_exact=False)
 ERROR_OF_MATRIX = Kind(frozenset({1}), weight=2, is_exact=False)
 CONSTRAINT = Kind(frozenset({SEVERAL}), weight=0)
@@ -117,12 +116,7 @@ class Rosenbrock(Frozen):
     @property
     def with_time(self) -> Tableau:
         """Of f(t, y), with h d_i f_t added to the stages: time is a colour besides."""
-        made = self.tableau
-        time = made.size
-        blocks = {(k, time): tuple((x,) for x in colour.c) for k, colour in enumerate(made.colours)}
-        clock = Colour(TIME, len(made.spaces), (ONE,), (ZERO,), term=len(self.b), kind=LEAF)
-        spaces = (*made.spaces, PointSpace((ZERO,)))
-        return Tableau(spaces, (*made.colours, clock), {**made.blocks, **blocks})
+        return beside_clock(self.tableau, len(self.b))
 
     @property
     def on_dae(self) -> Tableau:

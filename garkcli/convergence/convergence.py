@@ -192,14 +192,13 @@ def _stiffness(
     resolution = solver.resolution(rows[-1].h)
     if resolution < ladder.STIFF:
         return None
+    is_stable = ladder.is_part(rows[-1], solver.size())
+    if not tableau.has_fields_alone:
+        return Stiffness(resolution, None, None, is_stable)
     method = meant(tableau, tolerance)
     weak = weak_stage_order(method, range(tableau.size), DEFAULT_LIMIT)
-    return Stiffness(
-        resolution,
-        simplifying(method).stage_order,
-        None if weak == DEFAULT_LIMIT else weak,
-        ladder.is_part(rows[-1], solver.size()),
-    )
+    known_weak = None if weak == DEFAULT_LIMIT else weak
+    return Stiffness(resolution, simplifying(method).stage_order, known_weak, is_stable)
 
 
 def usual_time(problem: Oscillator | Problem) -> fmpq:

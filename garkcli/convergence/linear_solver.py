@@ -31,6 +31,7 @@ from garkcli.stepping.linear import (
     visible_order,
     whole_steps,
 )
+from garkcli.stepping.linearly_implicit import LinearlyImplicit
 from garkcli.tableau.tableau import Tableau
 
 ERROR_BITS = 40
@@ -182,7 +183,8 @@ def linear_solver(
     Raises:
         UsageProblem: the split is not one that the structure of the tableau is for.
     """
-    step = linear_step(tableau, problem)
+    implicit = LinearlyImplicit.of(tableau)
+    step = linear_step(implicit.on_linear_problems if implicit else tableau, problem)
     met = visible_order(step, tolerance)
     order = max(met, predicted)
     # where the next condition itself is below the tolerance nothing is known of it

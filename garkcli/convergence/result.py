@@ -98,14 +98,14 @@ class Stiffness(Frozen):
 
     Attributes:
         resolution: h ‖∂f/∂y‖ of the smallest step, far above 1.
-        stage_order: the largest q for which B(q) and C(q) hold.
+        stage_order: the largest q for which B(q) and C(q) hold; None for a Rosenbrock method.
         weak_stage_order: up to which order what the stages miss never reaches the new value; None
             where the search for it stopped.
         is_stable: whether the error of the smallest step is a small part of the solution.
     """
 
     resolution: float
-    stage_order: int
+    stage_order: int | None
     weak_stage_order: int | None
     is_stable: bool
 

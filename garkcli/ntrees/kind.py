@@ -46,6 +46,15 @@ class Kind(Frozen):
         """
         return perm(order, self.weight)
 
+    @property
+    def of_linear_field(self) -> Kind:
+        """The kind where the vector field is linear.
+
+        >>> Kind().of_linear_field == LINEAR
+        True
+        """
+        return Kind(self.arity - {SEVERAL}, self.weight, self.is_exact)
+
     @cached_property
     def stems(self) -> Arity:
         """The numbers of branches, 0 or 1, that no vertex has, and that are left of larger ones
@@ -73,5 +82,7 @@ ONE_BRANCH = Kind(frozenset({1}))
 """Of the Jacobian of a vector field at the beginning of the step."""
 ARGUMENT = Kind(is_field=False)
 """Of a vector field that has several arguments, one of which such a branch is in."""
+NOT_ONE = Kind(frozenset({0, SEVERAL}))
+"""Of a vector field beside its Jacobian."""
 FIELDS = (PLAIN, LINEAR, LEAF)
 """The kinds whose vertices are a vector field, as it is evaluated at stages."""

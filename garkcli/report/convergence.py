@@ -6,7 +6,7 @@ from typing import Any, NamedTuple, get_args
 
 from flint import arb
 
-from garkcli.convergence.result import CLOSE, MAX_ORDER, Convergence, Verdict, curve
+from garkcli.convergence.result import CLOSE, MAX_ORDER, Convergence, Stiffness, Verdict, curve
 from garkcli.convergence.result import Row as Step
 from garkcli.exact.display import to_float
 from garkcli.frozen import Frozen
@@ -203,11 +203,9 @@ def remarks(result: Convergence) -> list[str]:
         )
     if result.stiff is not None:
         size = scientific(arb(result.stiff.resolution), 1)
-        weak = result.stiff.weak_stage_order or 0
-        weak_order = f", weak stage order {weak}" if weak > result.stiff.stage_order else ""
         said.append(
-            f"stiff: h ‖∂f/∂y‖ is {size} or more; classical order {result.predicted_order}, "
-            f"stage order {result.stiff.stage_order}{weak_order}"
+            f"stiff: h ‖∂f/∂y‖ is {size} or more; classical order {result.predicted_order}"
+            f"{_stage_orders(result.stiff)}"
             if result.stiff.is_stable
             else f"h ‖∂f/∂y‖ is {size} or more, and the steps are not stable there"
         )
@@ -222,6 +220,15 @@ def remarks(result: Convergence) -> list[str]:
     if len(result.rows) == 1 and not result.is_exact:
         said.append("one step size shows no order")
     return said
+
+
+def _stage_orders(stiff: Stiffness) -> str:
+    """The stage order and the weak one, where the method has them."""
+    if stiff.stage_order is None:
+        return ""
+    weak = stiff.weak_stage_order or 0
+    weak_order = f", weak stage order {weak}" if weak > stiff.stage_order else ""
+    return f", stage order {stiff.stage_order}{weak_order}"
 
 
 def _of_short_time(result: Convergence) -> str:

@@ -8,12 +8,12 @@ from typing import Any, TypeAlias
 from garkcli.doing import doing
 from garkcli.errors import UsageProblem
 from garkcli.frozen import replace
-from garkcli.ntrees.kind import LINEAR, PLAIN
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.problem import Problem, field_of
 from garkcli.problems.righthandside import RightHandSide, clock
 from garkcli.problems.vectorfield import GROUPS, TIME, Group, VectorField, symbols
-from garkcli.tableau.forms import with_time
+from garkcli.stepping.linearly_implicit import LinearlyImplicit
+from garkcli.tableau.forms import beside_clock, with_time
 from garkcli.tableau.tableau import Colour, Part, Tableau
 
 
@@ -106,6 +106,8 @@ def with_clock(tableau: Tableau, problem: Problem) -> Tableau:
     """
     if isinstance(problem, Hamiltonian) or not problem.has_time:
         return tableau
+    if LinearlyImplicit.of(tableau) is not None:
+        return beside_clock(tableau, 1)
     made = with_time(tableau)
     if made is None:
         raise UsageProblem(
@@ -209,7 +211,7 @@ def visible_tableau(tableau: Tableau, fields: Fields) -> Tableau:
     for k, ((m, group), field) in enumerate(fields.items()):
         colour = tableau.colours[m]
         part: Part = "y" if group == TIME else group
-        kind = LINEAR if field.is_linear else PLAIN
+        kind = colour.kind.of_linear_field if field.is_linear else colour.kind
         colours.append(replace(colour, space=k, part=part, kind=kind))
         spaces.append(tableau.space(m))
     blocks = {}

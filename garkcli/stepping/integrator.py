@@ -14,6 +14,7 @@ from flint import arb, ctx, fmpq
 
 from garkcli.doing import doing
 from garkcli.errors import GarkError
+from garkcli.exact.display import to_ball
 from garkcli.frozen import Frozen, Mutable
 from garkcli.problems.hamiltonian import FLOAT_DIGITS
 from garkcli.problems.oscillator import terms_of
@@ -21,6 +22,7 @@ from garkcli.problems.problem import Problem
 from garkcli.problems.straightline import define, enclosed
 from garkcli.stepping.dependency import DependencyGraph, dependency_graph, entry
 from garkcli.stepping.fields import Fields, fields_of, split_into, stepped_terms, with_clock
+from garkcli.stepping.linearly_implicit import LinearlyImplicit, LinearProgram, program_of, steps_of
 from garkcli.stepping.newton import MAX_ITERATIONS
 from garkcli.stepping.program import Program, write
 from garkcli.tableau.pointwise import numeric_entries
@@ -65,7 +67,7 @@ class Integrator(Frozen):
 
     problem: Problem
     digits: int
-    program: Program
+    program: Program | LinearProgram
     coefficients: tuple[arb, ...]
     run: StepProgram
 
@@ -109,6 +111,9 @@ class Binding(Frozen, eq=False):
     def at(self, digits: int = FLOAT_DIGITS) -> Integrator:
         """The steps with numbers of ``digits`` digits; floats up to ``FLOAT_DIGITS``."""
         digits = max(digits, FLOAT_DIGITS)
+        method = LinearlyImplicit.of(self.tableau)
+        if method is not None:
+            return self._linear(method, digits)
         is_for_balls = digits > FLOAT_DIGITS
         program = self._program_for_balls if is_for_balls else self._program_for_floats
         entries = numeric_entries(self.tableau, digits + 5)
@@ -127,6 +132,14 @@ class Binding(Frozen, eq=False):
                 "corrections": _corrections_of_balls if is_for_balls else _corrections,
             }
             run = define(program.source, "run", names)
+        return Integrator(self.problem, digits, program, coefficients, run)
+
+    def _linear(self, method: LinearlyImplicit, digits: int) -> Integrator:
+        """The steps of a Rosenbrock method."""
+        program = program_of(method, self.problem.layout)
+        with _precision(digits):
+            run = steps_of(program, self.problem, digits > FLOAT_DIGITS, NotSolved)
+            coefficients = tuple(to_ball(x, digits + 5) for x in method.coefficients)
         return Integrator(self.problem, digits, program, coefficients, run)
 
     @cached_property
@@ -164,7 +177,8 @@ def bind(tableau: Tableau, problem: Problem) -> Binding:
     >>> [round(x, 6) for x in integrate(made, fmpq(1, 10), 10)]
     [1.056272, -0.391965]
     """
-    tableau.demand_fields("a step")
+    if LinearlyImplicit.of(tableau) is None:
+        tableau.demand_fields("a step")
     made = stepped_terms(tableau, problem)
     split = split_into(problem, terms_of(made))
     made = with_clock(made, split)

@@ -240,8 +240,18 @@ def with_time(tableau: Tableau) -> Tableau | None:
         first = nodes.setdefault(colour.space, colour.c)
         if colour.is_linear or first != colour.c:
             return None
+    return beside_clock(tableau, tableau.size)
+
+
+def beside_clock(tableau: Tableau, term: int) -> Tableau:
+    """The tableau with time as its last colour, which stages see with their nodes.
+
+    Args:
+        tableau: colours that share stages have the same nodes.
+        term: of ṫ = 1.
+    """
     time = tableau.size
-    columns = {(k, time): tuple((c_i,) for c_i in c) for k, c in nodes.items()}
-    clock = Colour(TIME, len(tableau.spaces), (ONE,), (ZERO,), term=time, kind=LEAF)
+    columns = {(x.space, time): tuple((c_i,) for c_i in x.c) for x in tableau.colours}
+    clock = Colour(TIME, len(tableau.spaces), (ONE,), (ZERO,), term=term, kind=LEAF)
     spaces = (*tableau.spaces, PointSpace((ZERO,)))
     return Tableau(spaces, (*tableau.colours, clock), {**tableau.blocks, **columns})

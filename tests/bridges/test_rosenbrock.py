@@ -29,7 +29,7 @@ from garkcli.methodfile.load import load, loads
 from tests.cli.harness import gark
 
 CC = shutil.which("cc") or shutil.which("gcc")
-START, STEPS, END = (mpf("1.2"), mpf("0.4")), 6, mpf(2)
+START, STEPS, END = ("1.2", "0.4"), 6, 2
 TIMED = """
 name: with time
 rosenbrock:
@@ -61,7 +61,7 @@ def sides(t: mpf, y: Sequence[mpf]) -> tuple[list[mpf], list[list[mpf]], list[mp
 
 def run(step: Callable[[mpf, list[mpf], mpf], list[mpf]]) -> list[mpf]:
     """The value after all steps."""
-    y, h = list(START), END / STEPS
+    y, h = [mpf(x) for x in START], mpf(END) / STEPS
     for n in range(STEPS):
         y = step(n * h, y, h)
     return y
@@ -143,7 +143,7 @@ def test_the_step_of_numpy(tmp_path: Path, name: str) -> None:
     method = payload(name)
     text = bridges()["numpy"].written(method)
     step = _step_of(tmp_path / "method.py", text)
-    y, h = [float(x) for x in START], float(END) / STEPS
+    y, h = [float(x) for x in START], END / STEPS
     for n in range(STEPS):
         made = step(*SIDES[:2], n * h, y, h, SIDES[2])
         y = made if method.embedded is None else made[0]

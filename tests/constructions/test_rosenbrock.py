@@ -447,8 +447,8 @@ def numbers_at(g: fmpq) -> Any:
 
 
 def test_what_is_for_gark_methods_says_so() -> None:
-    """Conjugate, pair, simplifying conditions, compositions, steps, files and stability functions
-    are refused.
+    """Conjugate, pair, simplifying conditions, compositions, steps of W-methods, files and
+    stability functions are refused.
     """
     tableau = RODAS3.tableau
     pendulum = hamiltonian("pendulum", 1)
@@ -465,7 +465,7 @@ def test_what_is_for_gark_methods_says_so() -> None:
         lambda: usual_oscillator(tableau),
         lambda: usual_oscillator(RODAS3.with_any_matrix),
         lambda: squared_error(tableau, 3, None),
-        lambda: bind(tableau, pendulum),
+        lambda: bind(RODAS3.with_any_matrix, pendulum),
     ]
     for call in refusing:
         with pytest.raises(MethodError, match="for GARK methods, which this method is not"):
