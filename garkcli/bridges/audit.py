@@ -122,6 +122,8 @@ def audit(table: FoundTable) -> Audited | None:
         return Audited(table, findings=(AuditFinding("shape", table.trouble),))
     if table.trouble:
         return _noted(table, table.trouble)
+    if table.gamma is not None:
+        return _of_rosenbrock(table)
     try:
         method = read(table)
     except MethodFileError as error:
@@ -142,6 +144,17 @@ def audit(table: FoundTable) -> Audited | None:
         subject.nonautonomous,
         findings_of(subject),
     )
+
+
+def _of_rosenbrock(table: FoundTable) -> Audited:
+    from garkcli.bridges.rosenbrock import row_findings, with_row_orders  # few sources have them
+
+    try:
+        found = with_row_orders(table)
+    except MethodFileError as error:
+        return _noted(table, error.faults[0].message)
+    orders = (found.order, found.embedded_order, found.timed)
+    return Audited(found.table, found.method, *orders, tuple(row_findings(found)))
 
 
 def findings_of(subject: Subject) -> tuple[AuditFinding, ...]:

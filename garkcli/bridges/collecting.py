@@ -131,6 +131,10 @@ def _result(table: FoundTable, name: str, is_recognising: bool, is_as_found: boo
     if table.trouble:
         return Result(table, trouble=table.trouble)
     try:
+        if table.gamma is not None:
+            from garkcli.bridges.rosenbrock import imported_row  # few sources have them
+
+            return Result(table, method=imported_row(table, name, is_as_found))
         method = imported(table, name, is_as_found)
     except MethodFileError as error:
         return Result(table, trouble=error.faults[0].message)

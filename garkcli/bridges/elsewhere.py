@@ -23,9 +23,9 @@ _USED = re.compile(r"^\w*tableau\b[^=\n]*=[ \t]*(?P<name>\w+)[ \t]*(?:#.*)?$", r
 _ORDER = re.compile(r"^order\b[^=\n]*=[ \t]*(?P<n>[0-9]{1,2})[ \t]*(?:#.*)?$", re.MULTILINE)
 """Of the class itself: what is in its functions has a margin."""
 _MADE_FOR = re.compile(
-    r"(?P<name>\w+?)(?:E?S?DIRK)?(?:IMEX)?(?:Constant)?(?:Cache|Tableau)(?:Actual)?"
+    r"(?P<name>\w+?)(?:E?S?DIRK)?(?:IMEX)?(?:Rodas)?(?:Constant)?(?:Cache|Tableau)(?:Actual)?"
 )
-"""A table is called after its algorithm: ``Tsit5ConstantCache``."""
+"""A table is called after its algorithm: ``Tsit5ConstantCache``, ``ROS3PRodasTableau``."""
 
 
 def declared_orders(paths: Iterable[str]) -> Mapping[str, int]:

@@ -90,7 +90,7 @@ def _lines(value: Mapping[str, Tree] | Sequence[Tree], indent: str) -> Iterator[
         if x is None:
             yield from () if is_keyed else (f"{head} null",)
         elif isinstance(x, str):
-            yield f"{head} {x}"
+            yield f"{head} {entry_text(x) if key == 'gamma' else x}"
         elif isinstance(x, Mapping) or not all(isinstance(number, str) for number in x):
             yield head
             yield from _lines(x, f"{indent}  ")
@@ -100,6 +100,8 @@ def _lines(value: Mapping[str, Tree] | Sequence[Tree], indent: str) -> Iterator[
 
 def _coefficients(table: FoundTable) -> Mapping[str, Tree]:
     """What a method file has of the coefficients."""
+    if table.gamma is not None:
+        return {"rosenbrock": _rosenbrock(table)}
     if table.parts:
         return _prk(table)
     if table.colours == 1 and table.A[0][0] is not None:
@@ -120,6 +122,18 @@ def _colour(table: FoundTable, l: int, A: Rows | None, c: Row | None) -> Mapping
     embedded = None if table.embedded is None else table.embedded[l]
     dense = None if table.dense is None else table.dense[l : l + 1]
     return {"A": A, "b": table.b[l], "c": c, "embedded": embedded, "dense": _polynomials(dense)}
+
+
+def _rosenbrock(table: FoundTable) -> Mapping[str, Tree]:
+    """A Rosenbrock method, as papers print it or as programs store it."""
+    beside = {"c": table.c[0], "d": table.d}
+    if table.diagonal is None:
+        embedded = None if table.embedded is None else table.embedded[0]
+        printed = {"alpha": table.A[0][0], "gamma": table.gamma, "b": table.b[0], **beside}
+        return {**printed, "embedded": embedded, "dense": _polynomials(table.dense)}
+    diagonal = table.diagonal[0] if len(set(table.diagonal)) == 1 else table.diagonal
+    stored = {"A": table.A[0][0], "C": table.gamma, "gamma": diagonal, "m": table.b[0], **beside}
+    return {"transformed": {**stored, "e": table.error}}
 
 
 def _polynomials(dense: Sequence[Rows] | None) -> Mapping[str, Tree] | None:

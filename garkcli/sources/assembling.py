@@ -9,6 +9,8 @@ from typing import TypeAlias
 from garkcli.frozen import Frozen, replace
 from garkcli.sources.found import MAX_STAGES, FoundTable, Misshapen, Row, Rows, Unreadable, troubled
 from garkcli.sources.known import conversion
+from garkcli.sources.linear_stages import FORMS as ROSENBROCK
+from garkcli.sources.linear_stages import rosenbrock_table
 from garkcli.sources.registers import Converted, converted, recognised
 from garkcli.sources.shaping import (
     ZERO,
@@ -184,6 +186,10 @@ _WHOLE = ({"A", "b"}, {"drifts"}, {"A_q", "b_q", "b"}, {"A", "delta", "gamma1", 
 
 def _built(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
     form = meant.signature.form
+    if form in ROSENBROCK:
+        told = ("A", "b", "c", "d", "embedded", "error", "gamma", "C", "dense")
+        texts = {role: plain(roles.get(role)) for role in told}
+        return rosenbrock_table(texts, empty, form, roles)
     A = items_of(roles.get("A"))
     if form == "ark":
         return _two_parts(meant, roles, empty)

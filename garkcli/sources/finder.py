@@ -23,11 +23,20 @@ from garkcli.sources.assembling import (
 )
 from garkcli.sources.evaluate import Evaluator, Space, shown
 from garkcli.sources.found import FoundTable, troubled
+from garkcli.sources.linear_stages import roles_of_kpp
 from garkcli.sources.naming import ROLES, role_of, roles_of_parts
 from garkcli.sources.overlooked import overlooked, sized
 from garkcli.sources.rklab import blocks_in
 from garkcli.sources.scalar_names import NEAR, scalar_roles
-from garkcli.sources.signatures import DRIFT_FIRST, NAMED, PARTS, PRINTED, SIGNATURES, other_kind
+from garkcli.sources.signatures import (
+    DRIFT_FIRST,
+    KPP,
+    NAMED,
+    PARTS,
+    PRINTED,
+    SIGNATURES,
+    other_kind,
+)
 from garkcli.sources.steps import NoStep, step_of
 from garkcli.sources.values import (
     NULL,
@@ -165,6 +174,11 @@ class TableFinder(Evaluator):
         if named and isinstance(entries, Array):
             self._arrays.setdefault(named["stem"], {})[named["role"]] = entries, scope.line
             return
+        packed = roles_of_kpp(space)
+        if packed is not None:
+            place = self._place(scope.title, scope.line)
+            self._meant.append(Meant(place, dict(packed), SIGNATURES[KPP], KPP))
+            return
         made = list(space.calls)
         if isinstance(space.returned, Record) and space.returned not in made:
             made.append(space.returned)
@@ -261,7 +275,10 @@ class TableFinder(Evaluator):
         # its arrays may change after it is a table
         fields = {name: copied(x) for name, x in record.fields.items()}
         name = self._name(record, scope)
-        kind = other_kind(record.kind) if signature is NAMED else ""
+        # of Rosenbrock methods those are read whose numbers are all written
+        is_known = not any(map(first_unknown, record.args[3:6]))
+        is_named = signature is NAMED or (signature.form == "rosenbrock" and not is_known)
+        kind = other_kind(record.kind) if is_named else ""
         is_entry = scope.kind == "entry" and (kind or record.kind == _TABLE)
         line = scope.line if is_entry else record.line
         if kind:

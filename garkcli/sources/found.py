@@ -77,6 +77,11 @@ class FoundTable(Frozen):
         is_source: whether it stands for a source that was not read.
         is_misshapen: whether the trouble is that it has too many or too few numbers.
         kind: of another method, such as Rosenbrock; empty for Runge–Kutta.
+        gamma: of a Rosenbrock method γ, whose α is the one block of A; of one as programs store it
+            C, whose b is m.
+        diagonal: the γ_ii of a method as programs store it.
+        error: m − m̂ of such a method; None without embedded weights.
+        d: the weights of ∂f/∂t; None where the row sums of γ say it.
         is_assembled: whether it was put together from single numbers, by their names.
         units: by how much coefficients may be off that were made of printed ones.
     """
@@ -105,6 +110,10 @@ class FoundTable(Frozen):
     is_misshapen: bool = False
     is_source: bool = False
     kind: str = ""
+    gamma: Rows | None = None
+    diagonal: Row | None = None
+    error: Row | None = None
+    d: Row | None = None
     is_assembled: bool = False
     units: Units = ()
 

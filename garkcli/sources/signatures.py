@@ -44,6 +44,8 @@ PRINTED = "a printed tableau"
 """What stands for a call where data are a table."""
 NDSOLVE = "coefficients of NDSolve"
 """The same for the lists that a function of Mathematica gives."""
+KPP = "arrays of KPP"
+"""The same for the arrays of its Rosenbrock methods."""
 NAMED = Signature([])
 """No call: names alone speak for a table."""
 PARTS = Signature(["A1", "b1", "c1", "A2", "b2", "c2"], "ark")
@@ -101,6 +103,14 @@ SIGNATURES: Mapping[str, Signature] = {
     **_all("LowStorageRK3RPConstantCache", f"A A_2 {_LAST}", "3R"),
     **_all("LowStorageRK4RPConstantCache", f"A A_2 A_3 {_LAST}", "4R"),
     **_all("LowStorageRK5RPConstantCache", f"A A_2 A_3 A_4 {_LAST}", "5R"),
+    **_all(
+        *("TSRosWRegister", "title order stages A gamma b embedded dense_degree dense"),
+        *("rosenbrock",),
+        counts=(9,),
+        format="petsc",
+    ),
+    **_all("RodasTableau", "A C gamma c d - b error", "transformed", counts=(8,)),
+    KPP: Signature([], "kpp"),
     **_all("NystromVITableau", "A_q b_q b error_q error c", "nystrom"),
 }
 """What is known of the calls that make tables, by name."""

@@ -1,0 +1,223 @@
+"""Rosenbrock methods of sources: their orders within what the digits say, and what is wrong."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from flint import fmpq
+
+from garkcli.bridges.finding import AuditFinding
+from garkcli.bridges.importing import place_of, written
+from garkcli.bridges.judging import Digits, Judged, judged
+from garkcli.bridges.subject import Subject, read
+from garkcli.check.findings import witness_text
+from garkcli.constructions.rosenbrock import seen
+from garkcli.exact.display import to_ball
+from garkcli.frozen import replace
+from garkcli.methodfile.build import MethodFile
+from garkcli.methodfile.load import loads
+from garkcli.methodfile.printed import CARELESS, FLOAT, SLACK, fewest_digits, unit_of
+from garkcli.order.meant import AnyTableau, as_embedded, meant, printed, within_digits
+from garkcli.order.rounded import RoundedTableau, find_order_within
+from garkcli.order.tolerance import rounded_up
+from garkcli.sources.found import FoundTable
+from garkcli.tableau.tableau import Tableau
+
+_LITTLE = 1e-9
+"""A smaller residual is one of rounding."""
+_EXPONENTS = range(-30, -3)
+"""Of the powers of ten that a tolerance is sought among."""
+
+
+class _Within(Digits):
+    """A tableau with what the digits of its source leave open.
+
+    Attributes:
+        method: exact, or rounded so.
+    """
+
+    printed: Any = ()
+    units: Any = ()
+    method: Any = None
+
+    def of(self, tableau: Tableau, slack: int = SLACK) -> RoundedTableau:  # noqa: ARG002 -- theirs
+        """The tableau with its box."""
+        if isinstance(self.method, Tableau):
+            return RoundedTableau.printed(tableau, {})
+        found: RoundedTableau = self.method
+        return found
+
+
+class RowSubject(Subject):
+    """A Rosenbrock method with its orders.
+
+    Attributes:
+        timed: the order for f(t, y), with the c and d of the source.
+    """
+
+    timed: Judged | None = None
+
+    @property
+    def nonautonomous(self) -> Judged | None:
+        """The order for f(t, y)."""
+        return self.timed
+
+
+def _radii(numbers: Sequence[tuple[Any, Any]]) -> list[fmpq]:
+    """Ten units of the last digit of each decimal that is long beside the others."""
+    fewest = fewest_digits(text for text, _ in numbers)
+    return [SLACK * unit_of(text, fewest) for text, _ in numbers]
+
+
+def with_row_orders(table: FoundTable, name: str = "") -> RowSubject:
+    """A table and its method with their orders; of the two signs of an error estimate the one with
+    the higher order.
+
+    Raises:
+        MethodFileError: its numbers make no method.
+    """
+    found = _subject(table, read(table, name))
+    if table.error is None:
+        return found
+    turned = replace(table, error=tuple(f"-({x})" for x in table.error))
+    other = _subject(turned, read(turned, name))
+    assert found.embedded_order is not None
+    assert other.embedded_order is not None
+    if other.embedded_order.order <= found.embedded_order.order:
+        return found
+    sign = f"order {other.embedded_order.order} with the embedded weights m + e, as they are read"
+    return replace(other, sign=f"{sign}, and {found.embedded_order.order} with m - e")
+
+
+def _careless(numbers: Sequence[tuple[Any, Any]]) -> list[fmpq]:
+    """The same of numbers that were computed in floats, and lost digits."""
+    found = []
+    for radius, (_, x) in zip(_radii(numbers), numbers, strict=True):
+        least = CARELESS * FLOAT * (1 + rounded_up(abs(to_ball(x))))
+        found.append(max(radius * (CARELESS // SLACK), least) if radius else radius)
+    return found
+
+
+def _subject(table: FoundTable, method: MethodFile) -> RowSubject:
+    found = _within(table, method, within_digits(method.tableau, _radii) or method.tableau)
+    if not _misses_by_little(found):
+        return found
+    again = within_digits(method.tableau, _careless)
+    if again is None:
+        return found
+    note = "decimals are judged as if they were computed in floats, and lost three digits"
+    return _within(replace(table, notes=(*table.notes, note)), method, again)
+
+
+def _misses_by_little(found: RowSubject) -> bool:
+    """Whether a condition fails by so little that careless rounding may be why."""
+    given = (found.order, found.timed, found.embedded_order)
+    witnesses = [x.witness for x in given if x is not None and x.witness is not None]
+    return any(abs(to_ball(x.residual)) < _LITTLE for x in witnesses)
+
+
+def _within(table: FoundTable, method: MethodFile, within: AnyTableau) -> RowSubject:
+    """The orders where the numbers are off by so much."""
+    order = _order(within, table.order)
+    # no higher one is of interest
+    timed = _order(seen(within, "with_time"), table.order, order.order)
+    embedded = None
+    if method.embedded is not None:
+        other = within.with_embedded() if isinstance(within, RoundedTableau) else None
+        embedded = _order(
+            as_embedded(printed(within), method.embedded) if other is None else other,
+            table.embedded_order,
+            order.order + 1,
+        )
+    return RowSubject(table, method, order, embedded, timed=timed)
+
+
+def _order(method: AnyTableau, declared: int | None, limit: int | None = None) -> Judged:
+    if limit is None and declared:
+        limit = declared + 1
+    return judged(_Within(method=method), printed(method), declared, limit)
+
+
+def row_findings(subject: RowSubject) -> Iterator[AuditFinding]:
+    """What is wrong with a Rosenbrock method."""
+    table, order = subject.table, subject.order
+    declared = table.order
+    if declared is not None and not order.is_limited and order.order != declared:
+        yield _differing("order", order, declared)
+    timed = subject.timed
+    if timed is not None and not timed.is_open and timed.order < order.order:
+        message = f"order {timed.order} where f depends on t, by c and d, and else {order.order}"
+        claims = {"nonautonomous-order": str(order.order)}
+        yield AuditFinding("nodes", message + _why(timed), claims=claims)
+    embedded, local = subject.embedded_order, table.embedded_order
+    if embedded is not None and local is not None:
+        # KPP declares the smaller order of both
+        least = min((order, embedded), key=lambda x: x.order)
+        if least.order != local and not least.is_limited:
+            yield _differing("embedded order", least, local)
+    elif embedded is not None and not embedded.order and not embedded.is_open:
+        message = f"the embedded weights have order 0{_why(embedded)}"
+        yield AuditFinding("embedded-weights", message, claims={"embedded-order": '">= 1"'})
+
+
+def _differing(what: str, found: Judged, declared: int) -> AuditFinding:
+    """A declared order that is not the true one."""
+    code, message = what.replace(" ", "-"), f"{what} {found.order}, declared {declared}"
+    if found.order > declared:
+        return AuditFinding(f"{code}-higher", message, level="warning")
+    if found.is_open:
+        message = f"{what} {declared} is declared, {found.order} is proved: rounding may be why"
+        return AuditFinding("open", message, level="note")
+    return AuditFinding(code, message + _why(found), claims={code: str(declared)})
+
+
+def _why(found: Judged) -> str:
+    return "" if found.witness is None else f"; {witness_text(found.witness, True)}"
+
+
+def imported_row(table: FoundTable, name: str, is_as_found: bool) -> RowSubject:
+    """The method of a table, with its file and with what is wrong.
+
+    Raises:
+        MethodFileError: its numbers make no method.
+    """
+    found = with_row_orders(table, name)
+    found = replace(found, findings=tuple(row_findings(found)))
+    claims = {"order": found.order.claim}
+    if found.timed is not None:
+        claims["nonautonomous-order"] = found.timed.claim
+    if found.embedded_order is not None and found.embedded_order.order:
+        claims["embedded-order"] = found.embedded_order.claim
+    if not is_as_found:
+        claims |= {key: claim for x in found.findings for key, claim in x.claims.items()}
+    text = written(found.table, name, _tolerance(found), claims)
+    return replace(found, method=loads(text, place_of(table)), text=text)
+
+
+def _tolerance(found: RowSubject) -> fmpq | None:
+    """The power of ten that a file has to admit for the orders; None where they hold exactly."""
+    given = [x for x in (found.order, found.timed, found.embedded_order) if x is not None]
+    if all(x.rounded is None for x in given):
+        return None
+    tableau, further = found.method.tableau, found.method.further
+    for exponent in _EXPONENTS:
+        tolerance = fmpq(10) ** exponent
+        method = meant(tableau, tolerance, further)
+        assert isinstance(method, RoundedTableau)
+        wanted: list[tuple[AnyTableau | None, Judged | None]] = [
+            (method, found.order),
+            (seen(method, "with_time"), found.timed),
+        ]
+        if found.embedded_order is not None:
+            wanted.append((method.with_embedded(), found.embedded_order))
+        if all(_has(each, order) for each, order in wanted):
+            return tolerance
+    return None
+
+
+def _has(method: AnyTableau | None, wanted: Judged | None) -> bool:
+    """Whether a method has an order within its rounding."""
+    if wanted is None or not isinstance(method, RoundedTableau):
+        return True
+    return find_order_within(method, wanted.order).order >= wanted.order

@@ -1,0 +1,137 @@
+"""Rosenbrock methods in sources: the arguments of calls, and the arrays of KPP."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from garkcli.frozen import replace
+from garkcli.sources.found import FoundTable, Misshapen, Row, Rows, Unreadable
+from garkcli.sources.shaping import ZERO, Texts, is_zero, weights
+from garkcli.sources.values import Array, Value, Word, first_unknown, items_of, whole
+
+FORMS = ("rosenbrock", "transformed", "kpp")
+"""Of signatures: as papers print a method, as programs store it, packed by rows."""
+_OF_KPP = {
+    "ros_a": "A",
+    "ros_c": "C",
+    "ros_m": "b",
+    "ros_e": "error",
+    "ros_alpha": "c",
+    "ros_gamma": "d",
+    "ros_s": "stages",
+    "ros_elo": "local_order",
+    "ros_name": "title",
+}
+_WHOLE = ("A", "C", "b", "d", "stages")
+
+
+def roles_of_kpp(values: Mapping[str, Value]) -> Mapping[str, Value] | None:
+    """The roles of the arrays of KPP, such as ros_A and ros_Gamma, where all of a method is
+    written; None where it is not.
+    """
+    named = {name.lower(): value for name, value in values.items()}
+    if "ros_a" not in named or "ros_m" not in named:
+        return None
+    roles = {role: named[name] for name, role in _OF_KPP.items() if name in named}
+    stages = whole(roles.get("stages"))
+    if not stages or not set(_WHOLE) <= set(roles):
+        return None
+    counts = {"A": stages * (stages - 1) // 2, "b": stages, "c": stages, "d": stages}
+    counts |= {"C": counts["A"], "error": stages}
+    for role, count in counts.items():
+        if role in roles:
+            # the arrays have room for more stages
+            roles[role] = Array(items_of(roles[role])[:count])
+            if len(items_of(roles[role])) < count or first_unknown(roles[role]) is not None:
+                return None
+    if not isinstance(roles.get("title"), Word):
+        roles.pop("title", None)
+    roles["gamma"] = items_of(roles["d"])[0]
+    return roles
+
+
+def rosenbrock_table(
+    texts: Mapping[str, Texts], empty: FoundTable, form: str, roles: Mapping[str, Value]
+) -> FoundTable:
+    """The table of a Rosenbrock method.
+
+    Args:
+        texts: its arrays by their roles.
+        empty: what else is known of it.
+        form: one of ``FORMS``.
+        roles: the values, for whole numbers.
+
+    Raises:
+        Unreadable: an array is missing, or none.
+        Misshapen: it has another size than the weights.
+    """
+    b = weights(_listed(texts.get("b")))
+    stages = len(b)
+    A = _matrix(texts.get("A"), stages, is_packed=form == "kpp")
+    rows = {role: _row(texts.get(role), stages) for role in ("c", "d", "embedded", "error")}
+    table = replace(empty, A=((A,),), b=(b,), c=(rows["c"],), d=rows["d"], is_sure=True)
+    if form == "rosenbrock":
+        embedded = rows["embedded"]
+        table = replace(table, gamma=_matrix(texts.get("gamma"), stages))
+        return replace(
+            table,
+            embedded=None if embedded is None else (embedded,),
+            dense=_dense(texts.get("dense"), whole(roles.get("dense_degree")) or 0, stages),
+        )
+    gamma = texts.get("gamma")
+    if not isinstance(gamma, str):
+        raise Unreadable("gamma is one number")
+    local = whole(roles.get("local_order"))
+    table = replace(
+        table,
+        gamma=_matrix(texts.get("C"), stages, is_packed=form == "kpp"),
+        diagonal=(gamma,) * stages,
+        embedded_order=None if local is None else local - 1,
+    )
+    error = rows["error"]
+    if error is None or all(map(is_zero, error)):
+        return table
+    return replace(table, error=error)
+
+
+def _listed(value: Texts) -> Texts:
+    """A number of a method of one stage as a list."""
+    return [value] if isinstance(value, str) else value
+
+
+def _row(value: Texts, stages: int) -> Row | None:
+    return None if value is None else weights(_listed(value), stages)
+
+
+def _matrix(value: Texts, stages: int, is_packed: bool = False) -> Rows:
+    """A square matrix, whose last column may be missing where it is zero; or what is below the
+    diagonal, row by row.
+    """
+    if isinstance(value, str) and stages == 1:
+        return ((value,),)
+    if not isinstance(value, list):
+        raise Unreadable("a matrix is expected")
+    if is_packed:
+        entries = iter(weights(value))
+        rows = [[next(entries) for _ in range(i)] for i in range(stages)]
+        return tuple((*row, *(ZERO,) * (stages - len(row))) for row in rows)
+    if value and all(isinstance(x, str) for x in value):
+        flat = weights(value)
+        if len(flat) != stages * stages:
+            raise Misshapen(f"{len(flat)} entries for {stages} stages")
+        value = [list(flat[i : i + stages]) for i in range(0, len(flat), stages)]
+    if len(value) != stages:
+        raise Misshapen(f"{len(value)} rows for {stages} stages")
+    return tuple(weights(row, stages) for row in value)
+
+
+def _dense(value: Texts, degree: int, stages: int) -> tuple[Rows, ...] | None:
+    """Dense output, a row a stage; None without it, or where it is not all written."""
+    if not degree or value is None:
+        return None
+    if isinstance(value, list) and all(isinstance(x, list) for x in value):
+        value = [x for row in value if isinstance(row, list) for x in row]
+    flat = weights(_listed(value)) if value else ()
+    if len(flat) != stages * degree:
+        return None
+    return (tuple(flat[i : i + degree] for i in range(0, len(flat), degree)),)

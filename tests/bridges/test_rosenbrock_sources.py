@@ -1,0 +1,141 @@
+"""``gark import`` and ``audit`` of Rosenbrock methods: PETSc's calls, OrdinaryDiffEq's tableaus and
+KPP's arrays are read and judged.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from garkcli.bridges.audit import audit
+from garkcli.bridges.collecting import collected
+from garkcli.bridges.readers.registry import find_tables, reader_named
+from garkcli.bridges.registry import bridges
+from garkcli.exact.display import to_ball
+from garkcli.methodfile.load import load, loads
+from garkcli.sources.found import FoundTable
+from tests.bridges.test_rosenbrock import payload
+from tests.cli.harness import gark
+
+FORMATS = {"petsc": "petsc", "ordinarydiffeq": "julia", "kpp": "fortran"}
+NAMES = ["rodas3", "ros2-small", "ros3p"]
+
+
+def tables(text: str, format: str) -> list[FoundTable]:
+    """The tables of a source."""
+    return find_tables(text, "source", [reader_named("c" if format == "petsc" else format)])
+
+
+@pytest.mark.parametrize("target", FORMATS)
+@pytest.mark.parametrize("name", NAMES)
+def test_what_is_exported_is_read_back(tmp_path: Path, target: str, name: str) -> None:
+    """The same method, its embedded weights too, as far as the digits of the target go; and its
+    audit finds nothing.
+    """
+    method, bridge = load(name), bridges()[target]
+    path = tmp_path / f"method{bridge.suffix}"
+    path.write_text(bridge.written(payload(name)), encoding="utf-8")
+    (found,) = collected([str(path)])
+    assert found.method is not None
+    made = found.method.method
+    assert made.embedded is not None
+    assert method.embedded is not None
+    rows = zip(method.tableau.rows, made.tableau.rows, strict=True)
+    further = zip(method.embedded, made.embedded, strict=True)
+    for ours, theirs in [*rows, *further]:
+        for x, y in zip(ours, theirs, strict=True):
+            assert abs(to_ball(x, 40) - to_ball(y, 40)) < 1e-30
+    assert gark("audit", str(path)).code == 0
+
+
+KPP = """
+SUBROUTINE Rodas3
+    ros_Name = 'RODAS-3'
+    ros_S = 4
+    ros_A(1) = 0.0_dp
+    ros_A(2) = 2.0_dp
+    ros_A(3) = 0.0_dp
+    ros_A(4) = 2.0_dp
+    ros_A(5) = 0.0_dp
+    ros_A(6) = 1.0_dp
+    ros_C(1) = 4.0_dp
+    ros_C(2) = 1.0_dp
+    ros_C(3) =-1.0_dp
+    ros_C(4) = 1.0_dp
+    ros_C(5) =-1.0_dp
+    ros_C(6) =-(8.0_dp/3.0_dp)
+    ros_M(1) = 2.0_dp
+    ros_M(2) = 0.0_dp
+    ros_M(3) = 1.0_dp
+    ros_M(4) = 1.0_dp
+    ros_E(1) = 0.0_dp
+    ros_E(2) = 0.0_dp
+    ros_E(3) = 0.0_dp
+    ros_E(4) = 1.0_dp
+    ros_ELO  = 3.0_dp
+    ros_Alpha(1) = 0.0_dp
+    ros_Alpha(2) = 0.0_dp
+    ros_Alpha(3) = 1.0_dp
+    ros_Alpha(4) = 1.0_dp
+    ros_Gamma(1) = 0.5_dp
+    ros_Gamma(2) = 1.5_dp
+    ros_Gamma(3) = 0.0_dp
+    ros_Gamma(4) = 0.0_dp
+END SUBROUTINE Rodas3
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "code", "message"),
+    [
+        ("ros_ELO  = 3.0", "ros_ELO  = 4.0", "embedded-order", "embedded order 2, declared 3"),
+        ("ros_ELO  = 3.0", "ros_ELO  = 2.0", "embedded-order-higher", "order 2, declared 1"),
+        ("ros_Alpha(3) = 1.0", "ros_Alpha(3) = 0.9", "nodes", "order 1 where f depends on t"),
+        ("ros_Gamma(2) = 1.5", "ros_Gamma(2) = 1.4", "nodes", "where f depends on t"),
+        ("ros_M(1) = 2.0", "ros_M(1) = 2.1", "embedded-order", "embedded order 0, declared 2"),
+    ],
+)
+def test_errors_are_found(old: str, new: str, code: str, message: str) -> None:
+    """One wrong number of RODAS3 in KPP's form; without it nothing is found. An order that is
+    declared too low is no error.
+    """
+    (table,) = tables(KPP, "fortran")
+    right = audit(table)
+    assert right is not None
+    assert right.order is not None
+    assert (right.order.order, right.table.name, right.findings) == (3, "RODAS-3", ())
+    (table,) = tables(KPP.replace(old, new), "fortran")
+    found = audit(table)
+    assert found is not None
+    assert [x.code for x in found.findings if x.code == code] == [code]
+    assert any(message in x.message for x in found.findings)
+    assert found.has_errors == (not code.endswith("higher"))
+
+
+def test_orders_of_algorithms_are_those_of_their_tableaus(tmp_path: Path) -> None:
+    """``alg_order`` of SciML is held against the tableau of that name."""
+    text = bridges()["ordinarydiffeq"].written(payload("ros2-small"))
+    start, _, rest = text.partition("function ")
+    name = rest.partition("(")[0]
+    source = tmp_path / "tableaus.jl"
+    source.write_text(f"{start}function My2RodasTableau{rest[len(name) :]}", encoding="utf-8")
+    told = tmp_path / "alg_utils.jl"
+    told.write_text("alg_order(alg::My2) = 3\n", encoding="utf-8")
+    run = gark("audit", str(tmp_path), "-v")
+    assert run.code == 1
+    assert "order 2, declared 3" in " ".join(run.out.split())
+
+
+def test_the_file_claims_what_the_source_declares(tmp_path: Path) -> None:
+    """The method file of a wrong table fails its check, that of a right one holds."""
+    path = tmp_path / "methods.f90"
+    path.write_text(KPP.replace("ros_ELO  = 3.0", "ros_ELO  = 4.0"), encoding="utf-8")
+    made = tmp_path / "made.gark.yaml"
+    assert gark("import", str(path), "-o", str(made)).code == 1
+    assert gark("check", str(made)).code == 1
+    assert gark("import", str(path), "--as-found", "-o", str(made)).code == 0
+    assert gark("check", str(made)).code == 0
+    text = made.read_text("utf-8")
+    assert "transformed:" in text
+    assert loads(text).tableau == load("rodas3").tableau
