@@ -106,8 +106,10 @@ def _with_digits(method: GarkMethod, file: MethodFile, digits: int | None) -> Ga
     if fmpq(10) ** -places >= tolerance:
         return method
     if is_rosenbrock(method.tableau):
-        message = f"{method.name} is rounded to fewer digits, and of a Rosenbrock method gark does"
-        message += " not recover more"
+        message = (
+            f"{method.name} is rounded to fewer digits, and of a Rosenbrock method gark does not"
+            " recover more"
+        )
         raise CannotExport(message, "leave out --digits")
     # files that are exact do without
     from garkcli.api.methods import conjugate, pair

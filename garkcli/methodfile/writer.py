@@ -318,7 +318,7 @@ def row_text(numbers: Iterable[str]) -> str:
 
 
 def number_text(number: str) -> str:
-    """A number that may stand in brackets, where the comma of root(x, n) would end it."""
+    """A number as brackets may have it, in which the comma of root(x, n) would end it."""
     return quoted(number) if "," in number else number
 
 

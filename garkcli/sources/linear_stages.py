@@ -126,7 +126,7 @@ def _matrix(value: Texts, stages: int, is_packed: bool = False) -> Rows:
 
 
 def _dense(value: Texts, degree: int, stages: int) -> tuple[Rows, ...] | None:
-    """Dense output, a row a stage; None without it, or where it is not all written."""
+    """Dense output, a row per stage; None without it, or where it is not all written."""
     if not degree or value is None:
         return None
     if isinstance(value, list) and all(isinstance(x, list) for x in value):

@@ -370,15 +370,15 @@ def test_what_needs_no_hand_is_counted_and_listed_on_demand(
     first line counts them, ``-v`` lists them.
     """
     shutil.copy(SOURCES / "ralston.c", tmp_path)
-    (tmp_path / "ros.c").write_text(
+    (tmp_path / "glee.c").write_text(
         "void f(void) {\nconst double A[2][2] = {{0, 0}, {1, 0}}, G[2][2] = {{1, 0}, {-1, 1}};\n"
-        'const double b[2] = {0.5, 0.5};\nTSRosWRegister("two", 2, 2, &A[0][0], &G[0][0], b, 0, 0, 0);'
+        'const double b[2] = {0.5, 0.5};\nTSGLEERegister("two", 2, 2, &A[0][0], &G[0][0], b, 0, 0, 0);'
         "\n}\n",
         encoding="utf-8",
     )
     told = " ".join(gark("audit", ".", cwd=tmp_path).out.split())
     assert told.endswith("none wrong; 1 of other methods is not judged: -v lists them")
-    assert "ros.c:" in gark("audit", ".", "-v", cwd=tmp_path).out
+    assert "glee.c:" in gark("audit", ".", "-v", cwd=tmp_path).out
     monkeypatch.setattr(evaluate, "MAX_STEPS", 5)
     run = gark("audit", "ralston.c", "--format", "json", cwd=tmp_path)
     assert run.code == 2
