@@ -37,7 +37,7 @@ from garkcli.exact.matrix import (
     subtract,
 )
 from garkcli.frozen import Frozen, replace
-from garkcli.ntrees.kind import LEAF, NOT_ONE, ONE_BRANCH, PLAIN, SEVERAL, Kind
+from garkcli.ntrees.kind import NOT_ONE, ONE_BRANCH, PLAIN, SEVERAL, Kind
 from garkcli.order.meant import AnyTableau, keep, meant, printed
 from garkcli.tableau.embedded import NOTHING, DenseOutput, Further, Weights
 from garkcli.tableau.forms import beside_clock, gark
