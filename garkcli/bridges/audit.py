@@ -10,7 +10,7 @@ from flint import fmpq
 
 from garkcli.bridges.elsewhere import declared_orders, with_declared
 from garkcli.bridges.estimates import with_orders
-from garkcli.bridges.finding import AuditFinding, Level
+from garkcli.bridges.finding import EXPLAINED, AuditFinding, Level
 from garkcli.bridges.judging import Judged, at_least, judged
 from garkcli.bridges.limited import read_within_limits
 from garkcli.bridges.plausible import are_whole, is_plausible
@@ -29,7 +29,6 @@ from garkcli.sources.found import FoundTable
 from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.tableau import Tableau
 
-CARELESS = "careless rounding explains it"
 ONE = at_least(1)
 """The order of every method whose weights have the sum 1."""
 ROW_SUMS = {"stage-order": at_least(1)}
@@ -193,7 +192,7 @@ def _weighed(finding: AuditFinding, subject: Subject) -> AuditFinding:
         return finding
     if _is_explained(finding.code, subject):
         code = "nodes" if finding.code == "nodes" else "open"
-        return AuditFinding(code, f"{finding.message}: {CARELESS}", level="note")
+        return AuditFinding(code, f"{finding.message}: {EXPLAINED}", level="note")
     if subject.table.is_assembled:
         message = f"{finding.message}; in doubt, as the table is put together from single numbers"
         return replace(finding, message=message, level="warning")
@@ -352,7 +351,7 @@ def _nodes(subject: Subject) -> Iterator[AuditFinding]:
     if not rows:
         careless = subject.careless_rows
         if careless:
-            yield AuditFinding("nodes", f"{_listed(careless)}: {CARELESS}", level="note")
+            yield AuditFinding("nodes", f"{_listed(careless)}: {EXPLAINED}", level="note")
         return
     timed = subject.nonautonomous
     wanted = subject.order.order if declared is None else declared

@@ -9,6 +9,7 @@ from garkcli.frozen import Frozen, field
 
 Level: TypeAlias = Literal["error", "warning", "note"]
 """Errors fail an audit; warnings and notes are reported."""
+EXPLAINED = "careless rounding explains it"
 
 
 class AuditFinding(Frozen):

@@ -24,10 +24,8 @@ SMALL = 8_000
 """Bytes of a source that this process reads, which saves the start of another: grammars take half a
 second for the worst of that length that is known.
 """
-FREE_SECONDS = 60
-"""Seconds that every source has: twice what one with thirty Rosenbrock methods takes on an idle
-machine, most of them for orders within the rounding of decimals.
-"""
+FREE_SECONDS = 20
+"""Seconds that every source has, a hundred times what one of 50 KB takes on an idle machine."""
 BYTES_PER_SECOND = 50_000
 """And one more for so many bytes."""
 

@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Any
+from typing import Any, TypeGuard
 
 from flint import fmpq
 
-from garkcli.bridges.finding import AuditFinding
+from garkcli.bridges.finding import EXPLAINED, AuditFinding
 from garkcli.bridges.importing import place_of, written
 from garkcli.bridges.judging import Digits, Judged, judged
 from garkcli.bridges.subject import Subject, read
 from garkcli.check.findings import witness_text
 from garkcli.constructions.rosenbrock import seen
-from garkcli.exact.display import to_ball
+from garkcli.exact.display import decimal, to_ball
 from garkcli.frozen import replace
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.load import loads
 from garkcli.methodfile.printed import CARELESS, FLOAT, SLACK, fewest_digits, unit_of
+from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.meant import AnyTableau, as_embedded, meant, printed, within_digits
 from garkcli.order.rounded import RoundedTableau, find_order_within
 from garkcli.order.tolerance import rounded_up
@@ -26,6 +27,8 @@ from garkcli.tableau.tableau import Tableau
 
 _LITTLE = 1e-9
 """A smaller residual is one of rounding."""
+MANY = 200
+"""Of so many rounded numbers each condition is judged by itself."""
 _EXPONENTS = range(-30, -3)
 """Of the powers of ten that a tolerance is sought among."""
 
@@ -54,9 +57,16 @@ class RowSubject(Subject):
 
     Attributes:
         timed: the order for f(t, y), with the c and d of the source.
+        careless: what its digits do not explain, and careless rounding does.
     """
 
     timed: Judged | None = None
+    careless: tuple[AuditFinding, ...] = ()
+
+    @property
+    def judged_orders(self) -> tuple[Judged | None, ...]:
+        """Its order, that for f(t, y), and that of its embedded weights."""
+        return self.order, self.timed, self.embedded_order
 
     @property
     def nonautonomous(self) -> Judged | None:
@@ -78,16 +88,17 @@ def with_row_orders(table: FoundTable, name: str = "") -> RowSubject:
         MethodFileError: its numbers make no method.
     """
     found = _subject(table, read(table, name))
-    if table.error is None:
+    embedded = found.embedded_order
+    # conditions are linear in the weights: both signs miss what e alone misses
+    if table.error is None or embedded is None or embedded.order != found.order.order:
         return found
     turned = replace(table, error=tuple(f"-({x})" for x in table.error))
     other = _subject(turned, read(turned, name))
-    assert found.embedded_order is not None
     assert other.embedded_order is not None
-    if other.embedded_order.order <= found.embedded_order.order:
+    if other.embedded_order.order <= embedded.order:
         return found
     sign = f"order {other.embedded_order.order} with the embedded weights m + e, as they are read"
-    return replace(other, sign=f"{sign}, and {found.embedded_order.order} with m - e")
+    return replace(other, sign=f"{sign}, and {embedded.order} with m - e")
 
 
 def _careless(numbers: Sequence[tuple[Any, Any]]) -> list[fmpq]:
@@ -100,25 +111,46 @@ def _careless(numbers: Sequence[tuple[Any, Any]]) -> list[fmpq]:
 
 
 def _subject(table: FoundTable, method: MethodFile) -> RowSubject:
-    found = _within(table, method, within_digits(method.tableau, _radii) or method.tableau)
+    found = _within(table, method, within_digits(method.tableau, _radii))
     if not _misses_by_little(found):
         return found
-    again = within_digits(method.tableau, _careless)
-    if again is None:
-        return found
-    note = "decimals are judged as if they were computed in floats, and lost three digits"
-    return _within(replace(table, notes=(*table.notes, note)), method, again)
+    again = _within(table, method, within_digits(method.tableau, _careless))
+    said = tuple(_explained(found, again))
+    return replace(again, careless=said) if said else found
+
+
+def _explained(found: RowSubject, again: RowSubject) -> Iterator[AuditFinding]:
+    """The orders that careless rounding alone gives: a digit may be wrong as well."""
+    what = ("order", "order where f depends on t", "embedded order")
+    orders = None
+    for name, one, other in zip(what, found.judged_orders, again.judged_orders, strict=True):
+        if one is None or other is None or not one.order < other.order:
+            continue
+        if orders == (one.order, other.order):
+            continue  # time adds nothing
+        orders = one.order, other.order
+        off = "" if other.rounded is None else f" by {_digits(other.rounded[1])}"
+        message = f"{name} {other.order} if decimals are off{off}, {one.order} as they are printed"
+        yield AuditFinding("open", f"{message}{_why(one)}: {EXPLAINED}", level="note")
+
+
+def _digits(off: fmpq) -> str:
+    return decimal(rounded_up(to_ball(off)))
 
 
 def _misses_by_little(found: RowSubject) -> bool:
     """Whether a condition fails by so little that careless rounding may be why."""
-    given = (found.order, found.timed, found.embedded_order)
+    given = found.judged_orders
     witnesses = [x.witness for x in given if x is not None and x.witness is not None]
     return any(abs(to_ball(x.residual)) < _LITTLE for x in witnesses)
 
 
-def _within(table: FoundTable, method: MethodFile, within: AnyTableau) -> RowSubject:
-    """The orders where the numbers are off by so much."""
+def _within(table: FoundTable, method: MethodFile, rounded: RoundedTableau | None) -> RowSubject:
+    """The orders where the numbers are off by so much; those of exact ones without rounding."""
+    within = method.tableau if rounded is None else rounded.of_orders()
+    if _are_many(within):
+        note = f"each condition is judged by itself, as more than {MANY} numbers are rounded"
+        table = replace(table, notes=(*table.notes, note))
     order = _order(within, table.order)
     # no higher one is of interest
     timed = _order(seen(within, "with_time"), table.order, order.order)
@@ -136,11 +168,21 @@ def _within(table: FoundTable, method: MethodFile, within: AnyTableau) -> RowSub
 def _order(method: AnyTableau, declared: int | None, limit: int | None = None) -> Judged:
     if limit is None and declared:
         limit = declared + 1
+    if _are_many(method):
+        found = method.one_by_one(limit or DEFAULT_LIMIT)
+        met = method.tableau, method.tolerance
+        return Judged(found.order, False, found.witness, met, found.is_lower_bound)
     return judged(_Within(method=method), printed(method), declared, limit)
+
+
+def _are_many(method: AnyTableau) -> TypeGuard[RoundedTableau]:
+    """Whether it takes too long to find one method that meets all conditions together."""
+    return isinstance(method, RoundedTableau) and len(method.search.box.numbers) > MANY
 
 
 def row_findings(subject: RowSubject) -> Iterator[AuditFinding]:
     """What is wrong with a Rosenbrock method."""
+    yield from subject.careless
     table, order = subject.table, subject.order
     declared = table.order
     if declared is not None and not order.is_limited and order.order != declared:
@@ -205,6 +247,10 @@ def _tolerance(found: RowSubject) -> fmpq | None:
         tolerance = fmpq(10) ** exponent
         method = meant(tableau, tolerance, further)
         assert isinstance(method, RoundedTableau)
+        if _are_many(method):
+            if all(x.rounded is None or x.rounded[1] <= tolerance for x in given):
+                return tolerance
+            continue
         wanted: list[tuple[AnyTableau | None, Judged | None]] = [
             (method, found.order),
             (seen(method, "with_time"), found.timed),

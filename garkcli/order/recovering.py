@@ -147,6 +147,17 @@ class Recovery:
         other._runs = 0
         return other
 
+    def of_orders(self) -> Recovery:
+        """The search from its start for orders alone: the method may have another shape than the
+        digits speak for.
+        """
+        other = Recovery(self.box, self.printed_further)
+        other.targets = dict(self.targets)
+        if self.printed_further.embedded is not None:
+            other.with_weights("embedded", _embedded)
+        other._has_shape = other._is_settled = True
+        return other
+
     def missed_at(self, place: Place) -> dict[str, list[Tree]]:
         """The trees of all orders that were reached whose conditions a method misses, by the name
         of the tableau.
@@ -283,22 +294,27 @@ class Recovery:
             the order, why the next one fails, and the trees that it misses; no reason where the
             limit is reached.
         """
-        at_once = self._explained(name, limit)
+        at_once, alone = self.explained(name, limit)
         if at_once > 1 and self._try({name: at_once}) is None and at_once == limit:
             return limit, None, []
         for order in range(self._reached.get(name, 0) + 1, limit + 1):
-            failure = self._try({name: order})
+            if alone is not None and order > at_once:
+                failure: Failure | None = Failure(True, ((name, of_tree(alone)),))
+            else:
+                failure = self._try({name: order})
             if failure is not None:
                 return order - 1, failure, self.place.missed(name, order)
         return limit, None, []
 
-    def _explained(self, name: str, limit: int) -> int:
-        """The largest order up to which the radii explain each condition that is missed."""
+    def explained(self, name: str, limit: int) -> tuple[int, Tree | None]:
+        """The largest order up to which the radii explain each condition that is missed, and a tree
+        of the next one whose condition no method of the box meets.
+        """
         for order in range(1, limit + 1):
-            missed = self.place.missed(name, order)
-            if not all(self.origin.may_meet(name, u) for u in missed):
-                return order - 1
-        return limit
+            for tree in self.place.missed(name, order):
+                if not self.origin.may_meet(name, tree):
+                    return order - 1, tree
+        return limit, None
 
     def _try(self, orders: Mapping[str, int]) -> Failure | None:
         """Move to a method of some orders more; where there is none, why, and nothing moves."""

@@ -194,6 +194,18 @@ class RoundedTableau(Frozen, eq=False):
         """The same, whose further orders are those of a method of its own within the rounding."""
         return replace(self, search=self.search.aside())
 
+    def of_orders(self) -> RoundedTableau:
+        """The same where no more than orders is asked, which takes less time."""
+        return replace(self, search=self.search.of_orders())
+
+    def one_by_one(self, limit: int) -> RoundedOrder:
+        """The order up to which the rounding explains each condition by itself, which takes less
+        time: one method need not meet all. There is a witness below the limit.
+        """
+        order, tree = self.search.explained(self.name, limit)
+        witness = None if tree is None else _witness(self, tree)
+        return RoundedOrder(order, self.tolerance, witness, rounded=self)
+
     def derive(self, kind: str, make: Derive) -> RoundedTableau:
         """What ``make`` makes of it, whose coefficients are of the same printed numbers."""
         name, search = f"{kind} of {self.name}", self.search

@@ -171,6 +171,13 @@ def _root(call: Call, value: Value, index: Value = NULL) -> Value | None:
     return root(value, n, call.line)
 
 
+@_known("inv")
+def _inverse(call: Call, value: Value) -> Value | None:
+    if isinstance(value, Array):
+        return call.unknown()
+    return call.evaluator.combined("/", real(ONE), value)
+
+
 @_known("Root root_of")
 def _root_of(call: Call, polynomial: Value, which: Value) -> Value | None:
     """A root of a polynomial: by its number in Mathematica, and else by a decimal near it."""

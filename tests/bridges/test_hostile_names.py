@@ -61,6 +61,8 @@ METHODS = {
     "b: [1/2, 1/2]}}\n",
     "kicks": "prk: {q: {A: [[0], [1]], b: [1]}, p: {A: [[1/2, 0]], b: [1/2, 1/2]}}\n"
     "structure: separable\n",
+    "rosenbrock": "rosenbrock: {alpha: [[0, 0], [1, 0]], gamma: [[1/2, 0], [-1, 1/2]], "
+    "b: [1/2, 1/2], embedded: [1, 0]}\n",
     "multirate": (ROOT / "garkcli/catalogue/data/multirate/mri-gark-erk22a.gark.yaml").read_text(
         encoding="utf-8"
     ),
