@@ -24,7 +24,7 @@ from typing import Literal, TypeAlias
 from flint import fmpq
 
 from garkcli.errors import MethodError, ShapeMismatch
-from garkcli.exact.field import ONE, ZERO
+from garkcli.exact.field import ZERO
 from garkcli.exact.matrix import (
     Matrix,
     Vector,

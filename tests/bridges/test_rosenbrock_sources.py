@@ -10,9 +10,12 @@ import pytest
 
 from garkcli.bridges.audit import audit
 from garkcli.bridges.collecting import collected
+from garkcli.bridges.importing import fmpq_of
 from garkcli.bridges.readers.registry import find_tables, reader_named
 from garkcli.bridges.registry import bridges
-from garkcli.exact.display import to_ball
+from garkcli.bridges.rosenbrock import with_row_orders
+from garkcli.exact.display import to_ball, to_decimal
+from garkcli.frozen import replace
 from garkcli.methodfile.load import load, loads
 from garkcli.sources.found import FoundTable
 from tests.bridges.test_rosenbrock import payload
@@ -139,3 +142,39 @@ def test_the_file_claims_what_the_source_declares(tmp_path: Path) -> None:
     text = made.read_text("utf-8")
     assert "transformed:" in text
     assert loads(text).tableau == load("rodas3").tableau
+
+
+@pytest.mark.parametrize(("digit", "level"), [(13, "note"), (10, "error"), (4, "error")])
+def test_a_misprint_is_never_passed_in_silence(digit: int, level: str) -> None:
+    """A digit of a weight of Rodas4, which has fifteen, that is wrong by one: a note where careless
+    rounding may be why, with the order of the digits as they are printed, else an error. The table
+    as it is gives nothing.
+    """
+    (table,) = tables(bridges()["ordinarydiffeq"].written(payload("rodas4")), "julia")
+    table = replace(table, order=4, error=None)
+    right = audit(table)
+    assert right is not None
+    assert right.findings == ()
+    first, *rest = table.b[0]
+    first = to_decimal(fmpq_of(first), 16)
+    assert first == "1.221224509226641"
+    place = first.index(".") + digit
+    wrong = f"{first[:place]}{(int(first[place]) + 1) % 10}{first[place + 1 :]}"
+    found = audit(replace(table, b=((wrong, *rest),)))
+    assert found is not None
+    assert {x.level for x in found.findings} == {level}
+    assert found.findings[0].message.startswith(
+        "order 4 if decimals are off by" if level == "note" else "order 0, declared 4"
+    )
+
+
+def test_many_rounded_numbers_are_judged_one_by_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The orders are those of the search for one method that meets all conditions."""
+    (table,) = tables(bridges()["ordinarydiffeq"].written(payload("rodas4")), "julia")
+    together = with_row_orders(table)
+    monkeypatch.setattr("garkcli.bridges.rosenbrock.MANY", 1)
+    alone = with_row_orders(table)
+    assert alone.table.notes != together.table.notes
+    orders = [[x and x.order for x in each.judged_orders] for each in (together, alone)]
+    assert orders == [[4, 4, 3]] * 2
+    assert all(x is not None and x.witness is not None for x in alone.judged_orders[:1])
