@@ -221,7 +221,7 @@ def test_no_name_is_a_word_of_the_files_themselves() -> None:
         if not language:
             continue
         code = WITHOUT_COMMENTS[bridge.suffix](text)
-        code = re.sub(r'"[^"\n]*"|\'[^\'\n]*\'', " ", code)
+        code = re.sub(r'"""[\s\S]*?"""|"[^"\n]*"|\'[^\'\n]*\'', " ", code)
         # the arrays a2, a3, … of boost are inside the function, which does not call itself
         found = set(re.findall(r"\b[A-Za-z]\w*", code))
         own = [x for x in found if not re.match(r"a\d|neutral", x, re.IGNORECASE)]
