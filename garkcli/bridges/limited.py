@@ -28,6 +28,12 @@ FREE_SECONDS = 20
 """Seconds that every source has, a hundred times what one of 50 KB takes on an idle machine."""
 BYTES_PER_SECOND = 50_000
 """And one more for so many bytes."""
+BYTES_PER_TABLE = 1_500
+"""And one more for so many of the first ``FULL`` bytes, which a method has that is judged in less
+than a second within the rounding of its decimals.
+"""
+FULL = 60_000
+"""A longer source is seldom full of methods."""
 
 
 class Source(Frozen):
@@ -82,7 +88,8 @@ def _source(path: str) -> Source:
 
 def _seconds(source: Source) -> float:
     """How long it may take to read a source."""
-    return FREE_SECONDS + source.size // BYTES_PER_SECOND
+    tables = min(source.size, FULL) // BYTES_PER_TABLE
+    return FREE_SECONDS + tables + source.size // BYTES_PER_SECOND
 
 
 def _done(work: Callable[[str, str], list[T]], source: Source) -> list[T] | Exception:

@@ -83,6 +83,7 @@ _WORDS = {
     once pragma printf problem sin solver sqrt state std stepper steps t y a b c d e e1 e2 f
     """,
     "julia": """
+    A C H RodasTableau T T2 Type Vector btilde convert d gamma zeros
     abstract baremodule begin break catch const continue do else elseif end export false finally for
     function global if import in isa let local macro missing module mutable nothing outer primitive
     public quote return struct true try type using where while
