@@ -159,7 +159,7 @@ def _decimals(x: Shown, d: Plain) -> list[str]:
 
 
 def _is_gark(tableau: Tableau) -> bool:
-    return tableau.is_gark and tableau.exact_to is None
+    return tableau.is_gark
 
 
 OF_SLOW = "the slow method, which is left where the fast part is 0"

@@ -68,7 +68,7 @@ class NotDrawn(Exception):
 
 
 def _is_gark(method: GarkMethod) -> bool:
-    return method.tableau.has_fields_alone and method.tableau.exact_to is None
+    return method.tableau.is_gark
 
 
 def _of_stability(method: GarkMethod) -> Tableau | None:

@@ -74,19 +74,21 @@ class Reported(Frozen):
     @property
     def stages(self) -> tuple[int, ...]:
         """How many stages each colour has: of a Rosenbrock method f, of a multirate one with the
-        exact fast part the slow parts.
+        exact fast part the slow parts, of Nyström and partitioned methods one colour.
         """
         if self.tableau is None:
             return ()
         stages = tuple(self.tableau.space(l).stages for l in range(self.tableau.size))
         if self.outcome.rosenbrock is not None:
             return stages[: len(stages) // 2]
+        if self.outcome.nystrom is not None or self.outcome.nprk is not None:
+            return stages[:1]
         return stages if self.outcome.infinitesimal is None else stages[SLOW:]
 
     @property
     def has_names(self) -> bool:
-        """Whether the colours of its trees have names: it is a Rosenbrock method."""
-        return self.outcome.rosenbrock is not None
+        """Whether the colours of its trees have names."""
+        return self.outcome.rosenbrock is not None or self.outcome.nystrom is not None
 
     @property
     def is_slow(self) -> bool:

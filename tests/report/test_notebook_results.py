@@ -46,7 +46,13 @@ def test_a_convergence_test_is_a_table_and_a_picture() -> None:
 
 @pytest.mark.parametrize(
     ("name", "said"),
-    [("ros3p", "index 1, 0 = g(y, z)"), ("mri-gark-erk33a", "slow method"), ("rk4", "pair")],
+    [
+        ("ros3p", "index 1, 0 = g(y, z)"),
+        ("mri-gark-erk33a", "slow method"),
+        ("rk4", "pair"),
+        ("fine-34", "order of q"),
+        ("imex-nprk-42a", "pairs of stages"),
+    ],
 )
 def test_an_analysis_of_every_kind_is_shown(name: str, said: str) -> None:
     """The headline of the check and its rows, well-formed."""

@@ -48,7 +48,14 @@ FAILING = "tests/examples/failing/collocation-misprinted.gark.yaml"
 UNREADABLE = "tests/examples/invalid/many-faults.gark.yaml"
 METHODS = ["rk4", RECTANGULAR, VERLET, DENSE, ROUNDED, MULTIRATE]
 """Of one colour, of two, for positions and momenta, with more weights, rounded, made of others."""
-OF_OTHER_KINDS = ["ros3p", "grk4t", "mri-gark-erk33a"]
+OF_OTHER_KINDS = {
+    "ros3p": 12,
+    "grk4t": 12,
+    "mri-gark-erk33a": 5,
+    "fine-34": 6,
+    "nystrom-4-positions": 3,
+}
+"""How many orders each has."""
 """Rosenbrock methods, exact and rounded, and a multirate one with the exact fast part."""
 ALL = [*METHODS, FAMILY, FAILING, UNREADABLE, *OF_OTHER_KINDS]
 HOSTILE = """<script>alert(1)</script>"><img src=x onerror=alert(2)></style></title>{{ 7*7 }}"""
@@ -189,7 +196,7 @@ def test_methods_of_other_kinds_have_pages(method: str) -> None:
     data, found = checked(method), section(method, "orders")
     cards = [x for x in elements(found, "div") if x.get("class") in ("order", "order main")]
     orders = [key for key in data if key.endswith("order") and data[key] is not None]
-    assert len(orders) == len(cards) == (12 if "w_order" in data else 5)
+    assert len(orders) == len(cards) == OF_OTHER_KINDS[method]
     near = data["tolerance"]
     numbers = [text_of(next(elements(x, "strong"))) for x in elements(found, "h3")]
     told = [f"{data[key]} within {near}" if near else str(data[key]) for key in orders]
@@ -203,8 +210,9 @@ def test_methods_of_other_kinds_have_pages(method: str) -> None:
     (table,) = elements(section(method, "conditions"), "table")
     lines = [*elements(next(elements(table, "tbody")), "tr")]
     assert [x.get("data-root") for x in lines] == [str(x["root"]) for x in run["conditions"]]
+    is_stable = "w_order" in data or method == "nystrom-4-positions"
     names = [text_of(x) for x in elements(page(method), "h2")]
-    has = {"Simplifying assumptions": False, "Stability": "w_order" in data, "Tableau": True}
+    has = {"Simplifying assumptions": False, "Stability": is_stable, "Tableau": True}
     for title, is_there in has.items():
         assert any(x.startswith(title) for x in names) == is_there
 

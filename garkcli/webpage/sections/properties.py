@@ -20,8 +20,8 @@ from garkcli.webpage.reported import Content, Reported
 def content(method: Reported) -> Content | None:
     """What the template is given; None where the section has nothing to say."""
     outcome = method.outcome
-    if outcome.found is None or outcome.infinitesimal is not None:
-        return None
+    if not (outcome.every or outcome.analysis or outcome.rosenbrock):
+        return None  # no kind of method else has properties
     keys = [*KEYS]
     if outcome.rosenbrock is not None:
         keys = [key for key in KEYS if key in OF_TEST_EQUATION]

@@ -5,8 +5,11 @@ from __future__ import annotations
 from markupsafe import Markup
 
 from garkcli.api.calls import find_stability
+from garkcli.constructions.nprk import is_nprk
+from garkcli.constructions.nystrom import Nystrom, is_nystrom
 from garkcli.exact.display import decimal
 from garkcli.report.stability import REPORT, StabilityReport, formulas
+from garkcli.tableau.tableau import Tableau
 from garkcli.webpage.mathml import Typeset, typeset
 from garkcli.webpage.reported import Content, Reported
 
@@ -15,12 +18,19 @@ _LONGEST = 400
 """Signs of a formula in LaTeX; longer ones are left to ``gark stability``."""
 
 
+def _has_stability(tableau: Tableau) -> bool:
+    """Whether ``gark stability`` takes such a method."""
+    if is_nystrom(tableau):
+        return Nystrom.of(tableau).A is None
+    return tableau.exact_to is None and not is_nprk(tableau)
+
+
 def content(method: Reported) -> Content | None:
     """What the template is given; None where the section has nothing to say."""
     file = method.outcome.file
     if method.free is not None:
         return {"free": method.free, "file": file}
-    if method.method is None or method.outcome.infinitesimal is not None:
+    if method.method is None or not _has_stability(method.method.tableau):
         return None
     if method.is_slow:
         return {"file": file, "near": ""}
