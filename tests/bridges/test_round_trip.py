@@ -195,6 +195,8 @@ def test_what_is_written_is_read(target: str) -> None:
     # few methods have the 2N form
     of_erk = part_of([x for x in CATALOGUE if x.parent.name == "erk"], 2)
     for path in of_erk if target == "climatimesteppers" else sample():
+        if not load(str(path)).tableau.is_gark:
+            continue  # test_rosenbrock_sources.py reads Rosenbrock methods; others are not written
         method = payload(path)
         if target in {"rungekutta-jl", "climatimesteppers"}:
             method = replace(method, embedded=None)
