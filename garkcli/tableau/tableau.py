@@ -189,7 +189,7 @@ class Tableau(Frozen):
             raise MethodError(message, cure, code="cannot-construct")
         if not self.has_fields_alone:
             message = f"{what} is for GARK methods, which this method is not"
-            cure = "gark check, conditions, stability and certificate know such methods"
+            cure = "gark check, show, conditions, certificate, diff and report know such methods"
             raise MethodError(message, cure, code="cannot-construct")
 
     @property

@@ -26,6 +26,7 @@ from tests.constructions.test_rosenbrock import RODAS3, made, numbers, random_me
 from tests.oracles import dae_series, dae_trees
 from tests.oracles import rosenbrock_series as series
 from tests.oracles.brute import brute_order
+from tests.whole import at_most
 
 LIMIT = 4
 
@@ -57,7 +58,7 @@ def test_random_methods_three_ways() -> None:
     is the smaller of the first and one more than the second.
     """
     found = Counter()
-    for seed in range(40):
+    for seed in range(at_most(40, 250)):
         method = random_on_dae(seed)
         alpha, gamma, b = method.alpha[0][0], method.gamma[0][0], method.b[0]
         y, z, both = orders_of(made(method))
