@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from operator import attrgetter
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from garkcli.check.findings import (
@@ -1054,3 +1055,28 @@ SUMMARY = Section(
     Row("undecided", kinds.COUNT, lambda xs: sum(x.is_open for x in xs)),
     Row("without_claims", kinds.COUNT, lambda xs: sum(x.makes_no_claim for x in xs)),
 )
+
+
+def of_other_kind(
+    attribute: str, flag: str, words: Callable[[Any, Plain], str], analysis: Sequence[Row]
+) -> Section:
+    """The rows of a method that is no GARK method.
+
+    Args:
+        attribute: where its outcome has the analysis.
+        flag: the field of JSON that says of which kind it is.
+        words: what the method is, of an outcome.
+        analysis: the rows of its analysis.
+    """
+    return Section(
+        *kinds.FILE_AND_NAME,
+        Row("ok", kinds.TRUTH, level=DATA),
+        Row(flag, kinds.TRUE, lambda _: True, DATA),
+        Row("method", told(words), "."),
+        *(row.of(attrgetter(attribute)) for row in analysis),
+        LEFT_BEHIND,
+        optional("error_constants", part(CONSTANTS, constants_words), "constants"),
+        *CLAIMS,
+        title=title,
+        columns=COLUMNS,
+    )

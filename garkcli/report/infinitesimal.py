@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 from garkcli.errors import counted
 from garkcli.report import check as c
 from garkcli.tell import kinds
-from garkcli.tell.facts import Level, Row, Section, maybe, optional
-from garkcli.tell.parts import part, parts, picture, told
+from garkcli.tell.facts import Level, Row, maybe
+from garkcli.tell.parts import part, parts, picture
 
 if TYPE_CHECKING:
     from garkcli.tell.dialect import Plain
@@ -39,15 +39,4 @@ ANALYSIS = [
     maybe("error_estimate", part(c.ESTIMATE, c.estimate_phrase), "embedded.estimator"),
     Row("trees_that_fail", picture(c.drawn), c.failing("order", "embedded-order"), DETAIL),
 ]
-INFINITESIMAL = Section(
-    *kinds.FILE_AND_NAME,
-    Row("ok", kinds.TRUTH, level=DATA),
-    Row("multirate", kinds.TRUE, lambda _: True, DATA),
-    Row("method", told(_method_words), "."),
-    *(row.of(lambda o: o.infinitesimal) for row in ANALYSIS),
-    c.LEFT_BEHIND,
-    optional("error_constants", part(c.CONSTANTS, c.constants_words), "constants"),
-    *c.CLAIMS,
-    title=c.title,
-    columns=c.COLUMNS,
-)
+INFINITESIMAL = c.of_other_kind("infinitesimal", "multirate", _method_words, ANALYSIS)

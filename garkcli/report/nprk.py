@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 from garkcli.errors import counted
 from garkcli.report import check as c
 from garkcli.tell import kinds
-from garkcli.tell.facts import Level, Row, Section, maybe, optional
-from garkcli.tell.parts import SAID, part, parts, picture, told
+from garkcli.tell.facts import Level, Row, maybe
+from garkcli.tell.parts import SAID, part, parts, picture
 
 if TYPE_CHECKING:
     from garkcli.tell.dialect import Plain
@@ -33,14 +33,4 @@ ANALYSIS = [
     Row("in the trees", SAID, lambda _: IN_THE_TREES),
     Row("trees_that_fail", picture(c.drawn), c.failing("order", "embedded-order"), DETAIL),
 ]
-NPRK = Section(
-    *kinds.FILE_AND_NAME,
-    Row("ok", kinds.TRUTH, level=DATA),
-    Row("nprk", kinds.TRUE, lambda _: True, DATA),
-    Row("method", told(_method_words), "."),
-    *(row.of(lambda o: o.nprk) for row in ANALYSIS),
-    optional("error_constants", part(c.CONSTANTS, c.constants_words), "constants"),
-    *c.CLAIMS,
-    title=c.title,
-    columns=c.COLUMNS,
-)
+NPRK = c.of_other_kind("nprk", "nprk", _method_words, ANALYSIS)

@@ -8,8 +8,8 @@ from garkcli.constructions.nystrom import Nystrom
 from garkcli.errors import counted
 from garkcli.report import check as c
 from garkcli.tell import kinds
-from garkcli.tell.facts import Level, Row, Section, maybe, optional
-from garkcli.tell.parts import SAID, part, parts, picture, told
+from garkcli.tell.facts import Level, Row, maybe
+from garkcli.tell.parts import SAID, part, parts, picture
 
 if TYPE_CHECKING:
     from garkcli.tell.dialect import Plain
@@ -44,14 +44,4 @@ ANALYSIS = [
         DETAIL,
     ),
 ]
-NYSTROM = Section(
-    *kinds.FILE_AND_NAME,
-    Row("ok", kinds.TRUTH, level=DATA),
-    Row("nystrom", kinds.TRUE, lambda _: True, DATA),
-    Row("method", told(_method_words), "."),
-    *(row.of(lambda o: o.nystrom) for row in ANALYSIS),
-    optional("error_constants", part(c.CONSTANTS, c.constants_words), "constants"),
-    *c.CLAIMS,
-    title=c.title,
-    columns=c.COLUMNS,
-)
+NYSTROM = c.of_other_kind("nystrom", "nystrom", _method_words, ANALYSIS)

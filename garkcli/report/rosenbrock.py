@@ -9,7 +9,7 @@ from garkcli.constructions.rosenbrock import Rosenbrock
 from garkcli.errors import counted
 from garkcli.report import check as c
 from garkcli.tell import kinds
-from garkcli.tell.facts import Answer, Level, Row, Section, Status, maybe, optional
+from garkcli.tell.facts import Answer, Level, Row, Status, maybe, optional
 from garkcli.tell.parts import SAID, part, parts, picture, told
 
 if TYPE_CHECKING:
@@ -108,14 +108,4 @@ ANALYSIS = [
     ),
     Row("in the trees", SAID, lambda _: IN_THE_TREES, DETAIL),
 ]
-ROSENBROCK = Section(
-    *kinds.FILE_AND_NAME,
-    Row("ok", kinds.TRUTH, level=DATA),
-    Row("rosenbrock", kinds.TRUE, lambda _: True, DATA),
-    Row("method", told(_method_words), "."),
-    *(row.of(lambda o: o.rosenbrock) for row in ANALYSIS),
-    optional("error_constants", part(c.CONSTANTS, c.constants_words), "constants"),
-    *c.CLAIMS,
-    title=c.title,
-    columns=c.COLUMNS,
-)
+ROSENBROCK = c.of_other_kind("rosenbrock", "rosenbrock", _method_words, ANALYSIS)
