@@ -13,19 +13,18 @@ from garkcli.properties.registry import KEYS
 from garkcli.reason import NO_REASON, Reason
 
 if TYPE_CHECKING:
-    from garkcli.check.infinitesimal import InfinitesimalAnalysis, InfinitesimalSubject
-    from garkcli.check.nprk import NprkAnalysis, NprkSubject
+    from garkcli.check.infinitesimal import InfinitesimalAnalysis
+    from garkcli.check.nprk import NprkAnalysis
     from garkcli.check.nystrom import NystromAnalysis, NystromSubject
     from garkcli.check.rosenbrock import RosenbrockAnalysis, RosenbrockSubject
+    from garkcli.properties.property import NoProperties
     from garkcli.properties.subject import Subject
 
 
 AnyAnalysis: TypeAlias = (
     "Analysis | RosenbrockAnalysis | NystromAnalysis | NprkAnalysis | InfinitesimalAnalysis"
 )
-AnySubject: TypeAlias = (
-    "Subject | RosenbrockSubject | NystromSubject | NprkSubject | InfinitesimalSubject"
-)
+AnySubject: TypeAlias = "Subject | RosenbrockSubject | NystromSubject | NoProperties"
 
 
 def verify(claims: tuple[ClaimText, ...], analysis: AnyAnalysis) -> tuple[Claim, ...]:

@@ -16,7 +16,7 @@ from garkcli.ntrees.tree import Tree
 from garkcli.order.certificate import DEFAULT_LIMIT, StageSpans
 from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.meant import meant
-from garkcli.properties.property import Verdict
+from garkcli.properties.property import NoProperties
 from garkcli.reason import Reason
 from garkcli.tableau.embedded import NOTHING, Further
 from garkcli.tableau.forms import with_time
@@ -24,20 +24,6 @@ from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
 
 _NO_PROPERTY = Reason("a property of Runge–Kutta methods, and the fast part is solved exactly")
-
-
-class InfinitesimalSubject(Frozen):
-    """The properties of such a method: none of those of Runge–Kutta methods.
-
-    Attributes:
-        rounding: by how much the printed coefficients may be off.
-    """
-
-    rounding: fmpq
-
-    def verdict(self, _: str) -> Verdict:
-        """What is true of a property."""
-        return Verdict.meaningless(_NO_PROPERTY)
 
 
 class InfinitesimalAnalysis(Shown, Frozen):
@@ -70,9 +56,9 @@ class InfinitesimalAnalysis(Shown, Frozen):
         """It has no dense output."""
 
     @cached_property
-    def subject(self) -> InfinitesimalSubject:
-        """Its properties."""
-        return InfinitesimalSubject(self.tolerance or fmpq(0))
+    def subject(self) -> NoProperties:
+        """It has no properties."""
+        return NoProperties(self.tolerance or fmpq(0), _NO_PROPERTY)
 
     def view(self, claim: str) -> tuple[AnyOrder, Tableau] | None:
         """The order that a claim is on, with the tableau that has it; None for other claims."""

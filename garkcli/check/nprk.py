@@ -13,27 +13,13 @@ from garkcli.frozen import Frozen
 from garkcli.order.certificate import DEFAULT_LIMIT, StageSpans
 from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.meant import as_embedded, meant, printed
-from garkcli.properties.property import Verdict
+from garkcli.properties.property import NoProperties
 from garkcli.reason import Reason
 from garkcli.tableau.embedded import NOTHING, Further
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
 
 _NO_PROPERTY = Reason("a property of Runge–Kutta methods of vector fields, not of their arguments")
-
-
-class NprkSubject(Frozen):
-    """The properties of such a method: none of those of GARK methods.
-
-    Attributes:
-        rounding: by how much the printed coefficients may be off.
-    """
-
-    rounding: fmpq
-
-    def verdict(self, _: str) -> Verdict:
-        """What is true of a property."""
-        return Verdict.meaningless(_NO_PROPERTY)
 
 
 class NprkAnalysis(Shown, Frozen):
@@ -62,9 +48,9 @@ class NprkAnalysis(Shown, Frozen):
         """It has no dense output."""
 
     @cached_property
-    def subject(self) -> NprkSubject:
-        """Its properties."""
-        return NprkSubject(self.tolerance or ZERO)
+    def subject(self) -> NoProperties:
+        """It has no properties."""
+        return NoProperties(self.tolerance or ZERO, _NO_PROPERTY)
 
     def view(self, claim: str) -> tuple[AnyOrder, Tableau] | None:
         """The order that a claim is on, with the tableau that has it; None for other claims."""

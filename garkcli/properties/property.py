@@ -10,6 +10,8 @@ from garkcli.frozen import Frozen
 from garkcli.reason import NO_REASON, Formula, Reason
 
 if TYPE_CHECKING:
+    from flint import fmpq
+
     from garkcli.exact.roots import RealRoot
     from garkcli.properties.subject import Subject
 
@@ -119,6 +121,22 @@ class Verdict(Frozen):
     def why(self) -> str:
         """The reason as text."""
         return str(self.reason)
+
+
+class NoProperties(Frozen):
+    """A method for which no property has a meaning.
+
+    Attributes:
+        rounding: by how much its printed coefficients may be off.
+        why: what the properties are of.
+    """
+
+    rounding: fmpq
+    why: Reason
+
+    def verdict(self, _: str) -> Verdict:
+        """What is true of a property."""
+        return Verdict.meaningless(self.why)
 
 
 class Property(Frozen):
