@@ -123,7 +123,7 @@ def backward_analysis(
 def _of_rounded(
     rounded: AnyTableau, max_order: int, structure: Structure | None
 ) -> BackwardAnalysis:
-    """The same of the method that a rounded one is taken to be."""
+    """Backward analysis of the method that a rounded one is taken to be."""
     assert not isinstance(rounded, Tableau)
     found = order_of(rounded, max_order)
     order = Reached(found.order, found.is_lower_bound)

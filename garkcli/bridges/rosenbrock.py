@@ -102,7 +102,7 @@ def with_row_orders(table: FoundTable, name: str = "") -> RowSubject:
 
 
 def _careless(numbers: Sequence[tuple[Any, Any]]) -> list[fmpq]:
-    """The same of numbers that were computed in floats, and lost digits."""
+    """The radii of numbers that were computed in floats, which lost digits."""
     found = []
     for radius, (_, x) in zip(_radii(numbers), numbers, strict=True):
         least = CARELESS * FLOAT * (1 + rounded_up(abs(to_ball(x))))

@@ -85,7 +85,7 @@ OF_ROSENBROCK = (
 OF_NYSTROM = (
     *("position-order", "velocity-order", "embedded-position-order", "embedded-velocity-order"),
 )
-"""Those that Nyström methods have besides."""
+"""The orders that Nyström methods have besides."""
 OF_INFINITESIMAL = ("slow-order",)
 """Those that multirate methods with the exact fast solution have besides."""
 

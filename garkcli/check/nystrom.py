@@ -115,7 +115,7 @@ class NystromAnalysis(Shown, Frozen):
 
     @property
     def order(self) -> AnyOrder:
-        """Of both steps."""
+        """The order of both steps: the smaller one."""
         return self.orders.order
 
     @property

@@ -37,7 +37,7 @@ DAE_VIEWS: dict[str, Which] = {
     "index-1-y-order": "on_dae_in_y",
     "index-1-z-order": "on_dae_in_z",
 }
-"""Those on differential-algebraic equations, which need an inverse of α + γ."""
+"""The orders on differential-algebraic equations, which need an inverse of α + γ."""
 OF_TEST_EQUATION = frozenset(
     {
         *("gamma", "a-stable", "l-stable", "p-stable", "i-stable"),
@@ -93,7 +93,9 @@ class RosenbrockOrders(Frozen):
 
     @cached_property
     def index_1_z_order(self) -> AnyOrder | None:
-        """The same in z, which has the conditions of both: one less than that of both, or it."""
+        """The largest p with O(h^(p+1)) in z: that of both, or one less. Its conditions are those
+        of both.
+        """
         both, _ = self.index_1_order, self.index_1_y_order  # a rounded method is moved in turn
         return both and self._on_dae("on_dae_in_z", both)
 

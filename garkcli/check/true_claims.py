@@ -24,7 +24,7 @@ OF_NYSTROM = (
     *("order", "position-order", "velocity-order"),
     *("embedded-order", "embedded-position-order", "embedded-velocity-order"),
 )
-"""The same of Nyström methods."""
+"""Claims on the orders of Nyström methods."""
 OF_INFINITESIMAL = ("order", "slow-order", "nonautonomous-order", "embedded-order")
 """The same of multirate methods with the exact fast solution."""
 OF_OTHER_KINDS = {
@@ -33,7 +33,7 @@ OF_OTHER_KINDS = {
     "a nonlinearly partitioned method": ("order", "embedded-order"),
     "a multirate method with the exact fast part": OF_INFINITESIMAL,
 }
-"""The same of methods that are no GARK methods, by kind."""
+"""Claims on the orders of methods that are no GARK methods, by kind."""
 DIGITS = 12
 """Of numbers without simple radicals; a decimal claims no further ones."""
 

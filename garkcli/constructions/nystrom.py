@@ -29,7 +29,7 @@ from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Colour, Edge, Tableau
 
 TWICE = Kind(weight=2, is_field=False)
-"""Of a force that is integrated twice."""
+"""The kind of a force that is integrated twice."""
 KINDS = (TWICE, ARGUMENT, LEAF)
 NAMES = ("q", "q'", "q'0")
 """The colours: g in positions, g in velocities, the velocity at the beginning of the step."""
@@ -148,7 +148,7 @@ def seen(method: AnyTableau, which: Which) -> AnyTableau:
 
 
 def partitioned(tableau: Tableau, tolerance: fmpq | None) -> Tableau:
-    """The same for q̇ = p, ṗ = g(q); ``meant`` knows what it is rounded of."""
+    """The partitioned method for q̇ = p, ṗ = g(q); ``meant`` knows what it is rounded of."""
     found = seen(meant(tableau, tolerance), "partitioned")
     if not isinstance(found, Tableau):
         keep(found)

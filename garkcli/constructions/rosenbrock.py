@@ -50,7 +50,7 @@ Rows: TypeAlias = tuple[Vector, ...]
 MATRIX = Kind(frozenset({1}), is_exact=False)
 ERROR_OF_MATRIX = Kind(frozenset({1}), weight=2, is_exact=False)
 CONSTRAINT = Kind(frozenset({SEVERAL}), weight=0)
-"""Of g in 0 = g(y, z), which is solved for z."""
+"""The kind of g in 0 = g(y, z), which is solved for z."""
 
 
 class Rosenbrock(Frozen):
@@ -90,7 +90,7 @@ class Rosenbrock(Frozen):
 
     @property
     def without_row_sums(self) -> Rosenbrock:
-        """The same method without the c and d that its rows say."""
+        """The method without the c and d that are sums of its rows."""
         plain = replace(self, c=None, d=None)
         c, d = plain.nodes
         return replace(self, c=None if self.c == c else self.c, d=None if self.d == d else self.d)
@@ -131,12 +131,12 @@ class Rosenbrock(Frozen):
 
     @property
     def on_dae_in_y(self) -> Tableau:
-        """The same with the conditions of y alone."""
+        """The tableau on DAEs with the conditions of y alone."""
         return self._on_dae(late=None)
 
     @property
     def on_dae_in_z(self) -> Tableau:
-        """The same with the conditions of z, which include those of y up to the same order."""
+        """The tableau on DAEs with the conditions of z, which include those of y."""
         return self._on_dae(late=0)
 
     def _on_dae(self, late: int | None) -> Tableau:

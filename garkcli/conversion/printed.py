@@ -22,7 +22,7 @@ from garkcli.tableau.tableau import Tableau
 Printed: TypeAlias = "tuple[str, Mapping[str, Any]]"
 """The key of the form with its keys: words, rows and matrices."""
 InForm: TypeAlias = "Callable[[Tableau, fmpq | None], Printed]"
-"""Of a tableau and the rounding of its numbers, None for exact ones."""
+"""A function of a tableau and the rounding of its numbers, None for exact ones."""
 
 
 def explicit(tableau: Tableau, form: str) -> tuple[Matrix, Vector]:

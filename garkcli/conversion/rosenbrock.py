@@ -87,7 +87,7 @@ def text_in_form(method: GarkMethod, to: str, name: str) -> str:
 
 
 def _parts(tableau: Tableau, further: Further, form: str) -> _Parts:
-    """What a file of a form says, c and d where the rows do not say them."""
+    """The keys of a file in a form; c and d where they are no sums of rows."""
     method = Rosenbrock.of(tableau).without_row_sums
     if form == TRANSFORMED:
         made = stored(method, further)

@@ -172,7 +172,7 @@ _OTHER_KINDS: dict[Form, str] = {
     "nystrom": "Nyström",
     "nprk": "nonlinearly partitioned",
 }
-"""What messages call the methods of forms that are for no GARK methods."""
+"""The names of methods that are no GARK methods, in messages."""
 
 
 def _free(reader: Reader, description: Description) -> MethodFileError:

@@ -81,8 +81,8 @@ LEAF = Kind(frozenset({0}))
 ONE_BRANCH = Kind(frozenset({1}))
 """Of the Jacobian of a vector field at the beginning of the step."""
 ARGUMENT = Kind(is_field=False)
-"""Of a vector field that has several arguments, one of which such a branch is in."""
+"""The kind of a vector field of several arguments, one of which a branch is in."""
 NOT_ONE = Kind(frozenset({0, SEVERAL}))
-"""Of a vector field beside its Jacobian."""
+"""The kind of a vector field beside its Jacobian."""
 FIELDS = (PLAIN, LINEAR, LEAF)
 """The kinds whose vertices are a vector field, as it is evaluated at stages."""

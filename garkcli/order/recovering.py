@@ -140,7 +140,7 @@ class Recovery:
         return other
 
     def aside(self) -> Recovery:
-        """The same search from here on, which moves a method of its own and leaves this one."""
+        """A search from here on that moves a method of its own and leaves this one."""
         other = copy(self)
         for name in ("_orders", "_places", "_reached", "_powers"):
             setattr(other, name, dict(getattr(self, name)))

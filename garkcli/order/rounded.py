@@ -191,11 +191,11 @@ class RoundedTableau(Frozen, eq=False):
         return replace(self, tolerance=tolerance) if tolerance else None
 
     def aside(self) -> RoundedTableau:
-        """The same, whose further orders are those of a method of its own within the rounding."""
+        """The tableau with a search of its own: further orders move another method."""
         return replace(self, search=self.search.aside())
 
     def of_orders(self) -> RoundedTableau:
-        """The same where no more than orders is asked, which takes less time."""
+        """The tableau for questions on orders alone, which take less time."""
         return replace(self, search=self.search.of_orders())
 
     def one_by_one(self, limit: int) -> RoundedOrder:

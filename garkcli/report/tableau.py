@@ -166,7 +166,7 @@ OF_SLOW = "the slow method, which is left where the fast part is 0"
 OF_ROSENBROCK = "α, with c and b", "γ, with d, the weights of ∂f/∂t, in place of A and c"
 OF_NYSTROM = "Ā, with c and b̄", "A, with c and b"
 OF_POSITIONS = OF_NYSTROM[0], "b, with 0 in place of A: g depends on q alone"
-"""What the tableaus of methods that are no GARK methods are."""
+"""Titles of the tableaus of methods that are no GARK methods."""
 
 
 def shown_parts(tableau: Tableau, whole: Entries) -> list[tuple[str, Tableau, Entries]]:

@@ -10,7 +10,7 @@ from garkcli.sources.shaping import ZERO, Texts, is_zero, weights
 from garkcli.sources.values import Array, Value, Word, first_unknown, items_of, whole
 
 FORMS = ("rosenbrock", "transformed", "kpp")
-"""Of signatures: as papers print a method, as programs store it, packed by rows."""
+"""Signatures as papers print a method, as programs store it, packed by rows."""
 _OF_KPP = {
     "ros_a": "A",
     "ros_c": "C",

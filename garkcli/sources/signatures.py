@@ -45,7 +45,7 @@ PRINTED = "a printed tableau"
 NDSOLVE = "coefficients of NDSolve"
 """The same for the lists that a function of Mathematica gives."""
 KPP = "arrays of KPP"
-"""The same for the arrays of its Rosenbrock methods."""
+"""The arrays of a Rosenbrock method in KPP, in place of a call."""
 NAMED = Signature([])
 """No call: names alone speak for a table."""
 PARTS = Signature(["A1", "b1", "c1", "A2", "b2", "c2"], "ark")

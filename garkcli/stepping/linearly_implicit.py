@@ -79,7 +79,7 @@ class LinearlyImplicit(Frozen):
 
     @property
     def coefficients(self) -> list[Number]:
-        """Those of the lower triangles of α and γ, row by row, then b, c, d and 1."""
+        """The entries of the lower triangles of α and γ, row by row, then b, c, d and 1."""
         rows = enumerate(zip(self.alpha, self.gamma, strict=True))
         lower = [x for i, (a, g) in rows for x in (*a[:i], *g[: i + 1])]
         return [*lower, *self.b, *self.c, *self.d, ONE]

@@ -284,7 +284,7 @@ class Plain(Mutable):
         return self.code(tree)
 
     def naming(self, names: Sequence[str]) -> Self:
-        """The same with names for the colours in trees."""
+        """The dialect with names for the colours in trees."""
         return replace(self, names=tuple(names)) if names else self
 
     def has_colours(self, tree: Tree) -> bool:

@@ -36,7 +36,7 @@ def heading(method: Reported) -> Content:
 
 
 def _about(outcome: Outcome) -> str:
-    """What kind of method it is, of how many stages."""
+    """The kind of a method, and how many stages it has."""
     if outcome.of_other_kind is None:
         return words(METHOD.fact(outcome), Plain())
     row = next(x for x in REPORT.form(outcome).rows if x.key == METHOD.key)
