@@ -10,8 +10,9 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from garkcli.catalogue.facts import made, update_copies
+from garkcli.catalogue.facts import made, recovered, update_copies
 from garkcli.errors import GarkError
+from garkcli.order.recovered import FILE, kept
 
 HERE = Path(__file__).resolve().parent
 
@@ -20,9 +21,12 @@ def main(arguments: Sequence[str]) -> int:
     """Make the index and update the copies; 2 where a file is no method."""
     data, index = HERE / "data", HERE / "index.json"
     before = ""
-    if "--all" not in arguments and index.exists():
+    if "--all" in arguments:
+        FILE.unlink(missing_ok=True)
+    elif index.exists():
         before = index.read_text(encoding="utf-8")
     try:
+        FILE.write_bytes(recovered(data, kept(), before).encode("ascii"))
         text = made(data, before, _tell)
     except GarkError as error:
         print(f"gark: {error}", file=sys.stderr)

@@ -24,6 +24,7 @@ from garkcli.methodfile.shelves import key_of
 from garkcli.methodfile.source import METHOD_FILE
 from garkcli.ntrees.count import count_trees
 from garkcli.order.constants import error_constants
+from garkcli.order.meant import as_meant, with_further
 from garkcli.properties.property import Size
 from garkcli.properties.registry import KEYS, find
 from garkcli.tableau.pointwise import in_points
@@ -279,6 +280,36 @@ def _text(entries: list[Entry]) -> Iterator[str]:
         yield ",\n" if number else "\n"
         yield json.dumps(entry, ensure_ascii=True)
     yield "\n]}\n"
+
+
+def recovered(data: Path, before: dict[str, dict[str, Any]], index: str) -> str:
+    """The text of ``order/recovered.json``: for each rounded method of the catalogue what a search
+    for it starts with.
+
+    Args:
+        data: the folder of the method files.
+        before: the methods of that file, perhaps older, by their keys; those stay whose method
+            files are as they were.
+        index: the text of the index that was made with it; empty for none.
+    """
+    known = {(x["method"], x["digest"]): (key, x) for key, x in before.items()}
+    judged = {(Path(file).name, text) for file, text in _known(index)} if before else set()
+    found: dict[str, dict[str, Any]] = {}
+    for name, path in method_files(data):
+        text, _ = read_text(str(path), METHOD_FILE)
+        one = known.get((name, digest(text)))
+        if one is None and (path.name, digest(text)) not in judged:
+            one = _recovered_of(str(path), name, text)
+        if one is not None:
+            found.setdefault(*one)
+    lines = [f"{json.dumps(key)}: {json.dumps(x)}" for key, x in found.items()]
+    return "{\n" + ",\n".join(lines) + "\n}\n"
+
+
+def _recovered_of(path: str, name: str, text: str) -> tuple[str, dict[str, Any]] | None:
+    rounded = with_further(as_meant(loads(text, path)))
+    kept = None if rounded is None else rounded.search.kept
+    return kept and (kept[0], {"method": name, "digest": digest(text), **kept[1]})
 
 
 def update_copies(data: Path, copies: Path) -> Iterator[Path]:

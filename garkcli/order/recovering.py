@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from copy import copy
 from functools import cached_property, partial
+from typing import Any
 
 import numpy as np
 from flint import arb, fmpq
@@ -34,6 +35,7 @@ from garkcli.order.bounded import (
 )
 from garkcli.order.certificate import DEFAULT_LIMIT
 from garkcli.order.place import Derive, Place, System, arithmetic
+from garkcli.order.recovered import as_data, key_of, recovered_of
 from garkcli.order.rows import Chosen, Label, may_vanish, of_tree
 from garkcli.order.shape import NATURAL, candidates, less, weak_rows
 from garkcli.tableau.box import Box
@@ -117,6 +119,16 @@ class Recovery:
             if self.printed_further.dense is not None:
                 self._dense = self.recover_dense(DEFAULT_LIMIT)
         return self.place
+
+    @property
+    def kept(self) -> tuple[str, dict[str, Any]] | None:
+        """What a later search of the same numbers starts with; None where the rows of the method
+        vanish to second order only.
+        """
+        place = self.settled
+        if place.slack or place is self.origin:
+            return None
+        return key_of(self.box), as_data(place.shifts, self.shape, self.system)
 
     @property
     def wanted(self) -> System:
@@ -242,9 +254,23 @@ class Recovery:
 
     def _recover_shape_and_orders(self) -> None:
         """The shape, with the orders that are known already."""
+        if self._start_at_recovered():
+            return
         self.recover_shape()
         if self._try({}) is not None:
             self.place, self.shape = self.origin, {}
+
+    def _start_at_recovered(self) -> bool:
+        """Move to the method that a search found before, if it still has the shape it had."""
+        found = recovered_of(self.box, self.origin.exact("method").known)
+        if found is None:
+            return False
+        place = Place(self, found.shifts)
+        sizes = [abs(x) for x in place.values(found.shape)]
+        if not place.is_inside or not all(x < self.small for x in sizes):
+            return False
+        self.place, self.shape, self.system = place, found.shape, found.system
+        return True
 
     def recover_shape(self) -> None:
         """Move to a method with the simplifying conditions that the digits speak for."""

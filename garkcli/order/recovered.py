@@ -1,0 +1,108 @@
+"""Methods that were recovered before, as those of the catalogue: a search starts at them.
+
+The file holds, for the printed numbers of a method, by how much each is off and which conditions
+the method meets because of that. Nothing in it is believed: a search holds the conditions against
+the numbers as it does with those that it finds.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from flint import fmpq
+
+from garkcli.frozen import Frozen
+from garkcli.ntrees.notation import format_tree, parse_tree
+from garkcli.order.rows import Label, of_tree
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from garkcli.ntrees.tree import Tree
+    from garkcli.order.place import System
+    from garkcli.tableau.box import Box
+
+FILE = Path(__file__).with_name("recovered.json")
+
+
+class Recovered(Frozen):
+    """A method of a box.
+
+    Attributes:
+        shifts: by how much its numbers are off, in units of their radii.
+        shape: the simplifying conditions and the like that it meets.
+        system: the order conditions that made it, by the name of the tableau.
+    """
+
+    shifts: tuple[fmpq, ...]
+    shape: System
+    system: System
+
+
+def key_of(box: Box) -> str:
+    """Which printed numbers with which radii."""
+    text = "\n".join(f"{x} {t}" for x, t in zip(box.numbers, box.radii, strict=True))
+    return hashlib.sha256(text.encode("utf-8")).hexdigest()[:16]
+
+
+def recovered_of(box: Box, known: Callable[[Tree], Tree]) -> Recovered | None:
+    """The method of a box that was recovered before; None where there is none.
+
+    Args:
+        box: its printed numbers.
+        known: a tree with vertices of the kinds of the method.
+    """
+    data = _all().get(key_of(box)) if box.numbers else None
+    return None if data is None else _read(data, known)
+
+
+def as_data(shifts: Sequence[fmpq], shape: System, system: System) -> dict[str, Any]:
+    """What the file keeps of a method; its shifts have a power of 2 for denominator."""
+    bits = max((int(x.q).bit_length() - 1 for x in shifts), default=0)
+    return {
+        "bits": bits,
+        "shifts": " ".join(f"{int((x * fmpq(1 << bits)).p):x}" for x in shifts),
+        "shape": [
+            [x.kind, x.l, x.m, x.k, list(x.path), _text(x), which]
+            for x, which in shape.get("method", {}).items()
+        ],
+        "trees": [[name, x.k, _text(x)] for name, chosen in system.items() for x in chosen],
+    }
+
+
+def _text(label: Label) -> str:
+    return "" if label.tree is None else format_tree(label.tree)
+
+
+def kept() -> dict[str, dict[str, Any]]:
+    """All methods of the file, by the keys of their boxes."""
+    if not FILE.exists():
+        return {}
+    methods: dict[str, dict[str, Any]] = json.loads(FILE.read_text(encoding="ascii"))
+    return methods
+
+
+@cache
+def _all() -> dict[str, dict[str, Any]]:
+    return kept()
+
+
+def _read(data: Mapping[str, Any], known: Callable[[Tree], Tree]) -> Recovered:
+    def tree_of(text: str) -> Tree:
+        return known(parse_tree(text))
+
+    unit = 1 << data["bits"]
+    shape = {
+        Label(kind, l, m, k, tree_of(text) if text else None, tuple(path)): list(which)
+        for kind, l, m, k, path, text, which in data["shape"]
+    }
+    system: dict[str, dict[Label, list[int]]] = {}
+    for name, k, text in data["trees"]:
+        system.setdefault(name, {})[of_tree(tree_of(text), k)] = [0]
+    shifts = tuple(fmpq(int(x, 16), unit) for x in data["shifts"].split())
+    return Recovered(shifts, {"method": shape} if shape else {}, system)
