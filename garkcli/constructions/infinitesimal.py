@@ -423,14 +423,16 @@ def predicted(slow: Method, plan: Plan) -> Tableau:
 
 def slow_part(method: AnyTableau) -> AnyTableau:
     """The slow method by itself: what is left where the fast part is 0."""
+    if isinstance(method, Tableau):
+        return _slow_part(method)
+    return method.derive("slow part", _slow_part)
 
-    def make(tableau: Tableau) -> Tableau:
-        slow = [m for m, colour in enumerate(tableau.colours) if colour.space == SLOW]
-        colours = tuple(replace(tableau.colours[m], space=0) for m in slow)
-        blocks = {(0, n): tableau.blocks[SLOW, m] for n, m in enumerate(slow)}
-        return Tableau((tableau.spaces[SLOW],), colours, blocks)
 
-    return make(method) if isinstance(method, Tableau) else method.derive("slow part", make)
+def _slow_part(tableau: Tableau) -> Tableau:
+    slow = [m for m, colour in enumerate(tableau.colours) if colour.space == SLOW]
+    colours = tuple(replace(tableau.colours[m], space=0) for m in slow)
+    blocks = {(0, n): tableau.blocks[SLOW, m] for n, m in enumerate(slow)}
+    return Tableau((tableau.spaces[SLOW],), colours, blocks)
 
 
 class _Infinitesimal:

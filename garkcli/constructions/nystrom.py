@@ -13,6 +13,7 @@ Source: E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equ
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Literal, TypeAlias
 
 from flint import fmpq
@@ -137,14 +138,14 @@ Which: TypeAlias = Literal["in_positions", "in_velocities", "partitioned"]
 
 def seen(method: AnyTableau, which: Which) -> AnyTableau:
     """Another tableau of the method that has this one, which is exact or rounded."""
-
-    def make(tableau: Tableau) -> Tableau:
-        found: Tableau = getattr(Nystrom.of(tableau), which)
-        return found
-
     if isinstance(method, Tableau):
-        return make(method)
-    return method.derive(which.replace("_", " "), make)
+        return _seen(which, method)
+    return method.derive(which.replace("_", " "), partial(_seen, which))
+
+
+def _seen(which: Which, tableau: Tableau) -> Tableau:
+    found: Tableau = getattr(Nystrom.of(tableau), which)
+    return found
 
 
 def partitioned(tableau: Tableau, tolerance: fmpq | None) -> Tableau:

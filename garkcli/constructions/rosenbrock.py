@@ -17,6 +17,7 @@ stiff differential equations", Math. Comp. 33 (1979) 521; A. Sandu, M. Günther,
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from operator import add as add_numbers
 from operator import sub as subtract_numbers
 from typing import Literal, TypeAlias
@@ -246,14 +247,14 @@ def seen(method: AnyTableau, which: Which) -> AnyTableau:
     Raises:
         SingularMatrixError: there is none on a DAE, as z is not determined.
     """
-
-    def make(tableau: Tableau) -> Tableau:
-        found: Tableau = getattr(Rosenbrock.of(tableau), which)
-        return found
-
     if isinstance(method, Tableau):
-        return make(method)
-    return method.derive(which.replace("_", " "), make)
+        return _seen(which, method)
+    return method.derive(which.replace("_", " "), partial(_seen, which))
+
+
+def _seen(which: Which, tableau: Tableau) -> Tableau:
+    found: Tableau = getattr(Rosenbrock.of(tableau), which)
+    return found
 
 
 def on_test_equation(tableau: Tableau, tolerance: fmpq | None) -> Tableau:

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
-from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from garkcli.doing import doing
 from garkcli.errors import Fault, HasFreeParameters, MethodFileError
 from garkcli.files import STDIN
+from garkcli.frozen import replace
 from garkcli.methodfile.bibliography import reference_of
 from garkcli.methodfile.build import Builder, MethodFile, V, part_of
 from garkcli.methodfile.description import Description, Form, left_behind, rules_of_blocks, works_of
@@ -24,12 +24,17 @@ from garkcli.methodfile.reader import Reader
 from garkcli.methodfile.reading import SUFFIX
 from garkcli.methodfile.source import Source
 from garkcli.methodfile.values import Values
-from garkcli.order.meant import remember, remember_digits
+from garkcli.order.meant import remember, remember_digits, remembered, remembered_digits
 from garkcli.reference import Work
+from garkcli.remade import Remade
 
 if TYPE_CHECKING:
-    from garkcli.order.meant import Radii
-    from garkcli.tableau.box import Box
+    from flint import fmpq
+
+    from garkcli.exact.field import Number
+    from garkcli.exact.nodes import Expression
+    from garkcli.order.meant import ByRadii, Radii
+    from garkcli.tableau.box import Box, Make
     from garkcli.tableau.embedded import Further
 
 NO_SETTINGS: Mapping[str, str] = {}
@@ -140,17 +145,49 @@ def loads(
         left_behind=left_behind(description.content),
         rules=rules_of_blocks(description),
     )
+    file = text, source, dict(settings)
     if rounded is not None:
-        box = partial(rounded.box, made.text)
-        remember(method.tableau, method.tolerance, lambda: (box(), made.further))
 
-    def box_by_digits(radii: Radii) -> tuple[Box, Further]:
+        def box() -> tuple[Box, Further]:
+            found = rounded.box(made.text)
+            return replace(found, make=Remade(found.make, _maker, *file)), made.further
+
+        remember(method.tableau, method.tolerance, Remade(box, _box, *file))
+
+    def box_by_digits(radii_of: Radii) -> tuple[Box, Further]:
         from garkcli.methodfile.rounding import box_of  # few files are rounded
 
-        return box_of(made, reader.numbers, description.content, radii), made.further
+        radii: list[fmpq] = []
 
-    remember_digits(method.tableau, box_by_digits)
+        def kept(numbers: Sequence[tuple[Expression, Number]]) -> Sequence[fmpq]:
+            radii[:] = radii_of(numbers)
+            return radii
+
+        found = box_of(made, reader.numbers, description.content, kept)
+        make = Remade(found.make, _maker_by_digits, *file, radii)
+        return replace(found, make=make), made.further
+
+    remember_digits(method.tableau, Remade(box_by_digits, _box_by_digits, *file))
     return method
+
+
+# another process reads the file again for what it is asked
+def _box(*file: Any) -> Callable[[], tuple[Box, Further]]:
+    return remembered(loads(*file).tableau)
+
+
+def _maker(*file: Any) -> Make:
+    box, _ = _box(*file)()
+    return box.make
+
+
+def _box_by_digits(*file: Any) -> ByRadii:
+    return remembered_digits(loads(*file).tableau)
+
+
+def _maker_by_digits(text: str, source: str, settings: Any, radii: Sequence[fmpq]) -> Make:
+    box, _ = _box_by_digits(text, source, settings)(lambda _: radii)
+    return box.make
 
 
 def works_in(text: str, source: str) -> tuple[Work, ...]:

@@ -98,6 +98,18 @@ def remember(
     tableau.__dict__["box"] = tolerance, box
 
 
+def remembered(tableau: Tableau) -> Callable[[], tuple[Box, Further]]:
+    """What ``remember`` kept of a tableau."""
+    box: Callable[[], tuple[Box, Further]] = tableau.__dict__["box"][1]
+    return box
+
+
+def remembered_digits(tableau: Tableau) -> ByRadii:
+    """What ``remember_digits`` kept of a tableau."""
+    box: ByRadii = tableau.__dict__["digits"]
+    return box
+
+
 def remember_base(tableau: Tableau, base: GarkMethod, which: str) -> None:
     """Keep what a tableau is made of: it is as uncertain as the numbers of that make it.
 

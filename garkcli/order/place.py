@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import cached_property
 from itertools import islice
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from flint import arb, ctx, fmpq
@@ -71,6 +71,15 @@ class Place:
         self._residuals: dict[str, TreeResiduals] = {}
         self._spans: dict[str, ApproximateSpans] = {}
         self._missed: dict[tuple[str, int], list[Tree]] = {}
+
+    def __getstate__(self) -> tuple[Any, ...]:
+        # what is made around it is made again in another process
+        return self.search, self.shifts, self.slack
+
+    def __setstate__(self, state: tuple[Any, ...]) -> None:
+        search, shifts, slack = state
+        Place.__init__(self, search, shifts)
+        self.slack = slack
 
     @property
     def distance(self) -> float:

@@ -81,7 +81,7 @@ class Recovery:
     def __init__(self, box: Box, further: Further = NOTHING) -> None:
         self.box = box
         self.printed_further = further
-        self.targets: dict[str, Derive] = {"method": lambda whole: from_colours(whole, further)[0]}
+        self.targets: dict[str, Derive] = {"method": partial(_own, further)}
         finest = max((-_binary_exponent(t) for t in box.radii), default=0)
         # what is of second order in the radii is no zero
         self.zero_bits = max(120, 2 * finest + 80)
@@ -113,8 +113,8 @@ class Recovery:
                 self._recover_shape_and_orders()
             self.order_of("method", DEFAULT_LIMIT)
             self._recover_weak()
+            self._add_further()
             if self.printed_further.embedded is not None:
-                self.with_weights("embedded", _embedded)
                 self.order_of("embedded", DEFAULT_LIMIT)
             if self.printed_further.dense is not None:
                 self._dense = self.recover_dense(DEFAULT_LIMIT)
@@ -165,8 +165,7 @@ class Recovery:
         """
         other = Recovery(self.box, self.printed_further)
         other.targets = dict(self.targets)
-        if self.printed_further.embedded is not None:
-            other.with_weights("embedded", _embedded)
+        other._add_further()
         other._has_shape = other._is_settled = True
         return other
 
@@ -188,10 +187,7 @@ class Recovery:
         """Move to a method whose dense output has the largest order; why it has no larger one."""
         dense = self.printed_further.dense
         assert dense is not None
-        for power in range(1, dense.degree + 1):
-            name = f"power {power}"
-            self._powers[name] = power
-            self.with_weights(name, partial(_power, power))
+        self._add_further()
         for order in range(1, min(limit, dense.degree) + 1):
             failure = self._try(dict.fromkeys(self._powers, order))
             if failure is not None:
@@ -205,6 +201,15 @@ class Recovery:
         if order > len(self.printed_further.powers):
             return True  # there is no coefficient of such a power
         return order == reached + 1 and failure is not None and failure.is_proved
+
+    def _add_further(self) -> None:
+        """Add the tableaus with embedded weights, and with those of each power of θ, for b."""
+        if self.printed_further.embedded is not None:
+            self.with_weights("embedded", _embedded)
+        for power in range(1, len(self.printed_further.powers) + 1):
+            name = f"power {power}"
+            self._powers[name] = power
+            self.with_weights(name, partial(_power, power))
 
     def with_weights(self, name: str, weights: Callable[[Further], Weights]) -> None:
         """Add the tableau with some of its further weights for b."""
@@ -265,6 +270,7 @@ class Recovery:
         found = recovered_of(self.box, self.origin.exact("method").known)
         if found is None:
             return False
+        self._add_further()
         place = Place(self, found.shifts)
         sizes = [abs(x) for x in place.values(found.shape)]
         if not place.is_inside or not all(x < self.small for x in sizes):
@@ -542,6 +548,10 @@ class Recovery:
         found = Place(self, place.shifts)
         found.slack = 4 * float(worst)
         return found
+
+
+def _own(further: Further, whole: Tableau) -> Tableau:
+    return from_colours(whole, further)[0]
 
 
 def _embedded(further: Further) -> Weights:

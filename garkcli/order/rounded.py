@@ -9,7 +9,7 @@ undecided.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from functools import cached_property
+from functools import cached_property, partial
 
 from flint import arb, ctx, fmpq
 
@@ -169,10 +169,7 @@ class RoundedTableau(Frozen, eq=False):
         if timed is None:
             return None
 
-        def derive(tableau: Tableau) -> Tableau:
-            return with_time(tableau) or tableau
-
-        return self.derive("with time", derive)
+        return self.derive("with time", _with_time)
 
     def with_embedded(self) -> RoundedTableau | None:
         """The same stages with the embedded weights; None where no rounded number is in either."""
@@ -211,8 +208,16 @@ class RoundedTableau(Frozen, eq=False):
         name, search = f"{kind} of {self.name}", self.search
         derived = make(self.tableau)
         base = search.targets[self.name]
-        search.targets.setdefault(name, lambda whole: make(base(whole)))
+        search.targets.setdefault(name, partial(_made_of, make, base))
         return RoundedTableau(derived, self.tolerance, search, name)
+
+
+def _with_time(tableau: Tableau) -> Tableau:
+    return with_time(tableau) or tableau
+
+
+def _made_of(make: Derive, base: Derive, whole: Tableau) -> Tableau:
+    return make(base(whole))
 
 
 def _shape(tableau: Tableau) -> tuple[list[int], set[Edge]]:

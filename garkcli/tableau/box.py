@@ -14,6 +14,7 @@ from garkcli.exact.display import to_float
 from garkcli.exact.field import Algebraic, Number
 from garkcli.exact.matrix import Vector, apply, apply_left, identity, multiply
 from garkcli.frozen import Frozen, replace
+from garkcli.remade import Remade
 from garkcli.tableau.polynomial_space import PolynomialSpace, coordinates_at_nodes, powers_of_nodes
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Edge, Tableau
@@ -185,6 +186,30 @@ def plain_box(tableau: Tableau, radius_of: Callable[[Number], fmpq], colours: in
         if t
     ]
 
+    made_of = tableau, rows, radii, sums, first
+    make = Remade(_maker(*made_of), _maker, *made_of)
+    return Box(tuple(x for x, _ in printed), tuple(t for _, t in printed), make)
+
+
+def _maker(
+    tableau: Tableau,
+    rows: Sequence[Vector],
+    radii: Sequence[Sequence[fmpq]],
+    sums: Sequence[int | None],
+    first: Sequence[int],
+) -> Make:
+    """What makes the method of other numbers.
+
+    Args:
+        tableau: as it is printed.
+        rows: its weights, the rows of its blocks, and nodes that are printed.
+        radii: of these, by how much each number may be off; 0 for exact ones.
+        sums: of each colour, the colour m whose A^{l,m} 𝟙 are its nodes; None where they are
+            printed.
+        first: of each colour, the first one with the same nodes on the same stages.
+    """
+    colours = len(sums)
+
     def make(values: Sequence[Any]) -> Tableau:
         left = iter(values)
         made = _filled(rows, radii, left)
@@ -209,7 +234,7 @@ def plain_box(tableau: Tableau, radius_of: Callable[[Number], fmpq], colours: in
         ]
         return Tableau(tuple(spaces), tuple(new), blocks)
 
-    return Box(tuple(x for x, _ in printed), tuple(t for _, t in printed), make)
+    return make
 
 
 def _filled(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
 from itertools import chain
-from typing import Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 from garkcli.errors import MethodError, ShapeMismatch, counted
 from garkcli.exact.field import Algebraic, Number, NumberField
@@ -135,6 +135,14 @@ class Tableau(Frozen):
             for m in range(self.size):
                 if self.block(l, m) is not None:
                     yield l, m
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # where its numbers are from goes along; what it has computed is computed again
+        kept = {key: x for key, x in self.__dict__.items() if not hasattr(Tableau, key)}
+        return Tableau, (self.spaces, self.colours, self.blocks), kept or None
+
+    def __setstate__(self, kept: dict[str, Any]) -> None:
+        self.__dict__.update(kept)
 
     def tree(self, l: int, branches: Iterable[Tree] = ()) -> Tree:
         """The tree with a root of colour l, from 0."""

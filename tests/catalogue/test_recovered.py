@@ -5,6 +5,7 @@ where it is wrong.
 from __future__ import annotations
 
 import json
+import pickle
 from pathlib import Path
 
 import pytest
@@ -121,3 +122,24 @@ def test_the_file_is_one_line_a_method() -> None:
     lines = recovered.FILE.read_text(encoding="ascii").splitlines()
     assert len(lines) == len(KEPT) + 2
     assert json.loads("{" + lines[1].rstrip(",") + "}")
+
+
+@pytest.mark.parametrize("tolerance", ["1e-3", "digits"])
+def test_another_process_has_the_same_method(tolerance: str) -> None:
+    """A search that was sent has the numbers that it had found, and goes on from there."""
+    text = HEUN.replace("1e-3", tolerance)
+    method = as_meant(loads(text))
+    assert isinstance(method, RoundedTableau)
+    method.conjugate()
+    place = method.search.settled
+    sent: RoundedTableau = pickle.loads(pickle.dumps(method))
+    assert sent.search.settled.shifts == place.shifts
+    assert sent.near.colours == method.near.colours
+    name = "conjugate of method"
+    order, _, missed = sent.search.order_of(name, 4)
+    assert (order, missed) == method.search.order_of(name, 4)[::2]
+    again = with_further(pickle.loads(pickle.dumps(loads(text).tableau)))
+    fresh = as_meant(loads(text))
+    assert isinstance(fresh, RoundedTableau)
+    if again is not None:
+        assert again.search.box.numbers == fresh.search.box.numbers

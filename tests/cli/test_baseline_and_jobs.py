@@ -225,6 +225,19 @@ def test_two_at_a_time_say_the_same(options: tuple[str, ...], paths: tuple[str, 
     assert one.code == two.returncode == 2
 
 
+def test_rounded_methods_two_at_a_time_say_the_same() -> None:
+    """Also what a report asks of the method that the digits mean, which another process found."""
+    paths = [
+        f"garkcli/catalogue/data/{x}.gark.yaml" for x in ("dirk/kvaerno-3", "rosenbrock/ros34pw2")
+    ]
+    options = ("-v", "--properties")
+    one = gark("check", *options, *paths)
+    two = process(*options, "-j", "2", *paths)
+    assert (one.out, one.err) == (two.stdout, two.stderr)
+    assert one.code == two.returncode == 0
+    assert "within" in one.out
+
+
 def test_standard_input_among_many() -> None:
     """``-`` is read once, in its place among the files, with ``-j`` as without."""
     paths = ("methods/collocation.gark.yaml", "-", "tests/examples/failing")
