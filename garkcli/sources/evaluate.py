@@ -56,7 +56,9 @@ PER_NAME = 10
 """Characters that a name counts for which an arm of a branch copies."""
 MAX_INLINED = 3
 """Deepest nesting of calls of functions of one expression: the work may double each time."""
-_GROWING = frozenset({"push_back", "append", "emplace_back", "push!"})
+_GROWING = frozenset({"push_back", "append", "emplace_back"})
+_GROWN = frozenset({"push!", "append!", "pushfirst!", "prepend!"})
+"""Functions that make their first argument longer, by the others or by what is in them."""
 _SAME = frozenset({"copy", "astype", "tolist", "to", "clone", "item", "double", "float", "numpy"})
 """Methods that give the array or the number itself."""
 _EMPTYING = frozenset({"resize", "clear", "reinit"})
@@ -355,7 +357,10 @@ class Evaluator:
         if isinstance(old, type(made)):
             return old
         is_free = old is None or isinstance(old, Unknown)
-        if isinstance(made, Array):
+        if isinstance(made, Array) and _is_an_argument(old, str(key)):
+            # what a caller has is filled: the other entries are those of the caller
+            made.fill = old
+        elif isinstance(made, Array):
             is_free = old is None or isinstance(old, Null) or _is_unset(old)
         if not is_free:
             return None
@@ -392,7 +397,7 @@ class Evaluator:
         for i in self._numbers(at[0], array, space) if at else ():
             if array.is_growing and len(array.items) <= i < MAX_STAGES:
                 self.allowance.spend(i)
-                array.items += [FILL] * (i + 1 - len(array.items))
+                array.items += [array.fill or FILL] * (i + 1 - len(array.items))
             if not 0 <= i < len(array.items):
                 return []
             if len(at) == 1:
@@ -619,6 +624,8 @@ class Evaluator:
         name = callee.name if isinstance(callee, ir.Name | ir.Field) else ""
         if isinstance(callee, ir.Field) and name in _METHODS:
             return self._method(callee.of, name, call.args, space)
+        if name in _GROWN and call.args:
+            return self._grown(call.args[0], name, call.args[1:], space)
         line = self.line
         args = [self.value(x, space) for x in call.args]
         named = {key: self.value(x, space) for key, x in call.named}
@@ -683,6 +690,22 @@ class Evaluator:
             self.allowance.spend(size(values[0]))
             box.items.append(copied(values[0]))
         return NULL
+
+    def _grown(self, of: ir.Expr, name: str, args: Sequence[ir.Expr], space: Space) -> Value:
+        """An array that a function makes longer."""
+        box = self._changed(of, space, Array([], is_growing=True))
+        values: list[Value] = [self.value(x, space) for x in args]
+        if name in {"append!", "prepend!"} and all(isinstance(x, Array) for x in values):
+            values = [y for x in values for y in items_of(x)]
+        elif name in {"append!", "prepend!"}:
+            box = None
+        if box is None:
+            self.spoil(of, space, f"changed by {name}", self.line)
+            return NULL
+        self.allowance.spend(sum(map(size, values)))
+        at = 0 if name in {"pushfirst!", "prepend!"} else len(box.items)
+        box.items[at:at] = map(copied, values)
+        return box
 
 
 def _is_unset(value: Value) -> bool:
@@ -772,6 +795,9 @@ def _targets(body: Iterable[ir.Statement]) -> Iterator[tuple[ir.Expr, int]]:
                 yield target, line
             case ir.Do(value=ir.Call(callee=ir.Field(of=of, name=name)), line=line):
                 if name in _METHODS:
+                    yield of, line
+            case ir.Do(value=ir.Call(callee=ir.Name(name=name), args=(of, *_)), line=line):
+                if name in _GROWN:
                     yield of, line
 
 

@@ -26,6 +26,7 @@ from garkcli.sources.values import (
     computed,
     copied,
     integer,
+    items_of,
     literal,
     real,
     root,
@@ -334,7 +335,11 @@ def _square(call: Call, value: Value) -> Value | None:
 
 
 @_known("length len size")
-def _length(call: Call, value: Value = NULL, *_: Value) -> Value | None:
+def _length(call: Call, value: Value = NULL, axis: Value = NULL) -> Value | None:
+    """How many entries a list or rows a matrix has; ``size(A, 2)`` are the columns."""
+    if call.name == "size" and whole(axis) == 1 + call.evaluator.base:
+        rows = items_of(value)
+        value = rows[0] if rows else NULL
     return integer(len(value.items)) if isinstance(value, Array) else call.unknown()
 
 

@@ -81,10 +81,12 @@ class Array(Mutable, eq=False):
     Attributes:
         items: the values.
         is_growing: whether what is assigned behind its end makes it longer.
+        fill: what is in entries before that, which nobody assigned.
     """
 
     items: list[Value]
     is_growing: bool = False
+    fill: Value | None = None
 
     @property
     def is_matrix(self) -> bool:
@@ -102,7 +104,7 @@ class Array(Mutable, eq=False):
     def map(self, change: Callable[[Value], Value]) -> Array:
         """The same with other entries."""
         items = [x.map(change) if isinstance(x, Array) else change(x) for x in self.items]
-        return Array(items, self.is_growing)
+        return Array(items, self.is_growing, self.fill)
 
 
 class Record(Mutable, eq=False):

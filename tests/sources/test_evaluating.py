@@ -10,7 +10,13 @@ from garkcli.exact.display import to_text
 from garkcli.sources.found import FoundTable
 from garkcli.sources.languages import c, fortran, julia, matlab, python
 
-FIND = {"c": c.find, "f90": fortran.find, "jl": julia.find, "m": matlab.find, "py": python.find}
+FIND = {
+    "c": c.find,
+    "jl": julia.find,
+    "m": matlab.find,
+    "py": python.find,
+    **dict.fromkeys(("f90", "f"), fortran.find),
+}
 RALSTON = ((("0", "0"), ("2/3", "0")),)
 SAME = {
     "c, wrappers and macros": (
@@ -20,6 +26,27 @@ SAME = {
     "c, loops": (
         "void f(void) { double A[2][2] = {{0}}, b[2]; A[1][0] = 2./3;\n"
         "  for (int i = 0; i < 2; i++) b[i] = (2*i + 1)/4.; }"
+    ),
+    "c, arrays of the caller": (
+        "void f(int *s, double A[], double b[]) { *s = 2; A[0] = 0; A[1] = 0; A[2] = 2./3;\n"
+        "  A[3] = 0; b[0] = 0.25; b[1] = 1 - b[0]; }"
+    ),
+    "c, types that the grammar does not know": (
+        "void f(void) { real g = 3; real A[2][2] = {{0}}, b[2]; A[1][0] = (real)-2.0/(real)(-g);\n"
+        "  b[0] = (real)(0.25); b[1] = (real)0.75; }"
+    ),
+    "f, fixed form": (
+        "c     of Ralston\n      subroutine f(A, b)\n      double precision A(2,2), b(2), w\n"
+        "      parameter (w=0.25d0)\n      A(1,1) = 0\n      A(1,2) = 0\n      A(2,1) = ! in two\n"
+        "     &  2.0d0/\n     1  3.0d0\n      A(2,2) = 0\n      b(1) = w\n      b(2) = 3*w\n"
+        "      end\n"
+    ),
+    "jl, comprehensions": (
+        "r = [0 0; 0 2//3]\nA = [r[i, 3 - j] for i in 1:size(r, 1), j in 1:size(r, 2)]\n"
+        "b = Rational[w for w in [1//4]]\npush!(b, sum(x//4 for x in 1:2))\n"
+    ),
+    "jl, lists that grow": (
+        "A = [0 0; 2//3 0]\nb = [1//4]\nappend!(b, [3//4])\nc = [2//3]\npushfirst!(c, 0)\n"
     ),
     "jl, entries of other arrays": (
         "c = [0, 2//3]\nA = zeros(2, 2)\nA[2, 1] = c[end]\nb = [1//4; 3//4]\n"
@@ -67,6 +94,19 @@ UNKNOWN = {
     "jl, a function that changes an array": (
         "A = [0 0; 1//2 0]\nb = [0, 1]\nscale!(A)\n",
         "changed by scale!, line 3, is not known",
+    ),
+    "jl, a list that grows in a loop": (
+        "A = [0 0; 1//2 0]\nb, c = [1//4, 3//4], [0, 1//2]\nwhile x\n    push!(b, 1//2)\nend\n",
+        "assigned in a loop, line 4, is not known",
+    ),
+    "jl, a list that grows by what is not known": (
+        "A = [0 0; 1//2 0]\nb, c = [1//4], [0, 1//2]\nappend!(b, f(2))\n",
+        "changed by append!, line 3, is not known",
+    ),
+    "c, an entry that the caller has": (
+        "void f(double A[], double b[]) { A[0] = 0; A[1] = 0; A[3] = 0; b[0] = 0.25;\n"
+        "  b[1] = 0.75; }",
+        "the argument A, line 1, is not known",
     ),
     "py, a call": (
         "A = [[0, 0], [alpha(1), 0.5]]\nb = [0, 1]\n",

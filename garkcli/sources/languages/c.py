@@ -64,6 +64,7 @@ class CLowering(Lowering):
     def __init__(self, text: str, language: Language) -> None:
         super().__init__(text, language)
         self._data = _without_open_comment(_DEVICE.sub(lambda x: b" " * len(x[0]), self._data))
+        self._types_in_use: dict[str, bool] = {}
 
     def own(self, node: Node, inside: list[Node], line: int) -> Iterator[ir.Statement]:
         match node.type:
@@ -253,6 +254,8 @@ class CLowering(Lowering):
             # ARK_BUTCHER_TABLE(NAME, {…}): an entry of a list of macros
             inside = self.block(x for body in bodies for x in body.named_children)
             yield ir.Scope("entry", self.text(args[0]), inside, line_of(node))
+        elif called == "strcpy" and len(args) == 2:
+            yield ir.Assign(self.target(args[0]), self.expr(args[1]), line_of(node))
         elif called in {"PetscCall", "CHKERRQ", "PetscCallVoid"} and len(args) == 1:
             yield from self.block(args)
         else:
@@ -273,9 +276,7 @@ class CLowering(Lowering):
                     of = part(of, "argument")
                 return self.expr(of)
             case "cast_expression":
-                name, value = self.text(part(node, "type")), self.expr(part(node, "value"))
-                is_whole = _WHOLE_TYPES.search(name.partition(" ")[0])
-                return value if is_whole else ir.Call(ir.Name("double"), (value,))
+                return self._cast(part(node, "type"), self.expr(part(node, "value")))
             case "compound_literal_expression" if inside:
                 return self._with_fields(self.expr(inside[-1]), inside[0], line_of(node))
             case "initializer_list":
@@ -289,8 +290,35 @@ class CLowering(Lowering):
                 # T x(args)
                 return ir.Call(ir.Name("constructor"), self.exprs(inside))
             case "call_expression" if inside:
-                return ir.Call(self.expr(inside[0]), self.exprs(inside[-1].named_children))
+                args = self.exprs(inside[-1].named_children)
+                if len(args) == 1 and self._is_type(inside[0]):
+                    # (real)(-0.5): the grammar knows no types
+                    return self._cast(self.children(inside[0])[0], args[0])
+                return ir.Call(self.expr(inside[0]), args)
         return unmeant(node)
+
+    def expression(self, node: Node, inside: list[Node]) -> ir.Expr:
+        match found := super().expression(node, inside):
+            case ir.Binary("+" | "-" as sign, _, right) if self._is_type(inside[0]):
+                # (real)-0.5
+                return self._cast(self.children(inside[0])[0], ir.Unary(sign, right))
+        return found
+
+    def _is_type(self, node: Node) -> bool:
+        """Whether a name in brackets is one that variables are declared with."""
+        inside = self.children(node) if node.type == "parenthesized_expression" else []
+        if len(inside) != 1 or not self.is_a("name", inside[0]):
+            return False
+        name = self.text(inside[0])
+        if name not in self._types_in_use:
+            declared = rf"\b{re.escape(name)}\s[\s*]{{0,9}}[A-Za-z_]\w*\s{{0,9}}[=;,\[)]"
+            self._types_in_use[name] = re.search(declared.encode(), self._data) is not None
+        return self._types_in_use[name]
+
+    def _cast(self, kind: Node | None, value: ir.Expr) -> ir.Expr:
+        """A number of another type."""
+        is_whole = _WHOLE_TYPES.search(self.text(kind).partition(" ")[0])
+        return value if is_whole else ir.Call(ir.Name("double"), (value,))
 
     def number(self, text: str) -> ir.Expr:
         if text.startswith("-"):

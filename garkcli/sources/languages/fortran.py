@@ -1,4 +1,4 @@
-"""Fortran from 1990 on."""
+"""Fortran: free form from 1990 on, and the fixed form before, as free form."""
 
 from __future__ import annotations
 
@@ -9,8 +9,9 @@ from collections.abc import Iterator
 import tree_sitter_fortran
 from tree_sitter import Language, Node
 
+from garkcli.frozen import replace
 from garkcli.sources import ir
-from garkcli.sources.found import MAX_STAGES
+from garkcli.sources.found import MAX_STAGES, FoundTable
 from garkcli.sources.lowering import Lowering, kinds, less_one, line_of, part, reader, unmeant
 
 NAME = "fortran"
@@ -61,6 +62,11 @@ class FortranLowering(Lowering):
                 parts = [y for x in inside for y in x.children_by_field_name("declarator")]
                 name = self.children(inside[0])[-1]
                 self.declares(self.name(name), map(self.first_name, parts))
+            case "parameter_statement":
+                for each in inside:
+                    match self.exprs(self.children(each)):
+                        case (ir.Name() as target, value):
+                            yield ir.Assign(target, value, line)
             case "assignment_statement" if len(inside) == 2:
                 # a number that is assigned to an array fills it
                 sign = "" if inside[0].type == "call_expression" else "."
@@ -231,12 +237,39 @@ def _less(expr: ir.Expr, by: ir.Expr) -> ir.Expr:
     return ir.Binary("-", expr, by)
 
 
-READER = reader(
+def find(text: str, source: str) -> list[FoundTable]:
+    """The tables of a Fortran source."""
+    return _READER.find(_free(text) if source.lower().endswith(_FIXED) else text, source)
+
+
+def _free(text: str) -> str:
+    """A source of fixed form in free form, line by line: comments have a letter in column 1, lines
+    that go on with the one before a sign in column 6.
+    """
+    lines = text.split("\n")
+    last = -1
+    for i, line in enumerate(lines):
+        if line[:1] in set("cCdD*!"):
+            lines[i] = f"!{line[1:]}"
+        elif not line[:5].strip() and line[5:6] not in {"", " ", "0", "\t"}:
+            lines[i] = f"     &{line[6:]}"
+            if last >= 0:
+                code = _CODE.match(lines[last])
+                lines[last] = f"{code[0] if code else lines[last]} &"
+        if lines[i].strip() and not lines[i].lstrip().startswith(("!", "#")):
+            last = i
+    return "\n".join(lines)
+
+
+_CODE = re.compile(r"(?:[^!'\"]|'[^']*'|\"[^\"]*\")*")
+"""A line without its comment."""
+_FIXED = (".f", ".for", ".f77", ".ftn")
+_READER = reader(
     FortranLowering,
     NAME,
     "Fortran: parameters, arrays, coefficients by name",
-    (".f90", ".f95", ".f03", ".f08"),
+    (".f90", ".f95", ".f03", ".f08", *_FIXED),
     base=1,
     has_whole_quotients=True,
 )
-find = READER.find
+READER = replace(_READER, find=find)

@@ -296,6 +296,8 @@ class JuliaLowering(Lowering):
                 return unmeant(other) if other else ir.Rows(self._rows(inside))
             case "vector_expression" | "tuple_expression" | "open_tuple":
                 return self._tuple(node, inside)
+            case "comprehension_expression" if len(inside) == 2:
+                return self._each(node, inside[0], inside[1])
             case "call_expression" | "broadcast_call_expression" if inside:
                 return self._call(inside)
             case "index_expression" if len(inside) > 1:
@@ -319,6 +321,17 @@ class JuliaLowering(Lowering):
         parts = [self.children(x) or [x] for x in inside]
         return ir.Fields(tuple((self.text(x[0]), self.expr(x[-1])) for x in parts))
 
+    def _each(self, node: Node, value: Node, over: Node) -> ir.Expr:
+        """``[a[i, j] for i in 1:3, j in 1:2]``, a matrix with a row for each i."""
+        found = self.expr(value)
+        for binding in reversed(self.children(over)):
+            counter, *_, values = self.children(binding) or [binding]
+            if counter.type != "identifier":
+                return unmeant(node)
+            each = ir.Lambda((self.text(counter),), found)
+            found = ir.Call(ir.Name("list of each"), (each, self.expr(values)))
+        return found
+
     def _rows(self, rows: list[Node]) -> tuple[tuple[ir.Expr, ...], ...]:
         """The entries of rows."""
         found: list[list[ir.Expr]] = []
@@ -331,8 +344,8 @@ class JuliaLowering(Lowering):
         return tuple(map(tuple, found))
 
     def _index(self, of: Node, at: Node) -> ir.Expr:
-        if at.type == "matrix_expression":
-            # T[1 2; 3 4]
+        if at.type in {"matrix_expression", "comprehension_expression"}:
+            # T[1 2; 3 4], T[b[i] for i in 1:3]
             return self.expr(at)
         places = tuple(
             ir.Range() if self.text(part) == ":" else self.expr(part) for part in self.children(at)
@@ -342,6 +355,9 @@ class JuliaLowering(Lowering):
     def _call(self, inside: list[Node]) -> ir.Expr:
         given = inside[1] if len(inside) > 1 else None
         parts = self.children(given)
+        if given is not None and len(parts) == 2 and parts[1].type == "for_clause":
+            # sum(a[i] for i in 1:3)
+            return self.call(self.expr(inside[0]), (self._each(given, *parts),))
         semicolon = next(
             (x.start_byte for x in reversed(given.children if given else []) if x.type == ";"), 0
         )
