@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 from flint import fmpq
 
-from garkcli.bridges.elsewhere import declared_orders, with_declared
+from garkcli.bridges.elsewhere import declared_orders, with_bases, with_declared
 from garkcli.bridges.estimates import with_orders
 from garkcli.bridges.finding import EXPLAINED, AuditFinding, Level
 from garkcli.bridges.judging import Judged, at_least, judged
@@ -92,7 +92,7 @@ def audited(
         UsageProblem: a source cannot be read.
     """
     given = list(paths)
-    work = partial(_tables, orders=declared_orders(given))
+    work = partial(_tables, orders=declared_orders(given), others=given)
     for found in read_within_limits(given, work, _late, jobs):
         for each in found:
             if each.table.is_unlike:
@@ -101,9 +101,11 @@ def audited(
                 yield each
 
 
-def _tables(text: str, source: str, orders: Mapping[str, int]) -> list[Audited]:
+def _tables(
+    text: str, source: str, orders: Mapping[str, int], others: Sequence[str]
+) -> list[Audited]:
     """The tables of one source."""
-    tables = find_tables(text, source, readers_for(source))
+    tables = with_bases(find_tables(text, source, readers_for(source)), source, others)
     found = [audit(table) for table in with_declared(tables, text, orders)]
     return [x for x in found if x is not None]
 
@@ -121,7 +123,7 @@ def audit(table: FoundTable) -> Audited | None:
         return Audited(table, findings=(AuditFinding("shape", table.trouble),))
     if table.trouble:
         return _noted(table, table.trouble)
-    if table.gamma is not None:
+    if table.gamma is not None or table.is_multirate:
         return _of_rosenbrock(table)
     try:
         method = read(table)

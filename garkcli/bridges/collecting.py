@@ -10,7 +10,7 @@ from pathlib import PurePath
 
 from garkcli.bridges.audit import is_unrecognised
 from garkcli.bridges.claiming import imported
-from garkcli.bridges.elsewhere import declared_orders, with_declared
+from garkcli.bridges.elsewhere import declared_orders, with_bases, with_declared
 from garkcli.bridges.finding import AuditFinding
 from garkcli.bridges.limited import read_within_limits
 from garkcli.bridges.plausible import is_plausible
@@ -103,7 +103,7 @@ def collected(
         reader_named(format)
     used: set[str] = set()
     given = list(paths)
-    work = partial(_tables, format=format, orders=declared_orders(given))
+    work = partial(_tables, format=format, orders=declared_orders(given), others=given)
     for table in chain.from_iterable(read_within_limits(given, work, lambda table: table)):
         if table.is_unlike:
             continue
@@ -119,10 +119,11 @@ def collected(
 
 
 def _tables(
-    text: str, source: str, format: str | None, orders: Mapping[str, int]
+    text: str, source: str, format: str | None, orders: Mapping[str, int], others: Sequence[str]
 ) -> list[FoundTable]:
     chosen = readers_for(source) if format is None else [reader_named(format)]
-    return list(with_declared(find_tables(text, source, chosen), text, orders))
+    found = with_bases(find_tables(text, source, chosen), source, others)
+    return list(with_declared(found, text, orders))
 
 
 def _result(table: FoundTable, name: str, is_recognising: bool, is_as_found: bool) -> Result:
@@ -131,7 +132,7 @@ def _result(table: FoundTable, name: str, is_recognising: bool, is_as_found: boo
     if table.trouble:
         return Result(table, trouble=table.trouble)
     try:
-        if table.gamma is not None:
+        if table.gamma is not None or table.is_multirate:
             from garkcli.bridges.rosenbrock import imported_row  # few sources have them
 
             return Result(table, method=imported_row(table, name, is_as_found))

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from textwrap import dedent
 
+from garkcli.bridges.readers.registry import find_tables, readers_for
 from garkcli.bridges.said import order_said_of
 from garkcli.bridges.sources import source_text
 from garkcli.errors import UsageProblem
 from garkcli.frozen import replace
-from garkcli.sources.found import FoundTable
+from garkcli.sources.found import FoundTable, troubled
 
 _OF_ALGORITHM = re.compile(
     r"^[ \t]*(?:\w+\.)?alg_order\(\s*\w{0,50}::(?:Union\{)?(?P<names>[\w\s,.]{1,900})\}?\s*\)"
@@ -62,6 +63,43 @@ def orders_in(text: str) -> list[tuple[str, int]]:
             names = [match["name"], *(x["name"] for x in _USED.finditer(body))]
             found += [(name, int(order["n"])) for name in names]
     return found
+
+
+def with_bases(
+    tables: Sequence[FoundTable], source: str, others: Sequence[str]
+) -> Sequence[FoundTable]:
+    """Tables of a source with the coefficients of those that they are made of by name, which are in
+    it or in an entry of a list of macros in another one.
+    """
+    missing = {x.base for x in tables if x.base}
+    if not missing:
+        return tables
+    known = {x.name: x for x in tables if x.b and x.name in missing}
+    for path in others:
+        missing -= known.keys()
+        if not missing:
+            break
+        if path != source and path.endswith(_LISTS):
+            text, _ = source_text(path)
+            if re.search(rf"\(\s*(?:{'|'.join(map(re.escape, missing))})\s*,\s*\{{", text):
+                found = find_tables(text, path, readers_for(path))
+                known |= {x.name: x for x in found if x.b and x.name in missing}
+    return [_with_base(x, known.get(x.base)) if x.base else x for x in tables]
+
+
+_LISTS = (".def", ".c", ".h", ".cpp", ".hpp")
+"""Files with lists of macros."""
+
+
+def _with_base(table: FoundTable, base: FoundTable | None) -> FoundTable:
+    if base is None:
+        return troubled(table, f"it is made of {table.base}, which is in none of these sources")
+    embedded = base.embedded
+    orders = {"order": table.order or base.order}
+    orders["embedded_order"] = table.embedded_order or base.embedded_order
+    return replace(
+        table, base="", A=base.A, b=base.b, c=base.c, embedded=embedded, units=base.units, **orders
+    )
 
 
 def with_declared(

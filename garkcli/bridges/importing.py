@@ -102,6 +102,8 @@ def _coefficients(table: FoundTable) -> Mapping[str, Tree]:
     """What a method file has of the coefficients."""
     if table.gamma is not None:
         return {"rosenbrock": _rosenbrock(table)}
+    if table.is_multirate:
+        return {"multirate": {**_slow(table), "fast": "exact"}}
     if table.parts:
         return _prk(table)
     if table.colours == 1 and table.A[0][0] is not None:
@@ -134,6 +136,29 @@ def _rosenbrock(table: FoundTable) -> Mapping[str, Tree]:
     diagonal = table.diagonal[0] if len(set(table.diagonal)) == 1 else table.diagonal
     stored = {"A": table.A[0][0], "C": table.gamma, "gamma": diagonal, "m": table.b[0], **beside}
     return {"transformed": {**stored, "e": table.error}}
+
+
+def _slow(table: FoundTable) -> Mapping[str, Tree]:
+    """The slow part of a multirate infinitesimal method: a coupling, or a method."""
+    found = table.coupling
+    if found is None:
+        assert table.A[0][0] is not None
+        return {"mis": _colour(table, 0, table.A[0][0], table.c[0])}
+    parts = dict(found.parts)
+    embedded: Tree = dict(found.embedded)
+    if len(parts) == 1:
+        (key,) = parts
+        embedded = found.embedded.get(key)
+        # the only part
+        parts = parts if found.restart else {"gamma": parts[key]}
+    return {
+        "mri": {
+            "restart": found.restart or None,
+            "c": found.c,
+            **parts,
+            "embedded": embedded or None,
+        }
+    }
 
 
 def _polynomials(dense: Sequence[Rows] | None) -> Mapping[str, Tree] | None:

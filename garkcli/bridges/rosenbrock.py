@@ -1,4 +1,6 @@
-"""Rosenbrock methods of sources: their orders within what the digits say, and what is wrong."""
+"""Rosenbrock and multirate infinitesimal methods of sources: their orders within what the digits
+say, and what is wrong.
+"""
 
 from __future__ import annotations
 
@@ -23,6 +25,7 @@ from garkcli.order.meant import AnyTableau, as_embedded, meant, printed, within_
 from garkcli.order.rounded import RoundedTableau, find_order_within
 from garkcli.order.tolerance import rounded_up
 from garkcli.sources.found import FoundTable
+from garkcli.tableau.forms import with_time
 from garkcli.tableau.tableau import Tableau
 
 _LITTLE = 1e-9
@@ -53,7 +56,7 @@ class _Within(Digits):
 
 
 class RowSubject(Subject):
-    """A Rosenbrock method with its orders.
+    """A Rosenbrock or a multirate infinitesimal method with its orders.
 
     Attributes:
         timed: the order for f(t, y), with the c and d of the source.
@@ -153,7 +156,8 @@ def _within(table: FoundTable, method: MethodFile, rounded: RoundedTableau | Non
         table = replace(table, notes=(*table.notes, note))
     order = _order(within, table.order)
     # no higher one is of interest
-    timed = _order(seen(within, "with_time"), table.order, order.order)
+    other_times = _with_time(table, within)
+    timed = other_times and _order(other_times, table.order, order.order)
     embedded = None
     if method.embedded is not None:
         other = within.with_embedded() if isinstance(within, RoundedTableau) else None
@@ -163,6 +167,13 @@ def _within(table: FoundTable, method: MethodFile, rounded: RoundedTableau | Non
             order.order + 1,
         )
     return RowSubject(table, method, order, embedded, timed=timed)
+
+
+def _with_time(table: FoundTable, method: AnyTableau) -> AnyTableau | None:
+    """The method for f(t, y), with the nodes of its source."""
+    if table.gamma is not None:
+        return seen(method, "with_time")
+    return with_time(method) if isinstance(method, Tableau) else method.with_time()
 
 
 def _order(method: AnyTableau, declared: int | None, limit: int | None = None) -> Judged:
@@ -181,7 +192,7 @@ def _are_many(method: AnyTableau) -> TypeGuard[RoundedTableau]:
 
 
 def row_findings(subject: RowSubject) -> Iterator[AuditFinding]:
-    """What is wrong with a Rosenbrock method."""
+    """What is wrong with such a method."""
     yield from subject.careless
     table, order = subject.table, subject.order
     declared = table.order
@@ -189,7 +200,8 @@ def row_findings(subject: RowSubject) -> Iterator[AuditFinding]:
         yield _differing("order", order, declared)
     timed = subject.timed
     if timed is not None and not timed.is_open and timed.order < order.order:
-        message = f"order {timed.order} where f depends on t, by c and d, and else {order.order}"
+        by = "by c and d" if table.gamma is not None else "by its nodes"
+        message = f"order {timed.order} where f depends on t, {by}, and else {order.order}"
         claims = {"nonautonomous-order": str(order.order)}
         yield AuditFinding("nodes", message + _why(timed), claims=claims)
     embedded, local = subject.embedded_order, table.embedded_order
@@ -253,7 +265,7 @@ def _tolerance(found: RowSubject) -> fmpq | None:
             continue
         wanted: list[tuple[AnyTableau | None, Judged | None]] = [
             (method, found.order),
-            (seen(method, "with_time"), found.timed),
+            (_with_time(found.table, method), found.timed),
         ]
         if found.embedded_order is not None:
             wanted.append((method.with_embedded(), found.embedded_order))

@@ -7,6 +7,8 @@ from math import isqrt
 from typing import TypeAlias
 
 from garkcli.frozen import Frozen, replace
+from garkcli.sources.couplings import FORM as COUPLING
+from garkcli.sources.couplings import coupling_table
 from garkcli.sources.found import MAX_STAGES, FoundTable, Misshapen, Row, Rows, Unreadable, troubled
 from garkcli.sources.known import conversion
 from garkcli.sources.linear_stages import FORMS as ROSENBROCK
@@ -190,6 +192,16 @@ def _built(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
         told = ("A", "b", "c", "d", "embedded", "error", "gamma", "C", "dense")
         texts = {role: plain(roles.get(role)) for role in told}
         return rosenbrock_table(texts, empty, form, roles)
+    if form == COUPLING:
+        texts = {role: plain(roles.get(role)) for role in ("c", "omega", "gamma")}
+        return coupling_table(texts, empty, roles)
+    base = roles.get("base")
+    if form == "slow" and isinstance(base, Word):
+        return replace(empty, base=base.text, is_slow=True, c=())
+    if form == "slow":
+        has_estimate = empty.embedded_order is not None
+        made = roles if has_estimate else {x: y for x, y in roles.items() if x != "embedded"}
+        return replace(_single(replace(meant, signature=NAMED), made, empty), is_slow=True)
     A = items_of(roles.get("A"))
     if form == "ark":
         return _two_parts(meant, roles, empty)

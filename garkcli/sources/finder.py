@@ -21,6 +21,7 @@ from garkcli.sources.assembling import (
     not_read,
     table_of,
 )
+from garkcli.sources.couplings import FORM as COUPLING
 from garkcli.sources.evaluate import Evaluator, Space, shown
 from garkcli.sources.found import FoundTable, troubled
 from garkcli.sources.linear_stages import roles_of_kpp
@@ -78,7 +79,8 @@ _OBJECT = re.compile("the call [A-Z][a-z]")
 """What makes an object of a class, which is no array of nodes or weights."""
 _ORDERS = ("order", "embedded_order")
 """What a structure tells of the arrays beside it."""
-_MADE = frozenset({"", _TABLE, "ARKodeSPRKTable_Alloc"})
+_COUPLINGS = frozenset({"MRIStepCoupling_Alloc", "MRIStepCoupling_MIStoMRI"})
+_MADE = frozenset({"", _TABLE, "ARKodeSPRKTable_Alloc", *_COUPLINGS})
 """Records that are filled after they are made."""
 
 
@@ -279,7 +281,7 @@ class TableFinder(Evaluator):
         is_known = not any(map(first_unknown, record.args[3:6]))
         is_named = signature is NAMED or (signature.form == "rosenbrock" and not is_known)
         kind = other_kind(record.kind) if is_named else ""
-        is_entry = scope.kind == "entry" and (kind or record.kind == _TABLE)
+        is_entry = scope.kind == "entry" and (kind or record.kind in {_TABLE, *_COUPLINGS})
         line = scope.line if is_entry else record.line
         if kind:
             values = [*record.args, *fields.values()]
@@ -288,7 +290,8 @@ class TableFinder(Evaluator):
             if len(values) >= 3 and (has_numbers or not is_use):
                 self._unread(name, line, kind=kind)
             return
-        if signature is not NAMED and not record.args and len(fields) < 2:
+        is_short = not record.args and len(fields) < 2
+        if signature is not NAMED and is_short and signature.form != "slow":
             return
         values = [x for x in record.args if not isinstance(x, Type)]
         roles: Roles = dict(zip(signature.roles, values, strict=False))
@@ -308,7 +311,8 @@ class TableFinder(Evaluator):
             return
         told = {x: x for x in fields} if record.kind == PRINTED else {**ROLES, **signature.named}
         roles = _roles_of({} if parts else fields, told) | roles
-        if not (is_complete(roles) or signature.has_default_weights):
+        is_coupling = signature.form in {COUPLING, "slow"}
+        if not (is_complete(roles) or signature.has_default_weights or is_coupling):
             if signature is NAMED:
                 self._of_scalars(name, fields, record.line)
             return

@@ -47,6 +47,24 @@ class TooLarge(GarkError):
         self.line = line
 
 
+class FoundCoupling(Frozen):
+    """How the slow stages of a multirate infinitesimal method are coupled, as in method files.
+
+    Attributes:
+        c: their nodes, from 0 to the end of the step.
+        parts: by ``omega``, the explicit part, and ``gamma``, the implicit one, a matrix for each
+            power of τ; row i leads to the stage after stage i.
+        embedded: by the same names the rows that lead to the embedded value; empty without them.
+        restart: what the forcing of methods is whose fast problems begin with the step; empty of
+            others.
+    """
+
+    c: Row
+    parts: Mapping[str, tuple[Rows, ...]]
+    embedded: Mapping[str, Rows]
+    restart: str
+
+
 class FoundTable(Frozen):
     """The coefficients of one method, as a source has them.
 
@@ -82,6 +100,10 @@ class FoundTable(Frozen):
         diagonal: the γ_ii of a method as programs store it.
         error: m − m̂ of such a method; None without embedded weights.
         d: the weights of ∂f/∂t; None where the row sums of γ say it.
+        coupling: of a multirate infinitesimal method, whose fast problems are solved exactly; None
+            of others.
+        is_slow: whether it is the slow method of such a method, whose forcing is constant.
+        base: the name of the table that it is made of, where another source has that.
         is_assembled: whether it was put together from single numbers, by their names.
         units: by how much coefficients may be off that were made of printed ones.
     """
@@ -114,6 +136,9 @@ class FoundTable(Frozen):
     diagonal: Row | None = None
     error: Row | None = None
     d: Row | None = None
+    coupling: FoundCoupling | None = None
+    is_slow: bool = False
+    base: str = ""
     is_assembled: bool = False
     units: Units = ()
 
@@ -124,10 +149,17 @@ class FoundTable(Frozen):
 
     @property
     def stages(self) -> int:
-        """The stages of all colours, those that are shared once."""
+        """The stages of all colours, those that are shared once; the slow ones of a coupling."""
+        if self.coupling is not None:
+            return len(self.coupling.c) - 1
         if len(self.A) == 1:
             return len(self.b[0]) if self.b else 0
         return sum(len(row) for row in self.b)
+
+    @property
+    def is_multirate(self) -> bool:
+        """Whether it is a multirate infinitesimal method."""
+        return self.coupling is not None or self.is_slow
 
     @property
     def is_unlike(self) -> bool:

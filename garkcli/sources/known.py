@@ -376,3 +376,46 @@ def _allocated(call: Call, count: Value = NULL, *_: Value) -> Value | None:
         return Record(call.name, {**rows, "q": FILL, "stages": integer(n)}, (), call.line)
     rows = {"A": call.filled(FILL, n, n)} | {x: call.filled(FILL, n) for x in "bcd"}
     return Record(call.name, {**rows, "q": FILL, "p": FILL}, (), call.line)
+
+
+@_known("ARKodeButcherTable_LoadERK ARKodeButcherTable_LoadDIRK")
+def _loaded(call: Call, _: Value) -> Value | None:
+    """A table that SUNDIALS has elsewhere, by its name."""
+    name = call.expr.args[0]
+    if not isinstance(name, ir.Name):
+        return call.unknown()
+    return Record(LOADED, {"base": Word(name.name)}, (), call.line)
+
+
+LOADED = "ARKodeButcherTable_Load"
+SLOW = "the slow method of a coupling"
+"""What stands for the call that made such a table: it is no table of its own."""
+
+
+@_known("MRIStepCoupling_Alloc")
+def _coupling(call: Call, powers: Value, stages: Value, _: Value) -> Value | None:
+    """Matrices of zeros of SUNDIALS for each power of τ, with a row for the embedded value."""
+    n, count, kind = whole(stages), whole(powers), call.expr.args[2]
+    if n is None or count is None or not (0 < n <= MAX_STAGES and 0 < count <= MAX_STAGES):
+        return call.unknown("the number of stages is not written out")
+    call.evaluator.allowance.spend(2 * count * (n + 1) * n)
+    fields: dict[str, Value] = {
+        x: call.array(call.filled(FILL, n + 1, n) for _ in range(count)) for x in "WG"
+    }
+    fields |= {"c": call.filled(FILL, n), "q": FILL, "p": FILL, "stages": integer(n)}
+    if isinstance(kind, ir.Name):
+        fields["type"] = Word(kind.name)
+    return Record(call.name, fields, (), call.line)
+
+
+@_known("MRIStepCoupling_MIStoMRI")
+def _of_slow(call: Call, slow: Value, order: Value, embedded: Value) -> Value | None:
+    """The coupling of a slow method."""
+    if not isinstance(slow, Record) or not ({"A", "b"} <= set(slow.fields) or slow.kind == LOADED):
+        return call.unknown()
+    fields = {key: copied(x) for key, x in slow.fields.items()}
+    slow.kind = SLOW
+    for key, x in {"q": order, "p": embedded}.items():
+        if whole(x) is not None:
+            fields[key] = x
+    return Record(call.name, fields, (), call.line)

@@ -111,6 +111,15 @@ SIGNATURES: Mapping[str, Signature] = {
     ),
     **_all("RodasTableau", "A C gamma c d - b error", "transformed", counts=(8,)),
     KPP: Signature([], "kpp"),
+    **_all(
+        *("MRIStepCoupling_Alloc", "", "coupling"),
+        named={"W": "omega", "G": "gamma", "type": "type"},
+    ),
+    **_all(
+        "MRIStepCoupling_Create", "- stages order embedded_order omega gamma c", "coupling",
+        counts=(7,),
+    ),
+    **_all("MRIStepCoupling_MIStoMRI", "", "slow", named={"base": "base"}),
     **_all("NystromVITableau", "A_q b_q b error_q error c", "nystrom"),
 }
 """What is known of the calls that make tables, by name."""
