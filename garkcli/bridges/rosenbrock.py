@@ -4,6 +4,7 @@ say, and what is wrong.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from typing import Any, TypeGuard
 
@@ -15,7 +16,7 @@ from garkcli.bridges.judging import Digits, Judged, judged
 from garkcli.bridges.subject import Subject, read
 from garkcli.check.findings import witness_text
 from garkcli.constructions.rosenbrock import seen
-from garkcli.exact.display import decimal, to_ball
+from garkcli.exact.display import decimal, to_ball, to_float
 from garkcli.frozen import replace
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.load import loads
@@ -32,8 +33,10 @@ _LITTLE = 1e-9
 """A smaller residual is one of rounding."""
 MANY = 200
 """Of so many rounded numbers each condition is judged by itself."""
-_EXPONENTS = range(-30, -3)
-"""Of the powers of ten that a tolerance is sought among."""
+MOST = -4
+"""The largest exponent of a power of ten that is a tolerance."""
+TINY = 1e-300
+"""In place of what is less than any float."""
 
 
 class _Within(Digits):
@@ -157,7 +160,7 @@ def _within(table: FoundTable, method: MethodFile, rounded: RoundedTableau | Non
     order = _order(within, table.order)
     # no higher one is of interest
     other_times = _with_time(table, within)
-    timed = other_times and _order(other_times, table.order, order.order)
+    timed = None if other_times is None else _order(other_times, table.order, order.order)
     embedded = None
     if method.embedded is not None:
         other = within.with_embedded() if isinstance(within, RoundedTableau) else None
@@ -206,8 +209,8 @@ def row_findings(subject: RowSubject) -> Iterator[AuditFinding]:
         yield AuditFinding("nodes", message + _why(timed), claims=claims)
     embedded, local = subject.embedded_order, table.embedded_order
     if embedded is not None and local is not None:
-        # KPP declares the smaller order of both
-        least = min((order, embedded), key=lambda x: x.order)
+        # without an order of the method KPP declares the smaller one of both
+        least = min((order, embedded), key=lambda x: x.order) if declared is None else embedded
         if least.order != local and not least.is_limited:
             yield _differing("embedded order", least, local)
     elif embedded is not None and not embedded.order and not embedded.is_open:
@@ -255,7 +258,8 @@ def _tolerance(found: RowSubject) -> fmpq | None:
     if all(x.rounded is None for x in given):
         return None
     tableau, further = found.method.tableau, found.method.further
-    for exponent in _EXPONENTS:
+    least = min(to_float(x.rounded[1]) for x in given if x.rounded is not None) or TINY
+    for exponent in range(math.floor(math.log10(least)), MOST + 1):
         tolerance = fmpq(10) ** exponent
         method = meant(tableau, tolerance, further)
         assert isinstance(method, RoundedTableau)

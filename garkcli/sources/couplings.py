@@ -43,6 +43,8 @@ def coupling_table(
         if powers:
             parts[key] = tuple(rows[1 : len(c)] for rows in powers)
             last = [row for rows in powers for row in rows[len(c) :]]
+            while last and all(map(is_zero, last[-1])):
+                last.pop()
             embedded[key] = tuple(last)
     if not parts:
         raise Unreadable("a coupling without coefficients")

@@ -415,7 +415,6 @@ def _of_slow(call: Call, slow: Value, order: Value, embedded: Value) -> Value | 
         return call.unknown()
     fields = {key: copied(x) for key, x in slow.fields.items()}
     slow.kind = SLOW
-    for key, x in {"q": order, "p": embedded}.items():
-        if whole(x) is not None:
-            fields[key] = x
+    orders = {"q": order, "p": embedded}
+    fields |= {key: x for key, x in orders.items() if whole(x) is not None}
     return Record(call.name, fields, (), call.line)

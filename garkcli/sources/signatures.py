@@ -116,7 +116,9 @@ SIGNATURES: Mapping[str, Signature] = {
         named={"W": "omega", "G": "gamma", "type": "type"},
     ),
     **_all(
-        "MRIStepCoupling_Create", "- stages order embedded_order omega gamma c", "coupling",
+        "MRIStepCoupling_Create",
+        "- stages order embedded_order omega gamma c",
+        "coupling",
         counts=(7,),
     ),
     **_all("MRIStepCoupling_MIStoMRI", "", "slow", named={"base": "base"}),

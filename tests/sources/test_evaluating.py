@@ -189,7 +189,7 @@ def test_the_order_of_a_class_is_that_of_its_table() -> None:
     ("call", "kind"),
     [
         ("TSRosWRegister(R, 2, 2, A, G, b, NULL, 0, NULL);", "Rosenbrock"),
-        ("MRIStepCoupling_Create(A, b, 2, 3, W);", "multirate"),
+        ("MRABCoupling(A, b, 2, 3, W);", "multirate"),
         ("TSGLEERegister(G, 2, 2, 2, 1.0, A, B, U, V, S, F, c);", "general linear"),
     ],
 )

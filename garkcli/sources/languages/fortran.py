@@ -65,8 +65,8 @@ class FortranLowering(Lowering):
             case "parameter_statement":
                 for each in inside:
                     match self.exprs(self.children(each)):
-                        case (ir.Name() as target, value):
-                            yield ir.Assign(target, value, line)
+                        case (ir.Name() as constant, value):
+                            yield ir.Assign(constant, value, line)
             case "assignment_statement" if len(inside) == 2:
                 # a number that is assigned to an array fills it
                 sign = "" if inside[0].type == "call_expression" else "."
