@@ -63,7 +63,7 @@ _SAME = frozenset({"copy", "astype", "tolist", "to", "clone", "item", "double", 
 """Methods that give the array or the number itself."""
 _EMPTYING = frozenset({"resize", "clear", "reinit"})
 """Methods after which an array has what is assigned from then on."""
-_METHODS = _GROWING | _EMPTYING | {"reserve"}
+_METHODS = _GROWING | _EMPTYING | {"reserve", "fill"}
 
 
 class OutOfSteps(Exception):
@@ -686,7 +686,10 @@ class Evaluator:
             self._store(of, Array([], is_growing=True), space, self.line)
         box = self._changed(of, space, Array([], is_growing=True))
         values = [self.value(x, space) for x in args]
-        if box is not None and name in _GROWING and values:
+        if box is not None and name == "fill" and len(values) == 1:
+            box.items = [values[0]] * len(box.items)
+            box.fill = values[0]
+        elif box is not None and name in _GROWING and values:
             self.allowance.spend(size(values[0]))
             box.items.append(copied(values[0]))
         return NULL

@@ -176,7 +176,8 @@ class TableFinder(Evaluator):
         if named and isinstance(entries, Array):
             self._arrays.setdefault(named["stem"], {})[named["role"]] = entries, scope.line
             return
-        packed = roles_of_kpp(space)
+        records = [x.fields for x in space.values() if isinstance(x, Record) and not x.kind]
+        packed = next(filter(None, map(roles_of_kpp, (space, *records))), None)
         if packed is not None:
             place = self._place(scope.title, scope.line)
             self._meant.append(Meant(place, dict(packed), SIGNATURES[KPP], KPP))

@@ -77,6 +77,7 @@ CONSTANTS: Mapping[str, Value] = {
     "ZERO": ZERO,
     "ONE": real(ONE),
     "TWO": real(integer(2)),
+    **{f"sqrt{n}": root(integer(n), 2, 0) for n in (2, 3)},
     "#": Number(None, math.nan, written=Scalar("x")),
 }
 """Names that mean the same everywhere; ``#`` is the variable of a polynomial."""

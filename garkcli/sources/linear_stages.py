@@ -7,47 +7,54 @@ from collections.abc import Mapping
 from garkcli.frozen import replace
 from garkcli.sources.found import FoundTable, Misshapen, Row, Rows, Unreadable
 from garkcli.sources.shaping import ZERO, Texts, is_zero, weights
-from garkcli.sources.values import Array, Value, Word, first_unknown, items_of, whole
+from garkcli.sources.values import Array, Number, Value, Word, first_unknown, items_of, whole
 
 FORMS = ("rosenbrock", "transformed", "kpp")
 """Signatures as papers print a method, as programs store it, packed by rows."""
 _OF_KPP = {
-    "ros_a": "A",
-    "ros_c": "C",
-    "ros_m": "b",
-    "ros_e": "error",
-    "ros_alpha": "c",
-    "ros_gamma": "d",
-    "ros_s": "stages",
-    "ros_elo": "local_order",
-    "ros_name": "title",
+    "a": "A",
+    "c": "C",
+    "m": "b",
+    "e": "error",
+    "alpha": "c",
+    "gamma": "d",
+    **dict.fromkeys(("s", "stages"), "stages"),
+    **dict.fromkeys(("elo", "estimator_of_local_order"), "local_order"),
+    "name": "title",
 }
-_WHOLE = ("A", "C", "b", "d", "stages")
+_WHOLE = frozenset(("A", "C", "b", "c", "d", "stages"))
 
 
 def roles_of_kpp(values: Mapping[str, Value]) -> Mapping[str, Value] | None:
-    """The roles of the arrays of KPP, such as ros_A and ros_Gamma, where all of a method is
-    written; None where it is not.
+    """The roles of the arrays of KPP, such as ros_A and ros_Gamma, or a_ and gamma_ of a structure,
+    where all of a method is written; None where it is not.
     """
-    named = {name.lower(): value for name, value in values.items()}
-    if "ros_a" not in named or "ros_m" not in named:
+    named = {name.lower().removeprefix("ros_").rstrip("_"): x for name, x in values.items()}
+    if not {"a", "m", "alpha", "gamma"} <= set(named):
         return None
     roles = {role: named[name] for name, role in _OF_KPP.items() if name in named}
     stages = whole(roles.get("stages"))
-    if not stages or not set(_WHOLE) <= set(roles):
+    if not stages or not set(roles) >= _WHOLE:
         return None
     counts = {"A": stages * (stages - 1) // 2, "b": stages, "c": stages, "d": stages}
     counts |= {"C": counts["A"], "error": stages}
     for role, count in counts.items():
         if role in roles:
-            # the arrays have room for more stages
-            roles[role] = Array(items_of(roles[role])[:count])
-            if len(items_of(roles[role])) < count or first_unknown(roles[role]) is not None:
+            entries = roles[role] = _entries(roles[role], count)
+            if len(entries.items) < count or first_unknown(entries) is not None:
                 return None
     if not isinstance(roles.get("title"), Word):
         roles.pop("title", None)
     roles["gamma"] = items_of(roles["d"])[0]
     return roles
+
+
+def _entries(value: Value, count: int) -> Array:
+    """The first entries of an array, which may have room for more, or be filled behind them."""
+    items = items_of(value)[:count]
+    if isinstance(value, Array) and isinstance(value.fill, Number):
+        items += [value.fill] * (count - len(items))
+    return Array(items)
 
 
 def rosenbrock_table(

@@ -89,6 +89,32 @@ END SUBROUTINE Rodas3
 """
 
 
+MEMBERS = """
+Parameters Parameters::Rodas3()
+{
+  Parameters p; Real g = std::numbers::sqrt2; p.stages_ = 4;
+  p.a_.fill(0); p.a_[1] = g * g; p.a_[3] = 2; p.a_[5] = 1;
+  p.c_.fill(0); p.c_[0] = 4; p.c_[1] = 1; p.c_[2] = -1; p.c_[3] = 1; p.c_[4] = -1;
+  p.c_[5] = -(8.0 / 3.0); p.m_.fill(0); p.m_[0] = 2; p.m_[2] = 1; p.m_[3] = 1;
+  p.e_.fill(0); p.e_[3] = 1; p.estimator_of_local_order_ = 3;
+  p.alpha_.fill(0); p.alpha_[2] = 1; p.alpha_[3] = 1;
+  p.gamma_.fill(0); p.gamma_[0] = 0.5; p.gamma_[1] = 1.5;
+  return p;
+}
+"""
+
+
+def test_arrays_of_a_structure() -> None:
+    """RODAS3 in the form of KPP, with its arrays in a structure, which are filled first."""
+    (members,), (arrays,) = tables(MEMBERS, "petsc"), tables(KPP, "fortran")
+    found, wanted = map(with_row_orders, (members, arrays))
+    assert found.method.tableau == wanted.method.tableau
+    assert found.method.embedded == wanted.method.embedded
+    assert (members.name, members.embedded_order) == ("Parameters::Rodas3", 2)
+    # two numbers of four
+    assert not any(x.b for x in tables(MEMBERS.replace("p.gamma_.fill(0);", ""), "petsc"))
+
+
 @pytest.mark.parametrize(
     ("old", "new", "code", "message"),
     [
