@@ -68,8 +68,8 @@ def orders_in(text: str) -> list[tuple[str, int]]:
 def with_bases(
     tables: Sequence[FoundTable], source: str, others: Sequence[str]
 ) -> Sequence[FoundTable]:
-    """Tables of a source with the coefficients of those that they are made of by name, which are in
-    it or in an entry of a list of macros in another one.
+    """Tables of a source, with the coefficients of tables that they name: these are in it, or
+    entries of a list of macros in another source.
     """
     missing = {x.base for x in tables if x.base}
     if not missing:
