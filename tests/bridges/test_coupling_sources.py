@@ -7,6 +7,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from flint import fmpq
 
 from garkcli.bridges.audit import Audited, audited
 from garkcli.bridges.collecting import collected
@@ -94,6 +95,17 @@ def test_errors_are_found(tmp_path: Path, old: str, new: str, code: str) -> None
     assert text.count(old) == 1
     found = read(tmp_path, text.replace(old, new))["merk21"]
     assert [(x.code, x.level) for x in found.findings] == [(code, "error")]
+
+
+def test_the_tolerance_of_a_file_is_that_of_its_digits(tmp_path: Path) -> None:
+    """A node of forty digits makes it no larger than these."""
+    text = entry("merk21").replace("2.0", "3.0").replace("c[1] = 0.5", f"c[1] = 0.{'3' * 40}")
+    path = tmp_path / "tables.def"
+    path.write_text(text, encoding="utf-8")
+    (found,) = collected([str(path)])
+    assert found.method is not None
+    assert found.method.order.order == 2
+    assert found.method.tolerance == fmpq(1, 10**40)
 
 
 SLOW = """

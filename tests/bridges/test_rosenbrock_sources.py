@@ -99,7 +99,7 @@ Parameters Parameters::Rodas3()
   p.e_.fill(0); p.e_[3] = 1; p.estimator_of_local_order_ = 3;
   p.alpha_.fill(0); p.alpha_[2] = 1; p.alpha_[3] = 1;
   p.gamma_.fill(0); p.gamma_[0] = 0.5; p.gamma_[1] = 1.5;
-  return p;
+  strcpy(p.name_, "RODAS-3"); return p;
 }
 """
 
@@ -110,7 +110,7 @@ def test_arrays_of_a_structure() -> None:
     found, wanted = map(with_row_orders, (members, arrays))
     assert found.method.tableau == wanted.method.tableau
     assert found.method.embedded == wanted.method.embedded
-    assert (members.name, members.embedded_order) == ("Parameters::Rodas3", 2)
+    assert (members.name, members.embedded_order) == ("RODAS-3", 2)
     # two numbers of four
     assert not any(x.b for x in tables(MEMBERS.replace("p.gamma_.fill(0);", ""), "petsc"))
 

@@ -32,8 +32,8 @@ SAME = {
         "  A[3] = 0; b[0] = 0.25; b[1] = 1 - b[0]; }"
     ),
     "c, types that the grammar does not know": (
-        "void f(void) { real g = 3; real A[2][2] = {{0}}, b[2]; A[1][0] = (real)-2.0/(real)(-g);\n"
-        "  b[0] = (real)(0.25); b[1] = (real)0.75; }"
+        "void f(void) { Scalar g = 3; Scalar A[2][2] = {{0}}, b[2]; A[1][0] = (Scalar)-2.0/(Scalar)(-g);\n"
+        "  b[0] = (Scalar)(0.25); b[1] = (Scalar)0.75; }"
     ),
     "f, fixed form": (
         "c     of Ralston\n      subroutine f(A, b)\n      double precision A(2,2), b(2), w\n"
@@ -42,7 +42,7 @@ SAME = {
         "      end\n"
     ),
     "jl, comprehensions": (
-        "r = [0 0; 0 2//3]\nA = [r[i, 3 - j] for i in 1:size(r, 1), j in 1:size(r, 2)]\n"
+        "r = [0 0 1; 0 2//3 1]\nA = [r[i, 3 - j] for i in 1:size(r, 1), j in 1:size(r, 2) - 1]\n"
         "b = Rational[w for w in [1//4]]\npush!(b, sum(x//4 for x in 1:2))\n"
     ),
     "jl, lists that grow": (
