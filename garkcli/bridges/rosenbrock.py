@@ -31,7 +31,7 @@ from garkcli.tableau.tableau import Tableau
 
 _LITTLE = 1e-9
 """A smaller residual is one of rounding."""
-MANY = 200
+MANY = 60
 """Of so many rounded numbers each condition is judged by itself."""
 MOST = -4
 """The largest exponent of a power of ten that is a tolerance."""

@@ -134,6 +134,8 @@ class TableFinder(Evaluator):
         """All of a source, each once; arrays that a call takes are found with it."""
         found: dict[object, FoundTable] = {}
         used: set[str] = set()
+        read: set[object] = set()
+        doubtful: dict[object, object] = {}
         for meant in [*self._meant, *self._of_classes()]:
             users = self._users.get((meant.maker, meant.table.line), {})
             for order in users.values():
@@ -145,11 +147,19 @@ class TableFinder(Evaluator):
                 continue
             if table.name.startswith("_") and len(users) == 1:
                 table = replace(table, name=next(iter(users)))
-            numbers = () if table.trouble else Array(list(meant.roles.values())).flat()
-            used |= {sized(x.near) for x in numbers if isinstance(x, Number)}
+            entries = () if table.trouble else Array(list(meant.roles.values())).flat()
+            used |= {sized(x.near) for x in entries if isinstance(x, Number)}
             key = (table.A, table.b, table.c, table.line, table.name)
             self.allowance.table(table, is_kept=key not in found)
             found.setdefault(key, table)
+            if {"A", "b"} <= set(meant.roles):
+                numbers = shown(meant.roles["A"]), shown(meant.roles["b"])
+                if table.trouble:
+                    doubtful[key] = numbers
+                else:
+                    read.add(numbers)
+        # a call that takes the arrays of a table which is read
+        found = {key: x for key, x in found.items() if doubtful.get(key) not in read}
         told = [x.line for x in (*found.values(), *self._other.values())]
         told += [line for arrays in self._arrays.values() for _, line in arrays.values()]
         for scope in overlooked(body, text, self._source, told, used, self.lost):
@@ -157,8 +167,8 @@ class TableFinder(Evaluator):
             self._unread(scope.title, scope.line, trouble, other_kind(scope.name))
         # behind a branch that assigns the nodes the table is without them
         with_nodes = {(x.A, x.b, x.line) for x in found.values() if any(x.c)}
-        read = [x for x in found.values() if any(x.c) or (x.A, x.b, x.line) not in with_nodes]
-        tables = [*read, *self._other.values()]
+        kept = [x for x in found.values() if any(x.c) or (x.A, x.b, x.line) not in with_nodes]
+        tables = [*kept, *self._other.values()]
         sure = {(x.A, x.b, order) for x in tables if x.is_sure and x.b for order in (x.order, None)}
         kept = [x for x in tables if x.is_sure or not x.b or (x.A, x.b, x.order) not in sure]
         lines = {x.line for x in kept if x.b}

@@ -197,3 +197,13 @@ def test_other_methods_are_named(call: str, kind: str) -> None:
     """Their tables are no tables of Runge–Kutta methods."""
     table = one("c", f"void f(void) {{ double A[4] = {{0, 0, 1, 0}}, b[2] = {{0.5, .5}}; {call} }}")
     assert (table.kind, table.b) == (kind, ())
+
+
+def test_a_call_that_takes_the_arrays_of_a_table_is_none() -> None:
+    """The arrays are read by their names; what the call makes of them has no nodes in C."""
+    text = (
+        "struct T\n A\n C\n b\nend\nconst RK_A = [0 0; 2//3 0]\nconst RK_C = [1 0; 1 1]\n"
+        "const RK_b = [1//4, 3//4]\nconst RK_c = [0, 2//3]\nf() = T(RK_A, RK_C, RK_b)\n"
+    )
+    table = one("jl", text)
+    assert (table.A[0], table.trouble) == (RALSTON, "")
