@@ -687,8 +687,8 @@ class Evaluator:
         box = self._changed(of, space, Array([], is_growing=True))
         values = [self.value(x, space) for x in args]
         if box is not None and name == "fill" and len(values) == 1:
-            box.items = [values[0]] * len(box.items)
-            box.fill = values[0]
+            filling = values[0]
+            box.items, box.fill = box.map(lambda _: filling).items, filling
         elif box is not None and name in _GROWING and values:
             self.allowance.spend(size(values[0]))
             box.items.append(copied(values[0]))

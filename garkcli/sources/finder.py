@@ -187,7 +187,8 @@ class TableFinder(Evaluator):
             self._arrays.setdefault(named["stem"], {})[named["role"]] = entries, scope.line
             return
         records = [x.fields for x in space.values() if isinstance(x, Record) and not x.kind]
-        packed = next(filter(None, map(roles_of_kpp, (space, *records))), None)
+        packed = roles_of_kpp(space)
+        packed = packed or next(filter(None, (roles_of_kpp(x, "") for x in records)), None)
         if packed is not None:
             place = self._place(scope.title, scope.line)
             self._meant.append(Meant(place, dict(packed), SIGNATURES[KPP], KPP))

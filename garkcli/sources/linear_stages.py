@@ -25,11 +25,13 @@ _OF_KPP = {
 _WHOLE = frozenset(("A", "C", "b", "c", "d", "stages"))
 
 
-def roles_of_kpp(values: Mapping[str, Value]) -> Mapping[str, Value] | None:
-    """The roles of the arrays of KPP, such as ros_A and ros_Gamma, or a_ and gamma_ of a structure,
-    where all of a method is written; None where it is not.
+def roles_of_kpp(values: Mapping[str, Value], prefix: str = "ros_") -> Mapping[str, Value] | None:
+    """The roles of the arrays of KPP, ros_A and ros_Gamma, or a_ and gamma_ of a structure, which
+    has no prefix, where all of a method is written; None where it is not.
     """
-    named = {name.lower().removeprefix("ros_").rstrip("_"): x for name, x in values.items()}
+    lower = {name.lower(): x for name, x in values.items()}
+    own = {name: x for name, x in lower.items() if name.startswith(prefix)}
+    named = {name.removeprefix(prefix).rstrip("_"): x for name, x in own.items()}
     if not {"a", "m", "alpha", "gamma"} <= set(named):
         return None
     roles = {role: named[name] for name, role in _OF_KPP.items() if name in named}

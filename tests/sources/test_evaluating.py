@@ -95,6 +95,11 @@ UNKNOWN = {
         "A = [0 0; 1//2 0]\nb = [0, 1]\nscale!(A)\n",
         "changed by scale!, line 3, is not known",
     ),
+    "c, a number in brackets": (
+        "void f(void) { /* h is, */ double A[2][2] = {{0}, {0.5}}, b[2] = {0.25, 0.75};\n"
+        "  b[1] = (h)-0.25; }",
+        "the name h, line 2, is not known",
+    ),
     "jl, a list that grows in a loop": (
         "A = [0 0; 1//2 0]\nb, c = [1//4, 3//4], [0, 1//2]\nwhile x\n    push!(b, 1//2)\nend\n",
         "assigned in a loop, line 4, is not known",

@@ -65,6 +65,7 @@ class CLowering(Lowering):
         super().__init__(text, language)
         self._data = _without_open_comment(_DEVICE.sub(lambda x: b" " * len(x[0]), self._data))
         self._types_in_use: dict[str, bool] = {}
+        self._code = b""  # without comments and texts, where it is wanted
 
     def own(self, node: Node, inside: list[Node], line: int) -> Iterator[ir.Statement]:
         match node.type:
@@ -310,9 +311,11 @@ class CLowering(Lowering):
         if len(inside) != 1 or not self.is_a("name", inside[0]):
             return False
         name = self.text(inside[0])
+        if not self._code:
+            self._code = _ASIDE.sub(b" ", self._data)
         if name not in self._types_in_use:
             declared = rf"\b{re.escape(name)}\s[\s*]{{0,9}}[A-Za-z_]\w*\s{{0,9}}[=;,\[)]"
-            self._types_in_use[name] = re.search(declared.encode(), self._data) is not None
+            self._types_in_use[name] = re.search(declared.encode(), self._code) is not None
         return self._types_in_use[name]
 
     def _cast(self, kind: Node | None, value: ir.Expr) -> ir.Expr:
