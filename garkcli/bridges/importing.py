@@ -145,7 +145,8 @@ def _slow(table: FoundTable) -> Mapping[str, Tree]:
         assert table.A[0][0] is not None
         return {"mis": _colour(table, 0, table.A[0][0], table.c[0])}
     parts = dict(found.parts)
-    embedded: Tree = dict(found.embedded)
+    # what only one part adds
+    embedded: Tree = {key: rows for key, rows in found.embedded.items() if rows}
     if len(parts) == 1:
         (key,) = parts
         embedded = found.embedded.get(key)

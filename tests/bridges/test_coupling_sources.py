@@ -4,6 +4,7 @@ problems solved exactly.
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -78,6 +79,16 @@ def test_forms_with_restarts(tmp_path: Path, name: str) -> None:
     assert found.embedded_order is not None
     assert found.method.tableau == load(name).tableau
     assert (found.order.order, found.embedded_order.order, found.findings) == (2, 1, ())
+
+
+def test_an_embedded_row_of_one_part(tmp_path: Path) -> None:
+    """The implicit part may add nothing to the embedded value: the explicit row has the sum 1, and
+    1/2 · 3/5 + 3/4 · 4/15 = 1/2.
+    """
+    text = re.sub(r"C->G\[0\]\[4\]\S+ = [^;]+;", "", entry("imex-mri-sr21"))
+    found = read(tmp_path, text)["imex-mri-sr21"]
+    assert found.embedded_order is not None
+    assert found.embedded_order.order == 2
 
 
 @pytest.mark.parametrize(
