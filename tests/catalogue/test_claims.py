@@ -36,7 +36,7 @@ LONG = {
     *("mclachlan-atela-3", "feagin-12", "feagin-12-misprint", "feagin-10", "curtis-8", "curtis-10"),
     *("mclachlan-ss-17", "yoshida-8b", "yoshida-8e", "stepanov-10", "hairer-10", "ono-10"),
     *("fehlberg-9", "dormand-prince-8", "wso-1254", "wso-1255", "mclachlan-8", "kahan-li-8"),
-    *("ark-548", "ark-548b", "dop853", "blanes-moan-srkn-14a", "esdirk-43i6"),
+    *("ark-548", "ark-548b", "dop853", "blanes-moan-srkn-14a", "esdirk-43i6", "rodas6p"),
 }
 """Methods of many stages, which take long; they are judged in ``make whole``."""
 ALL = {x.name.removesuffix(".gark.yaml"): x for x in sorted(DATA.rglob("*.yaml"))}
