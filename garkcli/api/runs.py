@@ -11,6 +11,7 @@ from garkcli.api.anymethod import AnyMethod, tableau_of, with_tolerance
 from garkcli.api.methods import find_order
 from garkcli.api.numbers import Number, Whole, rational, rational_or_none, rationals, whole
 from garkcli.api.problems import AnyProblem, hamiltonian_for, problem_for, to_step
+from garkcli.api.stepped import stepped
 from garkcli.convergence import convergence
 from garkcli.convergence.result import Convergence
 from garkcli.errors import MethodError, counted
@@ -61,8 +62,7 @@ def converge(
     """
     is_own = tolerance is None
     method, near = with_tolerance(method, tolerance, is_any_kind=True)
-    tableau = method.tableau
-    order = None
+    tableau, problem, order = stepped(method.tableau, near, problem)
     if near is not None and is_own and method.base is not None:
         order = find_order(method).order
     found = convergence.converge(

@@ -99,7 +99,7 @@ def _one(path: str, given: Given, output: Output) -> int:
         problems = Problems(given)
         method = given.method(path, is_any_kind=True)
         name = method.name
-        problems.prepare([method.tableau], output)
+        problems.prepare([method], output)
         result = problems.tested(method)
     except GarkError as error:
         return output.tell_failure(error, name, REPORT)
@@ -126,7 +126,7 @@ def _several(paths: Sequence[str], given: Given, output: Output) -> int:
     problems = Problems(given)
     methods = [_loaded(path, given) for path in paths]
     files = [called(path) for path in paths]
-    problems.prepare([x.tableau for x in methods if not isinstance(x, Entry)], output)
+    problems.prepare([x for x in methods if not isinstance(x, Entry)], output)
     entries = []
     with doing("methods", len(files)) as work:
         for file, found in zip(files, methods, strict=True):
@@ -204,12 +204,13 @@ class Problems:
                 whole = problem(self._name or GENERIC[0], 1, stiffness=given.stiffness)
             check_steps(whole, given.t_end or usual_time(whole), given.steps)
 
-    def prepare(self, tableaux: Sequence[Tableau], output: Output) -> None:
+    def prepare(self, methods: Sequence[GarkMethod], output: Output) -> None:
         """Make the problem one for all of these methods.
 
         Raises:
             UsageProblem: none is named, and there is none for their structures.
         """
+        tableaux = [self._stepped(method) for method in methods]
         self._tableaux = tableaux
         if self._name is None and tableaux:
             from garkcli.convergence.convergence import seeing_problem
@@ -217,6 +218,16 @@ class Problems:
             self._name = seeing_problem(tableaux, self._seed)
         if self._read is not None:
             note_changing(self._read, output)
+
+    def _stepped(self, method: GarkMethod) -> Tableau:
+        """The tableau that steps; the first method that is for one problem alone names it."""
+        from garkcli.api.stepped import stepped
+
+        problem = self._read or self._name
+        tableau, named, _ = stepped(method.tableau, method.tolerance, problem)
+        if problem is None and isinstance(named, str):
+            self._name = named
+        return tableau
 
     def of(self, tableau: Tableau) -> Problem | Oscillator:
         """The problem for one of the methods that it was prepared for.
@@ -245,7 +256,7 @@ class Problems:
         from garkcli.api.runs import converge
 
         given = self._given
-        problem = self.of(method.tableau)
+        problem = self.of(self._stepped(method))
         return converge(method, problem, given.t_end, given.steps, is_timed=given.work)
 
 

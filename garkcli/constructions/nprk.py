@@ -67,3 +67,18 @@ def _entry(matrix: Matrix, j: int, k: int) -> Number:
 def is_nprk(tableau: Tableau) -> bool:
     """Whether a tableau is that of a nonlinearly partitioned method."""
     return all(colour.kind == ARGUMENT for colour in tableau.colours)
+
+
+def additive(tableau: Tableau) -> Tableau:
+    """What the method is for y′ = f₁(y) + f₂(y), F(u, v) = f₁(u) + f₂(v): an additive method.
+
+    The stages of f₁ are the first arguments of the pairs, those of f₂ the second ones.
+    """
+    (space,) = tableau.spaces
+    colours = tuple(
+        Colour(colour.name, l, colour.b, colour.c, term=l)
+        for l, colour in enumerate(tableau.colours)
+    )
+    size = range(len(colours))
+    blocks = {(l, m): tableau.blocks[0, l] for l in size for m in size}
+    return Tableau((space, space), colours, blocks)

@@ -108,6 +108,23 @@ class Nystrom(Frozen):
         return with_linear(Tableau(spaces, colours, blocks), ["q"])
 
     @property
+    def split(self) -> Tableau:
+        """The same method for (q̇, ṗ) = (p, 0) + (0, g(q, p)), each colour with all unknowns."""
+        made = self.partitioned
+        nothing = tuple((ZERO,) * len(self.b) for _ in self.b)
+        width = len(self.b) + 2
+        blocks = {
+            **made.blocks,
+            (0, 0): tuple((ZERO,) * width for _ in range(width)),
+            (1, 1): nothing if self.A is None else self.A,
+        }
+        colours = (
+            Colour("q", 0, made.colours[0].b, (ZERO,) * width, 0),
+            Colour("p", 1, self.b, self.c, 1),
+        )
+        return Tableau(made.spaces, colours, blocks)
+
+    @property
     def arrays(self) -> tuple[Tableau, Tableau]:
         """The arrays of Ā with c and b̄, and of A with b, as papers print them; A is zero where
         there is none.
@@ -133,7 +150,7 @@ def is_nystrom(tableau: Tableau) -> bool:
     return tuple(colour.kind for colour in tableau.colours) == KINDS
 
 
-Which: TypeAlias = Literal["in_positions", "in_velocities", "partitioned"]
+Which: TypeAlias = Literal["in_positions", "in_velocities", "partitioned", "split"]
 
 
 def seen(method: AnyTableau, which: Which) -> AnyTableau:

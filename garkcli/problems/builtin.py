@@ -186,6 +186,13 @@ _ENTRIES = (
         "all, with at most 2 branches at a vertex",
         textbook.lotka_volterra,
     ),
+    BuiltIn(
+        "damped-pendulum",
+        "q″ = −sin q − q′ (1 + q′²)/4, for Nyström methods with y′",
+        "q̇ = v, v̇ = −sin q − v (1 + v²)/4",
+        "those of q″ = g(q, q′), with at most 3 branches of q′ at a vertex",
+        textbook.damped_pendulum,
+    ),
     mechanical(
         "oscillator",
         "½p² and parts of ½ω²q²; sees the unbranched trees only",

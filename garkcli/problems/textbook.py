@@ -1,4 +1,6 @@
-"""The equations of every first lecture: ẏ = λy, the logistic equation, predator and prey."""
+"""The equations of every first lecture: ẏ = λy, the logistic equation, predator and prey, a
+pendulum with drag.
+"""
 
 from __future__ import annotations
 
@@ -90,4 +92,24 @@ def lotka_volterra(terms: int, _: int) -> RightHandSide:
         fmpq(2),
         invariants=Deferred("lotka-volterra invariants", invariants, 1, ("invariant",)),
         long_run=(fmpq(1, 10), fmpq(1000)),
+    )
+
+
+def damped_pendulum(terms: int, _: int) -> RightHandSide:
+    """q″ = −sin q − q′ (1 + q′²)/4 as q̇ = p, ṗ = g(q, p): a pendulum with linear and cubic drag."""
+    variables = ("q", "v")
+
+    def parts() -> list[Exprs]:
+        import sympy
+
+        q, v = symbols(variables, "y")
+        zero = 0 * q
+        return [(v, zero), (zero, -sympy.sin(q) - v * (1 + v**2) / 4)]
+
+    return RightHandSide(
+        "damped-pendulum",
+        variables,
+        shared("damped-pendulum", parts, terms),
+        (fmpq(1), fmpq(1, 2)),
+        fmpq(2),
     )
