@@ -96,7 +96,7 @@ ANSWERS = {
     "report.modified": "ModifiedFormula.latex=formula_latex",
     "report.rendering": "GarkMethod.to_latex=latex Analysis.html=html Outcome.html=html "
     "RosenbrockAnalysis.html=html InfinitesimalAnalysis.html=html NystromAnalysis.html=html "
-    "NprkAnalysis.html=html "
+    "NprkAnalysis.html=html DerivativesAnalysis.html=html "
     "Stability.html=html Comparison.html=html Design.html=html Minimum.html=html "
     "StableValues.html=html StablePlane.html=html SweepReport.html=html MethodProof.html=html "
     "ModifiedRun.html=html BackwardAnalysis.html=html Convergence.html=html LongRun.html=html",

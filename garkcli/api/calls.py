@@ -14,7 +14,7 @@ from garkcli.check.analysis import MethodProof
 from garkcli.check.deciding import analyse_any
 from garkcli.check.true_claims import TrueClaims, true_claims, usual_keys
 from garkcli.constructions.nystrom import is_nystrom, partitioned
-from garkcli.constructions.rosenbrock import is_rosenbrock, on_test_equation
+from garkcli.constructions.test_equation import on_test_equation
 from garkcli.deadline import SECONDS
 from garkcli.errors import MethodError, UsageProblem, did_you_mean
 from garkcli.methodfile.build import MethodFile
@@ -135,15 +135,15 @@ def find_stability(
         raise MethodError(message, "leave them out", code="pasted-tableau")
     if any(ratio <= 0 for ratio in further):
         raise MethodError("ratios are positive", "the axes are always there", code="option-value")
-    is_linear_alone = is_rosenbrock(method.tableau)
-    tableau = on_test_equation(method.tableau, near) if is_linear_alone else method.tableau
+    linear = on_test_equation(method.tableau, near)
+    tableau = linear or method.tableau
     if is_nystrom(tableau):
         tableau = partitioned(tableau, near)
     if near is None:
         found = stability(tableau, further, seconds)
     else:
         found = stability_of_rounded(tableau, near)
-    return found.of_linear_problems if is_linear_alone else found
+    return found.of_linear_problems if linear else found
 
 
 def two_springs(

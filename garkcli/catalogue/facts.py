@@ -14,6 +14,7 @@ from garkcli.catalogue.known import fingerprint
 from garkcli.check.check_file import check_file
 from garkcli.check.claims import found_value
 from garkcli.comparison.comparison import form_of
+from garkcli.constructions.derivatives import Derivatives
 from garkcli.errors import GarkError
 from garkcli.exact.display import decimal, to_text
 from garkcli.methodfile.expectations import AtLeast
@@ -172,6 +173,8 @@ def shape(method: MethodFile) -> Entry:
     told = colours[1:] if kind == "mri" else colours
     stages = [tableau.spaces[colour.space].stages for colour in told]
     rounding = method.tolerance
+    if kind == "mdrk":
+        stages = [len(Derivatives.of(tableau).nodes)]
     return {
         "stages": max(stages),
         "stages_by_colour": stages,

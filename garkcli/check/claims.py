@@ -13,18 +13,21 @@ from garkcli.properties.registry import KEYS
 from garkcli.reason import NO_REASON, Reason
 
 if TYPE_CHECKING:
+    from garkcli.check.derivatives import DerivativesAnalysis
     from garkcli.check.infinitesimal import InfinitesimalAnalysis
     from garkcli.check.nprk import NprkAnalysis
     from garkcli.check.nystrom import NystromAnalysis, NystromSubject
-    from garkcli.check.rosenbrock import RosenbrockAnalysis, RosenbrockSubject
+    from garkcli.check.order_facts import LinearSubject
+    from garkcli.check.rosenbrock import RosenbrockAnalysis
     from garkcli.properties.property import NoProperties
     from garkcli.properties.subject import Subject
 
 
 AnyAnalysis: TypeAlias = (
-    "Analysis | RosenbrockAnalysis | NystromAnalysis | NprkAnalysis | InfinitesimalAnalysis"
+    "Analysis | RosenbrockAnalysis | NystromAnalysis | NprkAnalysis | DerivativesAnalysis"
+    " | InfinitesimalAnalysis"
 )
-AnySubject: TypeAlias = "Subject | RosenbrockSubject | NystromSubject | NoProperties"
+AnySubject: TypeAlias = "Subject | LinearSubject | NystromSubject | NoProperties"
 
 
 def verify(claims: tuple[ClaimText, ...], analysis: AnyAnalysis) -> tuple[Claim, ...]:

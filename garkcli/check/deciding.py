@@ -14,6 +14,7 @@ from garkcli.check.analysis import (
     is_pair_of_itself,
     nonautonomous,
 )
+from garkcli.constructions.derivatives import is_derivatives
 from garkcli.constructions.nprk import is_nprk
 from garkcli.constructions.nystrom import is_nystrom
 from garkcli.constructions.rosenbrock import is_rosenbrock
@@ -58,10 +59,14 @@ def analyse_any_tableau(
         from garkcli.check.nystrom import analyse_nystrom  # likewise
 
         return analyse_nystrom(tableau, limit, tolerance, further)
-    if tableau.exact_to is not None:
-        from garkcli.check.infinitesimal import analyse_infinitesimal  # likewise
+    if is_derivatives(tableau):
+        from garkcli.check.derivatives import DerivativesAnalysis  # likewise
 
-        return analyse_infinitesimal(tableau, limit, tolerance, further)
+        return DerivativesAnalysis.with_flow(tableau, limit, tolerance, further)
+    if tableau.exact_to is not None:
+        from garkcli.check.infinitesimal import InfinitesimalAnalysis  # likewise
+
+        return InfinitesimalAnalysis.with_flow(tableau, limit, tolerance, further)
     return analyse(tableau, limit, tolerance, further)
 
 

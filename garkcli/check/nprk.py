@@ -2,66 +2,27 @@
 
 from __future__ import annotations
 
-from functools import cached_property
-from typing import ClassVar
-
 from flint import fmpq
 
 from garkcli.check.further import EmbeddedFacts, estimate
-from garkcli.exact.field import ZERO
-from garkcli.frozen import Frozen
+from garkcli.check.order_facts import OrderFacts
 from garkcli.order.certificate import DEFAULT_LIMIT, StageSpans
-from garkcli.order.deciding import AnyOrder, order_of
+from garkcli.order.deciding import order_of
 from garkcli.order.meant import as_embedded, meant, printed
-from garkcli.properties.property import NoProperties
 from garkcli.reason import Reason
 from garkcli.tableau.embedded import NOTHING, Further
 from garkcli.tableau.tableau import Tableau
-from garkcli.upward import Shown
-
-_NO_PROPERTY = Reason("a property of Runge–Kutta methods of vector fields, not of their arguments")
 
 
-class NprkAnalysis(Shown, Frozen):
-    """The truth about a nonlinearly partitioned method.
-
-    Attributes:
-        tableau: its colours are the arguments of F, its stages the pairs at which it is evaluated.
-        order: its order.
-        limit: where the search for orders stopped.
-        tolerance: the rounding within which all of this holds; None where it holds exactly.
-        embedded: the truth about its embedded weights; None where it has none.
-        further: these weights.
+class NprkAnalysis(OrderFacts):
+    """The truth about a nonlinearly partitioned method; the colours of its tableau are the
+    arguments of F, its stages the pairs at which it is evaluated.
     """
 
-    tableau: Tableau
-    order: AnyOrder
-    limit: int
-    tolerance: fmpq | None = None
-    embedded: EmbeddedFacts | None = None
-    further: Further = NOTHING
-
-    kind: ClassVar[str] = "a nonlinearly partitioned method"
-
-    @property
-    def dense(self) -> None:
-        """It has no dense output."""
-
-    @cached_property
-    def subject(self) -> NoProperties:
-        """It has no properties."""
-        return NoProperties(self.tolerance or ZERO, _NO_PROPERTY)
-
-    def view(self, claim: str) -> tuple[AnyOrder, Tableau] | None:
-        """The order that a claim is on, with the tableau that has it; None for other claims."""
-        if claim == "order":
-            return self.order, self.tableau
-        if claim == "embedded-order" and self.embedded is not None:
-            return self.embedded.order, self.embedded.tableau
-        return None
-
-    def __repr__(self) -> str:
-        return f"<NprkAnalysis order {self.order.order}>"
+    kind = "a nonlinearly partitioned method"
+    no_property = Reason(
+        "a property of Runge–Kutta methods of vector fields, not of their arguments"
+    )
 
 
 def analyse_nprk(

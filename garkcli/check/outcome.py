@@ -11,6 +11,7 @@ from garkcli.reason import NO_REASON, Reason
 from garkcli.upward import Shown
 
 if TYPE_CHECKING:
+    from garkcli.check.derivatives import DerivativesAnalysis
     from garkcli.check.every_value import EveryValue
     from garkcli.check.infinitesimal import InfinitesimalAnalysis
     from garkcli.check.nprk import NprkAnalysis
@@ -22,7 +23,11 @@ if TYPE_CHECKING:
     from garkcli.order.constants import ErrorConstants
 
     OtherAnalysis: TypeAlias = (
-        RosenbrockAnalysis | NystromAnalysis | NprkAnalysis | InfinitesimalAnalysis
+        RosenbrockAnalysis
+        | NystromAnalysis
+        | NprkAnalysis
+        | DerivativesAnalysis
+        | InfinitesimalAnalysis
     )
 
 
@@ -76,6 +81,7 @@ class Outcome(Shown, Frozen):
         rosenbrock: the truth about a Rosenbrock method; it has no analysis.
         nystrom: the truth about a Nyström method; likewise.
         nprk: the truth about a nonlinearly partitioned method; likewise.
+        derivatives: the truth about a multiderivative method; likewise.
         infinitesimal: the truth about a multirate method with the exact fast solution; likewise.
         left_behind: further weights of the methods that it is made from, in words.
         rules: what made blocks between diagonal methods.
@@ -99,6 +105,7 @@ class Outcome(Shown, Frozen):
     rosenbrock: RosenbrockAnalysis | None = None
     nystrom: NystromAnalysis | None = None
     nprk: NprkAnalysis | None = None
+    derivatives: DerivativesAnalysis | None = None
     infinitesimal: InfinitesimalAnalysis | None = None
     left_behind: tuple[str, ...] = ()
     rules: tuple[BlockRule, ...] = ()
@@ -106,7 +113,8 @@ class Outcome(Shown, Frozen):
     @property
     def of_other_kind(self) -> OtherAnalysis | None:
         """The analysis of a method that is no GARK method; None of one that is, or of none."""
-        return self.rosenbrock or self.nystrom or self.nprk or self.infinitesimal
+        found = self.rosenbrock or self.nystrom or self.nprk
+        return found or self.derivatives or self.infinitesimal
 
     @property
     def found(self) -> Analysis | EveryValue | OtherAnalysis | None:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, ClassVar
 from flint import fmpq
 
 from garkcli.check.further import DenseFacts, dense_facts
+from garkcli.check.order_facts import OF_TEST_EQUATION, LinearSubject
 from garkcli.constructions.rosenbrock import Which, seen
 from garkcli.exact.matrix import SingularMatrixError
 from garkcli.frozen import Frozen, replace
@@ -15,9 +16,6 @@ from garkcli.order.certificate import DEFAULT_LIMIT, StageSpans
 from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.functionals import Estimator, Orders, estimator
 from garkcli.order.meant import AnyTableau, as_embedded, meant, printed, with_further
-from garkcli.order.simplifying import simplifying
-from garkcli.properties.property import Verdict
-from garkcli.properties.subject import Subject
 from garkcli.reason import Reason
 from garkcli.tableau.embedded import NOTHING, Further
 from garkcli.tableau.tableau import Tableau
@@ -38,12 +36,7 @@ DAE_VIEWS: dict[str, Which] = {
     "index-1-z-order": "on_dae_in_z",
 }
 """The orders on differential-algebraic equations, which need an inverse of α + γ."""
-OF_TEST_EQUATION = frozenset(
-    {
-        *("gamma", "a-stable", "l-stable", "p-stable", "i-stable"),
-        *("real-stability", "imaginary-stability"),
-    }
-)
+OF_BETA = OF_TEST_EQUATION | {"gamma"}
 """Properties that are those of the Runge–Kutta method with A = β."""
 _NO_PROPERTY = Reason("a property of Runge–Kutta methods, which this Rosenbrock method is not")
 
@@ -141,27 +134,6 @@ class EmbeddedOrders(Frozen):
         return self.orders.order
 
 
-class RosenbrockSubject(Frozen):
-    """The properties of a Rosenbrock method.
-
-    Attributes:
-        on_test_equation: the Runge–Kutta method with the same R(z).
-    """
-
-    on_test_equation: Subject
-
-    @property
-    def rounding(self) -> fmpq:
-        """By how much the printed coefficients may be off."""
-        return self.on_test_equation.rounding
-
-    def verdict(self, key: str) -> Verdict:
-        """What is true of a property."""
-        if key not in OF_TEST_EQUATION:
-            return Verdict.meaningless(_NO_PROPERTY)
-        return self.on_test_equation.verdict(key)
-
-
 class RosenbrockAnalysis(Shown, Frozen):
     """The truth about a Rosenbrock or W-method.
 
@@ -221,18 +193,15 @@ class RosenbrockAnalysis(Shown, Frozen):
         return self.orders.index_1_z_order
 
     @cached_property
-    def subject(self) -> RosenbrockSubject:
+    def subject(self) -> LinearSubject:
         """The method whose properties are decided on demand."""
         method = seen(meant(self.tableau, self.tolerance), "on_test_equation")
-        conditions = simplifying(method, self.limit)
-        order = self.order.order
-        return RosenbrockSubject(Subject.read(method, order, conditions, self.limit, NOTHING))
+        return LinearSubject.of(method, self.order.order, self.limit, OF_BETA, _NO_PROPERTY)
 
-    @cached_property
+    @property
     def at_infinity(self) -> Number | None:
         """R(∞); None where R is not bounded, or rounded coefficients leave it open."""
-        inner = self.subject.on_test_equation
-        return None if inner.tolerance else inner.linear.at_infinity()
+        return self.subject.at_infinity
 
     def view(self, claim: str) -> tuple[AnyOrder, Tableau] | None:
         """The order that a claim is on, with the tableau that has it; None for other claims."""

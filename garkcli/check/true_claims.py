@@ -27,10 +27,13 @@ OF_NYSTROM = (
 """Claims on the orders of Nyström methods."""
 OF_INFINITESIMAL = ("order", "slow-order", "nonautonomous-order", "embedded-order")
 """The same of multirate methods with the exact fast solution."""
+OF_DERIVATIVES = ("order", "embedded-order", "a-stable", "l-stable")
+"""The same of methods that use derivatives."""
 OF_OTHER_KINDS = {
     "a Rosenbrock method": OF_ROSENBROCK,
     "a Nyström method": OF_NYSTROM,
     "a nonlinearly partitioned method": ("order", "embedded-order"),
+    "a multiderivative method": OF_DERIVATIVES,
     "a multirate method with the exact fast part": OF_INFINITESIMAL,
 }
 """Claims on the orders of methods that are no GARK methods, by kind."""

@@ -28,6 +28,7 @@ def export(given: Given, output: Output) -> None:
     from garkcli.api.anymethod import refuse_rounded
     from garkcli.bridges.preparing import prepared
     from garkcli.bridges.registry import bridge_named
+    from garkcli.constructions.derivatives import is_derivatives
     from garkcli.constructions.rosenbrock import is_rosenbrock
 
     bridge = bridge_named(given.to)
@@ -38,7 +39,8 @@ def export(given: Given, output: Output) -> None:
         raise UsageProblem(message, "leave out --test", code="cannot-export")
     method = given.method(is_any_kind=True)
     if not is_rosenbrock(method.tableau):
-        method.tableau.demand_fields("this command", with_flow=bridge.couples)
+        has_coupling = bridge.couples and not is_derivatives(method.tableau)
+        method.tableau.demand_fields("this command", with_flow=has_coupling)
     refuse_rounded(method)
     payload = prepared(method, given.digits)
     table = bridge.written(payload)

@@ -42,7 +42,7 @@ _TRUTHS = {
     "exact": "Methods whose coefficients are not rounded.",
 }
 LISTS = ("families", "transfer", "schemes", "splittings", "problems")
-_KINDS = ("rk", "ark", "prk", "gark", "row", "rkn", "nprk", "mri", "family")
+_KINDS = ("rk", "ark", "prk", "gark", "row", "rkn", "nprk", "mdrk", "mri", "family")
 
 
 @declared("certificate", ("json", *(x for x in FORMATS if x != "json"), "coq"))
@@ -117,7 +117,7 @@ def _filters() -> list[click.Option]:
         "kind": (
             _KINDS,
             "Runge-Kutta, additive, partitioned, general, Rosenbrock (row), Nyström (rkn), "
-            "nonlinearly partitioned (nprk), multirate (mri).",
+            "nonlinearly partitioned (nprk), multiderivative (mdrk), multirate (mri).",
         ),
         "sort": (ORDERS, "By what the list is sorted; by default the order."),
     }

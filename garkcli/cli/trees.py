@@ -235,7 +235,7 @@ def conditions(given: Given, output: Output) -> None:
     exact_to = None if valued is None else printed(valued.method).exact_to
     if exact_to is not None and exact_to < last:
         last = exact_to
-        output.note(f"{given.file}: with the exact fast part up to order {last}")
+        output.note(f"{given.file}: its conditions are known up to order {last}")
     orders = range(last if given.only else 1, last + 1)
     subject = None
     colours = 0

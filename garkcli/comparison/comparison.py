@@ -14,6 +14,7 @@ from garkcli.check.deciding import analyse_any
 from garkcli.comparison.differences import BlockGap, Met, block_gaps, conditions_met
 from garkcli.comparison.grid import Likeness
 from garkcli.comparison.sameness import Sameness, find_sameness, views_of
+from garkcli.constructions.derivatives import Derivatives, embedded_of, is_derivatives
 from garkcli.constructions.nprk import is_nprk
 from garkcli.constructions.nystrom import POSITIONS, START, is_nystrom
 from garkcli.constructions.rosenbrock import is_rosenbrock
@@ -183,8 +184,10 @@ def compare(one: GarkMethod, other: GarkMethod, limit: int = DEFAULT_LIMIT) -> C
     views = views_of(one, other)
     gaps: tuple[BlockGap, ...] = ()
     if views.one.size == views.other.size:
-        found = block_gaps(views.one, views.other, Likeness(allowed))
-        gaps = tuple(OF_OTHER_KINDS.get(forms[0], iter)(found))
+        seen = views if forms[0] != "mdrk" else views_of(*_of_derivatives(one, other))
+        found = block_gaps(seen.one, seen.other, Likeness(allowed))
+        only = OF_OTHER_KINDS.get(forms[0])
+        gaps = tuple(only(found) if only else found)
     answer = find_sameness(one, other, views, allowed)
     same = answer.sameness
     if same is not None and same.is_plain and not same.step_only:
@@ -299,10 +302,27 @@ def _of_arguments(gaps: Iterable[BlockGap]) -> Iterator[BlockGap]:
     return (gap for gap in gaps if gap.colour == 0 or gap.kind == "c")
 
 
+def _of_derivatives(*methods: GarkMethod) -> Iterator[GarkMethod]:
+    """Methods that use derivatives as tableaus of a colour a derivative, of as many for each."""
+    made = [Derivatives.of(x.tableau) for x in methods]
+    count = max(len(x.A) for x in made)
+    for method, found in zip(methods, made, strict=True):
+        arrays = found.arrays(count)
+        colours = tuple(replace(x.colours[0], space=k) for k, x in enumerate(arrays))
+        blocks = {(k, k): x.blocks[0, 0] for k, x in enumerate(arrays)}
+        tableau = Tableau(tuple(x.spaces[0] for x in arrays), colours, blocks)
+        embedded = method.embedded and embedded_of(method.embedded, method.tableau)
+        if embedded is not None:
+            zeros = (ZERO,) * len(embedded[0])
+            embedded += (zeros,) * (count - len(embedded))
+        yield GarkMethod(tableau=tableau, tolerance=method.tolerance, embedded=embedded)
+
+
 OF_OTHER_KINDS = {
     "row": _of_rosenbrock,
     "rkn": _of_nystrom,
     "nprk": _of_arguments,
+    "mdrk": lambda gaps: iter(gaps),
     "mri": _of_slow_parts,
 }
 """The entries of methods that are no GARK methods, from those of their tableaus."""
@@ -310,8 +330,8 @@ OF_OTHER_KINDS = {
 
 def form_of(tableau: Tableau) -> str:
     """What kind of tableau it is: rk, ark, gark, prk, or pair for other partitioned ones; row for
-    a Rosenbrock method, rkn for a Nyström method, nprk for a nonlinearly partitioned one, mri for
-    a multirate one with the exact fast part.
+    a Rosenbrock method, rkn for a Nyström method, nprk for a nonlinearly partitioned one, mdrk for
+    one that uses derivatives, mri for a multirate one with the exact fast part.
     """
     if is_rosenbrock(tableau):
         return "row"
@@ -319,6 +339,8 @@ def form_of(tableau: Tableau) -> str:
         return "rkn"
     if is_nprk(tableau):
         return "nprk"
+    if is_derivatives(tableau):
+        return "mdrk"
     if tableau.exact_to is not None:
         return "mri"
     if [colour.part for colour in tableau.colours] == ["q", "p"]:

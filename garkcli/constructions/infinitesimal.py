@@ -336,7 +336,7 @@ def apparent_order(coupling: Coupling, stages: Iterable[int]) -> int:
     weights = [[made.colours[m].b for m in slow]]
     if further.embedded is not None:
         weights.append([further.embedded[m] for m in slow])
-    return max(_fits(A, b) for b in _as_one(weights))
+    return max(fitting(_sums(A, b)) for b in _as_one(weights))
 
 
 def _as_one(rows: Iterable[Iterable[Vector]]) -> list[list[float]]:
@@ -346,31 +346,45 @@ def _as_one(rows: Iterable[Iterable[Vector]]) -> list[list[float]]:
     ]
 
 
-def _fits(A: Sequence[Sequence[float]], b: Sequence[float]) -> int:
-    """The order up to which b Aᵏ 𝟙 and b cᵏ are about what they should be."""
+def _sums(A: Sequence[Sequence[float]], b: Sequence[float]) -> Iterator[tuple[float, float]]:
+    """The sums b Aᵏ 𝟙 and b cᵏ, k = 0, 1, …"""
 
     def applied(v: Sequence[float]) -> list[float]:
         return [sum(map(mul, row, v)) for row in A]
 
-    most = 2 * len(b) + 1
     tall = bushy = [1.0] * len(b)
     c = applied(tall)
-    for order in range(1, most + 1):
-        exact = (1 / factorial(order), 1 / order)
-        for v, value in zip((tall, bushy), exact, strict=True):
-            if abs(sum(map(mul, b, v)) - value) > _PLAIN * value:
-                return order - 1
+    for _ in range(2 * len(b) + 1):
+        yield sum(map(mul, b, tall)), sum(map(mul, b, bushy))
         tall, bushy = applied(tall), [*map(mul, bushy, c)]
-    return most
+
+
+def fitting(values: Iterable[tuple[float, float]]) -> int:
+    """The order up to which the weights of the tree without branchings, and of that with all of
+    them at the root, are about what they should be.
+
+    Args:
+        values: both of them, for each order.
+    """
+    order = 0
+    for order, pair in enumerate(values, start=1):
+        for value, due in zip(pair, (1 / factorial(order), 1 / order), strict=True):
+            if abs(value - due) > _PLAIN * due:
+                return order - 1
+    return order
 
 
 @lru_cache(maxsize=32)
 def collocation(stages: int) -> Method:
     """Collocation at equidistant nodes, the last of which is 1."""
-    nodes = tuple(fmpq(k, stages) for k in range(1, stages + 1))
+    return collocation_at(tuple(fmpq(k, stages) for k in range(1, stages + 1)))
+
+
+def collocation_at(nodes: Vector) -> Method:
+    """Collocation at nodes, for a step to the last of them."""
     space = PointSpace(nodes)
     integrals = [antiderivative(x) for x in space.basis_polynomials()]
-    powers = [[node**k for k in range(stages + 1)] for node in nodes]
+    powers = [[node**k for k in range(len(nodes) + 1)] for node in nodes]
     A = tuple(tuple(dot(x, row) for x in integrals) for row in powers)
     return Method("", space, A, A[-1])
 

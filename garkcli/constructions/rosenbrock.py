@@ -22,8 +22,6 @@ from operator import add as add_numbers
 from operator import sub as subtract_numbers
 from typing import Literal, TypeAlias
 
-from flint import fmpq
-
 from garkcli.errors import MethodError, ShapeMismatch
 from garkcli.exact.field import ZERO
 from garkcli.exact.matrix import (
@@ -40,7 +38,7 @@ from garkcli.exact.matrix import (
 )
 from garkcli.frozen import Frozen, replace
 from garkcli.ntrees.kind import NOT_ONE, ONE_BRANCH, PLAIN, SEVERAL, Kind
-from garkcli.order.meant import AnyTableau, keep, meant, printed
+from garkcli.order.meant import AnyTableau
 from garkcli.tableau.embedded import NOTHING, DenseOutput, Further, Weights
 from garkcli.tableau.forms import beside_clock, gark
 from garkcli.tableau.stages import PointSpace
@@ -255,14 +253,6 @@ def seen(method: AnyTableau, which: Which) -> AnyTableau:
 def _seen(which: Which, tableau: Tableau) -> Tableau:
     found: Tableau = getattr(Rosenbrock.of(tableau), which)
     return found
-
-
-def on_test_equation(tableau: Tableau, tolerance: fmpq | None) -> Tableau:
-    """The Runge–Kutta method with the same R(z), of which ``meant`` knows what it is rounded of."""
-    found = seen(meant(tableau, tolerance), "on_test_equation")
-    if not isinstance(found, Tableau):
-        keep(found)
-    return printed(found)
 
 
 def weights_for(tableau: Tableau, b: Sequence[Vector]) -> Weights:

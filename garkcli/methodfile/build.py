@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Generic, TypeAlias, TypeVar
 from flint import fmpq
 from yaml.nodes import Node
 
+from garkcli.constructions.derivatives import Derivatives, plan
 from garkcli.constructions.nprk import nprk
 from garkcli.constructions.nystrom import Nystrom, nystrom, weights_of
 from garkcli.constructions.registers import as_butcher
@@ -280,6 +281,8 @@ class Builder(Generic[V]):
                 return self._at(content.node, lambda: self._rosenbrock(content).tableau)
             case d.NprkText():
                 return self._at(content.node, lambda: self._nprk(content))
+            case d.DerivativesText():
+                return self._at(content.node, lambda: self._derivatives(content))
             case d.NystromText():
                 return self._at(content.node, lambda: self._nystrom(content).tableau)
             case d.ConstructionText():
@@ -352,6 +355,16 @@ class Builder(Generic[V]):
         if row is not None:
             self._made = Further((row,) * tableau.size)
         return tableau
+
+    def _derivatives(self, text: d.DerivativesText) -> Tableau:
+        matrix, vector = self.values.matrix, self.values.vector
+        c = None if text.c is None else vector(text.c)
+        method = Derivatives(tuple(map(matrix, text.A)), matrix(text.b), c)
+        embedded = None if text.embedded is None else matrix(text.embedded)
+        order: int = self.values.once(("plan", id(text)), lambda: plan(method, embedded))
+        if embedded is not None:
+            self._made = Further((method.at_points(embedded, order),))
+        return method.tableau(order)
 
     def _nystrom(self, text: d.NystromText) -> Nystrom:
         matrix, vector = self.values.matrix, self.values.vector

@@ -26,7 +26,16 @@ Construction: TypeAlias = Literal["compose", "adjoint", "extrapolate", "splittin
 CONSTRUCTIONS: tuple[Construction, ...] = get_args(Construction)
 """The forms that make a method from others."""
 OwnForm: TypeAlias = Literal[
-    "methods", "tableau", "ark", "prk", "shu-osher", "low-storage", "rosenbrock", "nystrom", "nprk"
+    "methods",
+    "tableau",
+    "ark",
+    "prk",
+    "shu-osher",
+    "low-storage",
+    "rosenbrock",
+    "nystrom",
+    "nprk",
+    "derivatives",
 ]
 Form: TypeAlias = OwnForm | Construction
 FORMS: tuple[Form, ...] = (*get_args(OwnForm), *CONSTRUCTIONS)
@@ -274,6 +283,29 @@ class NprkText(Frozen):
         return ()
 
 
+class DerivativesText(Frozen):
+    """A method that uses derivatives of f along the solution.
+
+    Attributes:
+        node: the place in the file.
+        A: a matrix for f, one for f′f, and so on.
+        b: the weights of each.
+        c: where time is; None where the row sums of the first matrix say it.
+        embedded: embedded weights; None where there are none.
+    """
+
+    node: Node
+    A: tuple[Rows, ...]
+    b: Rows
+    c: Row | None = None
+    embedded: Rows | None = None
+
+    @property
+    def further(self) -> tuple[FurtherText, ...]:
+        """What is beside the weights, which the tableau is made with."""
+        return ()
+
+
 class PartText(Frozen):
     """A method that a construction is made from.
 
@@ -325,7 +357,7 @@ class ConstructionText(Frozen):
 
 Content: TypeAlias = (
     "MethodsText | TableauText | ArkText | PrkText | RegistersText | RosenbrockText | NystromText"
-    " | NprkText | ConstructionText"
+    " | NprkText | DerivativesText | ConstructionText"
 )
 
 

@@ -141,6 +141,13 @@ KEYS = {
             page=f"{_PAGE}nprk-nonlinearly-partitioned-methods",
         ),
         g.Key(
+            "derivatives: {A: [[[], [1/2]], [[], [1/8]]], b: [[1, 0], [1/6, 1/3]]}",
+            g.later("derivatives", "DERIVATIVES"),
+            "A multiderivative method: it uses f, f′f, …, the derivatives along the solution.",
+            page=f"{_PAGE}derivatives-multiderivative-methods",
+            also=("multiderivative", "tdrk"),
+        ),
+        g.Key(
             "compose: {of: rk4, steps: [1/2, 1/2]}",
             g.later("constructed.compose", "KIND"),
             "Substeps of methods, one after the other, the first one first.",
@@ -244,7 +251,7 @@ FORM = g.Ways(
     (*FORMS, "unknown", g.Together(("A", "b"), ("c",))),
     "no coefficients",
     "give A and b, or one of the keys methods, tableau, ark, prk, shu-osher, "
-    "low-storage, rosenbrock, nystrom, nprk",
+    "low-storage, rosenbrock, nystrom, nprk, derivatives",
 )
 """The coefficients of a method have one form; A, b and c at the top are those of a tableau."""
 _INSIDE: dict[str, str] = dict.fromkeys(

@@ -208,6 +208,7 @@ _OTHER_KINDS: dict[Form, str] = {
     "rosenbrock": "Rosenbrock",
     "nystrom": "Nyström",
     "nprk": "nonlinearly partitioned",
+    "derivatives": "multiderivative",
 }
 """The names of methods that are no GARK methods, in messages."""
 

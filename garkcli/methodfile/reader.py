@@ -158,6 +158,10 @@ class ContentReader(Reading):
             from garkcli.methodfile.nprk import nprk
 
             return nprk(self, node)
+        if form == "derivatives":
+            from garkcli.methodfile.derivatives import derivatives
+
+            return derivatives(self, node)
         if form == "nystrom":
             from garkcli.methodfile.nystrom import nystrom
 

@@ -202,7 +202,9 @@ def _names(content: d.Content) -> list[tuple[str, ...]]:
             names = ["q", "p"]
         case d.TableauText(b=b) | d.ArkText(b=b):
             names = [""] * len(b)
-        case d.RegistersText() | d.RosenbrockText() | d.NystromText() | d.NprkText():
+        case d.RegistersText() | d.RosenbrockText() | d.NystromText():
+            return [()]
+        case d.NprkText() | d.DerivativesText():
             return [()]
         case _:
             return []
@@ -241,7 +243,7 @@ def _places(content: d.Content) -> Iterator[_Place]:
                 yield from _of_rows([*rows, content.b[m]], m)
         case d.RosenbrockText(error=error):
             yield from _of_rows([error or ()], 0, "embedded")
-        case d.NprkText():
+        case d.NprkText() | d.DerivativesText():
             yield from _of_rows(content.embedded or (), 0, "embedded")
         case d.NystromText():
             for row in content.embedded or ():

@@ -92,7 +92,7 @@ def conditions(method: AnyTableau, trees: Iterable[Tree]) -> Iterator[Condition]
     most = tableau.exact_to
     for tree in map(tableau.known, trees):
         if most is not None and tree.order > most:
-            message = f"conditions with the exact fast part are known up to order {most}"
+            message = f"the conditions of this method are known up to order {most}"
             cure = f"choose trees of at most {most} vertices"
             raise MethodError(message, cure, code="too-many")
         value = dot(tableau.colours[tree.root].b, vectors.of(tree))

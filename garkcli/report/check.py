@@ -101,7 +101,8 @@ def viewed_order(key: str, level: Any = Level.USUAL, label: str = "") -> Row:
         if view is None:
             return Answer(None)
         order, tableau = view
-        return replace(kinds.order_answer(order), names=[x.name for x in tableau.colours])
+        names = [x.name for x in tableau.colours] if tableau.size > 1 else []
+        return replace(kinds.order_answer(order), names=names)
 
     return Row(key, kinds.ORDER, get, level, has_null=key != "order", label=label or None)
 

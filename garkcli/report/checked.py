@@ -42,6 +42,10 @@ def form(outcome: Outcome) -> Section:
         from garkcli.report.nprk import NPRK
 
         return NPRK
+    if outcome.derivatives is not None:
+        from garkcli.report.derivatives import DERIVATIVES
+
+        return DERIVATIVES
     if outcome.infinitesimal is not None:
         from garkcli.report.infinitesimal import INFINITESIMAL
 
@@ -51,13 +55,15 @@ def form(outcome: Outcome) -> Section:
 
 def forms() -> Iterator[Section]:
     """All of them."""
+    from garkcli.report.derivatives import DERIVATIVES
     from garkcli.report.every import EVERY
     from garkcli.report.infinitesimal import INFINITESIMAL
     from garkcli.report.nprk import NPRK
     from garkcli.report.nystrom import NYSTROM
     from garkcli.report.rosenbrock import ROSENBROCK
 
-    yield from (UNREADABLE, CHECKED, EVERY, ROSENBROCK, NYSTROM, NPRK, INFINITESIMAL)
+    yield from (UNREADABLE, CHECKED, EVERY)
+    yield from (ROSENBROCK, NYSTROM, NPRK, DERIVATIVES, INFINITESIMAL)
 
 
 REPORT: Report[Outcome] = Report(
@@ -76,6 +82,7 @@ OF_ANALYSES = {
     "RosenbrockAnalysis": "rosenbrock",
     "NystromAnalysis": "nystrom",
     "NprkAnalysis": "nprk",
+    "DerivativesAnalysis": "derivatives",
     "InfinitesimalAnalysis": "infinitesimal",
 }
 """Where an outcome has the analysis of a method."""

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from garkcli.check.analysis import Analysis
+from garkcli.check.derivatives import DerivativesAnalysis
 from garkcli.check.infinitesimal import InfinitesimalAnalysis
 from garkcli.check.nprk import NprkAnalysis
 from garkcli.check.nystrom import NystromAnalysis
@@ -14,7 +15,7 @@ from garkcli.check.true_claims import TrueClaims
 from garkcli.errors import printable
 from garkcli.page.paint import folded
 from garkcli.properties.registry import KEYS
-from garkcli.report import infinitesimal, nprk, nystrom, rosenbrock
+from garkcli.report import derivatives, infinitesimal, nprk, nystrom, rosenbrock
 from garkcli.report.check import ANALYSIS, SIMPLIFYING, property_rows_of, within
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Level, Row, Section
@@ -46,6 +47,7 @@ _ROWS_OF_OTHER_KINDS = {
         (RosenbrockAnalysis, rosenbrock.ANALYSIS),
         (NystromAnalysis, nystrom.ANALYSIS),
         (NprkAnalysis, nprk.ANALYSIS),
+        (DerivativesAnalysis, derivatives.ANALYSIS),
         (InfinitesimalAnalysis, infinitesimal.ANALYSIS),
     )
 }

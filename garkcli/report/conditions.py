@@ -7,6 +7,7 @@ from functools import cache
 
 from flint import fmpq
 
+from garkcli.constructions.derivatives import is_derivatives
 from garkcli.constructions.nprk import is_nprk
 from garkcli.constructions.nystrom import is_nystrom
 from garkcli.constructions.rosenbrock import is_rosenbrock
@@ -184,6 +185,8 @@ def _about_colours(tableau: Tableau) -> Iterator[str]:
     elif is_nprk(tableau):
         yield nprk.IN_THE_TREES
         yield "a stage is a pair (j, k); A{1,1} has the rows a_j, A{1,2} the rows a_k"
+    elif is_derivatives(tableau):
+        yield "A and b are of stages on the exact solutions whose derivatives are used"
     elif is_nystrom(tableau):
         yield nystrom.IN_THE_TREES
         blocks = "A{1,1} = A{2,1} is Ā", "A{1,2} = A{2,2} is A", "A{1,3} = A{2,3} is c"

@@ -10,6 +10,7 @@ from flint import arb
 from garkcli.check.findings import value_text
 from garkcli.comparison.comparison import WITH_TIME, Comparison
 from garkcli.comparison.differences import BlockGap, EntryGap
+from garkcli.constructions.derivatives import words_of
 from garkcli.constructions.nprk import is_nprk
 from garkcli.errors import counted
 from garkcli.exact.display import decimal, to_text
@@ -37,6 +38,7 @@ FORMS = {
     "row": "a Rosenbrock method",
     "rkn": "a Nyström method",
     "nprk": "a nonlinearly partitioned method",
+    "mdrk": "a multiderivative method",
     "mri": "a multirate method with the exact fast part",
 }
 """The forms of methods, as people call them."""
@@ -328,6 +330,8 @@ def _method_words(x: Method, d: Plain) -> str:
     elif x.form == "nprk":
         pairs = counted(x.method.stages[0], "pair")
         about = f"nonlinearly partitioned, {pairs} of stages"
+    elif x.form == "mdrk":
+        about = words_of(x.method.tableau)
     elif x.form == "mri":
         about = f"multirate, {counted(x.method.stages[-1], 'slow stage')}, fast part exact"
     name = x.method.name

@@ -65,7 +65,7 @@ PROPERTIES = [
 ]
 TRUTHS = ["symplectic", *(x.field for x in every_property() if x.kind == "truth")]
 STAGES = Kind(S.array(S.POSITION), csv=lambda xs: "; ".join(map(str, xs)))
-_KIND = choice("rk", "ark", "prk", "gark", "row", "rkn", "nprk", "mri", "family", None)
+_KIND = choice("rk", "ark", "prk", "gark", "row", "rkn", "nprk", "mdrk", "mri", "family", None)
 METHOD = [
     _field("name", TEXT, USUAL, has_null=False),
     _field("aliases", TEXTS, USUAL, has_null=False),

@@ -25,6 +25,7 @@ TOLD_BY = {
     "check.RosenbrockAnalysis": "checked",
     "check.NystromAnalysis": "checked",
     "check.NprkAnalysis": "checked",
+    "check.DerivativesAnalysis": "checked",
     "check.InfinitesimalAnalysis": "checked",
     "check.ExistenceProof": "certificate",
     "check.MethodProof": "certificate",

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 from garkcli.constructions.rosenbrock import Rosenbrock
 from garkcli.errors import counted
 from garkcli.report import check as c
+from garkcli.report.test_equation import STABILITY
 from garkcli.tell import kinds
-from garkcli.tell.facts import Answer, Level, Row, Status, maybe, optional
-from garkcli.tell.parts import SAID, part, parts, picture, told
+from garkcli.tell.facts import Level, Row, maybe
+from garkcli.tell.parts import SAID, part, parts, picture
 
 if TYPE_CHECKING:
     from garkcli.tell.dialect import Plain
@@ -27,34 +28,6 @@ def _method_words(outcome: Any, d: Plain) -> str:
     return c.with_arithmetic(text, a)
 
 
-def _truth(key: str) -> Row:
-    """A property that R(z) decides."""
-
-    def get(a: Any) -> Answer:
-        v = a.subject.verdict(key)
-        return Answer(v.value, Status(open=v.reason) if v.is_undecided else Status(), v.reason)
-
-    return maybe(key.replace("-", "_"), kinds.TRUTH, get, DATA)
-
-
-def _stability_words(a: Any, d: Plain) -> str:
-    """``A-stable, R(∞) = 0``."""
-    words = []
-    for key, name in (("a-stable", "A-stable"), ("l-stable", "L-stable")):
-        v = a.subject.verdict(key)
-        if v.is_undecided:
-            words.append(f"{name} not decided: {d.reason(v.reason)}")
-        else:
-            words.append(d.known(name if v.value else f"not {name}", Status(a.tolerance)))
-            if not v.value and key == "a-stable":
-                words[-1] += f": {d.reason(v.reason)}" if v.reason else ""
-                break
-    limit = a.at_infinity
-    if limit is not None and limit:
-        words.append(f"{d.prose('R(∞)')} = {d.number(limit)}")
-    return ", ".join(words)
-
-
 def _dense(get: Callable[[Any], Any]) -> Callable[[Any], Any]:
     return lambda a: None if a.dense is None else get(a)
 
@@ -69,7 +42,6 @@ def _names(a: Any) -> list[str]:
     return [colour.name for colour in a.tableau.colours]
 
 
-R_OF_Z = kinds.ratio("z")
 ANALYSIS = [
     Row("exact", kinds.TRUTH, lambda a: a.tolerance is None, DATA),
     maybe("tolerance", kinds.TOLERANCE, level=DATA),
@@ -89,17 +61,7 @@ ANALYSIS = [
     maybe("error_estimate", part(c.ESTIMATE, c.estimate_phrase), "embedded.estimator"),
     maybe("dense_order", kinds.COUNT, _dense(lambda a: c.dense_answer(a.dense.order, _names(a)))),
     maybe("dense", part(c.DENSE, c.dense_words), label="dense output"),
-    Row("stability", told(_stability_words), "."),
-    _truth("a-stable"),
-    _truth("l-stable"),
-    maybe("R_infinity", kinds.EXACT, "at_infinity", DATA),
-    optional(
-        "R",
-        R_OF_Z,
-        lambda a: None if a.tolerance else a.subject.on_test_equation.linear,
-        DETAIL,
-        label="R(z)",
-    ),
+    *STABILITY,
     Row(
         "trees_that_fail",
         picture(c.drawn),

@@ -371,7 +371,7 @@ def algebraic(x: Any) -> Answer:
         if late is not None:
             return late
         if found.is_linear_alone:
-            return Answer(None, reason=Reason("has no meaning for a Rosenbrock method"))
+            return Answer(None, reason=Reason("has no meaning: it is no Runge-Kutta method"))
         if found.tolerance is None:
             return Answer(None, reason=Reason("has no meaning: colours do not see one another"))
         return kinds.truth(found.algebraic_within, open_because=ROUNDED)

@@ -5,13 +5,14 @@ Numbers are exact strings, with floats of the same shape beside them.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from itertools import chain
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 from flint import arb, fmpq
 
 from garkcli.check.analysis import inconsistent_blocks
+from garkcli.constructions.derivatives import Derivatives, embedded_of, is_derivatives
 from garkcli.constructions.infinitesimal import slow_part
 from garkcli.constructions.multirate import SLOW
 from garkcli.constructions.nystrom import Nystrom, is_nystrom
@@ -174,6 +175,8 @@ def shown_parts(tableau: Tableau, whole: Entries) -> list[tuple[str, Tableau, En
     arrays of α and of γ, of a Nyström method those of Ā and of A, of a multirate one with the exact
     fast solution that of the slow method.
     """
+    if is_derivatives(tableau):
+        return [*_of_derivatives(tableau, whole)]
     if tableau.exact_to is not None:
         slow = printed(slow_part(tableau))
         embedded = whole.embedded and whole.embedded[SLOW:]
@@ -196,6 +199,17 @@ def shown_parts(tableau: Tableau, whole: Entries) -> list[tuple[str, Tableau, En
             entries = replace(entries, embedded=embedded, dense=dense and dense[rows])
         found.append((text, array_of, entries))
     return found
+
+
+def _of_derivatives(tableau: Tableau, whole: Entries) -> Iterator[tuple[str, Tableau, Entries]]:
+    method, row = Derivatives.of(tableau), whole.embedded
+    embedded = None if row is None else embedded_of(cast("Any", row), tableau)
+    for k, array_of in enumerate(method.arrays(len(method.A))):
+        entries = pointwise.entries(array_of, whole.digits)
+        if embedded is not None:
+            entries = replace(entries, embedded=(embedded[k],))
+        name = ("of f, with c", "of f'f")[k] if k < 2 else f"of derivative {k} of f"
+        yield name, array_of, entries
 
 
 def drawn(x: Shown, d: Plain) -> list[str]:

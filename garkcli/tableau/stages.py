@@ -16,7 +16,7 @@ from collections.abc import Iterator, Sequence
 from functools import cached_property, lru_cache
 from itertools import combinations
 from math import prod
-from typing import cast
+from typing import ClassVar, cast
 
 from flint import fmpq, fmpq_poly, fmpz
 
@@ -241,9 +241,14 @@ class Flow(PointSpace):
 
     Attributes:
         order: of the trees up to which conditions are those with the exact solution.
+        why: what the method does with such solutions, so that it is no GARK method.
+        cure: what does without.
     """
 
     order: int
+
+    why: ClassVar[str] = "the fast part is solved exactly"
+    cure: ClassVar[str] = "write a fast method and steps in place of fast: exact"
 
 
 def _scaled_rows(factors: Vector, rows: Matrix) -> Matrix:

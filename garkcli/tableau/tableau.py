@@ -20,6 +20,8 @@ Part: TypeAlias = Literal["y", "q", "p"]
 """The part of the unknowns that a colour's vector field drives: all of them, positions, or
 momenta.
 """
+OF_OTHERS = "gark check, show, conditions, certificate, diff and report know such methods"
+"""The cure where a method that is no GARK method has no meaning."""
 Edge: TypeAlias = tuple[int, int]
 """Who sees whom: two colours (l, m); or (k, m), where the stages of space k see colour m."""
 
@@ -191,14 +193,13 @@ class Tableau(Frozen):
             MethodError: the vertices of a colour are of another kind; or stages stand for exact
                 solutions.
         """
-        if self.exact_to is not None and not with_flow:
-            message = f"{what} is for GARK methods: the fast part is solved exactly"
-            cure = "write a fast method and steps in place of fast: exact"
-            raise MethodError(message, cure, code="cannot-construct")
+        flow = next((x for x in self.spaces if isinstance(x, Flow)), None)
+        if flow is not None and not with_flow:
+            message = f"{what} is for GARK methods: {flow.why}"
+            raise MethodError(message, flow.cure, code="cannot-construct")
         if not self.has_fields_alone:
             message = f"{what} is for GARK methods, which this method is not"
-            cure = "gark check, show, conditions, certificate, diff and report know such methods"
-            raise MethodError(message, cure, code="cannot-construct")
+            raise MethodError(message, OF_OTHERS, code="cannot-construct")
 
     @property
     def is_partitioned(self) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from garkcli.api.runs import converge, long_run
-from garkcli.constructions.rosenbrock import is_rosenbrock, on_test_equation
+from garkcli.constructions.test_equation import on_test_equation
 from garkcli.convergence.convergence import in_common, seeing_problem
 from garkcli.errors import GarkError
 from garkcli.frozen import Frozen
@@ -72,14 +72,12 @@ def _is_gark(method: GarkMethod) -> bool:
 
 
 def _of_stability(method: GarkMethod) -> Tableau | None:
-    """What has the R(z) of a method: of a Rosenbrock method a Runge–Kutta method; None of one with
-    an exact fast part.
+    """What has the R(z) of a method, the Runge–Kutta method of one that is none; None where there
+    is none.
     """
     if _is_gark(method):
         return method.tableau
-    if is_rosenbrock(method.tableau):
-        return on_test_equation(method.tableau, method.tolerance)
-    return None
+    return on_test_equation(method.tableau, method.tolerance)
 
 
 def pictures(method: GarkMethod) -> list[Picture]:

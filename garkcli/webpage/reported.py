@@ -13,6 +13,7 @@ from garkcli.api.methods import analyse
 from garkcli.check.check_file import check_method
 from garkcli.check.every_value import check_every
 from garkcli.check.outcome import Outcome
+from garkcli.constructions.derivatives import Derivatives
 from garkcli.constructions.multirate import SLOW
 from garkcli.errors import HasFreeParameters, MethodFileError
 from garkcli.frozen import Frozen
@@ -74,13 +75,16 @@ class Reported(Frozen):
     @property
     def stages(self) -> tuple[int, ...]:
         """How many stages each colour has: of a Rosenbrock method f, of a multirate one with the
-        exact fast part the slow parts, of Nyström and partitioned methods one colour.
+        exact fast part the slow parts, of Nyström and partitioned methods one colour, of those that
+        use derivatives the stages that they are used at.
         """
         if self.tableau is None:
             return ()
         stages = tuple(self.tableau.space(l).stages for l in range(self.tableau.size))
         if self.outcome.rosenbrock is not None:
             return stages[: len(stages) // 2]
+        if self.outcome.derivatives is not None:
+            return (len(Derivatives.of(self.tableau).nodes),)
         if self.outcome.nystrom is not None or self.outcome.nprk is not None:
             return stages[:1]
         return stages if self.outcome.infinitesimal is None else stages[SLOW:]

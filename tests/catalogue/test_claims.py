@@ -114,6 +114,10 @@ def test_all_that_matters_is_claimed(judged: dict[str, Any]) -> None:
         if "nprk" in found:
             assert "order" in keys, name
             continue
+        if "derivatives" in found:
+            assert {"order", "a-stable", "l-stable"} <= keys, name
+            assert ("embedded-order" in keys) == (found["embedded_order"] is not None), name
+            continue
         if "multirate" in found:
             assert {"order", "slow-order", "nonautonomous-order"} <= keys, name
             assert ("embedded-order" in keys) == (found["embedded_order"] is not None), name

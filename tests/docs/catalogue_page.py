@@ -22,6 +22,7 @@ FOLDERS = {
     "rkn": "Methods for quadratic kinetic energy",
     "nystrom": "Nyström methods",
     "nprk": "Nonlinearly partitioned methods",
+    "derivatives": "Multiderivative methods",
     "rosenbrock": "Rosenbrock and W-methods",
     "multirate": "Multirate methods",
     "found": "Found by gark",
@@ -48,7 +49,7 @@ WORDS = {
 OF_HEADINGS = {
     "erk": "explicit",
     "irk": "implicit",
-    **dict.fromkeys(("nystrom", "nprk", "rosenbrock", "multirate"), ""),
+    **dict.fromkeys(("nystrom", "nprk", "derivatives", "rosenbrock", "multirate"), ""),
 }
 """The type of a folder that its heading says."""
 NARROWER = {"a_stable": "l_stable", "stiffly_accurate": "fsal"}
@@ -112,7 +113,7 @@ def _source(entry: Entry) -> str:
 
 def _stages(entry: Entry) -> list[int]:
     """One number where stages are shared."""
-    if entry["kind"] in ("rk", "ark", "row", "mri", "rkn", "nprk"):
+    if entry["kind"] in ("rk", "ark", "row", "mri", "rkn", "nprk", "mdrk"):
         return [entry["stages"]]
     found: list[int] = entry["stages_by_colour"]
     return found

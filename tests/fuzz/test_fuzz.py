@@ -134,6 +134,14 @@ VALUES |= {
     "nprk": st.fixed_dictionaries(
         {}, optional={"a": st.lists(MATRIX, max_size=3), "b": MATRIX, "embedded": MATRIX}
     ),
+    "derivatives": st.fixed_dictionaries(
+        {},
+        optional={
+            "A": st.lists(MATRIX, max_size=3),
+            **dict.fromkeys(("b", "embedded"), MATRIX),
+            "c": ROW,
+        },
+    ),
     "nystrom": st.fixed_dictionaries(
         {},
         optional={

@@ -52,6 +52,7 @@ def test_a_convergence_test_is_a_table_and_a_picture() -> None:
         ("rk4", "pair"),
         ("fine-34", "order of q"),
         ("imex-nprk-42a", "pairs of stages"),
+        ("tdrk-5", "2 derivatives, 3 stages"),
     ],
 )
 def test_an_analysis_of_every_kind_is_shown(name: str, said: str) -> None:

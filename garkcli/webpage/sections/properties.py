@@ -6,7 +6,6 @@ from markupsafe import Markup
 
 from garkcli.check.every_facts import fact_reason
 from garkcli.check.outcome import Outcome
-from garkcli.check.rosenbrock import OF_TEST_EQUATION
 from garkcli.properties.property import Verdict
 from garkcli.properties.registry import KEYS, every_property
 from garkcli.report.check import CHECKED, verdict_words, within
@@ -20,11 +19,12 @@ from garkcli.webpage.reported import Content, Reported
 def content(method: Reported) -> Content | None:
     """What the template is given; None where the section has nothing to say."""
     outcome = method.outcome
-    if not (outcome.every or outcome.analysis or outcome.rosenbrock):
+    of_test_equation = outcome.rosenbrock or outcome.derivatives
+    if not (outcome.every or outcome.analysis or of_test_equation):
         return None  # no kind of method else has properties
     keys = [*KEYS]
-    if outcome.rosenbrock is not None:
-        keys = [key for key in KEYS if key in OF_TEST_EQUATION]
+    if of_test_equation is not None:
+        keys = [key for key in KEYS if key in of_test_equation.subject.keys]
     slow: list[str] = []
     if method.is_slow and outcome.every is None:
         slow = [one.key for one in every_property() if not one.is_cheap]
@@ -50,7 +50,7 @@ def _verdict(outcome: Outcome, key: str) -> Content:
     if outcome.every is not None:
         fact = fact_reason(outcome.every.verdict(key), outcome.every.parameters[0])
         return {"key": key, "text": Markup(fact.words(d)), "why": "", "mark": "value"}
-    analysis = outcome.analysis or outcome.rosenbrock
+    analysis = outcome.analysis or outcome.rosenbrock or outcome.derivatives
     assert analysis is not None
     verdict = analysis.subject.verdict(key)
     text = Markup(d.known(verdict_words(verdict).words(d), Status(within(analysis, key))))

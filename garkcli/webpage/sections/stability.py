@@ -5,6 +5,7 @@ from __future__ import annotations
 from markupsafe import Markup
 
 from garkcli.api.calls import find_stability
+from garkcli.constructions.derivatives import is_derivatives
 from garkcli.constructions.nprk import is_nprk
 from garkcli.constructions.nystrom import Nystrom, is_nystrom
 from garkcli.exact.display import decimal
@@ -22,7 +23,7 @@ def _has_stability(tableau: Tableau) -> bool:
     """Whether ``gark stability`` takes such a method."""
     if is_nystrom(tableau):
         return Nystrom.of(tableau).A is None
-    return tableau.exact_to is None and not is_nprk(tableau)
+    return is_derivatives(tableau) or (tableau.exact_to is None and not is_nprk(tableau))
 
 
 def content(method: Reported) -> Content | None:

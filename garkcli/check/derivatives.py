@@ -1,0 +1,27 @@
+"""Everything known about one method that uses derivatives of f, as one value."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+from garkcli.check.order_facts import OF_TEST_EQUATION, LinearSubject, OrderFacts
+from garkcli.constructions.test_equation import with_same_function
+from garkcli.order.meant import meant
+from garkcli.reason import Reason
+
+
+class DerivativesAnalysis(OrderFacts):
+    """The truth about a multiderivative method; its tableau has stages along the exact solutions
+    whose derivatives it uses.
+    """
+
+    kind = "a multiderivative method"
+    no_property = Reason("a property of Runge–Kutta methods, and derivatives of f are used")
+
+    @cached_property
+    def subject(self) -> LinearSubject:
+        """The method whose properties are decided on demand: R(z) decides all that it has."""
+        method = with_same_function(meant(self.tableau, self.tolerance))
+        assert method is not None
+        order = self.order.order
+        return LinearSubject.of(method, order, self.limit, OF_TEST_EQUATION, self.no_property)

@@ -1,0 +1,145 @@
+"""What the analyses of methods that are no GARK methods have alike: their orders, and what R(z)
+decides.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from flint import fmpq
+
+from garkcli.check.analysis import inconsistent_blocks, nonautonomous
+from garkcli.check.further import EmbeddedFacts, further_facts
+from garkcli.frozen import Frozen
+from garkcli.order.certificate import StageSpans
+from garkcli.order.deciding import AnyOrder, order_of
+from garkcli.order.meant import AnyTableau, meant
+from garkcli.order.simplifying import simplifying
+from garkcli.properties.property import NoProperties, Verdict
+from garkcli.properties.subject import Subject
+from garkcli.reason import Reason
+from garkcli.tableau.embedded import NOTHING, Further
+from garkcli.tableau.forms import with_time
+from garkcli.tableau.tableau import Tableau
+from garkcli.upward import Shown
+
+if TYPE_CHECKING:
+    from typing import Self
+
+    from garkcli.exact.field import Number
+
+OF_TEST_EQUATION = frozenset(
+    {"a-stable", "l-stable", "p-stable", "i-stable", "real-stability", "imaginary-stability"}
+)
+"""Properties that R(z) decides."""
+
+
+class LinearSubject(Frozen):
+    """The properties of a method that are those of a Runge–Kutta method with the same R(z).
+
+    Attributes:
+        on_test_equation: that Runge–Kutta method.
+        keys: these properties.
+        reason: why it has no others.
+    """
+
+    on_test_equation: Subject
+    keys: frozenset[str]
+    reason: Reason
+
+    @staticmethod
+    def of(
+        method: AnyTableau, order: int, limit: int, keys: frozenset[str], reason: Reason
+    ) -> LinearSubject:
+        """Of that Runge–Kutta method, exact or rounded, and the order of the method."""
+        conditions = simplifying(method, limit)
+        return LinearSubject(Subject.read(method, order, conditions, limit, NOTHING), keys, reason)
+
+    @property
+    def rounding(self) -> fmpq:
+        """By how much the printed coefficients may be off."""
+        return self.on_test_equation.rounding
+
+    @cached_property
+    def at_infinity(self) -> Number | None:
+        """R(∞); None where R is not bounded, or rounded coefficients leave it open."""
+        inner = self.on_test_equation
+        return None if inner.tolerance else inner.linear.at_infinity()
+
+    def verdict(self, key: str) -> Verdict:
+        """What is true of a property."""
+        if key not in self.keys:
+            return Verdict.meaningless(self.reason)
+        return self.on_test_equation.verdict(key)
+
+
+class OrderFacts(Shown, Frozen):
+    """The truth about a method that is no GARK method and has one order, or little more.
+
+    Attributes:
+        tableau: of the method.
+        order: its order.
+        limit: where the search for orders stopped.
+        tolerance: the rounding within which all of this holds; None where it holds exactly.
+        embedded: the truth about its embedded weights; None where it has none.
+        further: these weights.
+        nonautonomous_order: on problems ẏ = f(t, y), with the nodes of the file.
+    """
+
+    tableau: Tableau
+    order: AnyOrder
+    limit: int
+    tolerance: fmpq | None = None
+    embedded: EmbeddedFacts | None = None
+    further: Further = NOTHING
+    nonautonomous_order: AnyOrder | None = None
+
+    kind: ClassVar[str]
+    no_property: ClassVar[Reason]
+
+    @classmethod
+    def with_flow(
+        cls, tableau: Tableau, limit: int, tolerance: fmpq | None, further: Further
+    ) -> Self:
+        """Of a tableau with stages that stand for exact solutions; see ``analyse``."""
+        limit = min(limit, tableau.exact_to or limit)
+        method = meant(tableau, tolerance, further)
+        spans = StageSpans(tableau) if further and method is tableau else None
+        order = order_of(method, limit, spans)
+        besides = cls.besides(method, limit)
+        inconsistent = inconsistent_blocks(method)
+        timed = nonautonomous(method, order, inconsistent, limit)
+        embedded, _ = further_facts(method, further, order, inconsistent, limit, spans)
+        found = tableau, order, limit, tolerance, embedded, further, timed
+        return cls(*found, **besides)
+
+    @classmethod
+    def besides(cls, method: AnyTableau, limit: int) -> dict[str, Any]:  # noqa: ARG003
+        """What such a method has besides, decided after its order."""
+        return {}
+
+    @property
+    def dense(self) -> None:
+        """It has no dense output."""
+
+    @cached_property
+    def subject(self) -> NoProperties | LinearSubject:
+        """It has no properties."""
+        return NoProperties(self.tolerance or fmpq(0), self.no_property)
+
+    def view(self, claim: str) -> tuple[AnyOrder, Tableau] | None:
+        """The order that a claim is on, with the tableau that has it; None for other claims."""
+        whose: OrderFacts | EmbeddedFacts | None = self
+        if claim.startswith("embedded-"):
+            whose, claim = self.embedded, claim.removeprefix("embedded-")
+        if whose is None:
+            return None
+        if claim == "order":
+            return whose.order, whose.tableau
+        found = whose.nonautonomous_order if claim == "nonautonomous-order" else None
+        timed = with_time(whose.tableau) if found else None
+        return None if found is None or timed is None else (found, timed)
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} order {self.order.order}>"

@@ -1,0 +1,232 @@
+"""Multiderivative Runge–Kutta methods as tableaus: they use derivatives of f along the solution.
+
+    Y_i = y + Σ_k h^k Σ_j a^k_ij f_k(Y_j),        y_1 = y + Σ_k h^k Σ_j b^k_j f_k(Y_j),
+
+with f_1 = f and f_{k+1} = f_k' f. So h^k f_k(Y_j) is a derivative of h f along the exact solution
+through Y_j. Collocation with n nodes in its place, with the derivatives of the polynomial through
+them, changes no condition up to order n: docs/exact-order.md, section 13.
+
+Sources: K. H. Kastlunger, G. Wanner, "Runge Kutta processes with multiple nodes", Computing 9
+(1972) 9; R. P. K. Chan, A. Y. J. Tsai, "On explicit two-derivative Runge–Kutta methods", Numer.
+Algorithms 53 (2010) 171.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from functools import lru_cache
+from math import factorial, perm
+from typing import ClassVar
+
+from flint import fmpq
+
+from garkcli.constructions.composition import MAX_STAGES, refuse_large
+from garkcli.constructions.infinitesimal import collocation_at, fitting
+from garkcli.errors import counted
+from garkcli.exact.display import to_float
+from garkcli.exact.field import ONE, ZERO
+from garkcli.exact.matrix import Matrix, Vector, dot
+from garkcli.frozen import Frozen
+from garkcli.tableau.forms import gark
+from garkcli.tableau.stages import Flow, PointSpace
+from garkcli.tableau.tableau import OF_OTHERS, Colour, Method, Tableau, butcher
+
+Weights = tuple[Vector, ...]
+"""A row over the stages for f, f' f, …"""
+
+
+class Jets(Flow):
+    """Stages on the exact solution through each stage of the method, the first at its beginning;
+    ``order`` of them.
+
+    Attributes:
+        derivatives: how many f_k the method uses.
+    """
+
+    derivatives: int
+
+    why: ClassVar[str] = "derivatives of f are used"
+    cure: ClassVar[str] = OF_OTHERS
+
+
+class Derivatives(Frozen):
+    """A method that uses derivatives.
+
+    Attributes:
+        A: a^1, a^2, …, of f, f' f, …; shape (s, s) each.
+        b: the weights of each of them.
+        c: where time is at each stage; None for the sums of the rows of a^1.
+    """
+
+    A: tuple[Matrix, ...]
+    b: Weights
+    c: Vector | None = None
+
+    @staticmethod
+    def of(tableau: Tableau) -> Derivatives:
+        """The method of a tableau that one has: ``of(method.tableau(n)) == method``, but that its
+        nodes are given.
+        """
+        space = _space(tableau)
+        firsts = range(0, space.stages, space.order)
+        rows = [weights_of(tableau.blocks[0, 0][i], space) for i in firsts]
+        A = tuple(zip(*rows, strict=True))
+        c = tuple(space.nodes[i] for i in firsts)
+        return Derivatives(A, weights_of(tableau.colours[0].b, space), c)
+
+    @property
+    def nodes(self) -> Vector:
+        """The c that are given, or that the rows say."""
+        return _sums(self.A[0]) if self.c is None else self.c
+
+    def tableau(self, order: int) -> Tableau:
+        """A tableau whose conditions up to an order, not less than the number of derivatives, are
+        those of the method.
+        """
+        flow = _flow(order)
+        rows: list[Vector] = []
+        for i in range(len(self.b[0])):
+            own = self.at_points(tuple(A[i] for A in self.A), order)
+            before, after = own[: i * order], own[(i + 1) * order :]
+            inside = own[i * order : (i + 1) * order]
+            for along in flow.A:
+                seen = tuple(x + y for x, y in zip(inside, along, strict=True))
+                rows.append((*before, *seen, *after))
+        points = tuple(c + x for c in self.nodes for x in flow.c)
+        space = Jets(points, order, len(self.A))
+        colour = Colour("1", 0, self.at_points(self.b, order), points)
+        return Tableau((space,), (colour,), {(0, 0): tuple(rows)})
+
+    @staticmethod
+    def at_points(weights: Weights, order: int) -> Vector:
+        """Weights of f, f' f, … at the stages of such a tableau."""
+        return tuple(
+            sum((x * y[n] for x, y in zip(column, _derivatives(order), strict=False)), start=ZERO)
+            for column in zip(*weights, strict=True)
+            for n in range(order)
+        )
+
+    def arrays(self, count: int) -> tuple[Tableau, ...]:
+        """The array of each of so many f_k, with zeros for those that are not used."""
+        s = len(self.b[0])
+        zeros = (ZERO,) * s
+        unused = [((zeros,) * s, zeros)] * (count - len(self.A))
+        made = []
+        for k, (A, b) in enumerate([*zip(self.A, self.b, strict=True), *unused]):
+            nodes = self.nodes if k == 0 else zeros
+            colour = Colour("f" + "'" * k, 0, b, nodes)
+            made.append(Tableau((PointSpace(nodes),), (colour,), {(0, 0): A}))
+        return tuple(made)
+
+    @property
+    def on_test_equation(self) -> Tableau:
+        """The Runge–Kutta method with the same R(z), where f_k = λ^k y.
+
+        Its stages are 1, then Y_i, and 1 + z^{k−1} Y_i = 1 + z ((1 + z^{k−2} Y_i) − 1).
+        """
+        s, n = len(self.b[0]), len(self.A)
+
+        def row(weights: Weights) -> Vector:
+            later = [x for of_k in weights[1:] for x in of_k]
+            return (-sum(later, start=ZERO), *weights[0], *later)
+
+        def before(i: int, k: int) -> Vector:
+            """Of 1 + z^{k−1} Y_i."""
+            places = [(j, l) for l in range(1, n + 1) for j in range(s)]
+            chosen = [ONE if place == (i, k - 1) else ZERO for place in places]
+            return (-ONE if k > 2 else ZERO, *chosen)
+
+        rows = [row(tuple(A[i] for A in self.A)) for i in range(s)]
+        rows += [before(i, k) for k in range(2, n + 1) for i in range(s)]
+        return gark([butcher(((ZERO,) * (n * s + 1), *rows), row(self.b))], {})
+
+    def apparent_order(self, weights: Weights) -> int:
+        """The order up to which the weights of the tree without branchings and of quadrature fit,
+        but for residuals that rounding may explain. R(z) ends it: it is a polynomial, or rational
+        with numerator and denominator of degree s times the number of derivatives.
+        """
+        return fitting(self._sums(weights))
+
+    def _sums(self, weights: Weights) -> Iterator[tuple[float, float]]:
+        A = [[[*map(to_float, row)] for row in matrix] for matrix in self.A]
+        b = [[*map(to_float, row)] for row in weights]
+        c = [sum(row) for row in A[0]]
+        tall = [[1.0] * len(c)]  # the coefficients of the stages on the test equation
+        for q in range(1, 2 * len(A) * len(c) + 2):
+            used = range(1, min(q, len(A)) + 1)
+            bushy = sum(
+                perm(q - 1, k - 1) * w * x ** (q - k)
+                for k in used
+                for w, x in zip(b[k - 1], c, strict=True)
+            )
+            yield sum(_dot(b[k - 1], tall[q - k]) for k in used), bushy
+            tall.append([sum(_dot(A[k - 1][i], tall[q - k]) for k in used) for i in range(len(c))])
+
+
+def _dot(u: Sequence[float], v: Sequence[float]) -> float:
+    return sum(x * y for x, y in zip(u, v, strict=True))
+
+
+def plan(method: Derivatives, embedded: Weights | None = None) -> int:
+    """The order for which the tableau of a method is made: one more than that which it may have;
+    less where it would have too many stages.
+
+    Raises:
+        MethodError: it would have too many stages for its derivatives.
+    """
+    stages, least = len(method.b[0]), len(method.A)
+    refuse_large(stages * least, "take fewer stages")
+    weights = [method.b] if embedded is None else [method.b, embedded]
+    wanted = max(map(method.apparent_order, weights)) + 1
+    return max(least, min(wanted, MAX_STAGES // stages))
+
+
+def is_derivatives(tableau: Tableau) -> bool:
+    """Whether a tableau is that of a method that uses derivatives."""
+    return isinstance(tableau.spaces[0], Jets)
+
+
+def embedded_of(rows: Sequence[Vector], tableau: Tableau) -> Weights:
+    """The embedded weights of f, f' f, … that a method with this tableau has."""
+    return weights_of(rows[0], _space(tableau))
+
+
+def words_of(tableau: Tableau) -> str:
+    """How many stages and derivatives such a method has."""
+    space = _space(tableau)
+    stages = counted(space.stages // space.order, "stage")
+    return f"multiderivative, {counted(space.derivatives, 'derivative')}, {stages}"
+
+
+def _space(tableau: Tableau) -> Jets:
+    (space,) = tableau.spaces
+    assert isinstance(space, Jets)
+    return space
+
+
+def weights_of(row: Vector, space: Jets) -> Weights:
+    """The weights of f, f' f, … that a row of such a tableau has."""
+    nodes = _flow(space.order).c
+    parts = [row[i : i + space.order] for i in range(0, len(row), space.order)]
+    found = []
+    for k in range(space.derivatives):
+        powers = [x**k * fmpq(1, factorial(k)) for x in nodes]
+        found.append(tuple(dot(part, powers) for part in parts))
+    return tuple(found)
+
+
+@lru_cache(maxsize=32)
+def _flow(order: int) -> Method:
+    """Collocation for the exact solution: at 0, 1, −1, 2, …"""
+    return collocation_at(tuple(fmpq((n + 1) // 2 * (1 if n % 2 else -1)) for n in range(order)))
+
+
+@lru_cache(maxsize=32)
+def _derivatives(order: int) -> tuple[Vector, ...]:
+    """The functionals that take values at these nodes to the derivatives at 0, from the 0th on."""
+    basis = list(_flow(order).space.basis_polynomials())
+    return tuple(tuple(factorial(k) * polynomial[k] for polynomial in basis) for k in range(order))
+
+
+def _sums(matrix: Matrix) -> Vector:
+    return tuple(sum(row, start=ZERO) for row in matrix)

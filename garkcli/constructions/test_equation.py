@@ -1,0 +1,36 @@
+"""Runge–Kutta methods with the R(z) of methods that are none."""
+
+from __future__ import annotations
+
+from flint import fmpq
+
+from garkcli.constructions.derivatives import Derivatives, is_derivatives
+from garkcli.constructions.rosenbrock import Rosenbrock, is_rosenbrock
+from garkcli.order.meant import AnyTableau, keep, meant, printed
+from garkcli.tableau.tableau import Tableau
+
+
+def with_same_function(method: AnyTableau) -> AnyTableau | None:
+    """The Runge–Kutta method with the R(z) of a Rosenbrock method, or of one that uses
+    derivatives, exact or rounded; None of another kind.
+    """
+    tableau = printed(method)
+    if not (is_rosenbrock(tableau) or is_derivatives(tableau)):
+        return None
+
+    def make(tableau: Tableau) -> Tableau:
+        kind = Derivatives if is_derivatives(tableau) else Rosenbrock
+        return kind.of(tableau).on_test_equation
+
+    if isinstance(method, Tableau):
+        return make(method)
+    return method.derive("on test equation", make)
+
+
+def on_test_equation(tableau: Tableau, tolerance: fmpq | None) -> Tableau | None:
+    """The same of a tableau, of which ``meant`` then knows what it is rounded of."""
+    found = with_same_function(meant(tableau, tolerance))
+    if found is None or isinstance(found, Tableau):
+        return found
+    keep(found)
+    return printed(found)

@@ -1,0 +1,117 @@
+"""YAML nodes to the form ``derivatives``: methods that use derivatives of f along the solution."""
+
+from __future__ import annotations
+
+from yaml.nodes import Node
+
+from garkcli.errors import counted
+from garkcli.methodfile import description as d
+from garkcli.methodfile import grammar as g
+from garkcli.methodfile import spelled_out
+from garkcli.methodfile.numbers import Reading, Row, Rows
+from garkcli.methodfile.parameters import ROW
+
+_FORM = "give {A: [[[], [1/2]], [[], [1/8]]], b: [[1, 0], [1/6, 1/3]]}: of f, then of f′f, …"
+MOST = 9
+"""Most derivatives."""
+_ARRAY = {"type": "array", "items": {"type": "array"}}
+
+
+def _of_each(schema: g.Schema) -> g.Kind:
+    """A list of something for each derivative."""
+    return g.Kind(lambda: {"type": "array", "minItems": 1, "maxItems": MOST, "items": schema})
+
+
+DERIVATIVES = g.mapping(
+    g.Key(
+        "A: [[[], [1/2]], [[], [1/8]]]",
+        _of_each(_ARRAY),
+        "A matrix for f, one for f′f, and so on, row by row; rows and matrices may end early, "
+        "zeros follow.",
+        is_needed=True,
+    ),
+    g.Key(
+        "b: [[1, 0], [1/6, 1/3]]",
+        _of_each({"type": "array"}),
+        "The weights of each, one per stage.",
+        is_needed=True,
+    ),
+    g.Key(
+        "c: [0, 1/2]",
+        ROW,
+        "The nodes of time, one per stage; the row sums of the first matrix where left out.",
+        also=("nodes",),
+    ),
+    g.Key(
+        "embedded: [[1, 0], [1/2, 0]]",
+        _of_each({"type": "array"}),
+        "Embedded weights, in the shape of b.",
+        also=("bhat",),
+    ),
+    form=_FORM,
+)
+"""A method that uses derivatives."""
+
+
+def derivatives(at: Reading, node: Node) -> d.DerivativesText | None:
+    """The form ``derivatives``; None where it makes no method."""
+    found: g.Found | None = DERIVATIVES.read(at, node, "derivatives")
+    if found is None or not found.is_right:
+        return None
+    before = len(at.source.faults)
+    items = at.source.items(found["A"], "A", _FORM)
+    if not items:
+        at.source.fault(found["A"], "A is empty", _FORM, code="empty")
+        return None
+    if len(items) > MOST:
+        message = f"A has {len(items)} matrices (limit {MOST})"
+        at.source.fault(found["A"], message, "give one for f, one for f′f, …", code="too-many")
+        return None
+    b = _weights(at, found["b"], "b", len(items))
+    stages = len(b[0]) if b else 0
+    if not stages:
+        return None
+    A = tuple(_matrix(at, x, f"A, matrix {k}", stages) for k, x in enumerate(items, start=1))
+    embedded = None
+    rows = [("b", b)]
+    if "embedded" in found:
+        embedded = _weights(at, found["embedded"], "embedded", len(items))
+        rows.append(("embedded", embedded))
+    for name, weights in rows:
+        for k, row in enumerate(weights, start=1):
+            _one_each(at, found[name], f"{name}, row {k}", row, stages)
+    c: Row | None = found.get("c")
+    if c is not None:
+        _one_each(at, found.nodes["c"], "c", c, stages)
+    if len(at.source.faults) > before:
+        return None
+    return d.DerivativesText(node, A, b, c, embedded)
+
+
+def _weights(at: Reading, node: Node, name: str, derivatives: int) -> Rows:
+    """A row for each matrix."""
+    rows = at.numbers.matrix(node, name)
+    if len(rows) != derivatives:
+        matrices = counted(derivatives, "matrix", "matrices")
+        message = f"{name} has {counted(len(rows), 'row')} for {matrices}"
+        cure = "give the weights of f, then those of f′f, as many rows as A has matrices"
+        at.source.fault(node, message, cure, code="wrong-size")
+    return rows
+
+
+def _matrix(at: Reading, node: Node, name: str, stages: int) -> Rows:
+    """The matrix with zeros where it ends early."""
+    rows = at.numbers.matrix(node, name) if at.source.items(node, name, _FORM) else ()
+    longest = max([len(rows), *map(len, rows)], default=0)
+    if longest > stages:
+        message = (
+            f"{name} has {counted(longest, 'entry', 'entries')} for {counted(stages, 'stage')}"
+        )
+        at.source.fault(node, message, "b has an entry per stage", code="wrong-size")
+    zero = at.numbers.written("0", node, name)
+    filled = [*rows, *[()] * (stages - len(rows))]
+    return tuple(row + (zero,) * (stages - len(row)) for row in filled)
+
+
+def _one_each(at: Reading, node: Node, name: str, row: Row, stages: int) -> None:
+    spelled_out.one_each(at, node, name, row, "entry", "stage", stages, "give one per stage")
