@@ -21,11 +21,10 @@ from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.constructed.multirate import coupling_of
 from garkcli.properties.family_entries import is_nonzero_at, nodes_of
 from garkcli.tableau.embedded import DenseOutput
-from garkcli.tableau.forms import gark
 from garkcli.tableau.garkmethod import GarkMethod, derived_name
 from garkcli.tableau.pointwise import Block, Cell, Entries, Row, entries, in_points
 from garkcli.tableau.polynomial_space import PolynomialSpace
-from garkcli.tableau.tableau import Tableau, butcher
+from garkcli.tableau.tableau import Tableau
 
 EXTRA = 120
 """Digits of enclosures beyond those that are written: nines and zeros show rounding."""
@@ -59,8 +58,9 @@ def prepared(method: GarkMethod, digits: int | None = None) -> Payload:
     embedded, dense = method.embedded, method.dense
     if is_rosenbrock(tableau):
         row = Rosenbrock.of(tableau)
-        embedded, dense = embedded and embedded[:1], dense and DenseOutput(dense.weights[:1])
-        tableau = gark([butcher(row.alpha[0][0], row.b[0], row.nodes[0][0])], {})
+        N = len(row.b)
+        embedded, dense = embedded and embedded[:N], dense and DenseOutput(dense.weights[:N])
+        tableau = row.without_jacobian
     found = _entries(tableau, digits)
     return Payload(
         name=printable(

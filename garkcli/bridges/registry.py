@@ -142,6 +142,9 @@ class Bridge(Frozen):
         Raises:
             CannotExport: the target cannot hold it.
         """
+        if payload.kind == "row" and payload.size > 1 and self.name != "json":
+            message = f"{self.name} has no Rosenbrock methods of several colours"
+            raise CannotExport(message, "--to json has all of its blocks", code="unknown-word")
         if payload.kind not in self.kinds:
             message = f"{self.name} has no {_KINDS[payload.kind]}"
             raise CannotExport(message, _others(payload), code="unknown-word")

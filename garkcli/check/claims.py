@@ -60,7 +60,8 @@ def _why_none(key: str, analysis: AnyAnalysis) -> str:
     if key.startswith("dense") and analysis.dense is None:
         return "there is no dense output"
     if key in OF_DAE:
-        return "alpha + gamma is singular"
+        several = analysis.tableau.size > 2
+        return "it has several colours" if several else "alpha + gamma is singular"
     if key == "dense-smooth":
         return "not decided"
     if key.endswith("nonautonomous-order"):

@@ -96,6 +96,8 @@ class RosenbrockOrders(Frozen):
         """It is no larger than another order, whose trees are some of its own, and which ends it
         where it is as large: that of the method has the trees without g.
         """
+        if printed(self.method).size > 2:
+            return None  # y and z would be of several colours
         try:
             method = seen(self.method, which)
         except SingularMatrixError:

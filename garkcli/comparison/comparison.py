@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from math import isclose
 from typing import Literal, TypeAlias
 
@@ -187,7 +187,7 @@ def compare(one: GarkMethod, other: GarkMethod, limit: int = DEFAULT_LIMIT) -> C
         seen = views if forms[0] != "mdrk" else views_of(*_of_derivatives(one, other))
         found = block_gaps(seen.one, seen.other, Likeness(allowed))
         only = OF_OTHER_KINDS.get(forms[0])
-        gaps = tuple(only(found) if only else found)
+        gaps = tuple(only(found, views.one.size) if only else found)
     answer = find_sameness(one, other, views, allowed)
     same = answer.sameness
     if same is not None and same.is_plain and not same.step_only:
@@ -264,13 +264,14 @@ def _viewed(analysis: AnyAnalysis, claim: str) -> AnyOrder | None:
     return None if view is None else view[0]
 
 
-def _of_rosenbrock(gaps: Iterable[BlockGap]) -> Iterator[BlockGap]:
-    """As α, β = α + γ, b, c and c + d: each is in the tableau of f and f' twice."""
+def _of_rosenbrock(gaps: Iterable[BlockGap], colours: int) -> Iterator[BlockGap]:
+    """As α, β = α + γ, b, c and c + d: each is in the tableau of the f and the f' twice."""
     for gap in gaps:
         if gap.seen is not None:
-            if gap.seen == 0:
-                yield replace(gap, kind=("alpha", "beta")[gap.colour])
-        elif gap.colour == 0:
+            if gap.seen < colours:
+                kind = "alpha" if gap.colour < colours else "beta"
+                yield replace(gap, kind=kind)
+        elif gap.colour < colours:
             yield gap
         elif gap.kind == "c":
             yield replace(gap, kind="c + d")
@@ -318,12 +319,13 @@ def _of_derivatives(*methods: GarkMethod) -> Iterator[GarkMethod]:
         yield GarkMethod(tableau=tableau, tolerance=method.tolerance, embedded=embedded)
 
 
-OF_OTHER_KINDS = {
-    "row": _of_rosenbrock,
-    "rkn": _of_nystrom,
-    "nprk": _of_arguments,
-    "mdrk": lambda gaps: iter(gaps),
-    "mri": _of_slow_parts,
+_Only: TypeAlias = Callable[[Iterable[BlockGap], int], Iterable[BlockGap]]
+OF_OTHER_KINDS: dict[str, _Only] = {
+    "row": lambda gaps, size: _of_rosenbrock(gaps, size // 2),
+    "rkn": lambda gaps, _: _of_nystrom(gaps),
+    "nprk": lambda gaps, _: _of_arguments(gaps),
+    "mdrk": lambda gaps, _: gaps,
+    "mri": lambda gaps, _: _of_slow_parts(gaps),
 }
 """The entries of methods that are no GARK methods, from those of their tableaus."""
 

@@ -18,6 +18,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import partial
+from itertools import permutations
 from operator import add as add_numbers
 from operator import sub as subtract_numbers
 from typing import Literal, TypeAlias
@@ -140,6 +141,9 @@ class Rosenbrock(Frozen):
 
     def _on_dae(self, late: int | None) -> Tableau:
         made = self.tableau
+        if len(self.b) > 1:
+            message = "orders on DAEs are for Rosenbrock methods of one colour"
+            raise MethodError(message, "leave them out", code="cannot-construct")
         (((alpha,),), ((beta,),)), g = (self.alpha, self._beta), made.size
         stages, c = len(beta), made.colours[0].c
         inverse = solve(beta, identity(stages))
@@ -177,10 +181,23 @@ class Rosenbrock(Frozen):
 
     @property
     def on_test_equation(self) -> Tableau:
-        """The Runge–Kutta method with the same R(z): A = β, which is all that linear problems tell
-        of a method of one colour.
+        """The Runge–Kutta or GARK method with the same R(z): A = β, which is all that linear
+        problems tell.
         """
-        return gark([butcher(self._beta[0][0], self.b[0])], {})
+        return self._gark(self._beta, None)
+
+    @property
+    def without_jacobian(self) -> Tableau:
+        """The Runge–Kutta or GARK method with A = α."""
+        return self._gark(self.alpha, self.nodes[0])
+
+    def _gark(self, blocks: Blocks, nodes: Rows | None) -> Tableau:
+        methods = [
+            butcher(blocks[l][l], b, None if nodes is None else nodes[l])
+            for l, b in enumerate(self.b)
+        ]
+        pairs = permutations(range(len(methods)), 2)
+        return gark(methods, {(l, m): blocks[l][m] for l, m in pairs})
 
     @property
     def nodes(self) -> tuple[Rows, Rows]:

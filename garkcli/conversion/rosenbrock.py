@@ -66,9 +66,9 @@ def text_in_form(method: GarkMethod, to: str, name: str) -> str:
     Raises:
         CannotConvert: it has no such form.
     """
-    if method.tableau.size > 2:
-        message = "a method file has Rosenbrock methods of one colour, and this one has more"
-        raise CannotConvert(message, "gark tableau has all of its arrays")
+    if method.tableau.size > 2 and to == TRANSFORMED:
+        message = "programs store Rosenbrock methods of one colour, and this one has more"
+        raise CannotConvert(message, "--to spelled-out has all of its blocks")
     own = TRANSFORMED if isinstance(method, MethodFile) and is_transformed(method) else PRINTED
     wanted = own if to == "spelled-out" else to
     try:
@@ -89,6 +89,8 @@ def text_in_form(method: GarkMethod, to: str, name: str) -> str:
 def _parts(tableau: Tableau, further: Further, form: str) -> _Parts:
     """The keys of a file in a form; c and d where they are no sums of rows."""
     method = Rosenbrock.of(tableau).without_row_sums
+    if len(method.b) > 1:
+        return _blocks(method, further)
     if form == TRANSFORMED:
         made = stored(method, further)
         further = made.further
@@ -107,6 +109,18 @@ def _parts(tableau: Tableau, further: Further, form: str) -> _Parts:
     if further.dense is not None:
         parts["dense"] = further.dense.weights[0]
     return parts
+
+
+def _blocks(method: Rosenbrock, further: Further) -> _Parts:
+    """The same of several colours: each block by its colours."""
+    parts: _Parts = {}
+    for key, blocks in (("alpha", method.alpha), ("gamma", method.gamma)):
+        for l, row in enumerate(blocks, start=1):
+            parts |= {f"{key} {l} {m}": block for m, block in enumerate(row, start=1)}
+    rows = {"b": method.b, "c": method.c, "d": method.d}
+    if further.embedded is not None:
+        rows["embedded"] = further.embedded[: len(method.b)]
+    return parts | {key: x for key, x in rows.items() if x is not None}
 
 
 class _Places:
@@ -197,6 +211,9 @@ def _rounded_up(radius: float, unit: fmpq) -> fmpq:
 
 def _file(texts: _Texts, form: str, name: str, tolerance: Written | None) -> str:
     lines = ["gark: 1", f"name: {quoted(name)}", "rosenbrock:"]
+    if "alpha 1 1" in texts:
+        lines += ["  blocks:", *_lines_of_blocks(texts)]
+        texts = {}
     indent = "  "
     if form == TRANSFORMED:
         lines.append("  transformed:")
@@ -217,6 +234,25 @@ def _file(texts: _Texts, form: str, name: str, tolerance: Written | None) -> str
     if tolerance is not None:
         lines.append(f"tolerance: {tolerance_text(tolerance)}")
     return "\n".join(lines) + "\n"
+
+
+def _lines_of_blocks(texts: _Texts) -> Iterator[str]:
+    """The keys under ``blocks``, with null for blocks that are zero."""
+    N = len(texts["b"])
+
+    def block(key: str) -> str:
+        rows = texts[key]
+        if all(x == "0" for row in rows for x in row):
+            return "null"
+        return f"[{', '.join(map(row_text, rows))}]"
+
+    for key in ("alpha", "gamma"):
+        yield f"    {key}:"
+        for l in range(1, N + 1):
+            yield f"    - [{', '.join(block(f'{key} {l} {m}') for m in range(1, N + 1))}]"
+    for key in ("b", "c", "d", "embedded"):
+        if key in texts:
+            yield f"    {key}: [{', '.join(map(row_text, texts[key]))}]"
 
 
 def _lower(rows: Sequence[Sequence[str]]) -> Iterator[Sequence[str]]:

@@ -14,12 +14,7 @@ from garkcli.constructions.derivatives import Derivatives, plan
 from garkcli.constructions.nprk import nprk
 from garkcli.constructions.nystrom import Nystrom, nystrom, weights_of
 from garkcli.constructions.registers import as_butcher
-from garkcli.constructions.rosenbrock import (
-    Rosenbrock,
-    rosenbrock,
-    transformed,
-    transformed_weights,
-)
+from garkcli.constructions.rosenbrock import Rosenbrock, transformed, transformed_weights
 from garkcli.errors import GarkError, MethodError, MethodFileError, ShapeMismatch
 from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.matrix import Matrix, Vector
@@ -328,15 +323,18 @@ class Builder(Generic[V]):
         return found
 
     def _rosenbrock(self, text: d.RosenbrockText) -> Rosenbrock:
-        matrix, vector = self.values.matrix, self.values.vector
-        alpha, gamma, b = matrix(text.alpha), matrix(text.gamma), vector(text.b)
+        matrix = self.values.matrix
+        alpha, gamma = (
+            tuple(tuple(map(matrix, row)) for row in blocks) for blocks in (text.alpha, text.gamma)
+        )
+        b = matrix(text.b)
         if text.diagonal is None:
-            made = rosenbrock(alpha, gamma, b)
+            made = Rosenbrock(alpha, gamma, b)
         else:
-            made = transformed(alpha, gamma, vector(text.diagonal), b)
+            made = transformed(alpha[0][0], gamma[0][0], self.values.vector(text.diagonal), b[0])
             ((self._gamma,),) = made.gamma
-        c = None if text.c is None else (vector(text.c),)
-        return replace(made, c=c, d=None if text.d is None else (vector(text.d),))
+        c = None if text.c is None else matrix(text.c)
+        return replace(made, c=c, d=None if text.d is None else matrix(text.d))
 
     def _registers(self, text: d.RegistersText, description: d.Description) -> Tableau:
         numbers = [
@@ -376,7 +374,7 @@ class Builder(Generic[V]):
         """The further weights at the stages of the method, with what ``e`` says."""
         vector = self.values.vector
         if text.error is not None:
-            pairs = zip(vector(text.b), vector(text.error), strict=True)
+            pairs = zip(vector(text.b[0]), vector(text.error), strict=True)
             row = tuple(m - e for m, e in pairs)
             further = Further((row,) * self.tableau.size, further.dense)
         return transformed_weights(further, self._gamma)

@@ -204,26 +204,27 @@ class RegistersText(Frozen):
 
 
 class RosenbrockText(Frozen):
-    """A Rosenbrock or W-method, as papers print it, or transformed, as programs store it.
+    """A Rosenbrock or W-method, as papers print it, or transformed, as programs store it; that has
+    one colour.
 
     Attributes:
         node: the place in the file.
-        alpha: α; A of a transformed one.
-        gamma: γ with its diagonal; C of a transformed one.
-        b: the weights; m of a transformed one.
-        c: where f is evaluated; None where the row sums of α say it.
-        d: the weights of ∂f/∂t; None where the row sums of γ say it.
+        alpha: the α^{l,m}; A of a transformed one.
+        gamma: the γ^{l,m} with their diagonals; C of a transformed one.
+        b: the weights of each colour; m of a transformed one.
+        c: where each f^{l} is evaluated; None where the row sums of α^{l,l} say it.
+        d: the weights of ∂f^{l}/∂t; None where the row sums of γ^{l,l} say it.
         diagonal: the γ_ii of a transformed one, one for all or one per stage; else None.
         error: b − b̂ of a transformed one, as far as it is given.
-        further: what is beside the weights.
+        further: what is beside the weights of each colour.
     """
 
     node: Node
-    alpha: Rows
-    gamma: Rows
-    b: Row
-    c: Row | None = None
-    d: Row | None = None
+    alpha: tuple[tuple[Rows, ...], ...]
+    gamma: tuple[tuple[Rows, ...], ...]
+    b: Rows
+    c: Rows | None = None
+    d: Rows | None = None
     diagonal: Row | None = None
     error: Row | None = None
     further: tuple[FurtherText, ...] = (NOTHING_FURTHER,)

@@ -4,11 +4,14 @@ programs store them.
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sized
+
 from yaml.nodes import Node, ScalarNode
 
 from garkcli.methodfile import description as d
 from garkcli.methodfile import grammar as g
 from garkcli.methodfile import spelled_out
+from garkcli.methodfile.nodes import is_null
 from garkcli.methodfile.numbers import Entry, Reading, Row, Rows
 from garkcli.methodfile.parameters import MATRIX, NUMBER, ROW
 
@@ -19,6 +22,10 @@ _FORM = (
 _FORM_OF_TRANSFORMED = (
     "give {A: [[0, 0], [2, 0]], C: [[0, 0], [-4, 0]], gamma: 1/2, m: [3, 1]}: "
     "A = α Γ⁻¹, C = diag(1/γ) − Γ⁻¹, m = b Γ⁻¹"
+)
+_FORM_OF_BLOCKS = (
+    "give {alpha: [[…, null], [null, …]], gamma: [[…, null], [null, …]], b: [[1/2, 1/2], [1]]}: a "
+    "row of matrices, and one of weights, for each colour"
 )
 _DENSE = g.defined("dense")
 _C = g.Key(
@@ -63,6 +70,39 @@ TRANSFORMED = g.mapping(
     form=_FORM_OF_TRANSFORMED,
 )
 """The keys under ``transformed``."""
+_OF_COLOURS = g.Kind(lambda: spelled_out.rows_of(ROW.schema()))
+_BLOCK = {"anyOf": [MATRIX.schema(), {"type": "null"}]}
+_BLOCKS = g.Kind(lambda: spelled_out.rows_of(spelled_out.rows_of(_BLOCK)))
+BLOCKS = g.mapping(
+    g.Key(
+        "alpha: [[[[], [1]], null], [[[], [1]], [[], [1]]]]",
+        _BLOCKS,
+        "The matrices α^{l,m}, a row of them for each colour l; null is zero.",
+        is_needed=True,
+    ),
+    g.Key(
+        "gamma: [[[[1], [-2, 1]], null], [null, null]]",
+        _BLOCKS,
+        "The matrices γ^{l,m} beside the Jacobian of f^{l}, in the same way.",
+        is_needed=True,
+    ),
+    g.Key(
+        "b: [[1/2, 1/2], [1/2, 1/2]]", _OF_COLOURS, "The weights of each colour.", is_needed=True
+    ),
+    g.Key(
+        "c: [[0, 1], [0, 1]]",
+        _OF_COLOURS,
+        "Where f^{l}(t, y) is evaluated; the row sums of α^{l,l} where left out.",
+    ),
+    g.Key(
+        "d: [[1, -1], [0, 0]]",
+        _OF_COLOURS,
+        "The weights of ∂f^{l}/∂t; the row sums of γ^{l,l} where left out.",
+    ),
+    g.Key("embedded: [[1, 0], [1, 0]]", _OF_COLOURS, "Embedded weights of each colour."),
+    form=_FORM_OF_BLOCKS,
+)
+"""The keys under ``blocks``."""
 ROSENBROCK = g.mapping(
     g.Key(
         "alpha: [[0, 0], [1, 0]]",
@@ -93,11 +133,21 @@ ROSENBROCK = g.mapping(
         TRANSFORMED,
         "The method as programs store it, in place of alpha, gamma and b.",
     ),
+    g.Key(
+        "blocks: {alpha: [[[[1]]]], gamma: [[[[1]]]], b: [[1]]}",
+        BLOCKS,
+        "A method of several colours, each with its Jacobian (GARK-ROW), in place of alpha, gamma "
+        "and b.",
+    ),
     form=_FORM,
     rules=(
         g.Ways(
             "the coefficients are",
-            (g.Together(("alpha", "gamma", "b"), ("c", "d", "embedded", "dense")), "transformed"),
+            (
+                g.Together(("alpha", "gamma", "b"), ("c", "d", "embedded", "dense")),
+                "transformed",
+                "blocks",
+            ),
             "no coefficients",
             _FORM,
         ),
@@ -111,6 +161,8 @@ def rosenbrock(at: Reading, node: Node) -> d.RosenbrockText | None:
     entries: g.Found | None = ROSENBROCK.read(at, node, "rosenbrock")
     if entries is None or not entries.is_right:
         return None
+    if "blocks" in entries:
+        return _several(at, node, entries["blocks"])
     if "transformed" in entries:
         found: g.Found = entries["transformed"]
         return _text(at, node, found, ("A", "C", "m"), found["C"])
@@ -136,9 +188,63 @@ def _text(
     if name_of_gamma == "C":
         diagonal = _diagonal(at, found.nodes["gamma"], stages)
     further = spelled_out.further_of_method(at, found.nodes, stages)
-    return d.RosenbrockText(
-        node, matrices[0], matrices[1], b, rows["c"], rows["d"], diagonal, rows["e"], (further,)
-    )
+    alpha, full = (((rows,),) for rows in matrices)
+    c, d_ = ((row,) if row is not None else None for row in (rows["c"], rows["d"]))
+    return d.RosenbrockText(node, alpha, full, (b,), c, d_, diagonal, rows["e"], (further,))
+
+
+def _several(at: Reading, node: Node, found: g.Found) -> d.RosenbrockText | None:
+    """A method of several colours."""
+    before = len(at.source.faults)
+
+    def rows(key: str) -> Rows | None:
+        if key not in found:
+            return None
+        items = spelled_out.colours_in(at, found[key], key) or []
+        return tuple(at.numbers.row(x, d.of_colour(key, l)) for l, x in enumerate(items))
+
+    b = rows("b") or ()
+    N = len(b)
+    if not N or not all(b):
+        return None
+
+    def is_one_each(place: Node, name: str, items: Sized, noun: str) -> bool:
+        cure = "give one per colour"
+        return spelled_out.one_each(at, place, name, items, noun, "colour", N, cure)
+
+    def blocks(key: str) -> tuple[tuple[Rows, ...], ...]:
+        lines = at.source.items(found[key], key, _FORM_OF_BLOCKS)
+        if not is_one_each(found[key], key, lines, "row"):
+            return ()
+        return tuple(tuple(line(key, l, x)) for l, x in enumerate(lines))
+
+    def line(key: str, l: int, place: Node) -> Iterator[Rows]:
+        items = at.source.items(place, f"{key}, row {l + 1}", _FORM_OF_BLOCKS)
+        if not is_one_each(place, f"{key}, row {l + 1}", items, "block"):
+            return
+        for m, item in enumerate(items):
+            name, shape = f"{key}^{{{l + 1},{m + 1}}}", (len(b[l]), len(b[m]))
+            if is_null(item):
+                zero = at.numbers.written("0", item, name)
+                yield ((zero,) * shape[1],) * shape[0]
+            else:
+                why = f"b^{{{l + 1}}} has {spelled_out.entries_of(shape[0])}"
+                yield at.numbers.fitted(at.numbers.matrix(item, name), item, name, shape, why)
+
+    def beside(key: str) -> Rows | None:
+        given = rows(key)
+        if given is not None and is_one_each(found[key], key, given, "row"):
+            for l, (row, own) in enumerate(zip(given, b, strict=True)):
+                name, cure = d.of_colour(key, l), "give one per stage"
+                spelled_out.one_each(at, found[key], name, row, "entry", "stage", len(own), cure)
+        return given
+
+    alpha, gamma = blocks("alpha"), blocks("gamma")
+    c, d_, embedded = (beside(key) for key in ("c", "d", "embedded"))
+    if len(at.source.faults) > before:
+        return None
+    further = tuple(map(d.FurtherText, embedded or (None,) * N))
+    return d.RosenbrockText(node, alpha, gamma, b, c, d_, further=further)
 
 
 def _row(at: Reading, found: g.Found, name: str, stages: int) -> Row:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import chain
 from typing import Any, TypeAlias
 
 from flint import fmpq
@@ -202,6 +203,8 @@ def _names(content: d.Content) -> list[tuple[str, ...]]:
             names = ["q", "p"]
         case d.TableauText(b=b) | d.ArkText(b=b):
             names = [""] * len(b)
+        case d.RosenbrockText(b=b) if len(b) > 1:
+            names = [""] * len(b)
         case d.RegistersText() | d.RosenbrockText() | d.NystromText():
             return [()]
         case d.NprkText() | d.DerivativesText():
@@ -241,8 +244,13 @@ def _places(content: d.Content) -> Iterator[_Place]:
         case d.ArkText():
             for m, rows in enumerate(content.A):
                 yield from _of_rows([*rows, content.b[m]], m)
-        case d.RosenbrockText(error=error):
+        case d.RosenbrockText(b=weights, error=error):
             yield from _of_rows([error or ()], 0, "embedded")
+            for l in range(len(weights) if len(weights) > 1 else 0):
+                for of_colours in (content.alpha, content.gamma):
+                    yield from _of_rows(chain.from_iterable(of_colours[l]), l)
+                others = (x[l] for x in (content.c, content.d) if x is not None)
+                yield from _of_rows([weights[l], *others], l)
         case d.NprkText() | d.DerivativesText():
             yield from _of_rows(content.embedded or (), 0, "embedded")
         case d.NystromText():

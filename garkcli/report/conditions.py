@@ -181,7 +181,10 @@ def legend_of(tableau: Tableau) -> str:
 
 def _about_colours(tableau: Tableau) -> Iterator[str]:
     if is_rosenbrock(tableau):
-        yield "A{1,1} = A{1,2} is α, A{2,1} = A{2,2} is β = α + γ"
+        if tableau.size == 2:
+            yield "A{1,1} = A{1,2} is α, A{2,1} = A{2,2} is β = α + γ"
+        else:
+            yield "blocks of f are α, those of f' are β = α + γ"
     elif is_nprk(tableau):
         yield nprk.IN_THE_TREES
         yield "a stage is a pair (j, k); A{1,1} has the rows a_j, A{1,2} the rows a_k"

@@ -18,6 +18,7 @@ from garkcli.page import schema as S  # noqa: N812 -- its names are those of kin
 from garkcli.properties.property import Size
 from garkcli.properties.registry import KEYS
 from garkcli.reason import Reason
+from garkcli.report import rosenbrock
 from garkcli.report.check import rounding, verdict_words
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.tableau import Tableau
@@ -324,7 +325,7 @@ def _method_words(x: Method, d: Plain) -> str:
     stages = ", ".join(map(str, x.method.stages))
     about = f"{counted(x.method.tableau.size, 'colour')}, stages {stages}"
     if x.form == "row":
-        about = f"Rosenbrock, {counted(x.method.stages[0], 'stage')}"
+        about = rosenbrock.words_of(x.method.tableau)
     elif x.form == "rkn":
         about = f"Nyström, {counted(x.method.stages[0], 'stage')}"
     elif x.form == "nprk":

@@ -19,9 +19,18 @@ if TYPE_CHECKING:
 HEADLINE, USUAL, DETAIL, DATA = Level
 
 
+def words_of(tableau: Any) -> str:
+    """How many colours and stages it has."""
+    colours = tableau.size // 2
+    stages = [space.stages for space in tableau.spaces[:colours]]
+    if colours == 1:
+        return f"Rosenbrock, {counted(stages[0], 'stage')}"
+    return f"Rosenbrock, {counted(colours, 'colour')}, stages {', '.join(map(str, stages))}"
+
+
 def _method_words(outcome: Any, d: Plain) -> str:
     a = outcome.rosenbrock
-    text = f"Rosenbrock, {counted(a.tableau.spaces[0].stages, 'stage')}"
+    text = words_of(a.tableau)
     diagonal = set(Rosenbrock.of(a.tableau).diagonal)
     if len(diagonal) == 1:
         text += f", {d.prose('γ')} = {d.number(diagonal.pop())}"

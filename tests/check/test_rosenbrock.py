@@ -4,22 +4,28 @@ them.
 
 from __future__ import annotations
 
+import json
+from fractions import Fraction
 from pathlib import Path
 
 import pytest
+from flint import fmpq
 
 from garkcli import analyse as analyse_in_python
-from garkcli import assert_order, claims_of, find_orders, load, loads, with_claims
+from garkcli import assert_order, claims_of, compare, find_orders, load, loads, with_claims
 from garkcli.check.check_file import check_file
 from garkcli.check.deciding import analyse
 from garkcli.check.rosenbrock import RosenbrockAnalysis
+from garkcli.constructions.rosenbrock import Rosenbrock, seen
 from garkcli.errors import MethodError, MethodFileError
 from garkcli.frozen import replace
 from garkcli.methodfile.writer import write_tableau_file
 from garkcli.ntrees.kind import PLAIN
+from garkcli.stability.linear import stability_function
 from garkcli.tableau.conjugate import conjugate
 from garkcli.tableau.embedded import Further
 from garkcli.tableau.forms import pair
+from garkcli.tableau.tableau import Tableau
 from tests.cli.harness import gark
 from tests.whole import in_whole
 
@@ -361,3 +367,86 @@ def test_two_are_compared(tmp_path: Path) -> None:
     assert "β = α + γ 1 of 16 row 4, entry 3 -1/6 -5/12 -1/4" in said
     run = gark("diff", forms[0], "rk4")
     assert (run.code, "different kinds" in run.err) == (2, True)
+
+
+SEVERAL = """\
+rosenbrock:
+  blocks:
+    alpha: [[[[], [1]], [[], [1]]], [[[], [1]], [[], [1]]]]
+    gamma: [[[[g], [-2*g, g]], null], [null, null]]
+    b: [[1/2, 1/2], [1/2, 1/2]]
+    embedded: [[1, 0], [1, 0]]
+parameters: {g: 1 - sqrt(2)/2}
+"""
+
+
+def test_files_of_several_colours(tmp_path: Path) -> None:
+    """Every order is that of the tableau that the kernel takes; one colour in blocks is that
+    without; claims hold and none larger; convert and JSON give every block back.
+    """
+    g, one, half, zero = "1 - sqrt(2)/2", fmpq(1), fmpq(1, 2), fmpq(0)
+    made = loads(SEVERAL)
+    alpha, none = ((zero, zero), (one, zero)), ((zero, zero), (zero, zero))
+    gamma = loads(
+        f"rosenbrock: {{alpha: [[], [1]], gamma: [[{g}], [-2*({g}), {g}]], b: [1/2, 1/2]}}"
+    )
+    full = Rosenbrock.of(gamma.tableau).gamma[0][0]
+    plain = Rosenbrock(((alpha,) * 2,) * 2, ((full, none), (none, none)), ((half, half),) * 2)
+    assert made.tableau == plain.tableau
+    in_blocks = loads(
+        f"rosenbrock: {{blocks: {{alpha: [[[[], [1]]]], gamma: [[[[{g}], [-2*({g}), {g}]]]],"
+        " b: [[1/2, 1/2]]}}"
+    )
+    assert in_blocks.tableau == gamma.tableau
+    path = tmp_path / "several.gark.yaml"
+    claims = "expect: {order: 2, w-order: 2, old-jacobian-order: 2, embedded-order: 1}\n"
+    path.write_text(SEVERAL + claims, encoding="utf-8")
+    assert check_file(str(path)).exit_code == 0
+    path.write_text(SEVERAL + claims.replace("{order: 2", "{order: 3"), encoding="utf-8")
+    assert [x.claim for x in check_file(str(path)).failed_claims] == ["order"]
+    assert claims_of(str(path), ["index-1-order"]) == {}
+    other = tmp_path / "other.gark.yaml"
+    assert gark("convert", str(path), "-o", str(other)).code == 0
+    assert load(str(other)).tableau == made.tableau
+    assert load(str(other)).embedded == made.embedded
+    data = json.loads(gark("export", str(path), "--to", "json").out)
+    assert (len(data["alpha"]), data["gamma"][1], data["b"][1]) == (
+        2,
+        [[["0", "0"], ["0", "0"]]] * 2,
+        ["1/2", "1/2"],
+    )
+    assert "json" in gark("export", str(path), "--to", "c").err
+    assert gark("convert", str(path), "--to", "transformed").code == 2
+    moved = loads(SEVERAL.replace("null]]", "[[], [1/7]]]]"))
+    gaps = {(x.kind, x.colour, x.seen) for x in compare(made, moved).gaps}
+    assert gaps == {("beta", 3, 1), ("c + d", 3, None)}
+
+
+def test_stability_of_several_colours() -> None:
+    """R(z₁, z₂) of one step on ẏ = λ₁y + λ₂y, both stages solved with numbers."""
+    tableau = seen(loads(SEVERAL.replace("1 - sqrt(2)/2", "1/4")).tableau, "on_test_equation")
+    assert isinstance(tableau, Tableau)
+    z, w, g = Fraction(1, 3), Fraction(-2, 5), Fraction(1, 4)
+    k1 = z / (1 - z * g)
+    second = 1 + k1 + w
+    k2 = (z * second - 2 * g * z * k1) / (1 - z * g)
+    value = 1 + (k1 + k2 + w + w * second) / 2
+    R = stability_function(tableau, [fmpq(5), fmpq(-6)])
+    at = fmpq(1, 15)
+    assert R.numerator(at) / R.denominator(at) == fmpq(value.numerator, value.denominator)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("{alpha: [[[[1]]]], gamma: [[[[1]]]]}", "b"),
+        ("{alpha: [[[[1]]]], gamma: [[[[1]]]], b: [[1], [1]]}", "alpha has 1 row for 2 colours"),
+        ("{alpha: [[[[1]], null]], gamma: [[[[1]]]], b: [[1]]}", "alpha, row 1 has 2 blocks"),
+        ("{alpha: [[[[1, 1]]]], gamma: [[[[1]]]], b: [[1]]}", "should be 1 by 1"),
+        ("{alpha: [[[[1]]]], gamma: [[[[1]]]], b: [[1]], c: [[0, 1]]}", "has 2 entries"),
+    ],
+)
+def test_faults_of_blocks(text: str, message: str) -> None:
+    """What is wrong is said, with its place."""
+    with pytest.raises(MethodFileError, match=message):
+        loads(f"rosenbrock: {{blocks: {text}}}")

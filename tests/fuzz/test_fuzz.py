@@ -153,6 +153,18 @@ VALUES |= {
     "rosenbrock": st.fixed_dictionaries(
         {},
         optional={
+            "blocks": _or_anything(
+                st.fixed_dictionaries(
+                    {},
+                    optional={
+                        **dict.fromkeys(
+                            ("alpha", "gamma"),
+                            st.lists(st.lists(MATRIX | st.none(), max_size=2), max_size=2),
+                        ),
+                        **dict.fromkeys(("b", "c", "d", "embedded"), MATRIX),
+                    },
+                )
+            ),
             "alpha": MATRIX,
             "gamma": SCALARS | MATRIX,
             "b": ROW,

@@ -58,7 +58,7 @@ def _array(name: str) -> Callable[[Payload], Any]:
 
     def texts(payload: Payload) -> Any:
         found = getattr(payload, name)
-        if payload.kind in {"rk", "row"} and found is not None:
+        if payload.kind in {"rk", "row"} and payload.size == 1 and found is not None:
             found = found[0][0] if name == "A" else found[0]
         return _texts(payload, found)
 
@@ -77,7 +77,9 @@ def _linear(payload: Payload, name: Literal["alpha", "gamma", "d"]) -> Any:
     method = payload.rosenbrock
     if method is None:
         return None
-    found = method.nodes[1][0] if name == "d" else getattr(method, name)[0][0]
+    found = method.nodes[1] if name == "d" else getattr(method, name)
+    if payload.size == 1:
+        found = found[0] if name == "d" else found[0][0]
     return _texts(payload, found)
 
 
@@ -91,6 +93,7 @@ _COLOUR: Record[Colour] = Record(
 _NUMBERS = array(NUMERAL)
 _MATRIX = array(_NUMBERS)
 _ONE_ROW = one_of(_NUMBERS, _MATRIX)
+_ONE_BLOCK = one_of(_MATRIX, array(array(_MATRIX)))
 
 
 def _decimal(tolerance: fmpq | None) -> str | None:
@@ -123,9 +126,9 @@ _REPORT: Record[Payload] = Record(
         lambda x: None if x.rosenbrock else _array("A")(x),
         is_optional=True,
     ),
-    Field("alpha", _MATRIX, lambda x: _linear(x, "alpha"), is_optional=True),
-    Field("gamma", _MATRIX, lambda x: _linear(x, "gamma"), is_optional=True),
-    Field("d", _NUMBERS, lambda x: _linear(x, "d"), is_optional=True),
+    Field("alpha", _ONE_BLOCK, lambda x: _linear(x, "alpha"), is_optional=True),
+    Field("gamma", _ONE_BLOCK, lambda x: _linear(x, "gamma"), is_optional=True),
+    Field("d", _ONE_ROW, lambda x: _linear(x, "d"), is_optional=True),
     Field("b", _ONE_ROW, _array("b")),
     Field("embedded", _ONE_ROW, _array("embedded"), is_optional=True),
     Field("dense", one_of(_MATRIX, array(_MATRIX)), _array("dense"), is_optional=True),
