@@ -8,7 +8,6 @@ from garkcli.check.claims import verify
 from garkcli.check.culprit import culprit
 from garkcli.check.deciding import analyse, analyse_any, remark_of
 from garkcli.check.outcome import Outcome
-from garkcli.constructions.derivatives import is_derivatives
 from garkcli.constructions.nprk import is_nprk
 from garkcli.constructions.nystrom import is_nystrom
 from garkcli.constructions.rosenbrock import is_rosenbrock
@@ -99,7 +98,7 @@ def _check_other_kind(method: MethodFile, limit: int, want_constants: bool) -> O
         return replace(outcome, nprk=found)
     if is_nystrom(method.tableau):
         return replace(outcome, nystrom=found)
-    if is_derivatives(method.tableau):
+    if method.tableau.uses_derivatives:
         return replace(outcome, derivatives=found)
     return replace(outcome, infinitesimal=found)
 

@@ -14,7 +14,6 @@ from garkcli.check.analysis import (
     is_pair_of_itself,
     nonautonomous,
 )
-from garkcli.constructions.derivatives import is_derivatives
 from garkcli.constructions.nprk import is_nprk
 from garkcli.constructions.nystrom import is_nystrom
 from garkcli.constructions.rosenbrock import is_rosenbrock
@@ -59,7 +58,7 @@ def analyse_any_tableau(
         from garkcli.check.nystrom import analyse_nystrom  # likewise
 
         return analyse_nystrom(tableau, limit, tolerance, further)
-    if is_derivatives(tableau):
+    if tableau.uses_derivatives:
         from garkcli.check.derivatives import DerivativesAnalysis  # likewise
 
         return DerivativesAnalysis.with_flow(tableau, limit, tolerance, further)

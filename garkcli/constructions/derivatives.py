@@ -16,7 +16,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from math import factorial, perm
-from typing import ClassVar
 
 from flint import fmpq
 
@@ -28,25 +27,11 @@ from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.matrix import Matrix, Vector, dot
 from garkcli.frozen import Frozen
 from garkcli.tableau.forms import gark
-from garkcli.tableau.stages import Flow, PointSpace
-from garkcli.tableau.tableau import OF_OTHERS, Colour, Method, Tableau, butcher
+from garkcli.tableau.stages import Jets, PointSpace
+from garkcli.tableau.tableau import Colour, Method, Tableau, butcher
 
 Weights = tuple[Vector, ...]
 """A row over the stages for f, f' f, …"""
-
-
-class Jets(Flow):
-    """Stages on the exact solution through each stage of the method, the first at its beginning;
-    ``order`` of them.
-
-    Attributes:
-        derivatives: how many f_k the method uses.
-    """
-
-    derivatives: int
-
-    why: ClassVar[str] = "derivatives of f are used"
-    cure: ClassVar[str] = OF_OTHERS
 
 
 class Derivatives(Frozen):
@@ -183,7 +168,7 @@ def plan(method: Derivatives, embedded: Weights | None = None) -> int:
 
 def is_derivatives(tableau: Tableau) -> bool:
     """Whether a tableau is that of a method that uses derivatives."""
-    return isinstance(tableau.spaces[0], Jets)
+    return tableau.uses_derivatives
 
 
 def embedded_of(rows: Sequence[Vector], tableau: Tableau) -> Weights:

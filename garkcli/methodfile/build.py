@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Generic, TypeAlias, TypeVar
 from flint import fmpq
 from yaml.nodes import Node
 
-from garkcli.constructions.derivatives import Derivatives, plan
 from garkcli.constructions.nprk import nprk
 from garkcli.constructions.nystrom import Nystrom, nystrom, weights_of
 from garkcli.constructions.registers import as_butcher
@@ -355,6 +354,8 @@ class Builder(Generic[V]):
         return tableau
 
     def _derivatives(self, text: d.DerivativesText) -> Tableau:
+        from garkcli.constructions.derivatives import Derivatives, plan  # few files need it
+
         matrix, vector = self.values.matrix, self.values.vector
         c = None if text.c is None else vector(text.c)
         method = Derivatives(tuple(map(matrix, text.A)), matrix(text.b), c)

@@ -236,6 +236,10 @@ class PointSpace(StageSpace):
         return _scaled_rows(tuple(ONE / b for b in weights), right)
 
 
+OF_OTHERS = "gark check, show, conditions, certificate, diff and report know such methods"
+"""The cure where a method that is no GARK method has no meaning."""
+
+
 class Flow(PointSpace):
     """Stages of collocation that stand for the exact solution of problems between other stages.
 
@@ -249,6 +253,20 @@ class Flow(PointSpace):
 
     why: ClassVar[str] = "the fast part is solved exactly"
     cure: ClassVar[str] = "write a fast method and steps in place of fast: exact"
+
+
+class Jets(Flow):
+    """Stages on the exact solution through each stage of the method, the first at its beginning;
+    ``order`` of them.
+
+    Attributes:
+        derivatives: how many f_k the method uses.
+    """
+
+    derivatives: int
+
+    why: ClassVar[str] = "derivatives of f are used"
+    cure: ClassVar[str] = OF_OTHERS
 
 
 def _scaled_rows(factors: Vector, rows: Matrix) -> Matrix:

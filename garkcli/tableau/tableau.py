@@ -14,14 +14,12 @@ from garkcli.exact.parametric import Parametric
 from garkcli.frozen import Frozen
 from garkcli.ntrees.kind import FIELDS, LINEAR, PLAIN, Kind
 from garkcli.ntrees.tree import Tree
-from garkcli.tableau.stages import Flow, PointSpace, StageSpace
+from garkcli.tableau.stages import OF_OTHERS, Flow, Jets, PointSpace, StageSpace
 
 Part: TypeAlias = Literal["y", "q", "p"]
 """The part of the unknowns that a colour's vector field drives: all of them, positions, or
 momenta.
 """
-OF_OTHERS = "gark check, show, conditions, certificate, diff and report know such methods"
-"""The cure where a method that is no GARK method has no meaning."""
 Edge: TypeAlias = tuple[int, int]
 """Who sees whom: two colours (l, m); or (k, m), where the stages of space k see colour m."""
 
@@ -174,6 +172,11 @@ class Tableau(Frozen):
         problems exactly; None where it has no stages that stand for such solutions.
         """
         return min((x.order for x in self.spaces if isinstance(x, Flow)), default=None)
+
+    @property
+    def uses_derivatives(self) -> bool:
+        """Whether it is that of a method that uses derivatives of f along the solution."""
+        return any(isinstance(x, Jets) for x in self.spaces)
 
     @property
     def is_gark(self) -> bool:
