@@ -239,7 +239,7 @@ def stable_values(
     if wanted not in STABILITIES:
         message = f"no stability {wanted!r}"
         raise UsageProblem(message, did_you_mean(wanted, STABILITIES), code="unknown-word")
-    read = exact_family_of(family, "stable_values")
+    read = exact_family_of(family, "stable_values").on_linear_problems
     springs = alone = None
     if slow is not None:
         tableau = TABLEAUS[whose](read.tableau)
@@ -337,7 +337,7 @@ def found_files(
         yield from _files_within(found, family, source)
         return
     if isinstance(found, Design):
-        further = _stable(found.family, found.whose)
+        further = _wanted(found.family, found.whose)
         for method in accepted_methods(found):
             claim = f"{_orders(method, found.whose)}{further}"
             yield Found(family, method, f"{source}: {claim}", claim)
@@ -345,7 +345,7 @@ def found_files(
         whose, order = found.design.whose, found.step.order
         options = "" if whose == "method" else f" --{whose}"
         options += f" --order {order} --minimise {found.objective.key}"
-        further = _stable(found.design.family, whose)
+        further = _wanted(found.design.family, whose)
         further += _claim(found) if whose == "method" else ""
         for candidate in found.minimisers:
             own = candidate.found.order
@@ -355,7 +355,7 @@ def found_files(
             yield Found(family, best, f"{source}{options}: {claim}", claim + further)
     else:
         for find in found.methods:
-            claim = f"{CLAIMS[found.whose]}: {find.order}{_stable(family, found.whose)}"
+            claim = f"{CLAIMS[found.whose]}: {find.order}{_wanted(family, found.whose)}"
             head = f"{source} --order {found.order}, start {find.start} of seed {found.seed}\n"
             head += f"{HEADS[find.proof]}: {claim}"
             if not find.is_exact:
@@ -382,9 +382,10 @@ def _orders(method: Chosen, whose: Whose) -> str:
     return f"{CLAIMS[whose]}: {method.order}{beside}"
 
 
-def _stable(family: Family, whose: Whose) -> str:
-    """What a method file may claim of stability that was wanted."""
-    wanted = [f", {x.kind}: true" for x in family.stable if x.colour is None]
+def _wanted(family: Family, whose: Whose) -> str:
+    """What a method file may claim of stability and further orders that were wanted."""
+    wanted = [f', {key}: ">= {order}"' for key, order in family.orders]
+    wanted += [f", {x.kind}: true" for x in family.stable if x.colour is None]
     return "".join(wanted) if whose == "method" else ""
 
 

@@ -166,7 +166,7 @@ def _asked(family: FamilyFile, given: Given) -> Stability | None:
         return None
     if given.colour is None:
         return Stability(given.stability)
-    size = family.tableau.size
+    size = family.on_linear_problems.tableau.size
     if given.colour > size:
         message = f"--colour: no colour {given.colour}"
         raise UsageProblem(message, f"the method has {counted(size, 'colour')}", code="wrong-value")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from functools import partial
 from time import monotonic
@@ -580,7 +580,7 @@ def _described(ideal: Ideal | Pieces) -> tuple[Sequence[fmpq_mpoly | fmpz_mpoly]
         NotDecided: the time is not enough.
     """
     if isinstance(ideal, Pieces):
-        return [without_multiples(p) for p in ideal.equations], list(ideal.nonzero)
+        return _each_once(ideal.equations), list(ideal.nonzero)
     if ideal.dimension <= 0:
         return ideal.polynomials, []
     with suppress(NotDecided), only_small():
@@ -589,7 +589,12 @@ def _described(ideal: Ideal | Pieces) -> tuple[Sequence[fmpq_mpoly | fmpz_mpoly]
         nonzero = [p for p, is_never in zip(ideal.nonzero, allowed, strict=True) if not is_never]
         return ideal.polynomials, nonzero
     check_time()
-    return [without_multiples(p) for p in ideal.cleared], list(ideal.nonzero)
+    return _each_once(ideal.cleared), list(ideal.nonzero)
+
+
+def _each_once(polynomials: Iterable[fmpq_mpoly]) -> list[fmpq_mpoly]:
+    """Their square-free parts."""
+    return list({str(p): p for p in map(without_multiples, polynomials)}.values())
 
 
 def _with_lower(steps: Sequence[Step]) -> list[Step]:
@@ -661,6 +666,7 @@ def stable_sets(design: Design) -> tuple[StableValues, ...]:
 
 def _sets(family: Family, whose: Whose) -> tuple[StableValues, ...]:
     """For each wanted kind of stability its set; nothing where it is none of one number."""
+    family = family.on_linear_problems
     wanted = [
         x for kind in get_args(Wanted) for x in dict.fromkeys(family.stable) if x.kind == kind
     ]

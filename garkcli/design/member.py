@@ -196,7 +196,7 @@ def is_as_stable(family: Family, whose: Whose, solution: Solution, root: RealRoo
     if not family.stable:
         return True
     with suppress(NotDecided):
-        tableau = method_at(family.tableau, family.ring, solution, root)
+        tableau = method_at(family.on_linear_problems.tableau, family.ring, solution, root)
         if tableau is not None:
             meant = TABLEAUS[whose](tableau)
             return all(is_stable(key, meant) for key in family.stable)

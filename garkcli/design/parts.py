@@ -24,8 +24,9 @@ from garkcli.exact.parametric import Mixed, Parameters, Parametric, factors, fra
 from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.roots import RealRoot, real_roots
 from garkcli.frozen import Frozen, replace
+from garkcli.ntrees.kind import ONE_BRANCH
 from garkcli.tableau.stages import PointSpace
-from garkcli.tableau.tableau import Tableau
+from garkcli.tableau.tableau import Colour, Tableau
 
 
 class Changes(Frozen):
@@ -84,14 +85,14 @@ def nodes_as_coordinates(tableau: Tableau, ring: Parameters) -> Changes:
         here = new.context.gen(i)
         # node = slope x + rest, and its place now has the node itself
         instead[i] = here / slope - (moved - here * slope) / slope
-    single = (str(x) for colour in tableau.colours for x in colour.c)
+    single = (str(x) for colour in _evaluated(tableau) for x in colour.c)
     known = (*(names[i] for i in chosen), *(x for x in single if x in ring.names))
     return Changes(ring, new if instead else ring, instead, tuple(dict.fromkeys(known)))
 
 
 def _nodes(tableau: Tableau) -> Iterator[tuple[str, fmpq_mpoly]]:
     """The nodes that are sums of several unknowns, with names for them."""
-    for l, colour in enumerate(tableau.colours, start=1):
+    for l, colour in enumerate(_evaluated(tableau), start=1):
         if not isinstance(tableau.spaces[colour.space], PointSpace):
             continue
         for i, node in enumerate(colour.c, start=1):
@@ -101,6 +102,11 @@ def _nodes(tableau: Tableau) -> Iterator[tuple[str, fmpq_mpoly]]:
             if x.numerator.total_degree() == 1 and len(_places(x.numerator)) > 1:
                 name = f"c{i}" if tableau.size == 1 else f"c{l}_{i}"
                 yield name, x.numerator
+
+
+def _evaluated(tableau: Tableau) -> list[Colour]:
+    """The colours that are evaluated at their nodes; the Jacobian of a Rosenbrock method is not."""
+    return [colour for colour in tableau.colours if colour.kind != ONE_BRANCH]
 
 
 def _places(p: fmpq_mpoly) -> list[int]:

@@ -92,6 +92,7 @@ def stable_part(family: Family, whose: Whose, part: Part) -> StablePart:
     """
     if family.radicals or not part.ring.names:
         raise NotDecided
+    family = family.on_linear_problems
     kinds = []
     for wanted in dict.fromkeys(family.stable):
         line = _Line(family, whose, part, wanted)

@@ -77,6 +77,7 @@ class Meaning(Frozen):
         positive: rational functions that are positive at the solutions that are taken.
         not_negative: those that are at least 0.
         stable: the kinds of stability of the accepted solutions.
+        orders: least orders, by what files claim of them.
         unsettled: keys of wishes whose meaning was not worked out in time.
         real: keys of wishes of which ``zeros`` have what real values satisfy, not complex ones.
         impossible: what is wanted and no value makes true, with the reason.
@@ -87,6 +88,7 @@ class Meaning(Frozen):
     positive: tuple[object, ...] = ()
     not_negative: tuple[object, ...] = ()
     stable: tuple[Stability, ...] = ()
+    orders: tuple[tuple[str, int], ...] = ()
     unsettled: tuple[str, ...] = ()
     real: tuple[str, ...] = ()
     impossible: tuple[str, ...] = ()

@@ -25,7 +25,7 @@ MOST_PRODUCTS = 200
 """Most products of blocks that weak stage order asks about."""
 
 
-def _order(tableau: Tableau, asked: Asked) -> Meaning:
+def order_meaning(tableau: Tableau, asked: Asked) -> Meaning:
     """The conditions of a tableau up to the order that is requested."""
     conditions = FamilyConditions(tableau, asked.ring)
     one = asked.ring.constant(fmpq(1))
@@ -51,7 +51,7 @@ def _pair_order(asked: Asked) -> Meaning:
     )
     order = cast("int", asked.value)
     if criterion is None:
-        return _order(pair(asked.tableau), asked)
+        return order_meaning(pair(asked.tableau), asked)
     one = asked.ring.constant(fmpq(1))
     zeros = chain.from_iterable(criterion.of_order(k) for k in range(1, order + 1))
     why = criterion.obstacle(order)
@@ -62,14 +62,23 @@ def _pair_order(asked: Asked) -> Meaning:
     )
 
 
-def _embedded_order(asked: Asked) -> Meaning:
-    """The order of the method with b̂ in place of b, at least."""
+def as_embedded(asked: Asked, key: str) -> Tableau:
+    """The method with b̂ in place of b.
+
+    Raises:
+        MethodError: it has none, or some colours are meant alone.
+    """
     embedded = asked.further.embedded
     if embedded is None or len(asked.colours) < asked.tableau.size:
-        message = "design: embedded-order is meant of the embedded weights of the whole method"
+        message = f"design: {key} is meant of the embedded weights of the whole method"
         cure = 'write embedded: ["?", "?"] beside b, or embedded: true under unknown'
         raise MethodError(message, cure, code="wanted-without-meaning")
-    return _order(with_weights(asked.tableau, embedded), asked)
+    return with_weights(asked.tableau, embedded)
+
+
+def _embedded_order(asked: Asked) -> Meaning:
+    """The order of the method with b̂ in place of b, at least."""
+    return order_meaning(as_embedded(asked, "embedded-order"), asked)
 
 
 def _symplectic(asked: Asked) -> Meaning:
@@ -100,7 +109,7 @@ def _stiffly_accurate(asked: Asked) -> Meaning:
     return Meaning(tuple(zeros))
 
 
-def _r_infinity(asked: Asked) -> Meaning:
+def at_infinity(asked: Asked) -> Meaning:
     """R(z) = det(I − z(A − 𝟙bᵀ)) / det(I − zA); the denominator keeps the degree that it has for
     almost all methods of the family. E. Hairer, G. Wanner, *Solving Ordinary Differential
     Equations II*, sections IV.3 and IV.6.
@@ -230,7 +239,7 @@ WANTS = {
         ),
         Want("symplectic", "flag", "the method is symplectic", _symplectic),
         Want("stiffly-accurate", "flag", "the last row of A is b", _stiffly_accurate),
-        Want("R-infinity", "number", "the stability function at infinity", _r_infinity),
+        Want("R-infinity", "number", "the stability function at infinity", at_infinity),
         Want("stage-order", "count", "B(q) and C(q)", _stage_order),
         Want(
             "weak-stage-order",

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, TypeAlias
 from flint import fmpq, fmpq_mpoly
 from yaml.nodes import ScalarNode
 
+from garkcli.constructions.rosenbrock import is_rosenbrock
 from garkcli.design.want import numerators, sign_polynomial
 from garkcli.errors import HasFreeParameters, MethodError
 from garkcli.exact.parametric import Parameters, common_denominator
@@ -135,7 +136,7 @@ def loads_family(
     reader, description = described(text, source, settings)
     if is_free and not reader.numbers.free:
         # where the file or a setting has a fault, that is what is reported
-        loads(text, source, settings).tableau.demand_fields(_DESIGN)
+        _refuse_others(loads(text, source, settings).tableau)
         raise _without_unknowns(source, settings)
     wishes = reader.wishes if is_design and reader.wishes is not None else Wishes()
     reader.numbers.entries += wishes.entries
@@ -157,6 +158,12 @@ def family_of(error: HasFreeParameters, settings: Mapping[str, str] = NO_SETTING
         return loads_family(error.text, error.source, settings, is_design=False)
     reader, description = error.reading
     return _family(reader, description, Wishes(), settings, None)
+
+
+def _refuse_others(tableau: Tableau) -> None:
+    """Refuse methods that are neither GARK methods nor Rosenbrock methods."""
+    if not is_rosenbrock(tableau):
+        tableau.demand_fields(_DESIGN)
 
 
 def refuse_rounded(family: FamilyFile) -> None:
@@ -202,8 +209,7 @@ def _family(
             moved.decide_as(made.values)
             made = Builder(made.text, moved)
     tableau, values = made.tableau, made.values
-    # parameters are sought for stability and wishes too, and those read A, not β
-    tableau.demand_fields(_DESIGN)
+    _refuse_others(tableau)
     ring = values.domain.ring
     source = reader.source
     meaning = meaning_of(wishes, made, source, deadline)
@@ -227,6 +233,7 @@ def _family(
         not_negative=_signs(meaning.not_negative, ring),
         order=wishes.order,
         stable=meaning.stable,
+        orders=meaning.orders,
         unsettled=meaning.unsettled,
         real=meaning.real,
         impossible=meaning.impossible,

@@ -23,8 +23,10 @@ if TYPE_CHECKING:
 
 UNKNOWN = "?"
 """What is in a file for a coefficient that is not known."""
+_MATRICES = {"A", "alpha", "gamma"}
 _PLACE = (
-    r"(?:(?P<part>[qp])\.)?(?P<letter>[Abc]|embedded)(?:\^\{(?P<colours>[0-9,]+)\})?"
+    r"(?:(?P<part>[qp])\.)?(?:rosenbrock, )?(?P<letter>[Abcd]|alpha|gamma|embedded)"
+    r"(?:\^\{(?P<colours>[0-9,]+)\})?"
     r"(?:, row (?P<row>[0-9]+))?(?:, entry (?P<entry>[0-9]+))?"
 )
 
@@ -38,15 +40,15 @@ def name_of_place(where: str) -> str | None:
     ('a21', 'a12_31')
     >>> name_of_place("b^{2}, entry 1"), name_of_place("q.A, row 10, entry 2")
     ('b2_1', 'q_a10_2')
-    >>> name_of_place("embedded, entry 1")
-    'bh1'
+    >>> name_of_place("embedded, entry 1"), name_of_place("gamma, row 2, entry 1")
+    ('bh1', 'gamma21')
     """
     found = re.fullmatch(_PLACE, where)
     if found is None:
         return None
     part, letter, colours, row, entry = found.groups()
     # one value in place of a row of one is its only entry
-    indices = [row or "1", entry or "1"] if letter == "A" else [entry or "1"]
+    indices = [row or "1", entry or "1"] if letter in _MATRICES else [entry or "1"]
     of_colours = f"{_together(colours.split(','))}_" if colours else ""
     name = ("bh" if letter == "embedded" else letter.lower()) + of_colours + _together(indices)
     return f"{part}_{name}" if part else name
@@ -173,7 +175,7 @@ class Numbers(Mutable):
         """An entry without a value: an unknown named by its place, or the value given for it."""
         name = name_of_place(where)
         if name is None:
-            message = f"{UNKNOWN} stands for an entry of A, b, c or embedded"
+            message = f"{UNKNOWN} stands for an entry of A, b, c, embedded, α, γ or d"
             cure = "write parameters: {tau: free} for any other unknown"
             self.source.fault(node, message, cure, where=where, code="unknown-entry-misplaced")
             return Literal(ZERO)

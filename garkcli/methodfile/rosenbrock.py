@@ -119,7 +119,7 @@ ROSENBROCK = g.mapping(
     _D,
     g.Key(
         "embedded: [1, 0]",
-        ROW,
+        g.Kind(ROW.schema),
         "Embedded weights, one per stage.",
         also=("bhat", "b_hat", "bh", "b2"),
     ),

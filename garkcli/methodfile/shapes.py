@@ -22,7 +22,7 @@ TextRow: TypeAlias = tuple[str, ...]
 Texts: TypeAlias = tuple[TextRow, ...]
 ZERO = "0"
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
-_OWN = re.compile(r"[ae][0-9_]+")
+_OWN = re.compile(r"(?:a|e|alpha|gamma)[0-9_]+")
 """An entry of a matrix that is an unknown of its own."""
 
 
@@ -31,12 +31,12 @@ class Layout(Frozen):
 
     Attributes:
         kind: the form of method file that it is.
-        A: a matrix for each colour.
+        A: a matrix for each colour; α and γ of a Rosenbrock method.
         b: a row of weights for each colour; of an ark one for all.
         embedded: the same of embedded weights; None where there are none.
     """
 
-    kind: Literal["tableau", "ark", "prk"]
+    kind: Literal["tableau", "ark", "prk", "rosenbrock"]
     A: tuple[Texts, ...]
     b: Texts
     embedded: Texts | None = None
@@ -89,7 +89,8 @@ def with_nodes(layout: Layout) -> Layout:
     """The layout with the node c_i an unknown in place of the first entry of row i.
 
     Where that entry is an unknown that is nowhere else it is the node minus the rest of the
-    row: the same methods, and values for nodes are the ones people choose.
+    row: the same methods, and values for nodes are the ones people choose. So is d_i, the sum of a
+    row of γ.
     """
     if layout.kind == "prk":
         return layout
@@ -100,7 +101,8 @@ def with_nodes(layout: Layout) -> Layout:
         uses = [text for text in everything if first in _NAME.findall(text)]
         if not _OWN.fullmatch(first) or len(uses) > 1:
             return row
-        node = f"c{_join(layout.stages)}{i}"
+        letter = "d" if first.startswith("gamma") else "c"
+        node = f"{letter}{_join(layout.stages)}{i}"
         return (" - ".join([node, *(x for x in others if x != ZERO)]), *others)
 
     return replace(
@@ -159,7 +161,38 @@ def _splitting(layout: Layout) -> Layout:
     return Layout("prk", (_lower(drifts, 1), _lower(kicks, 0)), (drifts, kicks))
 
 
+def _rosenbrock(layout: Layout) -> Layout:
+    alpha = [[x.replace("a", "alpha", 1) for x in row] for row in _explicit(layout).A[0]]
+    gamma = [[x.replace("a", "gamma", 1) for x in row] for row in _dirk(layout).A[0]]
+    for i, row in enumerate(gamma):
+        row[i] = "gamma"
+    made = tuple(tuple(map(tuple, rows)) for rows in (alpha, gamma))
+    return Layout("rosenbrock", made, layout.b)
+
+
+def _stiffly_accurate_rosenbrock(layout: Layout) -> Layout:
+    """The last row of β = α + γ is b, and the last node 1.
+
+    E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, VI.4.
+    """
+    (alpha, gamma), (b,) = layout.A, layout.b
+    if len(b) == 1:
+        message = "stiffly-accurate asks for a last node 1, which one stage does not have"
+        raise MethodError(message, "take two stages", code="not-together")
+    between = b[:-1]
+    others = [x for x in alpha[-1][1:] if x != ZERO]
+    first = " - ".join(["1", *others])
+    ahead = (first, *alpha[-1][1:])
+    beside = [f"{x} - {y}" for x, y in zip(between[1:], alpha[-1][1:-1], strict=True)]
+    row = (" + ".join([f"{between[0]} - 1", *others]), *beside, "gamma")
+    weights = (*between, "gamma")
+    matrices = ((*alpha[:-1], ahead), (*gamma[:-1], row))
+    return replace(layout, A=matrices, b=(weights,))
+
+
 def _stiffly_accurate(layout: Layout) -> Layout:
+    if layout.kind == "rosenbrock":
+        return _stiffly_accurate_rosenbrock(layout)
     if layout.kind == "prk":
         message = "a partitioned shape is not stiffly accurate"
         raise MethodError(message, "leave one of them out", code="not-together")
@@ -248,6 +281,9 @@ SHAPES = {
         Shape(
             "splitting", "a1 h of the first part, b1 h of the second, and so on", _splitting, True
         ),
+        Shape(
+            "rosenbrock", "α below the diagonal, γ too, with gamma on its own", _rosenbrock, True
+        ),
         Shape("stiffly-accurate", "the last row of A is b", _stiffly_accurate),
         Shape("palindromic", "the same method backwards", _palindromic),
     )
@@ -270,6 +306,9 @@ def layout_of(stages: int, names: Sequence[str]) -> Layout:
         if shape.begins and place:
             message = f"{name} comes after {names[0]}"
             raise MethodError(message, f"begin with {name}", code="not-together")
+        if layout.kind == "rosenbrock" and name != "stiffly-accurate":
+            message = f"{name} does not go with rosenbrock"
+            raise MethodError(message, "stiffly-accurate goes with it", code="not-together")
         layout = shape.applied(layout)
     return with_nodes(layout)
 
@@ -319,7 +358,7 @@ class Shaped(Frozen):
     """
 
     form: d.Form
-    content: d.TableauText | d.ArkText | d.PrkText
+    content: d.TableauText | d.ArkText | d.PrkText | d.RosenbrockText
     layout: Layout
     place: Extent
 
@@ -353,7 +392,9 @@ def shaped(at: Reading, key: Node, node: Node) -> Shaped | None:
     return Shaped(layout.kind, _content(at, layout, node), layout, place)
 
 
-def _content(at: Reading, layout: Layout, node: Node) -> d.TableauText | d.ArkText | d.PrkText:
+def _content(
+    at: Reading, layout: Layout, node: Node
+) -> d.TableauText | d.ArkText | d.PrkText | d.RosenbrockText:
     """The coefficients of a layout."""
 
     def row(texts: TextRow, where: str) -> Row:
@@ -375,6 +416,9 @@ def _content(at: Reading, layout: Layout, node: Node) -> d.TableauText | d.ArkTe
     if layout.kind == "prk":
         parts = zip(matrices, weights, further, strict=True)
         return d.PrkText(*(d.ButcherText(node, "", A, b, None, x) for A, b, x in parts))
+    if layout.kind == "rosenbrock":
+        alpha, gamma = matrices
+        return d.RosenbrockText(node, alpha, gamma, weights[0], further=further[:1])
     if layout.kind == "ark":
         return d.ArkText(tuple(matrices), (weights[0],) * len(matrices), None, further)
     return d.TableauText(((matrices[0],),), (weights[0],), (None,), (), further)
@@ -394,6 +438,9 @@ def spelled(layout: Layout) -> str:
         lines = [", ".join(row) for row in zip(*columns, strict=True)]
         parts = zip("qp", matrices, lines, strict=True)
         return "\n".join(["prk:", *(f"  {part}: {{A: {A}, {x}}}" for part, A, x in parts)])
+    if layout.kind == "rosenbrock":
+        alpha, gamma = (f"{x}: {A}" for x, A in zip(("alpha", "gamma"), matrices, strict=True))
+        return "\n  ".join(["rosenbrock:", alpha, gamma, *weights, *beside])
     if layout.kind == "ark":
         return "\n  ".join(["ark:", f"A: {listed(matrices)}", weights[0], *beside])
     return "\n".join([f"A: {matrices[0]}", weights[0], *beside])

@@ -37,9 +37,9 @@ _VALUES = {
 
 def _wanted() -> Iterator[Key]:
     """The wants, each for all colours or for those that are named."""
-    from garkcli.design.wants import WANTS  # few files have them
+    from garkcli.constructions.wants import EVERY  # few files have them
 
-    for name, want in WANTS.items():
+    for name, want in EVERY.items():
         value, example = _VALUES[want.kind]
         colours = by_name(value, propertyNames={"pattern": "^[1-9][0-9]*$"})
         schema = either(value, at_mapping=colours).schema
@@ -197,6 +197,8 @@ def meaning_of(
         deadline: the reading of ``time.monotonic`` at which the rest stays
             unsettled; None for never.
     """
+    from garkcli.constructions.wants import meant_of
+
     values = made.values
     tableau, ring = made.tableau, values.domain.ring
     pairs = [(values.number(unknown), values.number(given)) for unknown, given in wishes.fixed]
@@ -206,7 +208,12 @@ def meaning_of(
         bounds = (enumerate(p.coefficients) for p in free.bounds)
         meanings.append(Meaning(not_negative=tuple(sum(a * x**k for k, a in p) for p in bounds)))
     for wish in wishes.wishes:
-        colours = _colours_of(wish, tableau.size, source)
+        try:
+            want, asked_of = meant_of(wish.want, tableau)
+        except GarkError as error:
+            source.fault(wish.node, error.message, error.help, code=error.code)
+            continue
+        colours = _colours_of(wish, asked_of.size, source)
         if not colours:
             continue
         value = wish.value
@@ -214,8 +221,8 @@ def meaning_of(
         try:
             with until(deadline):
                 radicals = tuple(values.domain.radicals)
-                asked = Asked(tableau, ring, number, colours, made.further, radicals)
-                meanings.append(wish.want.meaning(asked))
+                asked = Asked(asked_of, ring, number, colours, made.further, radicals)
+                meanings.append(want.meaning(asked))
         except NotDecided:
             meanings.append(Meaning(unsettled=(wish.want.key,)))
         except GarkError as error:

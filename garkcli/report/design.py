@@ -20,6 +20,7 @@ from garkcli.errors import counted
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import integral, polynomial_text, root_decimal, root_text
 from garkcli.exact.roots import RealRoot
+from garkcli.ntrees.tree import Tree
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ALGEBRAIC, root_data
 from garkcli.reason import Reason
@@ -209,7 +210,8 @@ def _values(found: Order, d: Plain, is_whole: bool) -> Iterator[str]:
                 return
             wish, how = "what is wanted besides", f", by {CRITERION}"
             if step.witness is not None:
-                wish, how = f"with the conditions before it, that of {d.tree(step.witness)}", ""
+                tree = _tree(found.design, step.witness, d)
+                wish, how = f"with the conditions before it, that of {tree}", ""
             if not step.is_of_real_values:
                 how = ", not even by complex values"
             yield f"{which}: {wish} cannot be met{how}"
@@ -282,7 +284,7 @@ def groups(design: Design) -> list[list[Order]]:
 def order_rows(x: DesignReport, d: Plain) -> Rows:
     """What each order asks; usually only the highest that is reached with its polynomials."""
     if not x.design.family.parameters:
-        return single_rows(x.design.last, d)
+        return single_rows(x.design, d)
     rows: Rows = []
     best = _best(x.design)
     for group in groups(x.design):
@@ -294,11 +296,20 @@ def order_rows(x: DesignReport, d: Plain) -> Rows:
     return rows
 
 
-def single_rows(last: Step, d: Plain) -> Rows:
+def single_rows(design: Design, d: Plain) -> Rows:
     """Which condition stops a method without unknowns."""
+    last = design.last
     if last.witness is None:
         return []
-    return [(f"order {last.order}", f"no: the condition of {d.tree(last.witness)} fails")]
+    tree = _tree(design, last.witness, d)
+    return [(f"order {last.order}", f"no: the condition of {tree} fails")]
+
+
+def _tree(design: Design, tree: Tree, d: Plain) -> str:
+    """A tree, its colours by name where they are kinds of vertices."""
+    if design.tableau.has_fields_alone:
+        return d.tree(tree)
+    return d.naming([colour.name for colour in design.tableau.colours]).tree(tree)
 
 
 def choice_rows(choices: Sequence[Choice], d: Plain) -> Rows:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from itertools import chain
-from typing import Any, cast
+from typing import Any, Self, cast
 
 from flint import fmpq, fmpq_mpoly
 
@@ -15,8 +15,9 @@ from garkcli.exact.nodes import Root
 from garkcli.exact.parametric import Parameters, Parametric, Rule
 from garkcli.exact.rewriting import format_expression
 from garkcli.exact.roots import RealRoot
-from garkcli.frozen import Frozen
+from garkcli.frozen import Frozen, replace
 from garkcli.tableau.embedded import NOTHING, Further
+from garkcli.tableau.forms import on_linear_problems
 from garkcli.tableau.pointwise import at_points, nodes_in_radicals
 from garkcli.tableau.tableau import Tableau
 
@@ -62,7 +63,7 @@ class Stability(Frozen):
 
     def in_words(self, tableau: Tableau) -> str:
         """The same, and which vector fields are meant where a method has several colours."""
-        if tableau.size == 1 or self.kind in OSCILLATING:
+        if on_linear_problems(tableau).size == 1 or self.kind in OSCILLATING:
             return str(self)
         fields = "all colours with one λ" if self.colour is None else "the others with λ = 0"
         return f"{self} ({fields})"
@@ -84,6 +85,7 @@ class Family(Frozen, kw_only=True):
         not_negative: those that are at least 0 there.
         order: which is wanted of them, where the file says so.
         stable: the kinds of stability of the accepted solutions.
+        orders: least orders of other kinds that are wanted, by what files claim of them.
         unsettled: what is wanted of them and was not worked out in time, by its keys.
         real: the keys of which ``relations`` have what real values satisfy, not complex ones.
         further: its embedded weights and its dense output.
@@ -102,10 +104,16 @@ class Family(Frozen, kw_only=True):
     not_negative: tuple[fmpq_mpoly, ...] = ()
     order: int | None = None
     stable: tuple[Stability, ...] = ()
+    orders: tuple[tuple[str, int], ...] = ()
     unsettled: tuple[str, ...] = ()
     real: tuple[str, ...] = ()
     further: Further = NOTHING
     impossible: tuple[str, ...] = ()
+
+    @property
+    def on_linear_problems(self) -> Self:
+        """The family of the methods with the same steps on linear problems."""
+        return replace(self, tableau=on_linear_problems(self.tableau))
 
     def __repr__(self) -> str:
         return f"<Family {self.name}: {', '.join(self.parameters)}>"

@@ -11,10 +11,10 @@ from garkcli.errors import MethodError
 from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.matrix import Matrix, Vector, apply
 from garkcli.frozen import replace
-from garkcli.ntrees.kind import LEAF, LINEAR, PLAIN
+from garkcli.ntrees.kind import LEAF, LINEAR, NOT_ONE, ONE_BRANCH, PLAIN
 from garkcli.tableau.conjugate import conjugate_of
 from garkcli.tableau.stages import PointSpace
-from garkcli.tableau.tableau import Colour, Edge, Method, Part, Tableau
+from garkcli.tableau.tableau import Colour, Edge, Method, Part, Tableau, butcher
 
 Blocks: TypeAlias = Mapping[Edge, Matrix]
 """Blocks by stage space and colour, as in ``Tableau.blocks``."""
@@ -205,6 +205,23 @@ def pair(tableau: Tableau) -> Tableau:
             k = tableau.colours[l].space
             blocks[k, m] = conjugate_of(tableau, l, m)
     return replace(tableau, blocks=blocks)
+
+
+def on_linear_problems(tableau: Tableau) -> Tableau:
+    """The GARK method with the same step on linear problems: itself, or with A = β = α + γ of a
+    Rosenbrock method, whose vertices with one branch are all that such problems have.
+    """
+    kinds = {colour.kind for colour in tableau.colours}
+    if kinds != {NOT_ONE, ONE_BRANCH}:
+        return tableau
+    kept = [m for m, colour in enumerate(tableau.colours) if colour.kind == ONE_BRANCH]
+    places = {
+        (l, m): tableau.blocks[tableau.colours[k].space, j]
+        for l, k in enumerate(kept)
+        for m, j in enumerate(kept)
+    }
+    methods = [butcher(places[l, l], tableau.colours[k].b) for l, k in enumerate(kept)]
+    return gark(methods, places)
 
 
 TIME = "t"

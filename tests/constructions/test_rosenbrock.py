@@ -464,7 +464,7 @@ def test_what_is_for_gark_methods_says_so() -> None:
         lambda: stability_fraction(tableau),
         lambda: usual_oscillator(tableau),
         lambda: usual_oscillator(RODAS3.with_any_matrix),
-        lambda: squared_error(tableau, 3, None),
+        lambda: squared_error(RODAS3.with_old_jacobian, 3, None),
         lambda: bind(RODAS3.with_any_matrix, pendulum),
     ]
     for call in refusing:

@@ -22,6 +22,7 @@ from garkcli.problems.oscillator import Oscillator, check_structure, terms_of
 from garkcli.stability.linear import imaginary_set, real_set, stability_function
 from garkcli.stability.oscillator import oscillator_stability
 from garkcli.stability.ssp import conditions_at, ssp_coefficient
+from garkcli.tableau.forms import on_linear_problems
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.stages import PointSpace, StageSpace
 from garkcli.tableau.tableau import Tableau
@@ -44,6 +45,7 @@ def fraction_in_plane(tableau: Tableau, ring: Parameters) -> tuple[fmpq_mpoly, f
         UsageProblem: it has no meaning for the method.
     """
     refuse_partitioned(tableau)
+    tableau = on_linear_problems(tableau)
     fields: list[Matrix] = [((ONE,),)] * tableau.size
     plane = step_plane(tableau, ring, fields)
     return plane.numerators[0][0], plane.denominator
@@ -65,7 +67,7 @@ def refuse_partitioned(tableau: Tableau) -> None:
 
 
 def _coupling_error(tableau: Tableau, order: int, ring: Parameters | None) -> Quotient:
-    if tableau.size == 1:
+    if on_linear_problems(tableau).size == 1:
         message = "error-coupling: the method has one colour, and no tree has two"
         raise UsageProblem(message, "minimise error", code="wanted-without-meaning")
     return squared_coupling_error(tableau, order + 1, ring)
@@ -77,6 +79,7 @@ def _squared_coefficients(tableau: Tableau, _order: int, ring: Parameters | None
     At nodes T is the identity; in a polynomial space it makes the sum rational where the nodes are
     not.
     """
+    tableau.demand_fields("Σ a² + Σ b²")
     total: Any = fmpq(0)
     inverses = [_inverse(_traces(space)) for space in tableau.spaces]
     for colour in tableau.colours:
@@ -121,6 +124,7 @@ def _product(left: Any, matrix: Matrix, right: Any) -> Any:
 
 
 def _ssp(tableau: Tableau) -> Size:
+    tableau.demand_fields("the SSP coefficient")
     found = ssp_coefficient(tableau)
     if found is None:
         message = "-ssp: some blocks are missing, or the nodes have no simple radicals"
@@ -130,6 +134,7 @@ def _ssp(tableau: Tableau) -> Size:
 
 def _ssp_signs(tableau: Tableau, ring: Parameters) -> Signs:
     """det(I + rK) and det(I + rK) (I + rK)⁻¹ v are of degree one in each row of K."""
+    tableau.demand_fields("the SSP coefficient")
     if not all(isinstance(x, PointSpace) for x in tableau.spaces):
         message = "-ssp: families by name have no rational entries"
         raise UsageProblem(message, "spell the tableau out, stage by stage", code="no-radicals")
@@ -139,7 +144,7 @@ def _ssp_signs(tableau: Tableau, ring: Parameters) -> Signs:
 
 def _real(tableau: Tableau) -> Size:
     refuse_partitioned(tableau)
-    return first_end(real_set(stability_function(tableau)))
+    return first_end(real_set(stability_function(on_linear_problems(tableau))))
 
 
 def _real_signs(tableau: Tableau, ring: Parameters) -> Signs:
@@ -152,7 +157,7 @@ def _real_signs(tableau: Tableau, ring: Parameters) -> Signs:
 
 def _imaginary(tableau: Tableau) -> Size:
     refuse_partitioned(tableau)
-    return first_end(imaginary_set(stability_function(tableau)))
+    return first_end(imaginary_set(stability_function(on_linear_problems(tableau))))
 
 
 def _imaginary_signs(tableau: Tableau, ring: Parameters) -> Signs:
@@ -162,6 +167,7 @@ def _imaginary_signs(tableau: Tableau, ring: Parameters) -> Signs:
 
 
 def _problem(tableau: Tableau) -> Oscillator:
+    tableau.demand_fields("the oscillator")
     problem = Oscillator.default(terms_of(tableau), fmpq(1))
     check_structure(tableau, problem)
     return problem

@@ -24,6 +24,7 @@ from garkcli.design.conditions import Cleared, Entry, Row, Square
 from garkcli.exact.matrix import apply, dot
 from garkcli.exact.parametric import Parameters
 from garkcli.frozen import Frozen
+from garkcli.ntrees.kind import NOT_ONE, ONE_BRANCH, SEVERAL, Kind
 from garkcli.order.recursion import OrderByOrder
 from garkcli.tableau.polynomial_space import PolynomialSpace, convolution
 from garkcli.tableau.stages import StageSpace
@@ -148,9 +149,10 @@ def squared_error(tableau: Tableau, order: int, ring: Parameters | None) -> Quot
         ring: the parameters; None where all entries are numbers.
 
     Raises:
-        MethodError: the vertices of a colour are no vector field.
+        MethodError: vertices of a colour count several orders, or the exact solution has none.
     """
-    tableau.demand_fields("the sum of squared errors")
+    if {colour.kind for colour in tableau.colours} != {NOT_ONE, ONE_BRANCH}:
+        tableau.demand_fields("the sum of squared errors")
     return _Sums(Cleared.of(tableau, ring)).total(order)
 
 
@@ -257,23 +259,36 @@ class _Sums(OrderByOrder[Tensor]):
             block = self.cleared.blocks.get((k, m))
             if block is None:
                 continue
-            most = 1 if colour.is_linear else order
-            for forest in self._all_forests(colour.space, order - 1, order - 1, most):
+            least, most = _branches(colour.kind, order)
+            for forest in self._all_forests(colour.space, order - 1, order - 1, least, most):
                 v = _applied(block, forest.value.v)
                 yield _Branch(Pair(v, forest.value.w * D * fmpq(1, order)), forest.symmetry)
 
-    def _all_forests(self, k: int, order: int, largest: int, most: int) -> Iterator[_Branch]:
-        """Every forest of an order: trees of the largest order first, and of these each number."""
+    def _all_forests(
+        self, k: int, order: int, largest: int, least: int, most: int
+    ) -> Iterator[_Branch]:
+        """Every forest of an order with at least and at most so many trees: those of the largest
+        order first, and of these each number.
+        """
         algebra = self._algebras[k]
         if order == 0:
-            yield _Branch(algebra.unit, 1)
+            if least <= 0 <= most:
+                yield _Branch(algebra.unit, 1)
             return
         for n in range(1, min(order, largest) + 1):
             trees = self._all_branches(k, n)
             for count in range(1, min(order // n, most) + 1):
                 for chosen in _multisets(algebra, trees, count):
-                    for forest in self._all_forests(k, order - n * count, n - 1, most - count):
+                    rest = order - n * count, n - 1, least - count, most - count
+                    for forest in self._all_forests(k, *rest):
                         yield _joined(algebra, chosen, forest)
+
+
+def _branches(kind: Kind, order: int) -> tuple[int, int]:
+    """The least and the largest number of branches of the root of a tree."""
+    if order == 1:
+        return 0, 0 if kind.allows(0) else -1
+    return 1 if kind.allows(1) else SEVERAL, order if kind.allows(SEVERAL) else 1
 
 
 def _multisets(algebra: TensorAlgebra, trees: Sequence[_Branch], count: int) -> Iterator[_Branch]:

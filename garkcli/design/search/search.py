@@ -29,7 +29,9 @@ from garkcli.design.search.recognise import Recognised, recognised
 from garkcli.design.search.residuals import Generators, Residuals
 from garkcli.design.search.snap import fixed_nearby, nodes_of, snapped, unknowns_of
 from garkcli.design.solutions import Solution
-from garkcli.frozen import Frozen
+from garkcli.design.want import Asked, numerators
+from garkcli.exact.field import ZERO
+from garkcli.frozen import Frozen, replace
 from garkcli.problems.draw import Draw
 from garkcli.tableau.family import Family
 
@@ -130,7 +132,7 @@ class Search:
     """
 
     def __init__(self, family: Family, order: int, whose: Whose = "method") -> None:
-        self.family = family
+        self.family = family if whose != "method" else _damped(family)
         self.order = order
         self.whose = whose
         self.tableau = TABLEAUS[whose](family.tableau)
@@ -280,6 +282,26 @@ class Search:
             return None
         stable = is_as_stable(self.family, self.whose, solution, guess.root)
         return Find(start, "exact", order.order, Found(solution, order, (0,)), {}, bool(stable))
+
+
+def _damped(family: Family) -> Family:
+    """The family with R(∞) = 0 among its equations where L-stable methods are wanted: random
+    methods have it nowhere.
+    """
+    from garkcli.design.wants import at_infinity
+
+    linear = family.on_linear_problems
+    for wanted in family.stable:
+        colours = range(linear.tableau.size) if wanted.colour is None else (wanted.colour,)
+        if wanted.kind == "l-stable" and len(colours) == 1:
+            meaning = at_infinity(Asked(linear.tableau, family.ring, ZERO, tuple(colours)))
+            zeros = numerators(meaning.zeros, family.ring)
+            family = replace(
+                family,
+                relations=(*family.relations, *zeros),
+                nonzero=(*family.nonzero, *meaning.nonzero),
+            )
+    return family
 
 
 def _worth(find: Find) -> tuple[bool, int]:
