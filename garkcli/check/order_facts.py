@@ -29,11 +29,6 @@ if TYPE_CHECKING:
 
     from garkcli.exact.field import Number
 
-OF_TEST_EQUATION = frozenset(
-    {"a-stable", "l-stable", "p-stable", "i-stable", "real-stability", "imaginary-stability"}
-)
-"""Properties that R(z) decides."""
-
 
 class LinearSubject(Frozen):
     """The properties of a method that are those of a Runge–Kutta method with the same R(z).

@@ -8,37 +8,20 @@ from typing import TYPE_CHECKING, ClassVar
 from flint import fmpq
 
 from garkcli.check.further import DenseFacts, dense_facts
-from garkcli.check.order_facts import OF_TEST_EQUATION, LinearSubject
-from garkcli.constructions.rosenbrock import Which, seen
+from garkcli.check.order_facts import LinearSubject
+from garkcli.constructions.rosenbrock import DAE_VIEWS, NO_PROPERTY, OF_BETA, VIEWS, Which, seen
 from garkcli.exact.matrix import SingularMatrixError
 from garkcli.frozen import Frozen, replace
 from garkcli.order.certificate import DEFAULT_LIMIT, StageSpans
 from garkcli.order.deciding import AnyOrder, order_of
 from garkcli.order.functionals import Estimator, Orders, estimator
 from garkcli.order.meant import AnyTableau, as_embedded, meant, printed, with_further
-from garkcli.reason import Reason
 from garkcli.tableau.embedded import NOTHING, Further
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
 
 if TYPE_CHECKING:
     from garkcli.exact.field import Number
-
-VIEWS: dict[str, Which] = {
-    "w-order": "with_any_matrix",
-    "old-jacobian-order": "with_old_jacobian",
-    "nonautonomous-order": "with_time",
-}
-"""The orders besides that with the Jacobian, by their claims."""
-DAE_VIEWS: dict[str, Which] = {
-    "index-1-order": "on_dae",
-    "index-1-y-order": "on_dae_in_y",
-    "index-1-z-order": "on_dae_in_z",
-}
-"""The orders on differential-algebraic equations, which need an inverse of α + γ."""
-OF_BETA = OF_TEST_EQUATION | {"gamma"}
-"""Properties that are those of the Runge–Kutta method with A = β."""
-_NO_PROPERTY = Reason("a property of Runge–Kutta methods, which this Rosenbrock method is not")
 
 
 class RosenbrockOrders(Frozen):
@@ -198,7 +181,7 @@ class RosenbrockAnalysis(Shown, Frozen):
     def subject(self) -> LinearSubject:
         """The method whose properties are decided on demand."""
         method = seen(meant(self.tableau, self.tolerance), "on_test_equation")
-        return LinearSubject.of(method, self.order.order, self.limit, OF_BETA, _NO_PROPERTY)
+        return LinearSubject.of(method, self.order.order, self.limit, OF_BETA, NO_PROPERTY)
 
     @property
     def at_infinity(self) -> Number | None:

@@ -40,6 +40,8 @@ from garkcli.exact.matrix import (
 from garkcli.frozen import Frozen, replace
 from garkcli.ntrees.kind import NOT_ONE, ONE_BRANCH, PLAIN, SEVERAL, Kind
 from garkcli.order.meant import AnyTableau
+from garkcli.properties.registry import OF_TEST_EQUATION
+from garkcli.reason import Reason
 from garkcli.tableau.embedded import NOTHING, DenseOutput, Further, Weights
 from garkcli.tableau.forms import beside_clock, gark
 from garkcli.tableau.stages import PointSpace
@@ -254,6 +256,23 @@ Which: TypeAlias = Literal[
     "on_dae_in_y",
     "on_dae_in_z",
 ]
+
+
+VIEWS: dict[str, Which] = {
+    "w-order": "with_any_matrix",
+    "old-jacobian-order": "with_old_jacobian",
+    "nonautonomous-order": "with_time",
+}
+"""The orders besides that with the Jacobian, by their claims."""
+DAE_VIEWS: dict[str, Which] = {
+    "index-1-order": "on_dae",
+    "index-1-y-order": "on_dae_in_y",
+    "index-1-z-order": "on_dae_in_z",
+}
+"""The orders on differential-algebraic equations, which need an inverse of α + γ."""
+OF_BETA = OF_TEST_EQUATION | {"gamma"}
+"""Properties that are those of the Runge–Kutta method with A = β."""
+NO_PROPERTY = Reason("a property of Runge–Kutta methods, which this Rosenbrock method is not")
 
 
 def seen(method: AnyTableau, which: Which) -> AnyTableau:

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from functools import partial
 from typing import cast
 
-from garkcli.constructions.rosenbrock import Rosenbrock, Which, is_rosenbrock, seen
+from garkcli.constructions.rosenbrock import DAE_VIEWS, VIEWS, Rosenbrock, is_rosenbrock, seen
 from garkcli.design.want import Asked, Meaning, Want
 from garkcli.design.wants import WANTS, as_embedded, order_meaning
 from garkcli.errors import MethodError
@@ -18,25 +18,22 @@ from garkcli.frozen import replace
 from garkcli.tableau.forms import on_linear_problems
 from garkcli.tableau.tableau import Tableau
 
-VIEWS: dict[str, tuple[Which, str]] = {
-    "w-order": ("with_any_matrix", "with any matrix in place of the Jacobian"),
-    "old-jacobian-order": ("with_old_jacobian", "with a matrix that is off by O(h)"),
-    "nonautonomous-order": ("with_time", "on f(t, y), with the c and d of the file"),
-    "index-1-order": ("on_dae", "on DAEs of index 1"),
-    "index-1-y-order": ("on_dae_in_y", "in y on DAEs of index 1"),
-    "index-1-z-order": ("on_dae_in_z", "in z on DAEs of index 1"),
+_SUMMARIES = {
+    "w-order": "with any matrix in place of the Jacobian",
+    "old-jacobian-order": "with a matrix that is off by O(h)",
+    "nonautonomous-order": "on f(t, y), with the c and d of the file",
+    "index-1-order": "on DAEs of index 1",
+    "index-1-y-order": "in y on DAEs of index 1",
+    "index-1-z-order": "in z on DAEs of index 1",
 }
-"""The orders besides that with the Jacobian: the tableau that has each, and what it is."""
-
 EMBEDDED = "embedded-"
 
 
 def _order(key: str, asked: Asked) -> Meaning:
     """The conditions of the order of a view, with b or the embedded weights."""
-    which, _ = VIEWS[key.removeprefix(EMBEDDED)]
     tableau = as_embedded(asked, key) if key.startswith(EMBEDDED) else asked.tableau
     try:
-        found = seen(tableau, which)
+        found = seen(tableau, {**VIEWS, **DAE_VIEWS}[key.removeprefix(EMBEDDED)])
     except SingularMatrixError:
         message = "design: alpha + gamma is singular for every value, so DAEs have no solution"
         cure = "give gamma a diagonal that is not zero"
@@ -59,9 +56,9 @@ def _stiffly_accurate(asked: Asked) -> Meaning:
 
 def _wants() -> Iterator[Want]:
     """Each order, of the method and with its embedded weights."""
-    for key, (_, text) in VIEWS.items():
+    for key, text in _SUMMARIES.items():
         yield Want(key, "count", f"the order {text}", partial(_order, key))
-    for key, (_, text) in VIEWS.items():
+    for key, text in _SUMMARIES.items():
         name, summary = EMBEDDED + key, f"the order {text}, of the embedded weights"
         yield Want(name, "count", summary, partial(_order, name))
 

@@ -40,3 +40,9 @@ def find(key: str) -> Property:
 def every_property() -> list[Property]:
     """All of them."""
     return [find(key) for key in KEYS]
+
+
+OF_TEST_EQUATION = frozenset(
+    {"a-stable", "l-stable", "p-stable", "i-stable", "real-stability", "imaginary-stability"}
+)
+"""Properties that R(z) decides."""

@@ -13,12 +13,15 @@ from typing import TypeAlias
 
 from flint import fmpq
 
-from garkcli.errors import GarkError, UsageProblem, ZeroWeight
+from garkcli.constructions.rosenbrock import DAE_VIEWS, OF_BETA, VIEWS, Which, is_rosenbrock, seen
+from garkcli.errors import GarkError, MethodError, UsageProblem, ZeroWeight
 from garkcli.exact.display import to_ball
+from garkcli.exact.matrix import SingularMatrixError
 from garkcli.exact.polynomial_text import ball_decimal, root_decimal
 from garkcli.frozen import Frozen
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, find_order
 from garkcli.order.constants import ErrorConstants, error_constants
+from garkcli.order.meant import printed
 from garkcli.order.simplifying import Simplifying, is_symplectic, simplifying
 from garkcli.problems.oscillator import Oscillator, terms_of
 from garkcli.properties.property import Size
@@ -26,7 +29,7 @@ from garkcli.properties.registry import KEYS, find
 from garkcli.properties.subject import Subject
 from garkcli.stability.oscillator import PhaseError, oscillator_stability
 from garkcli.tableau.conjugate import conjugate
-from garkcli.tableau.forms import pair
+from garkcli.tableau.forms import on_linear_problems, pair, with_time
 from garkcli.tableau.tableau import Tableau
 
 
@@ -89,8 +92,12 @@ class Judged(Frozen):
 
     @cached_property
     def subject(self) -> Subject:
-        """The method as its properties are decided."""
-        return Subject(self.tableau, self.order.order, self.simplifying, DEFAULT_LIMIT)
+        """The method as its properties are decided; of a Rosenbrock method that with the same steps
+        on linear problems.
+        """
+        found = on_linear_problems(self.tableau)
+        known = self.simplifying if found is self.tableau else simplifying(found, DEFAULT_LIMIT)
+        return Subject(found, self.order.order, known, DEFAULT_LIMIT)
 
     @cached_property
     def phase(self) -> PhaseError | None:
@@ -170,6 +177,9 @@ def _rounded(text: str) -> float:
 
 
 def _property(key: str, judged: Judged) -> Value:
+    if is_rosenbrock(judged.tableau) and key not in OF_BETA:
+        message = f"{key} is meant of Runge–Kutta methods"
+        raise MethodError(message, "leave the column out", code="wanted-without-meaning")
     value = judged.subject.verdict(key).value
     if not isinstance(value, Size):
         return value
@@ -195,6 +205,20 @@ def _phase_constant(judged: Judged) -> Value:
 def _order(found: object) -> int | None:
     order = getattr(found, "order", None)
     return order if isinstance(order, int) else None
+
+
+def _view(which: Which, judged: Judged) -> int | None:
+    """The order of a Rosenbrock method of another kind; None of other methods but for f(t, y), and
+    on DAEs where α + γ has no inverse.
+    """
+    if not is_rosenbrock(judged.tableau):
+        timed = with_time(judged.tableau) if which == "with_time" else None
+        return None if timed is None else find_order(timed).order
+    try:
+        found = seen(judged.tableau, which)
+    except SingularMatrixError:
+        return None
+    return find_order(printed(found)).order
 
 
 def _bound(found: Simplifying | None, is_sharp: bool) -> int | None:
@@ -242,11 +266,17 @@ _PLAIN = (
     Column("phase-constant", _phase_constant, "the size of its constant", False),
     Column(
         "stages",
-        lambda m: sum(space.stages for space in m.tableau.spaces),
+        lambda m: sum(space.stages for space in on_linear_problems(m.tableau).spaces),
         "stages of all stage spaces",
         False,
     ),
-    Column("colours", lambda m: m.tableau.size, "parts of the vector field", False),
+    Column(
+        "colours", lambda m: on_linear_problems(m.tableau).size, "parts of the vector field", False
+    ),
+    *(
+        Column(key, partial(_view, which), f"gark check --explain {key}")
+        for key, which in {**VIEWS, **DAE_VIEWS}.items()
+    ),
 )
 _LESS_IS_BETTER = {"implicit-stages", "fully-implicit", "reducible", "gamma"}
 

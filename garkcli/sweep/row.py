@@ -8,6 +8,7 @@ from typing import Any, TypeAlias, TypeGuard
 
 from flint import fmpq
 
+from garkcli.constructions.rosenbrock import is_rosenbrock
 from garkcli.design.choices import values_text
 from garkcli.design.design import find_parameters
 from garkcli.design.ideal import Ideal
@@ -108,8 +109,8 @@ def row_of(criteria: Criteria, point: Point) -> Row:
         tableau = _searched(point, row) if point.template.is_searched else _tableau(point)
         if tableau is None:
             return {**row, "kept": not criteria.conditions}
-        # a column of stages or colours would count those of α and of β
-        tableau.demand_fields("gark sweep")
+        if not is_rosenbrock(tableau):
+            tableau.demand_fields("gark sweep")
         judged = Judged(tableau)
         for condition in criteria.conditions:
             value = columns()[condition.column].value(judged)

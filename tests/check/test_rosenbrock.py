@@ -126,30 +126,29 @@ def test_examples_of_both_forms_are_one_method() -> None:
     assert method.order == 2
 
 
-@pytest.mark.parametrize(
-    "options", [(), ("--l-stable",), ("--order", "2"), ("--minimise", "error")]
-)
-def test_unknowns_are_not_looked_for(tmp_path: Path, options: tuple[str, ...]) -> None:
-    """ROS2 is L-stable for γ = 1 ± √2/2: no other answer is given, which α and β as the blocks of a
-    GARK method would have.
-    """
+def test_unknowns_are_looked_for(tmp_path: Path) -> None:
+    """ROS2 is L-stable for γ = 1 ± √2/2, which α and β as the blocks of a GARK method are not."""
     text = "rosenbrock: {alpha: [[], [1]], gamma: [[g], [-2*g, g]], b: [1/2, 1/2]}"
-    run = gark("design", _written(tmp_path, f"parameters: {{g: free}}\n{text}"), *options)
-    assert run.code == 2
-    assert "for GARK methods, which this method is not" in run.err
-    run = gark("design", "ros2", *options)
-    assert (run.code, "write parameters" in run.err) == (2, False)
+    run = gark("design", _written(tmp_path, f"parameters: {{g: free}}\n{text}"), "--l-stable")
+    assert run.code == 0
+    assert "L-stable for exactly g = 1 - sqrt(2)/2 or g = 1 + sqrt(2)/2" in " ".join(
+        run.out.split()
+    )
+    run = gark("design", "ros2")
+    assert (run.code, "no free parameter" in run.err) == (2, True)
 
 
-def test_sweeps_refuse_them(tmp_path: Path) -> None:
-    """No row counts eight stages and two colours of RODAS3, or tells its phase order."""
+def test_sweeps_know_them(tmp_path: Path) -> None:
+    """A row counts four stages and one colour of RODAS3, and one with the phase order fails."""
     _written(tmp_path, RODAS3)
     spec = tmp_path / "sweep.yaml"
-    spec.write_text("columns: [order, stages, colours, phase-order]\nfiles: [method.gark.yaml]\n")
-    run = gark("sweep", str(spec), cwd=tmp_path)
-    text = " ".join(run.out.split())
-    assert "1 method, 0 kept" in text
-    assert "gark sweep is for GARK methods, which this method is not" in text
+    for columns, expected in (
+        ("order, stages, colours", "1 3 4 1 method.gark.yaml"),
+        ("order, phase-order", "is for GARK methods, which this method is not"),
+    ):
+        spec.write_text(f"columns: [{columns}]\nfiles: [method.gark.yaml]\n", "utf-8")
+        run = gark("sweep", str(spec), "--rows", f"{columns}.jsonl", cwd=tmp_path)
+        assert expected in " ".join(run.out.split())
 
 
 def test_a_gark_method_with_the_same_blocks_is_another(tmp_path: Path) -> None:

@@ -20,9 +20,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garkcli import analyse, loads
+from garkcli.constructions.rosenbrock import DAE_VIEWS, VIEWS
 from garkcli.errors import MethodError, MethodFileError, UsageProblem
 from garkcli.exact.apart import start_method
 from garkcli.frozen import replace
+from garkcli.order.constants import error_constants
 from garkcli.plots.scene import Curve
 from garkcli.plots.sweep import sweep_scene
 from garkcli.report.schemas import report_schema
@@ -516,8 +518,51 @@ def test_every_column_has_values(tmp_path: Path) -> None:
     )
     plan = load_plan(str(path))
     found += [row_of(plan.criteria, point) for point in plan.points()]
+    path.write_text(f"files: [ros3p]\ncolumns: [{', '.join(VIEWS | DAE_VIEWS)}]\n", "utf-8")
+    plan = load_plan(str(path))
+    found += [row_of(plan.criteria, point) for point in plan.points()]
     types = {"truth": (bool,), "count": (int, str), "number": (float, str)}
     for name in columns():
         values = [row.get(name) for row in found if row.get(name) is not None]
         assert values, name
         assert all(isinstance(x, types[property_kind(name)]) for x in values), name
+
+
+ROS2 = """parameters: {g: free}
+rosenbrock: {alpha: [[0, 0], [1, 0]], gamma: [[g, 0], [-2*g, g]], b: [1/2, 1/2]}
+"""
+
+
+def test_rosenbrock_methods(tmp_path: Path) -> None:
+    """ROS2 for values of γ: A-stable from 1/4 on, order 2 with any matrix, and the error that gark
+    check has; a column without meaning fails with the reason.
+    """
+    (tmp_path / "ros2.gark.yaml").write_text(ROS2, "utf-8")
+    spec = tmp_path / "spec.yaml"
+    grid = "files: [ros2.gark.yaml]\nparameters: {g: [1/8, 1/4, 1/2]}\n"
+    wanted = "a-stable, w-order, index-1-order, error, stages, colours"
+    spec.write_text(f"name: ROS2\n{grid}columns: [{wanted}]\nbest: [order]\n", "utf-8")
+    plan = load_plan(str(spec))
+    rows = [row_of(plan.criteria, point) for point in plan.points()]
+    assert [row["a-stable"] for row in rows] == [False, True, True]
+    for row, g in zip(rows, ("1/8", "1/4", "1/2"), strict=True):
+        found = error_constants(loads(ROS2, settings={"g": g}).tableau, 3)
+        assert found is not None
+        assert row["error"] == pytest.approx(found.all.two, rel=1e-11)
+        names = ("order", "w-order", "index-1-order", "stages", "colours")
+        assert [row[name] for name in names] == [2, 2, 2, 2, 1]
+    spec.write_text(f"name: ROS2\n{grid}columns: [stiffly-accurate]\nbest: [order]\n", "utf-8")
+    plan = load_plan(str(spec))
+    failures = [row_of(plan.criteria, point)["failure"] for point in plan.points()]
+    assert all("is meant of Runge–Kutta methods" in str(failure) for failure in failures)
+
+
+def test_columns_of_rosenbrock_methods_of_others(tmp_path: Path) -> None:
+    """Runge–Kutta methods have an order for f(t, y), and none with any matrix."""
+    spec = tmp_path / "spec.yaml"
+    columns_ = "[w-order, index-1-order, nonautonomous-order]"
+    spec.write_text(f"name: one\nfiles: [rk4]\ncolumns: {columns_}\nbest: [order]\n", "utf-8")
+    plan = load_plan(str(spec))
+    [row] = [row_of(plan.criteria, point) for point in plan.points()]
+    names = ("w-order", "index-1-order", "nonautonomous-order")
+    assert [row[name] for name in names] == [None, None, 4]
