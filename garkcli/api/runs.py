@@ -12,16 +12,20 @@ from garkcli.api.methods import find_order
 from garkcli.api.numbers import Number, Whole, rational, rational_or_none, rationals, whole
 from garkcli.api.problems import AnyProblem, hamiltonian_for, problem_for, to_step
 from garkcli.api.stepped import stepped
+from garkcli.constructions.rosenbrock import Which, is_rosenbrock, seen
 from garkcli.convergence import convergence
 from garkcli.convergence.result import Convergence
-from garkcli.errors import MethodError, counted
+from garkcli.errors import MethodError, counted, did_you_mean
 from garkcli.frozen import replace
 from garkcli.longtime import longtime, symplecticity
 from garkcli.longtime.history import SERIES, LongRun, State, whole_run
 from garkcli.longtime.symplecticity import Defect
+from garkcli.order.meant import keep, meant, printed
 from garkcli.problems.hamiltonian import FLOAT_DIGITS
 from garkcli.stepping import integrator as stepping
 from garkcli.stepping.integrator import Binding, Integrator, Real
+from garkcli.stepping.linearly_implicit import Taken
+from garkcli.tableau.tableau import Tableau
 
 
 def converge(
@@ -31,6 +35,7 @@ def converge(
     steps: Sequence[Number] | None = None,
     tolerance: Number | None = None,
     is_timed: bool = False,
+    jacobian: Taken = "exact",
 ) -> Convergence:
     """Test the convergence of a method on a problem: ``gark converge``.
 
@@ -48,8 +53,12 @@ def converge(
         tolerance: the rounding of the coefficients; that of the method where it is not given.
             Slopes may then end on a plateau.
         is_timed: whether to measure the time of the steps in floats as well, in seconds.
+        jacobian: what a Rosenbrock method takes for it: the exact one; one that is older by a step,
+            at t − h and y − h f; or its diagonal alone, without ∂f/∂t. The order is then that with
+            an old Jacobian, or with any matrix.
 
     Raises:
+        MethodError: ``jacobian`` is given and it is no Rosenbrock method.
         UsageProblem: the problem is not of the form of the structure, a step does not divide
             ``t_end``, or the stage equations of a given step have no unique solution.
         StepFailed: Newton's method fails for a given step size, or for all of the default ladder.
@@ -62,7 +71,8 @@ def converge(
     """
     is_own = tolerance is None
     method, near = with_tolerance(method, tolerance, is_any_kind=True)
-    tableau, problem, order = stepped(method.tableau, near, problem)
+    taken = taking(method.tableau, near, jacobian)
+    tableau, problem, order = stepped(taken, near, problem)
     if near is not None and is_own and method.base is not None:
         order = find_order(method).order
     found = convergence.converge(
@@ -74,7 +84,37 @@ def converge(
         is_timed,
         order,
     )
-    return replace(found, method=method)
+    return replace(found, method=method, jacobian=jacobian)
+
+
+MATRICES: dict[Taken, Which] = {"old": "with_old_jacobian", "diagonal": "with_any_matrix"}
+"""The tableaus of other matrices than the exact Jacobian."""
+
+
+def taking(tableau: Tableau, tolerance: fmpq | None, jacobian: Taken) -> Tableau:
+    """The tableau of the method that takes some matrix for the Jacobian.
+
+    Args:
+        tableau: with the exact one.
+        tolerance: of rounded coefficients.
+        jacobian: the matrix.
+
+    Raises:
+        MethodError: it is no Rosenbrock method, and no exact Jacobian is meant; or there is no such
+            matrix.
+    """
+    if jacobian == "exact":
+        return tableau
+    if jacobian not in MATRICES:
+        cure = did_you_mean(jacobian, ["exact", *MATRICES])
+        raise MethodError(f"jacobian: {jacobian!r} is not known", cure, code="unknown-word")
+    if not is_rosenbrock(tableau):
+        message = f"the Jacobian {jacobian} is meant of Rosenbrock methods"
+        raise MethodError(message, "leave it out", code="wanted-without-meaning")
+    made = seen(meant(tableau, tolerance), MATRICES[jacobian])
+    if not isinstance(made, Tableau):
+        keep(made)
+    return printed(made)
 
 
 def long_run(

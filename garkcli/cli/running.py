@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from garkcli.problems.problem import Problem
     from garkcli.report.comparison import Entry
     from garkcli.report.energy import Claim
+    from garkcli.stepping.linearly_implicit import Taken
     from garkcli.tableau.garkmethod import GarkMethod
     from garkcli.tableau.tableau import Tableau
 
@@ -66,6 +67,8 @@ def converge(given: Given, output: Output) -> int:
     and takes the step map of the oscillator exactly. Without --problem the problem is generic, or
     its counterpart for separable, semi-separable and Nyström methods: these see every tree, others
     may show a higher order.
+
+    Rosenbrock methods step with the exact Jacobian, or with what --jacobian takes for it.
 
     Several FILEs, directories or patterns are compared in one table and one plot; with --work by
     what their errors cost.
@@ -257,7 +260,9 @@ class Problems:
 
         given = self._given
         problem = self.of(self._stepped(method))
-        return converge(method, problem, given.t_end, given.steps, is_timed=given.work)
+        times = given.t_end, given.steps
+        taken: Taken = given.jacobian or "exact"
+        return converge(method, problem, *times, is_timed=given.work, jacobian=taken)
 
 
 @declared("energy", [*FORMATS, "csv"])

@@ -209,6 +209,9 @@ design --seed N 0.. default= = search_methods.seed
     | Count evaluations, measure time, and plot the errors against them.
 --against words=h,evaluations,seconds default= = plot.against
     | The horizontal axis of plots: h, or evaluations with --work; seconds depend on the machine.
+--jacobian words=exact,old,diagonal default= = converge.jacobian
+    | What a Rosenbrock method takes for the Jacobian: exact; old, of the step before; or diagonal,
+      that of any matrix.
 --step H positive = long_run.step
 energy --digits N 1..200 default= = long_run.digits | Step with N digits instead of floats.
 --points N 10..1000000 = long_run.points
@@ -322,7 +325,7 @@ running: modified FILE | the modified equation or Hamiltonian, and the effective
 running: converge FILE... | errors over step sizes: does the method show its order?
     = converge problem hamiltonian load_problem bind integrate
     --conjugate --pair --problem --omega --split --seed --stiffness --t-end --steps --work
-    --against --plot --set
+    --against --jacobian --plot --set
 running: energy FILE | does the energy drift over a long time?
     = long_run symplecticity_defects trajectory
     --conjugate --pair --problem --omega --split --seed --stiffness --t-end --step --digits

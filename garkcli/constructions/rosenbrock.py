@@ -38,7 +38,7 @@ from garkcli.exact.matrix import (
     subtract,
 )
 from garkcli.frozen import Frozen, replace
-from garkcli.ntrees.kind import NOT_ONE, ONE_BRANCH, PLAIN, SEVERAL, Kind
+from garkcli.ntrees.kind import ERROR_OF_MATRIX, MATRIX, NOT_ONE, ONE_BRANCH, PLAIN, SEVERAL, Kind
 from garkcli.order.meant import AnyTableau
 from garkcli.properties.registry import OF_TEST_EQUATION
 from garkcli.reason import Reason
@@ -49,8 +49,6 @@ from garkcli.tableau.tableau import Colour, Edge, Tableau, butcher
 
 Blocks: TypeAlias = tuple[tuple[Matrix, ...], ...]
 Rows: TypeAlias = tuple[Vector, ...]
-MATRIX = Kind(frozenset({1}), is_exact=False)
-ERROR_OF_MATRIX = Kind(frozenset({1}), weight=2, is_exact=False)
 CONSTRAINT = Kind(frozenset({SEVERAL}), weight=0)
 """The kind of g in 0 = g(y, z), which is solved for z."""
 

@@ -17,14 +17,14 @@ def with_same_function(method: AnyTableau) -> AnyTableau | None:
     tableau = printed(method)
     if not (is_rosenbrock(tableau) or is_derivatives(tableau)):
         return None
-
-    def make(tableau: Tableau) -> Tableau:
-        kind = Derivatives if is_derivatives(tableau) else Rosenbrock
-        return kind.of(tableau).on_test_equation
-
     if isinstance(method, Tableau):
-        return make(method)
-    return method.derive("on test equation", make)
+        return _with_same_function(method)
+    return method.derive("on test equation", _with_same_function)
+
+
+def _with_same_function(tableau: Tableau) -> Tableau:
+    kind = Derivatives if is_derivatives(tableau) else Rosenbrock
+    return kind.of(tableau).on_test_equation
 
 
 def on_test_equation(tableau: Tableau, tolerance: fmpq | None) -> Tableau | None:

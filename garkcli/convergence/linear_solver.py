@@ -184,6 +184,9 @@ def linear_solver(
         UsageProblem: the split is not one that the structure of the tableau is for.
     """
     implicit = LinearlyImplicit.of(tableau)
+    if implicit is not None and implicit.taken != "exact":
+        message = "the oscillator takes R(z) exactly, which is that of the exact Jacobian"
+        raise UsageProblem(message, "name another problem", code="other-problem")
     step = linear_step(implicit.on_linear_problems if implicit else tableau, problem)
     met = visible_order(step, tolerance)
     order = max(met, predicted)

@@ -13,6 +13,7 @@ from garkcli.upward import Shown
 if TYPE_CHECKING:
     from garkcli.problems.oscillator import Oscillator
     from garkcli.problems.problem import Problem
+    from garkcli.stepping.linearly_implicit import Taken
     from garkcli.tableau.garkmethod import GarkMethod
 
 Verdict: TypeAlias = Literal["agree", "disagree", "undecided", "reduced"]
@@ -134,6 +135,7 @@ class Convergence(Shown, Frozen):
         is_at_rest: whether there are no errors because nothing moves: the solution ends where it
             starts.
         method: what stepped, where it is known by more than its tableau.
+        jacobian: what a Rosenbrock method took for the Jacobian.
     """
 
     problem: Oscillator | Problem
@@ -150,6 +152,7 @@ class Convergence(Shown, Frozen):
     stiff: Stiffness | None = None
     is_at_rest: bool = False
     method: GarkMethod | None = None
+    jacobian: Taken = "exact"
 
     @property
     def visible_order(self) -> int:

@@ -84,5 +84,9 @@ ARGUMENT = Kind(is_field=False)
 """The kind of a vector field of several arguments, one of which a branch is in."""
 NOT_ONE = Kind(frozenset({0, SEVERAL}))
 """The kind of a vector field beside its Jacobian."""
+MATRIX = Kind(frozenset({1}), is_exact=False)
+"""Of an arbitrary matrix."""
+ERROR_OF_MATRIX = Kind(frozenset({1}), weight=2, is_exact=False)
+"""Of the E in a matrix f' + h E."""
 FIELDS = (PLAIN, LINEAR, LEAF)
 """The kinds whose vertices are a vector field, as it is evaluated at stages."""

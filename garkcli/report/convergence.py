@@ -279,6 +279,12 @@ _RESULT = [
     Row("visible_order", COUNT, visible),
     Row("visible_order_is_exact", TRUTH, "visible.is_sharp", DATA),
     Row("predicted_order", COUNT, predicted),
+    optional(
+        "jacobian",
+        choice("old", "diagonal"),
+        lambda x: None if x.jacobian == "exact" else x.jacobian,
+        label="Jacobian",
+    ),
     maybe("observed_order", OBSERVED, level=DATA),
     Row("agrees", TRUTH, level=DATA),
     Row("verdict", choice(*get_args(Verdict)), level=DATA),

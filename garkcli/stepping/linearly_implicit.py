@@ -4,7 +4,9 @@
     y_1 = y + h Σ_i b_i k_i,
 
 with J = ∂f/∂y at the beginning of the step, of the whole problem: positions and momenta of a
-Hamiltonian one together.
+Hamiltonian one together. In its place a step takes what a tableau is for: of f' + h E the
+derivatives at t − h, y − h f, as those of the step before; of an arbitrary matrix the diagonal of
+J, without ∂f/∂t.
 """
 
 from __future__ import annotations
@@ -12,13 +14,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from operator import sub as subtract_numbers
-from typing import Any, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 from garkcli.errors import MethodError
 from garkcli.exact.field import ONE, Number
 from garkcli.exact.matrix import Matrix, Vector, add, subtract
 from garkcli.frozen import Frozen
-from garkcli.ntrees.kind import LEAF, NOT_ONE, ONE_BRANCH
+from garkcli.ntrees.kind import ERROR_OF_MATRIX, LEAF, MATRIX, NOT_ONE, ONE_BRANCH, PLAIN, Kind
 from garkcli.problems.problem import Problem, field_of
 from garkcli.problems.straightline import function
 from garkcli.problems.vectorfield import TIME, Group, Layout
@@ -27,6 +29,14 @@ from garkcli.tableau.tableau import Tableau, butcher
 
 Numbers: TypeAlias = "list[Any]"
 Fields: TypeAlias = "Callable[..., Numbers]"
+Taken: TypeAlias = Literal["exact", "old", "diagonal"]
+"""Which matrix a step takes for the Jacobian."""
+_TAKEN: dict[tuple[Kind, ...], Taken] = {
+    (NOT_ONE, ONE_BRANCH): "exact",
+    (NOT_ONE, ONE_BRANCH, ERROR_OF_MATRIX): "old",
+    (PLAIN, MATRIX): "diagonal",
+}
+"""By the kinds of the vertices of one vector field."""
 
 
 class LinearlyImplicit(Frozen):
@@ -38,6 +48,7 @@ class LinearlyImplicit(Frozen):
         b: the weights.
         c: where f is evaluated.
         d: the weights of ∂f/∂t.
+        taken: for the Jacobian.
     """
 
     alpha: Matrix
@@ -45,6 +56,7 @@ class LinearlyImplicit(Frozen):
     b: Vector
     c: Vector
     d: Vector
+    taken: Taken = "exact"
 
     @staticmethod
     def of(tableau: Tableau) -> LinearlyImplicit | None:
@@ -53,24 +65,27 @@ class LinearlyImplicit(Frozen):
         Raises:
             MethodError: it has several colours, or a stage needs a later one.
         """
-        kinds = [x.kind for x in tableau.colours if x.kind != LEAF]
-        N = len(kinds) // 2
-        if not N or kinds != [NOT_ONE] * N + [ONE_BRANCH] * N:
+        kinds = tuple(x.kind for x in tableau.colours if x.kind != LEAF)
+        taken = _TAKEN.get(tuple(dict.fromkeys(kinds)))
+        if taken is None:
             return None
-        if N > 1:
+        if len(kinds) > len({*kinds}):
             message = "a step of Rosenbrock methods is for one vector field, this one has several"
             raise MethodError(message, "gark check knows its orders", code="cannot-construct")
         f, jacobian = tableau.colours[:2]
         alpha = tableau.blocks[f.space, 0]
-        gamma = subtract(tableau.blocks[jacobian.space, 0], alpha)
+        beside = tableau.blocks[jacobian.space, 0]
+        gamma = beside if taken == "diagonal" else subtract(beside, alpha)
         if any(any(row[i:]) for i, row in enumerate(alpha)) or any(
             any(row[i + 1 :]) for i, row in enumerate(gamma)
         ):
             message = "a stage needs a later one, and a step solves one linear system a stage"
             cure = "gark check knows its orders"
             raise MethodError(message, cure, code="cannot-construct")
-        d = tuple(map(subtract_numbers, jacobian.c, f.c))
-        return LinearlyImplicit(alpha, gamma, f.b, f.c, d)
+        d = jacobian.c
+        if taken != "diagonal":
+            d = tuple(map(subtract_numbers, d, f.c))
+        return LinearlyImplicit(alpha, gamma, f.b, f.c, d, taken)
 
     @property
     def on_linear_problems(self) -> Tableau:
@@ -119,7 +134,8 @@ def steps_of(
         failed: the exception of a step that fails, from its number and a residual.
     """
     layout = problem.layout
-    value, slopes = _field(problem, is_for_balls)
+    value, exact = _field(problem, is_for_balls)
+    slopes = _TAKES[program.method.taken](value, exact)
     total, unknowns, stages = layout.total, layout.unknowns, len(program.method.b)
 
     def run(
@@ -152,6 +168,33 @@ def steps_of(
     return run
 
 
+def _exactly(_value: Fields, slopes: Callable[..., Any]) -> Callable[..., Any]:
+    return lambda y, _h: slopes(y)
+
+
+def _at_the_step_before(value: Fields, slopes: Callable[..., Any]) -> Callable[..., Any]:
+    def taken(y: Numbers, h: Any) -> Any:
+        before = [x - h * slope for x, slope in zip(y, value(*y), strict=False)]
+        return slopes([*before, *(t - h for t in y[len(before) :])])
+
+    return taken
+
+
+def _diagonal(_value: Fields, slopes: Callable[..., Any]) -> Callable[..., Any]:
+    def taken(y: Numbers, _h: Any) -> Any:
+        jacobian, _ = slopes(y)
+        for i, row in enumerate(jacobian):
+            row[:i] = [0 * x for x in row[:i]]
+            row[i + 1 :] = [0 * x for x in row[i + 1 :]]
+        return jacobian, []
+
+    return taken
+
+
+_TAKES = {"exact": _exactly, "old": _at_the_step_before, "diagonal": _diagonal}
+"""From the vector field and its derivatives to the matrix and ∂f/∂t of a step."""
+
+
 class _Weights:
     """The products of h and the coefficients, by what they belong to."""
 
@@ -172,7 +215,7 @@ def _increment(
     """The increment of the unknowns of one step."""
     start = y[:n]
     time = y[n:]
-    jacobian, by_time = slopes(y)
+    jacobian, by_time = slopes(y, w.h)
     k: list[Numbers] = []
     for i, (alpha, gamma) in enumerate(zip(w.alpha, w.gamma, strict=True)):
         place = [_sum(start[r], alpha, k, r) for r in range(n)]

@@ -465,7 +465,7 @@ def test_what_is_for_gark_methods_says_so() -> None:
         lambda: usual_oscillator(tableau),
         lambda: usual_oscillator(RODAS3.with_any_matrix),
         lambda: squared_error(RODAS3.with_old_jacobian, 3, None),
-        lambda: bind(RODAS3.with_any_matrix, pendulum),
+        lambda: bind(RODAS3.on_dae, pendulum),
     ]
     for call in refusing:
         with pytest.raises(MethodError, match="for GARK methods, which this method is not"):

@@ -1,4 +1,4 @@
-"""``gark converge`` of Rosenbrock methods: steps with the exact Jacobian."""
+"""``gark converge`` of Rosenbrock methods: steps with the exact Jacobian, and with other matrices."""
 
 from __future__ import annotations
 
@@ -6,15 +6,17 @@ import pytest
 from flint import fmpq
 from mpmath import lu_solve, matrix, mp, mpc, mpf
 
-from garkcli.api.runs import converge
+from garkcli.api.runs import converge, taking
 from garkcli.constructions.rosenbrock import Rosenbrock
 from garkcli.convergence.linear_solver import hamiltonian_of, linear_solver
 from garkcli.errors import MethodError
 from garkcli.methodfile.load import load, loads
 from garkcli.methodfile.problem import loads_problem
+from garkcli.order.certificate import find_order
 from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.oscillator import Oscillator
 from garkcli.stepping.integrator import bind, integrate
+from garkcli.stepping.linearly_implicit import Taken
 from tests.bridges.test_rosenbrock import TIMED, number, printed_run
 from tests.cli.harness import gark
 
@@ -141,3 +143,71 @@ def test_steps_that_need_later_stages_are_refused() -> None:
     run = gark("converge", "ros3p", "rk4", "--problem", "pendulum")
     assert run.code == 0
     assert "2 methods: 2 agree" in run.out
+
+
+@pytest.mark.parametrize(
+    ("name", "jacobian", "order"),
+    [("rodas3", "old", 2), ("rodas3", "diagonal", 1), ("ros2", "diagonal", 2), ("ros3p", "old", 2)],
+)
+def test_other_matrices_show_their_orders(name: str, jacobian: Taken, order: int) -> None:
+    """With the Jacobian of the step before, and with its diagonal alone, the observed order is that
+    which gark check proves with an old Jacobian, and with any matrix.
+    """
+    method = load(name)
+    tableau = method.tableau
+    which = {"old": "with_old_jacobian", "diagonal": "with_any_matrix"}[jacobian]
+    assert find_order(getattr(Rosenbrock.of(tableau), which)).order == order
+    found = converge(method, jacobian=jacobian)
+    assert (found.predicted_order, found.visible.order, found.verdict) == (order, order, "agree")
+    assert found.observed_order is not None
+    assert abs(found.observed_order - order) < 0.1
+
+
+@pytest.mark.parametrize("jacobian", ["old", "diagonal"])
+def test_steps_with_other_matrices_are_those_of_the_definition(jacobian: Taken) -> None:
+    """On a problem with t, with 40 digits: J and ∂f/∂t at (t − h, y − h f), or the diagonal of J
+    with ∂f/∂t = 0, with J and f written out here.
+    """
+    tableau = load("ros3p").tableau
+    method = Rosenbrock.of(tableau)
+    alpha, gamma = method.alpha[0][0], method.gamma[0][0]
+    bound = bind(taking(tableau, jacobian), loads_problem(WITH_TIME))
+    with mp.workdps(45):
+        c, d = ([number(x) for x in row[0]] for row in method.nodes)
+        h, t, y = mpf(1) / 3, mpf(0), matrix([mpf(6) / 5, mpf(2) / 5])
+
+        def f(t: mpf, y: matrix) -> matrix:
+            return matrix([y[1] * mp.cos(t), -mp.sin(y[0])])
+
+        for _ in range(6):
+            at_t, at = (t, y) if jacobian == "diagonal" else (t - h, y - h * f(t, y))
+            J = matrix([[0, mp.cos(at_t)], [-mp.cos(at[0]), 0]])
+            slopes = matrix([-at[1] * mp.sin(at_t), 0])
+            if jacobian == "diagonal":
+                J, slopes = matrix([[0, 0], [0, 0]]), matrix([0, 0])
+            k: list[matrix] = []
+            for i in range(3):
+                seen, beside = y, matrix([0, 0])
+                for j in range(i):
+                    seen += number(alpha[i][j]) * k[j]
+                    beside += number(gamma[i][j]) * k[j]
+                right = h * f(t + c[i] * h, seen) + h * h * d[i] * slopes + h * J * beside
+                k.append(lu_solve(mp.eye(2) - h * number(gamma[i][i]) * J, right))
+            for b, x in zip(method.b[0], k, strict=True):
+                y += number(b) * x
+            t += h
+        found = integrate(bound.at(40), fmpq(1, 3), 6)
+        for x, wanted in zip(found, y, strict=True):
+            assert abs(mpf(x.str(45, radius=False)) - wanted) < mpf("1e-38")
+
+
+def test_other_matrices_on_the_command_line() -> None:
+    """--jacobian is told in the report, and refused where it means nothing."""
+    run = gark("converge", "rodas3", "--jacobian", "old")
+    assert run.code == 0
+    assert "order 2.00 observed" in run.out
+    assert "Jacobian" in run.out
+    assert "Jacobian" not in gark("converge", "rodas3").out
+    assert "is meant of Rosenbrock methods" in gark("converge", "rk4", "--jacobian", "old").err
+    run = gark("converge", "rodas3", "--jacobian", "old", "--problem", "oscillator")
+    assert "the oscillator takes" in run.err
