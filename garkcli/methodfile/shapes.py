@@ -418,7 +418,9 @@ def _content(
         return d.PrkText(*(d.ButcherText(node, "", A, b, None, x) for A, b, x in parts))
     if layout.kind == "rosenbrock":
         alpha, gamma = matrices
-        return d.RosenbrockText(node, alpha, gamma, weights[0], further=further[:1])
+        return d.RosenbrockText(
+            node, ((alpha,),), ((gamma,),), tuple(weights[:1]), further=further[:1]
+        )
     if layout.kind == "ark":
         return d.ArkText(tuple(matrices), (weights[0],) * len(matrices), None, further)
     return d.TableauText(((matrices[0],),), (weights[0],), (None,), (), further)

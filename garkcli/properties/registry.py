@@ -20,6 +20,10 @@ _FILES = (
 )
 KEYS = {key: file for file, keys in _FILES for key in keys.split()}
 """Every property, in the order of the documentation, with its file in ``claimed``."""
+OF_TEST_EQUATION = frozenset(
+    {"a-stable", "l-stable", "p-stable", "i-stable", "real-stability", "imaginary-stability"}
+)
+"""Properties that R(z) decides."""
 
 
 @cache
@@ -40,9 +44,3 @@ def find(key: str) -> Property:
 def every_property() -> list[Property]:
     """All of them."""
     return [find(key) for key in KEYS]
-
-
-OF_TEST_EQUATION = frozenset(
-    {"a-stable", "l-stable", "p-stable", "i-stable", "real-stability", "imaginary-stability"}
-)
-"""Properties that R(z) decides."""
