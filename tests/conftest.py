@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from garkcli.methodfile import composing
-from tests.whole import at_most
+from tests.whole import IS_WHOLE, at_most, few_cases
 
 # The suite starts gark some hundred times: byte code is kept, whatever the environment says.
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
@@ -49,6 +49,16 @@ def pytest_collect_file(
     found = yield
     has_examples = b">>> " in file_path.read_bytes()
     return [x for x in found if has_examples or type(x).__name__ != "DoctestModule"]
+
+
+@pytest.hookimpl(trylast=True)  # what -k and -m leave
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Of tests with many cases take a few, where nobody names files or folders."""
+    if IS_WHOLE or config.args != config.getini("testpaths"):
+        return
+    chosen = few_cases(items)
+    config.hook.pytest_deselected(items=[*set(items) - set(chosen)])
+    items[:] = chosen
 
 
 def pytest_collection_finish() -> None:

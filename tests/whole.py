@@ -23,5 +23,23 @@ def at_most(few: int, all_: int) -> int:
     return all_ if IS_WHOLE else few
 
 
+FEW_CASES = 6
+"""So many cases of one test run where the whole suite does; in ``make whole`` all of them."""
+
+
+def few_cases(items: Sequence[pytest.Item]) -> list[pytest.Item]:
+    """Those that run: of a test with many cases the first, the last and some between them."""
+    cases: dict[str, list[pytest.Item]] = {}
+    for item in items:
+        cases.setdefault(item.nodeid.split("[")[0], []).append(item)
+    chosen: set[pytest.Item] = set()
+    for those in cases.values():
+        last = len(those) - 1
+        is_short = last < FEW_CASES or those[0].get_closest_marker("every_case")
+        steps = range(last + 1) if is_short else range(FEW_CASES)
+        chosen.update(those[i if is_short else i * last // (FEW_CASES - 1)] for i in steps)
+    return [item for item in items if item in chosen]
+
+
 in_whole = pytest.mark.skipif(not IS_WHOLE, reason="it takes long: make whole")
 """For a test, or a case of one, whose kind shorter ones stand for."""
