@@ -41,6 +41,7 @@ PAGES = [page for page in pages() if has_a_session(page)]
 
 
 @pytest.mark.skipif(os.name == "nt", reason="the pages are for a shell with sed")
+@pytest.mark.every_case
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_a_page_is_a_real_session(page: Path, tmp_path: Path) -> None:
     """Each file as shown, each command in its turn, from an empty folder or from one with nothing
