@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 
 import garkcli
 from garkcli import GarkError, MethodError, Tree, TreeError, load, loads
+from tests.whole import in_whole
 
 FAMILY = "parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [1 - 1/(2*t), 1/(2*t)]"
 HEUN = ([[0, 0], [1, 0]], ["1/2", "1/2"])
@@ -67,6 +68,7 @@ def test_whatever_stands_for_a_method(name: str) -> None:
         call("no-such-method")
 
 
+@in_whole
 def test_values_are_short() -> None:
     """Nothing that a call returns fills a screen."""
     found = garkcli.converge("rk4", "pendulum", steps=[0.5, 0.25])

@@ -24,6 +24,7 @@ from garkcli.stepping.integrator import StepFailed
 from garkcli.tableau.forms import pair
 from garkcli.tableau.tableau import Tableau
 from tests.cli.harness import gark
+from tests.whole import in_whole
 
 VERLET = "methods/stoermer-verlet.gark.yaml"
 
@@ -36,6 +37,7 @@ def _orders(run: ModifiedRun) -> list[tuple[int, int, bool, str]]:
     return [(x.power, x.exact_order, x.is_lower_bound, x.verdict) for x in run.energies]
 
 
+@in_whole
 def test_stoermer_verlet_on_the_pendulum() -> None:
     """Order 2 in H, and 4, 6, 8 with one, two, three terms more, each slope within a thousandth."""
     run = modified_run(_verlet(), hamiltonian("pendulum", 2), 7)
@@ -187,6 +189,7 @@ def test_long_step_sizes_fit_the_terminal() -> None:
     assert "to h^6  agree              8 " in run.out
 
 
+@in_whole
 def test_a_step_that_fails() -> None:
     """Where a step leaves the domain of H that is told as of every run."""
     start = (fmpq(2), fmpq(0), fmpq(0), fmpq(0))

@@ -16,6 +16,7 @@ from garkcli.problems.hamiltonian import Hamiltonian, symbols
 from garkcli.tableau.forms import pair
 from garkcli.tableau.tableau import Tableau
 from tests.oracles import bch
+from tests.whole import in_whole
 
 RING = fmpq_mpoly_ctx.get(["x", "p", "s", "c"], Ordering.lex)
 X, P, S, C = RING.gens()
@@ -184,6 +185,7 @@ def test_a_method_that_is_not_symplectic_has_an_equation() -> None:
     assert found.terms[1].formulas == (sympy.sin(x) / 2, p * sympy.cos(x) / 2)
 
 
+@in_whole
 def test_long_formulas_are_refused() -> None:
     """Both the operations and the summands are bounded, and the raw formula is there still."""
     verlet = load("methods/stoermer-verlet.gark.yaml").tableau

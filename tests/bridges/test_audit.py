@@ -16,7 +16,7 @@ from garkcli.errors import UsageProblem
 from garkcli.report.schemas import report_schema
 from garkcli.sources import evaluate
 from tests.cli.harness import gark
-from tests.whole import sample
+from tests.whole import in_whole, sample
 
 SOURCES = Path(__file__).parent / "sources"
 PLANTED = {
@@ -172,6 +172,7 @@ def findings(report: dict[str, object]) -> list[tuple[str, str]]:
     ]
 
 
+@in_whole
 def test_none_is_invented() -> None:
     """The sources as they are have no finding of any level, and all their tables are seen."""
     report = audit(SOURCES)
@@ -243,6 +244,7 @@ def test_the_order_of_an_estimate_is_the_lower_one(tmp_path: Path) -> None:
     assert (read.table.embedded_order, read.embedded_order.order, read.findings) == (1, 2, ())
 
 
+@in_whole
 @pytest.mark.parametrize(("target", "ending"), [("c", "h"), ("numpy", "py"), ("julia", "jl")])
 def test_kicks_and_drifts_of_second_order_equations(
     target: str, ending: str, tmp_path: Path
@@ -271,6 +273,7 @@ def test_an_order_of_a_function_is_none_of_its_class(tmp_path: Path) -> None:
 LONG = re.compile(r"SUN_RCONST\((-?[0-9]+\.[0-9]{15,})\)")
 
 
+@in_whole
 @pytest.mark.parametrize("place", sample([9, 6, 12], 3))
 def test_a_short_decimal_is_exact_among_long_ones(place: int, tmp_path: Path) -> None:
     """The node 0.161 or the weight 0.01 does not make the others uncertain: a digit
@@ -341,6 +344,7 @@ def test_arrays_that_do_not_fit_are_told(name: str, tmp_path: Path) -> None:
     assert gark("audit", ".", cwd=tmp_path).code == 0
 
 
+@in_whole
 def test_a_table_that_cannot_be_read_is_counted(tmp_path: Path) -> None:
     """It is none that is right: the summary says so, and without any other the exit code is 2."""
     text = (SOURCES / "ralston.c").read_text(encoding="utf-8")
@@ -406,6 +410,7 @@ def wrong(tmp_path: Path) -> Path:
     return tmp_path
 
 
+@in_whole
 def test_text_names_the_place_and_the_culprit(wrong: Path) -> None:
     """Only the wrong table is told, with the row that does not fit its node."""
     run = gark("audit", "kutta.m", "register.cpp", cwd=wrong)
@@ -420,6 +425,7 @@ def test_text_names_the_place_and_the_culprit(wrong: Path) -> None:
     assert all(len(line) <= 80 for line in run.out.splitlines())
 
 
+@in_whole
 def test_formats_for_machines(wrong: Path) -> None:
     """Annotations of GitHub, SARIF with a rule for each code, a table in Markdown."""
     run = gark("audit", str(wrong), GITHUB_ACTIONS="true")

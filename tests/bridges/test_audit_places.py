@@ -138,6 +138,7 @@ def test_a_digit_of_a_long_fraction_is_no_rounding(
     assert code in told("wrong.py", wrong, tmp_path)["DormandPrince54"]
 
 
+@in_whole
 def test_an_exact_method_is_imported_as_exact() -> None:
     """Fractions of eighty digits, of which the conditions of order 9 are missed by little."""
     text = gark("export", "tsitouras-papakostas-8", "--to", "json").out
@@ -157,6 +158,7 @@ def test_decimals_that_became_fractions(name: str) -> None:
     assert f"expect: {{order: {order}" in run.out
 
 
+@in_whole
 @pytest.mark.parametrize("name", sample(["esdirk-436", "ark-324", "qesdirk-436"], 3))
 def test_approximants_are_no_misprints(name: str, tmp_path: Path) -> None:
     """Quotients of thirteen digits, as Kennedy and Carpenter print them, beside longer decimals; a

@@ -12,7 +12,7 @@ from garkcli.check.check_file import check_method
 from garkcli.methodfile.load import loads
 from tests.bridges.test_audit import PLANTED, SOURCES
 from tests.cli.harness import gark
-from tests.whole import IS_WHOLE, sample
+from tests.whole import IS_WHOLE, in_whole, sample
 
 KUTTA = "A = [[], [0.5], [-1, 2]]\nb = [1/6, 2/3, 1/6]\nc = [0, 0.5, 1]\n"
 WRONG = KUTTA.replace("-1, 2", "1, 2") + "order = 3\n"
@@ -166,6 +166,7 @@ def test_the_last_stage(tmp_path: Path) -> None:
     assert expected(text.replace("fsal = True", ""), tmp_path) == ["{order: 2}"]
 
 
+@in_whole
 def test_exact_forms_of_a_false_declaration(tmp_path: Path) -> None:
     """Whether its decimals stay or become fractions, the file claims the same."""
     path = tmp_path / "m.py"

@@ -18,6 +18,7 @@ from garkcli.frozen import replace
 from garkcli.methodfile.load import load, loads
 from garkcli.tableau.pointwise import in_points
 from tests.cli.harness import ROOT, gark
+from tests.whole import in_whole
 
 METHODS = sorted(ROOT.glob("methods/*.gark.yaml"))
 ROUNDED = ROOT / "tests/examples/valid/rounded.gark.yaml"
@@ -185,6 +186,7 @@ def test_files_are_what_a_target_writes(target: str, tmp_path: Path) -> None:
     assert gark("export", str(path), "--to", target).out == written
 
 
+@in_whole
 def test_digits_beyond_those_of_the_file_are_recovered() -> None:
     """Gauss 2 in twelve decimals: with 30 digits the entries are those of Gauss 2; with as many as
     the file has they are those of the file.

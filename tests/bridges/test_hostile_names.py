@@ -26,7 +26,7 @@ from garkcli.bridges.registry import Bridge, bridges
 from garkcli.frozen import replace
 from garkcli.methodfile.load import loads
 from tests.cli.harness import ROOT, gark
-from tests.whole import sample
+from tests.whole import in_whole, sample
 
 HOSTILE = [
     "a */ int x; /*",
@@ -325,6 +325,7 @@ def test_headers_of_c_compile(tmp_path: Path) -> None:
         built([str(CC), *options, "-fsyntax-only", "program.c"], tmp_path)
 
 
+@in_whole
 @pytest.mark.skipif(CXX is None, reason="no C++ compiler here")
 def test_headers_of_cpp_compile(tmp_path: Path) -> None:
     """With any name, and with the program that runs them. What stands behind ``method_`` is a name:

@@ -213,6 +213,7 @@ def _calls(reader: str, text: str) -> int:
     return count
 
 
+@in_whole
 @pytest.mark.parametrize("arrays", ["A = [[0]]\n b = [1]", "A = B = U = [[0]]"])
 def test_tables_have_a_limit(arrays: str) -> None:
     """What stands behind the last table is not passed over in silence, nor are a million tables of

@@ -9,6 +9,7 @@ import jsonschema
 
 from garkcli.report.schemas import report_schema
 from tests.cli.harness import gark
+from tests.whole import in_whole
 
 SOURCES = Path(__file__).parent / "sources"
 KUTTA = (
@@ -16,6 +17,7 @@ KUTTA = (
 )
 
 
+@in_whole
 def test_files_and_their_claims(tmp_path: Path) -> None:
     """Every table becomes a method file whose claims hold, named after it."""
     folder = tmp_path / "out"

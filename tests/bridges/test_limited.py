@@ -17,7 +17,7 @@ from garkcli.report.audited import FORMATS
 from garkcli.sources.languages import c
 from garkcli.sources.lowering import Lowering
 from tests.cli.harness import ROOT, gark
-from tests.whole import sample
+from tests.whole import in_whole, sample
 
 KUTTA = "A = [[], [0.5], [-1, 2]]\nb = [1/6, 2/3, 1/6]\nc = [0, 0.5, 1]\n"
 LONG = "A = [1 ...\n" * 20_000
@@ -48,6 +48,7 @@ def test_an_audit_goes_on_behind_a_source_that_takes_too_long(
     assert (finding.code, finding.level, finding.message) == ("unread", "warning", WHY)
 
 
+@in_whole
 def test_it_is_told_in_every_format(sources: list[str]) -> None:
     """It is no error, but ``--strict`` fails on it; a source of its own is none that can be read."""
     text = gark("audit", *sources)
@@ -60,6 +61,7 @@ def test_it_is_told_in_every_format(sources: list[str]) -> None:
     assert gark("audit", sources[1]).code == 2
 
 
+@in_whole
 def test_an_import_goes_on(sources: list[str]) -> None:
     """Its methods are those of the other sources; the report and the notes have the reason."""
     assert [str(method.name) for method in import_methods(*sources)] == ["a", "z"]
@@ -72,6 +74,7 @@ def test_an_import_goes_on(sources: list[str]) -> None:
     assert run.err.startswith(f"gark: <stdin> {WHY}\nhelp: ")
 
 
+@in_whole
 def test_the_same_is_found_apart(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Another process, forked or not, finds what this one finds, of streams too."""
     path = tmp_path / "kutta.py"
@@ -84,6 +87,7 @@ def test_the_same_is_found_apart(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     assert gark("import", str(path)) == here
 
 
+@in_whole
 def test_a_program_is_not_run_again(tmp_path: Path) -> None:
     """A process that is not forked would run the program that calls gark, where it does not ask for
     its name.

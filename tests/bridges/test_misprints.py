@@ -15,7 +15,7 @@ from garkcli.bridges.finding import AuditFinding
 from garkcli.bridges.readers.registry import find_tables, readers_for
 from garkcli.bridges.rounding import rounded
 from garkcli.exact.field import Number
-from tests.whole import IS_WHOLE, sample
+from tests.whole import IS_WHOLE, in_whole, sample
 
 TABLES = {
     "tsitouras-5": ("c", 16),
@@ -117,6 +117,7 @@ LONG = {
 """Methods that take long."""
 
 
+@in_whole
 @pytest.mark.parametrize("name", sample([x for x in TABLES if IS_WHOLE or x not in LONG], 2))
 def test_a_changed_digit_is_found(name: str) -> None:
     """A digit one higher is an error, or a note where rounding might be as careless; the table as

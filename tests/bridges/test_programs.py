@@ -24,6 +24,7 @@ from garkcli.methodfile.load import load, loads
 from garkcli.methodfile.problem import load_problem
 from tests.bridges.test_hostile_names import HOSTILE, named
 from tests.cli.harness import ROOT, gark
+from tests.whole import in_whole
 
 CC = shutil.which("cc") or shutil.which("gcc")
 DORMAND_PRINCE = """
@@ -49,6 +50,7 @@ dense: {degree: 2, weights: [[1, -3/4], [0, 3/4]]}
 EXACT = ROOT / "methods/collocation.gark.yaml"
 
 
+@in_whole
 @pytest.mark.parametrize("trial", TRIALS, ids=lambda trial: trial.name)
 def test_the_end_of_each_trial_is_right(trial: Trial) -> None:
     """Taylor series of 16 digits end at the solution that the programs compare with."""
@@ -86,6 +88,7 @@ def predicted(method: str, problem: Path) -> list[tuple[int, float]]:
     return [(n, float(row.error)) for n, row in pairs]
 
 
+@in_whole
 def test_scipy_makes_the_errors_that_gark_predicts(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -11,6 +11,7 @@ from garkcli.bridges.collecting import Result, collected
 from garkcli.bridges.importing import entry_text
 from garkcli.bridges.readers.registry import all_readers
 from garkcli.bridges.sources import source_files
+from tests.whole import in_whole
 
 SOURCES = Path(__file__).parent / "sources"
 FOUND = {
@@ -59,6 +60,7 @@ def results() -> dict[tuple[str, int], Result]:
     return found
 
 
+@in_whole
 def test_every_table_is_found(results: dict[tuple[str, int], Result]) -> None:
     """Each at its line with its name, its orders as the certificate has them; nothing else is
     taken for a table: neither a linear system nor a table of words.
@@ -77,6 +79,7 @@ def test_every_table_is_found(results: dict[tuple[str, int], Result]) -> None:
     assert told == FOUND
 
 
+@in_whole
 def test_every_reader_has_a_source() -> None:
     """No format is left out of this test."""
     used = {result.table.format for result in collected(source_files([str(SOURCES)]))}

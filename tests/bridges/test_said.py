@@ -9,6 +9,7 @@ import pytest
 
 from garkcli.bridges.audit import audited
 from garkcli.bridges.said import order_said
+from tests.whole import in_whole
 
 HEUN = "A = [[0, 0], [1, 0]]\nb = [0.5, 0.5]\nc = [0, 1]\n"
 INDENTED = "".join(f"    {line}\n" for line in HEUN.splitlines())
@@ -89,6 +90,7 @@ def test_what_words_say(text: str, order: int | None) -> None:
     assert order_said(text) == order
 
 
+@in_whole
 def test_long_lines_take_no_time() -> None:
     """A line of a hundred thousand characters that almost says an order."""
     began = time.process_time()

@@ -21,7 +21,7 @@ from garkcli.methodfile.load import load, loads
 from garkcli.order.certificate import find_order
 from garkcli.tableau.forms import additive
 from tests.cli.harness import ROOT
-from tests.whole import at_most
+from tests.whole import at_most, in_whole
 
 COEFFICIENTS = st.lists(st.fractions(-2, 2, max_denominator=9), min_size=2, max_size=4)
 GENERAL = [
@@ -249,6 +249,7 @@ def test_the_coupling_of_a_file_is_exported() -> None:
     assert matrices["W"][0] == slow_part(payload_of(base)).matrices["W"][0]
 
 
+@in_whole
 def test_embedded_rows_of_a_coupling_are_exported() -> None:
     """With the exact fast solution the orders are those of the paper, and the embedded rows are
     beside them; methods whose fast problems begin anew are refused.

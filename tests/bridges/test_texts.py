@@ -25,6 +25,7 @@ from tests.bridges.examples import RALSTON, payload_of
 from tests.bridges.test_hostile_names import METHODS, named
 from tests.cli.harness import ROOT
 from tests.cli.test_process import run
+from tests.whole import in_whole
 
 PACKAGE = ROOT / "garkcli"
 TEMPLATES = sorted((PACKAGE / "bridges" / "templates").iterdir())
@@ -136,6 +137,7 @@ def test_a_comment_of_a_template_is_none_where_the_method_ends_it() -> None:
     assert text.count("*/") == 1
 
 
+@in_whole
 def test_templates_are_loaded_when_a_file_is_written() -> None:
     """The list of targets, and a target that has no template, need no Jinja."""
     script = (

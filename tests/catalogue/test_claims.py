@@ -26,7 +26,7 @@ from garkcli.report.check_text import render
 from garkcli.report.checked import REPORT
 from garkcli.tableau.pointwise import numeric_entries
 from tests.report.test_told import latex_faults
-from tests.whole import IS_WHOLE, at_most, sample
+from tests.whole import IS_WHOLE, at_most, in_whole, sample
 
 ROOT = Path(__file__).resolve().parents[2]
 DATA = ROOT / "garkcli" / "catalogue" / "data"
@@ -263,6 +263,7 @@ def test_references_say_where_the_digits_are_from() -> None:
         assert re.search(r"^  coefficients: \S", text, re.MULTILINE), name
 
 
+@in_whole
 def test_publications_have_one_doi() -> None:
     """Most files have the DOI of their publication, without an address, the same in all of them."""
     known: dict[tuple[str, str], set[str]] = {}

@@ -87,6 +87,7 @@ def test_a_file_of_the_catalogue_is_not_told(name: str) -> None:
     assert "the same as" not in done.out
 
 
+@in_whole
 def test_it_is_told_in_every_format(tmp_path: Path) -> None:
     """In text, JSON, Markdown and LaTeX; a quiet report does not ask."""
     (tmp_path / "mine.yaml").write_text(RK4, encoding="utf-8")

@@ -83,6 +83,7 @@ def test_an_embedded_weight_is_named() -> None:
     ]
 
 
+@in_whole
 def test_decimals_are_mended_within_their_rounding() -> None:
     """A digit of the matrix of the method of Alexander in decimals, without tolerance and claims:
     the entry is named, with the digits that it had.

@@ -233,6 +233,7 @@ def test_too_many_parameters_are_refused(tmp_path: object) -> None:
     assert "--set" in fault.help
 
 
+@in_whole
 def test_report_is_as_its_schema_says(tmp_path: object) -> None:
     """JSON of families of one parameter and of several is valid; an outcome goes between
     processes.

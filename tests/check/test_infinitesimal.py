@@ -176,6 +176,7 @@ def test_no_construction_is_made_of_it() -> None:
             loads(inside.format("{multirate: {mis: heun, fast: exact}}"))
 
 
+@in_whole
 def test_every_command_takes_it_or_refuses_it(tmp_path: Path) -> None:
     """No command fails on such a file: it answers, or says what it is for and what to write."""
     path = written(tmp_path, ERK33)

@@ -168,6 +168,7 @@ SLOW = {
 """Those that take a second."""
 
 
+@in_whole
 @pytest.mark.parametrize(
     "name",
     [x for x in sample([x for x in ROUNDED if x not in LONG], 4) if IS_WHOLE or x not in SLOW],

@@ -189,6 +189,7 @@ def test_what_is_for_others_is_refused() -> None:
     assert outcome_of_gark.order == 4
 
 
+@in_whole
 @pytest.mark.parametrize("text", [RODAS3, PRINTED])
 def test_rounded_numbers(tmp_path: Path, text: str) -> None:
     """With digits that are off the orders are those within the tolerance, by the place of each:

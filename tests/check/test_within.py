@@ -71,6 +71,7 @@ def assert_no_contradiction(found: Analysis) -> None:
         assert own.is_lower_bound == conjugate.is_lower_bound == both.is_lower_bound
 
 
+@in_whole
 @settings(max_examples=at_most(3, 15))
 @example("radau-ia 3", 5, fmpq(1, 2))
 @given(
@@ -130,6 +131,7 @@ def test_conjugate_and_pair_fail_order_2_with_the_method(rows: str, tolerance: s
     assert found.pair_order.witness == found.order.witness
 
 
+@in_whole
 def test_a_tolerance_that_is_too_tight_gets_the_one_that_would_do() -> None:
     """Gauss 2 in 8 decimals is off by 4e-9: with 1e-9 the hint says 1e-8, and that does."""
     method = loads(f"{GAUSS}tolerance: 1e-9\n")

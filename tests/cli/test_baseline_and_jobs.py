@@ -238,6 +238,7 @@ def test_rounded_methods_two_at_a_time_say_the_same() -> None:
     assert "within" in one.out
 
 
+@in_whole
 def test_standard_input_among_many() -> None:
     """``-`` is read once, in its place among the files, with ``-j`` as without."""
     paths = ("methods/collocation.gark.yaml", "-", "tests/examples/failing")
@@ -426,6 +427,7 @@ def test_a_folder_that_cannot_be_read(tmp_path: Path, monkeypatch: pytest.Monkey
         assert ("order 4" in run.out) is (path == "sub")
 
 
+@in_whole
 def test_links_that_lead_back_are_not_followed(tmp_path: Path) -> None:
     """A folder with links to itself is read once, as a folder and by a pattern; names with a dot in
     front have to be asked for; a folder with the name of a method file is a folder.
@@ -450,6 +452,7 @@ def test_links_that_lead_back_are_not_followed(tmp_path: Path) -> None:
     assert files(f"{tmp_path}/*/m.gark.yaml")[0] == f"{tmp_path}/a/m.gark.yaml"
 
 
+@in_whole
 def test_an_undecided_claim_in_a_baseline(tmp_path: Path) -> None:
     """A report with a claim that is undecided is a baseline: the same file is no worse."""
     (tmp_path / "open.gark.yaml").write_text(

@@ -19,7 +19,7 @@ from garkcli.cli.options import command_of
 from garkcli.cli.table import COMMANDS, SHOWN
 from garkcli.methodfile.load import load, loads
 from tests.cli.harness import ROOT, gark, gark_once
-from tests.whole import sample
+from tests.whole import in_whole, sample
 
 COLLOCATION = "methods/collocation.gark.yaml"
 VERLET = "methods/stoermer-verlet.gark.yaml"
@@ -359,6 +359,7 @@ def test_json_of_trees() -> None:
     assert {key: report[key] for key in counted} == counted
 
 
+@in_whole
 @pytest.mark.parametrize("options", [[], ["--symplectic"]])
 def test_counts_of_any_number_of_digits(options: list[str]) -> None:
     """They are written out, in every format, and Python's limit for the digits of numbers, here
@@ -513,6 +514,7 @@ def test_conjugate_without_radicals_says_so() -> None:
     assert load(str(ROOT / "methods/gauss6-lobatto7.gark.yaml")).is_conjugate is False
 
 
+@in_whole
 def test_pictures_are_written(tmp_path: Path) -> None:
     """``--svg`` draws every tree into one well-formed sheet, ``--plot`` a figure; stderr says which
     file.
@@ -525,6 +527,7 @@ def test_pictures_are_written(tmp_path: Path) -> None:
     assert ET.parse(figure).getroot().tag.endswith("svg")
 
 
+@in_whole
 def test_the_schema_allows_every_file_that_loads() -> None:
     """``gark schema`` is a JSON Schema, and no valid example is underlined by an editor that uses
     it.
@@ -546,6 +549,7 @@ def test_the_schema_allows_every_file_that_loads() -> None:
     assert wrong == {}
 
 
+@in_whole
 def test_the_schema_of_reports_allows_reports() -> None:
     """``gark schema --report`` describes what ``gark check --format json`` writes, faults
     included.
@@ -639,6 +643,7 @@ def test_nobody_looks_for_rounding_that_nobody_reads(
         assert len(asked) == count
 
 
+@in_whole
 def test_long_fractions_are_decimals_in_text_alone(tmp_path: Path) -> None:
     """Numbers with dozens of digits have decimals in the report; with ``-v`` and for programs they
     are exact.

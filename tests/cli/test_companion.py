@@ -161,6 +161,7 @@ def test_text_says_which_method_it_is(arguments: tuple[str, ...], first: str, la
     assert later in run.out
 
 
+@in_whole
 def test_other_reports_say_which_method_it_is(tmp_path: Path) -> None:
     """The page in its title, an exported file in its head; both of the pair, not of the method."""
     page = tmp_path / "page.html"
@@ -200,6 +201,7 @@ def test_python_and_the_command_line_agree(which: str) -> None:
     assert garkcli.render(run).startswith(told["name"])
 
 
+@in_whole
 def test_colours_without_a_partition_say_what_they_step(spelled_out: str) -> None:
     """Each steps the whole vector field of its term; a pair, a partitioned method, one colour and a
     right-hand side have nothing to say.
@@ -234,6 +236,7 @@ tolerance: 5e-9
 """
 
 
+@in_whole
 @pytest.mark.parametrize(
     ("option", "command"),
     sample([*product(["--conjugate", "--pair"], ["stability", "modified"])], 3),

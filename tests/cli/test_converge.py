@@ -92,6 +92,7 @@ def test_a_method_for_other_problems_stops_none() -> None:
     assert "they agree" in run.out
 
 
+@in_whole
 def test_disagreement_of_one_is_exit_code_1() -> None:
     """Steps far too large for one of them."""
     run = gark("converge", VERLET, RECTANGULAR, "--problem", "kepler", "--steps", "1/2,1/4")
@@ -163,6 +164,7 @@ def test_work_keeps_coarse_steps() -> None:
     ]
 
 
+@in_whole
 @pytest.mark.parametrize(
     ("arguments", "suffix"),
     [
@@ -297,6 +299,7 @@ def test_a_file_that_is_no_method_is_a_report() -> None:
         assert all(error["line"] for error in errors)
 
 
+@in_whole
 def test_rounded_coefficients_are_hinted_at(tmp_path: Path) -> None:
     """Gauss 2 in 13 digits has order 1 or 2 and shows 4, over a short time what it is: then the line
     that is missing is said; with it the order is 4.

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.harness import gark
+from tests.whole import in_whole
 
 RECTANGULAR, RK4 = "methods/rectangular.gark.yaml", "methods/rk4.gark.yaml"
 SHORT = ("--t-end", "60", "--step", "1/20")
@@ -100,6 +101,7 @@ def test_symplecticity_is_measured() -> None:
         )
 
 
+@in_whole
 def test_problem_files() -> None:
     """A problem of the user's own, with its invariants and ten thousand steps."""
     run = gark("energy", RECTANGULAR, "--problem", "problems/kepler.yaml", "--format", "json")
@@ -137,6 +139,7 @@ def test_usage(options: tuple[str, ...], said: str) -> None:
     assert run.out == ""
 
 
+@in_whole
 def test_figures_are_written(tmp_path: Path) -> None:
     """Nothing else is left behind; the test of the same name of gark converge tries all formats."""
     plot = str(tmp_path / "a.png")
@@ -158,6 +161,7 @@ def test_csv_keeps_the_extremes() -> None:
     assert (rows[0], rows[-1].split(",")[0]) == ("0.0,0.0", "10000.0")
 
 
+@in_whole
 def test_more_digits() -> None:
     """What floats hide is shown."""
     run = gark(

@@ -19,6 +19,7 @@ from garkcli.report.schemas import report_schema
 from garkcli.stability.linear import e_polynomial, stability_function
 from garkcli.tableau.forms import pair
 from tests.cli.harness import gark
+from tests.whole import in_whole
 
 SDIRK = "parameters: {g: free}\nA: [[g, 0], [1 - 2*g, g]]\nb: [1/2, 1/2]\n"
 TAU = """parameters: {tau: free}
@@ -130,6 +131,7 @@ def test_stability_functions_are_those_of_each_value(text: str) -> None:
         assert R.at_infinity() == (None if limit is None else at((limit,))[0])
 
 
+@in_whole
 def test_stability_as_a_command(tmp_path: Path) -> None:
     """R(z) with its coefficients, the sets of values, and JSON as its schema says; several
     parameters are told how it is decided.
@@ -152,6 +154,7 @@ def test_stability_as_a_command(tmp_path: Path) -> None:
     assert "gark design --a-stable" in gark("stability", str(path)).out
 
 
+@in_whole
 def test_the_variable_of_a_polynomial_is_no_parameter(tmp_path: Path) -> None:
     """R and E of explicit methods with a and b for parameters, and the same with z and x: other
     names change nothing else than the letters.

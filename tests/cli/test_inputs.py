@@ -14,7 +14,7 @@ import pytest
 from garkcli.cli.main import COMMANDS
 from garkcli.files import NotAFile, begin_of
 from tests.cli.harness import ROOT, Run, gark
-from tests.whole import sample
+from tests.whole import in_whole, sample
 
 METHOD = "A: [[0, 0], [1/2, 0]]\nb: [0, 1]\n"
 FAMILY = "parameters: {t: free}\nA: [[t]]\nb: [1]\n"
@@ -76,6 +76,7 @@ main(sys.argv[2:])
 """Run gark beside a pipe that passes for a file, as /proc/kmsg does, and has nothing to give."""
 
 
+@in_whole
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")
 @pytest.mark.parametrize("command", sample([*READERS, "sweep spec.yaml --rows F"], 3))
 def test_what_passes_for_a_file_is_not_waited_for(command: str, folder: Path) -> None:
@@ -134,6 +135,7 @@ def test_a_pipe_in_a_folder_is_named_and_left_out(command: str, folder: Path) ->
     assert "pipe.py is left out: it is no ordinary file" in run.err
 
 
+@in_whole
 @pytest.mark.skipif(not Path("/dev/fd").exists(), reason="streams have no names here")
 @pytest.mark.parametrize(
     "command",

@@ -181,6 +181,7 @@ def test_a_problem_sees_fewer_trees_than_the_pair_has() -> None:
     assert "  H h^6  " in text
 
 
+@in_whole
 def test_problems_and_options_that_do_not_fit(tmp_path: Path) -> None:
     """Each is refused with a cure."""
     rounded = tmp_path / "rounded.gark.yaml"

@@ -20,6 +20,7 @@ from garkcli.methodfile.load import load
 from garkcli.problems.builtin import PROBLEMS, is_path
 from garkcli.problems.oscillator import Oscillator
 from tests.cli.harness import ROOT, gark
+from tests.whole import in_whole
 
 RECTANGULAR = "methods/rectangular.gark.yaml"
 SEMI_SEPARABLE = "methods/semi-separable.gark.yaml"
@@ -28,6 +29,7 @@ THREE = "methods/three-colours.gark.yaml"
 STEPS = ("--steps", "1/16,1/32,1/64")
 
 
+@in_whole
 @pytest.mark.parametrize(
     ("method", "problem"),
     [

@@ -8,6 +8,7 @@ from importlib.util import find_spec
 import pytest
 
 from tests.cli.harness import ROOT
+from tests.whole import in_whole
 
 FAILING = "tests/examples/failing/collocation-misprinted.gark.yaml"
 
@@ -96,6 +97,7 @@ def test_help_imports_no_mathematics() -> None:
     assert run(python=("-c", script)).stderr == "[]\n"
 
 
+@in_whole
 def test_a_fault_of_the_program_is_owned_up_to() -> None:
     """An exception that no room expects ends in exit code 3 and a request to report it, not in a
     traceback.

@@ -15,6 +15,7 @@ import pytest
 
 from tests.cli.harness import ROOT
 from tests.had import needs_signals
+from tests.whole import in_whole
 
 pytestmark = needs_signals
 PATIENCE = 60.0
@@ -57,6 +58,7 @@ def wait_for(folder: Path, process: subprocess.Popen[bytes]) -> None:
         time.sleep(0.02)
 
 
+@in_whole
 @pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGHUP"])
 def test_a_report_that_is_cut_short_leaves_nothing(name: str, tmp_path: Path) -> None:
     """A signal while a file is being written takes it back: no file, no temporary one, no word, and
@@ -71,6 +73,7 @@ def test_a_report_that_is_cut_short_leaves_nothing(name: str, tmp_path: Path) ->
     assert list(tmp_path.iterdir()) == []
 
 
+@in_whole
 @pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGHUP"])
 def test_a_reader_that_does_not_read_holds_nothing_up(name: str) -> None:
     """A program that waits for the pipe to have room ends at the signal, not when somebody reads."""
@@ -84,6 +87,7 @@ def test_a_reader_that_does_not_read_holds_nothing_up(name: str) -> None:
         assert process.stderr.read() == b""
 
 
+@in_whole
 def test_signals_that_are_ignored_stay_so(tmp_path: Path) -> None:
     """Under ``nohup`` a terminal that closes does not end the run; SIGTERM still does."""
     before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
@@ -136,6 +140,7 @@ def test_an_interrupt_while_it_starts_says_nothing(module: str) -> None:
     assert (done.returncode, done.stdout, done.stderr) == (-signal.SIGINT, b"", b"")
 
 
+@in_whole
 def test_the_library_leaves_interrupts_alone() -> None:
     """Whoever imports gark, its command line included, keeps the handler of signals, also after a
     command ran.

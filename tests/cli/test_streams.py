@@ -23,7 +23,7 @@ from garkcli.page.plaintext import ascii_form, plain_line, plain_text
 from garkcli.page.safety import escaped, written_out
 from tests.cli.harness import ROOT, gark, gark_once
 from tests.cli.test_snapshots import RUNS
-from tests.whole import sample
+from tests.whole import in_whole, sample
 
 LONG = {"energy-kepler", "energy-drifting", "converge-several"}
 """Runs that take seconds; what they show is in the others too."""
@@ -54,6 +54,7 @@ def shown_texts() -> list[str]:
     return texts
 
 
+@in_whole
 def test_every_sign_of_the_program_has_an_ascii_form() -> None:
     """Whatever text of the package may be shown, no sign of it becomes a code point, a question
     mark or nothing.
@@ -148,6 +149,7 @@ def shell(command: str, **variables: str) -> subprocess.CompletedProcess[bytes]:
     )
 
 
+@in_whole
 @pytest.mark.parametrize(
     "variables",
     [
@@ -188,6 +190,7 @@ def test_a_closed_stream(command: str, code: int, says: bytes) -> None:
     assert b"Traceback" not in done.stderr
 
 
+@in_whole
 def test_a_closed_stream_takes_no_file(tmp_path: Path) -> None:
     """With standard output closed a report in a file is whole, and is not mixed with anything."""
     target = tmp_path / "report"
@@ -196,6 +199,7 @@ def test_a_closed_stream_takes_no_file(tmp_path: Path) -> None:
     assert target.read_text() == gark("check", "rk4").out
 
 
+@in_whole
 @pytest.mark.parametrize("command", ["trees -N 3 -n 8", "--help"])
 def test_nobody_reads_the_report(command: str) -> None:
     """The exit code is that of a program that SIGPIPE ends, never that of a claim that fails."""
@@ -205,6 +209,7 @@ def test_nobody_reads_the_report(command: str) -> None:
     assert done.stderr == b""
 
 
+@in_whole
 def test_somebody_stops_reading() -> None:
     """What fills a pipe ends with 141 when its reader stops."""
     done = shell("$GARK trees -N 3 -n 9 --yes | head -1; exit ${PIPESTATUS[0]}")

@@ -14,6 +14,7 @@ from garkcli.cli.usage import MEANT
 from garkcli.families.registry import FAMILIES
 from garkcli.glossary.faults import code_of
 from tests.cli.harness import ROOT, gark
+from tests.whole import in_whole
 
 
 @pytest.mark.parametrize(
@@ -47,6 +48,7 @@ def test_words_that_are_meant_are_commands() -> None:
     assert {*MEANT.values()} <= COMMANDS.keys()
 
 
+@in_whole
 @pytest.mark.parametrize("arguments", [["convert", "rk4", "--to", "tableau"], ["new", "--zzz"]])
 def test_a_mistake_fits_the_terminal(arguments: list[str]) -> None:
     """Its lines are as long as those of the terminal, with the same words that a pipe gets in one

@@ -13,6 +13,7 @@ from garkcli.exact.expression import parse
 from garkcli.glossary.fields import field_text
 from garkcli.glossary.term import by_word
 from tests.cli.harness import gark
+from tests.whole import in_whole
 
 
 def test_the_help_has_groups() -> None:
@@ -74,6 +75,7 @@ def test_spellings(written: str, shown: str) -> None:
     assert shown in run.out + run.err
 
 
+@in_whole
 def test_places_of_results(tmp_path: Path) -> None:
     """A page has a name by default; ``-o -`` is standard output; ``--output-dir`` is a folder; all
     say what they wrote.

@@ -35,6 +35,7 @@ from tests.conversion.renumbered import orders_of, renumbered
 from tests.conversion.test_conversion import PAIR, of_sheet, with_stage_twice
 from tests.methodfile.test_further import further_of
 from tests.methodfile.test_writer import tableaus
+from tests.whole import in_whole
 
 RK4 = loads((ROOT / "methods/rk4.gark.yaml").read_text(encoding="utf-8"))
 HEUN = "{A: [[0, 0], [1, 0]], b: [1/2, 1/2]}"
@@ -43,6 +44,7 @@ MISPRINT = (
 )
 
 
+@in_whole
 @given(st.data())
 @settings(max_examples=25)
 def test_renumbered_methods_are_the_same(data: st.DataObject) -> None:
@@ -60,6 +62,7 @@ def test_renumbered_methods_are_the_same(data: st.DataObject) -> None:
     assert turned == first
 
 
+@in_whole
 @given(st.data())
 @settings(max_examples=12)
 def test_doubled_stages_and_other_colours_are_seen_through(data: st.DataObject) -> None:
@@ -180,6 +183,7 @@ def test_families_are_compared_with_what_they_are_spelled_out() -> None:
     assert not found.sameness.allowed
 
 
+@in_whole
 def test_nodes_without_radicals() -> None:
     """Gauss 5 is itself, is not Radau IIA 5, and its decimals agree within their rounding."""
     gauss = loads("methods: {family: gauss, stages: 5}")
@@ -295,6 +299,7 @@ def shown(found: Comparison, format: str = "text", verbosity: int = 0) -> str:
     return REPORT.render([compared], format, verbosity=verbosity)
 
 
+@in_whole
 def test_reports() -> None:
     """Text of 80 columns, JSON after its schema, Markdown with a verdict, for every relation."""
     schema = report_schema("diff")
@@ -335,6 +340,7 @@ def test_a_tolerance_is_a_difference_of_the_files_alone() -> None:
     assert (data["first"]["tolerance"], data["second"]["tolerance"]) == (None, "1e-3")
 
 
+@in_whole
 def test_what_rounding_allows_is_said_in_every_format() -> None:
     """A verdict on rounded methods and their orders have the tolerance beside them; it is written
     as in all other reports.
@@ -351,6 +357,7 @@ def test_what_rounding_allows_is_said_in_every_format() -> None:
     assert "4 within 1e-11 against 1" in shown(itself, "markdown")
 
 
+@in_whole
 def test_exit_codes() -> None:
     """0 where the methods are the same, with --strict where every entry is."""
     for text, code, strict in ((MISPRINT, 1, 1), (RENUMBERED, 0, 1), (RK4.text, 0, 0)):
@@ -447,6 +454,7 @@ def test_a_stage_without_influence_is_no_difference() -> None:
     assert reduced(smaller) is smaller
 
 
+@in_whole
 def test_properties_of_rounded_coefficients_say_so() -> None:
     """What is an equation holds within the tolerance; what rounding does not change holds as it is."""
     run = gark("diff", "tests/examples/valid/rounded.gark.yaml", "rk4", "-v")

@@ -11,6 +11,7 @@ from garkcli.frozen import replace
 from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.vectorfield import symbols
+from tests.whole import in_whole
 
 KEPLER = hamiltonian("kepler", 2)
 (X, Y), (PX, PY) = (symbols(("x", "y"), group) for group in ("q", "p"))
@@ -52,6 +53,7 @@ def test_others_are_told_with_their_change(invariant: sympy.Expr) -> None:
         assert change == pytest.approx(-(float(time) ** 2) / 2 * 6.25, rel=0.01)
 
 
+@in_whole
 def test_nothing_is_said_without_a_solution(monkeypatch: pytest.MonkeyPatch) -> None:
     """A problem without invariants; and one whose solution ends at once, however few steps are
     tried before that is seen.

@@ -78,6 +78,7 @@ def test_separable_problem_hides_the_loss() -> None:
     assert result.observed_order == pytest.approx(4, abs=0.01)
 
 
+@in_whole
 def test_seed_makes_another_problem() -> None:
     """Other coefficients, the same order."""
     tableau = gark_tableau([diagonal_method("kutta")], {})
@@ -86,6 +87,7 @@ def test_seed_makes_another_problem() -> None:
     assert result.observed_order == pytest.approx(3, abs=0.05)
 
 
+@in_whole
 def test_disagreement_is_told() -> None:
     """Two large steps show no order: slopes far from 4 do not agree."""
     result = converge(RECTANGULAR, hamiltonian("kepler", 2), steps=[fmpq(1, 2), fmpq(1, 4)])
@@ -192,6 +194,7 @@ def test_verdict(result: Convergence, verdict: str) -> None:
     assert result.agrees == (verdict == "agree")
 
 
+@in_whole
 def test_small_error_constant_needs_tiny_steps() -> None:
     """An error of h⁴ + h³/10⁵: slopes of 4 at usual steps, and the order is 3; over a short time
     that shows.
@@ -233,6 +236,7 @@ def test_ladder_ends_before_too_many_steps(monkeypatch: pytest.MonkeyPatch) -> N
     assert result.observed_order is not None
 
 
+@in_whole
 def test_mixed_orders_need_a_shorter_time() -> None:
     """Gauss 2 in 13 digits: residuals of 1e-14 at order 2, seen only where h⁴ is far smaller than
     that.
@@ -253,6 +257,7 @@ def read(text: str) -> fmpq:
     return fmpq(exact.numerator, exact.denominator)
 
 
+@in_whole
 def test_constant_force_is_exact_at_once() -> None:
     """A stone that falls with g = 1/3, which no binary number is: no condition that it sees fails,
     so that round-off is taken for no error without hundreds of digits.

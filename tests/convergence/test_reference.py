@@ -16,6 +16,7 @@ from tests.listener import Listener
 from tests.whole import in_whole, sample
 
 
+@in_whole
 def test_period_of_kepler() -> None:
     """After its period the planet is where it began, to the digits asked for."""
     problem = hamiltonian("kepler", 2)
@@ -31,6 +32,7 @@ def test_period_of_kepler() -> None:
             )
 
 
+@in_whole
 @pytest.mark.parametrize(
     ("digits", "t_end"),
     sample([(16, fmpq(30)), (25, fmpq(30)), (16, fmpq(2)), (40, fmpq(2)), (25, fmpq(1, 10))], 3),
@@ -83,6 +85,7 @@ def test_how_far_it_is_can_be_seen() -> None:
     assert all(work.done == work.total for work in steps)
 
 
+@in_whole
 @pytest.mark.parametrize("digits", sample([16, 21], 2))
 def test_collision_has_no_solution(digits: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """A planet without angular momentum falls into the sun at t = π/√8: nothing is made up

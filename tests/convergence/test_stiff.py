@@ -163,6 +163,7 @@ def test_all_show_their_order_where_nothing_is_stiff(name: str) -> None:
         assert result.observed_order == pytest.approx(result.predicted_order, abs=0.05)
 
 
+@in_whole
 @pytest.mark.parametrize("name", sample([*WEAK], 6))
 def test_slopes_are_the_weak_stage_orders(name: str) -> None:
     """Where the stage order is 1, the slope on the stiff problem is the weak stage order that the
@@ -187,6 +188,7 @@ def test_slopes_are_those_of_the_literature(name: str, power: int) -> None:
         assert result.short_order == pytest.approx(result.predicted_order, abs=0.05)
 
 
+@in_whole
 def test_imex_methods_are_reduced() -> None:
     """Those that are, each on its problems; the verdict is no disagreement."""
     on_prothero_robinson = {

@@ -158,6 +158,7 @@ def test_digits_do_not_depend_on_the_start(text: str) -> None:
     assert all(abs(x - y) < fmpq(1, 10**60) for x, y in zip(shifts, again, strict=True))
 
 
+@in_whole
 def test_further_weights_are_written_too() -> None:
     """Embedded weights and dense output are those of the same method, with as many digits; all
     orders hold within a unit of the last digit, and no number moves by more than t.

@@ -214,6 +214,7 @@ def _text(entries: list[tuple[int, int]], weight: Fraction) -> str:
     )
 
 
+@in_whole
 @settings(max_examples=at_most(10, 25))
 @given(
     st.lists(_ENTRY, min_size=4, max_size=4),
@@ -358,6 +359,7 @@ CLASSICAL = ("1/2 1/2 1/2 1 0 1 1/6 1/3 1/3 1/6", "1/3 2/3 1 1 -1 1 1/8 3/8 3/8 
 """Kutta's methods: c2, c3, a32, c4, a42, a43 and the weights."""
 
 
+@in_whole
 def test_explicit_methods_of_four_stages() -> None:
     """Order 4: a family of dimension 2; no value has order 5, for the tall tree alone. One condition
     after the other leads to bases that are too large; all of them at once do not.

@@ -195,6 +195,7 @@ def value_at_point(x: object, ring: Parameters, at: dict[str, fmpq]) -> fmpq:
     return over(*point) / under(*point)
 
 
+@in_whole
 def test_the_best_of_four_stages_with_a_node() -> None:
     """With c3 = 3/5 the least error of order 4, of all methods, against Kutta's formulas in floats:
     no c2 of a grid has less.
@@ -357,6 +358,7 @@ def test_coefficients_at_irrational_nodes() -> None:
     assert float(minimum.value.ball(80)) == pytest.approx(total)
 
 
+@in_whole
 def test_emitted_file(tmp_path: Path) -> None:
     """The minimiser as a root of its polynomial, proved again by ``gark check``; JSON has it with
     the gradient.
@@ -596,6 +598,7 @@ def test_no_rational_parameter_is_better(name: str, objective: str) -> None:
         assert max(near) == pytest.approx(greatest, rel=1e-3, abs=1e-3)
 
 
+@in_whole
 def test_a_level_of_a_large_degree() -> None:
     """The greatest of five stages on the imaginary axis is exact, as a root of its polynomial; the
     value of the method with 30 digits of the parameter agrees.
@@ -635,6 +638,7 @@ def test_by_trial() -> None:
     assert "greatest ssp found 1: the best of what was found" in render(best)
 
 
+@in_whole
 def test_beside_a_critical_point(monkeypatch: pytest.MonkeyPatch) -> None:
     """The smallest coefficients of three stages and order 3, without a Gröbner basis: the
     gradient by finite differences of the exact sums of squares vanishes at c_2 and c_3, up to
@@ -679,6 +683,7 @@ design: {order: 2, fix: {b3: 0, a3: a1, b2: b1}}
     assert known == pytest.approx(0.1931833275037836, abs=1e-15)
 
 
+@in_whole
 def test_entries_without_nodes() -> None:
     """The same methods with unknown entries: nodes are made coordinates, and the least value is the
     same number.

@@ -18,6 +18,7 @@ from garkcli.errors import NotDecided
 from garkcli.exact.parametric import fraction
 from garkcli.methodfile.family import loads_family
 from garkcli.report.design import REPORT, DesignReport
+from tests.whole import in_whole
 
 CONTEXT = fmpz_mpoly_ctx.get(("x", "y"), Ordering.degrevlex)
 X, Y = CONTEXT.gens()
@@ -259,6 +260,7 @@ def test_implicit_explicit_methods_by_msolve(monkeypatch: pytest.MonkeyPatch) ->
     assert has_alexander(found)
 
 
+@in_whole
 def test_no_stiffly_accurate_sdirk() -> None:
     """Four stages, singly diagonally implicit, the last row b: order 4 for none, proved."""
     text = "unknown: {stages: 4, shape: [sdirk, stiffly-accurate]}\n"

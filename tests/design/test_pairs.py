@@ -152,6 +152,7 @@ def one(family: Family, ideal: Ideal) -> Tableau:
     return member(family.tableau, family.ring, solution.values)
 
 
+@in_whole
 def test_trees_ask_for_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
     """Gauss 1 and Lobatto IIIA 2, Gauss 2 and Lobatto IIIA 3: the conditions of all trees have the
     zeros that the criterion has.
@@ -213,6 +214,7 @@ def other(seed: int, first: str, second: str, order: int) -> Tableau:
     return gark([l, m], blocks)
 
 
+@in_whole
 def test_the_least_error_of_odd_order() -> None:
     """Radau IIA 2 and Gauss 2 with p = 3: Legendre with K = 1, and no random transfer has less."""
     design = find_parameters(unknown(("radau-iia", 2), ("gauss", 2)), 3, "pair")

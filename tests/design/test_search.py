@@ -245,6 +245,7 @@ def test_both_sdirk_methods() -> None:
     assert one.values["t"] == "1/2 - sqrt(3)/6"
 
 
+@in_whole
 def test_degenerate_solutions() -> None:
     """τ = 1 is a double solution: least squares end near it, and it is told exactly."""
     search = Search(loads_family(TAU), 3, "pair")
@@ -258,6 +259,7 @@ def forest_ruth() -> list[float]:
     return [g / 2, (1 - g) / 2, (1 - g) / 2, g / 2, 0.0, g, 1 - 2 * g, g]
 
 
+@in_whole
 def test_a_degenerate_point_is_no_method() -> None:
     """Beside the double solution of Forest and Ruth residuals are 1e-9 and no method is there.
 
@@ -322,6 +324,7 @@ class Part:
         return x
 
 
+@in_whole
 def test_existence_is_proved_or_not(tmp_path: Path) -> None:
     """A root of degree 9 is proved to exist; where a second equation has it too, nothing is proved
     and the word is numerical. Both files say so, and hold within their decimals.
@@ -450,6 +453,7 @@ def test_short_numbers_are_near(present: float) -> None:
     assert [len(x) for x in fine] == [1, 1, 1]
 
 
+@in_whole
 def test_the_same_finds_with_several_processes(tmp_path: Path) -> None:
     """What is found does not hang on how many work."""
     (tmp_path / "family.yaml").write_text(explicit(3), encoding="utf-8")

@@ -56,6 +56,7 @@ def small(slow: fmpq, greatest: fmpq | None) -> StableValues:
     return stable_values(family, "p-stable", "method", wanted)
 
 
+@in_whole
 @settings(max_examples=at_most(3, 10))
 @given(
     st.fractions(-1, 2, max_denominator=6),
@@ -107,6 +108,7 @@ def test_one_interval_reaches_the_bound(
     assert (found and str(found)) == witness
 
 
+@in_whole
 def test_one_value_has_no_resonance_at_all() -> None:
     """Without a bound t = 1/4 is left, where the trace stays within ±2 for every x."""
     for slow in (fmpq(1, 2), fmpq(2)):
@@ -135,6 +137,7 @@ def test_the_transfer_without_the_first_resonance() -> None:
         assert all(sign_at(quadratic, root) == 0 for root in roots)
 
 
+@in_whole
 def test_the_report(tmp_path: Path) -> None:
     """Text and JSON say which springs are meant."""
     (tmp_path / "free.yaml").write_text(SMALL.format("free"), "utf-8")

@@ -108,6 +108,7 @@ def test_random_and_critical_points(text: str) -> None:
     assert [contains(values, g, d) for g, d in points] == found
 
 
+@in_whole
 def test_the_report() -> None:
     """The set of the DIRK with weights 1/2, which for 0 < g < 1/2 is (1 − g)/2 ≤ d ≤ (1 − g)/(2 − 4g)."""
     run = gark("design", "-", "--a-stable", stdin=DIRK)
@@ -129,6 +130,7 @@ def test_the_report() -> None:
     assert "g ≤ 0          d = root 2 in d of -2*g*d + 2*g + 2*d^2 - d" in text
 
 
+@in_whole
 def test_the_plane_is_named_where_order_leaves_it_open() -> None:
     """With an order that every value has, the cure is to ask without it."""
     text = f"{FREE}A: [[g, 0], [1 - d, d]]\nb: [1/2, 1/2]\n"
@@ -145,6 +147,7 @@ def test_no_values_and_explicit_methods() -> None:
     assert "A-stable for no value of g and d" in run.out
 
 
+@in_whole
 def test_curves_that_cross_at_irrational_points() -> None:
     """Where curves cross over an irrational g outside of the set, |R| > 1 is proved there, so that
     the strips beside it are one: no end of a strip is irrational here.
@@ -154,6 +157,7 @@ def test_curves_that_cross_at_irrational_points() -> None:
         assert all(x is None or x.exact is not None for x in ends)
 
 
+@in_whole
 def test_the_picture() -> None:
     """Inside of the drawn areas are the values of the set, up to the breadth of a column; a single g
     is a line.

@@ -43,6 +43,7 @@ def three() -> Design:
     return find_parameters(loads_family(THREE))
 
 
+@in_whole
 def test_of_three_methods_one_is_a_stable(three: Design) -> None:
     """S. P. Nørsett 1974: of the three γ of order 4 the largest alone is A-stable; that method says the same when it
     is loaded with its values as roots of a polynomial.
@@ -203,6 +204,7 @@ design:
 """
 
 
+@in_whole
 def test_implicit_explicit_methods_with_an_l_stable_part() -> None:
     """Four stages of order 3: of the three γ with R(∞) = 0, the roots of 6γ³ − 18γ² + 9γ − 1, one
     makes the implicit part L-stable, 0.4358… (R. Alexander 1977); its method is proved.

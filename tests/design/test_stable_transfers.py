@@ -120,6 +120,7 @@ def some_of_both(
             yield solution, root, method, is_stable
 
 
+@in_whole
 @pytest.mark.parametrize(
     ("methods", "order", "dimension"),
     sample(
@@ -183,6 +184,7 @@ def error(family: Family, solution: Solution, root: RealRoot, order: int) -> Rea
     return value_at(quotient.numerator / quotient.denominator, root)
 
 
+@in_whole
 def test_one_of_them_by_gröbner_bases() -> None:
     """Gauss 2 and Lobatto IIIA 3, where no theorem says it: 0.1737 in docs/found.md."""
     design = find_parameters(p_stable("gauss-2, lobatto-iiia-3"), 4, "pair")

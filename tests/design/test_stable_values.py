@@ -173,6 +173,7 @@ def test_against_single_values(families: tuple[object, ...], wanted: Wanted) -> 
 _ENTRY = st.tuples(st.integers(-2, 2), st.integers(-2, 2))
 
 
+@in_whole
 @settings(max_examples=at_most(5, 20))
 @given(st.lists(_ENTRY, min_size=5, max_size=5), st.sampled_from(["a-stable", "l-stable"]))
 def test_random_families(entries: list[tuple[int, int]], wanted: Wanted) -> None:
@@ -183,6 +184,7 @@ def test_random_families(entries: list[tuple[int, int]], wanted: Wanted) -> None
     compare(f"A: [[{a}, {b}], [{c}, {d}]]\nb: [{w}, 1 - {w}]\n", wanted)
 
 
+@in_whole
 @settings(max_examples=at_most(2, 12))
 @given(st.lists(_ENTRY, min_size=2, max_size=2), st.sampled_from([0, 1, 2]))
 def test_random_families_on_the_oscillator(entries: list[tuple[int, int]], b: int) -> None:

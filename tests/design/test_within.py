@@ -171,6 +171,7 @@ def test_ranges_hold_for_values_within() -> None:
     assert (inside.reaches(2), outside.reaches(2)) == (True, None)
 
 
+@in_whole
 def test_the_file_that_is_written_passes_the_check(tmp_path: Path) -> None:
     """--emit writes decimals and claims, which ``gark check`` confirms within the tolerance."""
     file, made = tmp_path / "sdirk.yaml", tmp_path / "made.gark.yaml"

@@ -143,6 +143,7 @@ def test_a_property_is_a_function_and_a_word(copy: Copy) -> None:
     assert "few" in (copy.folder / "page.html").read_text(encoding="utf-8")
 
 
+@in_whole
 def test_a_target_is_a_file_and_a_template(copy: Copy) -> None:
     """The list and the export have it."""
     assert "found by itself" in row("target of `gark export`")

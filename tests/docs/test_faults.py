@@ -16,7 +16,7 @@ from garkcli.glossary.faults import HOLE, FaultKind, by_code, code_of, codes_of
 from garkcli.methodfile.load import loads
 from tests.cli.harness import ROOT, gark
 from tests.docs.fault_sites import ERRORS, sites, source
-from tests.whole import at_most
+from tests.whole import at_most, in_whole
 
 KINDS = list(by_code().values())
 AROUND = ("{}", "a: {}", "; {}", "it's {}", '"{}\\n')
@@ -103,6 +103,7 @@ def test_every_message_of_a_kind_is_said() -> None:
     assert {part for part in rare if part[0] not in said} == set()
 
 
+@in_whole
 def test_no_message_is_of_two_kinds() -> None:
     """Each message leads to one kind."""
     every = [message for kind in KINDS for message in kind.says]

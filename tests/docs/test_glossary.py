@@ -22,6 +22,7 @@ from garkcli.tell.parts import part
 from garkcli.tell.report import Report
 from tests.cli.harness import gark
 from tests.docs.tables import terms_tables
+from tests.whole import in_whole
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs" / "glossary.md"
@@ -184,6 +185,7 @@ def test_a_label_that_nobody_explains_is_found() -> None:
     assert unexplained("      fails at order 5: [[]]    ●\n") == []
 
 
+@in_whole
 def test_every_word_has_a_meaning() -> None:
     """Keys, claims, families, rules, schemes and findings are known words, each with a text."""
     words = known_words()

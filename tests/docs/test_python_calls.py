@@ -15,6 +15,7 @@ from garkcli.cli.options import parameter_of, told
 from garkcli.cli.table import COMMANDS, OPTIONS, Option
 from garkcli.errors import MethodError
 from tests.cli.harness import gark
+from tests.whole import in_whole
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "python.md"
 COMMON = "every command"
@@ -119,6 +120,7 @@ def shown(*arguments: str) -> str:
     return result.out
 
 
+@in_whole
 def test_texts_are_those_of_the_commands() -> None:
     """Exports, certificates, references and schemas, to the letter."""
     rk4 = garkcli.load("rk4")

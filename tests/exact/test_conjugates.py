@@ -18,6 +18,7 @@ from garkcli.exact.field import Algebraic, Number, NumberField
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import _multiplicity_by_gcds, multiplicity_at, real_roots
 from garkcli.stability.summary import stability
+from tests.whole import in_whole
 
 FIELDS = [
     ["sqrt(2)"],
@@ -80,6 +81,7 @@ def test_real_roots_divide_nothing_in_the_field(monkeypatch: pytest.MonkeyPatch)
     assert [sum(power for _, power in real_roots(p)) for p in given] == [1, 2, 4, 4, 4, 7]
 
 
+@in_whole
 def test_few_inverses_decide_stability(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of three stages in degree 8, where common divisors with the factors of norms took 181."""
     method = loads(

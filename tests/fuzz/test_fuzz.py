@@ -33,7 +33,7 @@ from tests.fuzz.inputs import RADICALS, SIGNS, WORDS, method_file, seeds, soup
 from tests.fuzz.long_run import Cases, run
 from tests.fuzz.problem_inputs import problem_file, problem_seeds, written_problem
 from tests.oracles.draws import fractions
-from tests.whole import at_most
+from tests.whole import at_most, in_whole
 
 SLOWEST = 5.0
 """Seconds of the processor that no file may take before its verdict."""
@@ -292,6 +292,7 @@ def test_method_files(seed: int) -> None:
     assert 0 < refused < 300
 
 
+@in_whole
 @pytest.mark.parametrize("seed", range(at_most(1, 3)))
 def test_problem_files(seed: int) -> None:
     """Damaged problem files: a problem or its faults, each with a place, and soon; ``make fuzz`` has
@@ -309,6 +310,7 @@ def test_problem_files(seed: int) -> None:
     assert 0 < refused < 40
 
 
+@in_whole
 def test_what_is_damaged_was_good() -> None:
     """The problem files that damage begins with have no faults; of the written ones many have
     none.
@@ -355,6 +357,7 @@ class Faulty(Cases):
         return str
 
 
+@in_whole
 def test_faults_of_the_loader_are_found() -> None:
     """In workers every misdeed is a fault, at its number, and the next number follows; sleep takes
     no processor.
@@ -370,6 +373,7 @@ def test_faults_of_the_loader_are_found() -> None:
     assert "longer than 0.2 s" in errors["works on"]
 
 
+@in_whole
 @pytest.mark.parametrize("are_problems", [False, True])
 def test_the_long_run_in_short(are_problems: bool) -> None:
     """Its first cases: each has a verdict, and the same text whenever it is asked for."""
@@ -392,6 +396,7 @@ def test_numbers(seed: int) -> None:
         assert 0 <= offset_of_fault(text) <= len(text), text
 
 
+@in_whole
 @FUZZ
 @given(_files())
 def test_files_of_any_values(content: dict[Any, Any]) -> None:

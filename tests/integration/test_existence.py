@@ -22,6 +22,7 @@ from garkcli.order.rounded import RoundedTableau
 from garkcli.report.certificate import REPORT
 from tests.cli.harness import gark
 from tests.integration.test_referee import ENDLESS, REFEREE, judged
+from tests.whole import in_whole
 
 ERK = """
 name: three stages
@@ -121,6 +122,7 @@ def test_methods_of_the_catalogue(name: str, tmp_path: Path) -> None:
         assert x.width <= x.radius / 10**6
 
 
+@in_whole
 def test_trees_of_other_vertices(tmp_path: Path) -> None:
     """A rounded Rosenbrock method, whose second colour has one branch a vertex: without a tree, or
     without what its vertices are like, the proof is none.
@@ -199,6 +201,7 @@ def forged(data: dict[str, Any], path: tuple[Any, ...]) -> dict[str, Any]:
     return data
 
 
+@in_whole
 @pytest.mark.parametrize("text", [ERK, TWO], ids=["erk", "two"])
 def test_a_forged_proof_is_found_out(text: str, tmp_path: Path) -> None:
     """Whatever single field is changed, the referee proves nothing: a printed number, a radius that
@@ -330,6 +333,7 @@ def test_what_is_not_proved_is_refused(tmp_path: Path) -> None:
     assert (run.code, run.out) == (2, "")
 
 
+@in_whole
 def test_reports_tell_it(tmp_path: Path) -> None:
     """The answer for people, the conditions with -v; no file for Coq."""
     file = tmp_path / "rounded.gark.yaml"

@@ -12,6 +12,7 @@ import pytest
 import yaml
 
 from tests.cli.harness import gark
+from tests.whole import in_whole
 
 ROOT = Path(__file__).resolve().parents[2]
 GOOD = "methods/collocation.gark.yaml"
@@ -43,6 +44,7 @@ def test_pre_commit_hook(file: str, code: int) -> None:
     assert run(f"{command} {file}").returncode == code
 
 
+@in_whole
 def test_a_file_that_is_called_like_an_option(tmp_path: Path) -> None:
     """The hook and the action check a file whose name begins with a dash."""
     (hook,) = yaml.safe_load((ROOT / ".pre-commit-hooks.yaml").read_text())
@@ -81,6 +83,7 @@ def installed(temporary: Path, command: str) -> Path:
     return temporary
 
 
+@in_whole
 @pytest.mark.parametrize(
     ("file", "code", "command"), [(GOOD, 0, "Scripts/gark.exe"), (BAD, 1, "bin/gark")]
 )

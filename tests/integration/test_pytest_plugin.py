@@ -14,6 +14,7 @@ from garkcli import assert_order
 from garkcli.check.check_file import check_file
 from garkcli.check.findings import findings
 from tests.cli.harness import ROOT
+from tests.whole import in_whole
 
 pytest_plugins = ["pytester"]
 MODULE = garkcli.pytest_plugin.__name__
@@ -123,6 +124,7 @@ def test_items_have_the_names_of_claims(project: pytest.Pytester) -> None:
     assert outcomes(chosen) == {"passed": 2, "deselected": 8}
 
 
+@in_whole
 def test_settings_of_a_project(project: pytest.Pytester) -> None:
     """Patterns say which files are tests; --no-gark and --gark are stronger."""
     project.makeini(
@@ -161,6 +163,7 @@ def test_methods_for_tests(project: pytest.Pytester) -> None:
     assert "asserting.py" not in text
 
 
+@in_whole
 def test_a_fault_of_the_program_has_its_traceback(
     project: pytest.Pytester, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -175,6 +178,7 @@ def test_a_fault_of_the_program_has_its_traceback(
     assert "RuntimeError: no judgement of good.gark.yaml" in result.stdout.str()
 
 
+@in_whole
 def test_it_is_registered_and_light() -> None:
     """The package names the plugin to pytest; as long as it is not used it imports nothing
     heavy.
@@ -193,6 +197,7 @@ def test_it_is_registered_and_light() -> None:
     assert done.stdout == "[]\n", done.stderr
 
 
+@in_whole
 def test_workers_have_the_same_tests(project: pytest.Pytester) -> None:
     """In processes of pytest-xdist everything is as in one."""
     done = project.runpytest_subprocess(

@@ -148,6 +148,7 @@ def test_the_catalogue_is_proved(tmp_path: Path, capsys: pytest.CaptureFixture[s
     assert {"leapfrog-2", "candy-rozmus-4", "gauss-2"} <= seen
 
 
+@in_whole
 def test_as_a_program(tmp_path: Path) -> None:
     """Run as people run it: several files, the worst exit code; no file is no proof."""
     good, bad = tmp_path / "good.json", tmp_path / "bad.json"
@@ -342,6 +343,7 @@ def test_a_pair_needs_its_conjugate(tmp_path: Path) -> None:
 ENDLESS = ("1e1000000000", "1E-1000000000", "1/1e9999999999", "9" * 100_000)
 
 
+@in_whole
 @pytest.mark.parametrize("number", ENDLESS, ids=["power", "small", "below", "digits"])
 def test_no_number_is_without_end(
     number: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

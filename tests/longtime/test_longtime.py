@@ -145,6 +145,7 @@ def test_turns_are_counted_across_chunks() -> None:
     )  # with k = sin(θ_max/2) = 0.541 the period is 4K(k) = 6.82
 
 
+@in_whole
 def test_more_digits_show_what_floats_hide() -> None:
     """Gauss 6 conserves the energy of the pendulum to round-off; with 40 digits the error is seen
     to stay.
@@ -396,6 +397,7 @@ def test_rounded_coefficients_excuse_no_other_drift(source: str) -> None:
     assert 0 < energy.coefficients < 1e-2 * abs(energy.drift or 0) * 200
 
 
+@in_whole
 @given(st.lists(st.integers(-9, 9), min_size=6, max_size=6))
 @settings(max_examples=at_most(5, 10), deadline=None)
 def test_what_rounding_does_is_within_its_bound(units: list[int]) -> None:
@@ -467,6 +469,7 @@ initial: {x: 0, y: 1/10, px: sqrt(1/3 - 1/100 + 2/3000 - 1/100), py: 1/10}
 """
 
 
+@in_whole
 @pytest.mark.parametrize("text", [MAGNETIC, HENON_HEILES])
 def test_chaos_and_magnetic_fields(text: str) -> None:
     """A symplectic method is bounded, and the method of Runge and Kutta drifts."""
@@ -492,6 +495,7 @@ def test_what_is_undecided_names_a_longer_run() -> None:
     assert longer.longer is None
 
 
+@in_whole
 def test_an_orbit_that_escapes_is_unstable() -> None:
     """Explicit Euler drives the planet away: it turns no more, and no drift is given."""
     result = run(EULER, "kepler", 400, fmpq(1, 100))

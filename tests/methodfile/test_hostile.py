@@ -335,6 +335,7 @@ def test_a_big_method_is_answered_or_refused(stages: int, entry: str, tmp_path: 
 # -------------------------------------------------------------------------------------
 
 
+@in_whole
 def test_what_is_no_file_is_refused(tmp_path: Path) -> None:
     """A directory without methods, a missing file, a FIFO nobody writes to, a socket's place and a
     device.
@@ -367,6 +368,7 @@ def test_other_commands_refuse_them_too(command: str, tmp_path: Path) -> None:
     refused(call(command, "-", *options, stdin=bytes(range(256))))
 
 
+@in_whole
 def test_an_endless_standard_input_is_refused() -> None:
     """Standard input is read to its limit and not to its end."""
     with Path("/dev/zero").open("rb") as endless:
@@ -382,6 +384,7 @@ def test_an_endless_standard_input_is_refused() -> None:
     assert "more than" in refused(done)
 
 
+@in_whole
 def test_a_name_with_an_odd_byte_is_only_a_name(tmp_path: Path) -> None:
     """A file name that is no UTF-8 is checked, and reported in every format."""
     (Path(os.fsdecode(bytes(tmp_path) + b"/a\xff\nb.gark.yaml"))).write_text(
@@ -400,6 +403,7 @@ def test_a_name_with_an_odd_byte_is_only_a_name(tmp_path: Path) -> None:
 RUNS = [("check", FAILING), ("trees", "-N", "3", "-n", "8"), ("list",), ("schema",)]
 
 
+@in_whole
 @pytest.mark.parametrize("arguments", RUNS[:2], ids=lambda arguments: arguments[0])
 def test_a_full_disk_is_said(arguments: tuple[str, ...]) -> None:
     """A full disk under stdout is exit code 2 and one line that says so, whether a report is written
@@ -436,6 +440,7 @@ def test_a_place_that_cannot_be_written_is_said(tmp_path: Path) -> None:
     assert (tmp_path / "file").read_text() == "kept"
 
 
+@in_whole
 def test_a_file_limit_leaves_nothing_half_written(tmp_path: Path) -> None:
     """Where the disk ends in the middle of a report, the old report stays whole and nothing else is
     left.
@@ -513,6 +518,7 @@ def _ready(pid: int, cwd: Path, ready: str) -> bool:
     return len(children.read_text(encoding="utf-8").split()) >= 2
 
 
+@in_whole
 @pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="needs /proc to see workers")
 def test_an_interrupt_ends_workers(tmp_path: Path) -> None:
     """^C during a check of many files by two workers: exit code 130, no traceback, no worker and no
@@ -528,6 +534,7 @@ def test_an_interrupt_ends_workers(tmp_path: Path) -> None:
     assert {x.suffix for x in tmp_path.iterdir()} == {".yaml"}
 
 
+@in_whole
 def test_an_interrupt_leaves_no_file(tmp_path: Path) -> None:
     """^C during a long listing into a file: exit code 130, no traceback, no file under any name."""
     arguments = ("trees", "-N", "4", "-n", "9", "--yes", "--format", "csv", "-o", "trees.csv")
@@ -593,6 +600,7 @@ def test_a_fault_of_our_own(monkeypatch: pytest.MonkeyPatch) -> None:
     told_of_each_file(call("check", "methods"))
 
 
+@in_whole
 def test_a_fault_of_our_own_in_a_worker() -> None:
     """As in the program itself."""
     command = [sys.executable, "-c", BREAKING, "check", "methods", "-j", "2"]

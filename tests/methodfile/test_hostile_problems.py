@@ -13,7 +13,7 @@ import pytest
 
 from garkcli.errors import MethodFileError
 from garkcli.methodfile.problem import loads_problem
-from tests.whole import sample
+from tests.whole import in_whole, sample
 
 PROBLEMS = Path(__file__).resolve().parents[2] / "problems"
 LONGEST = 20.0
@@ -146,6 +146,7 @@ def test_refused_soon(name: str) -> None:
     assert any(message in fault.message for fault in caught.value.faults)
 
 
+@in_whole
 @pytest.mark.parametrize("name", sample([*READ], 3))
 def test_read_soon(name: str) -> None:
     """Large, but within the limits."""
@@ -154,6 +155,7 @@ def test_read_soon(name: str) -> None:
     assert time.process_time() - before < LONGEST
 
 
+@in_whole
 @pytest.mark.parametrize("seed", range(4))
 def test_any_text_is_read_or_refused(seed: int) -> None:
     """Soups of words, and good files with pieces replaced: nothing but ``MethodFileError`` comes

@@ -12,6 +12,7 @@ from garkcli.errors import MethodFileError
 from garkcli.exact.display import to_text
 from garkcli.exact.field import Number
 from garkcli.methodfile.load import loads
+from tests.whole import in_whole
 
 
 def value(scalar: str, parameters: Mapping[str, str] | None = None) -> Number:
@@ -134,6 +135,7 @@ def test_underscores_are_soon_read() -> None:
     assert process_time() - before < 2
 
 
+@in_whole
 def test_long_chains_of_parameters_are_refused() -> None:
     """Parameters that each use the one before: read to a depth of two hundred, then told."""
 

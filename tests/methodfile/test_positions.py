@@ -12,6 +12,7 @@ from garkcli.methodfile.load import load, loads
 from garkcli.methodfile.source import Source
 from garkcli.page.paint import Paint
 from garkcli.report.check_text import faults_lines
+from tests.whole import in_whole
 
 
 def faults(text: str) -> tuple[Fault, ...]:
@@ -187,6 +188,7 @@ def test_faults_of_one_place_keep_the_order_they_were_met_in() -> None:
     assert [fault.message for fault in source.error().faults] == messages
 
 
+@in_whole
 def test_yaml_nested_without_end_is_refused(tmp_path: Path) -> None:
     """A file of 100 000 opening brackets is refused with a fault; the process survives it."""
     path = tmp_path / "deep.gark.yaml"

@@ -20,6 +20,7 @@ from garkcli.methodfile.file_keys import KEYS, method_file_schema
 from garkcli.methodfile.load import load
 from garkcli.methodfile.transfers import ALL_RULES
 from garkcli.transfer import RULES
+from tests.whole import in_whole
 
 ROOT = Path(__file__).parents[2]
 SUFFIX = ".gark.yaml"
@@ -131,6 +132,7 @@ def test_what_is_excused_needs_its_excuse(name: str) -> None:
     assert VALIDATOR.is_valid(data(INVALID[name]))
 
 
+@in_whole
 @pytest.mark.parametrize("name", sorted(NO_PLAIN_YAML))
 def test_what_is_no_plain_yaml_is_none(name: str) -> None:
     """What never reaches a validator is no UTF-8, or fails in the YAML reader."""

@@ -249,6 +249,7 @@ def test_digits_of_a_file_without_decimals_are_a_fault() -> None:
         loads("tolerance: digits\nA: [[0, 0], [2/3, 0]]\nb: [1/4, 3/4]")
 
 
+@in_whole
 def test_written_files_keep_the_tolerance_by_place() -> None:
     """A method that is spelled out has the same rounding when it is read again; what is recovered
     of embedded weights leaves A and b exact.
@@ -315,6 +316,7 @@ def test_roots_of_rounded_numbers_have_no_certificate() -> None:
         prove_method_exists(method)
 
 
+@in_whole
 def test_a_root_of_a_rounded_number_moves_beside_unknowns() -> None:
     """A weight sqrt(1.000001) t or sqrt(1.000001 t) is 1 for t = 1 within the rounding."""
     text = "tolerance: 1e-6\nparameters: {t: free}\nA: [[t/2]]\nb: [{}]\ndesign: {order: 2}\n"

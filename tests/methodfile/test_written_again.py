@@ -16,7 +16,7 @@ from garkcli.tableau.forms import pair
 from garkcli.tableau.pointwise import in_points
 from garkcli.tableau.tableau import Tableau
 from tests.cli.harness import ROOT, gark
-from tests.whole import IS_WHOLE, sample
+from tests.whole import IS_WHOLE, in_whole, sample
 
 CATALOGUE = sorted((ROOT / "garkcli/catalogue/data").rglob("*.gark.yaml"))
 FILES = [*sample(CATALOGUE, 16), *sorted((ROOT / "methods").rglob("*.gark.yaml"))]
@@ -82,6 +82,7 @@ def test_gaps_are_read_again(text: str) -> None:
         assert _is_read_again(made)
 
 
+@in_whole
 def test_all_methods_are_read_again() -> None:
     """Those of the gallery and every sixteenth of the catalogue; all of them in ``make whole``."""
     seen = 0

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from garkcli.ntrees import count
 from garkcli.ntrees.count import Admissible, count_by_root, count_trees, counts_upto
-from tests.whole import at_most
+from tests.whole import at_most, in_whole
 
 
 @pytest.mark.parametrize(
@@ -126,6 +126,7 @@ def test_counts_of_any_order_begin_alike() -> None:
         assert counts_upto(admissible, order) == long[:order]
 
 
+@in_whole
 def test_thousands_of_vertices_are_soon_counted() -> None:
     """Order 3000 has O(M(n) log n) operations, not n² on long integers; the last digits are those
     of the formula.

@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.whole import in_whole
+
 ROOT = Path(__file__).resolve().parents[2]
 RUNS = [
     ("tableau", "methods/three-colours.gark.yaml", "--format", "json"),
@@ -50,6 +52,7 @@ def printed(seed: str) -> str:
     return done.stdout
 
 
+@in_whole
 @pytest.mark.parametrize("seed", ["1", "12345"])
 def test_the_hash_seed_changes_nothing(seed: str, reference: str) -> None:
     """Tableaus in radicals, trees and independent conditions are the same texts, order and all."""

@@ -16,7 +16,7 @@ from garkcli.ntrees.kind import LEAF, LINEAR, PLAIN, Kind
 from garkcli.ntrees.notation import format_tree
 from garkcli.ntrees.table import TreeTable
 from garkcli.ntrees.tree import Tree
-from tests.whole import at_most
+from tests.whole import at_most, in_whole
 
 ARITIES = [
     frozenset(some) for some in chain.from_iterable(combinations((0, 1, 2), n) for n in (1, 2, 3))
@@ -90,6 +90,7 @@ def test_every_tree_once(name: str) -> None:
             assert u.kind == admissible.kinds[u.root]
 
 
+@in_whole
 def test_the_cases_are_worth_trying() -> None:
     """There are trees, of several branches, without an exact solution, and of two orders."""
     found = [u for x in CASES.values() for n in range(1, 9) for u in by_definition(x, n)]

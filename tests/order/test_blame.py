@@ -13,6 +13,7 @@ from garkcli.frozen import replace
 from garkcli.order.blame import Missed, blame_of
 from garkcli.order.repair import Repair
 from garkcli.order.tolerance import within
+from tests.whole import in_whole
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -124,6 +125,7 @@ def test_blame_within_a_tolerance(key: str, tmp_path: Path) -> None:
     assert within(repair.new - fmpq(53867513459481288, 10**17), fmpq(1, 10**15))
 
 
+@in_whole
 def test_what_rounding_explains_has_nobody_to_blame(tmp_path: Path) -> None:
     """Where the tolerance is too tight for all entries no single one is named."""
     file = tmp_path / "m.gark.yaml"

@@ -13,6 +13,7 @@ from garkcli.tableau.tableau import Tableau
 from tests.oracles import samples
 from tests.oracles.brute import Trees, Weights, brute_order, density, failing, plain, same_tree
 from tests.oracles.series import series_order
+from tests.whole import in_whole
 
 RANDOM: dict[str, tuple[Callable[[Random], Tableau], int]] = {
     "graph": (samples.random_graph, 60),
@@ -94,6 +95,7 @@ def test_random_tableaus_against_power_series(make: Callable[[], Tableau]) -> No
     assert series_order(tableau, LIMIT, seed=1) == find_order(tableau, LIMIT).order
 
 
+@in_whole
 def test_random_tableaus_are_worth_trying() -> None:
     """Among the random tableaus are all orders from 0 to the limit, with and without absent
     edges.

@@ -14,6 +14,7 @@ from garkcli.order.conditions import all_conditions, is_admissible
 from garkcli.order.constants import error_constants
 from garkcli.tableau.forms import gark, pair
 from tests.oracles.brute import Plain, Trees
+from tests.whole import in_whole
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -47,6 +48,7 @@ def test_exact_and_float_paths_agree(name: str, monkeypatch: pytest.MonkeyPatch)
         assert one.largest == pytest.approx(other.largest, rel=1e-9)
 
 
+@in_whole
 def test_twin_roots_count_twice(monkeypatch: pytest.MonkeyPatch) -> None:
     """In the pair the conditions of V^l and F^l are evaluated once and counted twice."""
     both = pair(example("collocation"))

@@ -34,7 +34,7 @@ from garkcli.tableau.tableau import Tableau
 from tests.oracles import samples
 from tests.oracles.brute import Trees, Weights, brute_order, density, order_of, plain
 from tests.oracles.series import random_problem, series_order, step
-from tests.whole import at_most, sample
+from tests.whole import at_most, in_whole, sample
 
 T = TypeVar("T")
 PAIRS = json.loads((Path(__file__).parent / "pairs.json").read_text())
@@ -374,6 +374,7 @@ def outputs(draw: st.DrawFn) -> tuple[Tableau, DenseOutput]:
     return heun.tableau, DenseOutput((changed, *heun.dense.weights[1:]))
 
 
+@in_whole
 @given(outputs())
 @settings(max_examples=at_most(8, 25), deadline=None)
 def test_random_dense_output_has_the_order_of_its_values(
@@ -432,6 +433,7 @@ def drawn_row(b: Sequence[Number], dice: Random) -> Vector:
     return tuple(row)
 
 
+@in_whole
 def test_too_many_trees_leave_dense_output_open(monkeypatch: pytest.MonkeyPatch) -> None:
     """Within a tolerance an order with more trees than are looked at is undecided, the ones below
     it stand, and so does what needs no trees; the estimate then has no leading order.
@@ -450,6 +452,7 @@ def test_too_many_trees_leave_dense_output_open(monkeypatch: pytest.MonkeyPatch)
     assert not analysis.embedded.estimator.is_zero
 
 
+@in_whole
 @given(st.integers(0, 10**6))
 @settings(max_examples=15, deadline=None)
 def test_renumbering_colours_changes_no_order(seed: int) -> None:

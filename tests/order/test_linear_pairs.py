@@ -4,6 +4,7 @@ from fractions import Fraction
 
 from tests.order.linear_pairs import Case, certified, compare, criterion, nystrom
 from tests.order.own_pairs import Row, Rows
+from tests.whole import in_whole
 
 
 def rows(*texts: str) -> Rows:
@@ -17,6 +18,7 @@ def row(text: str) -> Row:
 LOBATTO = rows("0, 0, 0", "5/24, 1/3, -1/24", "1/6, 2/3, 1/6")
 
 
+@in_whole
 def test_the_criterion_is_the_order_of_random_pairs() -> None:
     """With linear colours and without, of orders that vary."""
     orders = compare(25, seed=4)

@@ -17,7 +17,7 @@ from garkcli.order.meant import as_meant
 from garkcli.order.nearness import Entry, Nearness, far_alone
 from garkcli.order.rounded import RoundedTableau
 from tests.cli.harness import gark
-from tests.whole import sample
+from tests.whole import in_whole, sample
 
 THREE_EIGHTHS = """
 tolerance: 1e-9
@@ -40,6 +40,7 @@ def nearness_of(text: str) -> Nearness:
     return found
 
 
+@in_whole
 def test_one_entry_is_far_off() -> None:
     """A weight of the 3/8 rule that is 0.7 t off, where all others have twelve digits, is named; it
     is not where the others have as few digits, nor where two are off.
@@ -92,6 +93,7 @@ def test_rounding_is_no_suspect() -> None:
         assert found.nearness.distance <= 1
 
 
+@in_whole
 def test_reports_tell_it(tmp_path: Path) -> None:
     """With -v in a line, for programs as fields; not of exact methods."""
     file = tmp_path / "off.gark.yaml"

@@ -288,6 +288,7 @@ def test_many_blocks_are_not_looked_at() -> None:
     assert found == ["whether 156 blocks keep the order is not looked at (limit 150)"]
 
 
+@in_whole
 def test_the_criterion_by_a_program_of_its_own() -> None:
     """Random methods in plain fractions: the criterion, written once more from the page, against the
     certificate, and some against all trees up to order 4; ``make pairs`` has more.

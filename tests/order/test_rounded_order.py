@@ -95,6 +95,7 @@ def power_of_ten(rounding: float) -> fmpq:
     return fmpq(1, 10 ** round(-log10(rounding)))
 
 
+@in_whole
 def test_conjugates_and_pairs_of_the_catalogue_are_decided() -> None:
     """Wherever they exist; a pair has no higher order than the method and its conjugate. Every sixth
     method, all of them in ``make whole``.
@@ -134,6 +135,7 @@ def test_orders_are_those_of_every_tree(seed: int) -> None:
         assert all(bound >= size for bound, size in zip(found.sizes, exact, strict=False))
 
 
+@in_whole
 @pytest.mark.parametrize(
     "name", sample(["kutta", "rk4", "gauss 3", "lobatto-iiic 3", "radau-iia 3"], 3)
 )
@@ -218,6 +220,7 @@ def test_a_perturbed_coefficient_lowers_the_order() -> None:
     assert [changed(fmpq(1, 10**n), False) for n in (4, 14)] == [1, 8]
 
 
+@in_whole
 @given(SEEDS)
 @settings(max_examples=at_most(5, 25))
 def test_spans_bound_every_tree(seed: int) -> None:

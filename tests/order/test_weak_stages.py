@@ -159,6 +159,7 @@ def random_pair(dice: Random) -> Tableau:
     ).tableau
 
 
+@in_whole
 def test_random_methods_of_two_colours() -> None:
     """All products of two colours, and of each colour alone: the same as by their definition."""
     dice = Random(5)

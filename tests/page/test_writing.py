@@ -17,6 +17,7 @@ from garkcli.errors import UsageProblem
 from garkcli.page.writing import refuse_unwritable, write_whole
 from tests.cli.harness import ROOT, gark
 from tests.had import needs_fifos
+from tests.whole import in_whole
 
 posix = pytest.mark.skipif(os.name != "posix", reason="links and permissions of POSIX")
 
@@ -137,6 +138,7 @@ def test_a_pipe_is_written_through(tmp_path: Path) -> None:
     assert stat.S_ISFIFO(fifo.stat().st_mode)
 
 
+@in_whole
 @posix
 @pytest.mark.parametrize(
     ("name", "redirection"),

@@ -20,6 +20,7 @@ from garkcli.plots.regions import springs_panel, stability_scene
 from garkcli.plots.scene import Area, Axis, Curve, Panel, Rule, Scene, common_exponent, polygons
 from garkcli.plots.svg import svg
 from garkcli.stability.springs_plane import SpringsPlane
+from tests.whole import in_whole
 
 
 def stability_of(*names: str, is_order_star: bool = False) -> Scene:
@@ -44,6 +45,7 @@ def scenes() -> list[Scene]:
     ]
 
 
+@in_whole
 def test_all_outputs_draw_all_of_a_scene() -> None:
     """Each panel has its labels, its limits, the names of its legend and the slopes beside lines,
     in a terminal, as a figure and as SVG, which have one path or line for each shape.

@@ -22,6 +22,7 @@ from garkcli.stepping.integrator import bind, integrate
 from garkcli.tableau.forms import gark, pair
 from tests.cli.harness import ROOT
 from tests.stepping.test_step import RECTANGULAR, coupled
+from tests.whole import in_whole
 
 SEMI_SEPARABLE = str(ROOT / "methods" / "semi-separable.gark.yaml")
 
@@ -41,6 +42,7 @@ def euler_lagrange(t: Any, y: Any) -> list[Any]:  # noqa: ARG001 -- mpmath's sig
     ]
 
 
+@in_whole
 def test_it_is_the_solution_of_the_euler_lagrange_equations() -> None:
     """Taylor series of mpmath on second-order equations, and a Gauss method on H: one solution to
     18 digits.
@@ -85,6 +87,7 @@ def test_its_kinetic_energy_depends_on_the_positions() -> None:
         fields_of(RECTANGULAR, problem)
 
 
+@in_whole
 def test_observed_orders() -> None:
     """Four by the semi-separable method of the paper, and by a general pair."""
     for tableau in (load(SEMI_SEPARABLE).tableau, pair(coupled(2, 3))):

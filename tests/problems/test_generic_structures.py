@@ -29,7 +29,7 @@ from garkcli.stepping.integrator import bind
 from garkcli.tableau.forms import gark, spelled_out, symplectic_pair, with_linear
 from garkcli.tableau.tableau import Tableau
 from tests.cli.harness import ROOT
-from tests.whole import at_most
+from tests.whole import at_most, in_whole
 
 VELOCITIES_AND_FORCES = {
     "generic": ([0, 1], [0, 1]),
@@ -118,6 +118,7 @@ class Differentials:
         return tensor
 
 
+@in_whole
 @pytest.mark.parametrize(
     ("name", "counts"),
     [

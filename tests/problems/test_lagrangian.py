@@ -18,6 +18,7 @@ from garkcli.problems.lagrangian import initial_momenta, legendre_transform, mis
 from garkcli.problems.mass import enclosed, velocities
 from garkcli.problems.solving import solutions
 from garkcli.problems.vectorfield import symbols
+from tests.whole import in_whole
 
 LETTERS = ("x", "y", "z")
 SMALL = st.integers(-3, 3)
@@ -55,6 +56,7 @@ def lagrangians(draw: st.DrawFn) -> tuple[int, Any, dict[Any, Any], dict[Any, An
     return (d, L, dict(zip(q, values[:d], strict=True)), dict(zip(v, values[d:], strict=True)))
 
 
+@in_whole
 @settings(max_examples=4)
 @example((1, sympy.Integer(0), *({s[0]: Rational(0)} for s in names(1)[1:3])))
 @given(lagrangians())
@@ -82,6 +84,7 @@ def test_quadratic_lagrangians_are_transformed_exactly(
     assert all(H.diff(x).xreplace(at) == -L.diff(x).xreplace({**q, **v}) for x in q)
 
 
+@in_whole
 @pytest.mark.parametrize("coupled", [3, 4])
 def test_chains_of_pendulums(coupled: int) -> None:
     """Mass matrices with cosines of differences: the identities hold in balls of 80 digits."""
@@ -260,6 +263,7 @@ def test_scalar_equations(a: Any, b: Any, outer: Any) -> None:
     assert any(abs(complex(x) - 1 / 3) < 1e-9 for x in found)
 
 
+@in_whole
 def test_what_is_not_solved() -> None:
     """No candidates: the unknown in two places, too long an equation, no unknown."""
     u, c = sympy.symbols("u c")

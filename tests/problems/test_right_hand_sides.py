@@ -17,6 +17,7 @@ from garkcli.problems.generic import generic_rhs
 from garkcli.problems.righthandside import RightHandSide, solution, steepness
 from garkcli.problems.stiff import reaction_diffusion, shared
 from garkcli.problems.vectorfield import symbols
+from tests.whole import in_whole
 
 
 def rhs(name: str, terms: int, stiffness: int = 1) -> RightHandSide:
@@ -139,6 +140,7 @@ def test_one_block_that_fails_is_seen(l: int, m: int) -> None:
     assert result.observed_order == pytest.approx(2, abs=0.05)
 
 
+@in_whole
 def test_every_elementary_differential_is_there() -> None:
     """The differentials of all 20 trees of two colours up to order 3 are linearly independent, by
     their values at some places: no combination of their conditions is hidden.
@@ -184,6 +186,7 @@ def _differentials(
     return found
 
 
+@in_whole
 def test_the_default_for_linear_colours() -> None:
     """A colour that is linear and drives all unknowns has no Hamiltonian counterpart: the default is
     generic-rhs, linear there, and shows the order. All other methods have a Hamiltonian one.

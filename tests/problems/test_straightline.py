@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from garkcli.problems.straightline import FUNCTIONS, code_of, function
 from tests.oracles.draws import fractions
-from tests.whole import at_most
+from tests.whole import at_most, in_whole
 
 X = sympy.symbols("x y z", positive=True)
 DIGITS = 40
@@ -44,6 +44,7 @@ EXPRESSIONS = st.recursive(
 POINTS = st.tuples(*[st.integers(1, 40).map(lambda k: fmpq(k, 16))] * 3)
 
 
+@in_whole
 @settings(max_examples=at_most(20, 60), deadline=None)
 @given(st.lists(EXPRESSIONS, min_size=1, max_size=4), POINTS)
 def test_values_are_those_of_sympy(expressions: list[Any], point: tuple[fmpq, ...]) -> None:
@@ -110,6 +111,7 @@ def test_powers_are_real() -> None:
         assert not function((f,), X[:1], True)(arb(1))[0].is_finite()
 
 
+@in_whole
 def test_deep_expressions_are_cut() -> None:
     """Seventy functions inside each other, with sums between: more parentheses than Python would
     nest.

@@ -24,6 +24,7 @@ def translated(text: str) -> sympy.Expr:
     return PLAIN.translate(parse_formula(text))
 
 
+@in_whole
 @settings(deadline=None, max_examples=at_most(20, 80))
 @given(FORMULAS)
 def test_values_stay(expression: Expression) -> None:

@@ -373,6 +373,7 @@ def test_a_last_row_that_is_rounded_otherwise(entry: str, holds: bool) -> None:
     assert found.holds is holds
 
 
+@in_whole
 def test_a_weight_near_zero_is_not_decided() -> None:
     """It is positive in the file and may not be."""
     text = "{A: [[0, 0], [1/2, 0]], b: [1e-9, 0.999999999], tolerance: 1e-8,"

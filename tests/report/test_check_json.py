@@ -14,7 +14,7 @@ from jsonschema import Draft7Validator
 
 from garkcli.check.check_file import check_file
 from garkcli.report.checked import REPORT
-from tests.whole import sample
+from tests.whole import in_whole, sample
 
 ROOT = Path(__file__).parents[2]
 SCHEMA = REPORT.schema
@@ -64,6 +64,7 @@ def complaints(found: object) -> list[str]:
     ]
 
 
+@in_whole
 def test_the_schema_is_one() -> None:
     """The schema itself is valid draft-07, and it refuses a report without its fields."""
     Draft7Validator.check_schema(SCHEMA)
@@ -72,6 +73,7 @@ def test_the_schema_is_one() -> None:
     )
 
 
+@in_whole
 def test_reports_keep_to_the_schema() -> None:
     """Every readable, failing, refused and missing file gives a report that the schema allows."""
     found = every_file()
@@ -163,6 +165,7 @@ def test_numbers_beyond_floats(tmp_path: Path) -> None:
     assert (norms["worst"], norms["worst_value"]) == ("[[]_1]_1", f"1/{10**400}")
 
 
+@in_whole
 def test_a_rounded_method_says_so(tmp_path: Path) -> None:
     """A tolerance is repeated as text, ``exact`` is false, and the largest residual is within the
     tolerance.

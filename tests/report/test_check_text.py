@@ -256,6 +256,7 @@ expect: {order: 4}
 """
 
 
+@in_whole
 def test_long_decimals_fit_a_screen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Entries are shown with the digits that a file would have, of a misprint; a tolerance that is
     too tight is told with the line that would do, and so are coefficients that look rounded. No

@@ -18,6 +18,7 @@ from garkcli.reference import ZANNA, Reference
 from garkcli.report.calls import references
 from garkcli.report.citation import Cited, keys, render, title, together
 from tests.cli.harness import ROOT, gark
+from tests.whole import in_whole
 
 DORMAND = """
 name: DP
@@ -222,6 +223,7 @@ def test_keys_are_letters_and_digits(text: str) -> None:
     assert found == "" or (found.isascii() and found.isalnum())
 
 
+@in_whole
 def test_a_folder_of_the_catalogue_has_entries() -> None:
     """Each method is in one entry, no two entries have one key."""
     run = gark("cite", "catalogue:dirk", "--format", "json")

@@ -25,6 +25,7 @@ from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.oscillator import Oscillator, terms_of
 from garkcli.report.energy import REPORT, Claim, EnergyReport
 from garkcli.stepping.fields import with_joined_terms
+from tests.whole import in_whole
 
 ROOT = Path(__file__).parents[2]
 RECTANGULAR, RK4 = (str(ROOT / "methods" / f"{name}.gark.yaml") for name in ("rectangular", "rk4"))
@@ -243,6 +244,7 @@ def test_csv_of_awkward_names() -> None:
     assert {len(row) for row in rows} == {2}
 
 
+@in_whole
 def test_figures_are_the_same_each_time(tmp_path: Path) -> None:
     """Byte by byte, so that a repository of figures does not change without a reason.
 

@@ -13,6 +13,7 @@ from garkcli.glossary.fields import ORDERS, field_entries
 from garkcli.report.field_texts import text_of
 from garkcli.report.schemas import REPORTS, report_schema
 from tests.docs.tables import fields_of
+from tests.whole import in_whole
 
 
 @pytest.fixture(scope="module")
@@ -75,6 +76,7 @@ def test_every_verdict_is_a_word() -> None:
         assert explain(word), word
 
 
+@in_whole
 def test_every_field_is_a_word() -> None:
     """What gark explain tells: each field, as a term, a claim or a key, or by its entry."""
     for name, text in field_entries().items():

@@ -32,6 +32,7 @@ from garkcli.report import check_findings, check_text
 from garkcli.report.check_formats import FORMATS
 from garkcli.report.checked import REPORT
 from tests.cli.harness import ROOT, gark
+from tests.whole import in_whole
 
 FAILING = "tests/examples/failing/collocation-misprinted.gark.yaml"
 INVALID = "tests/examples/invalid/many-faults.gark.yaml"
@@ -456,6 +457,7 @@ def test_annotations_escape_messages() -> None:
     assert (place["line"], place["col"]) == ("3", "4")
 
 
+@in_whole
 def test_the_format_auto_knows_where_it_runs() -> None:
     """``auto`` annotates under GITHUB_ACTIONS=true alone, and is text anywhere else."""
     outcomes = {}

@@ -25,7 +25,7 @@ from garkcli.report.tableau import REPORT as TABLEAU
 from garkcli.report.tableau import Shown
 from garkcli.tableau.pointwise import entries
 from tests.cli.harness import gark
-from tests.whole import sample
+from tests.whole import in_whole, sample
 
 VALID = Path(__file__).parents[1] / "examples" / "valid"
 FILE = VALID / "embedded-and-dense.gark.yaml"
@@ -60,6 +60,7 @@ def test_text_tells_orders_estimate_and_how_pieces_fit() -> None:
     assert " degree 3 continuous yes smooth yes " in detailed
 
 
+@in_whole
 @pytest.mark.parametrize("path", sample(EXAMPLES, 3), ids=lambda x: x.name)
 def test_no_line_is_wide_and_json_keeps_its_schema(path: Path) -> None:
     """Text fits 80 columns, and the JSON report of each example is valid."""
@@ -95,6 +96,7 @@ def test_markdown_has_a_column_where_there_is_one() -> None:
 PAIR = FILE.read_text().partition("expect:")[0]
 
 
+@in_whole
 def test_failing_claims_have_witness_and_repair(tmp_path: Path) -> None:
     """One entry of the embedded weights changed: the claim fails, and the entry is named with the
     value that it had.
@@ -156,6 +158,7 @@ embedded: [1 - w, w]
 """
 
 
+@in_whole
 def test_a_family_has_the_embedded_order_of_every_value(tmp_path: Path) -> None:
     """With a free parameter the embedded order is that of every value, with those that have a
     higher one; the methods at these values agree.

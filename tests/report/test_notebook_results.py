@@ -11,6 +11,7 @@ import garkcli
 from garkcli import loads_problem
 from tests.cli.harness import gark
 from tests.report.test_notebook import cells
+from tests.whole import in_whole
 
 FAMILY = "parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [1 - 1/(2*t), 1/(2*t)]"
 VERLET = "methods/stoermer-verlet.gark.yaml"
@@ -29,6 +30,7 @@ def pictures(html: str) -> list[str]:
     return [title for title in titles if title is not None]
 
 
+@in_whole
 def test_a_convergence_test_is_a_table_and_a_picture() -> None:
     """A row a step size, the verdict, and the errors drawn; without an error no picture."""
     found = garkcli.converge("rk4", "pendulum", steps=[0.5, 0.25, 0.125])
@@ -77,6 +79,7 @@ def test_a_long_run_is_a_table_and_a_picture() -> None:
     assert pictures(still) == []
 
 
+@in_whole
 def test_names_of_files_are_text() -> None:
     """A problem cannot bring markup of its own."""
     problem = loads_problem(HOSTILE)

@@ -29,6 +29,7 @@ from garkcli.plots.saving import check_suffix, save
 from garkcli.plots.scene import Curve, Rule, logarithmic_marks
 from garkcli.problems.oscillator import Oscillator
 from garkcli.tableau.forms import gark
+from tests.whole import in_whole
 
 OSCILLATOR = Oscillator.default(1, fmpq(1))
 
@@ -68,6 +69,7 @@ def beyond_floats() -> Convergence:
     return result
 
 
+@in_whole
 @pytest.mark.parametrize(
     ("suffix", "start"), [(".png", b"\x89PNG"), (".svg", b"<?xml"), (".pdf", b"%PDF")]
 )
@@ -158,6 +160,7 @@ def test_work_figure(against: str) -> None:
     assert rule.label == "slope −4"
 
 
+@in_whole
 def test_names_are_no_formulas(tmp_path: Path) -> None:
     """Dollars, braces, a first underscore, letters that the font has not, and a very long name are
     all drawn.
@@ -171,6 +174,7 @@ def test_names_are_no_formulas(tmp_path: Path) -> None:
     save(figure, tmp_path / "figure.pdf")
 
 
+@in_whole
 def test_figures_without_errors(tmp_path: Path) -> None:
     """Where a method makes no error there is nothing to draw but the axes, and that is no fault."""
     result = result_of("rk4")
@@ -188,6 +192,7 @@ def test_figures_without_errors(tmp_path: Path) -> None:
     assert names_in(mixed) == ["rk4"]
 
 
+@in_whole
 def test_comparison_beyond_the_floats(tmp_path: Path) -> None:
     """Errors below 1e-308 beside large ones: logarithms are drawn instead."""
     path = tmp_path / "figure.svg"
@@ -243,6 +248,7 @@ def _clearance(line: Line2D, curves: Sequence[Line2D]) -> float:
     return least
 
 
+@in_whole
 def test_lines_of_slopes_are_on_no_curve() -> None:
     """A second method whose errors are where the line of the first would be: the line is somewhere
     else.

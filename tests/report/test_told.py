@@ -29,6 +29,7 @@ from garkcli.tell.kinds import COUNT, EXPRESSION, INDEX, TEXT
 from garkcli.tell.parts import part, rows_of, table
 from garkcli.tell.report import Report
 from tests.cli.harness import ROOT, gark
+from tests.whole import in_whole
 
 DATA = ROOT / "garkcli" / "catalogue" / "data"
 NAMES = {x.name.removesuffix(".gark.yaml"): x for x in sorted(DATA.rglob("*.gark.yaml"))}
@@ -107,6 +108,7 @@ def test_details_hold_every_number_of_the_json_report(path: Path) -> None:
         assert told == [str(x["stage_order"]) for x in parts]
 
 
+@in_whole
 @pytest.mark.parametrize(("format", "between"), [("markdown", "|"), ("latex", "&")])
 def test_a_rounded_order_in_a_table_is_one_within_its_tolerance(format: str, between: str) -> None:
     """Each order of rounded coefficients has the tolerance beside it, also in the report of one
@@ -126,6 +128,7 @@ def test_a_rounded_order_in_a_table_is_one_within_its_tolerance(format: str, bet
     assert "proved" not in answer
 
 
+@in_whole
 def test_a_rounded_order_in_a_line_is_one_within_its_tolerance() -> None:
     """The same where each of several files has a line, and where one has a report."""
     rounded, exact, *_ = gark("check", ROUNDED, "rk4").out.splitlines()
@@ -480,6 +483,7 @@ def test_what_counts_from_0_is_told_from_1() -> None:
     assert INDEX(0).words(Plain()) == "1"
 
 
+@in_whole
 def test_entries_that_are_one_within_the_tolerance(tmp_path: Path) -> None:
     """γ of entries that are one within the tolerance is their mean; weights of a family are positive
     beside rounded ones.

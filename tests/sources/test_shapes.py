@@ -7,6 +7,7 @@ import pytest
 from garkcli.bridges.audit import Audited, audit
 from garkcli.sources.found import FoundTable
 from garkcli.sources.languages import c, julia, python
+from tests.whole import in_whole
 
 TWO_WEIGHTS = """
 inline void fill_emb(std::vector<std::vector<double>> &a, std::vector<double> &b1,
@@ -349,6 +350,7 @@ def test_a_node_of_a_row_with_an_entry_left_out_is_none() -> None:
     assert table.trouble == "rows and nodes that do not fit together"
 
 
+@in_whole
 def test_kicks_for_second_order_equations() -> None:
     """McLachlan and Atela's method of order 4 has order 3 where q' is not p: a warning. As drifts
     for kicks it has order 3 for these, too: an error.

@@ -28,7 +28,7 @@ from garkcli.stability.summary import several_colours
 from garkcli.tableau.pointwise import in_points
 from garkcli.tableau.tableau import Tableau
 from tests.oracles.draws import fractions
-from tests.whole import at_most
+from tests.whole import at_most, in_whole
 
 ENTRY = fractions(-2, 2, 4).map(str)
 IMEX_EULER = "ark: {A: [[[0, 0], [1, 0]], [[0, 0], [0, 1]]], b: [[1, 0], [0, 1]]}"
@@ -115,6 +115,7 @@ def common_factor_degree(R: Fraction) -> int:
     return int(P.gcd(Q).total_degree())
 
 
+@in_whole
 @settings(max_examples=at_most(3, 8))
 @given(coupled())
 def test_lowest_terms(tableau: Tableau) -> None:
@@ -340,6 +341,7 @@ def test_poles_that_move() -> None:
     assert not pair.is_damped(fmpq(-3, 2), ZERO)
 
 
+@in_whole
 @settings(max_examples=8)
 @given(pairs())
 def test_rays_end_where_points_end(tableau: Tableau) -> None:

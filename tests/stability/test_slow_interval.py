@@ -18,7 +18,7 @@ from garkcli.exact.cells import Interval
 from garkcli.exact.roots import RealRoot
 from garkcli.methodfile.load import load
 from garkcli.stability.two_frequencies import SplitSprings, slow_interval, springs, two_frequencies
-from tests.whole import at_most
+from tests.whole import at_most, in_whole
 
 NAMES = ["collocation", "interpolation", "three-colours", "four-term-combination"]
 
@@ -35,6 +35,7 @@ def has(intervals: tuple[Interval, ...], x: fmpq) -> bool:
     return False
 
 
+@in_whole
 @settings(max_examples=at_most(3, 12))
 @given(
     st.sampled_from(NAMES),

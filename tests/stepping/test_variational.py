@@ -372,6 +372,7 @@ def imbalances(case: Case, path: Sequence[Any]) -> tuple[float, float]:
     return max(stationarity), max(momenta)
 
 
+@in_whole
 @pytest.mark.parametrize(
     ("name", "digits"),
     [*((name, MANY) for name in sample([*CASES], 4)), *((name, FLOAT_DIGITS) for name in SOME)],
@@ -449,6 +450,7 @@ def tableaux(draw: st.DrawFn) -> Tableau:
     return spelled_out(blocks, b, [None] * len(sizes))
 
 
+@in_whole
 @given(tableaux())
 @settings(max_examples=at_most(8, 25))
 def test_any_tableau_has_a_variational_pair(tableau: Tableau) -> None:

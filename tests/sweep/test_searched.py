@@ -18,6 +18,7 @@ from garkcli.sweep.plan import load_plan
 from garkcli.sweep.row import row_of
 from garkcli.tableau.forms import pair
 from tests.cli.harness import gark
+from tests.whole import in_whole
 
 EXPLICIT = """unknown: {stages: 3, shape: explicit}
 design: {order: 3}
@@ -47,6 +48,7 @@ def swept(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Any]:
     return spec, json.loads(run.out)
 
 
+@in_whole
 def test_rows_are_finds(swept: tuple[Path, Any]) -> None:
     """Each seed has what ``gark design --search`` finds first from it, with the criteria of ``gark
     check``; a find that another seed had is told once.
@@ -158,6 +160,7 @@ search: {seeds: 1..2, order: 4}
 """
 
 
+@in_whole
 def test_any_transfer(tmp_path: Path) -> None:
     """Each seed draws one whose pair has the order, not more, by the certificate; refused without a
     search, and told where no transfer has it.

@@ -86,6 +86,7 @@ def test_a_rule_with_its_degree_is_one_of_the_rules(tmp_path: Path) -> None:
     assert found == {f"rk4 4 + gauss 2; {x}": y for x, y in zip(names, (4, 2, 4), strict=True)}
 
 
+@in_whole
 def test_all_methods_once(spec: Path) -> None:
     """Families × stages × rules × values: a key each, and the verdicts of ``gark check``."""
     assert gark("sweep", str(spec)).code == 0
@@ -106,6 +107,7 @@ def test_all_methods_once(spec: Path) -> None:
             assert "pair-order" not in row
 
 
+@in_whole
 def test_resumed(spec: Path) -> None:
     """What is there is not done again; torn lines are; nothing is doubled; rows end up the same."""
     rows = spec.with_suffix(".jsonl")
@@ -188,6 +190,7 @@ def test_cut_anywhere(data: st.DataObject) -> None:
         assert path.read_bytes() == whole
 
 
+@in_whole
 def test_rows_of_others(spec: Path, tmp_path: Path) -> None:
     """Rows of other criteria, lines that are no rows, and files in use are refused."""
     gark("sweep", str(spec))
@@ -214,6 +217,7 @@ def test_numbers_that_are_too_large_are_told_as_such(spec: Path) -> None:
     assert "a whole number of at most 6 digits" in second
 
 
+@in_whole
 @needs_locks
 def test_a_file_in_use(tmp_path: Path) -> None:
     """Two processes do not write to one file."""
@@ -232,6 +236,7 @@ def test_a_file_in_use(tmp_path: Path) -> None:
     RowStore(path, True).__exit__(None, None, None)
 
 
+@in_whole
 def test_side_by_side(spec: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Two processes have the rows of one; a method that ends its process gets a row, no other."""
     gark("sweep", str(spec))
@@ -259,6 +264,7 @@ def test_side_by_side(spec: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert found == alone
 
 
+@in_whole
 @pytest.mark.skipif(os.name == "nt", reason="there are no such signals")
 def test_killed_and_resumed(spec: Path) -> None:
     """A sweep that is killed while it writes goes on to the rows of one that was not; its workers
@@ -305,6 +311,7 @@ def test_parquet(spec: Path) -> None:
     assert [row["order"] for row in table] == [int(row["order"]) for row in lines]
 
 
+@in_whole
 def test_reports(spec: Path) -> None:
     """JSON keeps its schema; CSV and JSON lines have all rows that are kept, best first."""
     data = json.loads(gark("sweep", str(spec), "--format", "json").out)

@@ -23,6 +23,7 @@ from garkcli.tableau.tableau import Tableau
 from garkcli.transfer import RULES, collocation
 from tests.oracles import samples
 from tests.oracles.points import numbers
+from tests.whole import in_whole
 
 FAMILIES = st.sampled_from(
     [
@@ -167,6 +168,7 @@ def test_conjugation_exchanges_stage_order_and_d_of_mixtures(
     assert_exchanged(samples.everywhere(rule, *names))
 
 
+@in_whole
 @given(seeds)
 def test_renumbering_commutes_with_everything(seed: int) -> None:
     """Renumbering the colours before or after conjugating, pairing or finding the order makes no

@@ -18,7 +18,7 @@ from garkcli.tableau.forms import gark, with_time
 from garkcli.tableau.tableau import Tableau, butcher
 from tests.oracles import samples
 from tests.oracles.brute import brute_order
-from tests.whole import at_most
+from tests.whole import at_most, in_whole
 
 DEGREE = 5
 """Powers of h up to which steps are compared."""
@@ -103,6 +103,7 @@ def test_the_order_is_that_of_steps_as_power_series(
     assert order_seen(changed, dice) == found
 
 
+@in_whole
 def test_consistent_methods_keep_their_order() -> None:
     """Where c = A𝟙 time is as any other leaf: for every sample the order is what it was."""
     for name, make in samples.NAMED.items():

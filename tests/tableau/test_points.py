@@ -348,6 +348,7 @@ def test_nodes_default_to_row_sums(x: Fraction) -> None:
     assert tableau.colours[0].c == (fmpq(1), 2 * a)
 
 
+@in_whole
 def test_many_stages_need_more_precision() -> None:
     """The nodes of Gauss 60 are too close for the first precision: it is doubled; rows of A sum to
     c.

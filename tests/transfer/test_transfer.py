@@ -36,6 +36,7 @@ from tests.oracles import samples
 from tests.oracles.draws import fractions
 from tests.oracles.points import lagrange, numbers, value
 from tests.oracles.stages import image
+from tests.whole import in_whole
 
 NAMES = [
     "gauss 1",
@@ -309,6 +310,7 @@ def test_the_estimate_is_the_common_denominator() -> None:
     assert space.interpolation_bits(enough=10**9) >= common.bit_length()
 
 
+@in_whole
 def test_what_would_fill_the_memory_is_refused() -> None:
     """400 unrelated nodes are refused by an estimate, in a moment, with the reason and a cure."""
     m, l = at_nodes(unrelated_nodes(400, 10**40)), samples.method("gauss 2")

@@ -36,6 +36,7 @@ from garkcli.webpage.reported import Reported, reported
 from garkcli.webpage.sections import pictures, properties, stability
 from tests.cli.harness import ROOT, gark
 from tests.webpage.reading import by_id, elements, name_of, number_of, read, rows_of, text_of
+from tests.whole import in_whole
 
 VERLET = "methods/stoermer-verlet.gark.yaml"
 PAIRED = "methods/collocation.gark.yaml"
@@ -86,6 +87,7 @@ def section(method: str, name: str) -> Element:
     return by_id(page(method), f"m1-{name}")
 
 
+@in_whole
 @pytest.mark.parametrize("method", ALL)
 def test_what_is_read_aloud_is_in_order(method: str) -> None:
     """The page is well-formed; one heading of the first level and none left out below it; each name
@@ -336,6 +338,7 @@ def test_claims_are_those_of_the_check(method: str) -> None:
     ]
 
 
+@in_whole
 def test_an_undecided_claim_is_no_failed_one(tmp_path: Path) -> None:
     """Rounding leaves a sign open: the heading, the table and the comparison say so."""
     path = tmp_path / "open.gark.yaml"
@@ -431,6 +434,7 @@ def test_properties_are_those_of_the_check(method: str) -> None:
     assert f"symplectic {answers[data['symplectic']]}" in said
 
 
+@in_whole
 def test_a_family_is_told_for_every_value() -> None:
     """Entries are rational functions, conditions vary, and it is said where the order is higher."""
     assert "Order 2 for every value of g." in text_of(page(FAMILY))
@@ -460,6 +464,7 @@ def test_a_file_that_is_no_method_has_its_faults() -> None:
         assert " ".join(fault.help.split()) in said
 
 
+@in_whole
 def test_several_methods_are_compared() -> None:
     """A row each, with a link to its part; the parts have the sections of single pages."""
     root = page("rk4", RECTANGULAR, FAMILY)
@@ -493,6 +498,7 @@ transfer: {{blocks: {{"1,2": [[0], [1]], "2,1": [[1/2, 0]]}}}}
 """
 
 
+@in_whole
 def test_texts_of_strangers_are_texts(tmp_path: Path) -> None:
     """A name, a description, a reference, a path: none of them becomes an element, an attribute, a
     template or a link to a script, and all of them can be read.
@@ -544,6 +550,7 @@ def found_once() -> Reported:
     return reported(garkcli.load("euler").conjugate, 1, has_pictures=False)
 
 
+@in_whole
 @settings(max_examples=10, deadline=None)
 @given(strategies.text(min_size=1, max_size=40))
 def test_any_name_is_text(name: str) -> None:
@@ -572,6 +579,7 @@ def test_methods_without_files_have_pages() -> None:
         report_page()
 
 
+@in_whole
 def test_exit_codes_are_those_of_the_check(tmp_path: Path) -> None:
     """0, 1 where a claim fails, 2 where a file is no method; the page is written each time, and the
     faults are told on stderr too, or that a claim fails.
@@ -610,6 +618,7 @@ def test_hints_are_those_of_the_check() -> None:
         assert f" hint {one}" in printed
 
 
+@in_whole
 def test_stability_is_that_of_its_command() -> None:
     """Each fact as it is printed, usually or with details, and the stability function typeset."""
     runs = [gark("stability", RECTANGULAR, "rk4", *more).out for more in ([], ["-v"])]
@@ -649,6 +658,7 @@ def _outside(element: Element, names: set[str]) -> Iterator[str]:
             yield part.tail or ""
 
 
+@in_whole
 def test_what_takes_long_is_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of many stages with rounded coefficients the page says which command decides their
     stability; rational ones are decided.
@@ -685,6 +695,7 @@ def test_pictures_stand_on_the_page(monkeypatch: pytest.MonkeyPatch) -> None:
     assert [x.get("d") for x in elements(one, "path")] == ["M0 0L1 1"]
 
 
+@in_whole
 def test_another_file_is_not_written_over(tmp_path: Path) -> None:
     """A page takes the name of its method only from another page."""
     (tmp_path / "rk4.html").write_text("my notes")
@@ -697,6 +708,7 @@ def test_another_file_is_not_written_over(tmp_path: Path) -> None:
     assert (tmp_path / "lobatto-iiic-star-5.html").exists()
 
 
+@in_whole
 def test_the_command_for_more_conditions_is_that_of_the_pair(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

@@ -110,6 +110,7 @@ def test_marks_are_round_and_few(low: float, width: float, most: int) -> None:
     assert all(low - around <= x.at <= low + width + around for x in marks)
 
 
+@in_whole
 def test_pictures_stand_in_a_page(
     of_rk4: dict[str, Picture], of_coupled: dict[str, Picture]
 ) -> None:
@@ -198,6 +199,7 @@ def test_coefficients_beyond_floats_are_drawn() -> None:
     assert "<svg" in str(region.svg)
 
 
+@in_whole
 @pytest.mark.parametrize("name", ["feagin-12", "feagin-14"])
 def test_a_small_region_is_seen_from_near(name: str) -> None:
     """Feagin's methods have zeros of R up to a thousand times as far as their regions, which fill
@@ -234,6 +236,7 @@ def test_dots_of_the_convergence_picture_have_the_slope(of_rk4: dict[str, Pictur
     assert "Observed order 4.00, visible order 4" in of_rk4["convergence"].note
 
 
+@in_whole
 def test_what_is_put_to_work_does_not_depend_on_the_file(of_coupled: dict[str, Picture]) -> None:
     """Diagonal methods and their transfer rule step as the method that they make, which is not
     symplectic; its pair steps where the pair is given, and its energy does not drift.
@@ -256,6 +259,7 @@ def test_a_drift_is_drawn(of_rk4: dict[str, Picture]) -> None:
     assert ">its drift, −" in of_rk4["energy"].svg
 
 
+@in_whole
 def test_an_implicit_explicit_pair_has_its_region() -> None:
     """What is filled of forward and backward Euler, R = (1 + z1)/(1 − z2), is the disc |1 + z1| ≤ 1:
     its area, but for the squares on the edge, and all of it on the left.
@@ -287,6 +291,7 @@ def test_what_is_not_drawn_has_a_reason() -> None:
         assert "too many stages" in found[name].note
 
 
+@in_whole
 def test_names_from_files_are_text() -> None:
     """A name of a colour is no markup, and a long one is cut."""
     method = loads(EULERS)
@@ -301,6 +306,7 @@ def test_names_from_files_are_text() -> None:
     assert shortened("a\x1b[0m", 46) == r"a\x1b[0m"
 
 
+@in_whole
 def test_circles_are_told_from_noise() -> None:
     """The region of a method with |R| = 1 on the whole imaginary axis has one straight side there:
     what rounding does on the axis is not seen.
