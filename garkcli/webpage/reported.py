@@ -74,9 +74,8 @@ class Reported(Frozen):
 
     @property
     def stages(self) -> tuple[int, ...]:
-        """How many stages each colour has: of a Rosenbrock method f, of a multirate one with the
-        exact fast part the slow parts, of Nyström and partitioned methods one colour, of those that
-        use derivatives the stages that they are used at.
+        """How many stages each colour has. Of a Rosenbrock method these are f, of a multirate one
+        with the exact fast part the slow parts; Nyström and partitioned methods have one colour.
         """
         if self.tableau is None:
             return ()

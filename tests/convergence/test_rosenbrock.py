@@ -171,7 +171,7 @@ def test_steps_with_other_matrices_are_those_of_the_definition(jacobian: Taken) 
     tableau = load("ros3p").tableau
     method = Rosenbrock.of(tableau)
     alpha, gamma = method.alpha[0][0], method.gamma[0][0]
-    bound = bind(taking(tableau, jacobian), loads_problem(WITH_TIME))
+    bound = bind(taking(tableau, None, jacobian), loads_problem(WITH_TIME))
     with mp.workdps(45):
         c, d = ([number(x) for x in row[0]] for row in method.nodes)
         h, t, y = mpf(1) / 3, mpf(0), matrix([mpf(6) / 5, mpf(2) / 5])
