@@ -296,12 +296,13 @@ def recovered(data: Path, before: dict[str, dict[str, Any]], index: str) -> str:
         index: the text of the index that was made with it; empty for none.
     """
     known = {(x["method"], x["digest"]): (key, x) for key, x in before.items()}
-    judged = {(Path(file).name, text) for file, text in _known(index)} if before else set()
+    entries = _known(index).items() if before else ()
+    exact = {(Path(file).name, text) for (file, text), entry in entries if entry["exact"]}
     found: dict[str, dict[str, Any]] = {}
     for name, path in method_files(data):
         text, _ = read_text(str(path), METHOD_FILE)
         one = known.get((name, digest(text)))
-        if one is None and (path.name, digest(text)) not in judged:
+        if one is None and (path.name, digest(text)) not in exact:
             one = _recovered_of(str(path), name, text)
         if one is not None:
             found.setdefault(*one)
@@ -311,8 +312,10 @@ def recovered(data: Path, before: dict[str, dict[str, Any]], index: str) -> str:
 
 def _recovered_of(path: str, name: str, text: str) -> tuple[str, dict[str, Any]] | None:
     rounded = with_further(as_meant(loads(text, path)))
-    kept = None if rounded is None else rounded.search.kept
-    return kept and (kept[0], {"method": name, "digest": digest(text), **kept[1]})
+    if rounded is None:
+        return None
+    key, data = rounded.search.kept
+    return key, {"method": name, "digest": digest(text), **data}
 
 
 def update_copies(data: Path, copies: Path) -> Iterator[Path]:

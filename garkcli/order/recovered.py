@@ -58,7 +58,7 @@ def recovered_of(box: Box, known: Callable[[Tree], Tree]) -> Recovered | None:
         known: a tree with vertices of the kinds of the method.
     """
     data = _all().get(key_of(box)) if box.numbers else None
-    return None if data is None else _read(data, known)
+    return _read(data, known) if data and "shifts" in data else None
 
 
 def as_data(shifts: Sequence[fmpq], shape: System, system: System) -> dict[str, Any]:

@@ -121,14 +121,14 @@ class Recovery:
         return self.place
 
     @property
-    def kept(self) -> tuple[str, dict[str, Any]] | None:
-        """What a later search of the same numbers starts with; None where the rows of the method
-        vanish to second order only.
+    def kept(self) -> tuple[str, dict[str, Any]]:
+        """Which printed numbers these are, and what a later search of them starts with: nothing
+        where the rows of the method vanish to second order only.
         """
-        place = self.settled
+        place, key = self.settled, key_of(self.box)
         if place.slack or place is self.origin:
-            return None
-        return key_of(self.box), as_data(place.shifts, self.shape, self.system)
+            return key, {}
+        return key, as_data(place.shifts, self.shape, self.system)
 
     @property
     def wanted(self) -> System:

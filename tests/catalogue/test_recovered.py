@@ -23,7 +23,7 @@ from tests.whole import sample
 DATA = Path(recovered.FILE).parents[1] / "catalogue" / "data"
 PATHS = dict(method_files(DATA))
 KEPT = recovered.kept()
-NAMES = [x["method"] for x in KEPT.values()]
+NAMES = [x["method"] for x in KEPT.values() if "shifts" in x]
 
 
 def search_of(name: str) -> Recovery:
@@ -55,7 +55,6 @@ def test_it_is_of_the_files_as_they_are() -> None:
 def test_a_search_starts_there(name: str) -> None:
     """The conditions that are kept vanish at the place, and nothing moves from there."""
     search = search_of(name)
-    assert search.kept is not None
     key, data = search.kept
     assert {**data, "method": name, "digest": KEPT[key]["digest"]} == KEPT[key]
 
