@@ -23,7 +23,7 @@ MAX_ITERATIONS = 50
 """Newton iterations in floats before a step is given up; numbers with more digits may take one more
 for each digit, since a Jacobian of floats is worth at least one in each.
 """
-_WRITTEN = 40
+_WRITTEN = 24
 """Up to so many unknowns the Jacobian is written out."""
 _DIRECT = 2
 """Up to so many unknowns floats solve by formulas, with a new Jacobian in every iteration."""
