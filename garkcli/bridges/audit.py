@@ -14,7 +14,7 @@ from garkcli.bridges.finding import EXPLAINED, AuditFinding, Level
 from garkcli.bridges.judging import Judged, at_least, judged
 from garkcli.bridges.limited import read_within_limits
 from garkcli.bridges.plausible import are_whole, is_plausible
-from garkcli.bridges.readers.registry import find_tables, readers_for
+from garkcli.bridges.readers.registry import demand_grammars, find_tables, readers_for
 from garkcli.bridges.subject import HIGH, Subject, orders_of, read
 from garkcli.check.findings import repair_text, total_text, witness_text
 from garkcli.errors import MethodFileError, counted
@@ -89,9 +89,10 @@ def audited(
             place and why they are none.
 
     Raises:
-        UsageProblem: a source cannot be read.
+        UsageProblem: a source cannot be read, or its grammar is not installed.
     """
     given = list(paths)
+    demand_grammars(given)
     work = partial(_tables, orders=declared_orders(given), others=given)
     for found in read_within_limits(given, work, _late, jobs):
         for each in found:

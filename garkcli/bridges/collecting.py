@@ -14,7 +14,7 @@ from garkcli.bridges.elsewhere import declared_orders, with_bases, with_declared
 from garkcli.bridges.finding import AuditFinding
 from garkcli.bridges.limited import read_within_limits
 from garkcli.bridges.plausible import is_plausible
-from garkcli.bridges.readers.registry import find_tables, reader_named, readers_for
+from garkcli.bridges.readers.registry import demand_grammars, find_tables, reader_named, readers_for
 from garkcli.bridges.recognising import Recognised, recognised
 from garkcli.bridges.sources import STDIN_NAME
 from garkcli.bridges.subject import Subject
@@ -97,12 +97,14 @@ def collected(
         left_out: who hears of tables that are left out, as they may be no methods.
 
     Raises:
-        UsageProblem: a source cannot be read, or there is no such format.
+        UsageProblem: a source cannot be read, its grammar is not installed, or there is no such
+            format.
     """
     if format is not None:
         reader_named(format)
     used: set[str] = set()
     given = list(paths)
+    demand_grammars(given, format)
     work = partial(_tables, format=format, orders=declared_orders(given), others=given)
     for table in chain.from_iterable(read_within_limits(given, work, lambda table: table)):
         if table.is_unlike:

@@ -183,12 +183,14 @@ class Reader(Frozen):
         summary: what it is, in a few words.
         suffixes: of the files that have it.
         find: the tables in a text; it executes nothing, and raises nothing but ``TooLarge``.
+        grammars: the modules of tree-sitter that it parses with.
     """
 
     name: str
     summary: str
     suffixes: tuple[str, ...]
     find: Find
+    grammars: tuple[str, ...] = ()
 
 
 def unread(source: str, format: str, why: str) -> FoundTable:

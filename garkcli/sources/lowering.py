@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
+from functools import lru_cache
+from importlib import import_module
 from itertools import islice
-from typing import ClassVar
-
-from tree_sitter import Language, Node, Parser
+from typing import TYPE_CHECKING, ClassVar
 
 from garkcli.sources import ir
 from garkcli.sources.found import FoundTable, Reader
 from garkcli.sources.naming import METHODS, ROLES
 from garkcli.sources.reading import tables_in
 from garkcli.sources.signatures import SIGNATURES, other_kind
+
+if TYPE_CHECKING:
+    from tree_sitter import Language, Node
 
 _NUMBER = re.compile(r"(?<![\w.])[0-9]+(?:\.[0-9]*)?")
 FEWEST_NUMBERS = 5
@@ -44,19 +47,19 @@ class Lowering:
 
     Args:
         text: the source.
-        language: its grammar, if it is not that of the class.
+        grammar: the module of its grammar, if it is not that of the class.
 
     Attributes:
-        grammar: of the language.
+        grammar: the module with that of the language.
         kinds: what its nodes are, see ``kinds``.
     """
 
-    grammar: ClassVar[Language]
+    grammar: ClassVar[str]
     kinds: ClassVar[Mapping[str, str]]
 
-    def __init__(self, text: str, language: Language | None = None) -> None:
+    def __init__(self, text: str, grammar: str | None = None) -> None:
         self._data = text.encode(errors="replace")
-        self._language = language or self.grammar
+        self._grammar = grammar or self.grammar
         self._depth = 0
         self._fields: dict[str, tuple[tuple[str, ...], int]] = {}
 
@@ -66,7 +69,9 @@ class Lowering:
 
     def parse(self, data: bytes) -> Node:
         """The syntax tree; what does not belong to the language is in nodes of its own."""
-        return Parser(self._language).parse(data).root_node
+        from tree_sitter import Parser
+
+        return Parser(_language(self._grammar)).parse(data).root_node
 
     def text(self, node: Node | None) -> str:
         """What a node is in the source."""
@@ -305,6 +310,14 @@ class Lowering:
         return tuple(args), tuple(named)
 
 
+@lru_cache
+def _language(grammar: str) -> Language:
+    """What a module has; imported on use, as an installation without extras has none."""
+    from tree_sitter import Language
+
+    return Language(import_module(grammar).language())
+
+
 def kinds(**nodes: str) -> Mapping[str, str]:
     """What nodes are, each kind with the nodes of a grammar that are it.
 
@@ -362,4 +375,4 @@ def reader(
 
         return tables_in(text, source, name, lowered, base, is_growing, has_whole_quotients)
 
-    return Reader(name, summary, suffixes, find)
+    return Reader(name, summary, suffixes, find, (lowering.grammar,))

@@ -111,11 +111,11 @@ def test_action(file: str, code: int, command: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("version", "what", "place"),
-    [("", "/the/checkout", "bin"), ("0.1.0", "garkcli==0.1.0", "Scripts")],
+    [("", "/the/checkout[audit]", "bin"), ("0.1.0", "garkcli[audit]==0.1.0", "Scripts")],
 )
 def test_action_installs_this_project(version: str, what: str, place: str, tmp_path: Path) -> None:
     """What the action installs is the directory it lies in, and that directory is the project; a
-    release where one is asked for.
+    release where one is asked for; either with what reads sources.
     """
     folder = tmp_path / "gark" / place
     folder.mkdir(parents=True)

@@ -19,7 +19,7 @@ CACHE = ROOT / ".portable"
 """Environments and records of runs; ignored by git, and safe to delete."""
 FLOOR = re.compile(r"^([\w.-]+)>=([\w.]+)( *;.*)?$")
 """A declared minimum version; behind a semicolon, where it is needed."""
-EXTRAS = ("cluster", "parquet", "plot")
+EXTRAS = ("audit", "cluster", "parquet", "plot")
 """What users may have beside the program."""
 MSOLVE = "design"
 """One more; it needs a newer numpy than the program does."""
@@ -29,7 +29,7 @@ BARE = ("hypothesis", "jsonschema", "pytest", "pytest-xdist")
 Versions = Literal["newest", "floors", "tested", "no-libyaml", "no-unix", "wheel"]
 """``newest`` and ``floors`` have the extras too, which not every Python has; all but ``floors`` are
 of the newest of each.
-``wheel`` has what a user has: a wheel of gark, not the checkout, and what the program needs.
+``wheel`` has what a user has: a wheel of gark, not the checkout, with what reads sources.
 """
 
 
@@ -107,7 +107,7 @@ def python_of(venv: Venv) -> Path:
 def _wanted(versions: Versions) -> list[str]:
     """What pip installs: gark, and what is beside it."""
     if versions == "wheel":
-        return [".", *BARE]
+        return [".[audit]", *BARE]
     extras = {"newest": (*EXTRAS, MSOLVE), "floors": EXTRAS}
     return ["--editable", f".[{','.join(['test', *extras.get(versions, ())])}]"]
 

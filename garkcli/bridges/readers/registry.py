@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import pkgutil
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import lru_cache
 from importlib import import_module
+from importlib.util import find_spec
 from pathlib import PurePath
 
 from garkcli.bridges import readers
-from garkcli.errors import UsageProblem, did_you_mean
+from garkcli.errors import UsageProblem, did_you_mean, printable
 from garkcli.sources import languages
 from garkcli.sources.found import MAX_CHARACTERS, FoundTable, Reader, TooLarge, troubled
 
@@ -48,6 +49,28 @@ def readers_for(path: str) -> Sequence[Reader]:
     suffix = PurePath(path).suffix.lower()
     everyone = tuple(all_readers().values())
     return [x for x in everyone if suffix in x.suffixes] or everyone
+
+
+def demand_grammars(paths: Iterable[str], format: str | None = None) -> None:
+    """Refuse sources whose grammars are not installed.
+
+    Args:
+        paths: of the sources.
+        format: what they are; None for what the endings of their names say.
+
+    Raises:
+        UsageProblem: there is such a source.
+    """
+    grammars = {"tree_sitter"}.union(*(x.grammars for x in all_readers().values()))
+    missing = {x for x in grammars if find_spec(x) is None}
+    if not missing:
+        return
+    for path in paths:
+        readers = readers_for(path) if format is None else [reader_named(format)]
+        if any(missing & {"tree_sitter", *x.grammars} for x in readers if x.grammars):
+            message = f"{printable(path)} cannot be read without tree-sitter and its grammars"
+            cure = 'type pip install "garkcli[audit]", or in a checkout pip install ".[audit]"'
+            raise UsageProblem(message, cure, code="missing-package")
 
 
 def find_tables(text: str, source: str, chosen: Sequence[Reader]) -> list[FoundTable]:

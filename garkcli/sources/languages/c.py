@@ -5,21 +5,21 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from functools import lru_cache
-
-import tree_sitter_c
-import tree_sitter_cpp
-from tree_sitter import Language, Node
+from typing import TYPE_CHECKING
 
 from garkcli.sources import ir
 from garkcli.sources.found import FoundTable, Reader
 from garkcli.sources.lowering import Lowering, kinds, less_one, line_of, part, unmeant
 from garkcli.sources.reading import tables_in
 
+if TYPE_CHECKING:
+    from tree_sitter import Node
+
 NAME = "c"
 PETSC = "petsc"
 SUFFIXES = (".c", ".h", ".def", ".cc", ".cpp", ".cxx", ".hpp", ".hh", ".cu")
-C = Language(tree_sitter_c.language())
-CPP = Language(tree_sitter_cpp.language())
+C = "tree_sitter_c"
+CPP = "tree_sitter_cpp"
 _NAMES = frozenset(
     {
         *("identifier", "field_identifier", "qualified_identifier", "destructor_name"),
@@ -61,8 +61,8 @@ class CLowering(Lowering):
         index="subscript_expression",
     )
 
-    def __init__(self, text: str, language: Language) -> None:
-        super().__init__(text, language)
+    def __init__(self, text: str, grammar: str) -> None:
+        super().__init__(text, grammar)
         self._data = _without_open_comment(_DEVICE.sub(lambda x: b" " * len(x[0]), self._data))
         self._types_in_use: dict[str, bool] = {}
         self._code = b""  # without comments and texts, where it is wanted
@@ -148,7 +148,7 @@ class CLowering(Lowering):
         plain = text.split("//")[0].split("/*")[0].replace("\\\n", " ").strip()
         # in GARK_REAL_C(x) x##L the suffix of a number is made
         plain = re.sub(r"\s*##\s*\w+", "", plain)
-        inner = CLowering(f"double x = {plain};", self._language)
+        inner = CLowering(f"double x = {plain};", self._grammar)
         tree = inner.parse(inner._data)
         if plain and not tree.has_error:
             match inner.block(tree.named_children):
@@ -391,10 +391,10 @@ def _is_macro(made: ir.Statement) -> bool:
 @lru_cache(maxsize=1)
 def _tables(text: str, source: str) -> Sequence[FoundTable]:
     """Those of both formats, which are read at once."""
-    language = C if source.endswith((".c", ".def")) else CPP
+    grammar = C if source.endswith((".c", ".def")) else CPP
 
     def lowered(text: str) -> ir.Body:
-        return CLowering(text, language).module()
+        return CLowering(text, grammar).module()
 
     return tables_in(text, source, NAME, lowered, base=0, has_whole_quotients=True)
 
@@ -409,7 +409,13 @@ def find_registered(text: str, source: str) -> list[FoundTable]:
     return [x for x in _tables(text, source) if x.format == PETSC]
 
 
-READER = Reader(NAME, "C, C++: SUNDIALS tables, structures, arrays, classes", SUFFIXES, find)
+READER = Reader(
+    NAME, "C, C++: SUNDIALS tables, structures, arrays, classes", SUFFIXES, find, (C, CPP)
+)
 REGISTERED = Reader(
-    PETSC, "PETSc: TSRKRegister, TSARKIMEXRegister, TSDIRKRegister", SUFFIXES, find_registered
+    PETSC,
+    "PETSc: TSRKRegister, TSARKIMEXRegister, TSDIRKRegister",
+    SUFFIXES,
+    find_registered,
+    (C, CPP),
 )

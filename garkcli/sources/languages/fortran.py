@@ -5,14 +5,15 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator
-
-import tree_sitter_fortran
-from tree_sitter import Language, Node
+from typing import TYPE_CHECKING
 
 from garkcli.frozen import replace
 from garkcli.sources import ir
 from garkcli.sources.found import MAX_STAGES, FoundTable
 from garkcli.sources.lowering import Lowering, kinds, less_one, line_of, part, reader, unmeant
+
+if TYPE_CHECKING:
+    from tree_sitter import Node
 
 NAME = "fortran"
 _PROCEDURES = frozenset({"subroutine", "function", "module_procedure", "program"})
@@ -26,7 +27,7 @@ _ONE = ir.Literal("1", is_whole=True)
 class FortranLowering(Lowering):
     """Declarations and assignments of Fortran; names have no case."""
 
-    grammar = Language(tree_sitter_fortran.language())
+    grammar = "tree_sitter_fortran"
     kinds = kinds(
         block="translation_unit module submodule internal_procedures ERROR data_statement",
         passed="select_case_statement select_type_statement select_rank_statement where_statement"

@@ -10,9 +10,7 @@ from __future__ import annotations
 import re
 from collections import deque
 from collections.abc import Iterable, Iterator
-
-import tree_sitter_julia
-from tree_sitter import Language, Node
+from typing import TYPE_CHECKING
 
 from garkcli.sources import ir
 from garkcli.sources.lowering import (
@@ -24,6 +22,9 @@ from garkcli.sources.lowering import (
     reader,
     unmeant,
 )
+
+if TYPE_CHECKING:
+    from tree_sitter import Node
 
 NAME = "julia"
 _LEVELS = {
@@ -63,7 +64,7 @@ _ARGUMENT = ir.Name("the argument")
 class JuliaLowering(Lowering):
     """Functions, assignments, matrices and records of Julia."""
 
-    grammar = Language(tree_sitter_julia.language())
+    grammar = "tree_sitter_julia"
     kinds = kinds(
         comment="line_comment block_comment",
         block="source_file module_definition begin_block compound_statement block let_statement"

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-
-import tree_sitter_matlab
-from tree_sitter import Language, Node
+from typing import TYPE_CHECKING
 
 from garkcli.sources import ir
 from garkcli.sources.lowering import Lowering, kinds, line_of, part, reader, unmeant
+
+if TYPE_CHECKING:
+    from tree_sitter import Node
 
 NAME = "matlab"
 _SQUARE = frozenset({"zeros", "ones"})
@@ -18,7 +19,7 @@ _SQUARE = frozenset({"zeros", "ones"})
 class MatlabLowering(Lowering):
     """Functions, matrices, cells and structures of MATLAB."""
 
-    grammar = Language(tree_sitter_matlab.language())
+    grammar = "tree_sitter_matlab"
     kinds = kinds(
         comment="line_continuation",
         block="source_file block ERROR",

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-
-import tree_sitter_python
-from tree_sitter import Language, Node
+from typing import TYPE_CHECKING
 
 from garkcli.sources import ir
 from garkcli.sources.lowering import Lowering, kinds, less_one, line_of, part, reader, unmeant
+
+if TYPE_CHECKING:
+    from tree_sitter import Node
 
 NAME = "python"
 _OF_LISTS = {"*": "list *", "+": "list +"}
@@ -19,7 +20,7 @@ _PROPERTIES = frozenset({"property", "cached_property", "functools.cached_proper
 class PythonLowering(Lowering):
     """Assignments, classes, functions, lists and dictionaries of Python."""
 
-    grammar = Language(tree_sitter_python.language())
+    grammar = "tree_sitter_python"
     kinds = kinds(
         comment="line_continuation",
         block="module block with_statement else_clause",
