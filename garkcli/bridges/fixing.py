@@ -20,11 +20,12 @@ from garkcli.bridges.sources import source_text
 from garkcli.bridges.subject import Subject, read
 from garkcli.doing import doing
 from garkcli.exact.field import ONE, ZERO, Number
+from garkcli.exact.matrix import Vector
 from garkcli.files import is_stream, read_bytes
 from garkcli.frozen import Frozen
 from garkcli.methodfile.printed import SLACK
 from garkcli.order.blame import Missed, blame_of
-from garkcli.order.sums import wrong_rows
+from garkcli.order.sums import WrongSum, wrong_rows
 from garkcli.sources.found import MAX_CHARACTERS, FoundTable
 from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.tableau import Tableau
@@ -39,10 +40,13 @@ SLOPE = 1000
 """A number that conditions of a rounded table ask for may be off by so many times the rounding."""
 SURE_ORDER = 3
 """An entry with any other value is sure from this order on: a lower one has few conditions."""
+LEAST_ORDER = 2
+"""An order that is restored says something of a number from this one on."""
 _NUMBER = re.compile(r"(?P<whole>\d+)?(?:\.(?P<part>\d*))?(?:[eEdD](?P<power>[-+]?\d{1,3}))?")
 _TOKEN = re.compile(r"(?<![\w.])(?:\d+\.?\d*|\.\d+)(?:[eEdD][-+]?\d+)?")
 _OVER = re.compile(r"[\w.()\s]*/{1,2}[\w.(\s]*")
 """What is between a numerator and its denominator, names of functions and types besides."""
+_NAMED = re.compile(r"(\w+)[\"']?(?:\[[^\]=]*\])*\s*[:=](?![:=])")
 _MINUS = re.compile(r"-(?=\s*(?:\w+\(\s*)?$)")
 """The sign at the end of what is before a number."""
 
@@ -72,12 +76,29 @@ class _Wanted(Frozen):
         old, new: the number in the table.
         allowed: by how much the new one may be another.
         is_sure: whether it may be any other number: otherwise a sign or a digit is wrong.
+        is_estimate: whether it is one of an error estimate, False for one of embedded weights;
+            None for others.
     """
 
     old: fmpq
     new: fmpq
     allowed: fmpq
     is_sure: bool = False
+    is_estimate: bool | None = None
+
+
+class _Edit(Frozen):
+    """A text with a repair.
+
+    Attributes:
+        text: the whole source.
+        place: the line and the column of the repair.
+        is_estimate: whether the number is one of an error estimate.
+    """
+
+    text: str
+    place: tuple[int, int]
+    is_estimate: bool
 
 
 class _Place(Frozen):
@@ -156,22 +177,25 @@ def _better(
     if found.method is None or found.order is None or found.table.gamma is not None:
         return ""
     subject = with_orders(tables[k], read(tables[k]))
-    wanted = list(_wanted(subject))
+    wanted, before = list(_wanted(subject)), _orders(found)
     for is_whole in (False, True):
-        edits = _edits(text, tables[k].line, wanted, is_whole)
-        fitting: list[tuple[FoundTable, tuple[int, int], str]] = []
-        for edited in islice(dict.fromkeys(edits), MOST_TRIED):
-            others = tables_in(edited)
-            if not _differs_alone(tables, others, k) or others[k] in [x for x, _, _ in fitting]:
+        edits = {x.text: x for x in reversed([*_edits(text, tables[k].line, wanted, is_whole)])}
+        fitting: list[tuple[tuple[int, int], _Edit]] = []
+        for edit in islice(reversed(edits.values()), MOST_TRIED):
+            others = tables_in(edit.text)
+            again = audit(others[k]) if _differs_alone(tables, others, k) else None
+            if again is None or (edit.is_estimate and not _has_estimate(others[k])):
                 continue
-            again = audit(others[k])
-            if again is not None and again.is_read and not again.has_errors:
-                fitting.append((others[k], _orders(again), edited))
-        best = max((orders for _, orders, _ in fitting), default=(0, 0))
-        texts = [edited for _, orders, edited in fitting if orders == best]
-        if len(texts) == 1 and best >= _orders(found):
-            return texts[0]
-        if texts:
+            if again.is_read and not again.has_errors:
+                fitting.append((_orders(again), edit))
+        best = max((orders for orders, _ in fitting), default=before)
+        fitting = [(orders, edit) for orders, edit in fitting if orders == best]
+        # one condition, the sum of weights, is met by many numbers
+        changed = [x for x, y in zip(best, before, strict=True) if x != y]
+        if len({edit.place for _, edit in fitting}) == 1:
+            is_sure = best >= before and min(changed, default=LEAST_ORDER) >= LEAST_ORDER
+            return fitting[0][1].text if is_sure else ""
+        if fitting:
             return ""
     return ""
 
@@ -181,6 +205,13 @@ def _differs_alone(tables: Sequence[FoundTable], others: Sequence[FoundTable], k
     if len(tables) != len(others):
         return False
     return [i for i, (x, y) in enumerate(zip(tables, others, strict=True)) if x != y] == [k]
+
+
+def _has_estimate(table: FoundTable) -> bool:
+    """Whether the embedded weights are read as b and an estimate, not as weights."""
+    rows = zip(table.b, table.embedded or (), strict=False)
+    pairs = [pair for row in rows for pair in zip(*row, strict=True)]
+    return all(y == x or y.startswith((f"{x} - (", f"{x} + (")) for x, y in pairs)
 
 
 def _orders(found: Audited) -> tuple[int, int]:
@@ -195,33 +226,55 @@ def _wanted(subject: Subject) -> Iterator[_Wanted]:
     allowed = (1 + sum(space.stages for space in tableau.spaces)) * rounding
 
     def values(
-        pairs: Iterable[tuple[Number, Number]], is_sure: bool = False, slope: int = 1
+        pairs: Iterable[tuple[Number, Number]],
+        is_sure: bool = False,
+        slope: int = 1,
+        is_estimate: bool | None = None,
     ) -> Iterator[_Wanted]:
         for old, new in pairs:
             if not (isinstance(old, fmpq) and isinstance(new, fmpq)):
                 continue
             # a long number is no misprint of 0
             if abs(new - old) > allowed and (old or not rounding):
-                yield _Wanted(old, new, slope * allowed, is_sure and not rounding)
+                is_any = is_sure and not rounding
+                yield _Wanted(old, new, slope * allowed, is_any, is_estimate)
 
     rows = list(wrong_rows(subject.rounded.defects, tableau.edges()))
-    if len(rows) == 1 and rows[0].i is not None and rows[0].m is not None:
-        row = rows[0]
-        entries = (tableau.block(row.l, row.m) or ())[row.i]
+    if len(rows) == 1:
+        (row,) = rows
+        entries = _entries(tableau, row)
         is_met = not subject.misses_order and subject.order.order >= SURE_ORDER
         yield from values([(row.wanted, row.total)], is_sure=is_met)
         yield from values((x, x - row.off) for x in entries)
     embedded = subject.method.embedded or ()
-    for b in (*(colour.b for colour in tableau.colours), *embedded):
-        off = sum(b, ZERO) - ONE
-        yield from values((x, x - off) for x in b)
+    weights = [colour.b for colour in tableau.colours]
+    for b in weights:
+        yield from values((x, x + ONE - sum(b, ZERO)) for x in b)
+    for b, other in zip(weights, embedded, strict=False):
+        total = sum(other, ZERO)
+        yield from values(((x, x + ONE - total) for x in other), is_estimate=False)
+        # of an estimate a source has differences, with either sign, or what looks like weights
+        pairs = [
+            (s * (x - y), s * (x - y + total - ONE))
+            for s in (1, -1)
+            for x, y in zip(b, other, strict=True)
+        ]
+        yield from values([*pairs, *((x, x - total) for x in other)], is_estimate=True)
     if subject.misses_order:
         found = _blamed(subject, tableau, table.order, is_embedded=False)
         yield from values(*found, slope=SLOPE)
     elif subject.embedded_order is not None:
-        weights = with_weights(tableau, embedded)
-        found = _blamed(subject, weights, table.embedded_order, is_embedded=True)
-        yield from values(*found, slope=SLOPE)
+        found = _blamed(
+            subject, with_weights(tableau, embedded), table.embedded_order, is_embedded=True
+        )
+        yield from values(*found, slope=SLOPE, is_estimate=False)
+
+
+def _entries(tableau: Tableau, row: WrongSum) -> Vector:
+    """The entries of a row that is not its node."""
+    assert row.m is not None
+    assert row.i is not None
+    return (tableau.block(row.l, row.m) or ())[row.i]
 
 
 def _blamed(
@@ -241,7 +294,7 @@ def _blamed(
     return [(x.old, x.new) for x in repairs], len(repairs) == 1 and declared >= SURE_ORDER
 
 
-def _edits(text: str, line: int, wanted: Sequence[_Wanted], is_whole: bool) -> Iterator[str]:
+def _edits(text: str, line: int, wanted: Sequence[_Wanted], is_whole: bool) -> Iterator[_Edit]:
     """The text with one repair each, those that are next to the line of the table first.
 
     Args:
@@ -261,9 +314,20 @@ def _edits(text: str, line: int, wanted: Sequence[_Wanted], is_whole: bool) -> I
         for each in wanted:
             if place.value != abs(each.old) or (is_whole and not each.is_sure):
                 continue
-            old = lines[place.line]
+            head, old, start = lines[: place.line], lines[place.line], place.tokens[0].start()
+            is_estimate = _is_in_estimate([*head[-REACH:], old[:start]])
+            if each.is_estimate not in (None, is_estimate):
+                continue
             for new in _written(old, place, each) if is_whole else _mistyped(old, place, each):
-                yield "\n".join([*lines[: place.line], new, *lines[place.line + 1 :]])
+                changed = "\n".join([*head, new, *lines[place.line + 1 :]])
+                yield _Edit(changed, (place.line, start), is_estimate)
+
+
+def _is_in_estimate(before: Sequence[str]) -> bool:
+    """Whether the name that is assigned last is one of an error estimate."""
+    named = (_NAMED.findall(line) for line in reversed(before))
+    name = next((names[-1] for names in named if names), "")
+    return "err" in name.lower() or name in {"E", "e", "evec"}
 
 
 def _places(line: str, number: int) -> Iterator[_Place]:
@@ -302,7 +366,7 @@ def _turned(line: str, start: int) -> str:
 
 def _slips(number: str) -> Iterator[str]:
     """A number with one character more, less or another, or with two exchanged."""
-    found = {}
+    found: dict[str, None] = {}
     for k in range(len(number) + 1):
         head, tail = number[:k], number[k:]
         texts = [head + x + tail for x in "0123456789."]

@@ -6,13 +6,15 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from garkcli.cli.endings import CURES, ENDINGS, ending_of
+from garkcli.cli.endings import CURES, ENDINGS, ending_of, settled
 from garkcli.cli.options import Given, Output, declared
 from garkcli.cli.streams import say
 from garkcli.errors import UsageProblem, counted, printable
+from garkcli.files import is_stream
 from garkcli.tell.report import FORMATS
 
 if TYPE_CHECKING:
+    from garkcli.bridges.audit import Audited
     from garkcli.bridges.collecting import Result
     from garkcli.bridges.registry import Bridge
     from garkcli.sources.found import FoundTable
@@ -99,7 +101,7 @@ def import_(given: Given, output: Output) -> int:
     if not any(result.method is not None for result in results):
         raise _nothing(given.sources, len(paths), results, left_out)
     if output.path is not None and output.format == "yaml":
-        _refuse_several(results, output.path)
+        _refuse_several(results, f"-o {output.path}", "--output-dir")
     for table in left_out:
         # of a folder one expects other arrays of such names
         if table.source in given.sources:
@@ -145,18 +147,23 @@ def _tell_wrong(results: Sequence[Result]) -> None:
                 say(f"help: {finding.help}")
 
 
-def _refuse_several(results: Sequence[Result], path: str) -> None:
+def _refuse_several(results: Sequence[Result], place: str, option: str) -> None:
     """Refuse to write several methods into one method file.
+
+    Args:
+        results: the methods.
+        place: the option and the file.
+        option: that names a folder instead.
 
     Raises:
         UsageProblem: there are several.
     """
     names = [x.table.name or x.stem for x in results if x.method is not None]
-    if len(names) > 1 and ending_of(path):
+    if len(names) > 1 and ending_of(place):
         more = f" and {len(names) - 8} more" if len(names) > 8 else ""
         listed = ", ".join(map(printable, names[:8])) + more
-        message = f"-o {path} is one method file, and {len(names)} methods are found: {listed}"
-        cure = "--output-dir DIR writes a file for each"
+        message = f"{place} is one method file, and {len(names)} methods are found: {listed}"
+        cure = f"{option} DIR writes a file for each"
         raise UsageProblem(message, cure, code="wrong-ending")
 
 
@@ -239,14 +246,61 @@ def audit(given: Given, output: Output) -> int:
     from garkcli.bridges.sources import source_files
     from garkcli.report.audited import FORMATS as RENDERERS
 
+    if given.fix and output.format != "auto":
+        message = f"--fix writes a patch, not {output.format}"
+        raise UsageProblem(message, "leave out --format; end FILE in .patch", code="options-clash")
+    if given.claim is not None and ending_of(given.claim):
+        settled(given.claim, ["yaml"], option="--claim")
     files = list(source_files(given.paths, output.note))
     unlike: list[str] = []
     found = list(audited(files, given.jobs, unlike.append))
     if not found:
         message = "; ".join([_no_table(given.paths, len(files)), *unlike[:1]])
         raise UsageProblem(message, "docs/import.md says what is read", code="cannot-import")
-    output.suit()
-    output.write(RENDERERS[output.format](found, output.paint, output.verbosity, output.width))
+    if given.fix:
+        _write_patch(found, files, output)
+    else:
+        output.suit()
+        output.write(RENDERERS[output.format](found, output.paint, output.verbosity, output.width))
+    if given.claim is not None:
+        _claim(files, given.claim, output)
     if any(x.has_errors for x in found) or (given.strict and any(x.looks_like for x in found)):
         return 1
     return 0 if any(x.is_read for x in found) else 2
+
+
+def _write_patch(found: Sequence[Audited], files: Sequence[str], output: Output) -> None:
+    """Write the repairs that are sure, and say of how many tables."""
+    from garkcli.bridges.fixing import mended_sources
+    from garkcli.bridges.patching import patch_of
+
+    if any(map(is_stream, files)):
+        message = "standard input is no file, which a patch needs"
+        raise UsageProblem(message, "name files or folders", code="cannot-write")
+    pieces, mended = [], 0
+    for source in mended_sources(found, files):
+        piece = patch_of(source.source, source.before, source.after)
+        pieces.append(piece)
+        mended += source.mended if piece else 0
+        if source.mended and not piece:
+            why = "it is not below this folder, or its lines have signs that do not print"
+            output.note(f"{printable(source.source)} is left out of the patch: {why}")
+    output.write_exactly("".join(pieces))
+    wrong = sum(x.has_errors for x in found)
+    if wrong:
+        output.note(f"the patch mends {mended} of {counted(wrong, 'wrong table')}")
+
+
+def _claim(files: Sequence[str], place: str, output: Output) -> None:
+    """Write the method files of the tables, which claim what the sources declare."""
+    from garkcli.bridges.collecting import collected
+    from garkcli.cli.designing import make_folder
+
+    results = [x for x in collected(files) if x.method is not None]
+    if ending_of(place):
+        _refuse_several(results, f"--claim {place}", "--claim")
+        output.save(place, [x.method.text for x in results if x.method is not None])
+        return
+    make_folder(place)
+    names = _written(results, place)
+    output.note(f"wrote {counted(len(names), 'method file')} into {printable(place)}")

@@ -18,7 +18,7 @@ import click
 from garkcli.cli import arguments
 from garkcli.cli.arguments import INPUT, PATH, completed, named, read_by
 from garkcli.cli.endings import AUTO, settled
-from garkcli.cli.streams import complain, put, safe_pieces, say, wants_colour
+from garkcli.cli.streams import complain, put, put_exactly, safe_pieces, say, wants_colour
 from garkcli.cli.table import COMMANDS, HIDDEN, Option, Rule, option_of, options_of, rules_of
 from garkcli.doing import hush
 from garkcli.errors import Fault, GarkError, MethodFileError, UsageProblem
@@ -527,7 +527,14 @@ class Output:
             return
         self.save(self.path, safe_pieces(pieces, format, coloured))
 
-    def save(self, path: str, pieces: Iterable[str]) -> None:
+    def write_exactly(self, text: str) -> None:
+        """Write a text that has to keep every sign and line end, such as a patch."""
+        if self.path is None:
+            put_exactly(text)
+        else:
+            self.save(self.path, [text.encode()])
+
+    def save(self, path: str, pieces: Iterable[str | bytes]) -> None:
         """Write a file, and say so where it is one."""
         from garkcli.page.writing import write_whole
 

@@ -94,6 +94,26 @@ def put(text: str, format: str = "text", coloured: bool = False) -> None:
         raise ReaderGone from None
 
 
+def put_exactly(text: str) -> None:
+    """Write a text as UTF-8 with the line ends that it has, whatever standard output is like.
+
+    Raises:
+        NoStandardOutput: it is closed.
+        ReaderGone: nobody reads it any more.
+    """
+    if sys.stdout is None:
+        raise NoStandardOutput
+    buffer = getattr(sys.stdout, "buffer", None)
+    try:
+        if buffer is None:
+            sys.stdout.write(text)
+        else:
+            sys.stdout.flush()
+            buffer.write(text.encode())
+    except BrokenPipeError:
+        raise ReaderGone from None
+
+
 def flush() -> None:
     """Write what is held back.
 

@@ -272,6 +272,10 @@ export --digits N 1..1000 = export.digits
 audit -j --jobs N 0..60 jobs = audit.jobs
     | The number of processes; 0 is one per processor.
 audit --strict | Fail if gark could not read a possible table.
+--fix | Write a patch of what is sure instead: a wrong sign, digit or entry. It changes no file.
+--claim PLACE written
+    | Also write method files that claim what the sources declare: into a folder, or one into
+      PLACE.gark.yaml.
 
 report --order -n n 1..100 = report_page.order
 --pictures/--no-pictures = report_page.pictures
@@ -366,7 +370,7 @@ exchange: export FILE | a method for SciPy, SUNDIALS, PETSc, C, JSON and others
     only --output --help
 exchange: audit PATH... | the tables in a source tree: are their declared orders true?
     = audit
-    --strict --jobs
+    --strict --fix --claim --jobs
 claims: claims FILE... | what is true of a method, as claims for its file
     = claims_of with_claims
     --write --all --key

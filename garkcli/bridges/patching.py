@@ -1,0 +1,65 @@
+"""Changed sources as a patch: a unified diff that ``patch -p1`` and ``git apply`` take."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Sequence
+from difflib import SequenceMatcher
+from pathlib import Path
+
+from garkcli.page.plain import inert
+
+AROUND = 3
+"""Lines around a change."""
+_BLANK = "\t\r\n\f"
+"""Signs of sources that do not print."""
+_NO_END = "\n\\ No newline at end of file\n"
+
+
+def patch_of(source: str, before: str, after: str) -> str:
+    """The unified diff of one file; empty where it would have signs that command a terminal or the
+    runner of a job, or no path below the current folder.
+
+    Args:
+        source: its path.
+        before: its text.
+        after: the text that it is to have.
+    """
+    name = _name_of(source)
+    if not name:
+        return ""
+    old, new = (_lines(text) for text in (before, after))
+    pieces = [f"--- a/{name}\n", f"+++ b/{name}\n"]
+    for group in SequenceMatcher(None, old, new, autojunk=False).get_grouped_opcodes(AROUND):
+        first, last = group[0], group[-1]
+        pieces.append(f"@@ -{_range(first[1], last[2])} +{_range(first[3], last[4])} @@\n")
+        for tag, i, j, k, l in group:
+            signs = ((" ", old[i:j]),) if tag == "equal" else (("-", old[i:j]), ("+", new[k:l]))
+            for sign, lines in signs:
+                pieces += [sign + x + ("" if x[-1] == "\n" else _NO_END) for x in lines]
+    text = "".join(pieces)
+    is_plain = all(x.isprintable() or x in _BLANK for x in text)
+    return text if is_plain and inert(text) == text else ""
+
+
+def _name_of(source: str) -> str:
+    """The path of a file below the current folder; empty where it is not, or cannot be written."""
+    try:
+        name = Path(os.path.relpath(source)).as_posix()
+    except ValueError:  # of another drive
+        return ""
+    if name.startswith("../") or not name.isprintable() or set(name) & {'"', "\\"}:
+        return ""
+    # as git ends it: what is behind a tab is no name
+    return f"{name}\t" if " " in name else name
+
+
+def _lines(text: str) -> Sequence[str]:
+    """Lines with their ends; a form feed ends none."""
+    return re.findall(r"[^\n]*\n|[^\n]+", text)
+
+
+def _range(start: int, stop: int) -> str:
+    """Lines as the head of a hunk has them, from 1."""
+    return f"{start + 1}" if stop - start == 1 else f"{start + 1},{stop - start}"
