@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import islice, pairwise
+from math import gcd
 
 from flint import fmpq
 
@@ -116,6 +117,11 @@ class _Place(Frozen):
         """The number with another text for token k."""
         values = [_value(text if k == i else x[0]) for i, x in enumerate(self.tokens)]
         return values[0] if len(values) == 1 else values[0] / values[1] if values[1] else ZERO
+
+    def is_as_short(self, k: int, text: str) -> bool:
+        """Whether a fraction in lowest terms stays one with another text for token k."""
+        texts = [x[0] for x in self.tokens]
+        return _common(texts) > 1 or _common([*texts[:k], text, *texts[k + 1 :]]) == 1
 
 
 def mended_sources(found: Iterable[Audited], paths: Iterable[str]) -> Iterator[Mended]:
@@ -350,7 +356,7 @@ def _mistyped(line: str, place: _Place, wanted: _Wanted) -> Iterator[str]:
         (abs(place.with_value(k, text) - abs(wanted.new)), k, text)
         for k, token in enumerate(place.tokens)
         for text in _slips(token[0])
-        if _value(text) != _value(token[0])
+        if _value(text) != _value(token[0]) and place.is_as_short(k, text)
     ]
     for _, k, text in sorted(x for x in near if x[0] <= wanted.allowed)[:3]:
         token = place.tokens[k]
@@ -395,6 +401,13 @@ def _written(line: str, place: _Place, wanted: _Wanted) -> Iterator[str]:
         new = decimal or (f"{p}{end}" if q == 1 else f"{p}{end}/{q}{end}")
     changed = line[: first.start()] + new + line[last.end() :]
     yield _turned(changed, first.start()) if wanted.old * wanted.new < 0 else changed
+
+
+def _common(texts: Sequence[str]) -> int:
+    """What whole numbers have in common; 1 of others, and of a single number."""
+    values = [_value(x) for x in texts]
+    whole = [int(x.p) for x in values if x.q == 1]
+    return gcd(*whole) if len(whole) == len(values) > 1 else 1
 
 
 def _decimal(p: int, q: int) -> str:

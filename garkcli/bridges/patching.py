@@ -18,8 +18,8 @@ _NO_END = "\n\\ No newline at end of file\n"
 
 
 def patch_of(source: str, before: str, after: str) -> str:
-    """The unified diff of one file; empty where it would have signs that command a terminal or the
-    runner of a job, or no path below the current folder.
+    """The unified diff of one file; empty where nothing changes, where it would have signs that
+    command a terminal or the runner of a job, or no path below the current folder.
 
     Args:
         source: its path.
@@ -27,7 +27,7 @@ def patch_of(source: str, before: str, after: str) -> str:
         after: the text that it is to have.
     """
     name = _name_of(source)
-    if not name:
+    if not name or before == after:
         return ""
     old, new = (_lines(text) for text in (before, after))
     pieces = [f"--- a/{name}\n", f"+++ b/{name}\n"]
