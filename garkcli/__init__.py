@@ -16,7 +16,7 @@ NAMES = {
         "api.construction": "diagonal_method gark",
         "api.anymethod": "method_of",
         "catalogue": "catalogue",
-        "bridges.calls": "import_methods audit",
+        "bridges.calls": "import_methods audit audit_patch",
         "methodfile.build": "MethodFile",
         "tableau.garkmethod": "GarkMethod",
         "tableau.tableau": "Tableau",

@@ -52,6 +52,7 @@ from garkcli.api.trees import elementary_weight as elementary_weight
 from garkcli.api.trees import format_tree as format_tree
 from garkcli.api.trees import trees as trees
 from garkcli.bridges.calls import audit as audit
+from garkcli.bridges.calls import audit_patch as audit_patch
 from garkcli.bridges.calls import export as export
 from garkcli.bridges.calls import import_methods as import_methods
 from garkcli.catalogue.mapping import Catalogue as Catalogue

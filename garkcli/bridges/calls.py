@@ -10,6 +10,7 @@ from garkcli.api.anymethod import AnyMethod, method_of, refuse_rounded
 from garkcli.api.numbers import Whole, whole
 from garkcli.bridges.audit import Audited, audited
 from garkcli.bridges.collecting import collected
+from garkcli.bridges.patching import patches
 from garkcli.bridges.preparing import prepared
 from garkcli.bridges.registry import bridge_named
 from garkcli.bridges.sources import source_files
@@ -86,6 +87,24 @@ def audit(paths: AnyPath | Iterable[AnyPath], jobs: Whole = 1) -> Iterator[Audit
     if isinstance(paths, (str, os.PathLike)):
         paths = [paths]
     return audited(_files(paths), whole(jobs, "jobs", 0))
+
+
+def audit_patch(paths: AnyPath | Iterable[AnyPath]) -> str:
+    """What ``gark audit --fix`` writes: repairs that are sure as a unified diff; no file changes.
+
+    Args:
+        paths: files and folders below the current folder, or one of them.
+
+    Raises:
+        UsageProblem: a source cannot be read.
+
+    >>> audit_patch("tests/bridges/sources/kutta.csv")
+    ''
+    """
+    if isinstance(paths, (str, os.PathLike)):
+        paths = [paths]
+    files = list(_files(paths))
+    return "".join(piece for _, piece in patches(audited(files), files))
 
 
 def _files(paths: Iterable[AnyPath]) -> Iterator[str]:

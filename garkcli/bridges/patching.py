@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from difflib import SequenceMatcher
 from pathlib import Path
 
+from garkcli.bridges.audit import Audited
+from garkcli.bridges.fixing import Mended, mended_sources
 from garkcli.page.plain import inert
 
 AROUND = 3
@@ -15,6 +17,12 @@ AROUND = 3
 _BLANK = "\t\r\n\f"
 """Signs of sources that do not print."""
 _NO_END = "\n\\ No newline at end of file\n"
+
+
+def patches(found: Iterable[Audited], paths: Iterable[str]) -> Iterator[tuple[Mended, str]]:
+    """Every source with errors and its patch; see ``mended_sources``."""
+    for mended in mended_sources(found, paths):
+        yield mended, patch_of(mended.source, mended.before, mended.after)
 
 
 def patch_of(source: str, before: str, after: str) -> str:

@@ -271,15 +271,13 @@ def audit(given: Given, output: Output) -> int:
 
 def _write_patch(found: Sequence[Audited], files: Sequence[str], output: Output) -> None:
     """Write the repairs that are sure, and say of how many tables."""
-    from garkcli.bridges.fixing import mended_sources
-    from garkcli.bridges.patching import patch_of
+    from garkcli.bridges.patching import patches
 
     if any(map(is_stream, files)):
         message = "standard input is no file, which a patch needs"
         raise UsageProblem(message, "name files or folders", code="cannot-write")
     pieces, mended = [], 0
-    for source in mended_sources(found, files):
-        piece = patch_of(source.source, source.before, source.after)
+    for source, piece in patches(found, files):
         pieces.append(piece)
         mended += source.mended if piece else 0
         if source.mended and not piece:

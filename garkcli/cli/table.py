@@ -369,7 +369,7 @@ exchange: export FILE | a method for SciPy, SUNDIALS, PETSc, C, JSON and others
     --conjugate --pair --to --digits --test --set
     only --output --help
 exchange: audit PATH... | the tables in a source tree: are their declared orders true?
-    = audit
+    = audit audit_patch
     --strict --fix --claim --jobs
 claims: claims FILE... | what is true of a method, as claims for its file
     = claims_of with_claims
