@@ -134,8 +134,7 @@ def audit(table: FoundTable) -> Audited | None:
         may_be = table.c[0] is None and _may_be_method(method)
         message = "A and b without nodes, which may be no method"
         return _noted(table, message) if may_be else None
-    is_high = not table.order or table.order >= HIGH
-    subject = with_orders(table, method, HIGH if is_high else None)
+    subject = subject_of(table, method)
     if is_unrecognised(subject):
         return _noted(subject.table, UNRECOGNISED)
     return Audited(
@@ -146,6 +145,12 @@ def audit(table: FoundTable) -> Audited | None:
         subject.nonautonomous,
         findings_of(subject),
     )
+
+
+def subject_of(table: FoundTable, method: MethodFile) -> Subject:
+    """A table with its orders, as far as an audit looks for them."""
+    is_high = not table.order or table.order >= HIGH
+    return with_orders(table, method, HIGH if is_high else None)
 
 
 def _of_rosenbrock(table: FoundTable) -> Audited:

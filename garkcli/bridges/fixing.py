@@ -8,14 +8,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from itertools import islice, pairwise
+from itertools import pairwise
 from math import gcd
 
 from flint import fmpq
 
-from garkcli.bridges.audit import MAX_BLAMED, Audited, audit
+from garkcli.bridges.audit import MAX_BLAMED, Audited, audit, subject_of
 from garkcli.bridges.elsewhere import declared_orders, with_declared
-from garkcli.bridges.estimates import with_orders
 from garkcli.bridges.readers.registry import find_tables, readers_for
 from garkcli.bridges.sources import source_text
 from garkcli.bridges.subject import Subject, read
@@ -31,8 +30,8 @@ from garkcli.sources.found import MAX_CHARACTERS, FoundTable
 from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.tableau import Tableau
 
-MOST_TRIED = 60
-"""So many repairs of a table are read again at most."""
+MOST_TRIED = 200
+"""So many repairs of a table are read again at most: of more none is sure."""
 REACH = 400
 """Lines before and behind the first one of a table that may have its numbers."""
 LONGEST = 60
@@ -44,7 +43,7 @@ SURE_ORDER = 3
 LEAST_ORDER = 2
 """An order that is restored says something of a number from this one on."""
 _NUMBER = re.compile(r"(?P<whole>\d+)?(?:\.(?P<part>\d*))?(?:[eEdD](?P<power>[-+]?\d{1,3}))?")
-_TOKEN = re.compile(r"(?<![\w.])(?:\d+\.?\d*|\.\d+)(?:[eEdD][-+]?\d+)?")
+_TOKEN = re.compile(r"(?<![\w.])(?:\d+\.?\d*|\.\d+)(?:[eEdD][-+]?\d{1,3}(?!\d))?")
 _OVER = re.compile(r"[\w.()\s]*/{1,2}[\w.(\s]*")
 """What is between a numerator and its denominator, names of functions and types besides."""
 _NAMED = re.compile(r"(\w+)[\"']?(?:\[[^\]=]*\])*\s*[:=](?![:=])")
@@ -89,17 +88,23 @@ class _Wanted(Frozen):
 
 
 class _Edit(Frozen):
-    """A text with a repair.
+    """A line with a repair.
 
     Attributes:
-        text: the whole source.
-        place: the line and the column of the repair.
-        is_estimate: whether the number is one of an error estimate.
+        text: of the line.
+        place: its number, and the column of what is mended, from 0.
+        is_estimate: whether that is one of an error estimate.
     """
 
     text: str
     place: tuple[int, int]
     is_estimate: bool
+
+    def carried_out(self, text: str) -> str:
+        """A source with the line."""
+        lines = text.split("\n")
+        lines[self.place[0]] = self.text
+        return "\n".join(lines)
 
 
 class _Place(Frozen):
@@ -146,13 +151,13 @@ def mended_sources(found: Iterable[Audited], paths: Iterable[str]) -> Iterator[M
 
 def _text_of(source: str) -> str:
     """The text of a file with its line ends; empty where it is no UTF-8."""
-    data = read_bytes(source, MAX_CHARACTERS)
+    parsed, _ = source_text(source)
     try:
-        text = data.decode("utf-8")
+        text = read_bytes(source, MAX_CHARACTERS).decode("utf-8")
     except UnicodeDecodeError:
         return ""
     # what is parsed has no mark at its beginning
-    return text if text == source_text(source)[0] else ""
+    return text if text == parsed else ""
 
 
 def _mended(source: str, text: str, orders: Mapping[str, int]) -> Mended:
@@ -182,28 +187,50 @@ def _better(
     """The text with the repair of table k; empty where none is sure."""
     if found.method is None or found.order is None or found.table.gamma is not None:
         return ""
-    subject = with_orders(tables[k], read(tables[k]))
-    wanted, before = list(_wanted(subject)), _orders(found)
+    wanted, before = list(_wanted(subject_of(tables[k], read(tables[k])))), _orders(found)
     for is_whole in (False, True):
-        edits = {x.text: x for x in reversed([*_edits(text, tables[k].line, wanted, is_whole)])}
-        fitting: list[tuple[tuple[int, int], _Edit]] = []
-        for edit in islice(reversed(edits.values()), MOST_TRIED):
-            others = tables_in(edit.text)
-            again = audit(others[k]) if _differs_alone(tables, others, k) else None
-            if again is None or (edit.is_estimate and not _has_estimate(others[k])):
-                continue
-            if again.is_read and not again.has_errors:
-                fitting.append((_orders(again), edit))
+        edits = dict.fromkeys(_edits(text, tables[k].line, wanted, is_whole))
+        fitting = _fitting(edits, text, tables, k, tables_in)
+        if fitting is None:
+            return ""
         best = max((orders for orders, _ in fitting), default=before)
         fitting = [(orders, edit) for orders, edit in fitting if orders == best]
         # one condition, the sum of weights, is met by many numbers
         changed = [x for x, y in zip(best, before, strict=True) if x != y]
         if len({edit.place for _, edit in fitting}) == 1:
             is_sure = best >= before and min(changed, default=LEAST_ORDER) >= LEAST_ORDER
-            return fitting[0][1].text if is_sure else ""
+            return fitting[0][1].carried_out(text) if is_sure else ""
         if fitting:
             return ""
     return ""
+
+
+def _fitting(
+    edits: Iterable[_Edit],
+    text: str,
+    tables: Sequence[FoundTable],
+    k: int,
+    tables_in: Callable[[str], list[FoundTable]],
+) -> list[tuple[tuple[int, int], _Edit]] | None:
+    """The repairs that leave no error in table k, with its orders then; None of too many."""
+    fitting, elsewhere, tried = [], set(), 0
+    for edit in edits:
+        if edit.place in elsewhere:
+            continue
+        tried += 1
+        if tried > MOST_TRIED:
+            return None
+        others = tables_in(edit.carried_out(text))
+        if others == tables:
+            elsewhere.add(edit.place)
+        if not _differs_alone(tables, others, k):
+            continue
+        again = audit(others[k])
+        if again is None or not again.is_read or again.has_errors:
+            continue
+        if not edit.is_estimate or _has_estimate(others[k]):
+            fitting.append((_orders(again), edit))
+    return fitting
 
 
 def _differs_alone(tables: Sequence[FoundTable], others: Sequence[FoundTable], k: int) -> bool:
@@ -312,21 +339,21 @@ def _edits(text: str, line: int, wanted: Sequence[_Wanted], is_whole: bool) -> I
     lines = text.split("\n")
     first = max(line - 1 - REACH, 0)
     places = [
-        (abs(n + 1 - line), place)
+        place
         for n, part in enumerate(lines[first : line + REACH], first)
         for place in _places(part, n)
     ]
-    for _, place in sorted(places, key=lambda x: x[0]):
+    for place in sorted(places, key=lambda x: abs(x.line + 1 - line)):
+        value, old, start = place.value, lines[place.line], place.tokens[0].start()
         for each in wanted:
-            if place.value != abs(each.old) or (is_whole and not each.is_sure):
+            if value != abs(each.old) or (is_whole and not each.is_sure):
                 continue
-            head, old, start = lines[: place.line], lines[place.line], place.tokens[0].start()
-            is_estimate = _is_in_estimate([*head[-REACH:], old[:start]])
+            before = [*lines[max(place.line - REACH, 0) : place.line], old[:start]]
+            is_estimate = _is_in_estimate(before)
             if each.is_estimate not in (None, is_estimate):
                 continue
             for new in _written(old, place, each) if is_whole else _mistyped(old, place, each):
-                changed = "\n".join([*head, new, *lines[place.line + 1 :]])
-                yield _Edit(changed, (place.line, start), is_estimate)
+                yield _Edit(new, (place.line, start), is_estimate)
 
 
 def _is_in_estimate(before: Sequence[str]) -> bool:
