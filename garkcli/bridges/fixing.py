@@ -8,13 +8,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from itertools import pairwise
-from math import gcd
 
 from flint import fmpq
 
 from garkcli.bridges.audit import MAX_BLAMED, Audited, audit, subject_of
 from garkcli.bridges.elsewhere import declared_orders, with_declared
+from garkcli.bridges.misprints import Wanted, mistyped, places, written
 from garkcli.bridges.readers.registry import find_tables, readers_for
 from garkcli.bridges.sources import source_text
 from garkcli.bridges.subject import Subject, read
@@ -34,21 +33,13 @@ MOST_TRIED = 200
 """So many repairs of a table are read again at most: of more none is sure."""
 REACH = 400
 """Lines before and behind the first one of a table that may have its numbers."""
-LONGEST = 60
-"""Characters of the longest number that is mended."""
 SLOPE = 1000
 """A number that conditions of a rounded table ask for may be off by so many times the rounding."""
 SURE_ORDER = 3
 """An entry with any other value is sure from this order on: a lower one has few conditions."""
 LEAST_ORDER = 2
 """An order that is restored says something of a number from this one on."""
-_NUMBER = re.compile(r"(?P<whole>\d+)?(?:\.(?P<part>\d*))?(?:[eEdD](?P<power>[-+]?\d{1,3}))?")
-_TOKEN = re.compile(r"(?<![\w.])(?:\d+\.?\d*|\.\d+)(?:[eEdD][-+]?\d{1,3}(?!\d))?")
-_OVER = re.compile(r"[\w.()\s]*/{1,2}[\w.(\s]*")
-"""What is between a numerator and its denominator, names of functions and types besides."""
 _NAMED = re.compile(r"(\w+)[\"']?(?:\[[^\]=]*\])*\s*[:=](?![:=])")
-_MINUS = re.compile(r"-(?=\s*(?:\w+\(\s*)?$)")
-"""The sign at the end of what is before a number."""
 
 
 class Mended(Frozen):
@@ -69,24 +60,6 @@ class Mended(Frozen):
     mended: int
 
 
-class _Wanted(Frozen):
-    """A value that another number may have to have.
-
-    Attributes:
-        old, new: the number in the table.
-        allowed: by how much the new one may be another.
-        is_sure: whether it may be any other number: otherwise a sign or a digit is wrong.
-        is_estimate: whether it is one of an error estimate, False for one of embedded weights;
-            None for others.
-    """
-
-    old: fmpq
-    new: fmpq
-    allowed: fmpq
-    is_sure: bool = False
-    is_estimate: bool | None = None
-
-
 class _Edit(Frozen):
     """A line with a repair.
 
@@ -105,28 +78,6 @@ class _Edit(Frozen):
         lines = text.split("\n")
         lines[self.place[0]] = self.text
         return "\n".join(lines)
-
-
-class _Place(Frozen):
-    """Where a text has a positive number: one token, or two with a quotient between them."""
-
-    line: int
-    tokens: tuple[re.Match[str], ...]
-
-    @property
-    def value(self) -> fmpq:
-        """The number that is there."""
-        return self.with_value(0, self.tokens[0][0])
-
-    def with_value(self, k: int, text: str) -> fmpq:
-        """The number with another text for token k."""
-        values = [_value(text if k == i else x[0]) for i, x in enumerate(self.tokens)]
-        return values[0] if len(values) == 1 else values[0] / values[1] if values[1] else ZERO
-
-    def is_as_short(self, k: int, text: str) -> bool:
-        """Whether a fraction in lowest terms stays one with another text for token k."""
-        texts = [x[0] for x in self.tokens]
-        return _common(texts) > 1 or _common([*texts[:k], text, *texts[k + 1 :]]) == 1
 
 
 def mended_sources(found: Iterable[Audited], paths: Iterable[str]) -> Iterator[Mended]:
@@ -253,7 +204,7 @@ def _orders(found: Audited) -> tuple[int, int]:
     return found.order.order, 0 if found.embedded_order is None else found.embedded_order.order
 
 
-def _wanted(subject: Subject) -> Iterator[_Wanted]:
+def _wanted(subject: Subject) -> Iterator[Wanted]:
     """The numbers of which one may be wrong, with the values that would mend the table."""
     tableau, table, rounding = subject.tableau, subject.table, subject.rounded.tolerance
     allowed = (1 + sum(space.stages for space in tableau.spaces)) * rounding
@@ -263,14 +214,14 @@ def _wanted(subject: Subject) -> Iterator[_Wanted]:
         is_sure: bool = False,
         slope: int = 1,
         is_estimate: bool | None = None,
-    ) -> Iterator[_Wanted]:
+    ) -> Iterator[Wanted]:
         for old, new in pairs:
             if not (isinstance(old, fmpq) and isinstance(new, fmpq)):
                 continue
             # a long number is no misprint of 0
             if abs(new - old) > allowed and (old or not rounding):
                 is_any = is_sure and not rounding
-                yield _Wanted(old, new, slope * allowed, is_any, is_estimate)
+                yield Wanted(old, new, slope * allowed, is_any, is_estimate)
 
     rows = list(wrong_rows(subject.rounded.defects, tableau.edges()))
     if len(rows) == 1:
@@ -327,7 +278,7 @@ def _blamed(
     return [(x.old, x.new) for x in repairs], len(repairs) == 1 and declared >= SURE_ORDER
 
 
-def _edits(text: str, line: int, wanted: Sequence[_Wanted], is_whole: bool) -> Iterator[_Edit]:
+def _edits(text: str, line: int, wanted: Sequence[Wanted], is_whole: bool) -> Iterator[_Edit]:
     """The text with one repair each, those that are next to the line of the table first.
 
     Args:
@@ -338,12 +289,12 @@ def _edits(text: str, line: int, wanted: Sequence[_Wanted], is_whole: bool) -> I
     """
     lines = text.split("\n")
     first = max(line - 1 - REACH, 0)
-    places = [
+    found = [
         place
         for n, part in enumerate(lines[first : line + REACH], first)
-        for place in _places(part, n)
+        for place in places(part, n)
     ]
-    for place in sorted(places, key=lambda x: abs(x.line + 1 - line)):
+    for place in sorted(found, key=lambda x: abs(x.line + 1 - line)):
         value, old, start = place.value, lines[place.line], place.tokens[0].start()
         for each in wanted:
             if value != abs(each.old) or (is_whole and not each.is_sure):
@@ -352,7 +303,7 @@ def _edits(text: str, line: int, wanted: Sequence[_Wanted], is_whole: bool) -> I
             is_estimate = _is_in_estimate(before)
             if each.is_estimate not in (None, is_estimate):
                 continue
-            for new in _written(old, place, each) if is_whole else _mistyped(old, place, each):
+            for new in written(old, place, each) if is_whole else mistyped(old, place, each):
                 yield _Edit(new, (place.line, start), is_estimate)
 
 
@@ -361,94 +312,3 @@ def _is_in_estimate(before: Sequence[str]) -> bool:
     named = (_NAMED.findall(line) for line in reversed(before))
     name = next((names[-1] for names in named if names), "")
     return "err" in name.lower() or name in {"E", "e", "evec"}
-
-
-def _places(line: str, number: int) -> Iterator[_Place]:
-    """The numbers of a line."""
-    tokens = [x for x in _TOKEN.finditer(line) if len(x[0]) <= LONGEST]
-    yield from (_Place(number, (x,)) for x in tokens)
-    for over, under in pairwise(tokens):
-        if _OVER.fullmatch(line[over.end() : under.start()]) and _value(under[0]):
-            yield _Place(number, (over, under))
-
-
-def _mistyped(line: str, place: _Place, wanted: _Wanted) -> Iterator[str]:
-    """A line with another sign, or another digit, of a number."""
-    start, is_turned = place.tokens[0].start(), wanted.old * wanted.new < 0
-    if is_turned:
-        if abs(wanted.old + wanted.new) <= wanted.allowed:
-            yield _turned(line, start)
-        return
-    near = [
-        (abs(place.with_value(k, text) - abs(wanted.new)), k, text)
-        for k, token in enumerate(place.tokens)
-        for text in _slips(token[0])
-        if _value(text) != _value(token[0]) and place.is_as_short(k, text)
-    ]
-    for _, k, text in sorted(x for x in near if x[0] <= wanted.allowed)[:3]:
-        token = place.tokens[k]
-        yield line[: token.start()] + text + line[token.end() :]
-
-
-def _turned(line: str, start: int) -> str:
-    """A line with the other sign of the number at a place."""
-    before, after = line[:start], line[start:]
-    plain = _MINUS.sub("", before)
-    return plain + after if plain != before else f"{before}-{after}"
-
-
-def _slips(number: str) -> Iterator[str]:
-    """A number with one character more, less or another, or with two exchanged."""
-    found: dict[str, None] = {}
-    for k in range(len(number) + 1):
-        head, tail = number[:k], number[k:]
-        texts = [head + x + tail for x in "0123456789."]
-        if tail:
-            texts += [head + tail[1:], *(head + x + tail[1:] for x in "0123456789")]
-            texts.append(head + tail[1::-1] + tail[2:])
-        found |= dict.fromkeys(texts)
-    is_long = number[:1] == "0" and number[1:2].isdigit()
-    for text in found:
-        # 012 is 10 in some languages
-        if _TOKEN.fullmatch(text) and text != number and (is_long or not re.match(r"0\d", text)):
-            yield text
-
-
-def _written(line: str, place: _Place, wanted: _Wanted) -> Iterator[str]:
-    """A line with another number, written as the old one is."""
-    p, q = abs(int(wanted.new.p)), int(wanted.new.q)
-    first, last = place.tokens[0], place.tokens[-1]
-    point = re.sub(r"^\d*|[eEdD].*$", "", first[0])
-    if len(place.tokens) > 1:
-        between = line[first.end() : last.start()]
-        new = f"{p}{point}{between}{q}{re.sub(r'^[0-9]*|[eEdD].*$', '', last[0])}"
-    else:
-        decimal = _decimal(p, q) if point else ""
-        end = ".0" if point else ""
-        new = decimal or (f"{p}{end}" if q == 1 else f"{p}{end}/{q}{end}")
-    changed = line[: first.start()] + new + line[last.end() :]
-    yield _turned(changed, first.start()) if wanted.old * wanted.new < 0 else changed
-
-
-def _common(texts: Sequence[str]) -> int:
-    """What whole numbers have in common; 1 of others, and of a single number."""
-    values = [_value(x) for x in texts]
-    whole = [int(x.p) for x in values if x.q == 1]
-    return gcd(*whole) if len(whole) == len(values) > 1 else 1
-
-
-def _decimal(p: int, q: int) -> str:
-    """A short decimal; empty where there is none."""
-    places = next((k for k in range(1, 9) if 10**k % q == 0), 0)
-    if not places:
-        return ""
-    digits = str(p * 10**places // q).rjust(places + 1, "0")
-    return f"{digits[:-places]}.{digits[-places:]}"
-
-
-def _value(text: str) -> fmpq:
-    """The number that a token is, without a sign."""
-    found = _NUMBER.fullmatch(text)
-    assert found is not None
-    whole, part, power = found["whole"] or "", found["part"] or "", int(found["power"] or 0)
-    return fmpq(int(f"0{whole}{part}")) * fmpq(10) ** (power - len(part))
