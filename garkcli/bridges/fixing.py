@@ -29,7 +29,7 @@ from garkcli.sources.found import MAX_CHARACTERS, FoundTable
 from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.tableau import Tableau
 
-MOST_TRIED = 200
+MOST_TRIED = 100
 """So many repairs of a table are read again at most: of more none is sure."""
 REACH = 400
 """Lines before and behind the first one of a table that may have its numbers."""
