@@ -81,7 +81,7 @@ class Array(Mutable, eq=False):
     Attributes:
         items: the values.
         is_growing: whether what is assigned behind its end makes it longer.
-        fill: what is in entries before that, which nobody assigned.
+        fill: the value of entries that nobody assigned before.
     """
 
     items: list[Value]
