@@ -88,11 +88,12 @@ def head(payload: Payload, *notes: str) -> list[str]:
         notes: what else the target has to say.
     """
     colours = counted(payload.size, "vector field")
-    has_flow = payload.tableau.exact_to is not None
+    has_flow = payload.own is None and payload.tableau.exact_to is not None
     stages = ", ".join(map(str, payload.stages[has_flow:]))
+    fields = f"stages {stages}" if payload.own else f"{colours}, stages {stages}"
     lines = [
         f"Written by gark {payload.version}.",
-        f"A method for {problem_class(payload)}; {colours}, stages {stages}.",
+        f"A method for {problem_class(payload)}; {fields}.",
         f"Method: {payload.name}",
         f"Proved by gark: {payload.orders.sentence()}.",
     ]
@@ -109,6 +110,10 @@ _CLASSES = {
     "ark": "y' = {terms}, all at the same stages",
     "prk": "q' = f(q, p), p' = g(q, p)",
     "row": "y' = f(t, y) with its Jacobian, linearly implicit",
+    "nystrom": "q'' = g(t, q, q')",
+    "positions": "q'' = g(t, q)",
+    "nprk": "y' = F(y, y), the two arguments at stages of their own",
+    "derivatives": "y' = f(t, y) with derivatives of f along the solution",
     "gark": "y' = {terms}, each at stages of its own",
     "flow": "y' = {terms}, f1 fast and solved exactly",
 }
@@ -116,6 +121,9 @@ _CLASSES = {
 
 def problem_class(payload: Payload) -> str:
     """The problems that the method is for, in ASCII."""
+    if payload.own is not None:
+        is_in_positions = payload.kind == "nystrom" and "A" not in payload.own
+        return _CLASSES["positions" if is_in_positions else payload.kind]
     if payload.kind == "prk" and payload.structure != "general":
         return _PARTS[payload.structure]
     if payload.tableau.is_partitioned and payload.kind != "prk":

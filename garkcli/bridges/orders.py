@@ -81,7 +81,9 @@ def find_orders(tableau: Tableau, embedded: Weights | None, tolerance: fmpq | No
     if is_rosenbrock(tableau):
         return _of_rosenbrock(method, embedded)
     order = order_of(method)
-    timed = nonautonomous(method, order, inconsistent_blocks(method), DEFAULT_LIMIT)
+    timed = None
+    if tableau.has_fields_alone:
+        timed = nonautonomous(method, order, inconsistent_blocks(method), DEFAULT_LIMIT)
     with_nodes = None if timed is None or timed.order == order.order else timed.order
     other, near = None, tolerance
     if embedded is not None:

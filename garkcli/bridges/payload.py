@@ -20,12 +20,13 @@ from garkcli.version import __version__
 
 if TYPE_CHECKING:
     from garkcli.bridges.orders import Orders
+    from garkcli.bridges.own_arrays import OwnArrays
     from garkcli.constructions.infinitesimal import Coupling
     from garkcli.constructions.rosenbrock import Rosenbrock
 
-Kind: TypeAlias = Literal["rk", "ark", "prk", "gark", "row"]
+Kind: TypeAlias = Literal["rk", "ark", "prk", "gark", "row", "nystrom", "nprk", "derivatives"]
 """One vector field; several that share all stages; the pair (q, p); any other GARK method; a
-Rosenbrock method.
+Rosenbrock method; the kinds with arrays of their own.
 """
 
 Part: TypeAlias = tuple[int, int | str, Sequence[Row]]
@@ -56,6 +57,7 @@ class Payload(Frozen, eq=False, kw_only=True):
         moved_within: how far they are from those of the file at most, where these have fewer
             digits; None where they are the same.
         rosenbrock: of a Rosenbrock method, whose α, b and c are A, b and c; else None.
+        own: of a method whose kind has arrays of its own, these; A, b and c are empty then.
         coupling: between the slow stages of a multirate infinitesimal method.
         derivation: whether it is the conjugate or the pair of what a file gives.
         version: of gark.
@@ -79,6 +81,7 @@ class Payload(Frozen, eq=False, kw_only=True):
     digits: int | None = None
     moved_within: fmpq | None = None
     rosenbrock: Rosenbrock | None = None
+    own: OwnArrays | None = None
     coupling: Coupling | None = None
     derivation: Derivation = ""
     version: str = __version__
@@ -90,7 +93,11 @@ class Payload(Frozen, eq=False, kw_only=True):
 
     @property
     def stages(self) -> tuple[int, ...]:
-        """The number of stages of each colour."""
+        """The number of stages of each colour; those of the method where these are no GARK
+        stages.
+        """
+        if self.own is not None:
+            return (len(self.own["c"]),)
         return tuple(map(len, self.b))
 
     @property

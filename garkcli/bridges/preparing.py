@@ -10,6 +10,7 @@ from flint import arb, fmpq
 
 from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.orders import find_orders
+from garkcli.bridges.own_arrays import own_arrays, own_kind
 from garkcli.bridges.payload import Kind, Payload
 from garkcli.constructions.rosenbrock import Rosenbrock, is_rosenbrock
 from garkcli.doing import doing
@@ -54,6 +55,7 @@ def prepared(method: GarkMethod, digits: int | None = None) -> Payload:
     printed, method = method, _with_digits(method, file, digits)
     moved_within = None if method is printed else _tolerance(printed)
     tableau, row = method.tableau, None
+    own = own_kind(tableau)
     orders = find_orders(tableau, method.embedded, method.tolerance)
     embedded, dense = method.embedded, method.dense
     if is_rosenbrock(tableau):
@@ -61,19 +63,20 @@ def prepared(method: GarkMethod, digits: int | None = None) -> Payload:
         N = len(row.b)
         embedded, dense = embedded and embedded[:N], dense and DenseOutput(dense.weights[:N])
         tableau = row.without_jacobian
-    found = _entries(tableau, digits)
+    found = _NO_ENTRIES if own else _entries(tableau, digits)
     return Payload(
         name=printable(
             derived_name(method.derivation, _name(file)) if method.derivation else _name(file)
         ),
-        kind=kind_of(tableau) if row is None else "row",
-        tableau=in_points(tableau) or tableau,
+        kind=own or (kind_of(tableau) if row is None else "row"),
+        tableau=tableau if own else in_points(tableau) or tableau,
         A=found.A,
         b=found.b,
         c=found.c,
         is_exact=found.is_exact,
         orders=orders,
-        embedded=embedded,
+        embedded=None if own else embedded,
+        own=own_arrays(own, tableau, embedded) if own else None,
         dense=None if dense is None else dense.weights,
         tolerance=method.tolerance,
         embedded_tolerance=method.embedded_tolerance,
@@ -86,6 +89,10 @@ def prepared(method: GarkMethod, digits: int | None = None) -> Payload:
         coupling=coupling_of(file) if not method.derivation else None,
         derivation=method.derivation,
     )
+
+
+_NO_ENTRIES = Entries((), (), (), is_exact=True, digits=0, have_radicals=True)
+"""Of methods with arrays of their own."""
 
 
 def _tolerance(method: GarkMethod) -> fmpq | None:
@@ -105,9 +112,9 @@ def _with_digits(method: GarkMethod, file: MethodFile, digits: int | None) -> Ga
     places = digits + max(0, -math.floor(math.log10(min(sizes, default=1.0))))
     if fmpq(10) ** -places >= tolerance:
         return method
-    if is_rosenbrock(method.tableau):
+    if not method.tableau.is_gark:
         message = (
-            f"{method.name} is rounded to fewer digits, and of a Rosenbrock method gark does not"
+            f"{method.name} is rounded to fewer digits, and of a method of its kind gark does not"
             " recover more"
         )
         raise CannotExport(message, "leave out --digits")

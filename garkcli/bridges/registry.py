@@ -14,6 +14,7 @@ from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.comments import problem_class
 from garkcli.bridges.linear_stages import printed_stages
 from garkcli.bridges.numbers import DECIMALS, Style
+from garkcli.bridges.own_arrays import KINDS, stepped_values
 from garkcli.bridges.payload import Kind, Payload
 from garkcli.bridges.structure import (
     Composition,
@@ -133,7 +134,7 @@ class Bridge(Frozen):
         given = self._given(payload)
         if self.write is not None:
             return self.write(payload)
-        form = "-row" if payload.kind == "row" else ""
+        form = "-own" if payload.own else "-row" if payload.kind == "row" else ""
         return text_of(f"{self.name}{form}{self.suffix}", payload, self.style, given)
 
     def _given(self, payload: Payload) -> Values:
@@ -151,6 +152,8 @@ class Bridge(Frozen):
         if payload.kind == "row":
             left_out = _left_out(payload, self.lacks)
             return {"left_out": left_out, **({} if self.write else self.linear(payload))}
+        if payload.own is not None:
+            return {} if self.write else stepped_values(payload)
         fields: Sequence[int] = range(payload.size)
         if payload.kind == "prk" and self.is_split:
             given = {"steps": self._steps(payload), "tables": [], "fields": fields}
@@ -222,14 +225,17 @@ class Bridge(Frozen):
 
 
 EVERYTHING: tuple[Kind, ...] = ("rk", "ark", "prk", "gark")
+STEPPED: tuple[Kind, ...] = (*EVERYTHING, "row", *KINDS)
+"""With those for which templates write a function that steps."""
 _ENDINGS = {".hpp": ".cpp"}
 """Of programs that are no files of the same kind as the tables."""
-_KINDS = {
+_KINDS: Mapping[Kind, str] = {
     "rk": "methods for one vector field",
     "ark": "methods for several vector fields that share their stages",
     "prk": "methods for a pair (q, p)",
     "gark": "methods whose vector fields have stages of their own",
     "row": "Rosenbrock methods",
+    **KINDS,
 }
 
 

@@ -28,9 +28,9 @@ def export(given: Given, output: Output) -> None:
     what a target cannot hold, with the reason.
     """
     from garkcli.api.anymethod import refuse_rounded
+    from garkcli.bridges.own_arrays import own_kind
     from garkcli.bridges.preparing import prepared
     from garkcli.bridges.registry import bridge_named
-    from garkcli.constructions.derivatives import is_derivatives
     from garkcli.constructions.rosenbrock import is_rosenbrock
 
     bridge = bridge_named(given.to)
@@ -40,9 +40,8 @@ def export(given: Given, output: Output) -> None:
         message = f"{bridge.name} is data, not a program"
         raise UsageProblem(message, "leave out --test", code="cannot-export")
     method = given.method(is_any_kind=True)
-    if not is_rosenbrock(method.tableau):
-        has_coupling = bridge.couples and not is_derivatives(method.tableau)
-        method.tableau.demand_fields("this command", with_flow=has_coupling)
+    if not (is_rosenbrock(method.tableau) or own_kind(method.tableau)):
+        method.tableau.demand_fields("this command", with_flow=bridge.couples)
     refuse_rounded(method)
     payload = prepared(method, given.digits)
     table = bridge.written(payload)

@@ -26,6 +26,12 @@ Tensor = Sequence[Matrix]
 """``a[i][j][k]``; rows and matrices may end early, zeros follow."""
 
 
+class Pairs(PointSpace):
+    """Stages that are pairs (j, k) of stages of the method, from 0."""
+
+    pairs: tuple[tuple[int, int], ...]
+
+
 def nprk(a: Tensor, b: Matrix, embedded: Matrix | None = None) -> tuple[Tableau, Vector | None]:
     """The tableau of a method, its stages the pairs that are used.
 
@@ -49,7 +55,7 @@ def nprk(a: Tensor, b: Matrix, embedded: Matrix | None = None) -> tuple[Tableau,
     rows = [tuple(_entry(x, j, k) for j, k in pairs) for x in parts]
     nodes = [sum(row, start=ZERO) for row in rows]
     weights = rows[len(a)]
-    space = PointSpace(tuple(nodes[j] for j, _ in pairs))
+    space = Pairs(tuple(nodes[j] for j, _ in pairs), tuple(pairs))
     # the colour of a root says nothing: each tree has one condition
     colours = tuple(
         Colour(str(m + 1), 0, weights, tuple(nodes[x[m]] for x in pairs), kind=ARGUMENT, late=late)
@@ -67,6 +73,30 @@ def _entry(matrix: Matrix, j: int, k: int) -> Number:
 def is_nprk(tableau: Tableau) -> bool:
     """Whether a tableau is that of a nonlinearly partitioned method."""
     return all(colour.kind == ARGUMENT for colour in tableau.colours)
+
+
+def arrays_of(tableau: Tableau) -> tuple[tuple[Matrix, ...], Vector]:
+    """The numbers a_ijk of a method, zeros included, and its nodes; rows of stages that no pair has
+    are zero.
+    """
+    (space,) = tableau.spaces
+    assert isinstance(space, Pairs)
+    s = 1 + max(map(max, space.pairs))
+    rows: list[Vector] = [(ZERO,) * space.stages] * s
+    for p, places in enumerate(space.pairs):
+        for m, i in enumerate(places):
+            rows[i] = tableau.blocks[0, m][p]
+    nodes = tuple(sum(row, start=ZERO) for row in rows)
+    return tuple(matrix_of(row, tableau) for row in rows), nodes
+
+
+def matrix_of(row: Vector, tableau: Tableau) -> Matrix:
+    """Numbers at the pairs of stages, such as weights, as a square matrix."""
+    (space,) = tableau.spaces
+    assert isinstance(space, Pairs)
+    s = range(1 + max(map(max, space.pairs)))
+    known = dict(zip(space.pairs, row, strict=True))
+    return tuple(tuple(known.get((j, k), ZERO) for k in s) for j in s)
 
 
 def additive(tableau: Tableau) -> Tableau:

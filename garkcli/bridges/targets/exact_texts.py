@@ -11,7 +11,7 @@ from garkcli.bridges.comments import HASH, head, problem_class
 from garkcli.bridges.numbers import EXACT, Style
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.readers.rows import COLUMNS
-from garkcli.bridges.registry import EVERYTHING, Bridge
+from garkcli.bridges.registry import EVERYTHING, STEPPED, Bridge
 from garkcli.exact.display import decimal
 from garkcli.frozen import replace
 from garkcli.page.record import Field, Record, schema_named
@@ -57,12 +57,19 @@ def _array(name: str) -> Callable[[Payload], Any]:
     """The texts of an array, colour by colour; of one vector field its own."""
 
     def texts(payload: Payload) -> Any:
+        if payload.own is not None:
+            return _texts(payload, payload.own.get(name))
         found = getattr(payload, name)
         if payload.kind in {"rk", "row"} and payload.size == 1 and found is not None:
             found = found[0][0] if name == "A" else found[0]
         return _texts(payload, found)
 
     return texts
+
+
+def _own(name: str) -> Callable[[Payload], Any]:
+    """The texts of an array that methods of one kind alone have."""
+    return lambda payload: _texts(payload, payload.own.get(name)) if payload.own else None
 
 
 def _texts(payload: Payload, cells: Any) -> Any:
@@ -94,6 +101,7 @@ _NUMBERS = array(NUMERAL)
 _MATRIX = array(_NUMBERS)
 _ONE_ROW = one_of(_NUMBERS, _MATRIX)
 _ONE_BLOCK = one_of(_MATRIX, array(array(_MATRIX)))
+_MATRICES = array(_MATRIX)
 
 
 def _decimal(tolerance: fmpq | None) -> str | None:
@@ -120,16 +128,20 @@ _REPORT: Record[Payload] = Record(
     Field("exact", FLAG, lambda x: x.is_exact and x.digits is None),
     _COLOUR.every("colours", lambda x: x.tableau.colours),
     Field("c", _ONE_ROW, _array("c")),
+    Field("Abar", _MATRIX, _own("Abar"), is_optional=True),
+    Field("a", _MATRICES, _own("a"), is_optional=True),
     Field(
         "A",
-        one_of(_MATRIX, array(array(nullable(_MATRIX)))),
+        one_of(_MATRIX, _MATRICES, array(array(nullable(_MATRIX)))),
         lambda x: None if x.rosenbrock else _array("A")(x),
         is_optional=True,
     ),
     Field("alpha", _ONE_BLOCK, lambda x: _linear(x, "alpha"), is_optional=True),
     Field("gamma", _ONE_BLOCK, lambda x: _linear(x, "gamma"), is_optional=True),
     Field("d", _ONE_ROW, lambda x: _linear(x, "d"), is_optional=True),
+    Field("bbar", _NUMBERS, _own("bbar"), is_optional=True),
     Field("b", _ONE_ROW, _array("b")),
+    Field("embedded_bbar", _NUMBERS, _own("embedded_bbar"), is_optional=True),
     Field("embedded", _ONE_ROW, _array("embedded"), is_optional=True),
     Field("dense", one_of(_MATRIX, array(_MATRIX)), _array("dense"), is_optional=True),
 )
@@ -157,7 +169,7 @@ BRIDGES = (
     Bridge(
         name="json",
         summary="JSON, every number as exact text",
-        kinds=(*EVERYTHING, "row"),
+        kinds=STEPPED,
         suffix=".json",
         write=_json,
         reads_back=True,

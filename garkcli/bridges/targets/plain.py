@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from garkcli.bridges.numbers import PYTHON, Style, c_style
-from garkcli.bridges.registry import DENSE, EMBEDDED, EVERYTHING, Bridge, FileName
+from garkcli.bridges.registry import DENSE, EMBEDDED, EVERYTHING, STEPPED, Bridge, FileName
 from garkcli.bridges.trials import CPP_WORDS, WORDS
 
 _HEADER = FileName(
@@ -36,7 +36,7 @@ BRIDGES = (
     Bridge(
         name="c",
         summary="a C header with constant arrays",
-        kinds=(*EVERYTHING, "row"),
+        kinds=STEPPED,
         suffix=".h",
         style=c_style("GARK_REAL_C"),
         lacks=(),
@@ -94,7 +94,7 @@ BRIDGES = (
     Bridge(
         name="numpy",
         summary="a Python module with NumPy arrays",
-        kinds=(*EVERYTHING, "row"),
+        kinds=STEPPED,
         suffix=".py",
         style=PYTHON,
         lacks=(),
