@@ -17,52 +17,19 @@ from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from math import factorial, perm
 
-from flint import fmpq
-
 from garkcli.constructions.composition import MAX_STAGES, refuse_large
 from garkcli.constructions.infinitesimal import collocation_at, fitting
 from garkcli.errors import counted
 from garkcli.exact.display import to_float
-from garkcli.exact.field import ONE, ZERO
-from garkcli.exact.matrix import Matrix, Vector, dot
-from garkcli.frozen import Frozen
-from garkcli.tableau.forms import gark
+from garkcli.exact.field import ZERO
+from garkcli.exact.matrix import Vector
+from garkcli.tableau.along_flow import AlongFlow, Weights, flow_nodes, jets_of, weights_of
 from garkcli.tableau.stages import Jets, PointSpace
-from garkcli.tableau.tableau import Colour, Method, Tableau, butcher
-
-Weights = tuple[Vector, ...]
-"""A row over the stages for f, f' f, …"""
+from garkcli.tableau.tableau import Colour, Method, Tableau
 
 
-class Derivatives(Frozen):
-    """A method that uses derivatives.
-
-    Attributes:
-        A: a^1, a^2, …, of f, f' f, …; shape (s, s) each.
-        b: the weights of each of them.
-        c: where time is at each stage; None for the sums of the rows of a^1.
-    """
-
-    A: tuple[Matrix, ...]
-    b: Weights
-    c: Vector | None = None
-
-    @staticmethod
-    def of(tableau: Tableau) -> Derivatives:
-        """The method of a tableau that one has: ``of(method.tableau(n)) == method``, but that its
-        nodes are given.
-        """
-        space = _space(tableau)
-        firsts = range(0, space.stages, space.order)
-        rows = [weights_of(tableau.blocks[0, 0][i], space) for i in firsts]
-        A = tuple(zip(*rows, strict=True))
-        c = tuple(space.nodes[i] for i in firsts)
-        return Derivatives(A, weights_of(tableau.colours[0].b, space), c)
-
-    @property
-    def nodes(self) -> Vector:
-        """The c that are given, or that the rows say."""
-        return _sums(self.A[0]) if self.c is None else self.c
+class Derivatives(AlongFlow):
+    """A method that uses derivatives."""
 
     def tableau(self, order: int) -> Tableau:
         """A tableau whose conditions up to an order, not less than the number of derivatives, are
@@ -102,28 +69,6 @@ class Derivatives(Frozen):
             colour = Colour("f" + "'" * k, 0, b, nodes)
             made.append(Tableau((PointSpace(nodes),), (colour,), {(0, 0): A}))
         return tuple(made)
-
-    @property
-    def on_test_equation(self) -> Tableau:
-        """The Runge–Kutta method with the same R(z), where f_k = λ^k y.
-
-        Its stages are 1, then Y_i, and 1 + z^{k−1} Y_i = 1 + z ((1 + z^{k−2} Y_i) − 1).
-        """
-        s, n = len(self.b[0]), len(self.A)
-
-        def row(weights: Weights) -> Vector:
-            later = [x for of_k in weights[1:] for x in of_k]
-            return (-sum(later, start=ZERO), *weights[0], *later)
-
-        def before(i: int, k: int) -> Vector:
-            """Of 1 + z^{k−1} Y_i."""
-            places = [(j, l) for l in range(1, n + 1) for j in range(s)]
-            chosen = [ONE if place == (i, k - 1) else ZERO for place in places]
-            return (-ONE if k > 2 else ZERO, *chosen)
-
-        rows = [row(tuple(A[i] for A in self.A)) for i in range(s)]
-        rows += [before(i, k) for k in range(2, n + 1) for i in range(s)]
-        return gark([butcher(((ZERO,) * (n * s + 1), *rows), row(self.b))], {})
 
     def apparent_order(self, weights: Weights) -> int:
         """The order up to which the weights of the tree without branchings and of quadrature fit,
@@ -173,37 +118,20 @@ def is_derivatives(tableau: Tableau) -> bool:
 
 def embedded_of(rows: Sequence[Vector], tableau: Tableau) -> Weights:
     """The embedded weights of f, f' f, … that a method with this tableau has."""
-    return weights_of(rows[0], _space(tableau))
+    return weights_of(rows[0], jets_of(tableau))
 
 
 def words_of(tableau: Tableau) -> str:
     """How many stages and derivatives such a method has."""
-    space = _space(tableau)
+    space = jets_of(tableau)
     stages = counted(space.stages // space.order, "stage")
     return f"multiderivative, {counted(space.derivatives, 'derivative')}, {stages}"
 
 
-def _space(tableau: Tableau) -> Jets:
-    (space,) = tableau.spaces
-    assert isinstance(space, Jets)
-    return space
-
-
-def weights_of(row: Vector, space: Jets) -> Weights:
-    """The weights of f, f' f, … that a row of such a tableau has."""
-    nodes = _flow(space.order).c
-    parts = [row[i : i + space.order] for i in range(0, len(row), space.order)]
-    found = []
-    for k in range(space.derivatives):
-        powers = [x**k * fmpq(1, factorial(k)) for x in nodes]
-        found.append(tuple(dot(part, powers) for part in parts))
-    return tuple(found)
-
-
 @lru_cache(maxsize=32)
 def _flow(order: int) -> Method:
-    """Collocation for the exact solution: at 0, 1, −1, 2, …"""
-    return collocation_at(tuple(fmpq((n + 1) // 2 * (1 if n % 2 else -1)) for n in range(order)))
+    """Collocation for the exact solution."""
+    return collocation_at(flow_nodes(order))
 
 
 @lru_cache(maxsize=32)
@@ -211,7 +139,3 @@ def _derivatives(order: int) -> tuple[Vector, ...]:
     """The functionals that take values at these nodes to the derivatives at 0, from the 0th on."""
     basis = list(_flow(order).space.basis_polynomials())
     return tuple(tuple(factorial(k) * polynomial[k] for polynomial in basis) for k in range(order))
-
-
-def _sums(matrix: Matrix) -> Vector:
-    return tuple(sum(row, start=ZERO) for row in matrix)

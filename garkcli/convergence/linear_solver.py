@@ -32,6 +32,7 @@ from garkcli.stepping.linear import (
     whole_steps,
 )
 from garkcli.stepping.linearly_implicit import LinearlyImplicit
+from garkcli.tableau.along_flow import AlongFlow
 from garkcli.tableau.tableau import Tableau
 
 ERROR_BITS = 40
@@ -187,7 +188,10 @@ def linear_solver(
     if implicit is not None and implicit.taken != "exact":
         message = "the oscillator takes R(z) exactly, which is that of the exact Jacobian"
         raise UsageProblem(message, "name another problem", code="other-problem")
-    step = linear_step(implicit.on_linear_problems if implicit else tableau, problem)
+    made = implicit.on_linear_problems if implicit else tableau
+    if tableau.uses_derivatives:
+        made = AlongFlow.of(tableau).on_test_equation
+    step = linear_step(made, problem)
     met = visible_order(step, tolerance)
     order = max(met, predicted)
     # where the next condition itself is below the tolerance nothing is known of it

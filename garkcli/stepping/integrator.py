@@ -30,6 +30,7 @@ from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
     from garkcli.arrays import Floats
+    from garkcli.stepping.along_flow import Stepped
 
 
 FLOAT_PRECISION = 2.0**-52
@@ -63,6 +64,7 @@ class Integrator(Frozen):
         program: what a step does.
         coefficients: enclosures of the coefficients that the program asks for, in its order.
         run: the program, made.
+        powers: of h that each of them has; none where all have the first.
     """
 
     problem: Problem
@@ -70,6 +72,7 @@ class Integrator(Frozen):
     program: Program | LinearProgram
     coefficients: tuple[arb, ...]
     run: StepProgram
+    powers: tuple[int, ...] = ()
 
     @property
     def bits(self) -> int:
@@ -88,7 +91,9 @@ class Integrator(Frozen):
     def weights(self, h: fmpq) -> list[Real]:
         """The products of h and the coefficients."""
         with _precision(self.digits):
-            return [self.number(arb(h) * a) for a in self.coefficients]
+            powers = self.powers or (1,) * len(self.coefficients)
+            pairs = zip(self.coefficients, powers, strict=True)
+            return [self.number(arb(h) ** k * a) for a, k in pairs]
 
     def __repr__(self) -> str:
         return f"<Integrator {self.problem.name}: {self.digits} digits>"
@@ -100,7 +105,8 @@ class Binding(Frozen, eq=False):
     Attributes:
         tableau: with the terms that the problem has.
         problem: in as many terms as the tableau is for.
-        fields: the vector fields of the colours.
+        fields: the vector fields of the colours; steps of a method that uses derivatives evaluate
+            these as well.
     """
 
     tableau: Tableau
@@ -116,10 +122,16 @@ class Binding(Frozen, eq=False):
             return self._linear(method, digits)
         is_for_balls = digits > FLOAT_DIGITS
         program = self._program_for_balls if is_for_balls else self._program_for_floats
-        entries = numeric_entries(self.tableau, digits + 5)
+        tableau = self.tableau
+        powers: tuple[int, ...] = ()
+        if self._along_flow is not None:
+            tableau = self._along_flow.tableau
+            orders = self._along_flow.powers
+            powers = tuple(orders[value.colour] for _, value in program.coefficients)
+        entries = numeric_entries(tableau, digits + 5)
         with _precision(digits):
             coefficients = tuple(
-                entry(self.tableau, entries, stage, value) for stage, value in program.coefficients
+                entry(tableau, entries, stage, value) for stage, value in program.coefficients
             )
             names: dict[str, Any] = {
                 **enclosed(program.codes),
@@ -132,7 +144,7 @@ class Binding(Frozen, eq=False):
                 "corrections": _corrections_of_balls if is_for_balls else _corrections,
             }
             run = define(program.source, "run", names)
-        return Integrator(self.problem, digits, program, coefficients, run)
+        return Integrator(self.problem, digits, program, coefficients, run, powers)
 
     def _linear(self, method: LinearlyImplicit, digits: int) -> Integrator:
         """The steps of a Rosenbrock method."""
@@ -145,16 +157,33 @@ class Binding(Frozen, eq=False):
     @cached_property
     def graph(self) -> DependencyGraph:
         """What has to be computed in a step."""
-        return dependency_graph(self.tableau, self.fields)
+        along = self._along_flow
+        if along is None:
+            return dependency_graph(self.tableau, self.fields)
+        return along.named(dependency_graph(along.tableau, along.fields))
+
+    @cached_property
+    def _along_flow(self) -> Stepped | None:
+        """What steps in the place of a method that uses derivatives."""
+        if not self.tableau.uses_derivatives:
+            return None
+        from garkcli.stepping.along_flow import along_flow  # few methods need it
+
+        return along_flow(self.tableau, self.problem)
+
+    @property
+    def _evaluated(self) -> Fields:
+        """The vector fields that steps evaluate."""
+        return self.fields if self._along_flow is None else self._along_flow.fields
 
     # one text serves any number of digits: its coefficients and constants have names
     @cached_property
     def _program_for_floats(self) -> Program:
-        return write(self.graph, self.fields, self.problem.layout, is_for_balls=False)
+        return write(self.graph, self._evaluated, self.problem.layout, is_for_balls=False)
 
     @cached_property
     def _program_for_balls(self) -> Program:
-        return write(self.graph, self.fields, self.problem.layout, is_for_balls=True)
+        return write(self.graph, self._evaluated, self.problem.layout, is_for_balls=True)
 
     def __repr__(self) -> str:
         return f"<Binding {self.problem.name}: {self.tableau!r}>"
@@ -177,7 +206,7 @@ def bind(tableau: Tableau, problem: Problem) -> Binding:
     >>> [round(x, 6) for x in integrate(made, fmpq(1, 10), 10)]
     [1.056272, -0.391965]
     """
-    if LinearlyImplicit.of(tableau) is None:
+    if LinearlyImplicit.of(tableau) is None and not tableau.uses_derivatives:
         tableau.demand_fields("a step")
     made = stepped_terms(tableau, problem)
     split = split_into(problem, terms_of(made))

@@ -224,7 +224,7 @@ def test_every_command_takes_it_or_refuses_it(tmp_path: Path) -> None:
     assert gark("report", path, "-o", str(tmp_path / "page.html")).code == 0
     assert gark("export", path, "--to", "numpy").code == 0
     others = {"convert": ["--to", "reduced"]}
-    for command in ("modified", "converge", "energy", "conjugate", "convert"):
+    for command in ("modified", "energy", "conjugate", "convert"):
         run = gark(command, path, *others.get(command, []))
         assert run.code == 2, command
         assert "derivatives of f are used" in run.err, command

@@ -1,0 +1,78 @@
+"""The step of a method that uses derivatives of f along the solution: an additive method whose
+vector fields are these derivatives, each with its power of h.
+
+f_1 = f and f_{k+1} = f_k' f, with ∂f_k/∂t where f depends on t, are derived as expressions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from garkcli.frozen import Frozen, replace
+from garkcli.problems.problem import Problem, field_of
+from garkcli.problems.righthandside import RightHandSide, clock
+from garkcli.problems.vectorfield import TIME, Group, VectorField, field_of_components, symbols
+from garkcli.stepping.dependency import DependencyGraph
+from garkcli.stepping.fields import Fields
+from garkcli.tableau.along_flow import AlongFlow
+from garkcli.tableau.forms import beside_clock
+from garkcli.tableau.tableau import Tableau
+
+
+class Stepped(Frozen, eq=False):
+    """What steps.
+
+    Attributes:
+        tableau: with a colour for each derivative, and for time.
+        fields: of these colours.
+        powers: of h that the coefficients of each colour have.
+    """
+
+    tableau: Tableau
+    fields: Fields
+    powers: tuple[int, ...]
+
+    def named(self, graph: DependencyGraph) -> DependencyGraph:
+        """The graph with texts of coefficients that are equal only where the powers are, too."""
+        texts = {
+            key: f"{text} h^{self.powers[key[1].colour]}"
+            for key, text in graph.coefficients.items()
+        }
+        return replace(graph, coefficients=texts)
+
+
+def along_flow(tableau: Tableau, problem: Problem) -> Stepped:
+    """The step of a method that uses derivatives, on a problem in one term."""
+    method = AlongFlow.of(tableau)
+    made, count = method.additive, len(method.A)
+    groups = problem.layout.groups
+    driven: list[Group] = [group for group in groups if group != TIME]
+    field: Mapping[Group, VectorField] = {group: field_of(problem, 0, group) for group in driven}
+    first = {group: tuple(x.components) for group, x in field.items()}
+    fields: dict[tuple[int, Group], VectorField] = {}
+    for k in range(count):
+        fields |= {(k, group): x for group, x in field.items() if not x.is_zero}
+        if k + 1 < count:
+            field = {group: _derived(x, first, groups) for group, x in field.items()}
+    powers = [*range(1, count + 1)]
+    if TIME in groups:
+        made = beside_clock(made, count)
+        assert isinstance(problem, RightHandSide)
+        fields[count, TIME] = clock(problem)
+        powers.append(1)
+    return Stepped(made, fields, tuple(powers))
+
+
+def _derived(
+    field: VectorField, first: Mapping[Group, tuple[Any, ...]], groups: tuple[Group, ...]
+) -> VectorField:
+    """The derivative of a vector field along the solution."""
+    variables = field.variables
+    steps = [
+        (x, slope)
+        for group in groups
+        for x, slope in zip(symbols(variables, group), first.get(group, (1,)), strict=True)
+    ]
+    made = tuple(sum(f.diff(x) * slope for x, slope in steps) for f in field.components)
+    return field_of_components(made, variables, groups)

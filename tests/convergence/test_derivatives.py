@@ -1,0 +1,88 @@
+"""Methods that use derivatives of f on problems: a step by its definition, and the orders that they
+show.
+"""
+
+from __future__ import annotations
+
+import pytest
+from flint import fmpq
+from mpmath import cos, mp, mpf, sin
+
+from garkcli.api.runs import converge
+from garkcli.methodfile.load import load, loads
+from garkcli.problems.builtin import problem
+from garkcli.stepping.integrator import Stepper, bind
+from tests.whole import in_whole
+
+THREE = """\
+derivatives:
+  A: [[[], [1/2]], [[], [1/9, 1/12]], [[], [1/50]]]
+  b: [[1/2, 1/2], [1/6, 1/12], [0, 1/40]]
+  c: [0, 1/3]
+"""
+"""The coefficients 1/2 and 1/12 belong to several powers of h; the last stage is implicit, and its
+time is no row sum.
+"""
+
+
+def derivatives(t: mpf, y: mpf) -> list[mpf]:
+    """Those of the solution of y′ = −y − sin t + cos t."""
+    first = -y - sin(t) + cos(t)
+    second = -first - cos(t) - sin(t)
+    return [first, second, -second + sin(t) - cos(t)]
+
+
+def test_a_step_by_its_definition() -> None:
+    """Y_2 = y + Σ h^k a^k f_k, with f_2 in Y_2 itself, and the end, with 28 digits: each f_k has
+    its power of h, and time its own nodes.
+    """
+    on = problem("prothero-robinson", 1)
+    h = fmpq(1, 4)
+    stepper = Stepper(bind(loads(THREE).tableau, on).at(30), h)
+    stepper.advance(1)
+    (found,) = stepper.y
+    with mp.workdps(35):
+        size, start = mpf(1) / 4, mpf(int(on.initial[0].p)) / int(on.initial[0].q)
+        one = derivatives(mpf(0), start)
+        known = start + size * one[0] / 2 + size**2 * one[1] / 9 + size**3 * one[2] / 50
+        second = known
+        for _ in range(60):  # a contraction by h²/12
+            second = known + size**2 * derivatives(size / 3, second)[1] / 12
+        two = derivatives(size / 3, second)
+        end = start + size * (one[0] + two[0]) / 2 + size**2 * (one[1] / 6 + two[1] / 12)
+        end += size**3 * two[2] / 40
+        assert abs(mpf(found.str(35, radius=False)) - end) < mpf(10) ** -28
+
+
+@pytest.mark.parametrize(
+    ("name", "on", "order"),
+    [
+        ("tdrk-4", None, 4),
+        ("tdrk-5", "lotka-volterra", 5),
+        ("obreshkov-6", "oscillator", 6),
+        ("hb-i2drk6", "logistic", 6),
+        pytest.param("tdrk-5", None, 5, marks=in_whole),
+        pytest.param("tdrk-4", "van-der-pol", 4, marks=in_whole),
+        pytest.param("obreshkov-6", "kepler", 6, marks=in_whole),
+    ],
+)
+def test_observed_orders(name: str, on: str | None, order: int) -> None:
+    """The errors fall with the order that gark check proves, no faster."""
+    found = converge(name, on)
+    assert found.verdict == "agree"
+    assert found.predicted_order == order
+    assert found.observed_order is not None
+    assert abs(found.observed_order - order) < 0.15
+
+
+def test_rounded_methods() -> None:
+    """The order within the tolerance is the predicted one, up to the plateau."""
+    text = "derivatives: {A: [[[], [0.5]], [[], [0.125]]], b: [[1, 0], [0.1666667, 0.3333333]]}"
+    found = converge(loads(f"{text}\ntolerance: 1e-7\n"), "pendulum")
+    assert (found.predicted_order, found.verdict) == (4, "agree")
+
+
+def test_linear_steps_are_those_of_the_step_map() -> None:
+    """On the oscillator steps one by one give what R(z) does."""
+    found = converge(load("tdrk-4"), "oscillator", is_timed=True)
+    assert all(row.cost is not None for row in found.rows)
