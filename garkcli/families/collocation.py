@@ -13,8 +13,9 @@ from typing import cast
 
 from flint import fmpq, fmpq_poly
 
+from garkcli.errors import UnknownFamily, counted
 from garkcli.exact.field import ONE, ZERO
-from garkcli.exact.matrix import Vector, add, apply, dot, multiply, outer, scale, subtract
+from garkcli.exact.matrix import Matrix, Vector, add, apply, dot, multiply, outer, scale, subtract
 from garkcli.exact.nodes import Expression
 from garkcli.families.family import MAX_STAGES, Family, Option, Options, Recipe, of_stages
 from garkcli.reference import Reference
@@ -167,6 +168,43 @@ def lobatto_iiis(s: int, options: Options) -> Recipe:
     return Recipe(s, make, (cast("Expression", options["sigma"]),))
 
 
+DEGREE = Option(
+    "degree", "The degree of the polynomial that the solution of a step is.", smallest=1, shown="1"
+)
+
+
+def hbvm(stages: int, options: Options) -> Recipe:
+    """Hamiltonian boundary value methods: the solution of a step is a polynomial of some degree
+    whose derivative is f along it, projected to the Legendre polynomials of lower degree; Gauss
+    quadrature takes the integrals.
+
+    With exact integrals it is the average vector field method for the degree 1, and the
+    energy-preserving collocation of E. Hairer, *JNAIAM* 5 (2010) 73, for others. Up to order p the
+    integrands of its conditions have degrees below p times that degree: with half as many stages
+    the conditions are the same.
+
+    Raises:
+        UnknownFamily: there are fewer stages than the degree.
+    """
+    degree = cast("int", options["degree"])
+    if degree > stages:
+        message = f"hbvm with {counted(stages, 'stage')} and degree {degree} does not exist"
+        raise UnknownFamily(message, "give a degree up to the stages", code="cannot-construct")
+
+    def make(_: Vector) -> Method:
+        base = gauss(stages)
+        space, b = base.space, base.b
+        A: Matrix = ((ZERO,) * stages,) * stages
+        for j in range(degree):
+            polynomial = legendre(j)
+            column = space.of_polynomial(polynomial.integral().coeffs())
+            row = space.times(b, space.of_polynomial(polynomial.coeffs()))
+            A = add(A, scale(fmpq(2 * j + 1), outer(column, row)))
+        return Method(f"HBVM({stages}, {degree})", space, A, b)
+
+    return Recipe(stages, make)
+
+
 _ORDER = "2s - 2"
 STIFF = Reference(
     authors=("E. Hairer", "G. Wanner"),
@@ -182,6 +220,14 @@ SUN = Reference(
     journal="J. Comput. Math.",
     volume="18",
     year="2000",
+)
+BRUGNANO = Reference(
+    authors=("L. Brugnano", "F. Iavernaro", "D. Trigiante"),
+    title="Hamiltonian Boundary Value Methods (energy preserving discrete line integral methods)",
+    journal="JNAIAM",
+    volume="5",
+    pages="17-37",
+    year="2010",
 )
 JAY = Reference(
     authors=("L. O. Jay",),
@@ -213,5 +259,15 @@ FAMILIES = (
         "IIIE for sigma: 1/2, IIID for 1",
         options=(SIGMA,),
         reference=JAY,
+    ),
+    Family(
+        "hbvm",
+        hbvm,
+        1,
+        MAX_STAGES,
+        "2 degree",
+        "keeps energies of degree 2s/degree",
+        options=(DEGREE,),
+        reference=BRUGNANO,
     ),
 )

@@ -62,6 +62,9 @@ OTHER_NAMES: Mapping[str, str] = {
     "gragg": "extrapolated-midpoint",
     "bulirsch-stoer": "extrapolated-midpoint",
     "deferred-corrections": "sdc",
+    "avf": "hbvm with degree 1 and more stages",
+    "average-vector-field": "hbvm with degree 1 and more stages",
+    "energy-preserving-collocation": "hbvm with more stages than the degree",
 }
 """What people call members of the families, and how the program does."""
 

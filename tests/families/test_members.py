@@ -2,18 +2,27 @@
 
 from __future__ import annotations
 
-import pytest
-from flint import fmpq
+from collections.abc import Sequence
+from typing import Any
 
+import pytest
+from flint import ctx, fmpq, fmpq_poly
+
+from garkcli import backward_analysis, trees
 from garkcli.errors import MethodFileError, UnknownFamily
+from garkcli.families.collocation import legendre
 from garkcli.families.extrapolated import extrapolation_weights, sequence
 from garkcli.families.registry import FAMILIES, diagonal_method
 from garkcli.methodfile.family import loads_family
 from garkcli.methodfile.load import loads
+from garkcli.methodfile.problem import loads_problem
+from garkcli.ntrees.tree import Tree
 from garkcli.order.certificate import find_order
+from garkcli.order.conditions import elementary_weight
 from garkcli.order.simplifying import is_symplectic
 from garkcli.properties.symmetry import symmetry
 from garkcli.stability.ssp import ssp_coefficient
+from garkcli.stepping.integrator import Stepper, bind
 from garkcli.tableau.forms import gark
 from garkcli.tableau.tableau import Method, Tableau
 from tests.oracles.series import series_order
@@ -24,6 +33,10 @@ MEMBERS: list[tuple[str, int | None, dict[str, object], int, int]] = [
     ("sdirk2", None, {"gamma": "(3 - sqrt(3))/6"}, 2, 3),
     ("lobatto-iiis", 3, {"sigma": "0"}, 3, 4),
     ("lobatto-iiis", 3, {"sigma": "sqrt(2)"}, 3, 4),
+    ("hbvm", 1, {"degree": 1}, 1, 2),
+    ("hbvm", 4, {"degree": 1}, 4, 2),
+    ("hbvm", 5, {"degree": 2}, 5, 4),
+    ("hbvm", 5, {"degree": 3}, 5, 6),
     ("extrapolated-euler", 1, {}, 1, 1),
     ("extrapolated-euler", 3, {}, 4, 3),
     ("extrapolated-euler", 4, {"sequence": "romberg"}, 12, 4),
@@ -177,6 +190,9 @@ def test_method_files_name_members() -> None:
         ("{family: sdirk2}", "needs its gamma"),
         ("{family: sdirk2, gamma: 1/0}", "division by zero"),
         ("{family: sdirk2, gamma: i/4}", "'i' is not a parameter"),
+        ("{family: hbvm, stages: 2, degree: 3}", "with 2 stages and degree 3 does not exist"),
+        ("{family: hbvm, stages: 2}", "needs its degree"),
+        ("{family: avf, stages: 2}", "no family 'avf'"),
         ("{family: ssp3, stages: 5}", "ssp3 with 5 stages does not exist"),
         ("{family: extrapolated-midpoint, order: 5}", "does not exist"),
         ("{family: extrapolated-euler, order: 30}", "has 436 stages"),
@@ -195,6 +211,66 @@ def test_members_that_there_are_not(text: str, message: str) -> None:
     (fault,) = caught.value.faults
     assert message in fault.message
     assert fault.line == 1
+
+
+@pytest.mark.parametrize(("stages", "degree"), [(2, 1), (3, 1), (4, 2)])
+def test_average_vector_fields(stages: int, degree: int) -> None:
+    """Up to the order 2s/degree the weights are those of exact integrals, here of polynomials in τ
+    that are integrated one by one, and steps conserve energy to that order; of degree 1 to no other.
+    """
+    tableau = alone(diagonal_method("hbvm", stages, degree=degree))
+    order = 2 * stages // degree
+
+    def inside(tree: Tree) -> fmpq_poly:
+        """What the branches of a vertex are at τ: the product of what they integrate to."""
+        found = fmpq_poly([1])
+        for branch in tree.branches:
+            below, seen = inside(branch), fmpq_poly([0])
+            for j in range(degree):
+                part = legendre(j)
+                whole = (part * below).integral()
+                seen += (2 * j + 1) * whole(fmpq(1)) * part.integral()
+            found *= seen
+        return found
+
+    def differing(n: int) -> int:
+        pairs = ((elementary_weight(tableau, u), inside(u).integral()(fmpq(1))) for u in trees(n))
+        return sum(x != y for x, y in pairs)
+
+    assert [differing(n) for n in range(1, order + 1)] == [0] * order
+    assert degree > 1 or differing(order + 1)
+    found = backward_analysis(
+        loads(f"methods: {{family: hbvm, stages: {stages}, degree: {degree}}}"), 5
+    )
+    assert found.energy is not None
+    assert found.energy.order >= min(order, 5)
+    assert degree > 1 or found.energy.is_lower_bound == (order >= 5)
+
+
+def test_energies_of_polynomials() -> None:
+    """Two stages of degree 1 conserve H = p²/2 + q⁴/4 in every step, one stage does not; as many
+    stages as the degree are those of Gauss.
+    """
+    errors = []
+    for stages in (1, 2):
+        tableau = alone(diagonal_method("hbvm", stages, degree=1))
+        stepper = Stepper(bind(tableau, QUARTIC).at(30), fmpq(1, 4))
+        stepper.advance(8)
+        with ctx.workprec(120):
+            errors.append(abs(_quartic(stepper.y) - fmpq(3, 8)))
+    assert errors[0] > 1e-5
+    assert errors[1] < 1e-27
+    assert diagonal_method("hbvm", 3, degree=3).A == diagonal_method("gauss", 3).A
+
+
+QUARTIC = loads_problem(
+    "variables: [x]\nhamiltonian: px^2/2 + x^4/4\ninitial: {x: 1, px: 1/2}\nt_end: 2"
+)
+
+
+def _quartic(y: Sequence[Any]) -> Any:
+    q, p = y
+    return p**2 / 2 + q**4 / 4
 
 
 def test_python_names_members() -> None:
