@@ -13,7 +13,7 @@ from garkcli.frozen import Frozen, replace
 from garkcli.problems.problem import Problem, field_of
 from garkcli.problems.righthandside import RightHandSide, clock
 from garkcli.problems.vectorfield import TIME, Group, VectorField, field_of_components, symbols
-from garkcli.stepping.dependency import DependencyGraph
+from garkcli.stepping.dependency import DependencyGraph, dependency_graph
 from garkcli.stepping.fields import Fields
 from garkcli.tableau.along_flow import AlongFlow
 from garkcli.tableau.forms import beside_clock
@@ -33,13 +33,24 @@ class Stepped(Frozen, eq=False):
     fields: Fields
     powers: tuple[int, ...]
 
-    def named(self, graph: DependencyGraph) -> DependencyGraph:
-        """The graph with texts of coefficients that are equal only where the powers are, too."""
-        texts = {
-            key: f"{text} h^{self.powers[key[1].colour]}"
-            for key, text in graph.coefficients.items()
-        }
-        return replace(graph, coefficients=texts)
+    @property
+    def graph(self) -> DependencyGraph:
+        """What has to be computed: no derivative that nothing takes. Texts of coefficients are
+        equal only where the powers of h are, too.
+        """
+        graph = dependency_graph(self.tableau, self.fields)
+        taken = {x for evaluations in graph.sums.values() for x in evaluations}
+        taken |= {x for x in graph.evaluations if graph.coefficients[None, x] != "0"}
+        return replace(
+            graph,
+            evaluations=tuple(x for x in graph.evaluations if x in taken),
+            arguments={x: stages for x, stages in graph.arguments.items() if x in taken},
+            coefficients={
+                (stage, x): f"{text} h^{self.powers[x.colour]}"
+                for (stage, x), text in graph.coefficients.items()
+                if x in taken
+            },
+        )
 
 
 def along_flow(tableau: Tableau, problem: Problem) -> Stepped:

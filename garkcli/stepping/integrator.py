@@ -160,7 +160,7 @@ class Binding(Frozen, eq=False):
         along = self._along_flow
         if along is None:
             return dependency_graph(self.tableau, self.fields)
-        return along.named(dependency_graph(along.tableau, along.fields))
+        return along.graph
 
     @cached_property
     def _along_flow(self) -> Stepped | None:

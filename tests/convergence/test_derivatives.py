@@ -16,8 +16,8 @@ from tests.whole import in_whole
 
 THREE = """\
 derivatives:
-  A: [[[], [1/2]], [[], [1/9, 1/12]], [[], [1/50]]]
-  b: [[1/2, 1/2], [1/6, 1/12], [0, 1/40]]
+  A: [[[], [1/2]], [[], [1/9, 1/12]], [[], [1/2]]]
+  b: [[1/2, 1/2], [1/6, 1/2], [0, 1/12]]
   c: [0, 1/3]
 """
 """The coefficients 1/2 and 1/12 belong to several powers of h; the last stage is implicit, and its
@@ -44,13 +44,13 @@ def test_a_step_by_its_definition() -> None:
     with mp.workdps(35):
         size, start = mpf(1) / 4, mpf(int(on.initial[0].p)) / int(on.initial[0].q)
         one = derivatives(mpf(0), start)
-        known = start + size * one[0] / 2 + size**2 * one[1] / 9 + size**3 * one[2] / 50
+        known = start + size * one[0] / 2 + size**2 * one[1] / 9 + size**3 * one[2] / 2
         second = known
         for _ in range(60):  # a contraction by h²/12
             second = known + size**2 * derivatives(size / 3, second)[1] / 12
         two = derivatives(size / 3, second)
-        end = start + size * (one[0] + two[0]) / 2 + size**2 * (one[1] / 6 + two[1] / 12)
-        end += size**3 * two[2] / 40
+        end = start + size * (one[0] + two[0]) / 2 + size**2 * (one[1] / 6 + two[1] / 2)
+        end += size**3 * two[2] / 12
         assert abs(mpf(found.str(35, radius=False)) - end) < mpf(10) ** -28
 
 
@@ -73,6 +73,13 @@ def test_observed_orders(name: str, on: str | None, order: int) -> None:
     assert found.predicted_order == order
     assert found.observed_order is not None
     assert abs(found.observed_order - order) < 0.15
+
+
+def test_no_derivative_is_evaluated_in_vain() -> None:
+    """TDRK4 takes f at the first stage alone, and f′f at both."""
+    stepper = Stepper(bind(load("tdrk-4").tableau, problem("logistic", 1)).at(), fmpq(1, 4))
+    stepper.advance(1)
+    assert stepper.work.evaluations == 3
 
 
 def test_rounded_methods() -> None:
