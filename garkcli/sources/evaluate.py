@@ -216,6 +216,8 @@ class Evaluator:
         if scope.name == "order" and isinstance(inner.returned, Number):
             # a method of a class, which gives the order
             space[scope.name] = inner.returned
+        elif scope.gives not in {"", *space} and isinstance(inner.returned, Array | Number):
+            self._store(ir.Name(scope.gives), inner.returned, space, scope.line)
 
     def _branch(self, branch: ir.Branch, space: Space) -> None:
         for arm in filter(_has_numbers, branch.arms):
@@ -551,6 +553,8 @@ class Evaluator:
             return of.fields[expr.name]
         if isinstance(of, Array) and expr.name == "T":
             return transposed(of, self.line)
+        if isinstance(of, Array) and expr.name == "length":
+            return integer(len(of.items))
         if isinstance(of, Unknown):
             # np.pi, math.sqrt: what a module has
             found = self._named(expr.name, Space())

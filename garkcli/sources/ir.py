@@ -187,6 +187,7 @@ class Scope(Frozen):
         bases: of a class.
         of: the type of the first argument of a function, where it is written: what it belongs to in
             languages that choose functions by these.
+        gives: the name that what it returns has in its class; empty where that needs arguments.
     """
 
     kind: Kind
@@ -197,6 +198,7 @@ class Scope(Frozen):
     types: frozenset[str] = frozenset()
     bases: tuple[str, ...] = ()
     of: str = ""
+    gives: str = ""
 
     @property
     def title(self) -> str:

@@ -134,10 +134,15 @@ _TYPES = """
     Number vector make_array sym vpa mp str2sym full num2cell cell2mat as_double
     const_cast reinterpret_cast
     deepcopy copy freeze array_from rational float128 cpp_bin_float String as
+    from_f64 from_f32 from_usize from_i32 from Ratio BigDecimal BigFraction Some Ok Box valueOf
     LinearAlgebra string value_type RC REAL N SA SA_F64 SA_F32 SetPrecision SetAccuracy Rationalize
 """
 CONVERSIONS = frozenset(_TYPES.split())
 """Types, and functions that give back the number, the list or the matrix that they get."""
+
+
+_QUOTIENTS = frozenset("Rational Fraction BigFraction Ratio fraction mpq fmpq QQ".split())
+"""Those that give the quotient of two numbers."""
 
 
 @_known(_TYPES)
@@ -147,7 +152,10 @@ def _converted(call: Call, *args: Value) -> Value | None:
         return _made(call, *args)
     if not values:
         return None
-    if len(values) == 2 and call.name in {"Rational", "Fraction", "mpq", "fmpq", "QQ"}:
+    if len(values) == 3 and call.name == "fraction" and isinstance(values[0], Unknown):
+        # fraction(field, 1, 2)
+        values = values[1:]
+    if len(values) == 2 and call.name in _QUOTIENTS:
         above, below = (conversion([x], call.line) for x in values)
         return call.evaluator.combined("/", above, below)
     if len(values) > 1 and call.name in {"SVector", "SMatrix", "MVector", "Tuple", "Integer"}:
@@ -224,6 +232,14 @@ _FILLS = {
 @_known(" ".join([*_FILLS, "empty", "similar"]))
 def _made(call: Call, *args: Value) -> Value | None:
     return _filled(call, _FILLS.get(call.name, call.unknown("never assigned")), args)
+
+
+@_known("buildArray")
+def _built(call: Call, _: Value, count: Value, columns: Value = NULL) -> Value | None:
+    """``MathArrays.buildArray(field, n, m)``; rows of -1 entries come later."""
+    if whole(columns) == -1:
+        return _filled(call, NULL, [count])
+    return _filled(call, FILL, [x for x in (count, columns) if x is not NULL])
 
 
 @_known("fill")
@@ -309,6 +325,8 @@ CALLS["list *"] = _repeated
 @_known("map")
 def _mapped(call: Call, function: Value, values: Value) -> Value | None:
     is_argument = isinstance(function, Unknown) and function.reason.startswith("the argument")
+    if isinstance(function, Function):
+        return _each(call, function, values)
     if not isinstance(function, Type) and not is_argument:
         return call.unknown()
     return conversion([values], call.line)

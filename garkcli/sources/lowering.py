@@ -353,6 +353,51 @@ def less_one(expr: ir.Expr) -> ir.Expr:
     return ir.Binary("-", expr, ir.Literal("1", is_whole=True))
 
 
+def counted(
+    lowering: Lowering, name: str, first: Node | None, condition: Node | None, update: str
+) -> tuple[str, ir.Expr]:
+    """What ``for (i = a; i < b; i++)`` counts; an empty name for other loops."""
+    sign = lowering.text(part(condition, "operator"))
+    if not (first and sign in {"<", "<="} and "++" in update):
+        return "", ir.Opaque("a loop")
+    last = lowering.expr(part(condition, "right"))
+    return name, ir.Range(lowering.expr(first), less_one(last) if sign == "<" else last)
+
+
+_OPERATIONS = {
+    **{"add": "+", "subtract": "-", "multiply": "*", "divide": "/", "pow": "^"},
+    **{"sub": "-", "mul": "*", "div": "/", "powi": "^"},
+}
+"""Methods of numbers that are operations with another number."""
+_UNITS = {"getZero": "0.0", "getOne": "1.0"}
+_ITSELF = frozenset(
+    "unwrap expect into iter into_iter iter_mut collect to_vec to_owned clone copied cloned as_slice"
+    " to_subset as_ref boxed doubleValue getReal toArray".split()
+)
+"""Methods that give the number or the list itself."""
+_OF_IT = {"recip": "inv", "reciprocal": "inv"} | {
+    x: x for x in ("sqrt", "cbrt", "len", "map", "transpose", "sum")
+}
+"""Methods that are functions of the number or of the list."""
+
+
+def method_called(of: ir.Expr, name: str, args: tuple[ir.Expr, ...]) -> ir.Expr | None:
+    """A method of a number or of a list as what it computes; None for others."""
+    if name in _OPERATIONS and len(args) == 1:
+        return ir.Binary(_OPERATIONS[name], of, args[0])
+    if name in {"neg", "negate"} and not args:
+        return ir.Unary("-", of)
+    if name in _UNITS and not args:
+        return ir.Literal(_UNITS[name])
+    if name in _ITSELF and len(args) < 2:
+        return of
+    if name == "newInstance" and args:
+        return ir.Call(ir.Name("double"), args[:1])
+    if name in _OF_IT:
+        return ir.Call(ir.Name(_OF_IT[name]), (*args, of) if name == "map" else (of, *args))
+    return None
+
+
 def unmeant(node: Node) -> ir.Opaque:
     """What has no meaning for constants."""
     return ir.Opaque(node.type.replace("_", " "))

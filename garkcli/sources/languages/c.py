@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from garkcli.sources import ir
 from garkcli.sources.found import FoundTable, Reader
-from garkcli.sources.lowering import Lowering, kinds, less_one, line_of, part, unmeant
+from garkcli.sources.lowering import Lowering, counted, kinds, line_of, part, unmeant
 from garkcli.sources.reading import tables_in
 
 if TYPE_CHECKING:
@@ -241,11 +241,7 @@ class CLowering(Lowering):
         start = part(start, "declarator") or start
         name = self._declared(part(start, "declarator") or part(start, "left"))[0]
         first = part(start, "value") or part(start, "right")
-        sign = self.text(part(condition, "operator"))
-        if not (first and sign in {"<", "<="} and "++" in self.text(part(node, "update"))):
-            return "", ir.Opaque("a loop")
-        last = self.expr(part(condition, "right"))
-        return name, ir.Range(self.expr(first), less_one(last) if sign == "<" else last)
+        return counted(self, name, first, condition, self.text(part(node, "update")))
 
     def _call(self, node: Node) -> Iterator[ir.Statement]:
         args = self.children(part(node, "arguments"))

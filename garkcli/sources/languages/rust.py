@@ -1,0 +1,263 @@
+"""Rust."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+import tree_sitter_rust
+from tree_sitter import Language, Node
+
+from garkcli.sources import ir
+from garkcli.sources.lowering import (
+    Lowering,
+    kinds,
+    less_one,
+    line_of,
+    method_called,
+    part,
+    reader,
+    unmeant,
+)
+
+NAME = "rust"
+_LISTS = re.compile(rb"\b(?:vec|array)!(?=\s*\[)")
+"""Macros whose arguments are a list."""
+_MATRICES = frozenset({"matrix", "dmatrix", "vector", "dvector"})
+_NUMBER = re.compile(
+    r"(?P<digits>[0-9][0-9_]*(?:\.[0-9_]*)?(?:[eE][-+]?[0-9_]+)?)_?(?P<suffix>[fiu]\w+)?"
+)
+_WHOLE_TYPES = re.compile(r"[iu](?:8|16|32|64|128|size)")
+_ZERO = re.compile(r"0\.0*(?:_?f(?:32|64))?")
+_GIVING = frozenset({"expression_statement", "let_declaration", "return_expression"})
+"""What ends a block without being its value."""
+
+
+class RustLowering(Lowering):
+    """Constants, structures, functions, arrays and their entries of Rust."""
+
+    grammar = Language(tree_sitter_rust.language())
+    kinds = kinds(
+        comment="line_comment block_comment attribute_item inner_attribute_item"
+        " visibility_modifier mutable_specifier",
+        block="source_file block declaration_list unsafe_block ERROR",
+        assignment="assignment_expression compound_assignment_expr",
+        loop="while_expression loop_expression",
+        switch="match_expression",
+        case="match_arm",
+        giving="return_expression",
+        branch="if_expression",
+        name="identifier field_identifier type_identifier primitive_type self scoped_identifier"
+        " scoped_type_identifier generic_type",
+        number="integer_literal float_literal",
+        text="string_literal",
+        list="tuple_expression tuple_pattern",
+        inside="parenthesized_expression try_expression generic_function reference_expression",
+        unary="unary_expression",
+        binary="binary_expression",
+        field="field_expression",
+        index="index_expression",
+        range="range_expression",
+    )
+
+    def __init__(self, text: str) -> None:
+        super().__init__(text)
+        self._data = _LISTS.sub(lambda x: b" " * len(x[0]), self._data)
+        self._owner = ""
+
+    def own(self, node: Node, inside: list[Node], line: int) -> Iterator[ir.Statement]:
+        match node.type:
+            case "const_item" | "static_item":
+                yield from self._assigned(part(node, "name"), part(node, "value"), line)
+            case "let_declaration":
+                yield from self._assigned(part(node, "pattern"), part(node, "value"), line)
+            case "function_item":
+                yield self._function(node)
+            case "impl_item" | "trait_item" | "mod_item":
+                yield self._scope(node)
+            case "struct_item" if body := part(node, "body"):
+                named = (self.text(part(x, "name")) for x in self.children(body))
+                self.declares(self.text(part(node, "name")), filter(None, named))
+            case "for_expression":
+                name, over = part(node, "pattern"), self.expr(part(node, "value"))
+                yield self.loop(node, self.text(name) if self.is_a("name", name) else "", over)
+            case "expression_statement":
+                yield from self.block(inside)
+            case kind if kind.endswith(("expression", "invocation")):
+                yield ir.Do(self.expr(node), line)
+
+    def _assigned(
+        self, target: Node | None, value: Node | None, line: int
+    ) -> Iterator[ir.Statement]:
+        if target is not None and value is not None:
+            yield ir.Assign(self.target(target), self.expr(value), line)
+
+    def _scope(self, node: Node) -> ir.Scope:
+        """An implementation, which is a class; a module, whose names are its own."""
+        name = self.name(part(node, "type") or part(node, "name"))
+        trait, body = self.name(part(node, "trait")), part(node, "body")
+        around, self._owner = self._owner, name
+        for each in self.children(body):
+            if self.text(part(each, "name")) == "new":
+                # Tableau::new(a, b)
+                self.declares(name, self._parameters(each))
+        made = self.block([body])
+        self._owner = around
+        return ir.Scope("class", name, made, line_of(node), bases=(trait,) if trait else ())
+
+    def _parameters(self, node: Node) -> tuple[str, ...]:
+        given = (part(x, "pattern") for x in self.children(part(node, "parameters")))
+        return tuple(filter(None, map(self.first_name, given)))
+
+    def _function(self, node: Node) -> ir.Scope:
+        """A function; one of ``self`` alone is a property."""
+        body = part(node, "body")
+        name, parameters = self.text(part(node, "name")), self._parameters(node)
+        given = self.children(part(node, "parameters"))
+        gives = name if [x.type for x in given] == ["self_parameter"] else ""
+        made = self._giving(body) if body and (gives or self.may_hold_a_table(node)) else ()
+        types = frozenset(map(self.first_name, self._type_parameters(node)))
+        return ir.Scope("function", name, made, line_of(node), parameters, types, gives=gives)
+
+    def _type_parameters(self, node: Node) -> list[Node]:
+        return [
+            y
+            for x in self.children(part(node, "type_parameters"))
+            for y in [part(x, "name")]
+            if y is not None
+        ]
+
+    def _giving(self, body: Node) -> ir.Body:
+        """A block with its value, which is its last expression."""
+        inside = self.children(body)
+        last = inside[-1] if inside else None
+        if last is None or self.is_a("branch", last) or self.is_a("switch", last):
+            return self.block(inside)
+        if last.type in _GIVING or not (self.kinds.get(last.type) or "expression" in last.type):
+            return self.block(inside)
+        return (*self.block(inside[:-1]), ir.Return(self.expr(last), line_of(last)))
+
+    def case(self, node: Node) -> tuple[ir.Scope]:
+        """One of several ways, by its pattern."""
+        pattern, value = part(node, "pattern"), part(node, "value")
+        return (ir.Scope("entry", self.text(pattern), self.block([value]), line_of(node)),)
+
+    def name(self, node: Node | None) -> str:
+        """A name without type arguments, and without the class that it is in."""
+        plain = self.text(node).partition("<")[0].removesuffix("::")
+        return plain.removeprefix("Self::").removeprefix("self::")
+
+    def number(self, text: str) -> ir.Expr:
+        found = _NUMBER.fullmatch(text)
+        if not found:
+            return ir.Opaque(f"the number {text[:20]}")
+        digits, suffix = found["digits"], found["suffix"] or ""
+        return ir.Literal(digits, digits.replace("_", "").isdigit() and suffix[:1] != "f")
+
+    def other(self, node: Node, inside: list[Node]) -> ir.Expr:
+        match node.type:
+            case "array_expression":
+                return self._list(node, inside)
+            case "struct_expression" if inside:
+                name = self.name(inside[0]).rpartition("::")[2]
+                fields = tuple(self._fields_of(self.children(inside[-1])))
+                return ir.Call(ir.Name(self._owner if name == "Self" else name), (), fields)
+            case "call_expression" if len(inside) == 2:
+                return self._called(inside[0], self.exprs(inside[1].named_children))
+            case "type_cast_expression":
+                value = self.expr(inside[0])
+                is_whole = _WHOLE_TYPES.fullmatch(self.text(part(node, "type")))
+                return value if is_whole else ir.Call(ir.Name("double"), (value,))
+            case "closure_expression":
+                given = self.children(part(node, "parameters"))
+                parameters = tuple(self.first_name(part(x, "pattern") or x) for x in given)
+                return ir.Lambda(parameters, self.expr(part(node, "body")))
+            case "macro_invocation" if self.text(inside[0]) in _MATRICES:
+                return self._matrix(self.text(inside[-1])[1:-1])
+            case "macro_invocation" if self.text(inside[0]) == "dec":
+                return self._fragment(self.text(inside[-1]))
+            case "block" if len(inside) == 1:
+                return self.expr(inside[0])
+        return unmeant(node)
+
+    def _list(self, node: Node, inside: list[Node]) -> ir.Expr:
+        """A list; ``[x; n]`` is one of n times the same."""
+        size = part(node, "length")
+        if size is None:
+            is_repeated = any(x.type == ";" for x in node.children) and len(inside) == 2
+            size = inside[1] if is_repeated else None
+        if size is None:
+            return ir.Items(self.exprs(inside))
+        count = self.expr(size)
+        if _ZERO.fullmatch(self.text(inside[0])):
+            return ir.Call(ir.Name("zeros"), (count,))
+        return ir.Call(ir.Name("list *"), (ir.Items((self.expr(inside[0]),)), count))
+
+    def _fields_of(self, inside: list[Node]) -> Iterator[tuple[str, ir.Expr]]:
+        for each in inside:
+            match each.type:
+                case "shorthand_field_initializer":
+                    yield self.text(each), ir.Name(self.text(each))
+                case "field_initializer":
+                    yield self.text(part(each, "field")), self.expr(part(each, "value"))
+
+    def _called(self, callee: Node, args: tuple[ir.Expr, ...]) -> ir.Expr:
+        """A call; a method of a number or of a list is a function of it."""
+        of = self.expr(callee)
+        match of:
+            case ir.Field(of=value, name=name) if self.is_a("field", callee):
+                return method_called(value, name, args) or ir.Call(of, args)
+            case ir.Name(name) if name.endswith("::new"):
+                record = name.removesuffix("::new")
+                return self.call(ir.Name(self._owner if record == "Self" else record), args)
+        return self.call(of, args)
+
+    def _matrix(self, text: str) -> ir.Expr:
+        """``matrix![a, b; c, d]``."""
+        rows = [self._fragment(f"[{row}]") for row in text.split(";")]
+        lists = [x.items for x in rows if isinstance(x, ir.Items)]
+        if len(lists) < len(rows):
+            return ir.Opaque("a matrix")
+        return ir.Items(lists[0]) if len(lists) == 1 else ir.Items(tuple(map(ir.Items, lists)))
+
+    def _fragment(self, text: str) -> ir.Expr:
+        """The expression that a macro is given."""
+        inner = RustLowering(f"const X: T = {text};")
+        inner._depth = self._depth
+        match inner.module():
+            case (ir.Assign(value=value),) if value is not None:
+                return value
+        return ir.Opaque("the argument of a macro")
+
+    def range_of(self, node: Node, first: ir.Expr | None, last: ir.Expr | None) -> ir.Range:
+        """``a..b`` is without its end, ``a..=b`` with it."""
+        is_closed = any(x.type == "..=" for x in node.children)
+        return ir.Range(first, last if is_closed or last is None else less_one(last))
+
+    def expression(self, node: Node, inside: list[Node]) -> ir.Expr:
+        if self.is_a("range", node):
+            ends: list[ir.Expr | None] = [None]
+            for each in node.children:
+                if each.type in {"..", "..="}:
+                    ends.append(None)
+                else:
+                    ends[-1] = self.expr(each)
+            return self.range_of(node, ends[0], ends[-1])
+        if node.type == "unary_expression" and self.text(node.children[0]) == "*":
+            return self.expr(inside[-1])
+        if node.type == "reference_expression":
+            return self.expr(part(node, "value"))
+        if node.type == "scoped_identifier" and self.text(part(node, "path")) == "self":
+            return ir.Name(self.name(node))
+        return super().expression(node, inside)
+
+
+READER = reader(
+    RustLowering,
+    NAME,
+    "Rust: constants, structures, implementations, vec! and nalgebra's matrices",
+    (".rs",),
+    base=0,
+    has_whole_quotients=True,
+)
+find = READER.find
