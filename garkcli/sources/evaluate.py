@@ -362,6 +362,9 @@ class Evaluator:
         if isinstance(made, Array) and _is_an_argument(old, str(key)):
             # what a caller has is filled: the other entries are those of the caller
             made.fill = old
+        elif isinstance(made, Array) and isinstance(old, Number):
+            # A = 0, where nothing is known of the array so far
+            is_free, made.fill = True, FILL if old.is_zero else old
         elif isinstance(made, Array):
             is_free = old is None or isinstance(old, Null) or _is_unset(old)
         if not is_free:
@@ -406,8 +409,8 @@ class Evaluator:
                 places.append((array.items, i))
                 continue
             row = array.items[i]
-            if array.is_growing and _is_unset(row):
-                row = array.items[i] = Array([], is_growing=True)
+            if array.is_growing and (_is_unset(row) or row is array.fill):
+                row = array.items[i] = Array([], is_growing=True, fill=array.fill)
             inner = self._entries(row, at[1:], space) if isinstance(row, Array) else []
             if not inner:
                 return []
@@ -669,6 +672,9 @@ class Evaluator:
             for x in (*args, *named.values())
         ]
         fields = dict(zip(named, alone[len(args) :], strict=True))
+        if not args and plain in SIGNATURES and SIGNATURES[plain].counts:
+            # the call that is known takes its arguments by place: names speak for themselves
+            plain = ""
         record = Record(plain, fields, alone[: len(args)], line)
         space.calls.append(record)
         return record

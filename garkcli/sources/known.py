@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
 from garkcli.frozen import Frozen
@@ -141,7 +141,21 @@ CONVERSIONS = frozenset(_TYPES.split())
 """Types, and functions that give back the number, the list or the matrix that they get."""
 
 
-_QUOTIENTS = frozenset("Rational Fraction BigFraction Ratio fraction mpq fmpq QQ".split())
+def _vector(call: Call, values: Sequence[Value]) -> Value | None:
+    """``vector(n, x)`` of C++: n times the same, zeros by default."""
+    count = whole(values[0]) if 0 < len(values) < 3 else None
+    if count is None or not 0 <= count <= MAX_STAGES**2:
+        return None
+    return (
+        call.filled(FILL, count)
+        if len(values) == 1
+        else _repeated(call, call.array(values[1:]), values[0])
+    )
+
+
+_QUOTIENTS = frozenset(
+    ("Rational", "Fraction", "BigFraction", "Ratio", "fraction", "mpq", "fmpq", "QQ")
+)
 """Those that give the quotient of two numbers."""
 
 
@@ -152,6 +166,8 @@ def _converted(call: Call, *args: Value) -> Value | None:
         return _made(call, *args)
     if not values:
         return None
+    if call.name == "vector" and (made := _vector(call, values)) is not None:
+        return made
     if len(values) == 3 and call.name == "fraction" and isinstance(values[0], Unknown):
         # fraction(field, 1, 2)
         values = values[1:]

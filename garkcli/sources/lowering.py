@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from tree_sitter import Language, Node
 
 _NUMBER = re.compile(r"(?<![\w.])[0-9]+(?:\.[0-9]*)?")
+INCLUDED = ".inc"
+"""The ending of what sources of several languages include."""
 FEWEST_NUMBERS = 5
 SHORT = 300
 HEAD = 100
@@ -169,8 +171,11 @@ class Lowering:
     def case(self, node: Node) -> tuple[ir.Scope]:
         """One of several ways, by the value that leads to it."""
         value = part(node, "value") or part(node, "condition")
+        value = value or next((x for x in node.named_children if self.is_a("label", x)), None)
         body = self.block(x for x in node.named_children if x != value)
-        return (ir.Scope("entry", self.title(value), body, line_of(node)),)
+        title = self.title(value)
+        title = f"case {title}" if title.isdigit() else title
+        return (ir.Scope("entry", title, body, line_of(node)),)
 
     def title(self, node: Node | None) -> str:
         """What a value calls a way."""
@@ -322,8 +327,9 @@ def kinds(**nodes: str) -> Mapping[str, str]:
     """What nodes are, each kind with the nodes of a grammar that are it.
 
     Statements are a ``block``, ``assignment``, ``loop`` that has no name and range, ``giving`` what
-    a function returns, ``branch``, ``switch`` with ``case``, ``passed`` where they may change
-    values in ways that are not followed, and ``tried`` where they are a block besides.
+    a function returns, ``branch``, ``switch`` with ``case`` and, where it is no field, its
+    ``label``, ``passed`` where they may change values in ways that are not followed, and ``tried``
+    where they are a block besides.
     Expressions are a ``name``, ``number``, ``nothing``, ``text``, ``list``, ``unary``, ``binary``,
     ``field``, ``index``, ``call``, ``range``, ``transposed``, or what is ``inside`` of brackets.
     """
@@ -364,15 +370,21 @@ def counted(
     return name, ir.Range(lowering.expr(first), less_one(last) if sign == "<" else last)
 
 
-_OPERATIONS = {
-    **{"add": "+", "subtract": "-", "multiply": "*", "divide": "/", "pow": "^"},
-    **{"sub": "-", "mul": "*", "div": "/", "powi": "^"},
-}
+_OPERATIONS = (
+    dict.fromkeys(("add", "plus"), "+")
+    | dict.fromkeys(("subtract", "sub", "minus"), "-")
+    | dict.fromkeys(("multiply", "mul", "times"), "*")
+    | dict.fromkeys(("divide", "div"), "/")
+    | dict.fromkeys(("pow", "powi"), "^")
+)
 """Methods of numbers that are operations with another number."""
 _UNITS = {"getZero": "0.0", "getOne": "1.0"}
 _ITSELF = frozenset(
-    "unwrap expect into iter into_iter iter_mut collect to_vec to_owned clone copied cloned as_slice"
-    " to_subset as_ref boxed doubleValue getReal toArray".split()
+    {
+        *("unwrap", "expect", "into", "iter", "into_iter", "collect", "to_vec", "to_owned"),
+        *("clone", "copied", "cloned", "as_slice", "as_ref", "to_subset"),
+        *("doubleValue", "getReal", "toArray"),
+    }
 )
 """Methods that give the number or the list itself."""
 _OF_IT = {"recip": "inv", "reciprocal": "inv"} | {
@@ -396,6 +408,11 @@ def method_called(of: ir.Expr, name: str, args: tuple[ir.Expr, ...]) -> ir.Expr 
     if name in _OF_IT:
         return ir.Call(ir.Name(_OF_IT[name]), (*args, of) if name == "map" else (of, *args))
     return None
+
+
+def is_in_c(text: str) -> bool:
+    """Whether a text that is included is C, and not Fortran."""
+    return ";" in text and "{" in text
 
 
 def unmeant(node: Node) -> ir.Opaque:

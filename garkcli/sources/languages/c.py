@@ -9,7 +9,16 @@ from typing import TYPE_CHECKING
 
 from garkcli.sources import ir
 from garkcli.sources.found import FoundTable, Reader
-from garkcli.sources.lowering import Lowering, counted, kinds, line_of, part, unmeant
+from garkcli.sources.lowering import (
+    INCLUDED,
+    Lowering,
+    counted,
+    is_in_c,
+    kinds,
+    line_of,
+    part,
+    unmeant,
+)
 from garkcli.sources.reading import tables_in
 
 if TYPE_CHECKING:
@@ -17,7 +26,7 @@ if TYPE_CHECKING:
 
 NAME = "c"
 PETSC = "petsc"
-SUFFIXES = (".c", ".h", ".def", ".cc", ".cpp", ".cxx", ".hpp", ".hh", ".cu")
+SUFFIXES = (".c", ".h", ".def", ".cc", ".cpp", ".cxx", ".hpp", ".hh", ".cu", ".cuh", INCLUDED)
 C = "tree_sitter_c"
 CPP = "tree_sitter_cpp"
 _NAMES = frozenset(
@@ -28,6 +37,7 @@ _NAMES = frozenset(
 )
 _WHOLE_TYPES = re.compile(r"\b(?:int|long|short|unsigned|size_t|auto|bool|PetscInt|u?int\d+_t)\b")
 _NUMBER = re.compile(r"(?P<digits>[0-9']*\.?[0-9']*(?:[eE][-+]?[0-9]+)?)(?P<suffix>[a-zA-Z_]\w*)?")
+_LIST = re.compile(r"\bvector\s*<")
 _DECLARED = frozenset({"array_declarator", "identifier", "field_identifier"})
 _DEVICE = re.compile(rb"__(?:constant|device|shared|host|global)__")
 """Where CUDA keeps what is declared: no part of the grammar."""
@@ -188,10 +198,19 @@ class CLowering(Lowering):
             if given is None and (not extents or each.type not in _DECLARED):
                 continue
             value = None if given is None else self.expr(given)
+            if (
+                given is not None
+                and given.type == "argument_list"
+                and _LIST.search(self.text(kind))
+            ):
+                # std::vector<double> b(3)
+                value = ir.Call(ir.Name("vector"), self.exprs(given.named_children))
             if value is not None:
                 value = self._with_fields(value, kind, line_of(each), bool(extents))
             if sizes and value is not None:
                 value = _without_braces(value, len(extents))
+            elif not extents and value is not None and kind and kind.type != "primitive_type":
+                value = _within_braces(value)
             yield ir.Assign(ir.Name(name), value, line_of(each), extents=extents, is_real=is_real)
 
     def _with_fields(
@@ -291,7 +310,14 @@ class CLowering(Lowering):
                 if len(args) == 1 and self._is_type(inside[0]):
                     # (real)(-0.5): the grammar knows no types
                     return self._cast(self.children(inside[0])[0], args[0])
-                return ir.Call(self.expr(inside[0]), args)
+                callee = self.expr(inside[0])
+                match callee:
+                    case ir.Field(array, "at") if len(args) == 1:
+                        # A.at(1).at(0)
+                        return ir.Index(array, args)
+                return ir.Call(callee, args)
+            case "lambda_expression":
+                return self._lambda(node)
         return unmeant(node)
 
     def expression(self, node: Node, inside: list[Node]) -> ir.Expr:
@@ -300,6 +326,15 @@ class CLowering(Lowering):
                 # (real)-0.5
                 return self._cast(self.children(inside[0])[0], ir.Unary(sign, right))
         return found
+
+    def _lambda(self, node: Node) -> ir.Expr:
+        """``[](double x, double y) { return x / y; }``."""
+        given = self.children(part(node, "declarator", "parameters"))
+        parameters = tuple(self._declared(part(x, "declarator"))[0] for x in given)
+        match self.block([part(node, "body")]):
+            case (ir.Return(value),):
+                return ir.Lambda(parameters, value)
+        return unmeant(node)
 
     def _is_type(self, node: Node) -> bool:
         """Whether a name in brackets is one that variables are declared with."""
@@ -320,8 +355,8 @@ class CLowering(Lowering):
         return value if is_whole else ir.Call(ir.Name("double"), (value,))
 
     def number(self, text: str) -> ir.Expr:
-        if text.startswith("-"):
-            return ir.Unary("-", self.number(text[1:]))
+        if text[:1] in {"-", "+"}:
+            return ir.Unary(text[0], self.number(text[1:]))
         found = _NUMBER.fullmatch(text)
         if not found or not found["digits"]:
             return ir.Opaque(f"the number {text[:20]}")
@@ -374,6 +409,13 @@ def _without_braces(value: ir.Expr, depth: int) -> ir.Expr:
     return ir.Items(tuple(_without_braces(x, depth - 1) for x in value.items))
 
 
+def _within_braces(value: ir.Expr) -> ir.Expr:
+    """What a class with arrays in it is made of: ``Vector<3> b{{{1, 4, 1}}}``."""
+    while isinstance(value, ir.Items) and len(value.items) == 1 and _depth(value) > 1:
+        value = value.items[0]
+    return value
+
+
 def _depth(value: ir.Expr) -> int:
     if not isinstance(value, ir.Items):
         return 0
@@ -387,6 +429,8 @@ def _is_macro(made: ir.Statement) -> bool:
 @lru_cache(maxsize=1)
 def _tables(text: str, source: str) -> Sequence[FoundTable]:
     """Those of both formats, which are read at once."""
+    if source.endswith(INCLUDED) and not is_in_c(text):
+        return []
     grammar = C if source.endswith((".c", ".def")) else CPP
 
     def lowered(text: str) -> ir.Body:

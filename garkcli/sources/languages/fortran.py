@@ -10,7 +10,17 @@ from typing import TYPE_CHECKING
 from garkcli.frozen import replace
 from garkcli.sources import ir
 from garkcli.sources.found import MAX_STAGES, FoundTable
-from garkcli.sources.lowering import Lowering, kinds, less_one, line_of, part, reader, unmeant
+from garkcli.sources.lowering import (
+    INCLUDED,
+    Lowering,
+    is_in_c,
+    kinds,
+    less_one,
+    line_of,
+    part,
+    reader,
+    unmeant,
+)
 
 if TYPE_CHECKING:
     from tree_sitter import Node
@@ -30,8 +40,10 @@ class FortranLowering(Lowering):
     grammar = "tree_sitter_fortran"
     kinds = kinds(
         block="translation_unit module submodule internal_procedures ERROR data_statement",
-        passed="select_case_statement select_type_statement select_rank_statement where_statement"
-        " forall_statement",
+        switch="select_case_statement",
+        case="case_statement",
+        label="case_value_range_list default",
+        passed="select_type_statement select_rank_statement where_statement forall_statement",
         name="identifier",
         number="number_literal",
         text="string_literal",
@@ -240,7 +252,12 @@ def _less(expr: ir.Expr, by: ir.Expr) -> ir.Expr:
 
 def find(text: str, source: str) -> list[FoundTable]:
     """The tables of a Fortran source."""
-    return _READER.find(_free(text) if source.lower().endswith(_FIXED) else text, source)
+    is_fixed = source.lower().endswith(_FIXED)
+    if source.lower().endswith(INCLUDED):
+        if is_in_c(text):
+            return []
+        is_fixed = _IN_FIXED_FORM.fullmatch(text) is not None
+    return _READER.find(_free(text) if is_fixed else text, source)
 
 
 def _free(text: str) -> str:
@@ -264,12 +281,14 @@ def _free(text: str) -> str:
 
 _CODE = re.compile(r"(?:[^!'\"]|'[^']*'|\"[^\"]*\")*")
 """A line without its comment."""
+_IN_FIXED_FORM = re.compile(r"(?:(?:[cCdD*!#\t][^\n]*|[ 0-9]{5}[^\n]*|\s*)(?:\n|\Z))*")
+"""Lines that have comments, or nothing but labels, in their first five columns."""
 _FIXED = (".f", ".for", ".f77", ".ftn")
 _READER = reader(
     FortranLowering,
     NAME,
     "Fortran: parameters, arrays, coefficients by name",
-    (".f90", ".f95", ".f03", ".f08", *_FIXED),
+    (".f90", ".f95", ".f03", ".f08", *_FIXED, INCLUDED),
     base=1,
     has_whole_quotients=True,
 )

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from garkcli.frozen import replace
 from garkcli.sources import ir
+from garkcli.sources.found import FoundTable
 from garkcli.sources.lowering import Lowering, kinds, less_one, line_of, part, reader, unmeant
 
 if TYPE_CHECKING:
@@ -103,7 +106,11 @@ class PythonLowering(Lowering):
                     each = ir.Lambda((self.text(target),), self.expr(inside[0]))
                     return ir.Call(ir.Name("list of each"), (each, over))
             case "dictionary":
-                return ir.Fields(tuple(self._pairs(inside)))
+                pairs = tuple(self._pairs(inside))
+                if pairs and [x for x, _ in pairs] == [*map(str, range(len(inside)))]:
+                    # rows by their numbers
+                    return ir.Items(tuple(x for _, x in pairs))
+                return ir.Fields(pairs)
             case "slice":
                 first, last, *step = [*self.ends(node), None][:3]
                 if any(step):
@@ -128,11 +135,41 @@ class PythonLowering(Lowering):
                     yield key, self.expr(part(each, "value"))
 
 
-READER = reader(
+_TYPED = re.compile(r"^([ \t]*)(?:c|cp)def[ \t]+(.*)$|^([ \t]*)DEF[ \t]+(?=\w)", re.MULTILINE)
+"""What Cython declares: a class, a function, a name with its value."""
+_WORD = re.compile(r"\w+")
+_ARRAY = re.compile(r"(\w+)[ \t]*((?:\[\w+\])+)[ \t]*$")
+
+
+def find(text: str, source: str) -> list[FoundTable]:
+    """The tables of a Python source; of Cython without its types."""
+    return _READER.find(_TYPED.sub(_plain, text) if source.endswith(_CYTHON) else text, source)
+
+
+def _plain(found: re.Match[str]) -> str:
+    """A line of Cython as Python has it; ``pass`` where a name has no value."""
+    indent, rest = found[1] or found[3] or "", found[2]
+    if rest is None or rest.startswith("class"):
+        return indent + (rest or "")
+    head, equals, value = rest.partition("=")
+    before, bracket, _ = rest.partition("(")
+    if bracket and len(before) < len(head):
+        name = (_WORD.findall(before) or ["_"])[-1]
+        return f"{indent}def {name}():" if rest.rstrip().endswith(":") else f"{indent}pass"
+    array = _ARRAY.search(head)
+    name = array[1] if array else (_WORD.findall(head) or ["_"])[-1]
+    if array and not equals:
+        sizes = ", ".join(_WORD.findall(array[2]))
+        return f"{indent}{name} = zeros({sizes})"
+    return f"{indent}{name} = {value}" if equals else f"{indent}pass"
+
+
+_CYTHON = (".pyx", ".pxd", ".pxi")
+_READER = reader(
     PythonLowering,
     NAME,
     "Python: NumPy arrays, lists, Fractions, scipy's RungeKutta",
-    (".py", ".pyi"),
+    (".py", ".pyi", *_CYTHON),
     base=0,
 )
-find = READER.find
+READER = replace(_READER, find=find)
