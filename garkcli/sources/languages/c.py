@@ -75,6 +75,7 @@ class CLowering(Lowering):
         super().__init__(text, grammar)
         self._data = _without_open_comment(_DEVICE.sub(lambda x: b" " * len(x[0]), self._data))
         self._types_in_use: dict[str, bool] = {}
+        self._reals: set[str] = set()  # parameters that are real numbers
         self._code = b""  # without comments and texts, where it is wanted
 
     def own(self, node: Node, inside: list[Node], line: int) -> Iterator[ir.Statement]:
@@ -198,11 +199,7 @@ class CLowering(Lowering):
             if given is None and (not extents or each.type not in _DECLARED):
                 continue
             value = None if given is None else self.expr(given)
-            if (
-                given is not None
-                and given.type == "argument_list"
-                and _LIST.search(self.text(kind))
-            ):
+            if given and given.type == "argument_list" and _LIST.search(self.text(kind)):
                 # std::vector<double> b(3)
                 value = ir.Call(ir.Name("vector"), self.exprs(given.named_children))
             if value is not None:
@@ -325,13 +322,22 @@ class CLowering(Lowering):
             case ir.Binary("+" | "-" as sign, _, right) if self._is_type(inside[0]):
                 # (real)-0.5
                 return self._cast(self.children(inside[0])[0], ir.Unary(sign, right))
+            case ir.Name(name) if name in self._reals:
+                return ir.Call(ir.Name("double"), (found,))
         return found
 
     def _lambda(self, node: Node) -> ir.Expr:
         """``[](double x, double y) { return x / y; }``."""
         given = self.children(part(node, "declarator", "parameters"))
         parameters = tuple(self._declared(part(x, "declarator"))[0] for x in given)
-        match self.block([part(node, "body")]):
+        are_whole = [_WHOLE_TYPES.search(self.text(part(x, "type"))) for x in given]
+        around, self._reals = (
+            self._reals,
+            {name for name, is_whole in zip(parameters, are_whole, strict=True) if not is_whole},
+        )
+        body = self.block([part(node, "body")])
+        self._reals = around
+        match body:
             case (ir.Return(value),):
                 return ir.Lambda(parameters, value)
         return unmeant(node)
