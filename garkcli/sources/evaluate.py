@@ -208,7 +208,7 @@ class Evaluator:
         inner.update({name: Type() for name in scope.types})
         match scope.body:
             case (ir.Return(value=value),) if not isinstance(value, (ir.Call, ir.Fields)):
-                if scope.kind == "function" and scope.name not in space:
+                if scope.kind == "function" and scope.name not in {*space, scope.gives}:
                     space[scope.name] = Function(scope.parameters, value, inner)
         before, self._steps = self._steps, 0
         self._walked(scope, inner)

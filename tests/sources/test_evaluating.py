@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
+import json
+
 import pytest
 
 from garkcli.bridges.audit import audit
 from garkcli.bridges.claiming import imported
 from garkcli.exact.display import to_text
 from garkcli.sources.found import FoundTable
-from garkcli.sources.languages import c, fortran, julia, matlab, python
+from garkcli.sources.languages import c, fortran, java, julia, matlab, notebook, python, rust
 
 FIND = {
-    "c": c.find,
+    **dict.fromkeys(("c", "cpp", "cuh"), c.find),
+    "c.inc": c.find,
+    "ipynb": notebook.find,
+    "java": java.find,
     "jl": julia.find,
     "m": matlab.find,
-    "py": python.find,
-    **dict.fromkeys(("f90", "f"), fortran.find),
+    "rs": rust.find,
+    **dict.fromkeys(("py", "pyx"), python.find),
+    **dict.fromkeys(("f90", "f", "for", "inc"), fortran.find),
 }
 RALSTON = ((("0", "0"), ("2/3", "0")),)
 SAME = {
@@ -35,6 +41,35 @@ SAME = {
         "void f(void) { Scalar g = 3; Scalar A[2][2] = {{0}}, b[2]; A[1][0] = (Scalar)-2.0/(Scalar)(-g);\n"
         "  b[0] = (Scalar)(0.25); b[1] = (Scalar)0.75; }"
     ),
+    "c, signs before numbers": "double A[2][2] = {{0}, {+2.0/3}}, b[2] = {+0.25, +.75};",
+    "cpp, entries by at": (
+        "void f() { std::vector<std::vector<double>> A(2, std::vector<double>(2));\n"
+        "  std::vector<double> b(2, 0.25); A.at(1).at(0) = 2.0/3; b.at(1) = 3*b.at(0); }"
+    ),
+    "cpp, braces within braces": (
+        "struct R { Lower<double, 2> a{{{2.0 / 3}}}; Vector<double, 2> b{{{0.25, 0.75}}}; };"
+    ),
+    "cpp, a function without a name": (
+        "void f() { const auto R = [](double x, int y) { return x / y; };\n"
+        "  double A[2][2] = {{0}, {R(2, 3)}}, b[2] = {R(1, 4), R(3, 4)}; }"
+    ),
+    "cuh, constants of a device": (
+        "__constant__ double A[2][2] = {{0}, {2.0/3}};\n__device__ const double b[2] = {.25, .75};"
+    ),
+    "c.inc, of C": "double A[2][2] = {{0}, {2.0/3}}, b[2] = {0.25, 0.75};",
+    "inc, in fixed form": (
+        "      real A(2,2), b(2)\nC     of Ralston\n      data A /0.0, 0.0, 0.0, 0.0/\n"
+        "      A(2,1) = 2.0/\n     &  3.0\n      b(1) = 0.25\n      b(2) = 0.75\n"
+    ),
+    "inc, in free form": "real :: A(2,2), b(2)\nA = 0\nA(2,1) = 2.0/3.0\nb = [0.25, 0.75]\n",
+    "f90, a case": (
+        "subroutine f(self, s)\nselect case(s)\ncase(2)\nself%A(2, 1) = 2d0/3d0\n"
+        "self%b(1) = 0.25d0\nself%b(2) = 0.75d0\ncase(3)\nself%w = 1\nend select\nend subroutine\n"
+    ),
+    "f90, zeros of an array that is elsewhere": (
+        "subroutine f(self)\nself%A = 0d0\nself%A(2, 1) = 2d0/3d0\nself%b(1) = 0.25d0\n"
+        "self%b(2) = 0.75d0\nend subroutine\n"
+    ),
     "f, fixed form": (
         "c     of Ralston\n      subroutine f(A, b)\n      double precision A(2,2), b(2), w\n"
         "      parameter (w=0.25d0)\n      A(1,1) = 0\n      A(1,2) = 0\n      A(2,1) = ! in two\n"
@@ -52,6 +87,67 @@ SAME = {
         "c = [0, 2//3]\nA = zeros(2, 2)\nA[2, 1] = c[end]\nb = [1//4; 3//4]\n"
     ),
     "jl, rows and conversions": "A = T[0 0; big(2)//3 0]\nb = map(BigFloat, [1//4, 3//4])\n",
+    "py, rows by their numbers": "A = {0: [0, 0], 1: [2/3]}\nb = [1/4, 3/4]\n",
+    "py, keywords of a call that has none elsewhere": (
+        "r = TableauRKExplicit(a=np.array([[0, 0], [2/3, 0]]), b=np.array([1/4, 3/4]))\n"
+    ),
+    "pyx, types": (
+        "cdef double A[2][2]\nA[1][0] = 2/3\ncdef list b = [1/4, 3/4]\n"
+        "cdef inline double f(double x) nogil:\n    cdef int n\n    return x\n"
+    ),
+    "ipynb, lines and texts": json.dumps(
+        {
+            "cells": [
+                {"cell_type": "markdown", "source": ["A = [[0, 0], [1, 0]]"]},
+                {"cell_type": "code", "source": ["%pip install x\n", "A = [[], [2/3]]"]},
+                {"cell_type": "code", "source": "b = [1/4]\nb.append(3/4)"},
+            ]
+        },
+        indent=1,
+    ),
+    "ipynb, of Julia": json.dumps(
+        {
+            "metadata": {"kernelspec": {"language": "julia"}},
+            "cells": [{"cell_type": "code", "source": "A = [0 0; 2//3 0]\nb = [1//4, 3//4]"}],
+        }
+    ),
+    "rs, constants of an implementation": (
+        "impl Method for Ralston {\n    const A: &'static [&'static [f64]] = &[&[], &[2.0 / 3.0]];\n"
+        "    const B: [f64; 2] = [0.25_f64, 1f64 - 0.2_5];\n}\n"
+    ),
+    "rs, entries and closures": (
+        "pub fn ralston<T: Real>() -> Tableau<T> {\n    let mut a = [[0.0; 2]; 2];\n"
+        "    a[1][0] = 2.0 / 3.0;\n    let w = 4.0_f64.sqrt() / 8.0;\n    let mut b = vec![w; 2];\n"
+        "    b[1] += 0.5;\n    let a = a.map(|row| row.map(|x| T::from_f64(x).unwrap()));\n"
+        "    let b = b.iter().map(|&x| T::from_f64(x).unwrap()).collect();\n    Tableau { a, b }\n}\n"
+    ),
+    "rs, a record by position": (
+        "struct Rk { a: Vec<Vec<f64>>, b: Vec<f64> }\nimpl Rk {\n"
+        "    fn new(a: Vec<Vec<f64>>, b: Vec<f64>) -> Self { Self { a, b } }\n"
+        "    fn ralston() -> Self { Self::new(vec![vec![], vec![2. / 3.]], vec![0.25, 0.75]) }\n}\n"
+    ),
+    "rs, methods": (
+        "impl Table for Ralston {\n    fn a(&self) -> SMatrix<f64, 2, 2> { matrix![0., 0.; 2. / 3., 0.] }\n"
+        "    fn b(&self) -> Vec<f64> { vec![0.25, 0.75] }\n}\n"
+    ),
+    "java, methods that give arrays": (
+        "class Ralston extends Stepper {\n  public double[][] getA() {\n"
+        "    return new double[][] { { 2.0 / 3.0 } };\n  }\n"
+        "  public double[] getB() {\n    final double[] b = new double[2];\n"
+        "    for (int i = 0; i < b.length; ++i) { b[i] = (2 * i + 1) / 4.0; }\n    return b;\n  }\n}\n"
+    ),
+    "java, numbers of a field": (
+        "class Ralston<T> {\n  public T[][] getA() {\n    final T[][] a = build(getField(), 1, -1);\n"
+        "    for (int i = 0; i < a.length; ++i) { a[i] = build(getField(), i + 1); }\n"
+        "    a[0][0] = fraction(getField(), 2, 3);\n    return a;\n  }\n  public T[] getB() {\n"
+        "    final T q = getField().getZero().add(4).sqrt();\n    T[] b = build(getField(), 2);\n"
+        "    b[0] = q.divide(8);\n    b[1] = getField().getOne().subtract(b[0]);\n    return b;\n"
+        "  }\n}\n"
+    ).replace("build", "MathArrays.buildArray"),
+    "java, one of several": (
+        "enum Method {\n  RALSTON(new double[][] {{0, 0}, {2 / 3d, 0}}, new double[] {.25, .75});\n"
+        "  Method(double[][] a, double[] b) { this.a = a; this.b = b; }\n}\n"
+    ),
     "py, slices": (
         "import numpy as np\nc = np.array([0, 2/3])\nA = np.zeros((2, 2))\n"
         "A[1, :1] = c[1:]\nb = [1/4, 1 - 1/4]\n"
@@ -86,6 +182,19 @@ def one(name: str, text: str) -> FoundTable:
 
 UNKNOWN = {
     "c, a whole quotient": ("double A[2][2] = {{0}, {1/2}}, b[2] = {0, 1};", None),
+    "java, a whole quotient": (
+        "class X { double[][] A = {{0, 0}, {1 / 2, 0}}; double[] b = {0, 1}; }",
+        None,
+    ),
+    "rs, a loop": (
+        "fn f(k: i32) { let a = [[0.0, 0.0], [0.5, 0.0]]; let mut b = [0.25, 0.75];\n"
+        "  while k > 0 { b[0] = 0.5; } }",
+        "arrays called A and b do not fit together: assigned in a loop, line 2, is not known",
+    ),
+    "rs, a macro": (
+        "fn f() { let a = [[0.0, 0.0], [0.5, 0.0]];\n  let b = [number!(1), 0.75]; }",
+        "macro invocation, line 2, is not known",
+    ),
     "c, a loop": (
         "void f(int n) { double A[2][2] = {{0}, {0.5}}, b[2] = {0, 1.0};\n"
         "  while (n) { A[1][0] = g(n); } }",

@@ -8,6 +8,7 @@ from bisect import bisect_left
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
+from garkcli.frozen import replace
 from garkcli.sources.found import FoundTable, Reader
 from garkcli.sources.languages import c, julia, matlab, python
 
@@ -34,7 +35,8 @@ def find(text: str, source: str) -> list[FoundTable]:
     has_magic = read is python.find
     lines = list(_lines(notebook))
     plain = ["" if has_magic and _MAGIC.match(x) else x for x, _ in lines]
-    return read("\n".join(_placed(lines, plain, text.split("\n"))), source)
+    code = "\n".join(_placed(lines, plain, text.split("\n")))
+    return [replace(x, format=NAME) for x in read(code, source)]
 
 
 def _language(notebook: object) -> str:

@@ -29,6 +29,8 @@ _NUMBER = re.compile(
 )
 _WHOLE_TYPES = re.compile(r"[iu](?:8|16|32|64|128|size)")
 _ZERO = re.compile(r"0\.0*(?:_?f(?:32|64))?")
+_VALUES = ("expression", "invocation", "identifier", "literal")
+"""How the kinds of nodes end that are values."""
 _GIVING = frozenset({"expression_statement", "let_declaration", "return_expression"})
 """What ends a block without being its value."""
 
@@ -133,7 +135,7 @@ class RustLowering(Lowering):
         last = inside[-1] if inside else None
         if last is None or self.is_a("branch", last) or self.is_a("switch", last):
             return self.block(inside)
-        if last.type in _GIVING or not (self.kinds.get(last.type) or "expression" in last.type):
+        if last.type in _GIVING or not last.type.endswith(_VALUES):
             return self.block(inside)
         return (*self.block(inside[:-1]), ir.Return(self.expr(last), line_of(last)))
 
@@ -207,9 +209,9 @@ class RustLowering(Lowering):
         match of:
             case ir.Field(of=value, name=name) if self.is_a("field", callee):
                 return method_called(value, name, args) or ir.Call(of, args)
-            case ir.Name(name) if name.endswith("::new"):
-                record = name.removesuffix("::new")
-                return self.call(ir.Name(self._owner if record == "Self" else record), args)
+            case ir.Name(name) if callee.type == "scoped_identifier" and name.endswith("new"):
+                record = name.removesuffix("new").removesuffix("::")
+                return self.call(ir.Name(record or self._owner), args)
         return self.call(of, args)
 
     def _matrix(self, text: str) -> ir.Expr:
