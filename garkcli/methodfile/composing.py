@@ -201,6 +201,8 @@ _PROGRAMS = (
     ".f90",
     ".m",
     ".wl",
+    ".rs",
+    ".java",
 )
 _LOOKS: tuple[tuple[str, str], ...] = (
     (
