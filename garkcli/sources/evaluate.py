@@ -61,6 +61,8 @@ _GROWN = frozenset({"push!", "append!", "pushfirst!", "prepend!"})
 """Functions that make their first argument longer, by the others or by what is in them."""
 _SAME = frozenset({"copy", "astype", "tolist", "to", "clone", "item", "double", "float", "numpy"})
 """Methods that give the array or the number itself."""
+_OF_ARRAYS = frozenset({"reshape", "transpose", "sum", "flatten", "ravel"})
+"""Methods that are functions of the array."""
 _EMPTYING = frozenset({"resize", "clear", "reinit"})
 """Methods after which an array has what is assigned from then on."""
 _METHODS = _GROWING | _EMPTYING | {"reserve", "fill"}
@@ -633,6 +635,9 @@ class Evaluator:
             return self._method(callee.of, name, call.args, space)
         if name in _GROWN and call.args:
             return self._grown(call.args[0], name, call.args[1:], space)
+        match callee:
+            case ir.Field(of=ir.Index(of=ir.Field(of=of, name="at"), at=at), name="set"):
+                return self._with_entries(of, at, call.args, space)
         line = self.line
         args = [self.value(x, space) for x in call.args]
         named = {key: self.value(x, space) for key, x in call.named}
@@ -646,6 +651,9 @@ class Evaluator:
             return conversion(args, self.line) if args else self.unknown(f"the call {name}")
         if isinstance(target, Array) and args:
             return self._sliced(target, call.args, space)
+        if isinstance(callee, ir.Field) and plain in _OF_ARRAYS:
+            owner = self.value(callee.of, space)
+            args = [owner, *args] if isinstance(owner, Array) else args
         made = result(Call(plain, call, named, self), args)
         if made is not None:
             return made
@@ -689,6 +697,18 @@ class Evaluator:
         found = self.value(function.body, inner)
         self._inlined -= 1
         return found
+
+    def _with_entries(
+        self, of: ir.Expr, at: Sequence[ir.Expr], given: Sequence[ir.Expr], space: Space
+    ) -> Value:
+        """``A.at[1, 0].set(x)``: another array with other entries."""
+        inner = Space(space)
+        name = ir.Name("the array")
+        inner[name.name] = copied(self.value(of, space))
+        if len(given) != 1:
+            return self.unknown("the call set")
+        self._put(ir.Index(name, tuple(at)), self.value(given[0], space), inner, self.line)
+        return inner[name.name]
 
     def _method(self, of: ir.Expr, name: str, args: Sequence[ir.Expr], space: Space) -> Value:
         """What changes an array in place."""

@@ -135,6 +135,7 @@ _TYPES = """
     const_cast reinterpret_cast
     deepcopy copy freeze array_from rational float128 cpp_bin_float String as
     from_f64 from_f32 from_usize from_i32 from Ratio BigDecimal BigFraction Some Ok Box valueOf
+    constant to_array
     LinearAlgebra string value_type RC REAL N SA SA_F64 SA_F32 SetPrecision SetAccuracy Rationalize
 """
 CONVERSIONS = frozenset(_TYPES.split())
@@ -195,6 +196,13 @@ def _root(call: Call, value: Value, index: Value = NULL) -> Value | None:
     if isinstance(value, Array):
         return value.map(lambda x: root(x, n, call.line))
     return root(value, n, call.line)
+
+
+@_known("constructor")
+def _constructed(call: Call, *sizes: Value) -> Value | None:
+    """An object that is made of sizes, ``Matrix A(2, 2)``: what it holds is assigned later."""
+    is_sized = 0 < len(sizes) < 3 and all(whole(x) for x in sizes)
+    return call.unknown("never assigned") if is_sized else None
 
 
 @_known("inv")
@@ -289,6 +297,34 @@ def _transposed(call: Call, value: Value, *_: Value) -> Value | None:
     return transposed(value, call.line)
 
 
+@_known("flatten ravel")
+def _flat(call: Call, value: Value, *_: Value) -> Value | None:
+    """The entries of an array by rows."""
+    return call.array(value.flat()) if isinstance(value, Array) else None
+
+
+@_known("tril triu")
+def _triangle(call: Call, value: Value, above: Value = ZERO) -> Value | None:
+    """The part of a matrix on one side of its diagonal, or of one so far above it."""
+    off, is_lower = whole(above), call.name == "tril"
+    if not isinstance(value, Array) or not value.is_matrix or off is None:
+        return call.unknown()
+    return call.array(
+        call.array(x if (j - i <= off if is_lower else j - i >= off) else ZERO for j, x in row)
+        for i, row in enumerate(enumerate(items_of(x)) for x in value.items)
+    )
+
+
+def _without_open(shape: Sequence[Value], count: int) -> Sequence[Value]:
+    """A shape in which -1 stands for what is left."""
+    sizes = list(Array(list(shape[:2])).flat())
+    known = [x for x in sizes if whole(x) != -1]
+    product = math.prod(whole(x) or 0 for x in known)
+    if len(sizes) - len(known) != 1 or not product:
+        return sizes
+    return [integer(count // product) if whole(x) == -1 else x for x in sizes]
+
+
 @_known("reshape")
 def _reshaped(call: Call, value: Value, *shape: Value) -> Value | None:
     """The entries in another shape: by columns in Julia, MATLAB and Fortran, by rows in Python."""
@@ -297,7 +333,7 @@ def _reshaped(call: Call, value: Value, *shape: Value) -> Value | None:
     is_by_rows = call.evaluator.base == 0
     turned = value if is_by_rows or not value.is_matrix else transposed(value, call.line)
     flat = list((turned if isinstance(turned, Array) else value).flat())
-    sizes = _sizes(shape[:2])
+    sizes = _sizes(_without_open(shape, len(flat)))
     if not sizes or math.prod(sizes) != len(flat):
         return call.unknown()
     if len(sizes) == 1:

@@ -141,6 +141,15 @@ PLANTED = {
     "latex, a weight": ("paper.tex", "\\frac34", "\\frac14", "weights"),
     "latex, an embedded weight": ("paper.tex", "& 1 & 0\n", "& 1 & 1\n", "embedded-weights"),
     "latex, of two colours": ("paper.tex", "& 0 & 1 & 0 & 1", "& 0 & 1 & 0 & 2", "weights"),
+    "rust, an entry": ("methods.rs", "a[2][1] = 2.0", "a[2][1] = 1.0", "order"),
+    "rust, the order": ("methods.rs", "ORDER: u8 = 2", "ORDER: u8 = 3", "order"),
+    "java, a weight": ("Ralston.java", ".multiply(3)", ".multiply(2)", "order"),
+    "notebook, a node": (
+        "methods.ipynb",
+        "c = np.array([0, 1/2])",
+        "c = np.array([0, 1/3])",
+        "nodes",
+    ),
     "json, the order": ("table.json", '"order": 2', '"order": 3', "order"),
     "json, a node": ("table.json", '[0, "1/2"]', '[0, "1/3"]', "nodes"),
     "csv, a sign": ("kutta.csv", "1,-1,2,0", "1,1,2,0", "nodes"),
@@ -177,7 +186,7 @@ def test_none_is_invented() -> None:
     """The sources as they are have no finding of any level, and all their tables are seen."""
     report = audit(SOURCES)
     assert findings(report) == []
-    summary = {"tables": 31, "wrong": 0, "unread": 0}
+    summary = {"tables": 35, "wrong": 0, "unread": 0}
     assert report["summary"] == summary
 
 

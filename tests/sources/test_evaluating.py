@@ -41,6 +41,14 @@ SAME = {
         "void f(void) { Scalar g = 3; Scalar A[2][2] = {{0}}, b[2]; A[1][0] = (Scalar)-2.0/(Scalar)(-g);\n"
         "  b[0] = (Scalar)(0.25); b[1] = (Scalar)0.75; }"
     ),
+    "cpp, a matrix that is finished": (
+        "struct R { const M A = (M() << 0, 0, 2.0/3, 0).finished(); const double b[2] = {.25, .75}; };"
+    ),
+    "cpp, initialisers of a constructor": "R::R() : A{{0, 0}, {2.0/3, 0}}, b{0.25, 0.75} {}",
+    "cpp, literals and matrices of the program": (
+        "void f() { Dense<real> A(2, 2), b(2); A(0,0) = A(0,1) = A(1,1) = 0; A(1,0) = 2_r/3_r;\n"
+        "  b(0) = 1_r/4; b(1) = 3_r/4; }"
+    ),
     "c, signs before numbers": "double A[2][2] = {{0}, {+2.0/3}}, b[2] = {+0.25, +.75};",
     "cpp, entries by at": (
         "void f() { std::vector<std::vector<double>> A(2, std::vector<double>(2));\n"
@@ -62,6 +70,9 @@ SAME = {
         "      A(2,1) = 2.0/\n     &  3.0\n      b(1) = 0.25\n      b(2) = 0.75\n"
     ),
     "inc, in free form": "real :: A(2,2), b(2)\nA = 0\nA(2,1) = 2.0/3.0\nb = [0.25, 0.75]\n",
+    "f90, keywords of a structure": (
+        "type(t), parameter :: r = t(A=reshape([0d0, 2/3d0, 0d0, 0d0], [2,2]), b=[0.25d0, 0.75d0])\n"
+    ),
     "f90, a case": (
         "subroutine f(self, s)\nselect case(s)\ncase(2)\nself%A(2, 1) = 2d0/3d0\n"
         "self%b(1) = 0.25d0\nself%b(2) = 0.75d0\ncase(3)\nself%w = 1\nend select\nend subroutine\n"
@@ -87,6 +98,20 @@ SAME = {
         "c = [0, 2//3]\nA = zeros(2, 2)\nA[2, 1] = c[end]\nb = [1//4; 3//4]\n"
     ),
     "jl, rows and conversions": "A = T[0 0; big(2)//3 0]\nb = map(BigFloat, [1//4, 3//4])\n",
+    "py, shapes by methods": (
+        "A = np.array([0, 2/3, 0, 0]).reshape(2, -1).transpose()\nb = np.array([[1/4, 3/4]]).ravel()\n"
+    ),
+    "py, another array with an entry": (
+        "A = jnp.zeros((2, 2)).at[1, 0].set(2/3)\nb = np.r_[1/4, 3/4]\n"
+    ),
+    "py, defaults of a dataclass": (
+        "@dataclass\nclass R:\n    A: list = field(default_factory=lambda: [[], [2/3]])\n"
+        "    b: list = field(default=(1/4, 3/4))\n"
+    ),
+    "py, methods": (
+        "class R:\n    def A(self):\n        a = np.tril(np.ones((2, 2)), -1)\n"
+        "        return 2*a/3\n    @staticmethod\n    def b():\n        return [1/4, 3/4]\n"
+    ),
     "py, rows by their numbers": "A = {0: [0, 0], 1: [2/3]}\nb = [1/4, 3/4]\n",
     "py, keywords of a call that has none elsewhere": (
         "r = TableauRKExplicit(a=np.array([[0, 0], [2/3, 0]]), b=np.array([1/4, 3/4]))\n"

@@ -108,6 +108,9 @@ class CLowering(Lowering):
                 yield from self._call(node)
             case "expression_statement":
                 yield from self.block(inside[:1])
+            case "field_initializer" if len(inside) > 1 and inside[1].type == "initializer_list":
+                made = _within_braces(self.expr(inside[1]))
+                yield ir.Assign(ir.Name(self.name(inside[0])), made, line, is_real=True)
             case "field_initializer" if len(inside) > 1:
                 # Base(s, a, b, c) of a constructor
                 args = self.exprs(inside[1].named_children)
@@ -202,6 +205,10 @@ class CLowering(Lowering):
             if given and given.type == "argument_list" and _LIST.search(self.text(kind)):
                 # std::vector<double> b(3)
                 value = ir.Call(ir.Name("vector"), self.exprs(given.named_children))
+            elif isinstance(value, ir.Call) and kind and kind.type == "primitive_type":
+                # double x(0.5)
+                is_made = value.callee == ir.Name("constructor") and len(value.args) == 1
+                value = value.args[0] if is_made else value
             if value is not None:
                 value = self._with_fields(value, kind, line_of(each), bool(extents))
             if sizes and value is not None:
@@ -288,6 +295,9 @@ class CLowering(Lowering):
                 while self.is_a("index", of):
                     of = part(of, "argument")
                 return self.expr(of)
+            case "user_defined_literal" if inside:
+                # 2_r is what the program makes of 2
+                return ir.Call(ir.Name("double"), (self.expr(inside[0]),))
             case "cast_expression":
                 return self._cast(part(node, "type"), self.expr(part(node, "value")))
             case "compound_literal_expression" if inside:
@@ -309,6 +319,8 @@ class CLowering(Lowering):
                     return self._cast(self.children(inside[0])[0], args[0])
                 callee = self.expr(inside[0])
                 match callee:
+                    case ir.Field(name="finished") if not args:
+                        return self._finished(self.children(inside[0])[0])
                     case ir.Field(array, "at") if len(args) == 1:
                         # A.at(1).at(0)
                         return ir.Index(array, args)
@@ -325,6 +337,14 @@ class CLowering(Lowering):
             case ir.Name(name) if name in self._reals:
                 return ir.Call(ir.Name("double"), (found,))
         return found
+
+    def _finished(self, node: Node) -> ir.Expr:
+        """``(Matrix() << 0, 1).finished()`` of Eigen."""
+        first, *more = self._parts(self.children(node)[0] if self.is_a("inside", node) else node)
+        match self.expr(first):
+            case ir.Binary("<<", _, right):
+                return ir.Items((right, *self.exprs(more)))
+        return unmeant(node)
 
     def _lambda(self, node: Node) -> ir.Expr:
         """``[](double x, double y) { return x / y; }``."""

@@ -206,8 +206,8 @@ class FortranLowering(Lowering):
         if name in _FUNCTIONS:
             wanted = args[:1] if name in {"real", "dble"} else args
             return ir.Call(ir.Name(name), wanted, named)
-        if self.made(name, args):
-            return self.call(ir.Name(name), args)
+        if self.made(name, args) or (named and not args):
+            return self.call(ir.Name(name), args, named)
         match args:
             case (ir.Name(of),) if name == "shape" and of in self._extents:
                 return ir.Items(self._extents[of])

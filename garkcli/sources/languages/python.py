@@ -93,7 +93,8 @@ class PythonLowering(Lowering):
         given = map(self.first_name, self.children(part(node, "parameters")))
         made = self.block([body]) if body and self.may_hold_a_table(node) else ()
         parameters, types = tuple(filter(None, given)), frozenset({"dtype"})
-        return ir.Scope("function", name, made, line_of(node), parameters, types)
+        gives = name if not {*parameters} - {"self", "cls"} and name[0] != "_" else ""
+        return ir.Scope("function", name, made, line_of(node), parameters, types, gives=gives)
 
     def other(self, node: Node, inside: list[Node]) -> ir.Expr:
         match node.type:
@@ -105,6 +106,10 @@ class PythonLowering(Lowering):
                 if self.is_a("name", target):
                     each = ir.Lambda((self.text(target),), self.expr(inside[0]))
                     return ir.Call(ir.Name("list of each"), (each, over))
+            case "lambda":
+                given = self.children(part(node, "parameters"))
+                parameters = tuple(map(self.first_name, given))
+                return ir.Lambda(parameters, self.expr(part(node, "body")))
             case "dictionary":
                 pairs = tuple(self._pairs(inside))
                 if pairs and [x for x, _ in pairs] == [*map(str, range(len(inside)))]:
@@ -126,6 +131,15 @@ class PythonLowering(Lowering):
                 return ir.Call(ir.Name(_OF_LISTS[sign]), (left, right))
             case ir.Call(ir.Name("dict"), (), named):
                 return ir.Fields(named)
+            case ir.Call(ir.Name("field") | ir.Field(name="field"), (), named):
+                # of a dataclass
+                for name, value in named:
+                    if name == "default":
+                        return value
+                    if name == "default_factory" and isinstance(value, ir.Lambda):
+                        return value.body
+            case ir.Index(ir.Field(name="r_"), at):
+                return ir.Items(at)
         return found
 
     def _pairs(self, inside: list[Node]) -> Iterator[tuple[str, ir.Expr]]:
