@@ -135,7 +135,7 @@ _TYPES = """
     const_cast reinterpret_cast
     deepcopy copy freeze array_from rational float128 cpp_bin_float String as
     from_f64 from_f32 from_usize from_i32 from Ratio BigDecimal BigFraction Some Ok Box valueOf
-    constant to_array
+    constant to_array from_vec from_slice from_array arr1 arr2 Rational64 BigRational
     LinearAlgebra string value_type RC REAL N SA SA_F64 SA_F32 SetPrecision SetAccuracy Rationalize
 """
 CONVERSIONS = frozenset(_TYPES.split())
@@ -155,7 +155,18 @@ def _vector(call: Call, values: Sequence[Value]) -> Value | None:
 
 
 _QUOTIENTS = frozenset(
-    ("Rational", "Fraction", "BigFraction", "Ratio", "fraction", "mpq", "fmpq", "QQ")
+    (
+        "Rational",
+        "Fraction",
+        "BigFraction",
+        "Ratio",
+        "Rational64",
+        "BigRational",
+        "fraction",
+        "mpq",
+        "fmpq",
+        "QQ",
+    )
 )
 """Those that give the quotient of two numbers."""
 
@@ -346,6 +357,17 @@ def _reshaped(call: Call, value: Value, *shape: Value) -> Value | None:
     return call.array(
         call.array(flat[at if is_by_rows else slice(i, None, rows)]) for i, at in enumerate(starts)
     )
+
+
+@_known("from_row_slice from_column_slice")
+def _of_slice(call: Call, *given: Value) -> Value | None:
+    """``DMatrix::from_row_slice(2, 2, …)``: the entries of a matrix by rows, or by columns."""
+    *sizes, entries = given
+    if not sizes:
+        return entries
+    is_by_rows = call.name == "from_row_slice"
+    shaped = _reshaped(call, entries, *(sizes if is_by_rows else sizes[::-1]))
+    return shaped if shaped is None or is_by_rows else transposed(shaped, call.line)
 
 
 @_known("vcat concatenate hstack vstack")

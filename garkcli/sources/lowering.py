@@ -67,7 +67,17 @@ class Lowering:
 
     def module(self) -> ir.Body:
         """The statements of the whole source."""
-        return self.block(self.parse(self._data).named_children)
+        nodes = self.parse(self._data).named_children
+        waiting = list(nodes)
+        while waiting:
+            node = waiting.pop()
+            if self.is_a("record", node):
+                self.declared(node)
+                waiting += self.children(part(node, "body"))
+        return self.block(nodes)
+
+    def declared(self, node: Node) -> None:
+        """The fields of a record, which may be made before they are declared."""
 
     def parse(self, data: bytes) -> Node:
         """The syntax tree; what does not belong to the language is in nodes of its own."""
@@ -328,8 +338,8 @@ def kinds(**nodes: str) -> Mapping[str, str]:
 
     Statements are a ``block``, ``assignment``, ``loop`` that has no name and range, ``giving`` what
     a function returns, ``branch``, ``switch`` with ``case`` and, where it is no field, its
-    ``label``, ``passed`` where they may change values in ways that are not followed, and ``tried``
-    where they are a block besides.
+    ``label``, ``record`` that may have fields or such in it, ``passed`` where they may change
+    values in ways that are not followed, and ``tried`` where they are a block besides.
     Expressions are a ``name``, ``number``, ``nothing``, ``text``, ``list``, ``unary``, ``binary``,
     ``field``, ``index``, ``call``, ``range``, ``transposed``, or what is ``inside`` of brackets.
     """

@@ -151,6 +151,11 @@ SAME = {
         "    fn new(a: Vec<Vec<f64>>, b: Vec<f64>) -> Self { Self { a, b } }\n"
         "    fn ralston() -> Self { Self::new(vec![vec![], vec![2. / 3.]], vec![0.25, 0.75]) }\n}\n"
     ),
+    "rs, slices and static names": (
+        "lazy_static! { static ref A: DMatrix<f64> =\n"
+        "  DMatrix::from_column_slice(2, 2, &[0., 2. / 3., 0., 0.]);\n"
+        "  static ref B: Vector2<f64> = Vector2::new(0.25, 0.75); }\n"
+    ),
     "rs, methods": (
         "impl Table for Ralston {\n    fn a(&self) -> SMatrix<f64, 2, 2> { matrix![0., 0.; 2. / 3., 0.] }\n"
         "    fn b(&self) -> Vec<f64> { vec![0.25, 0.75] }\n}\n"
@@ -169,6 +174,10 @@ SAME = {
         "    b[0] = q.divide(8);\n    b[1] = getField().getOne().subtract(b[0]);\n    return b;\n"
         "  }\n}\n"
     ).replace("build", "MathArrays.buildArray"),
+    "java, a record that is declared behind": (
+        "class X { static final Rk R = new Rk(2, List.of(List.of(), List.of(2.0 / 3)), List.of(.25, .75));\n"
+        "  record Rk(int order, List a, List b) {} }\n"
+    ),
     "java, one of several": (
         "enum Method {\n  RALSTON(new double[][] {{0, 0}, {2 / 3d, 0}}, new double[] {.25, .75});\n"
         "  Method(double[][] a, double[] b) { this.a = a; this.b = b; }\n}\n"

@@ -44,6 +44,7 @@ class JavaLowering(Lowering):
         switch="switch_expression",
         case="switch_block_statement_group switch_rule",
         tried="try_statement",
+        record="class_declaration enum_declaration interface_declaration record_declaration",
         name="identifier type_identifier this true false generic_type scoped_type_identifier",
         number="decimal_integer_literal decimal_floating_point_literal",
         nothing="null_literal",
@@ -58,10 +59,7 @@ class JavaLowering(Lowering):
 
     def own(self, node: Node, inside: list[Node], line: int) -> Iterator[ir.Statement]:
         match node.type:
-            case "class_declaration" | "enum_declaration" | "interface_declaration":
-                yield self._class(node)
-            case "record_declaration":
-                self.declares(self.text(part(node, "name")), self._parameters(node))
+            case _ if self.is_a("record", node):
                 yield self._class(node)
             case "enum_constant" if given := part(node, "arguments"):
                 # HEUN(new double[] {…}, …): one of several, by its name
@@ -94,13 +92,16 @@ class JavaLowering(Lowering):
             node = node.parent
         return self.text(part(node, "name"))
 
+    def declared(self, node: Node) -> None:
+        inner = self.children(part(node, "body"))
+        inner += [y for x in inner if x.type == "enum_body_declarations" for y in self.children(x)]
+        made = [node] if node.type == "record_declaration" else []
+        made += [x for x in inner if x.type == "constructor_declaration"]
+        for each in made:
+            self.declares(self.text(part(node, "name")), self._parameters(each))
+
     def _class(self, node: Node) -> ir.Scope:
         name, body = self.text(part(node, "name")), part(node, "body")
-        inner = self.children(body)
-        inner += [y for x in inner if x.type == "enum_body_declarations" for y in self.children(x)]
-        for each in inner:
-            if each.type == "constructor_declaration":
-                self.declares(name, self._parameters(each))
         bases = tuple(self.name(x) for x in self.children(part(node, "superclass")))
         return ir.Scope("class", name, self.block([body]), line_of(node), bases=bases)
 
@@ -128,7 +129,7 @@ class JavaLowering(Lowering):
     def case(self, node: Node) -> tuple[ir.Scope]:
         """One of several ways, by its label."""
         inside = self.children(node)
-        title = " ".join(self.text(x) for x in self.children(inside[0])) if inside else ""
+        title = " ".join(map(self.text, self.children(inside[0]) if inside else ())).strip('"')
         return (ir.Scope("entry", title, self.block(inside[1:]), line_of(node)),)
 
     def name(self, node: Node | None) -> str:

@@ -21,14 +21,18 @@ from garkcli.sources.lowering import (
 )
 
 NAME = "rust"
-_LISTS = re.compile(rb"\b(?:vec|array)!(?=\s*\[)")
-"""Macros whose arguments are a list."""
+_WRAPPERS = re.compile(rb"\b(?:vec|array)!(?=\s*\[)|\blazy_static!(?=\s*\{)|(?<=\bstatic )ref\b")
+"""What is around lists and constants and says nothing of them."""
 _MATRICES = frozenset({"matrix", "dmatrix", "vector", "dvector"})
 _NUMBER = re.compile(
     r"(?P<digits>[0-9][0-9_]*(?:\.[0-9_]*)?(?:[eE][-+]?[0-9_]+)?)_?(?P<suffix>[fiu]\w+)?"
 )
 _WHOLE_TYPES = re.compile(r"[iu](?:8|16|32|64|128|size)")
 _ZERO = re.compile(r"0\.0*(?:_?f(?:32|64))?")
+_MAKERS = frozenset({"new", "default"})
+"""Functions that make what they are in."""
+_ENTRIES = re.compile(r"S?(?:Row)?(?:Matrix|Vector)[1-9](?:x[1-9])?")
+"""Types of nalgebra that are made of their entries, by rows."""
 _VALUES = ("expression", "invocation", "identifier", "literal")
 """How the kinds of nodes end that are values."""
 _GIVING = frozenset({"expression_statement", "let_declaration", "return_expression"})
@@ -45,6 +49,7 @@ class RustLowering(Lowering):
         block="source_file block declaration_list unsafe_block ERROR",
         assignment="assignment_expression compound_assignment_expr",
         loop="while_expression loop_expression",
+        record="struct_item impl_item trait_item mod_item",
         switch="match_expression",
         case="match_arm",
         giving="return_expression",
@@ -64,7 +69,7 @@ class RustLowering(Lowering):
 
     def __init__(self, text: str) -> None:
         super().__init__(text)
-        self._data = _LISTS.sub(lambda x: b" " * len(x[0]), self._data)
+        self._data = _WRAPPERS.sub(lambda x: b" " * len(x[0]), self._data)
         self._owner = ""
 
     def own(self, node: Node, inside: list[Node], line: int) -> Iterator[ir.Statement]:
@@ -77,9 +82,6 @@ class RustLowering(Lowering):
                 yield self._function(node)
             case "impl_item" | "trait_item" | "mod_item":
                 yield self._scope(node)
-            case "struct_item" if body := part(node, "body"):
-                named = (self.text(part(x, "name")) for x in self.children(body))
-                self.declares(self.text(part(node, "name")), filter(None, named))
             case "for_expression":
                 name, over = part(node, "pattern"), self.expr(part(node, "value"))
                 yield self.loop(node, self.text(name) if self.is_a("name", name) else "", over)
@@ -94,15 +96,21 @@ class RustLowering(Lowering):
         if target is not None and value is not None:
             yield ir.Assign(self.target(target), self.expr(value), line)
 
+    def declared(self, node: Node) -> None:
+        inside = self.children(part(node, "body"))
+        name = self.name(part(node, "type") or part(node, "name"))
+        if node.type == "struct_item":
+            self.declares(name, filter(None, (self.text(part(x, "name")) for x in inside)))
+        for each in inside:
+            if node.type == "impl_item" and self.text(part(each, "name")) == "new":
+                # Tableau::new(a, b)
+                self.declares(name, self._parameters(each))
+
     def _scope(self, node: Node) -> ir.Scope:
         """An implementation, which is a class; a module, whose names are its own."""
         name = self.name(part(node, "type") or part(node, "name"))
         trait, body = self.name(part(node, "trait")), part(node, "body")
         around, self._owner = self._owner, name
-        for each in self.children(body):
-            if self.text(part(each, "name")) == "new":
-                # Tableau::new(a, b)
-                self.declares(name, self._parameters(each))
         made = self.block([body])
         self._owner = around
         return ir.Scope("class", name, made, line_of(node), bases=(trait,) if trait else ())
@@ -115,6 +123,7 @@ class RustLowering(Lowering):
         """A function; one of ``self`` alone is a property."""
         body = part(node, "body")
         name, parameters = self.text(part(node, "name")), self._parameters(node)
+        name = self._owner or name if name in _MAKERS else name
         given = self.children(part(node, "parameters"))
         gives = name if [x.type for x in given] == ["self_parameter"] else ""
         made = self._giving(body) if body and (gives or self.may_hold_a_table(node)) else ()
@@ -142,7 +151,8 @@ class RustLowering(Lowering):
     def case(self, node: Node) -> tuple[ir.Scope]:
         """One of several ways, by its pattern."""
         pattern, value = part(node, "pattern"), part(node, "value")
-        return (ir.Scope("entry", self.text(pattern), self.block([value]), line_of(node)),)
+        title = self.text(pattern).rpartition("::")[2]
+        return (ir.Scope("entry", title, self.block([value]), line_of(node)),)
 
     def name(self, node: Node | None) -> str:
         """A name without type arguments, and without the class that it is in."""
@@ -211,6 +221,8 @@ class RustLowering(Lowering):
                 return method_called(value, name, args) or ir.Call(of, args)
             case ir.Name(name) if callee.type == "scoped_identifier" and name.endswith("new"):
                 record = name.removesuffix("new").removesuffix("::")
+                if _ENTRIES.fullmatch(record):
+                    return ir.Items(args)
                 return self.call(ir.Name(record or self._owner), args)
         return self.call(of, args)
 
