@@ -9,7 +9,7 @@ import pytest
 from garkcli import loads
 from garkcli.bridges.collecting import Result, collected
 from garkcli.bridges.importing import entry_text
-from garkcli.bridges.readers.registry import all_readers
+from garkcli.bridges.readers.registry import all_readers, find_tables, readers_for, suffixes
 from garkcli.bridges.sources import source_files
 from tests.whole import in_whole
 
@@ -88,6 +88,27 @@ def test_every_reader_has_a_source() -> None:
     """No format is left out of this test."""
     used = {result.table.format for result in collected(source_files([str(SOURCES)]))}
     assert used == set(all_readers())
+
+
+@pytest.mark.parametrize("ending", ["c", "cuh", "for", "inc", "ipynb", "java", "pyx", "rs"])
+def test_endings_choose_a_language(ending: str) -> None:
+    """In a folder such files are read, each by the readers of its language alone."""
+    assert f".{ending}" in suffixes()
+    assert len(readers_for(f"x.{ending}")) < len(all_readers()) / 2
+
+
+INCLUDED = {
+    "c": "static const double A[2][2] = {{0, 0}, {2.0/3, 0}};\nstatic const double b[2] = {.25, .75};\n",
+    "fortran": "      real A(2,2), b(2)\nC     of Ralston\n      A = 0\n      A(2,1) = 2.0/\n"
+    "     &  3.0\n      b = [0.25, 0.75]\n",
+}
+
+
+@pytest.mark.parametrize("language", INCLUDED)
+def test_what_is_included_is_of_one_language(language: str) -> None:
+    """C and Fortran include files with the same ending: what is one is not read as the other."""
+    found = find_tables(INCLUDED[language], "x.inc", readers_for("x.inc"))
+    assert [(x.format, x.trouble, x.b) for x in found] == [(language, "", (("1/4", "3/4"),))]
 
 
 RALSTON = "A: [[], [2/3]]\nb: [1/4, 3/4]\n"
