@@ -154,7 +154,7 @@ SAME = {
     "rs, slices and static names": (
         "lazy_static! { static ref A: DMatrix<f64> =\n"
         "  DMatrix::from_column_slice(2, 2, &[0., 2. / 3., 0., 0.]);\n"
-        "  static ref B: Vector2<f64> = Vector2::new(0.25, 0.75); }\n"
+        "  static ref B: Vec<f64> = SVector::<f64, 2>::from_row_slice(&[0.25, 0.75]); }\n"
     ),
     "rs, methods": (
         "impl Table for Ralston {\n    fn a(&self) -> SMatrix<f64, 2, 2> { matrix![0., 0.; 2. / 3., 0.] }\n"

@@ -33,6 +33,8 @@ _MAKERS = frozenset({"new", "default"})
 """Functions that make what they are in."""
 _ENTRIES = re.compile(r"S?(?:Row)?(?:Matrix|Vector)[1-9](?:x[1-9])?")
 """Types of nalgebra that are made of their entries, by rows."""
+_TYPE_ARGUMENTS = re.compile(r"(?:::)?<.*>", re.DOTALL)
+_TESTS = re.compile(r"#\[cfg\(test\)\]")
 _VALUES = ("expression", "invocation", "identifier", "literal")
 """How the kinds of nodes end that are values."""
 _GIVING = frozenset({"expression_statement", "let_declaration", "return_expression"})
@@ -80,6 +82,9 @@ class RustLowering(Lowering):
                 yield from self._assigned(part(node, "pattern"), part(node, "value"), line)
             case "function_item":
                 yield self._function(node)
+            case "mod_item" if _TESTS.search(self.text(node.prev_named_sibling)):
+                # what is wrong there may be so on purpose
+                yield ir.Do(ir.Opaque("a module of tests"), line)
             case "impl_item" | "trait_item" | "mod_item":
                 yield self._scope(node)
             case "for_expression":
@@ -156,7 +161,7 @@ class RustLowering(Lowering):
 
     def name(self, node: Node | None) -> str:
         """A name without type arguments, and without the class that it is in."""
-        plain = self.text(node).partition("<")[0].removesuffix("::")
+        plain = _TYPE_ARGUMENTS.sub("", self.text(node))
         return plain.removeprefix("Self::").removeprefix("self::")
 
     def number(self, text: str) -> ir.Expr:

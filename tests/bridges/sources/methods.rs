@@ -26,3 +26,14 @@ impl Method for Heun {
     const A: &'static [&'static [f64]] = &[&[], &[1.0]];
     const B: [f64; 2] = [0.5, 0.5];
 }
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn weights_are_checked() {
+        let a = [[0.0, 0.0], [1.0, 0.0]];
+        let b = [0.5, 0.25];
+        let c = [0.0, 1.0];
+        assert!(Tableau::checked(a, b, c).is_err());
+    }
+}
