@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from itertools import islice
 
 import tree_sitter_rust
 from tree_sitter import Language, Node
@@ -82,7 +83,7 @@ class RustLowering(Lowering):
                 yield from self._assigned(part(node, "pattern"), part(node, "value"), line)
             case "function_item":
                 yield self._function(node)
-            case "mod_item" if _TESTS.search(self.text(node.prev_named_sibling)):
+            case "mod_item" if any(map(_TESTS.search, islice(self._attributes(node), 5))):
                 # what is wrong there may be so on purpose
                 yield ir.Do(ir.Opaque("a module of tests"), line)
             case "impl_item" | "trait_item" | "mod_item":
@@ -100,6 +101,13 @@ class RustLowering(Lowering):
     ) -> Iterator[ir.Statement]:
         if target is not None and value is not None:
             yield ir.Assign(self.target(target), self.expr(value), line)
+
+    def _attributes(self, node: Node) -> Iterator[str]:
+        """What stands in front of an item, the last first."""
+        before = node.prev_named_sibling
+        while before is not None and self.is_a("comment", before):
+            yield self.text(before)
+            before = before.prev_named_sibling
 
     def declared(self, node: Node) -> None:
         inside = self.children(part(node, "body"))

@@ -28,6 +28,7 @@ impl Method for Heun {
 }
 
 #[cfg(test)]
+#[allow(dead_code)] // in order
 mod tests {
     #[test]
     fn weights_are_checked() {
