@@ -189,7 +189,7 @@ class Lowering:
 
     def title(self, node: Node | None) -> str:
         """What a value calls a way."""
-        return self.text(node)
+        return self.text(node).strip("'\"")
 
     def branch(self, inside: list[Node], line: int) -> ir.Branch:
         """The ways of an ``if``; the first child of each is its condition, but for the last way."""
