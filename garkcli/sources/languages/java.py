@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-
-import tree_sitter_java
-from tree_sitter import Language, Node
+from typing import TYPE_CHECKING
 
 from garkcli.sources import ir
 from garkcli.sources.lowering import (
@@ -19,6 +17,9 @@ from garkcli.sources.lowering import (
     reader,
     unmeant,
 )
+
+if TYPE_CHECKING:
+    from tree_sitter import Node
 
 NAME = "java"
 _WHOLE_TYPES = re.compile(r"(?:int|long|short|byte|boolean|char|var|Integer|Long)\b")
@@ -34,7 +35,7 @@ _GETTER = re.compile(r"get(?=[A-Z])")
 class JavaLowering(Lowering):
     """Classes, fields, methods, arrays and their entries of Java."""
 
-    grammar = Language(tree_sitter_java.language())
+    grammar = "tree_sitter_java"
     kinds = kinds(
         comment="line_comment block_comment modifiers",
         block="program class_body interface_body enum_body enum_body_declarations block"

@@ -94,5 +94,9 @@ def _forms(text: str) -> tuple[str, str]:
 
 
 READER = Reader(
-    NAME, "notebooks of Jupyter: their code in Python, Julia, Octave or C++", (".ipynb",), find
+    NAME,
+    "notebooks of Jupyter: their code in Python, Julia, Octave or C++",
+    (".ipynb",),
+    find,
+    tuple({x for read in (python, julia, matlab, c) for x in read.READER.grammars}),
 )

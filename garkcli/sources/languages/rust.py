@@ -5,9 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from itertools import islice
-
-import tree_sitter_rust
-from tree_sitter import Language, Node
+from typing import TYPE_CHECKING
 
 from garkcli.sources import ir
 from garkcli.sources.lowering import (
@@ -20,6 +18,9 @@ from garkcli.sources.lowering import (
     reader,
     unmeant,
 )
+
+if TYPE_CHECKING:
+    from tree_sitter import Node
 
 NAME = "rust"
 _WRAPPERS = re.compile(rb"\b(?:vec|array)!(?=\s*\[)|\blazy_static!(?=\s*\{)|(?<=\bstatic )ref\b")
@@ -45,7 +46,7 @@ _GIVING = frozenset({"expression_statement", "let_declaration", "return_expressi
 class RustLowering(Lowering):
     """Constants, structures, functions, arrays and their entries of Rust."""
 
-    grammar = Language(tree_sitter_rust.language())
+    grammar = "tree_sitter_rust"
     kinds = kinds(
         comment="line_comment block_comment attribute_item inner_attribute_item"
         " visibility_modifier mutable_specifier",
