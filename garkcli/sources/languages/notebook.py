@@ -98,5 +98,5 @@ READER = Reader(
     "notebooks of Jupyter: their code in Python, Julia, Octave or C++",
     (".ipynb",),
     find,
-    tuple({x for read in (python, julia, matlab, c) for x in read.READER.grammars}),
+    tuple(sorted({x for read in (python, julia, matlab, c) for x in read.READER.grammars})),
 )
