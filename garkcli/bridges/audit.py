@@ -33,6 +33,10 @@ ONE = at_least(1)
 """The order of every method whose weights have the sum 1."""
 ROW_SUMS = {"stage-order": at_least(1)}
 """The claim of a method file whose nodes are row sums."""
+LINKED = 12
+"""So many bits that link matrix and weights speak against another reading of the same numbers."""
+FEWEST_ROWS = 3
+"""So many rows of several entries have their nodes for sums where one other is wrong."""
 MAX_BLAMED = 12
 """Most stages of a table whose wrong entry is sought."""
 
@@ -116,7 +120,37 @@ def _late(table: FoundTable) -> Audited:
 
 
 def audit(table: FoundTable) -> Audited | None:
-    """What is true of a table; None where it is no method at all."""
+    """What is true of a table; None where it is no method at all. Nothing is an error while the
+    same numbers, read otherwise, are a method.
+    """
+    found = _audit(table)
+    if found is None or found.has_errors or not found.is_read:
+        is_none = found is None or found.order is None or not found.order.order
+        others = map(_audit, readings_of(table, is_none))
+        found = next((x for x in others if x is not None and fits(x, table)), found)
+    return found
+
+
+def fits(found: Audited, told: FoundTable) -> bool:
+    """Whether another reading of a table has what it is said to have, or order 2 at least."""
+    if found.order is None or found.has_errors:
+        return False
+    return found.order.is_limited or found.order.order >= (told.order or 2)
+
+
+def readings_of(table: FoundTable, is_none: bool) -> Iterator[FoundTable]:
+    """The other readings of the numbers of a table, with what is told of it: those that much speaks
+    for, or all where the table has no order. Who calls a function of a library stores a matrix as
+    that does.
+    """
+    for each in table.rivals:
+        is_likely = is_none or each.linked >= LINKED
+        if is_likely and not (table.is_sure and "column" in each.how):
+            told = {x: getattr(table, x) for x in ("name", "line", "order", "said_order", "notes")}
+            yield replace(each, **told, is_sure=True, is_recognised=False)
+
+
+def _audit(table: FoundTable) -> Audited | None:
     if table.kind:
         message = f"a {table.kind} table, which is not judged as one of Runge–Kutta"
         return _noted(table, message, "other-kind")
@@ -193,8 +227,8 @@ def _may_be_method(method: MethodFile) -> bool:
 
 
 def _weighed(finding: AuditFinding, subject: Subject) -> AuditFinding:
-    """An error as what it is: a doubt where the table was put together from single numbers, a note
-    where careless rounding explains it.
+    """An error as what it is: a doubt where the table was put together from single numbers, or read
+    off its numbers and no one of them mends it; a note where careless rounding explains it.
     """
     if finding.level != "error":
         return finding
@@ -204,7 +238,17 @@ def _weighed(finding: AuditFinding, subject: Subject) -> AuditFinding:
     if subject.table.is_assembled:
         message = f"{finding.message}; in doubt, as the table is put together from single numbers"
         return replace(finding, message=message, level="warning")
+    if subject.table.is_recognised and not _is_mended(finding, subject):
+        return replace(finding, level="warning")
     return finding
+
+
+def _is_mended(finding: AuditFinding, subject: Subject) -> bool:
+    """Whether one entry is known that makes a method of a table."""
+    if finding.code != "nodes":
+        return bool(finding.help)
+    several = sum(sum(map(bool, row)) > 1 for row in subject.block)
+    return len(subject.misprinted_rows) == 1 and several > FEWEST_ROWS and subject.order.order > 1
 
 
 def _is_explained(code: str, subject: Subject) -> bool:
@@ -401,6 +445,12 @@ def _flags(subject: Subject) -> Iterator[AuditFinding]:
         yield AuditFinding("fsal", message, claims={"fsal": "true"})
 
 
+def _stored(subject: Subject) -> Iterator[AuditFinding]:
+    """How the numbers are stored, where that was read off them."""
+    if subject.table.how:
+        yield AuditFinding("stored", f"as its numbers say: {subject.table.how}", level="note")
+
+
 def _unread(subject: Subject) -> Iterator[AuditFinding]:
     """Nodes and embedded weights that are not known."""
     lost = (x for x in subject.table.notes if " not read: " in x)
@@ -408,5 +458,7 @@ def _unread(subject: Subject) -> Iterator[AuditFinding]:
 
 
 _Check: TypeAlias = Callable[[Subject], Iterator[AuditFinding]]
-CHECKS: tuple[_Check, ...] = (_order, _said, _weights, _nodes, _embedded, _sign, _flags, _unread)
+CHECKS: tuple[_Check, ...] = (
+    *(_order, _said, _weights, _nodes, _embedded, _sign, _flags, _stored, _unread),
+)
 """What is examined, in the order in which it is reported."""

@@ -43,6 +43,7 @@ CODES = {
     "embedded-order-higher": "the embedded order is higher than declared",
     "open": "the digits leave open whether the order is as declared",
     "sign": "nothing decides the sign of the error estimate",
+    "stored": "the numbers of a table say how it is stored",
     "unread": "coefficients are not written out",
     "other-kind": "the table is not one of a Runge–Kutta method",
 }

@@ -22,8 +22,9 @@ from garkcli.sources.assembling import (
     table_of,
 )
 from garkcli.sources.couplings import FORM as COUPLING
-from garkcli.sources.evaluate import Evaluator, Space, shown
+from garkcli.sources.evaluate import Space, shown
 from garkcli.sources.found import FoundTable, troubled
+from garkcli.sources.harvest import Harvester
 from garkcli.sources.linear_stages import roles_of_kpp
 from garkcli.sources.naming import ROLES, role_of, roles_of_parts
 from garkcli.sources.overlooked import overlooked, sized
@@ -107,21 +108,22 @@ class _Group(Mutable):
     unread: Roles = field(default_factory=dict)
 
 
-class TableFinder(Evaluator):
+class TableFinder(Harvester):
     """Evaluates one source, and collects its tables.
 
     Args:
         source: what it is called.
         format: of its language.
         base, allowance, is_growing, has_whole_quotients: as those of an evaluator.
+
+    Attributes:
+        told: the values of each table, by its ``id``.
     """
 
     def __init__(
         self, source: str, format: str, base: int, allowance: Allowance, *is_so: bool
     ) -> None:
-        super().__init__(base, allowance, *is_so)
-        self._source = source
-        self._format = format
+        super().__init__(source, format, base, allowance, *is_so)
         self._meant: list[Meant] = []
         self._other: dict[tuple[str, int], FoundTable] = {}
         self._users: dict[tuple[str, int], dict[str, Value | None]] = {}
@@ -129,6 +131,7 @@ class TableFinder(Evaluator):
         self._taken: set[tuple[str, int]] = set()
         self._refilled: dict[int, Value] = {}
         self._halves: set[tuple[str, int]] = set()
+        self.told: dict[int, Roles] = {}
 
     def tables(self, body: ir.Body, text: str) -> list[FoundTable]:
         """All of a source, each once; arrays that a call takes are found with it."""
@@ -149,6 +152,7 @@ class TableFinder(Evaluator):
                 table = replace(table, name=next(iter(users)))
             entries = () if table.trouble else Array(list(meant.roles.values())).flat()
             used |= {sized(x.near) for x in entries if isinstance(x, Number)}
+            self.told[id(table)] = meant.roles
             key = (table.A, table.b, table.c, table.line, table.name)
             self.allowance.table(table, is_kept=key not in found)
             found.setdefault(key, table)
@@ -162,7 +166,7 @@ class TableFinder(Evaluator):
         found = {key: x for key, x in found.items() if doubtful.get(key) not in read}
         told = [x.line for x in (*found.values(), *self._other.values())]
         told += [line for arrays in self._arrays.values() for _, line in arrays.values()]
-        for scope in overlooked(body, text, self._source, told, used, self.lost):
+        for scope in overlooked(body, text, self.source, told, used, self.lost):
             trouble = self.lost.get((scope.kind, scope.line), UNRECOGNISED)
             self._unread(scope.title, scope.line, trouble, other_kind(scope.name))
         # behind a branch that assigns the nodes the table is without them
@@ -181,6 +185,7 @@ class TableFinder(Evaluator):
         """The tables of a scope: by calls and records, by the names of arrays, as a step that is
         written out, by the names of numbers.
         """
+        super().ended(scope, space)
         named = _ARRAY.fullmatch(scope.name)
         entries = space.get("this")
         if named and isinstance(entries, Array):
@@ -231,6 +236,7 @@ class TableFinder(Evaluator):
         """Arrays that are complete are a table before one of them is assigned anew; one that is in
         such a table already is not with those that were assigned since.
         """
+        super().replaced(scope, space, name)
         told = role_of(name)
         is_one = told is not None and told[1] in {"A", "b", "c", "embedded"}
         is_taken = (name, space.lines.get(name, 0)) in self._taken
@@ -249,6 +255,7 @@ class TableFinder(Evaluator):
 
     def refilled(self, scope: ir.Scope, record: Record, name: str) -> None:
         """As for arrays: a structure is a table before its matrix or its weights are new."""
+        super().refilled(scope, record, name)
         both = _matrix_and_weights(record)
         is_one = ROLES.get(name) in {"A", "b"} and name in record.fields
         is_whole = is_one and len(both) == 2 and all(map(is_written, both.values()))
@@ -466,7 +473,7 @@ class TableFinder(Evaluator):
 
     def _place(self, name: str, line: int, **told: Any) -> FoundTable:
         """A table without its coefficients."""
-        return FoundTable(self._source, line, self._format, name, (), (), **told)
+        return FoundTable(self.source, line, self.format, name, (), (), **told)
 
     def _unread(self, name: str, line: int, trouble: str = "", kind: str = "") -> None:
         """A place with a table that is of another kind, or else not read."""

@@ -106,6 +106,10 @@ class FoundTable(Frozen):
         base: the name of the table that it is made of, where another source has that.
         is_assembled: whether it was put together from single numbers, by their names.
         units: by how much coefficients may be off that were made of printed ones.
+        how: its arrays are stored, in words, where that is read off the numbers.
+        linked: bits of what links its matrix and its weights, where it is read off the numbers.
+        is_recognised: whether its numbers alone say that it is a table.
+        rivals: other readings of the same numbers, which may explain what is wrong with this one.
     """
 
     source: str
@@ -141,6 +145,10 @@ class FoundTable(Frozen):
     base: str = ""
     is_assembled: bool = False
     units: Units = ()
+    how: str = ""
+    linked: float = 0.0
+    is_recognised: bool = False
+    rivals: tuple[FoundTable, ...] = ()
 
     @property
     def colours(self) -> int:

@@ -10,6 +10,7 @@ from garkcli.sources.allowance import Allowance
 from garkcli.sources.finder import TableFinder
 from garkcli.sources.found import FoundTable, TooLarge
 from garkcli.sources.naming import METHODS
+from garkcli.sources.recognised import with_readings
 
 HINTS = re.compile(
     r"tableau|butcher|runge.?kutta|register|embedd|order|weights|nodes"
@@ -51,6 +52,6 @@ def tables_in(
     statements = lowered(text)
     try:
         finder.module(statements)
-        return finder.tables(statements, text)
+        return with_readings(finder, finder.tables(statements, text))
     except RecursionError:
         raise TooLarge("values are nested too deep", allowance.line) from None

@@ -131,12 +131,6 @@ PLANTED = {
     "mathematica, a root": ("lists.wl", "1/4 - Sqrt[3]/6}", "1/4 - Sqrt[3]/5}", "order"),
     "mathematica, a node": ("lists.wl", "{1/2 - Sqrt[3]/6, ", "{1/2 + Sqrt[3]/6, ", "nodes"),
     "mathematica, evec": ("lists.wl", "{1/4 - 1, 3/4}", "{1/4 - 1, 1/4}", "embedded-weights"),
-    "mathematica, transposed": (
-        "lists.wl",
-        "1/4 - Sqrt[3]/6}, {1/4 + Sqrt[3]/6, ",
-        "1/4 + Sqrt[3]/6}, {1/4 - Sqrt[3]/6, ",
-        "transposed",
-    ),
     "latex, a digit": ("paper.tex", "\\tfrac{2}{3}", "\\tfrac{1}{3}", "nodes"),
     "latex, a weight": ("paper.tex", "\\frac34", "\\frac14", "weights"),
     "latex, an embedded weight": ("paper.tex", "& 1 & 0\n", "& 1 & 1\n", "embedded-weights"),

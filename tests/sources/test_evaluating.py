@@ -317,11 +317,14 @@ def test_an_error_estimate_of_either_sign(sign: str, declared: str) -> None:
 
 
 def test_two_stages_of_single_numbers() -> None:
-    """One entry, two weights and the node are a table; without the node they are none."""
+    """One entry, two weights and the node are a table; without the node their numbers say so."""
     text = "function ralston(T)\n    a21 = T(2 // 3)\n    b1 = T(1 // 4)\n    b2 = T(3 // 4)\n"
     table = one("jl", f"{text}    c2 = T(2 // 3)\n    return Ralston(a21, b1, b2, c2)\nend\n")
     assert (table.A[0][0], table.b, table.is_assembled) == (RALSTON[0], (("1/4", "3/4"),), True)
-    assert julia.find(f"{text}    return Ralston(a21, b1, b2)\nend\n", "x") == []
+    (table,) = julia.find(f"{text}    return Ralston(a21, b1, b2)\nend\n", "x")
+    assert (table.A[0][0], table.b, table.is_recognised) == (RALSTON[0], (("1/4", "3/4"),), True)
+    other = text.replace("1 // 4", "1 // 3")
+    assert julia.find(f"{other}    return Ralston(a21, b1, b2)\nend\n", "x") == []
 
 
 def test_the_order_of_a_class_is_that_of_its_table() -> None:

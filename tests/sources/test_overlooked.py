@@ -32,9 +32,9 @@ class Solver:
 """
 LOW_STORAGE = """
 // low storage, three stages
-static const double alpha[3] = {0, -5.0/9, -153.0/128};
-static const double beta[3] = {1.0/3, 15.0/16, 8.0/15};
-static const double gam[3] = {0, 1.0/3, 3.0/4};
+static const double alpha[3] = {0, -5.0/7, -153.0/128};
+static const double beta[3] = {1.0/3, 15.0/16, 8.0/11};
+static const double gam[3] = {0, 1.0/5, 3.0/4};
 """
 ROSENBROCK = """
 struct default_rosenbrock_coefficients {
@@ -48,7 +48,7 @@ end
 """
 PACKED = """
 /* a triangle of Runge-Kutta in one row */
-static const double a_packed[6] = {1.0/2, 0, 3.0/4, 2.0/9, 1.0/3, 4.0/9};
+static const double a_packed[6] = {1.0/2, 0, 3.0/4, 2.0/9, 1.0/3, 5.0/7};
 """
 NAMED = """
 def rk4_step_of_func(func, time, step, value, perturbation=None, has_to_perturb=False):

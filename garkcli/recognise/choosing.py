@@ -1,0 +1,104 @@
+"""The readings of a source: of each scope the best ones, none of an array that another has."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+from garkcli.frozen import replace
+from garkcli.recognise.forms import other_readings
+from garkcli.recognise.given import VALUE, Given, Group
+from garkcli.recognise.readings import (
+    ENOUGH_FOR_DOUBT,
+    WORDS,
+    Reading,
+    by_names,
+    rk_readings,
+    with_beside,
+)
+
+MOST_ARRAYS = 120
+"""So many arrays of a scope are searched."""
+MOST_LEFT = 60
+"""So many arrays without a reading are tried with those of the scope around them."""
+NEAR = 100
+"""The same numbers in so many lines are one method."""
+
+
+def readings_of(groups: Sequence[Group]) -> Iterator[Reading]:
+    """Every reading for which something speaks, scope by scope; inner ones come first.
+
+    Args:
+        groups: each behind those that are in it.
+    """
+    left: dict[int, list[Given]] = {}
+    seen: dict[object, int] = {}
+    for group in groups:
+        own, around = group.scope
+        arrays = _unlike([*group.arrays, *left.pop(own, ())])
+        used: set[int] = set()
+        for each in _of_group(replace(group, arrays=arrays), used):
+            key = each.form, *(x[..., VALUE].tobytes() for x in each.rows.values())
+            if abs(seen.get(key, -NEAR) - each.line) >= NEAR:
+                seen[key] = each.line
+                yield each
+        if around is not None:
+            rest = [x for x in arrays if id(x) not in used]
+            left.setdefault(around, []).extend(rest[:MOST_LEFT])
+
+
+def _unlike(arrays: Sequence[Given]) -> list[Given]:
+    """Arrays, the same in a record once."""
+    found: dict[object, Given] = {}
+    for x in arrays:
+        found.setdefault((x.key, x.owner), x)
+    return list(found.values())
+
+
+def _of_group(group: Group, used: set[int]) -> Iterator[Reading]:
+    """The readings of a scope: those of its records first, then of all that is left."""
+    records: dict[str, list[Given]] = {}
+    for x in group.arrays:
+        records.setdefault(x.owner, []).append(x)
+    for owner, arrays in records.items():
+        if owner and 2 <= len(arrays) < len(group.arrays):
+            yield from _best(group, arrays, used)
+    rest = [x for x in group.arrays if id(x) not in used]
+    if rest:
+        yield from _best(group, rest, used)
+
+
+def _best(group: Group, arrays: Sequence[Given], used: set[int]) -> Iterator[Reading]:
+    """The readings of some arrays, best first; each array is the matrix of one alone."""
+    arrays = arrays[:MOST_ARRAYS]
+    rk, tried = rk_readings(arrays)
+    others, more = other_readings(arrays)
+    cost = math.log2(max(1, tried + more)) - WORDS * group.speaks
+    found = sorted([*rk, *others], key=lambda x: -x.bits)
+    alike: dict[object, list[Reading]] = {}
+    for x in rk:
+        alike.setdefault(x.matrix, []).append(x)
+    taken: set[int] = set()
+    for reading in found:
+        each = by_names(reading, alike[reading.matrix]) if reading.form == "rk" else reading
+        is_matrix = each.form in ("rk", "nystrom")
+        own = each.used[:1] if is_matrix else each.used
+        bits = each.bits - cost
+        if bits < ENOUGH_FOR_DOUBT or any(id(x) in taken for x in own):
+            continue
+        each = replace(each, bits=bits, group=group, declared=_declared(group, each))
+        if each.form == "rk":
+            each = with_beside(each, arrays)
+        taken |= {id(x) for x in each.used}
+        used |= {id(x) for x in each.used}
+        yield each
+
+
+def _declared(group: Group, reading: Reading) -> int | None:
+    """The order that is declared beside a reading: in its record, or in its scope."""
+    owner = reading.used[0].owner
+    for wanted in dict.fromkeys([owner, ""]):
+        orders = {order for name, order in group.orders if name == wanted}
+        if len(orders) == 1:
+            return orders.pop()
+    return None

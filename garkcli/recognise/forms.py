@@ -1,0 +1,257 @@
+"""Arrays that are a method in another form than its tableau: registers, convex combinations, kicks
+and drifts, second-order equations.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import permutations
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from garkcli.recognise.evidence import MOST, ROUNDING, agreement, conditions, row_sums, unit_of
+from garkcli.recognise.given import LENGTH, UNIT, VALUE, Given
+from garkcli.recognise.hypotheses import is_lower, parts_of
+from garkcli.recognise.names import MATRIX, NODES, WEIGHTS
+from garkcli.recognise.readings import Reading
+from garkcli.recognise.vectors import Vector, fitted
+
+if TYPE_CHECKING:
+    from garkcli.arrays import Floats
+
+MOST_STAGES = 60
+MOST_ARRAYS = 40
+"""So many arrays of a group are tried in pairs."""
+HIGHEST = 4
+"""Orders of derived tableaus that are tried."""
+QUADRATURE = 8
+
+
+def other_readings(arrays: Sequence[Given]) -> tuple[list[Reading], int]:
+    """The ways in which arrays are methods of other forms, and how many were tried."""
+    rows = [x for x in arrays if not x.is_matrix and 1 < len(x.rows[0]) <= MOST_STAGES]
+    rows = rows[:MOST_ARRAYS]
+    matrices = [x for x in arrays if x.is_matrix and 1 < len(x.rows) <= MOST_STAGES][:MOST_ARRAYS]
+    tried = [
+        *(each for x, y in permutations(rows, 2) for each in _of_two_rows(x, y, rows)),
+        *(_shu_osher(x, y) for x, y in permutations(matrices, 2)),
+        *(each for x in arrays[:MOST_ARRAYS] for each in _nystrom(x, rows)),
+    ]
+    return [x for x in tried if x is not None], len(tried)
+
+
+def _names(*named: bool) -> int:
+    return sum(map(bool, named))
+
+
+def _of_two_rows(x: Given, y: Given, rows: Sequence[Given]) -> Iterator[Reading | None]:
+    """The schemes of two rows: 2N registers; kicks and drifts."""
+    a, b = x.numbers, y.numbers
+    if len(a) == len(b) - 1:
+        a = np.concatenate([np.zeros((1, 4)), a])
+    if len(a) != len(b):
+        return
+    if not a[0, VALUE] and len(b) > 2:
+        yield _registers(x, a, y, b, rows)
+    if len(x.rows[0]) == len(b):
+        for form in ("drift-first", "force-first"):
+            yield _splitting(form, x, y)
+
+
+def _registers(x: Given, a: Floats, y: Given, b: Floats, rows: Sequence[Given]) -> Reading | None:
+    """Williamson's form with two registers."""
+    A, weights = _of_registers(a[:, VALUE], b[:, VALUE])
+    unit = unit_of(a, b)
+    bits, order = _of_conditions(A, weights, unit, [*a[:, LENGTH], *b[:, LENGTH]])
+    if order < 2:
+        return None
+    best, wrong, nodes = 0.0, 0, None
+    for each in rows:
+        if each in (x, y):
+            continue
+        for c in fitted(Vector(each, each.numbers), len(b)):
+            off = np.abs(A.sum(1) - c.numbers[:, VALUE])
+            is_met = off <= 1e-12 + 30 * (unit * len(b) + c.numbers[:, UNIT])
+            met = float(np.minimum(c.numbers[is_met, LENGTH], MOST).sum())
+            if (~is_met).sum() <= len(b) // 3 and met > best:
+                best, wrong, nodes = met, int((~is_met).sum()), c
+    named = MATRIX.search(x.name), WEIGHTS.search(y.name), nodes and NODES.search(nodes.of.name)
+    told = {"A": x.numbers, "b": y.numbers, **({"c": nodes.numbers} if nodes else {})}
+    used = (x, y, *([nodes.of] if nodes else []))
+    bits = bits + best - 2 + _places(*used)
+    linked = bits - 2
+    how = "the form 2N"
+    return Reading(
+        "2N",
+        told,
+        how,
+        bits,
+        order,
+        linked,
+        used,
+        x.line,
+        not wrong,
+        names=_names(*map(bool, named)),
+    )
+
+
+def _of_registers(a: Floats, b: Floats) -> tuple[Floats, Floats]:
+    s = len(b)
+    A, d, y = np.zeros((s, s)), np.zeros(s), np.zeros(s)
+    for i in range(s):
+        A[i] = y
+        d = a[i] * d
+        d[i] += 1
+        y = y + b[i] * d
+    return A, y
+
+
+def _of_conditions(A: Floats, b: Floats, unit: float, lengths: list[float]) -> tuple[float, int]:
+    """The bits of the order conditions of a tableau that was derived, and its order."""
+    left = sorted(lengths, reverse=True)
+    bits, order = 0.0, 0
+    if not np.isfinite(A).all() or np.abs(A).max(initial=0) > 1e6:
+        return 0.0, 0
+    for q, (residuals, sizes) in enumerate(conditions(A, b), start=1):
+        explained = (100 * unit * len(b) + 1e-13) * np.maximum(1, sizes)
+        if q > HIGHEST or (np.abs(residuals) > explained).any():
+            break
+        for x, size, tolerance in zip(residuals, sizes, explained, strict=True):
+            bits += min(agreement(x, size, tolerance), left.pop(0) if left else 0.0)
+        order = q
+    return bits, order
+
+
+def _splitting(form: str, drifts: Given, kicks: Given) -> Reading | None:
+    """Drifts and kicks in turns."""
+    a, b = drifts.numbers[:, VALUE], kicks.numbers[:, VALUE]
+    tolerance = ROUNDING + 12 * unit_of(drifts.numbers, kicks.numbers) * len(b)
+    if any(abs(z.sum() - 1) >= tolerance or np.abs(z).max() > 1e3 for z in (a, b)):
+        return None
+    if (a == b).all() or np.count_nonzero(a) + np.count_nonzero(b) <= 2:
+        return None
+    ends_a, ends_b = np.cumsum(a), np.cumsum(b)
+    begins_a, begins_b = ends_a - a, ends_b - b
+    C, D = (ends_a, begins_b) if form == "drift-first" else (begins_a, ends_b)
+    left = sorted([*drifts.numbers[:, LENGTH], *kicks.numbers[:, LENGTH]], reverse=True)
+    bits, order = left.pop(0) + left.pop(0), 1
+    for q in (2, 3, 4):
+        # b·C = 1/2 is the same condition as a·D = 1/2
+        pairs = [(b, C), *([] if q == 2 else [(a, D)])]
+        residuals = [float(x @ y ** (q - 1)) - 1 / q for x, y in pairs]
+        if any(abs(z) > 5 * tolerance for z in residuals):
+            break
+        order = q
+        bits += sum(
+            min(left.pop(0) if left else 0.0, agreement(z, 1, tolerance)) for z in residuals
+        )
+    if order < 2:
+        return None
+    told = {"drifts": drifts.numbers, "kicks": kicks.numbers}
+    how = "drifts and kicks in turns"
+    return Reading(
+        form,
+        told,
+        how,
+        bits - 2 + _places(drifts, kicks),
+        order,
+        bits,
+        (drifts, kicks),
+        drifts.line,
+    )
+
+
+def _shu_osher(x: Given, y: Given) -> Reading | None:
+    """Convex combinations: α with row sums 1, and β."""
+    alpha, beta = x.numbers, y.numbers
+    n = len(alpha)
+    if len(beta) != n or max(alpha.shape[1], beta.shape[1]) > n:
+        return None
+    if not (is_lower(alpha) and is_lower(beta)):
+        return None
+    sums = alpha[..., VALUE].sum(1)
+    first = int(not sums[0])
+    explained = 1e-10 + 12 * alpha[..., UNIT].sum(1).max()
+    if n - first < 2 or np.abs(sums[first:] - 1).max() > explained:
+        return None
+    alpha, beta = alpha[first:], beta[first:]
+    A, b = _of_combinations(alpha[..., VALUE], beta[..., VALUE])
+    lengths = [*alpha[..., LENGTH].ravel(), *beta[..., LENGTH].ravel()]
+    bits, order = _of_conditions(A, b, unit_of(alpha, beta), lengths)
+    if not order:
+        return None
+    several = np.count_nonzero(alpha[..., VALUE], axis=1) > 1
+    linked = bits
+    bits += float(np.minimum(30, alpha[several][..., LENGTH].max(1, initial=0)).sum())
+    told = {"alpha": alpha, "beta": beta}
+    bits += _places(x, y) - 2
+    return Reading(
+        "Shu–Osher", told, "the form of Shu and Osher", bits, order, linked, (x, y), x.line
+    )
+
+
+def _of_combinations(alpha: Floats, beta: Floats) -> tuple[Floats, Floats]:
+    s = len(alpha)
+    Y = np.zeros((s + 1, s))
+    for i in range(s):
+        for j in range(min(i + 1, alpha.shape[1])):
+            Y[i + 1] += alpha[i, j] * Y[j]
+        for j in range(min(i + 1, beta.shape[1])):
+            Y[i + 1, j] += beta[i, j]
+    return Y[:s], Y[s]
+
+
+def _nystrom(x: Given, rows: Sequence[Given]) -> Iterator[Reading | None]:
+    """Ā with row sums c²/2, weights b of velocities, and b̄ of positions."""
+    for parts in parts_of(x):
+        A = parts.A
+        if parts.c is not None or parts.weights or len(A) < 2:
+            continue
+        whole = [z for w in rows if w is not x for z in fitted(Vector(w, w.numbers), len(A))]
+        for c in whole:
+            yield None
+            off, sizes, explained = row_sums(A, c.numbers, power=2)
+            if not c.numbers[:, VALUE].any() or (np.abs(off) > explained + 1e-14).any():
+                continue
+            lengths = np.maximum(A[..., LENGTH].max(1), c.numbers[:, LENGTH])
+            row_bits = float(np.minimum(40, lengths[sizes > 0]).sum())
+            for b in whole:
+                if b.of is not c.of and abs(b.total - 1) <= b.rounding:
+                    yield _with_velocities(x, A, b, c, whole, row_bits, parts.how)
+
+
+def _with_velocities(
+    x: Given, A: Floats, b: Vector, c: Vector, rows: Sequence[Vector], row_bits: float, stored: str
+) -> Reading | None:
+    weights, nodes = b.numbers[:, VALUE], c.numbers[:, VALUE]
+    lengths = sorted(b.numbers[:, LENGTH], reverse=True)
+    tolerance = 1e-12 + 30 * (b.numbers[:, UNIT].sum() + c.numbers[:, UNIT].max())
+    linked, order = float(lengths.pop(0)), 1
+    for q in range(2, QUADRATURE):
+        if abs(weights @ nodes ** (q - 1) - 1 / q) > tolerance:
+            break
+        linked, order = linked + (float(lengths.pop(0)) if lengths else 0.0), q
+    if order < 2:
+        return None
+    best, of_q = 0.0, None
+    for each in rows:
+        if each.of in (b.of, c.of) or abs(each.total - 0.5) >= 1e-12 + each.rounding:
+            continue
+        wide = 1e-12 + 30 * unit_of(b.numbers, each.numbers)
+        is_usual = np.abs(weights * (1 - nodes) - each.numbers[:, VALUE]).max() < wide
+        found = each.numbers[:, LENGTH]
+        bits = float(found.sum() if is_usual else found.max())
+        best, of_q = (bits, each) if bits > best else (best, of_q)
+    used = tuple(dict.fromkeys([x, b.of, c.of, *([of_q.of] if of_q else [])]))
+    told = {"A_q": A, "b": b.numbers, "c": c.numbers, **({"b_q": of_q.numbers} if of_q else {})}
+    how = "; ".join(filter(None, ["for second-order equations", stored]))
+    names = _names(bool(WEIGHTS.search(b.of.name)), bool(NODES.search(c.of.name)), True)
+    bits = row_bits + linked + best - 1 + _places(*used)
+    linked += row_bits
+    return Reading("nystrom", told, how, bits, order, linked, used, x.line, names=names)
+
+
+def _places(first: Given, *others: Given) -> float:
+    """Bits against arrays of several records."""
+    return -8.0 * sum(x.owner != first.owner for x in others)

@@ -1,0 +1,126 @@
+"""What is given: arrays of numbers with names and places, each number with what its text says."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from flint import fmpq
+
+from garkcli.frozen import Frozen
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from garkcli.arrays import Floats
+
+VALUE, UNIT, LENGTH, AT = range(4)
+"""What the last axis of an array of numbers has, see ``Entry``."""
+MOST_BITS = 52.0
+"""No number counts for more."""
+PER_DIGIT = 3.32
+FLOAT = 4e-16
+"""By how much of itself a float may be off."""
+
+
+class Entry(NamedTuple):
+    """A number.
+
+    Attributes:
+        value: of it.
+        unit: by how much it may be off.
+        bits: how long its description is, as far as that counts.
+        at: where it is in the list of all numbers.
+    """
+
+    value: float
+    unit: float
+    bits: float
+    at: int
+
+
+NOTHING = Entry(0.0, 0.0, 0.0, 0)
+"""A zero that nobody wrote."""
+
+
+class Given(Frozen, eq=False):
+    """An array.
+
+    Attributes:
+        name: of it, behind those of the records that it is in.
+        line: where it is, from 1.
+        rows: its numbers; of a vector there is one row.
+        is_matrix: whether it is more than that row.
+        is_made: whether it was put together, of single numbers or rows with like names.
+    """
+
+    name: str
+    line: int
+    rows: tuple[tuple[Entry, ...], ...]
+    is_matrix: bool = False
+    is_made: bool = False
+
+    @property
+    def owner(self) -> str:
+        """The record that it is in; empty for none."""
+        return self.name.rpartition(".")[0]
+
+    @property
+    def key(self) -> object:
+        """The same for arrays of the same numbers."""
+        return self.is_matrix, tuple(tuple(x.value for x in row) for row in self.rows)
+
+    @property
+    def numbers(self) -> Floats:
+        """Shape (columns, 4), or (rows, columns, 4) for a matrix, zeros behind short rows."""
+        if not self.is_matrix:
+            return np.array(self.rows[0], dtype=float)
+        found = np.zeros((len(self.rows), max(map(len, self.rows)), 4))
+        for i, row in enumerate(self.rows):
+            if row:
+                found[i, : len(row)] = row
+        return found
+
+    def __repr__(self) -> str:
+        return f"<Given {self.name}, line {self.line}>"
+
+
+class Group(Frozen, eq=False):
+    """The arrays of a scope.
+
+    Attributes:
+        scope: what tells it from others, and the one around it.
+        line: where it begins.
+        title: what people call it.
+        arrays: in it.
+        orders: whole numbers that are called orders, by the records that they are in.
+        speaks: whether words around it speak of methods.
+    """
+
+    scope: tuple[int, int | None]
+    line: int
+    title: str
+    arrays: Sequence[Given]
+    orders: Sequence[tuple[str, int]] = ()
+    speaks: bool = False
+
+
+def bits_of(value: fmpq) -> float:
+    """How long a fraction is, or the decimal that it is, in bits.
+
+    >>> bits_of(fmpq(1, 6)), round(bits_of(fmpq(123, 1000)), 2)
+    (3.584962500721156, 9.96)
+    """
+    p, q = abs(int(value.p)), int(value.q)
+    if not p:
+        return 0.0
+    long = math.log2(p + 1) + math.log2(q)
+    rest = q
+    for prime in (2, 5):
+        while not rest % prime:
+            rest //= prime
+    if rest == 1 and q > 1:
+        places = next(k for k in range(1, q.bit_length() + 1) if not 10**k % q)
+        long = min(long, PER_DIGIT * len(str(p * 10**places // q)))
+    return min(long, MOST_BITS)

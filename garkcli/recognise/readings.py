@@ -1,0 +1,330 @@
+"""What arrays may be: of all ways in which they are a method those for which most speaks."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from garkcli.frozen import Frozen, replace
+from garkcli.recognise.evidence import Evidence, evidence, order_of, row_sums, unit_of
+from garkcli.recognise.given import LENGTH, UNIT, VALUE, Given, Group
+from garkcli.recognise.hypotheses import Parts, is_lower, parts_of
+from garkcli.recognise.names import EMBEDDED, MATRIX, NODES, WEIGHTS
+from garkcli.recognise.vectors import Vector, fitted, sums_of, vectors_of
+
+if TYPE_CHECKING:
+    from garkcli.arrays import Floats
+
+NEAREST = 24
+"""So many vectors near a matrix are tried."""
+MOST_NODES = 3
+"""So many of those that fit best are tried with each weights."""
+FAR = 0.2
+"""Weights have a sum that is nearer to 1, one wrong number among them."""
+BESIDE = 60
+"""Arrays in so many lines may be of one method."""
+ELSEWHERE = 8.0
+"""Bits that an array of another record costs."""
+OFF = 8.0
+"""Bits that a wrong sum costs."""
+ONE_WRONG = 6.0
+"""Bits that a wrong entry costs beside those that tell where it is."""
+LAST_ROW = 3.0
+MOST_TRIED = 5_000
+"""So many hypotheses are tried for the arrays of a scope."""
+WORDS = 3.0
+"""Bits of words that speak of methods."""
+ENOUGH_WITH_NAMES, ENOUGH = 4.0, 10.0
+"""More bits make a reading."""
+ENOUGH_FOR_DOUBT = 3.0
+"""And so many a doubt about another one."""
+
+
+class Reading(Frozen, eq=False):
+    """Arrays as a method.
+
+    Attributes:
+        form: ``rk``, or one that is made a tableau first: ``2N``, ``Shu–Osher``, ``nystrom``,
+            ``drift-first``, ``force-first``.
+        rows: its numbers by their roles; A, b, c, embedded of ``rk``.
+        how: they are stored, in words.
+        bits: that speak for it.
+        order: as far as floats tell.
+        linked: bits of what links matrix and weights.
+        used: the arrays.
+        is_plain: whether every identity holds that is tried.
+        is_embedding: whether there are embedded weights of order 1 at least.
+        idle: arrays beside it with names of nodes or weights, and no role.
+        names: how many roles have a name that suggests them.
+        line: where its matrix is.
+        group: the scope that it is of.
+        declared: the order that is declared beside it.
+        evidence: of its tableau, where it is given as one.
+        weights: the array of b, unless that is the one of A.
+        matrix: what readings have in common that differ in weights alone.
+    """
+
+    form: str
+    rows: dict[str, Floats]
+    how: str
+    bits: float
+    order: int
+    linked: float
+    used: tuple[Given, ...]
+    line: int
+    is_plain: bool = True
+    idle: tuple[Given, ...] = ()
+    names: int = 0
+    group: Group | None = None
+    declared: int | None = None
+    evidence: Evidence | None = None
+    weights: Given | None = None
+    matrix: object = None
+
+    @property
+    def is_enough(self) -> bool:
+        """Whether so much speaks for it that it is read."""
+        speaks = self.group is not None and self.group.speaks
+        has_names = self.names > 2 or (self.names > 1 and speaks)
+        return self.bits > (ENOUGH_WITH_NAMES if has_names else ENOUGH)
+
+
+def rk_readings(arrays: Sequence[Given]) -> tuple[list[Reading], int]:
+    """The ways in which arrays are Runge–Kutta methods, and how many were tried."""
+    search = _Search(arrays)
+    found: list[Reading] = []
+    for each in arrays:
+        if search.tried < MOST_TRIED:
+            found += search.with_matrix(each)
+    return found, search.tried
+
+
+class _Search:
+    """The search among the arrays of a group."""
+
+    def __init__(self, arrays: Sequence[Given]) -> None:
+        self._vectors = [x for each in arrays for x in vectors_of(each)]
+        self._sums = [x for each in arrays for x in sums_of(each)]
+        self.tried = 0
+
+    def with_matrix(self, of: Given) -> Iterator[Reading]:
+        """Those whose matrix is in an array."""
+        for parts in parts_of(of):
+            s = len(parts.A)
+            if parts.needs_nodes and parts.c is not None:
+                off, _, explained = row_sums(parts.A, parts.c)
+                if (np.abs(off) > explained).any():
+                    continue
+            near = [
+                x
+                for x in self._vectors
+                if x.of is not of and (abs(len(x.numbers) - s) <= 1 or s < len(x.numbers) <= s + 8)
+            ]
+            near = sorted(near, key=lambda x: abs(x.of.line - of.line))[:NEAREST]
+            for c in self._nodes(of, parts, near):
+                for b in self._weights(of, parts, near):
+                    found = self._reading(of, parts, b, c)
+                    if found is not None:
+                        yield found
+
+    def _nodes(self, of: Given, parts: Parts, near: Sequence[Vector]) -> list[Vector | None]:
+        """The vectors that may be the nodes, and that there are none."""
+        if parts.c is not None:
+            return [Vector(of, parts.c)]
+        s = len(parts.A)
+        sums = [x for x in self._sums if x.of is not of and len(x.numbers) == s > 2]
+        sums = [x for x in sums if abs(x.of.line - of.line) < 80 and not _is_alike(x.of, parts.A)]
+        found: list[tuple[int, Vector]] = []
+        for each in (*near, *sums):
+            for c in fitted(each, s):
+                if c.is_cut_in_front and parts.A[-1, :, VALUE].any():
+                    continue
+                self.tried += 1
+                off, sizes, explained = row_sums(parts.A, c.numbers)
+                wrong = int((np.abs(off) > explained).sum())
+                most = 0 if s <= 2 else max(1, int((sizes > 0).sum()) // 3)
+                is_named = s == 2 and wrong == 1 and not c.numbers[0, VALUE]
+                is_named = is_named and NODES.search(each.of.name) is not None
+                if (c.numbers[:, VALUE].any() and wrong <= most) or is_named:
+                    found.append((wrong, c))
+        best = sorted(found, key=lambda x: x[0])[:MOST_NODES]
+        return [*(c for _, c in best), None]
+
+    def _weights(self, of: Given, parts: Parts, near: Sequence[Vector]) -> list[Vector]:
+        """The vectors that may be the weights."""
+        if parts.weights:
+            return [Vector(of, x) for x in parts.weights]
+        s = len(parts.A)
+        found: list[Vector] = []
+        for each in near:
+            if each.is_behind_first and parts.c is None:
+                continue
+            for b in fitted(each, s):
+                if b.is_behind_zero:
+                    continue
+                self.tried += 1
+                off = abs(b.total - 1)
+                if off <= b.rounding:
+                    found.append(b)
+                elif off < FAR and s > 2:
+                    found.append(replace(b, is_off=True))
+        last = Vector(of, parts.A[-1], is_last_row=True)
+        return [*found, *([last] if abs(last.total - 1) < 1e-6 else [])]
+
+    def _reading(self, of: Given, parts: Parts, b: Vector, c: Vector | None) -> Reading | None:
+        """A matrix with weights and nodes; None if too little speaks for it."""
+        beside = [x for x in (b, c) if x is not None and x.of is not of]
+        versions = [x for x in beside if x.of.name == of.name and not x.is_sum]
+        is_twice = c is not None and b.of is c.of is not of and b.which == c.which and not c.is_sum
+        if versions or is_twice:
+            return None
+        self.tried += 1
+        s, nodes = len(b.numbers), None if c is None else c.numbers
+        found = evidence(parts.A, b.numbers, nodes)
+        plain = found.bits - 4 * len(found.wrong_rows)
+        bits = plain
+        if s > 2 and (b.is_off or len(found.wrong_rows) == 1):
+            mended = _mended(parts.A, b.numbers, nodes, found, b.is_off)
+            if b.is_off and mended < 0:
+                return None
+            bits = max(bits, mended)
+        is_named = bool(MATRIX.search(of.name) and WEIGHTS.search(b.of.name))
+        if bits <= 0 or (bits == plain and found.nearly < 2):
+            # of order 1: rows of several terms, in one record, or with all names
+            is_one = found.nearly == 1 and not (b.is_off or found.wrong_rows)
+            is_near = parts.weights or (b.of is not of and b.of.owner == of.owner)
+            has_rows = c is not None and found.several >= (1 if s <= 2 else 2)
+            names_say = parts.weights or (
+                is_named and (parts.c is not None or (c and NODES.search(c.of.name)))
+            )
+            if not (bits > 0 and is_one and is_near and has_rows and names_say):
+                return None
+        prior, names = _prior(of, parts, b, c)
+        used = tuple(dict.fromkeys([of, *(x.of for x in beside if not x.is_sum)]))
+        rows = {"A": parts.A, "b": b.numbers, **({} if c is None or c.is_sum else {"c": c.numbers})}
+        how = "; ".join(filter(None, [parts.how, *(x.how for x in beside)]))
+        if b.is_last_row:
+            how = f"{how}; b is its last row" if how else "b is the last row"
+        is_plain = found.is_plain and not b.is_off and not (c is not None and c.is_sum)
+        return Reading(
+            "rk",
+            rows,
+            how,
+            bits + prior,
+            found.order,
+            found.linked,
+            used,
+            of.line,
+            is_plain,
+            names=names,
+            evidence=found,
+            weights=b.of if b.of is not of else None,
+            matrix=(id(of), parts.how, None if c is None else (id(c.of), c.which)),
+        )
+
+
+def _is_alike(other: Given, A: Floats) -> bool:
+    """Whether two matrices have most rows in common, which say nothing then, or one is turned."""
+    M = np.zeros(A.shape[:2])
+    numbers = other.numbers[..., VALUE]
+    r, k = min(len(M), len(numbers)), min(len(M), numbers.shape[1])
+    M[:r, :k] = numbers[:r, :k]
+    same = np.abs(M - A[..., VALUE]).max(1) < 1e-9 * (1 + np.abs(M).max(1))
+    return bool(same.sum() > len(M) // 2 or np.allclose(M.T, A[..., VALUE]))
+
+
+def _prior(of: Given, parts: Parts, b: Vector, c: Vector | None) -> tuple[float, int]:
+    """Bits of the shape, of names, of places; and how many names there are."""
+    prior = parts.prior - OFF * b.is_off - LAST_ROW * b.is_last_row
+    named = [bool(MATRIX.search(of.name))]
+    prior += 1.5 * named[0]
+    if b.of is not of:
+        named.append(bool(WEIGHTS.search(b.of.name)))
+        prior += 2.0 * named[-1] - 1.5 * bool(EMBEDDED.search(b.of.name))
+    if c is not None and c.is_sum:
+        prior -= 3.0
+    elif c is not None and c.of is not of:
+        named.append(bool(NODES.search(c.of.name)))
+        prior += 1.5 * named[-1]
+    prior += 2.0 * (sum(named) == 3)
+    for x in (b, c):
+        if x is not None and x.of is not of:
+            prior -= ELSEWHERE * (x.of.owner != of.owner)
+            prior -= min(ELSEWHERE, math.log2(1 + abs(x.of.line - of.line) / 15))
+    return prior, sum(named)
+
+
+def _mended(A: Floats, b: Floats, c: Floats | None, found: Evidence, is_off: bool) -> float:
+    """Bits of the best table that differs by one entry, less what it costs to name that."""
+    best: float | None = None
+    count = int((A[..., VALUE] != 0).sum()) + 2 * len(b)
+    if is_off:
+        for j in range(len(b)):
+            other = b.copy()
+            other[j, VALUE] += 1 - b[:, VALUE].sum()
+            other[j, LENGTH] = 0
+            each = evidence(A, other, c)
+            if each.nearly >= 2 and not each.wrong_rows:
+                best = each.bits if best is None else max(best, each.bits)
+    elif c is not None:
+        (i,) = found.wrong_rows
+        lower = is_lower(A)
+        for j in range(len(b)):
+            if (lower and j > i) or (not A[i, j, VALUE] and len(b) > 8):
+                continue
+            matrix = A.copy()
+            matrix[i, j, VALUE] += c[i, VALUE] - A[i, :, VALUE].sum()
+            matrix[i, j, LENGTH] = 0
+            each = evidence(matrix, b, c)
+            if each.nearly >= 3 or (each.nearly >= 2 and each.several >= 4):
+                best = each.bits if best is None else max(best, each.bits)
+    return -1e9 if best is None else best - math.log2(count) - ONE_WRONG
+
+
+def with_beside(reading: Reading, group: Iterable[Given]) -> Reading:
+    """A reading with embedded weights, and with the arrays that have names of its parts and no role
+    in it.
+    """
+    A, b, c = (reading.rows.get(x) for x in "Abc")
+    assert A is not None
+    assert b is not None
+    sums, unit = A[..., VALUE].sum(1), unit_of(A, b)
+    rows, used, idle = dict(reading.rows), reading.used, []
+    for each in (x for given in group for x in vectors_of(given)):
+        if each.of in reading.used or len(each.numbers) != len(b) or each.is_behind_first:
+            continue
+        v = each.numbers[:, VALUE]
+        if any(x is not None and np.array_equal(v, x[:, VALUE]) for x in (b, c)):
+            continue
+        if abs(each.of.line - reading.line) > BESIDE or each.of.owner != reading.used[0].owner:
+            continue
+        off, is_error = each.total - 1, abs(each.total) <= each.rounding
+        is_low = abs(off) <= each.rounding and order_of(A[..., VALUE], v, unit, 2) > 0
+        if "embedded" not in rows and "error" not in rows and (is_low or is_error) and v.any():
+            rows["error" if is_error else "embedded"] = each.numbers
+            used = (*used, each.of)
+        elif not (is_low or is_error) and WEIGHTS.search(each.of.name):
+            idle.append(each.of)
+        elif c is None and NODES.search(each.of.name) and not WEIGHTS.search(each.of.name):
+            wide = 30 * (each.numbers[:, UNIT] + A[..., UNIT].sum(1)) + 1e-12
+            idle += [each.of] if (np.abs(v - sums) > wide).any() else []
+    return replace(reading, rows=rows, used=used, idle=tuple(dict.fromkeys(idle)))
+
+
+def by_names(reading: Reading, others: Sequence[Reading]) -> Reading:
+    """Of readings that differ in weights, which all fit, the one that names say, else the first:
+    never that of the higher order.
+    """
+    if reading.weights is None or reading.linked <= 6:
+        return reading
+    fits = [x for x in others if x.weights is not None and x.evidence and x.evidence.nearly >= 2]
+
+    def rank(x: Reading) -> tuple[bool, bool, int]:
+        assert x.weights is not None
+        name = x.weights.name
+        return bool(EMBEDDED.search(name)), not WEIGHTS.search(name), x.weights.line
+
+    return min(fits, key=rank, default=reading)

@@ -1,0 +1,341 @@
+"""Every array of numbers of a source, scope by scope, whatever it is called."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import pairwise
+
+from garkcli.frozen import Mutable, field
+from garkcli.recognise.given import (
+    FLOAT,
+    MOST_BITS,
+    NOTHING,
+    PER_DIGIT,
+    Entry,
+    Given,
+    Group,
+    bits_of,
+)
+from garkcli.sources import ir
+from garkcli.sources.allowance import Allowance
+from garkcli.sources.evaluate import Evaluator, Space
+from garkcli.sources.naming import METHODS
+from garkcli.sources.values import (
+    FILL,
+    Array,
+    Null,
+    Number,
+    Record,
+    Unknown,
+    Value,
+    items_of,
+    whole,
+)
+
+MOST_ENTRIES = 2_000
+"""Longer arrays are data."""
+LARGEST = 1e12
+"""No coefficient is larger."""
+MOST_LEVELS = 5
+_DECIMAL = re.compile(r"[-+]?(\d*)\.?(\d*)(?:e([-+]?\d+))?")
+_LONG = re.compile(r"\d+\.(\d{5,})")
+_FAMILY = re.compile(
+    r"(?P<stem>.*?[^\d_])_?(?P<i>\d{1,4})(?:_(?P<j>\d{1,2}))?(?P<tail>_?[A-Za-z]*)"
+)
+_ROW = re.compile(r"(?P<stem>.*?[^\d_])_?(?P<i>\d{1,2})(?P<tail>\D*)")
+_INDICES = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
+_SETTER = re.compile(r"set|fill|assign", re.IGNORECASE)
+_ORDER = re.compile(
+    r"(?:^|[._])(?:p|q|order\w*|rk_?order|expected_order|__order__|p_?order|ord)$", re.IGNORECASE
+)
+MOST_INDEX = 40
+MOST_ORDER = 20
+
+_Rows = tuple[tuple[Entry, ...], ...]
+_Numbers = dict[tuple[int, ...], tuple[Entry, int]]
+
+
+class Harvester(Evaluator):
+    """Evaluates a source, and keeps the arrays of each of its scopes.
+
+    Args:
+        source: what it is called.
+        format: of its language.
+        base, allowance, is_growing, has_whole_quotients: as those of an evaluator.
+
+    Attributes:
+        groups: the scopes, inner ones first.
+        harvest: their arrays.
+    """
+
+    def __init__(
+        self, source: str, format: str, base: int, allowance: Allowance, *is_so: bool
+    ) -> None:
+        super().__init__(base, allowance, *is_so)
+        self.source = source
+        self.format = format
+        self.groups: list[Group] = []
+        self.harvest = Harvest()
+        self._before: dict[int, list[Given]] = defaultdict(list)
+        self._placed: dict[tuple[int, str], _Numbers] = defaultdict(dict)
+        self._handles: dict[int, tuple[int, Space]] = {}
+
+    def replaced(self, scope: ir.Scope, space: Space, name: str) -> None:
+        """What an array was before it is assigned anew is an array, too."""
+        line = space.lines.get(name, scope.line)
+        self._before[id(space)] += self.harvest.arrays(name, space[name], line)
+
+    def refilled(self, scope: ir.Scope, record: Record, name: str) -> None:
+        """The same of a field."""
+        del scope
+        path = f"{record.key or record.kind}.{name}"
+        self._before[0] += self.harvest.arrays(path, record.fields.get(name), self.line)
+
+    def ended(self, scope: ir.Scope, space: Space) -> None:
+        """The arrays of a scope."""
+        found = Gathered()
+        for name, value in space.items():
+            self.harvest.gather(name, value, space.lines.get(name, scope.line), found)
+        for record in space.calls:
+            self.harvest.gather(record.key or record.kind, record, record.line, found)
+        arrays = found.arrays
+        if isinstance(space.returned, Array | Record):
+            arrays += self.harvest.arrays(scope.name, space.returned, scope.line)
+        arrays += self._before.pop(id(space), []) + self._before.pop(0, [])
+        for (owner, name), numbers in list(self._placed.items()):
+            if owner == id(space):
+                del self._placed[owner, name]
+                if len({*map(len, numbers)}) == 1:
+                    arrays += _filled(name, numbers, scope.line, self.base)
+        known = {x.key for x in arrays}
+        arrays += [x for x in _families(found.singles) if x.key not in known]
+        arrays += _of_rows(arrays)
+        if not arrays and id(space) not in self._handles:
+            return
+        around = None if space.up is None else self._handle(space.up)
+        words = " ".join([*(x.name for x in self._scopes), scope.title])
+        place = self._handle(space), around
+        speaks = bool(METHODS.search(words))
+        self.groups.append(Group(place, scope.line, scope.title, arrays, found.orders, speaks))
+
+    def _handle(self, space: Space) -> int:
+        """What tells a scope from others, also when it is gone."""
+        return self._handles.setdefault(id(space), (len(self._handles), space))[0]
+
+    def _called(self, call: ir.Call, space: Space) -> Value:
+        name = call.callee.name if isinstance(call.callee, ir.Name | ir.Field) else ""
+        if len(call.args) in (2, 3) and not call.named and _SETTER.match(name):
+            *at, number = [self.value(x, space) for x in call.args]
+            places = [n for x in at if (n := whole(x)) is not None and 0 <= n <= MOST_INDEX]
+            is_known = isinstance(number, Number) and _is_moderate(number)
+            if len(places) == len(at) and isinstance(number, Number) and is_known:
+                entry = self.harvest.entry(number)
+                self._placed[id(space), name][tuple(places)] = entry, self.line
+        return super()._called(call, space)
+
+
+class Gathered(Mutable):
+    """What a scope has.
+
+    Attributes:
+        arrays: of numbers.
+        singles: single numbers, with their lines.
+        orders: whole numbers that are called orders, by the records that they are in.
+    """
+
+    arrays: list[Given] = field(default_factory=list)
+    singles: dict[str, tuple[Entry, int]] = field(default_factory=dict)
+    orders: list[tuple[str, int]] = field(default_factory=list)
+
+
+class Harvest:
+    """The numbers of a source.
+
+    Attributes:
+        numbers: all of them, by the places that entries have.
+    """
+
+    def __init__(self) -> None:
+        self.numbers: list[Number] = [FILL]
+
+    def gather(self, name: str, value: Value, line: int, found: Gathered) -> None:
+        """The arrays, single numbers and orders that a value has."""
+        numbers: Mapping[str, Value] = {name: value}
+        if isinstance(value, Record):
+            line = value.line or line
+            numbers = {f"{name}.{key}": x for key, x in value.fields.items()}
+        for key, x in numbers.items():
+            if isinstance(x, Number) and x.is_given and _is_moderate(x):
+                found.singles[key] = self.entry(x), line
+                n = whole(x)
+                if n is not None and 1 <= n <= MOST_ORDER and _ORDER.search(key):
+                    found.orders.append((key.rpartition(".")[0], n))
+        if isinstance(value, Array | Record):
+            found.arrays += self.arrays(name, value, line)
+
+    def arrays(self, name: str, value: Value | None, line: int, level: int = 0) -> Iterator[Given]:
+        """The arrays of numbers in a value, at whatever depth."""
+        if level > MOST_LEVELS:
+            return
+        if isinstance(value, Record):
+            line = value.line or line
+            rows = [x for x in value.fields.values() if isinstance(x, Array)]
+            if len(rows) == len(value.fields) > 1 and all(map(str.isdigit, value.fields)):
+                yield from self.arrays(name, Array([*rows]), line, level + 1)
+                return
+            for key, x in value.fields.items():
+                yield from self.arrays(f"{name}.{key}" if name else key, x, line, level + 1)
+            for i, x in enumerate(value.args):
+                yield from self.arrays(f"{name or value.kind}.{i}", x, line, level + 1)
+        elif isinstance(value, Array) and 0 < len(value.items) <= MOST_ENTRIES:
+            yield from self._ofitems_of(name, [_flatter(x) for x in value.items], line, level)
+
+    def _ofitems_of(self, name: str, items: list[Value], line: int, level: int) -> Iterator[Given]:
+        inner = [x for x in items if isinstance(x, Array)]
+        if not inner:
+            row = self._row(items)
+            if row is not None:
+                if len(row) > 1 or row[0].value:
+                    yield Given(name, line, (row,))
+                return
+        elif len(items) == 1:
+            yield from self.arrays(name, items[0], line, level + 1)
+            return
+        elif all(isinstance(x, Array) or _is_empty(x) for x in items):
+            rows = [self._row(x.items) if isinstance(x, Array) else () for x in items]
+            whole_rows = tuple(x for x in rows if x is not None)
+            if len(whole_rows) == len(rows) and sum(map(len, whole_rows)) > 1:
+                if all(len(x) == 1 for x in whole_rows):
+                    yield Given(name, line, (tuple(x[0] for x in whole_rows),))
+                else:
+                    yield Given(name, line, whole_rows, is_matrix=True)
+                return
+        pairs = [x.items for x in inner if len(x.items) == 2 and isinstance(x.items[1], Array)]
+        if len(pairs) == len(items) > 1:
+            # {c, {a, …}}
+            nodes, rows = (
+                self._row([x[0] for x in pairs]),
+                [self._row(items_of(x[1])) for x in pairs],
+            )
+            known = tuple(x for x in rows if x is not None)
+            if nodes is not None and len(known) == len(rows) and any(known):
+                yield Given(f"{name}.c", line, (nodes,))
+                yield Given(f"{name}.A", line, known, is_matrix=True)
+                return
+        for i, x in enumerate(items):
+            if isinstance(x, Array | Record):
+                yield from self.arrays(f"{name}.{i}", x, line, level + 1)
+
+    def _row(self, items: Iterable[Value]) -> tuple[Entry, ...] | None:
+        """Some numbers; None if one of them is not known."""
+        found: list[Entry] = []
+        for x in items:
+            if isinstance(x, Number) and _is_moderate(x):
+                found.append(self.entry(x))
+            elif _is_empty(x) and not isinstance(x, Null):
+                found.append(NOTHING)
+            else:
+                return None
+        return tuple(found)
+
+    def entry(self, x: Number) -> Entry:
+        """A number with what its text says."""
+        if x is FILL or x.is_zero:
+            return NOTHING
+        self.numbers.append(x)
+        at, least = len(self.numbers) - 1, abs(x.near) * FLOAT
+        if x.written is None:
+            return Entry(x.near, least, 20.0 if x.value is None else bits_of(x.value), at)
+        text = x.written.text.strip("()").lower()
+        plain = _DECIMAL.fullmatch(text)
+        if plain:
+            digits = len((plain[1] + plain[2]).lstrip("0"))
+            unit = 10.0 ** (int(plain[3] or 0) - len(plain[2])) if digits < 19 else 0.0
+            return Entry(x.near, max(unit, least), min(MOST_BITS, PER_DIGIT * digits), at)
+        places = min((len(d) for d in _LONG.findall(text)), default=0)
+        if places:
+            # computed of decimals
+            unit = 3 * 10.0**-places * max(1.0, abs(x.near))
+            return Entry(x.near, max(unit, least), min(MOST_BITS, PER_DIGIT * places), at)
+        return Entry(x.near, least, min(40.0, 1.5 * len(text)), at)
+
+
+def _families(singles: Mapping[str, tuple[Entry, int]]) -> Iterator[Given]:
+    """Numbers whose names differ in their indices: ``a21``, ``b_1``."""
+    families: dict[tuple[str, int], _Numbers] = defaultdict(dict)
+    for name, (entry, line) in singles.items():
+        found = _FAMILY.fullmatch(name.translate(_INDICES))
+        if found is None:
+            continue
+        stem = f"{found['stem']}{found['tail']}"
+        i, j = found["i"], found["j"]
+        if j is not None:
+            families[stem, 2][int(i), int(j)] = entry, line
+            continue
+        if len(i) > 1:
+            cut = len(i) - 1 - (len(i) == 4)
+            families[stem, 2][int(i[:cut]), int(i[cut:])] = entry, line
+        if len(i) == 1 or (len(i) == 2 and i[0] != "0"):
+            families[stem, 1][(int(i),)] = entry, line
+    for (stem, indices), numbers in families.items():
+        highest = max(max(at) for at in numbers)
+        is_sparse = indices == 1 and (len(numbers) < 2 or len(numbers) < 0.4 * highest)
+        if highest <= MOST_INDEX and not is_sparse and (len(numbers) > 1 or highest == 2):
+            line = min(line for _, line in numbers.values())
+            first = 0 if any(0 in at for at in numbers) else 1
+            yield from _filled(stem, numbers, line, first)
+
+
+def _filled(name: str, numbers: _Numbers, line: int, first: int) -> Iterator[Given]:
+    """An array of the numbers at some places, with zeros at the others."""
+    last = max(max(at) for at in numbers)
+    indices = range(min(first, last), last + 1)
+
+    def entry(*at: int) -> Entry:
+        return numbers[at][0] if at in numbers else NOTHING
+
+    if all(len(at) == 1 for at in numbers):
+        yield Given(name, line, (tuple(entry(i) for i in indices),), is_made=True)
+    else:
+        rows = tuple(tuple(entry(i, j) for j in indices) for i in indices)
+        yield Given(name, line, rows, is_matrix=True, is_made=True)
+
+
+def _of_rows(arrays: Sequence[Given]) -> Iterator[Given]:
+    """Rows with numbers in their names as matrices: ``a2``, ``a3``, …"""
+    families: dict[str, dict[int, Given]] = defaultdict(dict)
+    for x in arrays:
+        found = None if x.is_matrix else _ROW.fullmatch(x.name)
+        if found is not None:
+            families[f"{found['stem']}{found['tail']}"][int(found["i"])] = x
+    for stem, rows in families.items():
+        numbers = sorted(rows)
+        lengths = [len(rows[i].rows[0]) for i in numbers]
+        are_growing = all(y - x == 1 for x, y in pairwise(lengths))
+        is_gapless = numbers[-1] - numbers[0] + 1 == len(numbers) > 2
+        if is_gapless and (are_growing or len({*lengths}) == 1):
+            of = tuple(rows[i].rows[0] for i in numbers)
+            yield Given(stem, rows[numbers[0]].line, of, is_matrix=True, is_made=True)
+
+
+def _flatter(value: Value) -> Value:
+    """A row without brackets around single numbers in it."""
+    items = items_of(value)
+    inner = [x for x in items if isinstance(x, Array)]
+    if len(items) < 2 or not inner or any(len(x.items) != 1 for x in inner):
+        return value
+    return Array([x.items[0] if isinstance(x, Array) else x for x in items])
+
+
+def _is_moderate(x: Number) -> bool:
+    """Whether it may be a coefficient: no comparison with infinities fails."""
+    return math.isfinite(x.near) and abs(x.near) < LARGEST
+
+
+def _is_empty(value: Value) -> bool:
+    """Whether nothing was written at a place."""
+    is_unset = isinstance(value, Unknown) and value.reason == "never assigned"
+    return value is FILL or is_unset or isinstance(value, Null)

@@ -1,0 +1,185 @@
+"""Readings of the numbers of a source as tables, beside those that calls and names tell."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, TypeAlias
+
+from garkcli.frozen import replace
+from garkcli.sources.assembling import Meant, NoTable, table_of
+from garkcli.sources.finder import TableFinder
+from garkcli.sources.found import FoundTable, Row
+from garkcli.sources.shaping import changed
+from garkcli.sources.signatures import DRIFT_FIRST, NAMED, Signature
+from garkcli.sources.values import Array, Number, Value
+
+if TYPE_CHECKING:
+    from garkcli.arrays import Floats
+    from garkcli.recognise.given import Given
+    from garkcli.recognise.readings import Reading
+
+_Told: TypeAlias = Mapping[str, frozenset[int]]
+MOST_OF = 0.75
+"""So many numbers of a matrix are those of a reading that speaks against it."""
+_BESIDE = frozenset(
+    f"{role}{part}"
+    for role in ("b", "c", "b_q", "drifts", "kicks", "embedded", "error")
+    for part in ("", "1", "2")
+)
+FEWEST_NUMBERS = 4
+"""So many numbers in arrays may be a method."""
+_FORMS = {
+    "2N": Signature([], "2N"),
+    "Shu–Osher": Signature([], "Shu–Osher"),
+    "nystrom": NAMED,
+    "drift-first": DRIFT_FIRST,
+    "force-first": Signature(["drifts", "kicks"], "force-first"),
+}
+
+
+def with_readings(finder: TableFinder, tables: Sequence[FoundTable]) -> list[FoundTable]:
+    """The tables of a source, each with the readings that may explain what is wrong with it; and
+    those that no name tells, where enough speaks for them.
+    """
+    groups = [x for x in finder.groups if _has_numbers(x.arrays)]
+    if not any(_may_have_a_matrix(x) for group in groups for x in group.arrays):
+        return list(tables)
+    from garkcli.recognise.choosing import readings_of  # numpy takes long to import
+
+    source = _Source(finder)
+    told = [_told(finder.told.get(id(x), {})) for x in tables]
+    new: list[FoundTable] = []
+    rivals: dict[int, list[FoundTable]] = {}
+    settled: set[int] = set()
+    for reading in readings_of(finder.groups):
+        numbers = source.numbers(reading)
+        about = [i for i, x in enumerate(told) if _is_about(numbers, x)]
+        read = [i for i in about if tables[i].b]
+        explained = [i for i in read if not reading.idle and _explains(numbers, told[i])]
+        is_new = reading.is_enough and not read and not any(tables[i].is_misshapen for i in about)
+        made = source.table(reading) if is_new or explained else None
+        if made is None:
+            continue
+        for i in explained:
+            if not _is_same(made, tables[i]):
+                rivals.setdefault(i, []).append(made)
+        if is_new:
+            new.append(made)
+            lines = {reading.line, *(x.line for x in reading.used)}
+            lines |= {reading.group.line} if reading.group is not None else set()
+            settled |= {i for i, x in enumerate(tables) if not (x.b or x.kind) and x.line in lines}
+            settled |= {*about}
+    kept = [
+        replace(x, rivals=tuple(rivals[i])) if i in rivals else x
+        for i, x in enumerate(tables)
+        if i not in settled
+    ]
+    return sorted([*kept, *new], key=lambda x: x.line)
+
+
+def _has_numbers(arrays: Iterable[Given]) -> bool:
+    return sum(len(row) for x in arrays for row in x.rows) >= FEWEST_NUMBERS
+
+
+def _may_have_a_matrix(x: Given) -> bool:
+    return x.is_matrix or len(x.rows[0]) > 1
+
+
+class _Source:
+    """From the readings of a source to tables."""
+
+    def __init__(self, finder: TableFinder) -> None:
+        self._numbers = finder.harvest.numbers
+        self._source, self._format = finder.source, finder.format
+        self._texts: dict[int, str] = {}
+
+    def table(self, reading: Reading) -> FoundTable | None:
+        """The table of a reading; None if its numbers make none."""
+        group = reading.group
+        assert group is not None
+        owner = reading.used[0].owner.rpartition(".")[2]
+        name = owner or group.title or reading.used[0].name
+        how = reading.how or "A, b and c by rows"
+        note = f"recognised by its numbers: {', '.join(x.name for x in reading.used)}"
+        empty = FoundTable(
+            self._source, reading.line, self._format, name, (), (), order=reading.declared, how=how
+        )
+        empty = replace(empty, notes=(note,), is_recognised=True, linked=reading.linked)
+        if reading.form == "rk":
+            return self._of_rk(reading, empty)
+        rows = {role: self._value(x) for role, x in reading.rows.items()}
+        if reading.form == "Shu–Osher":
+            rows = {"c": rows["alpha"], "A": rows["beta"]}
+        if reading.form == "nystrom" and "b_q" not in rows:
+            return None
+        try:
+            found = table_of(Meant(empty, rows, _FORMS[reading.form], "numbers"))
+        except NoTable:
+            return None
+        return None if found.trouble else replace(found, how=how, is_recognised=True)
+
+    def _of_rk(self, reading: Reading, empty: FoundTable) -> FoundTable:
+        rows = reading.rows
+        A = tuple(map(self._row, rows["A"]))
+        b = self._row(rows["b"])
+        c = self._row(rows["c"]) if "c" in rows else None
+        table = replace(empty, A=((A,),), b=(b,), c=(c,))
+        if "embedded" in rows:
+            return replace(table, embedded=(self._row(rows["embedded"]),))
+        if "error" in rows:
+            error = self._row(rows["error"])
+            low, high = changed("-", b, error), changed("+", b, error)
+            return replace(table, embedded=(low,), turned=(high,))
+        return table
+
+    def _row(self, row: Floats) -> Row:
+        return tuple(self._text(int(x[-1])) for x in row)
+
+    def _text(self, at: int) -> str:
+        if at not in self._texts:
+            self._texts[at] = self._numbers[at].scalar.text
+        return self._texts[at]
+
+    def _value(self, x: Floats) -> Value:
+        """An array of the numbers as they are in the source."""
+        if x.ndim > 2:
+            return Array([self._value(row) for row in x])
+        return Array([self._numbers[int(entry[-1])] for entry in x])
+
+    def numbers(self, reading: Reading) -> frozenset[int]:
+        """What tells the numbers of a reading from others that are equal."""
+        entries = (x for of in reading.used for row in of.rows for x in row if x.value)
+        return frozenset(id(self._numbers[x.at]) for x in entries)
+
+
+def _told(roles: Mapping[str, Value]) -> _Told:
+    """The same of the numbers of a table, by their roles."""
+    arrays = {role: Array([x]).flat() for role, x in roles.items() if isinstance(x, Array)}
+    return {
+        role: frozenset(id(x) for x in of if isinstance(x, Number) and not x.is_zero)
+        for role, of in arrays.items()
+    }
+
+
+def _is_about(numbers: frozenset[int], told: _Told) -> bool:
+    """Whether a reading and a table share most of their numbers."""
+    all_told = frozenset().union(*told.values())
+    return 2 * len(numbers & all_told) > min(len(numbers), len(all_told)) > 0
+
+
+def _explains(numbers: frozenset[int], told: _Told) -> bool:
+    """Whether a reading has all nodes and weights of a table, and most of its matrix."""
+    for role, own in told.items():
+        common = len(own & numbers)
+        if role.startswith("A") and common < MOST_OF * len(own):
+            return False
+        if role in _BESIDE:
+            is_told = common > 0 if role.startswith("e") else common == len(own)
+            if own and not is_told:
+                return False
+    return True
+
+
+def _is_same(x: FoundTable, y: FoundTable) -> bool:
+    """Whether two tables are the same method."""
+    return (x.A, x.b, x.parts) == (y.A, y.b, y.parts)
