@@ -19,6 +19,8 @@ from garkcli.recognise.readings import (
 
 MOST_ARRAYS = 120
 """So many arrays of a scope are searched."""
+FEWEST_FRACTIONS = 2
+"""Weights of order 2 or the matrix beside them have fractions."""
 MOST_LEFT = 60
 """So many arrays without a reading are tried with those of the scope around them."""
 NEAR = 100
@@ -71,6 +73,8 @@ def _of_group(group: Group, used: set[int]) -> Iterator[Reading]:
 def _best(group: Group, arrays: Sequence[Given], used: set[int]) -> Iterator[Reading]:
     """The readings of some arrays, best first; each array is the matrix of one alone."""
     arrays = arrays[:MOST_ARRAYS]
+    if sum(x.fractions for x in arrays) < FEWEST_FRACTIONS:
+        return
     rk, tried = rk_readings(arrays)
     others, more = other_readings(arrays)
     cost = math.log2(max(1, tried + more)) - WORDS * group.speaks

@@ -47,6 +47,8 @@ def _names(*named: bool) -> int:
 
 def _of_two_rows(x: Given, y: Given, rows: Sequence[Given]) -> Iterator[Reading | None]:
     """The schemes of two rows: 2N registers; kicks and drifts."""
+    if not (x.fractions and y.fractions):
+        return
     a, b = x.numbers, y.numbers
     if len(a) == len(b) - 1:
         a = np.concatenate([np.zeros((1, 4)), a])
@@ -166,7 +168,7 @@ def _shu_osher(x: Given, y: Given) -> Reading | None:
     """Convex combinations: α with row sums 1, and β."""
     alpha, beta = x.numbers, y.numbers
     n = len(alpha)
-    if len(beta) != n or max(alpha.shape[1], beta.shape[1]) > n:
+    if len(beta) != n or not y.fractions or max(alpha.shape[1], beta.shape[1]) > n:
         return None
     if not (is_lower(alpha) and is_lower(beta)):
         return None
@@ -206,7 +208,7 @@ def _nystrom(x: Given, rows: Sequence[Given]) -> Iterator[Reading | None]:
     """Ā with row sums c²/2, weights b of velocities, and b̄ of positions."""
     for parts in parts_of(x):
         A = parts.A
-        if parts.c is not None or parts.weights or len(A) < 2:
+        if parts.c is not None or parts.weights or len(A) < 2 or not x.fractions:
             continue
         whole = [z for w in rows if w is not x for z in fitted(Vector(w, w.numbers), len(A))]
         for c in whole:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -66,12 +67,17 @@ class Given(Frozen, eq=False):
         """The record that it is in; empty for none."""
         return self.name.rpartition(".")[0]
 
-    @property
+    @cached_property
     def key(self) -> object:
         """The same for arrays of the same numbers."""
         return self.is_matrix, tuple(tuple(x.value for x in row) for row in self.rows)
 
-    @property
+    @cached_property
+    def fractions(self) -> int:
+        """How many of its numbers are no whole ones."""
+        return sum(not x.value.is_integer() for row in self.rows for x in row)
+
+    @cached_property
     def numbers(self) -> Floats:
         """Shape (columns, 4), or (rows, columns, 4) for a matrix, zeros behind short rows."""
         if not self.is_matrix:

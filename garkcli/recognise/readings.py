@@ -33,6 +33,8 @@ OFF = 8.0
 ONE_WRONG = 6.0
 """Bits that a wrong entry costs beside those that tell where it is."""
 LAST_ROW = 3.0
+CLOSE = 1e-5
+"""What is further from 0 beside its terms is no condition that holds."""
 MOST_TRIED = 5_000
 """So many hypotheses are tried for the arrays of a scope."""
 WORDS = 3.0
@@ -124,8 +126,9 @@ class _Search:
                 if x.of is not of and (abs(len(x.numbers) - s) <= 1 or s < len(x.numbers) <= s + 8)
             ]
             near = sorted(near, key=lambda x: abs(x.of.line - of.line))[:NEAREST]
-            for c in self._nodes(of, parts, near):
-                for b in self._weights(of, parts, near):
+            weights = self._weights(of, parts, near)
+            for c in self._nodes(of, parts, near) if weights else ():
+                for b in weights:
                     found = self._reading(of, parts, b, c)
                     if found is not None:
                         yield found
@@ -183,6 +186,10 @@ class _Search:
             return None
         self.tried += 1
         s, nodes = len(b.numbers), None if c is None else c.numbers
+        if not (
+            _may_have_order_two(parts.A, b, nodes) or self._may_have_order_one(of, parts, b, c)
+        ):
+            return None
         found = evidence(parts.A, b.numbers, nodes)
         plain = found.bits - 4 * len(found.wrong_rows)
         bits = plain
@@ -191,16 +198,12 @@ class _Search:
             if b.is_off and mended < 0:
                 return None
             bits = max(bits, mended)
-        is_named = bool(MATRIX.search(of.name) and WEIGHTS.search(b.of.name))
-        if bits <= 0 or (bits == plain and found.nearly < 2):
-            # of order 1: rows of several terms, in one record, or with all names
+        if bits <= 0:
+            return None
+        if bits == plain and found.nearly < 2:
             is_one = found.nearly == 1 and not (b.is_off or found.wrong_rows)
-            is_near = parts.weights or (b.of is not of and b.of.owner == of.owner)
-            has_rows = c is not None and found.several >= (1 if s <= 2 else 2)
-            names_say = parts.weights or (
-                is_named and (parts.c is not None or (c and NODES.search(c.of.name)))
-            )
-            if not (bits > 0 and is_one and is_near and has_rows and names_say):
+            has_rows = found.several >= (1 if s <= 2 else 2)
+            if not (is_one and has_rows and self._may_have_order_one(of, parts, b, c)):
                 return None
         prior, names = _prior(of, parts, b, c)
         used = tuple(dict.fromkeys([of, *(x.of for x in beside if not x.is_sum)]))
@@ -224,6 +227,27 @@ class _Search:
             weights=b.of if b.of is not of else None,
             matrix=(id(of), parts.how, None if c is None else (id(c.of), c.which)),
         )
+
+    def _may_have_order_one(self, of: Given, parts: Parts, b: Vector, c: Vector | None) -> bool:
+        """Whether a method of order 1 is read: there are nodes, in one record, with all names."""
+        if parts.weights or c is None or b.of is of:
+            return bool(parts.weights) and c is not None
+        are_named = MATRIX.search(of.name) and WEIGHTS.search(b.of.name)
+        has_nodes = parts.c is not None or NODES.search(c.of.name)
+        return b.of.owner == of.owner and bool(are_named and has_nodes)
+
+
+def _may_have_order_two(A: Floats, b: Vector, c: Floats | None) -> bool:
+    """Whether order 2 holds with row sums or nodes, or with one wrong weight."""
+    weights = b.numbers[:, VALUE]
+    for sums in (A[..., VALUE].sum(1), *([] if c is None else [c[:, VALUE]])):
+        off = float(weights @ sums) - 0.5
+        wide = CLOSE * (1 + float(np.abs(weights) @ np.abs(sums)))
+        if abs(off) < wide:
+            return True
+        if b.is_off and (np.abs(off + (1 - b.total) * sums) < wide).any():
+            return True
+    return False
 
 
 def _is_alike(other: Given, A: Floats) -> bool:
