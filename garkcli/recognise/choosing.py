@@ -6,9 +6,10 @@ import math
 from collections.abc import Iterator, Sequence
 
 from garkcli.frozen import replace
-from garkcli.recognise.forms import other_readings
+from garkcli.recognise.forms import of_velocities, other_readings
 from garkcli.recognise.given import VALUE, Given, Group
 from garkcli.recognise.readings import (
+    ENOUGH,
     ENOUGH_FOR_DOUBT,
     WORDS,
     Reading,
@@ -78,7 +79,12 @@ def _best(group: Group, arrays: Sequence[Given], used: set[int]) -> Iterator[Rea
     rk, tried = rk_readings(arrays)
     others, more = other_readings(arrays)
     cost = math.log2(max(1, tried + more)) - WORDS * group.speaks
-    found = sorted([*rk, *others], key=lambda x: -x.bits)
+
+    def rank(x: Reading) -> tuple[bool, float]:
+        # velocities have a matrix, too
+        return x.form != "nystrom" or x.bits - cost < ENOUGH, -x.bits
+
+    found = sorted([*rk, *others], key=rank)
     alike: dict[object, list[Reading]] = {}
     for x in rk:
         alike.setdefault(x.matrix, []).append(x)
@@ -93,8 +99,9 @@ def _best(group: Group, arrays: Sequence[Given], used: set[int]) -> Iterator[Rea
         each = replace(each, bits=bits, group=group, declared=_declared(group, each))
         if each.form == "rk":
             each = with_beside(each, arrays)
-        taken |= {id(x) for x in each.used}
-        used |= {id(x) for x in each.used}
+        ids = {id(x) for x in (*each.used, *of_velocities(each, arrays))}
+        taken |= ids
+        used |= ids
         yield each
 
 

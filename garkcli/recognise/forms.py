@@ -4,7 +4,7 @@ and drifts, second-order equations.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import permutations
 from typing import TYPE_CHECKING
 
@@ -252,6 +252,18 @@ def _with_velocities(
     bits = row_bits + linked + best - 1 + _places(*used)
     linked += row_bits
     return Reading("nystrom", told, how, bits, order, linked, used, x.line, names=names)
+
+
+def of_velocities(reading: Reading, arrays: Iterable[Given]) -> Iterator[Given]:
+    """The matrices beside a Nyström method that velocities at its stages are made with."""
+    c = reading.rows.get("c")
+    if reading.form != "nystrom" or c is None:
+        return
+    for x in arrays:
+        if x.is_matrix and x not in reading.used and x.numbers.shape[:2] == (len(c), len(c)):
+            off, _, explained = row_sums(x.numbers, c)
+            if (np.abs(off) <= explained + 1e-12).all():
+                yield x
 
 
 def _places(first: Given, *others: Given) -> float:

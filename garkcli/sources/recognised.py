@@ -55,7 +55,7 @@ def with_readings(finder: TableFinder, tables: Sequence[FoundTable]) -> list[Fou
         numbers = source.numbers(reading)
         about = [i for i, x in enumerate(told) if _is_about(numbers, x)]
         read = [i for i in about if tables[i].b]
-        explained = [i for i in read if not reading.idle and _explains(numbers, told[i])]
+        explained = [i for i in read if not reading.idle and _explains(reading, numbers, told[i])]
         is_new = reading.is_enough and not read and not any(tables[i].is_misshapen for i in about)
         made = source.table(reading) if is_new or explained else None
         if made is None:
@@ -167,15 +167,18 @@ def _is_about(numbers: frozenset[int], told: _Told) -> bool:
     return 2 * len(numbers & all_told) > min(len(numbers), len(all_told)) > 0
 
 
-def _explains(numbers: frozenset[int], told: _Told) -> bool:
-    """Whether a reading has all nodes and weights of a table, and most of its matrix."""
+def _explains(reading: Reading, numbers: frozenset[int], told: _Told) -> bool:
+    """Whether a reading has all nodes and weights of a table, and most of its matrix; embedded ones
+    only where its form has them.
+    """
     for role, own in told.items():
         common = len(own & numbers)
         if role.startswith("A") and common < MOST_OF * len(own):
             return False
         if role in _BESIDE:
-            is_told = common > 0 if role.startswith("e") else common == len(own)
-            if own and not is_told:
+            is_low = role.startswith("e")
+            is_had = common > 0 or reading.form != "rk" if is_low else common == len(own)
+            if own and not is_had:
                 return False
     return True
 
