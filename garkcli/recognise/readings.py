@@ -205,6 +205,9 @@ class _Search:
             has_rows = found.several >= (1 if s <= 2 else 2)
             if not (is_one and has_rows and self._may_have_order_one(of, parts, b, c)):
                 return None
+        if b.is_last_row and not is_lower(parts.A) and found.nearly < s:
+            # the node 1 is no reason: collocation makes rows that are quadratures
+            return None
         prior, names = _prior(of, parts, b, c)
         used = tuple(dict.fromkeys([of, *(x.of for x in beside if not x.is_sum)]))
         rows = {"A": parts.A, "b": b.numbers, **({} if c is None or c.is_sum else {"c": c.numbers})}
