@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -10,7 +11,7 @@ from garkcli.sources.assembling import Meant, NoTable, table_of
 from garkcli.sources.finder import TableFinder
 from garkcli.sources.found import FoundTable, Row
 from garkcli.sources.shaping import changed
-from garkcli.sources.signatures import DRIFT_FIRST, NAMED, Signature
+from garkcli.sources.signatures import DRIFT_FIRST, NAMED, OTHER_KINDS, Signature
 from garkcli.sources.values import Array, Number, Value
 
 if TYPE_CHECKING:
@@ -26,6 +27,12 @@ _BESIDE = frozenset(
     for role in ("b", "c", "b_q", "drifts", "kicks", "embedded", "error")
     for part in ("", "1", "2")
 )
+_TABLEAU = re.compile("tableau|butcher|table|^[0-9]*$", re.IGNORECASE)
+"""Names that many methods have."""
+_OTHERS = frozenset(
+    ("Rosenbrock", "modified Patankar", "multirate", "general linear", "exponential", "stochastic")
+)
+"""Methods with a matrix, weights and other arrays beside them."""
 FEWEST_NUMBERS = 4
 """So many numbers in arrays may be a method."""
 _FORMS = {
@@ -98,7 +105,8 @@ class _Source:
         group = reading.group
         assert group is not None
         owner = reading.used[0].owner.rpartition(".")[2]
-        name = owner or group.title or reading.used[0].name
+        names = [owner, group.title] if not _TABLEAU.search(owner) else [group.title, owner]
+        name = next(filter(None, names), reading.used[0].name)
         how = reading.how or "A, b and c by rows"
         note = f"recognised by its numbers: {', '.join(x.name for x in reading.used)}"
         empty = FoundTable(
@@ -106,7 +114,8 @@ class _Source:
         )
         empty = replace(empty, notes=(note,), is_recognised=True, linked=reading.linked)
         if reading.form == "rk":
-            return self._of_rk(reading, empty)
+            kind = _kind(f"{owner} {group.title}")
+            return replace(empty, kind=kind) if kind else self._of_rk(reading, empty)
         rows = {role: self._value(x) for role, x in reading.rows.items()}
         if reading.form == "Shu–Osher":
             rows = {"c": rows["alpha"], "A": rows["beta"]}
@@ -150,6 +159,12 @@ class _Source:
         """What tells the numbers of a reading from others that are equal."""
         entries = (x for of in reading.used for row in of.rows for x in row if x.value)
         return frozenset(id(self._numbers[x.at]) for x in entries)
+
+
+def _kind(names: str) -> str:
+    """What other method has such names, and a matrix and weights, too; empty for none."""
+    found = (kind for pattern, kind in OTHER_KINDS if kind in _OTHERS and pattern.search(names))
+    return next(found, "")
 
 
 def _told(roles: Mapping[str, Value]) -> _Told:
