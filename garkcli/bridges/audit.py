@@ -19,6 +19,7 @@ from garkcli.bridges.subject import HIGH, Subject, orders_of, read
 from garkcli.check.findings import repair_text, total_text, witness_text
 from garkcli.errors import MethodFileError, counted
 from garkcli.exact.field import ZERO
+from garkcli.exact.matrix import dot
 from garkcli.frozen import Frozen, replace
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.printed import SLACK
@@ -129,6 +130,12 @@ def audit(table: FoundTable) -> Audited | None:
         others = map(_audit, readings_of(table, is_none))
         found = next((x for x in others if x is not None and fits(x, table)), found)
     return found
+
+
+def settled(table: FoundTable) -> FoundTable:
+    """A table in the way in which its numbers fit."""
+    found = audit(table) if table.rivals else None
+    return table if found is None else found.table
 
 
 def fits(found: Audited, told: FoundTable) -> bool:
@@ -247,8 +254,18 @@ def _is_mended(finding: AuditFinding, subject: Subject) -> bool:
     """Whether one entry is known that makes a method of a table."""
     if finding.code != "nodes":
         return bool(finding.help)
+    return is_one_row(subject)
+
+
+def is_one_row(subject: Subject) -> bool:
+    """Whether all rows but one have their nodes for sums, and order 2 holds with these."""
+    colour = subject.tableau.colours[0]
     several = sum(sum(map(bool, row)) > 1 for row in subject.block)
-    return len(subject.misprinted_rows) == 1 and several > FEWEST_ROWS and subject.order.order > 1
+    if len(subject.misprinted_rows) != 1 or several <= FEWEST_ROWS:
+        return False
+    tolerance = (len(colour.b) + 1) * subject.rounded.tolerance
+    moments = (sum(colour.b, ZERO) - 1, dot(colour.b, colour.c) - fmpq(1, 2))
+    return all(within(x, tolerance) for x in moments)
 
 
 def _is_explained(code: str, subject: Subject) -> bool:
@@ -415,7 +432,7 @@ def _nodes(subject: Subject) -> Iterator[AuditFinding]:
         message = f"order {timed.order} where f depends on t, and else {wanted}: {_listed(rows)}"
         claims = {"nonautonomous-order": at_least(min(wanted, subject.order.order))}
         yield AuditFinding("nodes", message, claims=claims)
-    elif declared is None or subject.is_misprinted:
+    elif declared is None or subject.is_misprinted or is_one_row(subject):
         yield AuditFinding("nodes", _listed(rows), claims=ROW_SUMS)
     else:
         yield AuditFinding("nodes", _listed(rows), level="note")

@@ -8,7 +8,7 @@ from functools import partial
 from itertools import chain, count
 from pathlib import PurePath
 
-from garkcli.bridges.audit import is_unrecognised
+from garkcli.bridges.audit import is_unrecognised, settled
 from garkcli.bridges.claiming import imported
 from garkcli.bridges.elsewhere import declared_orders, with_bases, with_declared
 from garkcli.bridges.finding import AuditFinding
@@ -109,6 +109,7 @@ def collected(
     for table in chain.from_iterable(read_within_limits(given, work, lambda table: table)):
         if table.is_unlike:
             continue
+        table = settled(table)
         name = plain_line(table.name) or default_name(table.source)
         result = _result(table, name, is_recognising, is_as_found)
         method = result.method

@@ -1,0 +1,121 @@
+"""Numbers recognise a table, whatever its arrays are called; and nothing is an error while they are
+a method in another way.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from garkcli.bridges.audit import Audited, audited
+from garkcli.bridges.collecting import collected
+
+WITHOUT_NAMES = """
+x1 = [[0, 0, 0, 0], [1/3, 0, 0, 0], [-1/3, 1, 0, 0], [1, -1, 1, 0]]
+x2 = [1/8, 3/8, 3/8, 1/8]
+x3 = [0, 1/3, 2/3, 1]
+"""
+COLUMNS = """
+A = [[0, 5/24, 1/6], [0, 1/3, 2/3], [0, -1/24, 1/6]]
+b = [1/6, 2/3, 1/6]
+c = [0, 1/2, 1]
+order = 4
+"""
+LAST_ROW = """
+def ssp():
+    butcher_matrix = [[1/2, 0, 0], [1/2, 1/2, 0], [1/3, 1/3, 1/3]]
+"""
+NYSTROM = """
+class Quad(Method):
+    order = 4
+    C = [0, 1/2, 1]
+    A = [[0, 0, 0], [1/8, 0, 0], [0, 1/2, 0]]
+    B = [1/6, 1/3, 0]
+    Bp = [1/6, 4/6, 1/6]
+"""
+BLOCK = """
+tableau = {'Rule': [[0, 0, 0, 0, 0], [1/3, 1/3, 0, 0, 0], [2/3, -1/3, 1, 0, 0], [1, 1, -1, 1, 0],
+    [4, 1/8, 3/8, 3/8, 1/8]]}
+"""
+
+
+def found_in(folder: Path, text: str) -> list[Audited]:
+    """The tables of a source in Python."""
+    path = folder / "x.py"
+    path.write_text(text, encoding="utf-8")
+    return list(audited([str(path)]))
+
+
+@pytest.mark.parametrize(
+    ("text", "order", "how"),
+    [
+        (WITHOUT_NAMES, 4, "A, b and c by rows"),
+        (COLUMNS, 4, "columns are stages"),
+        (LAST_ROW, 2, "rows 2 to s, and the weights below them"),
+        (NYSTROM, 4, "for second-order equations"),
+    ],
+)
+def test_a_table_is_read_as_its_numbers_say(
+    tmp_path: Path, text: str, order: int, how: str
+) -> None:
+    """Its order is the one of the paper, and the only finding says how it is stored; the method
+    file claims that order.
+    """
+    (found,) = found_in(tmp_path, text)
+    assert found.order is not None
+    assert found.order.order == order
+    assert [(x.code, x.level) for x in found.findings] == [("stored", "note")]
+    assert found.findings[0].message.endswith(how)
+    (method,) = collected([str(tmp_path / "x.py")])
+    assert method.method is not None
+    assert method.method.order.order == order
+    assert method.errors == []
+
+
+def test_a_misprint_of_told_arrays_is_an_error(tmp_path: Path) -> None:
+    """Another reading of the same arrays has the same wrong entry: a wrong weight, a wrong entry, a
+    wrong node are errors with names, and columns do not excuse them.
+    """
+    for old, new in (("4/6", "5/6"), ("1/8]", "1/7]"), ("2/3, 1/6]\n", "2/3, 1/7]\n")):
+        for text in (NYSTROM, WITHOUT_NAMES, COLUMNS):
+            if old in text:
+                named = text.replace("x1", "A").replace("x2", "b").replace("x3", "c")
+                (found,) = found_in(tmp_path, named.replace(old, new, 1))
+                assert found.has_errors
+
+
+def test_a_misprint_without_names(tmp_path: Path) -> None:
+    """All rows but one fit: the one that does not is told, as an error where it is one of several."""
+    rows = [
+        *("[0, 0, 0, 0, 0, 0]", "[1/4, 0, 0, 0, 0, 0]", "[1/8, 1/8, 0, 0, 0, 0]"),
+        *("[0, -1/2, 1, 0, 0, 0]", "[3/16, 0, 0, 9/16, 0, 0]", "[-3/7, 2/7, 12/7, -12/7, 8/7, 0]"),
+    ]
+    text = f"x1 = [{', '.join(rows)}]\nx2 = [7/90, 0, 32/90, 12/90, 32/90, 7/90]\n"
+    text += "x3 = [0, 1/4, 1/4, 1/2, 3/4, 1]\n"
+    (right,) = found_in(tmp_path, text)
+    assert right.order is not None
+    assert (right.order.order, right.has_errors) == (5, False)
+    (wrong,) = found_in(tmp_path, text.replace("12/7, -12/7", "12/7, -13/7"))
+    assert [(x.code, x.level) for x in wrong.findings][:1] == [("nodes", "error")]
+
+
+def test_known_calls_have_their_layout(tmp_path: Path) -> None:
+    """A transposed matrix of ARKODE is wrong, though its columns fit."""
+    path = tmp_path / "x.c"
+    path.write_text(
+        "static ARKodeButcherTable lobatto(void) {\n"
+        "  double c[3] = {0, 0.5, 1}, b[3] = {1./6, 2./3, 1./6};\n"
+        "  double A[9] = {0, 5./24, 1./6, 0, 1./3, 2./3, 0, -1./24, 1./6};\n"
+        "  return ARKodeButcherTable_Create(3, 4, 0, c, A, b, NULL);\n}\n",
+        encoding="utf-8",
+    )
+    (found,) = audited([str(path)])
+    assert [x.code for x in found.findings] == ["transposed"]
+
+
+def test_one_matrix_is_called_after_its_key(tmp_path: Path) -> None:
+    """[c A; q b] under a key, whatever the dictionary is called."""
+    (found,) = found_in(tmp_path, BLOCK)
+    assert found.order is not None
+    assert (found.table.name, found.order.order) == ("Rule", 4)
