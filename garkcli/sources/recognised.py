@@ -55,6 +55,8 @@ def with_readings(finder: TableFinder, tables: Sequence[FoundTable]) -> list[Fou
 
     source = _Source(finder)
     told = [_told(finder.told.get(id(x), {})) for x in tables]
+    read_off = [x for x, table in zip(told, tables, strict=True) if table.b]
+    everywhere = frozenset(n for x in read_off for own in x.values() for n in own)
     new: list[FoundTable] = []
     rivals: dict[int, list[FoundTable]] = {}
     settled: set[int] = set()
@@ -64,6 +66,8 @@ def with_readings(finder: TableFinder, tables: Sequence[FoundTable]) -> list[Fou
         read = [i for i in about if tables[i].b]
         explained = [i for i in read if not reading.idle and _explains(reading, numbers, told[i])]
         is_new = reading.is_enough and not read and not any(tables[i].is_misshapen for i in about)
+        # arrays of several tables together are none
+        is_new = is_new and 2 * len(numbers & everywhere) <= len(numbers)
         made = source.table(reading) if is_new or explained else None
         if made is None:
             continue
