@@ -466,6 +466,9 @@ def _stored(subject: Subject) -> Iterator[AuditFinding]:
     """How the numbers are stored, where that was read off them."""
     if subject.table.how:
         yield AuditFinding("stored", f"as its numbers say: {subject.table.how}", level="note")
+    for name in subject.table.idle:
+        message = f"{name} has the name of nodes or weights, and fits no row of them"
+        yield AuditFinding("idle", message, level="warning")
 
 
 def _unread(subject: Subject) -> Iterator[AuditFinding]:

@@ -44,6 +44,7 @@ CODES = {
     "open": "the digits leave open whether the order is as declared",
     "sign": "nothing decides the sign of the error estimate",
     "stored": "the numbers of a table say how it is stored",
+    "idle": "an array beside a table has no role in it",
     "unread": "coefficients are not written out",
     "other-kind": "the table is not one of a Runge–Kutta method",
 }

@@ -107,6 +107,7 @@ class FoundTable(Frozen):
         is_assembled: whether it was put together from single numbers, by their names.
         units: by how much coefficients may be off that were made of printed ones.
         how: its arrays are stored, in words, where that is read off the numbers.
+        idle: arrays beside it with names of nodes or weights, and no role in it.
         linked: bits of what links its matrix and its weights, where it is read off the numbers.
         is_recognised: whether its numbers alone say that it is a table.
         rivals: other readings of the same numbers, which may explain what is wrong with this one.
@@ -146,6 +147,7 @@ class FoundTable(Frozen):
     is_assembled: bool = False
     units: Units = ()
     how: str = ""
+    idle: tuple[str, ...] = ()
     linked: float = 0.0
     is_recognised: bool = False
     rivals: tuple[FoundTable, ...] = ()

@@ -117,6 +117,7 @@ class _Source:
             self._source, reading.line, self._format, name, (), (), order=reading.declared, how=how
         )
         empty = replace(empty, notes=(note,), is_recognised=True, linked=reading.linked)
+        empty = replace(empty, idle=tuple(x.name for x in reading.idle))
         if reading.form == "rk":
             kind = _kind(f"{owner} {group.title}")
             return replace(empty, kind=kind) if kind else self._of_rk(reading, empty)

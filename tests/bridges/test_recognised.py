@@ -119,3 +119,10 @@ def test_one_matrix_is_called_after_its_key(tmp_path: Path) -> None:
     (found,) = found_in(tmp_path, BLOCK)
     assert found.order is not None
     assert (found.table.name, found.order.order) == ("Rule", 4)
+
+
+def test_what_is_idle_is_told(tmp_path: Path) -> None:
+    """Weights b with a misprint beside others that fit: a doubt, never silence."""
+    text = WITHOUT_NAMES + "b = [1/8, 3/8, 3/8, 2/8]\n"
+    (found,) = found_in(tmp_path, text)
+    assert [(x.code, x.level) for x in found.findings] == [("stored", "note"), ("idle", "warning")]
