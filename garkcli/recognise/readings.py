@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 NEAREST = 24
 """So many vectors near a matrix are tried."""
 MOST_NODES = 3
-"""So many of those that fit best are tried with each weights."""
+"""So many nodes, the best ones, are tried with each weights."""
 FAR = 0.2
 """Weights have a sum that is nearer to 1, one wrong number among them."""
 BESIDE = 60
