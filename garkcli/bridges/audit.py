@@ -258,10 +258,13 @@ def _is_mended(finding: AuditFinding, subject: Subject) -> bool:
 
 
 def is_one_row(subject: Subject) -> bool:
-    """Whether all rows but one have their nodes for sums, and order 2 holds with these."""
+    """Whether all rows but one have their nodes for sums, and order 2 holds with these. A first
+    stage at another time, as Oliver has it, is meant.
+    """
     colour = subject.tableau.colours[0]
     several = sum(sum(map(bool, row)) > 1 for row in subject.block)
-    if len(subject.misprinted_rows) != 1 or several <= FEWEST_ROWS:
+    is_early = any(c and not any(row) for row, c in zip(subject.block, colour.c, strict=False))
+    if len(subject.misprinted_rows) != 1 or several <= FEWEST_ROWS or is_early:
         return False
     tolerance = (len(colour.b) + 1) * subject.rounded.tolerance
     moments = (sum(colour.b, ZERO) - 1, dot(colour.b, colour.c) - fmpq(1, 2))

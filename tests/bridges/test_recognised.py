@@ -126,3 +126,15 @@ def test_what_is_idle_is_told(tmp_path: Path) -> None:
     text = WITHOUT_NAMES + "b = [1/8, 3/8, 3/8, 2/8]\n"
     (found,) = found_in(tmp_path, text)
     assert [(x.code, x.level) for x in found.findings] == [("stored", "note"), ("idle", "warning")]
+
+
+def test_a_first_stage_at_another_time_is_meant(tmp_path: Path) -> None:
+    """Oliver's method of order 5 begins at the node 2/3, which costs nothing: a note."""
+    rows = [
+        *("[0, 0, 0, 0, 0, 0]", "[1/6, 0, 0, 0, 0, 0]", "[-15/8, 21/8, 0, 0, 0, 0]"),
+        *("[-9, 75/7, -5/7, 0, 0, 0]", "[-3, 34257/8750, -114/875, 19/1250, 0, 0]"),
+        "[0, 123/380, 5/2, 3/20, -75/38, 0]",
+    ]
+    text = f"order = 5\nA = [{', '.join(rows)}]\nc = [2/3, 1/6, 3/4, 1, 4/5, 1]\n"
+    (found,) = found_in(tmp_path, text + "b = [0, 54/133, 32/21, 1/18, -125/114, 1/9]\n")
+    assert [(x.code, x.level) for x in found.findings] == [("nodes", "note")]
