@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
 from garkcli.frozen import replace
@@ -76,16 +76,22 @@ def with_readings(finder: TableFinder, tables: Sequence[FoundTable]) -> list[Fou
                 rivals.setdefault(i, []).append(made)
         if is_new:
             new.append(made)
-            lines = {reading.line, *(x.line for x in reading.used)}
-            lines |= {reading.group.line} if reading.group is not None else set()
-            settled |= {i for i, x in enumerate(tables) if not (x.b or x.kind) and x.line in lines}
-            settled |= {*about}
+            settled |= {*about, *_in_place_of(reading, tables)}
     kept = [
         replace(x, rivals=tuple(rivals[i])) if i in rivals else x
         for i, x in enumerate(tables)
         if i not in settled
     ]
     return sorted([*kept, *new], key=lambda x: x.line)
+
+
+def _in_place_of(reading: Reading, tables: Sequence[FoundTable]) -> Iterator[int]:
+    """The tables that were not read, by their places, where a reading is."""
+    group = reading.group
+    lines = {reading.line, *(x.line for x in reading.used), *([group.line] if group else [])}
+    for i, x in enumerate(tables):
+        if not (x.b or x.kind) and x.line in lines:
+            yield i
 
 
 def _has_numbers(arrays: Iterable[Given]) -> bool:
