@@ -152,7 +152,8 @@ def readings_of(table: FoundTable, is_none: bool) -> Iterator[FoundTable]:
     """
     for each in table.rivals:
         is_likely = is_none or each.linked >= LINKED
-        if is_likely and not (table.is_sure and "column" in each.how):
+        is_turned = any(x in each.how for x in ("columns are stages", "column by column"))
+        if is_likely and not (table.is_sure and is_turned):
             told = {x: getattr(table, x) for x in ("name", "line", "order", "said_order", "notes")}
             yield replace(each, **told, is_sure=True, is_recognised=False)
 

@@ -84,6 +84,10 @@ def _registers(x: Given, a: Floats, y: Given, b: Floats, rows: Sequence[Given]) 
     bits = bits + best - 2 + _places(*used)
     linked = bits - 2
     how = "the form 2N"
+    idle = [
+        z for z in rows if z not in used and z.owner == x.owner and len(z.rows[0]) == len(x.rows[0])
+    ]
+    idle = [z for z in idle if nodes is None and NODES.search(z.name)]
     return Reading(
         "2N",
         told,
@@ -94,7 +98,8 @@ def _registers(x: Given, a: Floats, y: Given, b: Floats, rows: Sequence[Given]) 
         used,
         x.line,
         not wrong,
-        names=_names(*map(bool, named)),
+        tuple(idle),
+        _names(*map(bool, named)),
     )
 
 

@@ -138,3 +138,13 @@ def test_a_first_stage_at_another_time_is_meant(tmp_path: Path) -> None:
     text = f"order = 5\nA = [{', '.join(rows)}]\nc = [2/3, 1/6, 3/4, 1, 4/5, 1]\n"
     (found,) = found_in(tmp_path, text + "b = [0, 54/133, 32/21, 1/18, -125/114, 1/9]\n")
     assert [(x.code, x.level) for x in found.findings] == [("nodes", "note")]
+
+
+def test_nodes_beside_registers_that_do_not_fit_are_told(tmp_path: Path) -> None:
+    """Williamson's method with the nodes of another one: its order, and a doubt."""
+    text = "class Bad:\n    _A = [0, -5/9, -153/128]\n    _B = [1/3, 15/16, 8/15]\n"
+    (found,) = found_in(tmp_path, text + "    _C = [0, 4/9, 15/32]\n")
+    assert found.order is not None
+    assert (found.order.order, [x.code for x in found.findings]) == (3, ["stored", "idle"])
+    (found,) = found_in(tmp_path, text + "    _C = [0, 1/3, 3/4]\n")
+    assert [x for x in found.findings if x.level != "note"] == []
