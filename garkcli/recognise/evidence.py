@@ -30,6 +30,8 @@ FEW = 4.0
 """Most bits of an order where there is one weight."""
 MOST = 50.0
 ROUNDING = 5e-14
+COARSEST = 1e-2
+"""Where digits explain more than this, every condition would hold."""
 
 
 @lru_cache(maxsize=1)
@@ -163,6 +165,9 @@ def evidence(A: Floats, b: Floats, c: Floats | None) -> Evidence:
         for residual, scale in zip(residuals.tolist(), scales.tolist(), strict=True):
             tolerance = wide * max(1.0, scale)
             agreed = agreement(residual, scale, tolerance)
+            if tolerance > COARSEST:
+                is_met = False
+                break
             if not abs(residual) <= tolerance:
                 is_met = False
                 if agreed < NEARLY or unit > 1e-7:

@@ -10,7 +10,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from garkcli.recognise.evidence import MOST, ROUNDING, agreement, conditions, row_sums, unit_of
+from garkcli.recognise.evidence import (
+    COARSEST,
+    MOST,
+    ROUNDING,
+    agreement,
+    conditions,
+    row_sums,
+    unit_of,
+)
 from garkcli.recognise.given import LENGTH, UNIT, VALUE, Given
 from garkcli.recognise.hypotheses import is_lower, parts_of
 from garkcli.recognise.names import MATRIX, NODES, WEIGHTS
@@ -122,7 +130,8 @@ def _of_conditions(A: Floats, b: Floats, unit: float, lengths: list[float]) -> t
         return 0.0, 0
     for q, (residuals, sizes) in enumerate(conditions(A, b), start=1):
         explained = (100 * unit * len(b) + 1e-13) * np.maximum(1, sizes)
-        if q > HIGHEST or (np.abs(residuals) > explained).any():
+        is_met = (np.abs(residuals) <= explained).all() and explained.max() <= COARSEST
+        if q > HIGHEST or not is_met:
             break
         for x, size, tolerance in zip(residuals, sizes, explained, strict=True):
             bits += min(agreement(x, size, tolerance), left.pop(0) if left else 0.0)
