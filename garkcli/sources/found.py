@@ -172,6 +172,11 @@ class FoundTable(Frozen):
         return self.coupling is not None or self.is_slow
 
     @property
+    def is_read(self) -> bool:
+        """Whether it has coefficients."""
+        return bool(self.b) or self.is_multirate
+
+    @property
     def is_unlike(self) -> bool:
         """Whether names alone speak for a table, and its shapes against it."""
         return bool(self.trouble) and not self.is_sure

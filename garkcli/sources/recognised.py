@@ -55,7 +55,7 @@ def with_readings(finder: TableFinder, tables: Sequence[FoundTable]) -> list[Fou
 
     source = _Source(finder)
     told = [_told(finder.told.get(id(x), {})) for x in tables]
-    read_off = [x for x, table in zip(told, tables, strict=True) if table.b]
+    read_off = [x for x, table in zip(told, tables, strict=True) if table.is_read]
     everywhere = frozenset(n for x in read_off for own in x.values() for n in own)
     new: list[FoundTable] = []
     rivals: dict[int, list[FoundTable]] = {}
@@ -63,7 +63,7 @@ def with_readings(finder: TableFinder, tables: Sequence[FoundTable]) -> list[Fou
     for reading in readings_of(finder.groups):
         numbers = source.numbers(reading)
         about = [i for i, x in enumerate(told) if _is_about(numbers, x)]
-        read = [i for i in about if tables[i].b]
+        read = [i for i in about if tables[i].is_read]
         explained = [i for i in read if not reading.idle and _explains(reading, numbers, told[i])]
         is_new = reading.is_enough and not read and not any(tables[i].is_misshapen for i in about)
         # arrays of several tables together are none
@@ -90,7 +90,7 @@ def _in_place_of(reading: Reading, tables: Sequence[FoundTable]) -> Iterator[int
     group = reading.group
     lines = {reading.line, *(x.line for x in reading.used), *([group.line] if group else [])}
     for i, x in enumerate(tables):
-        if not (x.b or x.kind) and x.line in lines:
+        if not (x.is_read or x.kind) and x.line in lines:
             yield i
 
 
