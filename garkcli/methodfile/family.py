@@ -28,6 +28,7 @@ from garkcli.methodfile.nodes import Extent, extent, one_line
 from garkcli.methodfile.reader import Reader
 from garkcli.methodfile.wishes import Wishes, meaning_of
 from garkcli.tableau.family import Family
+from garkcli.tableau.stages import Jets
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
@@ -193,6 +194,9 @@ def _family(
     numbers: Moved | None = None,
 ) -> FamilyFile:
     """The family that a file describes, with what is wanted of it."""
+    if description.form == "derivatives":  # its numbers say how many stages its tableau has
+        message = f"{_DESIGN} is for GARK methods: {Jets.why}"
+        raise MethodError(message, Jets.cure, code="cannot-construct")
     made = built(reader, description, FamilyValues)
     tolerance: fmpq | None = None
     if description.rounding is not None:

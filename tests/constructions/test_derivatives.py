@@ -228,6 +228,12 @@ def test_every_command_takes_it_or_refuses_it(tmp_path: Path) -> None:
         run = gark(command, path, *others.get(command, []))
         assert run.code == 2, command
         assert "derivatives of f are used" in run.err, command
+    free = tmp_path / "free.gark.yaml"
+    text = FILE.partition("  emb")[0].replace("[], [1/2]", "[], [x]")
+    free.write_text("parameters: {x: free}\n" + text, "utf-8")
+    run = gark("design", str(free))
+    assert run.code == 2
+    assert "derivatives of f are used" in run.err
     with pytest.raises(MethodError, match="derivatives of f"):
         loads(FILE.partition("  emb")[0]).conjugate  # noqa: B018
     with pytest.raises(MethodError, match="known up to order 5"):
