@@ -138,6 +138,8 @@ def _remarks(compared: Compared) -> list[tuple[str, str]]:
             texts += [text for text in alone.notes(x.test) if text != alone.NO_TIME]
         said += [(x.letter, text) for text in texts]
     said += [(", ".join(who) if len(seen) > 1 else "note", text) for text, who in seen.items()]
+    others = {result.jacobian for _, result in compared.tested} - {"exact"}
+    said += [("Jacobian", taken) for taken in sorted(others)]
     costs = [row.cost for _, result in compared.tested for row in result.rows]
     if compared.has_work and any(x is None or x.seconds is None for x in costs):
         said.append(("note", alone.NO_TIME))

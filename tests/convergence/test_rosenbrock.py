@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 from flint import fmpq
 from mpmath import lu_solve, matrix, mp, mpc, mpf
@@ -208,6 +210,8 @@ def test_other_matrices_on_the_command_line() -> None:
     assert "order 2.00 observed" in run.out
     assert "Jacobian" in run.out
     assert "Jacobian" not in gark("converge", "rodas3").out
+    several = gark("converge", "rodas3", "ros3p", "--jacobian", "old", "--steps", "1/2,1/4")
+    assert re.search(r"^ *Jacobian +old$", several.out, re.M)
     assert "is meant of Rosenbrock methods" in gark("converge", "rk4", "--jacobian", "old").err
     run = gark("converge", "rodas3", "--jacobian", "old", "--problem", "oscillator")
     assert "the oscillator takes" in run.err
