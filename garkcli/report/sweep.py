@@ -36,7 +36,7 @@ def _answer(report: SweepReport, _: Plain) -> str:
 
 
 def _failed_words(failed: Sequence[Judged], d: Plain) -> str:
-    return f"{len(failed)} cannot be made, the first: {d.prose(str(failed[0]['failure']))}"
+    return f"{counted(len(failed), 'method')}, the first: {d.prose(str(failed[0]['failure']))}"
 
 
 def _value_words(value: Value, d: Plain) -> str:

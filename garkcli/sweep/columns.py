@@ -177,9 +177,6 @@ def _rounded(text: str) -> float:
 
 
 def _property(key: str, judged: Judged) -> Value:
-    if is_rosenbrock(judged.tableau) and key not in OF_BETA:
-        message = f"{key} is meant of Runge–Kutta methods"
-        raise MethodError(message, "leave the column out", code="wanted-without-meaning")
     value = judged.subject.verdict(key).value
     if not isinstance(value, Size):
         return value
@@ -278,6 +275,9 @@ _PLAIN = (
         for key, which in {**VIEWS, **DAE_VIEWS}.items()
     ),
 )
+_OF_ROSENBROCK = {"order", "error", "error-largest", "stages", "colours"} | OF_BETA
+_OF_ROSENBROCK |= {*VIEWS, *DAE_VIEWS}
+"""The columns that have a meaning for Rosenbrock methods."""
 _LESS_IS_BETTER = {"implicit-stages", "fully-implicit", "reducible", "gamma"}
 
 
@@ -289,6 +289,18 @@ def columns() -> Mapping[str, Column]:
         text = f"gark check --explain {key}"
         found[key] = Column(key, partial(_property, key), text, key not in _LESS_IS_BETTER)
     return found
+
+
+def value_of(name: str, judged: Judged) -> Value:
+    """The value of a column.
+
+    Raises:
+        MethodError: it has no meaning for the method.
+    """
+    if is_rosenbrock(judged.tableau) and name not in _OF_ROSENBROCK:
+        message = f"{name} is meant of Runge–Kutta methods"
+        raise MethodError(message, "leave the column out", code="wanted-without-meaning")
+    return columns()[name].value(judged)
 
 
 def property_kind(name: str) -> str:

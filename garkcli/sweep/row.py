@@ -21,7 +21,7 @@ from garkcli.methodfile.family import FamilyFile, loads_family, with_values
 from garkcli.methodfile.load import loads
 from garkcli.methodfile.search_file import FileSearch
 from garkcli.problems.draw import Draw
-from garkcli.sweep.columns import Judged, Value, columns, is_value
+from garkcli.sweep.columns import Judged, Value, columns, is_value, value_of
 from garkcli.sweep.plan import Criteria, Point
 from garkcli.tableau.tableau import Tableau
 
@@ -113,13 +113,13 @@ def row_of(criteria: Criteria, point: Point) -> Row:
             tableau.demand_fields("gark sweep")
         judged = Judged(tableau)
         for condition in criteria.conditions:
-            value = columns()[condition.column].value(judged)
+            value = value_of(condition.column, judged)
             row[condition.column] = value
             if not condition.holds(value):
                 return row
         for name in criteria.columns:
             if name not in row:
-                row[name] = columns()[name].value(judged)
+                row[name] = value_of(name, judged)
     except (GarkError, ZeroDivisionError) as error:
         row["failure"] = _message(error)
         return row
