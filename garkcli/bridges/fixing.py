@@ -7,6 +7,7 @@ and no other repair of that size gives it the same orders.
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
 from flint import fmpq
@@ -47,7 +48,7 @@ class Mended(Frozen):
 
     Attributes:
         source: its path.
-        before: its text.
+        before: its text; empty where it is no UTF-8, or begins with a mark.
         after: the same with the repairs; equal where nothing is sure.
         wrong: how many tables have errors.
         mended: how many of these have none any more.
@@ -90,14 +91,17 @@ def mended_sources(found: Iterable[Audited], paths: Iterable[str]) -> Iterator[M
     Raises:
         UsageProblem: a source cannot be read.
     """
-    wrong = dict.fromkeys(x.table.source for x in found if x.has_errors)
+    wrong = Counter(x.table.source for x in found if x.has_errors)
     orders = declared_orders(paths)
-    for source in wrong:
-        # nothing is written back into a stream, nor into text of another encoding
-        text = "" if is_stream(source) else _text_of(source)
+    for source, count in wrong.items():
+        if is_stream(source):
+            continue  # nothing is written back into it
+        text = _text_of(source)
         if text:
             with doing(source):
                 yield _mended(source, text, orders)
+        else:
+            yield Mended(source, text, text, count, 0)
 
 
 def _text_of(source: str) -> str:

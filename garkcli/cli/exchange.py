@@ -279,8 +279,12 @@ def _write_patch(found: Sequence[Audited], files: Sequence[str], output: Output)
     for source, piece in patches(found, files):
         pieces.append(piece)
         mended += source.mended if piece else 0
-        if source.mended and not piece:
+        why = ""
+        if not source.before:
+            why = "it is no UTF-8, or begins with a byte order mark"
+        elif source.mended and not piece:
             why = "it is not below this folder, or its lines have signs that do not print"
+        if why:
             output.note(f"{printable(source.source)} is left out of the patch: {why}")
     output.write_exactly("".join(pieces))
     wrong = sum(x.has_errors for x in found)

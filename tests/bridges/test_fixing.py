@@ -182,9 +182,12 @@ def test_what_has_no_patch(tmp_path: Path) -> None:
     above = gark("audit", "../m.py", "--fix", cwd=tmp_path / "below")
     assert (above.code, above.out) == (1, "")
     assert "../m.py is left out of the patch" in above.err
-    for text in (b"# na\xefve\n" + wrong.encode(), b"\x1b[31m" + wrong.encode()):
+    heads = (b"# na\xefve\n", b"\xef\xbb\xbf", b"# \x1b[31m\n")
+    for text in (head + wrong.encode() for head in heads):
         (tmp_path / "m.py").write_bytes(text)
-        assert gark("audit", "m.py", "--fix", cwd=tmp_path).out == ""
+        run = gark("audit", "m.py", "--fix", cwd=tmp_path)
+        assert run.out == ""
+        assert "m.py is left out of the patch" in run.err
     assert patch_of("m.py", "a\nb", "a\nc").endswith("+c\n\\ No newline at end of file\n")
     assert patch_of("m.py", "::error::a\nb\n", "::error::a\nc\n") == ""
 
