@@ -48,7 +48,8 @@ class Colours(Frozen):
         names: of the colours.
         R: R(z_1, …, z_N); None where it is too large, or late.
         lines: the lines that determine it.
-        radii: points on the boundary of the region of absolute monotonicity; empty where late.
+        radii: points on the boundary of the region of absolute monotonicity; empty where late,
+            or for linear problems alone.
         pair: the method as an implicit-explicit pair; None where it is none, or R is late.
         explicit_alone: R of the explicit colour alone, of the first one where there is no pair.
         real: the z_E ≤ 0 with every z_I damped; None where there is no pair, or not decided.
@@ -200,8 +201,16 @@ class Stability(Shown, Frozen):
     def of_linear_problems(self) -> Stability:
         """The same without what is about nonlinear problems."""
         linear = tuple(replace(x, ssp=None, is_linear_alone=True) for x in self.linear)
+        colours = self.colours
+        if colours is not None:
+            colours = replace(colours, radii=(), late=colours.late - {"radii"})
         return replace(
-            self, linear=linear, algebraic=None, algebraic_within=None, is_linear_alone=True
+            self,
+            linear=linear,
+            algebraic=None,
+            algebraic_within=None,
+            colours=colours,
+            is_linear_alone=True,
         )
 
     def __repr__(self) -> str:

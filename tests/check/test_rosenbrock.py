@@ -12,7 +12,16 @@ import pytest
 from flint import fmpq
 
 from garkcli import analyse as analyse_in_python
-from garkcli import assert_order, claims_of, compare, find_orders, load, loads, with_claims
+from garkcli import (
+    assert_order,
+    claims_of,
+    compare,
+    find_orders,
+    find_stability,
+    load,
+    loads,
+    with_claims,
+)
 from garkcli.check.check_file import check_file
 from garkcli.check.deciding import analyse
 from garkcli.check.rosenbrock import RosenbrockAnalysis
@@ -434,6 +443,14 @@ def test_stability_of_several_colours() -> None:
     R = stability_function(tableau, [fmpq(5), fmpq(-6)])
     at = fmpq(1, 15)
     assert R.numerator(at) / R.denominator(at) == fmpq(value.numerator, value.denominator)
+
+
+def test_several_colours_have_no_radii_for_nonlinear_problems() -> None:
+    """Absolute monotonicity of A = β says nothing of a step that is another on such problems."""
+    found = find_stability(loads(SEVERAL)).colours
+    assert found is not None
+    assert found.R is not None
+    assert found.radii == ()
 
 
 @pytest.mark.parametrize(
