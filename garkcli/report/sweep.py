@@ -36,7 +36,8 @@ def _answer(report: SweepReport, _: Plain) -> str:
 
 
 def _failed_words(failed: Sequence[Judged], d: Plain) -> str:
-    return f"{counted(len(failed), 'method')}, the first: {d.prose(str(failed[0]['failure']))}"
+    who = counted(len(failed), "method") + (", the first" if len(failed) > 1 else "")
+    return f"{who}: {d.prose(str(failed[0]['failure']))}"
 
 
 def _value_words(value: Value, d: Plain) -> str:
