@@ -79,12 +79,12 @@ def mistyped(line: str, place: Place, wanted: Wanted) -> Iterator[str]:
             yield _turned(line, start)
         return
     near = [
-        (abs(place.with_value(k, text) - abs(wanted.new)), k, text)
+        (abs(place.with_value(k, text) - abs(wanted.new)), len(text) != len(token[0]), k, text)
         for k, token in enumerate(place.tokens)
         for text in _slips(token[0])
         if _value(text) != _value(token[0]) and place.is_as_short(k, text)
     ]
-    for _, k, text in sorted(x for x in near if x[0] <= wanted.allowed)[:3]:
+    for *_, k, text in sorted(x for x in near if x[0] <= wanted.allowed)[:3]:
         token = place.tokens[k]
         yield line[: token.start()] + text + line[token.end() :]
 

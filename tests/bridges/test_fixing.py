@@ -8,7 +8,9 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from flint import fmpq
 
+from garkcli.bridges.misprints import Wanted, mistyped, places
 from garkcli.bridges.patching import patch_of
 from tests.bridges.test_audit import PLANTED, SOURCES
 from tests.cli.harness import Run, gark
@@ -112,6 +114,13 @@ def test_any_other_number_of_an_order_from_three_on(
     applied(run.out, tmp_path)
     assert (tmp_path / "solver.py").read_text() == SOLVER.replace(old, mended)
     assert gark("audit", ".", cwd=tmp_path).code == 0
+
+
+def test_a_misprint_has_another_digit_rather_than_none() -> None:
+    """2.1 for 2 was 2.0, not 2. with a digit too many."""
+    (place,) = places("2.1", 0)
+    wanted = Wanted(fmpq(21, 10), fmpq(2), fmpq(0))
+    assert next(mistyped("2.1", place, wanted)) == "2.0"
 
 
 def test_an_array_of_an_estimate_is_no_array_of_weights(tmp_path: Path) -> None:
