@@ -23,7 +23,7 @@ def at_most(few: int, all_: int) -> int:
     return all_ if IS_WHOLE else few
 
 
-FEW_CASES = 5
+FEW_CASES = 4
 """So many cases of one test run where the whole suite does; in ``make whole`` all of them."""
 
 

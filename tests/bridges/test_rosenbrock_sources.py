@@ -20,6 +20,7 @@ from garkcli.methodfile.load import load, loads
 from garkcli.sources.found import FoundTable
 from tests.bridges.test_rosenbrock import payload
 from tests.cli.harness import gark
+from tests.whole import in_whole
 
 FORMATS = {"petsc": "petsc", "ordinarydiffeq": "julia", "kpp": "fortran"}
 NAMES = ["rodas3", "ros2-small", "ros3p"]
@@ -194,6 +195,7 @@ def test_a_misprint_is_never_passed_in_silence(digit: int, level: str) -> None:
     )
 
 
+@in_whole
 def test_many_rounded_numbers_are_judged_one_by_one(monkeypatch: pytest.MonkeyPatch) -> None:
     """The orders are those of the search for one method that meets all conditions."""
     (table,) = tables(bridges()["ordinarydiffeq"].written(payload("rodas4")), "julia")

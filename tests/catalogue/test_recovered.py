@@ -59,7 +59,7 @@ def test_a_search_starts_there(name: str) -> None:
     assert {**data, "method": name, "digest": KEPT[key]["digest"]} == KEPT[key]
 
 
-@pytest.mark.parametrize("name", sample(NAMES, 20))
+@pytest.mark.parametrize("name", sample(NAMES, 40))
 def test_a_search_from_the_print_finds_as_much(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Orders and shape are those of a search that knows nothing."""
     found = facts_of(search_of(name))

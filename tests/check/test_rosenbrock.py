@@ -317,6 +317,7 @@ def test_orders_on_daes_of_rounded_numbers_fit_each_other() -> None:
         assert (of_y is both) == (both.order == found[0].order.order)
 
 
+@in_whole
 def test_digits_that_have_an_order_alone_leave_the_others(tmp_path: Path) -> None:
     """These digits have W-order 2 as they are printed, and the method with order 3 within the
     rounding has not: the W-order is that of the method, and does not keep the orders for f(t, y)

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.harness import gark
+from tests.whole import in_whole
 
 FAMILY = "parameters: {g: free, one: 1}\nA: [[g, 0], [one - 2*g, g]]\nb: [1/2, 1/2]\n"
 METHOD = "A: [[1/4, 0], [1/2, 1/4]]\nb: [1/2, 1/2]\n"
@@ -44,6 +45,7 @@ def test_a_chosen_method_is_the_method(command: str, tmp_path: Path) -> None:
     assert (of_family, of_shape) == (plain, plain)
 
 
+@in_whole
 @pytest.mark.parametrize("command", COMMANDS)
 def test_what_is_not_chosen_is_said(command: str, tmp_path: Path) -> None:
     """A family without values is told for every value or refused, and a parameter that there is

@@ -17,7 +17,7 @@ from garkcli.exact.field import Number
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.load import load, loads
 from tests.cli.harness import ROOT, gark
-from tests.whole import sample
+from tests.whole import in_whole, sample
 
 FILES = sorted((ROOT / "garkcli/catalogue/data/rosenbrock").glob("*.gark.yaml"))
 WITH_ZERO = {"lassp-34", "llssp-34"}
@@ -69,6 +69,7 @@ def test_exact_methods_come_back(path: Path) -> None:
 ROUNDED = [x for x in FILES if x not in exact_files() and stem(x) not in {*WITH_ZERO, *SLOW}]
 
 
+@in_whole
 @pytest.mark.parametrize("path", sample(ROUNDED, 5), ids=stem)
 def test_rounded_methods_stay_within_what_their_files_say(path: Path) -> None:
     """The other form of a rounded file has all its claims within a tolerance, by less than which

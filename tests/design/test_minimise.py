@@ -624,6 +624,7 @@ def test_a_level_of_a_large_degree() -> None:
     assert max(sides) == pytest.approx(float(best.value), rel=1e-6)
 
 
+@in_whole
 def test_by_trial() -> None:
     """Two free nodes: the optimal SSP method of three stages and order 3 is found, with no claim
     that it is the best.

@@ -112,6 +112,7 @@ def test_a_field_that_nobody_described_is_noticed() -> None:
     assert not VALIDATOR.is_valid(found)
 
 
+@in_whole
 def test_each_table_has_a_row_a_colour() -> None:
     """B, C and D of a GARK method are as large as it has colours."""
     files = every_file()["files"]

@@ -459,6 +459,7 @@ def test_any_tableau_has_a_variational_pair(tableau: Tableau) -> None:
     assert max(imbalances(case, case.path(MANY, 2))) < TOLERANCES[MANY]
 
 
+@in_whole
 @pytest.mark.parametrize("name", SOME)
 @pytest.mark.parametrize(
     ("digits", "error"), [(FLOAT_DIGITS, fmpq(1, 10**4)), (MANY, fmpq(1, 10**20))]
