@@ -89,6 +89,7 @@ def test_the_page_has_its_commands() -> None:
     assert {"check", "energy", "schema"} == {shlex.split(x)[1] for x in found}
 
 
+@pytest.mark.every_case  # one writes what another reads
 @pytest.mark.parametrize("command", commands())
 def test_a_command_runs(command: str, project: Path) -> None:
     """Each command of the page, in the order of the page, ends with exit code 0 and writes what it
