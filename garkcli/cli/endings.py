@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from pathlib import PurePath
+from os.path import splitext
 
 from garkcli.errors import UsageProblem
 
@@ -56,7 +56,7 @@ CURES = {
 
 def ending_of(path: str) -> str:
     """The ending of a file, in small letters; empty where it says nothing."""
-    ending = PurePath(path).suffix.lower()
+    ending = splitext(path)[1].lower()
     return ending if ending in ENDINGS else ""
 
 
@@ -77,7 +77,7 @@ def settled(
     """
     ending = ending_of(path)
     if not ending:
-        is_plain = PurePath(path).suffix.lower() == PLAIN and "text" in formats
+        is_plain = splitext(path)[1].lower() == PLAIN and "text" in formats
         return chosen or ("text" if is_plain else None)
     held = ENDINGS[ending]
     if chosen is not None:
