@@ -1058,6 +1058,14 @@ SUMMARY = Section(
 )
 
 
+OF_OTHER_KINDS = [
+    Row("exact", kinds.TRUTH, lambda a: a.tolerance is None, DATA),
+    maybe("tolerance", kinds.TOLERANCE, level=DATA),
+    Row("colours", parts(COLOURS), lambda a: colours_of(a.tableau), DATA),
+]
+"""What is told of the analysis of every method that is no GARK method, before its orders."""
+
+
 def of_other_kind(
     attribute: str, flag: str, words: Callable[[Any, Plain], str], analysis: Sequence[Row]
 ) -> Section:
@@ -1067,14 +1075,14 @@ def of_other_kind(
         attribute: where its outcome has the analysis.
         flag: the field of JSON that says of which kind it is.
         words: what the method is, of an outcome.
-        analysis: the rows of its analysis.
+        analysis: the rows of its analysis after those of all kinds.
     """
     return Section(
         *kinds.FILE_AND_NAME,
         Row("ok", kinds.TRUTH, level=DATA),
         Row(flag, kinds.TRUE, lambda _: True, DATA),
         Row("method", told(words), "."),
-        *(row.of(attrgetter(attribute)) for row in analysis),
+        *(row.of(attrgetter(attribute)) for row in (*OF_OTHER_KINDS, *analysis)),
         LEFT_BEHIND,
         optional("error_constants", part(CONSTANTS, constants_words), "constants"),
         *CLAIMS,

@@ -8,7 +8,7 @@ from garkcli.errors import counted
 from garkcli.report import check as c
 from garkcli.tell import kinds
 from garkcli.tell.facts import Level, Row, maybe
-from garkcli.tell.parts import part, parts, picture
+from garkcli.tell.parts import part, picture
 
 if TYPE_CHECKING:
     from garkcli.tell.dialect import Plain
@@ -27,9 +27,6 @@ def _method_words(outcome: Any, d: Plain) -> str:
 
 
 ANALYSIS = [
-    Row("exact", kinds.TRUTH, lambda a: a.tolerance is None, DATA),
-    maybe("tolerance", kinds.TOLERANCE, level=DATA),
-    Row("colours", parts(c.COLOURS), lambda a: c.colours_of(a.tableau), DATA),
     Row("exact_to", kinds.POSITION, "tableau.exact_to", DATA),
     c.viewed_order("order", HEADLINE),
     c.viewed_order("slow_order", label="slow method"),

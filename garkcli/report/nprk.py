@@ -6,9 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 from garkcli.errors import counted
 from garkcli.report import check as c
-from garkcli.tell import kinds
 from garkcli.tell.facts import Level, Row, maybe
-from garkcli.tell.parts import SAID, part, parts, picture
+from garkcli.tell.parts import SAID, part, picture
 
 if TYPE_CHECKING:
     from garkcli.tell.dialect import Plain
@@ -24,9 +23,6 @@ def _method_words(outcome: Any, _: Plain) -> str:
 
 
 ANALYSIS = [
-    Row("exact", kinds.TRUTH, lambda a: a.tolerance is None, DATA),
-    maybe("tolerance", kinds.TOLERANCE, level=DATA),
-    Row("colours", parts(c.COLOURS), lambda a: c.colours_of(a.tableau), DATA),
     c.viewed_order("order", HEADLINE),
     c.viewed_order("embedded_order"),
     maybe("error_estimate", part(c.ESTIMATE, c.estimate_phrase), "embedded.estimator"),

@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING, Any
 from garkcli.constructions.nystrom import Nystrom
 from garkcli.errors import counted
 from garkcli.report import check as c
-from garkcli.tell import kinds
 from garkcli.tell.facts import Level, Row, maybe
-from garkcli.tell.parts import SAID, part, parts, picture
+from garkcli.tell.parts import SAID, part, picture
 
 if TYPE_CHECKING:
     from garkcli.tell.dialect import Plain
@@ -26,9 +25,6 @@ def _method_words(outcome: Any, d: Plain) -> str:
 
 
 ANALYSIS = [
-    Row("exact", kinds.TRUTH, lambda a: a.tolerance is None, DATA),
-    maybe("tolerance", kinds.TOLERANCE, level=DATA),
-    Row("colours", parts(c.COLOURS), lambda a: c.colours_of(a.tableau), DATA),
     c.viewed_order("order", HEADLINE),
     c.viewed_order("position_order", label="order of q"),
     c.viewed_order("velocity_order", label="order of q′"),

@@ -11,7 +11,7 @@ from garkcli.report import check as c
 from garkcli.report.test_equation import STABILITY
 from garkcli.tell import kinds
 from garkcli.tell.facts import Level, Row, maybe
-from garkcli.tell.parts import SAID, part, parts, picture
+from garkcli.tell.parts import SAID, part, picture
 
 if TYPE_CHECKING:
     from garkcli.tell.dialect import Plain
@@ -52,9 +52,6 @@ def _names(a: Any) -> list[str]:
 
 
 ANALYSIS = [
-    Row("exact", kinds.TRUTH, lambda a: a.tolerance is None, DATA),
-    maybe("tolerance", kinds.TOLERANCE, level=DATA),
-    Row("colours", parts(c.COLOURS), lambda a: c.colours_of(a.tableau), DATA),
     c.viewed_order("order", HEADLINE),
     c.viewed_order("w_order", label="with any matrix W"),
     c.viewed_order("old_jacobian_order", label="old Jacobian f' + hE"),
