@@ -37,7 +37,8 @@ NAMES = {
         "api.problems": "problem hamiltonian",
         "api.files": "load_problem loads_problem",
         "problems.oscillator": "Oscillator",
-        "api.runs": "converge long_run symplecticity_defects bind integrate trajectory",
+        "api.converging": "converge",
+        "api.runs": "long_run symplecticity_defects bind integrate trajectory",
     },
     "The modified equation": {"api.modified": "backward_analysis modified_formula modified_run"},
     "Design": {
@@ -79,7 +80,7 @@ ANSWERS = {
     "api.methods": "GarkMethod.order=find_order GarkMethod.symplectic=is_symplectic "
     "GarkMethod.conjugate=conjugate GarkMethod.pair=pair GarkMethod.check=analyse",
     "api.calls": "GarkMethod.stability=find_stability",
-    "api.runs": "GarkMethod.converge=converge",
+    "api.converging": "GarkMethod.converge=converge",
     "backward.formulas": "Algebraic.sympy=in_sympy",
     "cli.project": "Files.project=told",
     "exact.display": "Algebraic.float=nearest_float",

@@ -142,10 +142,12 @@ def looks_rounded(method: MethodFile) -> Remark | None:
     """The tolerance that a file lacks; None where it has one, or is exact, or has a misprint."""
     if method.tolerance is not None:
         return None
+    order = order_of(method.tableau)
+    if not is_doubtful(order, None):
+        return None
     from garkcli.check.remark import remark_on  # balls, which exact methods do without
 
-    order = order_of(method.tableau)
-    found = remark_on(method.tableau, order, None) if is_doubtful(order, None) else None
+    found = remark_on(method.tableau, order, None)
     return found if found is not None and found.line else None
 
 

@@ -256,7 +256,7 @@ class Problems:
         Raises:
             GarkError: the method is not for the problem, or a step fails.
         """
-        from garkcli.api.runs import converge
+        from garkcli.api.converging import converge
 
         given = self._given
         problem = self.of(self._stepped(method))

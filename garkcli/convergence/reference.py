@@ -204,7 +204,7 @@ class _Runs:
     """
 
     def __init__(self, problem: Problem, t_end: fmpq, digits: int) -> None:
-        from garkcli.families.registry import diagonal_method
+        from garkcli.families.collocation import gauss, radau_iia
         from garkcli.tableau.forms import gark
 
         self.problem = problem
@@ -212,13 +212,13 @@ class _Runs:
         self.digits = digits
         self.stages = min(_STAGES, max(6, 2 * digits // 5))
         spare = _SPARE
-        family = "gauss"
+        family = gauss
         if isinstance(problem, RightHandSide):
-            family = "radau-iia"
+            family = radau_iia
             largest = max(1.0, float(steepness(problem) * arb(t_end)))
             # what a stiff field makes of round-off
             spare += ceil(log10(largest))
-        method = gark([diagonal_method(family, self.stages)], {})
+        method = gark([family(self.stages)], {})
         self.integrator = bind(method, problem).at(digits + spare)
 
     def end(self, steps: int) -> list[Any] | None:

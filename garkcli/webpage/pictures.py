@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from garkcli.api.runs import converge, long_run
+from garkcli.api.converging import converge
+from garkcli.api.runs import long_run
 from garkcli.constructions.test_equation import on_test_equation
 from garkcli.convergence.convergence import in_common, seeing_problem
 from garkcli.errors import GarkError
