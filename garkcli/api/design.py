@@ -150,13 +150,23 @@ def minimise(design: Design | AnyFamily, objective: str, seconds: float | None =
     >>> found, str(found.value.exact), found.candidates
     (<Minimum of error>, '1/36', 1)
     """
-    if objective not in OBJECTIVES:
-        message = f"no objective {objective!r}"
-        raise UsageProblem(message, did_you_mean(objective, OBJECTIVES), code="unknown-word")
+    known = _objective(objective)
     if not isinstance(design, Design):
         read = exact_family_of(design, "minimise", is_free=False)
         design = designing.find_parameters(read, seconds=seconds)
-    return minimising.minimise(design, objective, seconds)
+    return minimising.minimise(design, known, seconds)
+
+
+def _objective(name: str) -> str:
+    """The name of an objective.
+
+    Raises:
+        UsageProblem: there is none.
+    """
+    if name not in OBJECTIVES:
+        message = f"no objective {name!r}"
+        raise UsageProblem(message, did_you_mean(name, OBJECTIVES), code="unknown-word")
+    return name
 
 
 def search_methods(
@@ -167,6 +177,7 @@ def search_methods(
     most: Whole = 5,
     whose: Whose = "method",
     seconds: float | None = None,
+    objective: str | None = None,
 ) -> Result:
     r"""Search a family for methods of an order, from random starts: ``gark design --search``.
 
@@ -178,9 +189,13 @@ def search_methods(
         most: the most methods to look for; other successes are counted.
         whose: as in ``find_parameters``.
         seconds: after which the search ends with what was found; None for never.
+        objective: that is minimised from each start, as in ``minimise``; the methods are then the
+            best ones that were found.
 
     Raises:
         ZeroWeight: a weight is zero for every value, and there is no conjugate.
+        UsageProblem: there is no such objective, it has no meaning for the methods, or SciPy is
+            not there to minimise it.
 
     >>> from garkcli import loads_family
     >>> family = loads_family("parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [0, 1]")
@@ -196,6 +211,7 @@ def search_methods(
         whole(most, "most", 1),
         whose,
         seconds,
+        None if objective is None else _objective(objective),
     )
 
 
@@ -356,7 +372,12 @@ def found_files(
     else:
         for find in found.methods:
             claim = f"{CLAIMS[found.whose]}: {find.order}{_wanted(family, found.whose)}"
-            head = f"{source} --order {found.order}, start {find.start} of seed {found.seed}\n"
+            goal = "" if found.objective is None else f" --minimise {found.objective.key}"
+            head = (
+                f"{source} --order {found.order}{goal}, start {find.start} of seed {found.seed}\n"
+            )
+            if found.objective is not None:
+                head += f"{found.objective.key.removeprefix('-')} {find.objective}\n"
             head += f"{HEADS[find.proof]}: {claim}"
             if not find.is_exact:
                 head += f", residuals below {find.residual} before rounding"

@@ -146,9 +146,9 @@ def fits(found: Audited, told: FoundTable) -> bool:
 
 
 def readings_of(table: FoundTable, is_none: bool) -> Iterator[FoundTable]:
-    """The other readings of the numbers of a table, with what is told of it: those that much speaks
-    for, or all where the table has no order. Who calls a function of a library stores a matrix as
-    that does.
+    """Other readings of the numbers of a table, with its names and orders: those with much
+    evidence, or all where the table has no order. Who calls a function of a library stores a matrix
+    as that does.
     """
     for each in table.rivals:
         is_likely = is_none or each.linked >= LINKED

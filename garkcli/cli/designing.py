@@ -60,7 +60,10 @@ def design(given: Given, output: Output) -> int:
     seconds = SECONDS if given.seconds is None and given.search is None else given.seconds
     given.moment = None if seconds is None else monotonic() + seconds
     given.whose = given.which or "method"
-    is_free = given.minimise is None
+    is_free = given.minimise is None or given.search is not None
+    if given.folder is not None and not is_free:
+        message = "--minimise finds one method, --output-dir writes several"
+        raise UsageProblem(message, "--emit FILE writes the one", code="options-clash")
     family = load_family(given.file, given.settings, given.moment, is_free)
     is_of_springs = given.slow is not None
     _refuse_rounded(family, given)
@@ -401,7 +404,7 @@ def _search(family: FamilyFile, given: Given, output: Output) -> int:
     if given.order is None:
         cure = "say which by --order P, or in the file by design: {order: P}"
         raise UsageProblem("a search is for an order", cure, code="option-alone")
-    asked = FileSearch.of(family, given.order, given.whose)
+    asked = FileSearch.of(family, given.order, given.whose, given.minimise)
     result, ended = _searched(asked, given)
     files = _written(family, result, given, output)
     output.tell(REPORT, SearchReport(family.source, asked.search, result, files))
@@ -425,7 +428,7 @@ def _searched(asked: FileSearch, given: Given) -> tuple[Result, int | None]:
         try:
             place = given.jobs or 1, given.scheduler or ""
             with until(given.moment), hired(asked.do, _lost, *place) as workers:
-                search, most = asked.search, given.most or MOST
+                search, most = asked.search, given.most or (MOST if given.minimise is None else 1)
                 for result in results(search, starts, given.seed or 0, most, workers):
                     work.what = f"{len(result.methods)} methods found, starts"
                     work.reach(result.starts)

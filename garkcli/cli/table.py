@@ -239,9 +239,9 @@ design --slow A square = stable_values.slow
     | With --p-stable or --i-stable: a slow and a fast spring, the slow one of (hω)² = A.
 --up-to X square = stable_values.up_to | With --slow: fast springs of (hω)² up to X only.
 --search N 1..10000000 default= = search_methods.starts
-    | Search from N random starts instead, and prove the finds.
+    | Search from N random starts instead, and prove the finds; with --minimise the best one.
 --most K 1..100000 default= = search_methods.most
-    | With --search: the most methods to find; by default 5.
+    | With --search: the most methods to find; by default 5, with --minimise the best one.
 design -j --jobs N 0..1000 jobs
     | With --search: the number of processes; 0 is one per processor.
 design --scheduler ADDRESS
@@ -432,10 +432,6 @@ design: --slow with --order
     | two springs give a set of values, --order does not | ask for one
 design: --colour without --a-stable --l-stable
     | --colour goes with --a-stable and --l-stable | add one of them
-design: --search with --minimise
-    | --minimise compares all methods, --search finds some | leave one of them out
-design: --output-dir with --minimise
-    | --minimise finds one method, --output-dir writes several | --emit FILE writes the one
 energy: --omega --split --stiffness --digits --symplecticity --bounded --max-error --plot
     with --modified | OPTION does not go with --modified | leave it out
 modified: --seed without --problem | --seed is for the problem | give --problem too

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from functools import lru_cache
 
 from garkcli.design.member import Whose
@@ -22,6 +21,7 @@ class FileSearch(Frozen):
         settings: values that are given, name and text.
         order: that is wanted.
         whose: of the method, its conjugate or its pair.
+        objective: that is minimised, by its name; None for none.
     """
 
     text: str
@@ -29,12 +29,15 @@ class FileSearch(Frozen):
     settings: tuple[tuple[str, str], ...]
     order: int
     whose: Whose = "method"
+    objective: str | None = None
 
     @classmethod
-    def of(cls, family: FamilyFile, order: int, whose: Whose = "method") -> FileSearch:
+    def of(
+        cls, family: FamilyFile, order: int, whose: Whose = "method", objective: str | None = None
+    ) -> FileSearch:
         """The search of a file that is read already."""
-        settings: Mapping[str, str] = family.settings
-        return cls(family.text, family.source, tuple(settings.items()), order, whose)
+        settings = tuple(family.settings.items())
+        return cls(family.text, family.source, settings, order, whose, objective)
 
     @property
     def family(self) -> FamilyFile:
@@ -66,4 +69,4 @@ def _family(text: str, source: str, settings: tuple[tuple[str, str], ...]) -> Fa
 
 @lru_cache(maxsize=4)
 def _search(asked: FileSearch) -> Search:
-    return Search(asked.family, asked.order, asked.whose)
+    return Search(asked.family, asked.order, asked.whose, asked.objective)

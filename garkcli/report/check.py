@@ -1063,7 +1063,7 @@ OF_OTHER_KINDS = [
     maybe("tolerance", kinds.TOLERANCE, level=DATA),
     Row("colours", parts(COLOURS), lambda a: colours_of(a.tableau), DATA),
 ]
-"""What is told of the analysis of every method that is no GARK method, before its orders."""
+"""Rows of the analysis of methods that are no GARK methods, before their orders."""
 
 
 def of_other_kind(

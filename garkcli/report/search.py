@@ -7,12 +7,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple, get_args
 
 from garkcli.design.member import Whose
+from garkcli.design.minimise.objective import Level as LevelObjective
+from garkcli.design.minimise.objective import Objective
 from garkcli.design.search.run import Ending, Method, Result
 from garkcli.design.search.search import Proof, Search
 from garkcli.errors import counted
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Kind, Level, Row, Section, maybe, via
+from garkcli.tell.facts import Kind, Level, Row, Section, maybe, optional, via
 from garkcli.tell.kinds import COUNT, POSITION, TEXT, TEXTS, TRUTH, choice
 from garkcli.tell.parts import answer, parts, rows_of
 from garkcli.tell.report import Report
@@ -57,6 +59,10 @@ def _found(x: SearchReport, d: Plain) -> str:
     if not result.methods:
         found = f"no method of {order} found, which does not say that there is none"
     starts = counted(result.starts, "start")
+    if result.objective is not None and result.methods:
+        which = "greatest" if isinstance(result.objective, LevelObjective) else "least"
+        best = f"{which} {_of(result.objective)} found {result.methods[0].objective}"
+        found = f"{order}; {best}, the best of {starts}"
     end = "" if result.ending is None else f", then {ENDINGS[result.ending]}"
     return d.prose(f"{found}; {result.successes} of {starts} solve the conditions in floats{end}")
 
@@ -95,14 +101,28 @@ def _values(method: Method, d: Plain) -> Iterator[str]:
         yield f"{d.expression(name)} = {d.expression(value)}"
 
 
-def method_rows(methods: Sequence[tuple[Method, str | None]], d: Plain) -> list[tuple[str, str]]:
+def method_rows(report: SearchReport, d: Plain) -> list[tuple[str, str]]:
     """Each method: what is known of it, where it is, its values."""
+    objective = report.result.objective
     rows = []
-    for number, (method, path) in enumerate(methods, start=1):
+    for number, (method, path) in enumerate(report.methods, start=1):
+        what = "" if objective is None else f"{_of(objective)} {method.objective}; "
         where = "" if path is None else f", written to {path}"
-        head = d.prose(f"{_verdict(method)}; start {method.start}{where}")
+        head = d.prose(f"{what}{_verdict(method)}; start {method.start}{where}")
         rows.append((str(number), f"{head}: {', '.join(_values(method, d))}"))
     return rows
+
+
+def _of(objective: Objective | LevelObjective) -> str:
+    """The name of an objective without the sign that says that it is to be large."""
+    return objective.key.removeprefix("-")
+
+
+def _objective_rows(report: SearchReport, d: Plain) -> list[tuple[str, str]]:
+    objective = report.result.objective
+    if objective is None:
+        return []
+    return [("objective", d.prose(objective.summary.format(next=report.search.order + 1)))]
 
 
 RESIDUAL = Kind(
@@ -119,6 +139,7 @@ OF_METHOD = [
     Row("residual", RESIDUAL),
     Row("start", POSITION),
     Row("values", Kind(VALUES, lambda values, _: dict(values))),
+    maybe("objective", TEXT),
 ]
 METHOD = Section(maybe("file", TEXT, "1"), *via(lambda x: x[0], OF_METHOD))
 SECONDS = Kind({"type": "number", "minimum": 0, "description": "Of the processor."})
@@ -129,6 +150,8 @@ WHOLE = Section(
     answer(_found),
     Row("unknowns", TEXTS, lambda x: list(x.search.family.parameters)),
     Row("order", POSITION, "search.order", DATA),
+    optional("objective", TEXT, lambda x: x.result.objective and x.result.objective.key, DATA),
+    Row("objective_in_words", rows_of(_objective_rows), lambda x: x),
     *via(
         lambda x: x.result,
         [
@@ -141,7 +164,7 @@ WHOLE = Section(
         ],
     ),
     Row("methods", parts(METHOD), level=DATA),
-    Row("methods_in_words", rows_of(method_rows), "methods"),
+    Row("methods_in_words", rows_of(method_rows), lambda x: x),
     title=lambda x, d: d.prose(x.file),
 )
 REPORT: Report[SearchReport] = Report.only(

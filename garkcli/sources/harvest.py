@@ -84,7 +84,7 @@ class Harvester(Evaluator):
         self._handles: dict[int, tuple[int, Space]] = {}
 
     def replaced(self, scope: ir.Scope, space: Space, name: str) -> None:
-        """What an array was before it is assigned anew is an array, too."""
+        """Harvest an array before a new value takes its place."""
         line = space.lines.get(name, scope.line)
         self._before[id(space)] += self.harvest.arrays(name, space[name], line)
 

@@ -66,10 +66,19 @@ def refuse_partitioned(tableau: Tableau) -> None:
         )
 
 
-def _coupling_error(tableau: Tableau, order: int, ring: Parameters | None) -> Quotient:
+def refuse_one_colour(tableau: Tableau) -> None:
+    """Coupling errors are of several colours.
+
+    Raises:
+        UsageProblem: there is one.
+    """
     if on_linear_problems(tableau).size == 1:
         message = "error-coupling: the method has one colour, and no tree has two"
         raise UsageProblem(message, "minimise error", code="wanted-without-meaning")
+
+
+def _coupling_error(tableau: Tableau, order: int, ring: Parameters | None) -> Quotient:
+    refuse_one_colour(tableau)
     return squared_coupling_error(tableau, order + 1, ring)
 
 
@@ -166,7 +175,7 @@ def _imaginary_signs(tableau: Tableau, ring: Parameters) -> Signs:
     return Signs([squared_modulus(Q) - squared_modulus(P)])
 
 
-def _problem(tableau: Tableau) -> Oscillator:
+def oscillator_of(tableau: Tableau) -> Oscillator:
     tableau.demand_fields("the oscillator")
     problem = Oscillator.default(terms_of(tableau), fmpq(1))
     check_structure(tableau, problem)
@@ -174,12 +183,12 @@ def _problem(tableau: Tableau) -> Oscillator:
 
 
 def _oscillator(tableau: Tableau) -> Size:
-    return first_end(oscillator_stability(tableau, _problem(tableau)).stable)
+    return first_end(oscillator_stability(tableau, oscillator_of(tableau)).stable)
 
 
 def _oscillator_signs(tableau: Tableau, ring: Parameters) -> Signs:
     """The denominator, the conditions on the eigenvalues, and the entries off the diagonal."""
-    problem = _problem(tableau)
+    problem = oscillator_of(tableau)
     fields = [problem.matrix(colour) for colour in tableau.colours]
     conditions, others = oscillator_curves(step_plane(tableau, ring, fields))
     poles, _, _, upper, lower = others

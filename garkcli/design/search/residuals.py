@@ -7,6 +7,7 @@ that of the normalised condition, γ(u)/ρ b·𝒜^[u] − 1/ρ: conditions of o
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from flint import fmpq, fmpq_mpoly
@@ -46,6 +47,7 @@ class Residuals:
         self.table = TreeTable.of(coupling_graph(tableau), order)
         self.blocks = {key: _functions(block, ring) for key, block in tableau.blocks.items()}
         self.weights = _functions([colour.b for colour in tableau.colours], ring)
+        self.relations = tuple(more)
         self.more = rational.polynomial_functions(more, ring)
 
     def __len__(self) -> int:
@@ -66,6 +68,31 @@ class Residuals:
             points: shape (unknowns, points), of floats or of balls.
         """
         return _Evaluation(self, points).run()
+
+    @cached_property
+    def floats(self) -> tuple[Array, Array]:
+        """γ(u) over ρ(u), and what b·𝒜[u] times this is on the exact solution, for each tree."""
+        import numpy as np
+
+        table, kinds = self.table, self.table.admissible.kinds
+        integrated = np.array(
+            [
+                kinds[int(root)].integrated(int(order))
+                for root, order in zip(table.root, table.order, strict=True)
+            ],
+            float,
+        )
+        return table.gamma.astype(float) / integrated, table.is_exact / integrated
+
+    def at_one(self, point: Array) -> tuple[Array, Array]:
+        """Values, shape (conditions,), and derivatives, (conditions, unknowns), at one point in
+        floats, faster: by products of matrices, whose last bits depend on the machine.
+
+        Args:
+            point: shape (unknowns,).
+        """
+        values, gradients = _Products(self, point[:, None]).run()
+        return values[:, 0], gradients[:, :, 0]
 
 
 class Generators(rational.System):
@@ -215,7 +242,6 @@ class _Evaluation(StageVectors[_Vectors]):
 
     def _close(self, root: int, ids: slice, vectors: _Vectors) -> None:
         """The residuals of trees from their stage vectors."""
-        table = self.table
         values, gradients = self.values[ids], self.gradients[ids]
         for i, slope in enumerate(self.weights[root]):
             x = vectors.values[:, i]
@@ -223,10 +249,56 @@ class _Evaluation(StageVectors[_Vectors]):
             gradients += slope.value * vectors.derivatives[:, i]
             for unknown, derivative in slope.derivatives:
                 gradients[:, unknown] += derivative * x
-        kind = table.admissible.kinds[root]
-        integrated = kind.integrated(int(table.order[ids.start]))
+        self._normalise(root, ids)
+
+    def _normalise(self, root: int, ids: slice) -> None:
+        """From b·𝒜[u] to the residual."""
+        table = self.table
+        values, gradients = self.values[ids], self.gradients[ids]
+        integrated = table.admissible.kinds[root].integrated(int(table.order[ids.start]))
         for k, number in enumerate(range(ids.start, ids.stop)):
             scale: Any = self.constant(fmpq(int(table.gamma[number]), integrated))
             required = self.constant(fmpq(int(table.is_exact[number]), integrated))
             values[k] = scale * values[k] - required
             gradients[k] *= scale
+
+
+class _Products(_Evaluation):
+    """An evaluation at one point, a block a matrix."""
+
+    def __init__(self, system: Residuals, points: Array) -> None:
+        super().__init__(system, points)
+        self._matrices = {key: self._matrix(block) for key, block in self.blocks.items()}
+        self._rows = [self._matrix([row]) for row in self.weights]
+
+    def _matrix(self, rows: Sequence[Sequence[Any]]) -> tuple[Array, Array]:
+        """Shape (columns, rows), and the derivatives, (unknowns, columns, rows)."""
+        value = self.np.zeros((len(rows[0]), len(rows)))
+        slopes = self.np.zeros((self.system.unknowns, *value.shape))
+        for i, row in enumerate(rows):
+            for j, slope in enumerate(row):
+                if isinstance(slope, rational.Slope):
+                    value[j, i] = self.np.ravel(slope.value)[0]
+                    for unknown, derivative in slope.derivatives:
+                        slopes[unknown, j, i] = self.np.ravel(derivative)[0]
+        return value, slopes
+
+    def _image(self, space: int, m: int, vectors: _Vectors) -> _Vectors:
+        check_time()
+        values, derivatives = self._applied(self._matrices[space, m], vectors)
+        return _Vectors(values[:, :, None], derivatives.transpose(0, 2, 1)[..., None])
+
+    def _applied(self, matrix: tuple[Array, Array], vectors: _Vectors) -> tuple[Array, Array]:
+        """Products, shape (trees, rows), and derivatives, (trees, unknowns, rows)."""
+        A, slopes = matrix
+        values = vectors.values[:, :, 0]
+        derivatives = vectors.derivatives[..., 0].transpose(0, 2, 1) @ A
+        # (unknowns, trees, rows)
+        derivatives += (values @ slopes).transpose(1, 0, 2)
+        return values @ A, derivatives
+
+    def _close(self, root: int, ids: slice, vectors: _Vectors) -> None:
+        values, derivatives = self._applied(self._rows[root], vectors)
+        scale, required = self.system.floats
+        self.values[ids] = scale[ids, None] * values - required[ids, None]
+        self.gradients[ids] = scale[ids, None, None] * derivatives

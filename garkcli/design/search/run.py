@@ -17,9 +17,11 @@ from garkcli.crew.work import Alone, Workers, in_order
 from garkcli.deadline import within
 from garkcli.design.choices import DIGITS, values_text
 from garkcli.design.member import Whose
+from garkcli.design.minimise.objective import Level, Objective
+from garkcli.design.search.optimum import Optimum
 from garkcli.design.search.points import small_bits
 from garkcli.design.search.rational import in_decimals
-from garkcli.design.search.search import BITS, Proof, Search
+from garkcli.design.search.search import BITS, DECIMALS, Find, Proof, Search
 from garkcli.design.solutions import value_at
 from garkcli.errors import MethodError, NotDecided, counted
 from garkcli.exact.field import Number
@@ -29,8 +31,6 @@ from garkcli.exact.roots import RealRoot
 from garkcli.frozen import Frozen, Mutable, field
 from garkcli.tableau.family import Family
 
-DECIMALS = 40
-"""Decimals of numbers that are not known exactly."""
 RESIDUAL = f"1e-{floor(log10(2) * small_bits(BITS))}"
 """What all residuals are below after the last step of Newton's method. The residuals themselves are
 rounding, and no two machines need to agree on them.
@@ -48,6 +48,8 @@ class Method(Frozen):
         order: its exact order where that is known; else that of the conditions that were solved.
         values: of the parameters, exact or decimals.
         residual: a bound on all residuals up to the order; "0" where they vanish.
+        objective: what was minimised, at the method, as a decimal or ``infinity``; None where
+            nothing was.
     """
 
     start: int
@@ -55,6 +57,7 @@ class Method(Frozen):
     order: int
     values: Mapping[str, str]
     residual: str
+    objective: str | None = None
 
     @property
     def is_exact(self) -> bool:
@@ -109,12 +112,14 @@ class Result(Mutable):
         degenerate: how many of the different solutions that were searched are no methods:
             no solution with more digits is near.
         unstable: how many of them are not shown to be as stable as the file wants.
-        methods: each once, in the order of the starts.
+        methods: each once, in the order of the starts; where an objective is minimised the best
+            first.
         seconds: of the processor.
         ending: what ended the search before its last start; None where nothing did.
         order: that was wanted.
         whose: order that is.
         seed: of the starts.
+        objective: that is minimised, if one is.
     """
 
     starts: int = 0
@@ -127,6 +132,7 @@ class Result(Mutable):
     order: int = 0
     whose: Whose = "method"
     seed: int = 0
+    objective: Objective | Level | None = None
 
     @property
     def is_interrupted(self) -> bool:
@@ -169,20 +175,62 @@ class Solution(Frozen):
 
     def result(self, search: Search) -> object:
         """What comes of it."""
-        find = search.find(self.start, self.point)
-        if find is None or not find.is_stable:
-            return None if find is None else False
-        if find.found is not None:
-            solution = find.found.solution
-            exact = {name: solution.values[name] for name in search.family.parameters}
-            values = _exact(exact, solution.real[0])
-        else:
-            values = {name: decimals(find.digits[name]) for name in search.family.parameters}
-        residual = "0" if find.found is not None else RESIDUAL
-        return Method(find.start, find.proof, find.order, values, residual)
+        return _method(search, search.find(self.start, self.point))
 
 
-Task: TypeAlias = Batch | Solution
+class Descent(Frozen):
+    """Work: the best method near a solution in floats; None where there is none.
+
+    Attributes:
+        start: the number of the start that led to it.
+        point: values of the unknowns.
+    """
+
+    start: int
+    point: Start
+
+    def result(self, search: Search) -> object:
+        """What comes of it."""
+        return search.program.improved(self.point)
+
+
+class Best(Frozen):
+    """Work: the method that an optimum in floats makes; as ``Solution``.
+
+    Attributes:
+        start: the number of the start that led to it.
+        optimum: the point and its value.
+    """
+
+    start: int
+    optimum: Optimum
+
+    def result(self, search: Search) -> object:
+        """What comes of it."""
+        return _method(search, search.best(self.start, self.optimum))
+
+
+def _method(search: Search, find: Find | None) -> object:
+    """A find as text; None where there is none, False where it is not shown to be as stable as is
+    wanted.
+    """
+    if find is None or not find.is_stable:
+        return None if find is None else False
+    if find.found is not None:
+        solution = find.found.solution
+        exact = {name: solution.values[name] for name in search.family.parameters}
+        values = _exact(exact, solution.real[0])
+    else:
+        values = {name: decimals(find.digits[name]) for name in search.family.parameters}
+    residual = "0" if find.found is not None else RESIDUAL
+    objective = None
+    if search.objective is not None:
+        value = search.value(find)
+        objective = "infinity" if value is None else root_decimal(value, DIGITS)
+    return Method(find.start, find.proof, find.order, values, residual, objective)
+
+
+Task: TypeAlias = Batch | Solution | Descent | Best
 
 
 def do(search: Search, task: Task) -> Timed:
@@ -203,6 +251,7 @@ def search_methods(
     most: int = MOST,
     whose: Whose = "method",
     seconds: float | None = None,
+    objective: str | None = None,
 ) -> Result:
     """Search a family for methods of an order, from random starts.
 
@@ -214,6 +263,8 @@ def search_methods(
         most: the most methods to look for; other successes are counted.
         whose: order is meant: of the method, its symplectic conjugate or its pair.
         seconds: after which the search ends with what was found; None for never.
+        objective: that is minimised from each start, one of ``OBJECTIVES`` by its name; None for
+            none.
 
     Raises:
         ZeroWeight: a weight is zero for every value, and there is no conjugate.
@@ -221,7 +272,8 @@ def search_methods(
     result = Result(order=order, whose=whose, seed=seed)
     try:
         with within(seconds):
-            for found in results(Search(family, order, whose), starts, seed, most):
+            search = Search(family, order, whose, objective)
+            for found in results(search, starts, seed, most):
                 result = found
     except NotDecided:
         result.ending = "time"
@@ -265,9 +317,13 @@ class _Run:
         self.search = search
         self.workers = workers
         self.most = most
-        self.result = Result(order=search.order, whose=search.whose, seed=seed)
+        self.result = Result(
+            order=search.order, whose=search.whose, seed=seed, objective=search.objective
+        )
         self._seen: list[Start] = []
         self._texts: set[tuple[str, ...]] = set()
+        self._optima: list[Best] = []
+        self._known: dict[int, Method | None] = {}
 
     def take(self, group: Sequence[Start], size: int) -> Iterator[Result]:
         """The solutions of some starts, so many at a time: those that are new are proved."""
@@ -283,12 +339,45 @@ class _Run:
                 if self._is_new(point):
                     new.append(Solution(first + place + k, point))
             yield self.result
+        if self.search.objective is not None:
+            yield from self._descend(new)
+            return
         while new and len(self.result.methods) < self.most:
             together = self.workers.size
             now, new = new[:together], new[together:]
             for timed in self._done(now):
                 self._keep(timed.result)
             yield self.result
+
+    def _descend(self, new: Sequence[Solution]) -> Iterator[Result]:
+        """The best methods near some solutions; those that are now the best of all are proved."""
+        self.search.program  # noqa: B018 -- what it has to refuse it refuses here
+        tasks = [Descent(solution.start, solution.point) for solution in new]
+        for task, timed in zip(tasks, self._done(tasks), strict=True):
+            found = timed.result
+            if isinstance(found, Optimum) and not any(
+                _are_same(found.point, other.optimum.point) for other in self._optima
+            ):
+                self._optima.append(Best(task.start, found))
+            yield self.result
+        self._optima.sort(key=lambda best: (best.optimum.grade, best.start))
+        while now := [x for x in self._chosen() if x.start not in self._known]:
+            for best, timed in zip(now, self._done(now), strict=True):
+                made = timed.result
+                self._known[best.start] = None
+                if isinstance(made, Method) and self._is_first(made):
+                    self._known[best.start] = made
+                self.result.unstable += made is False
+                self.result.degenerate += made is None
+        self.result.methods = [
+            made for x in self._chosen() if (made := self._known[x.start]) is not None
+        ]
+        yield self.result
+
+    def _chosen(self) -> list[Best]:
+        """The best optima that make methods, as far as is known."""
+        able = [x for x in self._optima if self._known.get(x.start, True) is not None]
+        return able[: self.most]
 
     def _done(self, tasks: Sequence[Task]) -> Iterator[Timed]:
         """What comes of tasks, in their order."""
@@ -297,11 +386,10 @@ class _Run:
             yield timed
 
     def _is_new(self, point: Start) -> bool:
-        if len(self.result.methods) >= self.most:
+        if self.search.objective is None and len(self.result.methods) >= self.most:
             return False
-        for other in self._seen:
-            if all(abs(a - b) <= SAME for a, b in zip(point, other, strict=True)):
-                return False
+        if any(_are_same(point, other) for other in self._seen):
+            return False
         self._seen.append(point)
         return True
 
@@ -314,7 +402,16 @@ class _Run:
         if not isinstance(found, Method):
             self.result.degenerate += 1
             return
-        texts = tuple(found.values.values())
-        if texts not in self._texts:
-            self._texts.add(texts)
+        if self._is_first(found):
             self.result.methods.append(found)
+
+    def _is_first(self, found: Method) -> bool:
+        """Whether no other one has the same numbers."""
+        texts = tuple(found.values.values())
+        is_first = texts not in self._texts
+        self._texts.add(texts)
+        return is_first
+
+
+def _are_same(one: Sequence[float], other: Sequence[float]) -> bool:
+    return all(abs(a - b) <= SAME for a, b in zip(one, other, strict=True))

@@ -14,23 +14,29 @@ from garkcli.design.member import (
     Whose,
     is_admissible,
     is_as_stable,
+    member,
     not_negative,
     value_of,
 )
+from garkcli.design.minimise.objective import Level
+from garkcli.design.search.goals import meant
 from garkcli.design.search.least_squares import least_squares
+from garkcli.design.search.optimum import Optimum, Program
 from garkcli.design.search.points import Fixings, is_proved, polished
 from garkcli.design.search.rational import (
     RationalFunction,
     as_float,
+    in_decimals,
     over_box,
     polynomial_functions,
 )
 from garkcli.design.search.recognise import Recognised, recognised
 from garkcli.design.search.residuals import Generators, Residuals
 from garkcli.design.search.snap import fixed_nearby, nodes_of, snapped, unknowns_of
-from garkcli.design.solutions import Solution
+from garkcli.design.solutions import Solution, value_at
 from garkcli.design.want import Asked, numerators
-from garkcli.exact.field import ZERO
+from garkcli.exact.field import ZERO, Number
+from garkcli.exact.roots import RealRoot
 from garkcli.frozen import Frozen, replace
 from garkcli.problems.draw import Draw
 from garkcli.tableau.family import Family
@@ -87,6 +93,8 @@ Proof: TypeAlias = Literal["exact", "exists", "numerical"]
 """What is known of a find: its exact order; that there is one; that residuals are small."""
 BITS = 1024
 """Bits to which solutions are polished."""
+DECIMALS = 40
+"""Decimals of numbers that are not known exactly."""
 FEW_BITS = 212
 """Enough to tell a solution from a point with small residuals."""
 USUAL = (0.0, 1.0)
@@ -126,16 +134,20 @@ class Search:
         family: of methods.
         order: that is wanted.
         whose: of the method, its symplectic conjugate or its pair.
+        objective: that is minimised, one of ``OBJECTIVES`` by its name; None for none.
 
     Raises:
         ZeroWeight: there is no conjugate.
     """
 
-    def __init__(self, family: Family, order: int, whose: Whose = "method") -> None:
+    def __init__(
+        self, family: Family, order: int, whose: Whose = "method", objective: str | None = None
+    ) -> None:
         self.family = family if whose != "method" else _damped(family)
         self.order = order
         self.whose = whose
         self.tableau = TABLEAUS[whose](family.tableau)
+        self.objective = None if objective is None else meant(objective, self.tableau)
 
     @cached_property
     def conditions(self) -> Residuals:
@@ -184,6 +196,53 @@ class Search:
                 return False
         roots = [values[radical.name] for radical in self.family.radicals if radical.is_even]
         return all(value >= -1e-9 for value in roots)
+
+    @cached_property
+    def program(self) -> Program:
+        """The minimisation.
+
+        Raises:
+            UsageProblem: SciPy is not there, or the objective has no meaning for the methods.
+        """
+        assert self.objective is not None
+        return Program(self.family, self.conditions, self.objective)
+
+    def best(self, start: int, optimum: Optimum) -> Find | None:
+        """What can be proved of an optimum, its numbers made short; None where it is no method.
+
+        Args:
+            start: the number of the start that led to it.
+            optimum: a method in floats.
+        """
+        system, near = self.program.shortened(optimum, self._preferences[0])
+        x = polished(system, list(near.point), BITS)
+        if x is None:
+            system = Fixings(self.conditions)
+            x = polished(system, list(optimum.point), BITS)
+        if x is None:
+            return None
+        return self._exact(start, x) or self._inexact(start, system, x)
+
+    def value(self, find: Find) -> RealRoot | None:
+        """The objective of a method; of numbers that are not rational at their decimals. None for
+        infinity.
+        """
+        assert self.objective is not None
+        names = self.family.ring.names
+        values: dict[str, Number] = {}
+        digits = find.digits
+        if find.found is not None:
+            values = dict(find.found.solution.values)
+            digits = _digits_of(find.found.solution)
+        if not all(isinstance(values.get(name), fmpq) for name in names):
+            with ctx.workprec(BITS):
+                values = {x: fmpq(in_decimals(digits[x], DECIMALS), 10**DECIMALS) for x in names}
+        tableau = member(self.tableau, self.family.ring, values)
+        if isinstance(self.objective, Level):
+            y = self.objective.value(tableau)
+            return self.objective.shown(y)
+        quotient = self.objective.formula(tableau, self.order, None)
+        return RealRoot.rational(quotient.numerator / quotient.denominator)
 
     def find(self, start: int, point: list[float]) -> Find | None:
         """What can be proved of a solution in floats; None where it is no solution after all.
@@ -282,6 +341,12 @@ class Search:
             return None
         stable = is_as_stable(self.family, self.whose, solution, guess.root)
         return Find(start, "exact", order.order, Found(solution, order, (0,)), {}, bool(stable))
+
+
+def _digits_of(solution: Solution) -> Mapping[str, arb]:
+    """The values at the real root that is meant, to many digits."""
+    root = solution.real[0]
+    return {name: value_at(value, root).ball(BITS) for name, value in solution.values.items()}
 
 
 def _damped(family: Family) -> Family:

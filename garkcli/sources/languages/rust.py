@@ -104,7 +104,7 @@ class RustLowering(Lowering):
             yield ir.Assign(self.target(target), self.expr(value), line)
 
     def _attributes(self, node: Node) -> Iterator[str]:
-        """What stands in front of an item, the last first."""
+        """The attributes in front of an item, the last first."""
         before = node.prev_named_sibling
         while before is not None and self.is_a("comment", before):
             yield self.text(before)

@@ -1,0 +1,347 @@
+"""The best method near a solution: SciPy's sequential quadratic programming (D. Kraft, 1988) on the
+order conditions, with an objective and inequalities; then short numbers that cost next to nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from flint import fmpq
+
+from garkcli.deadline import check_time
+from garkcli.design.member import not_negative
+from garkcli.design.minimise.objective import Level, Objective
+from garkcli.design.search.goals import AStable, Goal, Reach, Trees, goal_of, kept
+from garkcli.design.search.least_squares import least_squares
+from garkcli.design.search.points import Fixed, Fixings, rank
+from garkcli.design.search.rational import (
+    RationalFunction,
+    as_float,
+    polynomial_functions,
+    with_gradients,
+)
+from garkcli.design.search.residuals import Residuals
+from garkcli.errors import UsageProblem
+from garkcli.frozen import Frozen
+from garkcli.tableau.family import Family
+
+if TYPE_CHECKING:
+    from garkcli.design.search.goals import Gradient
+    from garkcli.design.search.rational import Array
+
+STEPS = 100
+"""Steps of the optimiser before it begins anew, where it is."""
+ROUNDS = 4
+"""How often it begins."""
+GAIN = 1e-4
+"""The part of the objective that a round has to gain, or it is the last."""
+ACCURACY = 1e-12
+"""The change of the objective at which the optimiser ends."""
+TINY = 1e-20
+"""A smaller objective is none."""
+LARGEST = 20.0
+"""Unknowns are no larger."""
+FEASIBLE = 1e-9
+"""Inequalities hold up to this, in floats."""
+MARGIN = 1e-6
+"""Positive functions are at least so large."""
+HIGHEST = 1e4
+"""A level is no higher."""
+CLOSE = 1e-12
+"""Residuals of a method in floats."""
+SLACK = 1e-7
+"""What short numbers may cost, as a part of the objective."""
+DENOMINATORS = (1, 2, 3, 4, 5, 6, 8, 10, 12, 15, 16, 20, 24, 25, 30, 40, 50, 100, 200, 500)
+FINE = tuple(10**k for k in range(3, 13))
+"""Denominators where none of the short ones does."""
+
+
+class Optimum(Frozen):
+    """A method in floats at which an objective is least nearby.
+
+    Attributes:
+        value: of the objective; of a level, minus the level.
+        point: values of the unknowns.
+    """
+
+    value: float
+    point: tuple[float, ...]
+
+    @property
+    def grade(self) -> float:
+        """The objective to seven digits: what is the same up to rounding is the same."""
+        return float(f"{self.value:.6e}")
+
+    def is_less(self, other: Optimum, part: float = 0.0) -> bool:
+        """Whether the objective is less than at another one by more than a part of it."""
+        return self.value < other.value - part * abs(other.value)
+
+
+class Program:
+    """Minimise an objective over the methods of a family of an order.
+
+    Args:
+        family: of methods; with ranges, signs and kinds of stability.
+        conditions: of the order.
+        objective: one of ``OBJECTIVES``.
+
+    Raises:
+        UsageProblem: SciPy is not there, or the objective has no meaning for the methods.
+    """
+
+    def __init__(self, family: Family, conditions: Residuals, objective: Objective | Level) -> None:
+        import numpy as np
+
+        try:
+            import scipy.optimize  # noqa: F401 -- it may be missing
+        except ImportError:
+            message = "--search with --minimise needs SciPy"
+            cure = 'type pip install "garkcli[design]"'
+            raise UsageProblem(message, cure, code="missing-package") from None
+        ring = family.ring
+        order = conditions.table.max_order
+        self.conditions = conditions
+        # the conditions of one order more are the error
+        wide = Residuals(conditions.tableau, ring, order + 1, conditions.relations)
+        self._trees = Trees(wide)
+        trees, last = len(wide.table), wide.table.ids(order + 1)
+        self._own = np.r_[0 : last.start, trees : len(wide)]
+        self.goal: Goal = goal_of(objective, conditions.tableau, order, ring, self._trees)
+        self.positive = polynomial_functions(family.positive, ring)
+        self.not_negative = polynomial_functions(not_negative(family), ring)
+        self.bounds = [
+            tuple(
+                default if end is None else as_float(end)
+                for end, default in zip(
+                    family.ranges.get(name, (None, None)), (-LARGEST, LARGEST), strict=True
+                )
+            )
+            for name in ring.names
+        ]
+        self.stable = [
+            AStable(family.on_linear_problems, wanted.colour, order)
+            for wanted in family.stable
+            if wanted.kind in ("a-stable", "l-stable")
+        ]
+
+    def equations(self, x: Array, fixed: Sequence[Fixed] = ()) -> Gradient:
+        """The conditions, and those of given values, at one point."""
+        import numpy as np
+
+        values, slopes = self._trees.at(x)
+        found, of_found = with_gradients([one.function for one in fixed], x[:, None])
+        given = np.array([as_float(one.value) for one in fixed])
+        return (
+            np.concatenate([values[self._own], found[:, 0] - given]),
+            np.concatenate([slopes[self._own], of_found[:, :, 0]]),
+        )
+
+    def signs(self, x: Array) -> Gradient:
+        """The inequalities without the level, values and derivatives."""
+        import numpy as np
+
+        values, derivatives = [], []
+        for functions, margin in ((self.positive, MARGIN), (self.not_negative, 0.0)):
+            found, slopes = with_gradients(functions, x[:, None])
+            values.append(found[:, 0] - margin)
+            derivatives.append(slopes[:, :, 0])
+        for stable in self.stable:
+            found, slopes = stable.at(x)
+            values.append(found)
+            derivatives.append(slopes)
+        return np.concatenate(values), np.concatenate(derivatives)
+
+    def improved(self, start: Sequence[float], fixed: Sequence[Fixed] = ()) -> Optimum | None:
+        """The best method near a solution; None where the optimiser leaves the set.
+
+        Args:
+            start: values of the unknowns, a solution of the conditions.
+            fixed: functions that have given values.
+        """
+        import numpy as np
+
+        best = None
+        with np.errstate(all="ignore"):
+            for _ in range(ROUNDS):
+                found = self._round(np.array(start), fixed)
+                if found is None or (best is not None and not found.is_less(best, GAIN)):
+                    break
+                start, best = found.point, found
+        return best
+
+    def _round(self, x: Array, fixed: Sequence[Fixed]) -> Optimum | None:
+        """One run of the optimiser."""
+        import numpy as np
+        from scipy.optimize import minimize
+
+        n = len(x)
+        has_level = isinstance(self.goal, Reach)
+        equations = kept(lambda z: self.equations(z[:n], fixed))
+        rows = list(rank(equations(x)[1]).rows)
+        # errors are small numbers, which the optimiser would take for a minimum
+        scale = 1.0 if has_level else 1 / max(self._value(x), TINY)
+        objective = kept(lambda z: self._objective(z, scale))
+        inequalities = kept(lambda z: self._inequalities(z, n))
+
+        def equal(z: Array) -> Gradient:
+            check_time()
+            values, slopes = equations(z)
+            return values[rows], _padded(slopes[rows], len(z))
+
+        guess = np.append(x, self._level(x)) if has_level else x
+        constraints = [
+            {"type": kind, "fun": lambda z, f=f: f(z)[0], "jac": lambda z, f=f: f(z)[1]}
+            for kind, f in (("eq", equal), ("ineq", inequalities))
+            if len(f(guess)[0])
+        ]
+        try:
+            found = minimize(
+                lambda z: objective(z)[0],
+                guess,
+                jac=lambda z: objective(z)[1],
+                bounds=[*self.bounds, (0.0, HIGHEST)] if has_level else self.bounds,
+                constraints=constraints,
+                method="SLSQP",
+                options={"maxiter": STEPS, "ftol": ACCURACY},
+            )
+        except (ValueError, np.linalg.LinAlgError):  # numbers that are none
+            return None
+        return self.evaluated(np.asarray(found.x)[:n], fixed)
+
+    def evaluated(self, x: Array, fixed: Sequence[Fixed] = ()) -> Optimum | None:
+        """A point led back to the methods, with its objective; None where it is none of them."""
+        import numpy as np
+
+        system = Fixings(self.conditions, fixed)
+        if not np.all(np.isfinite(x)):
+            return None
+        if np.max(np.abs(self.equations(x, fixed)[0]), initial=0.0) > CLOSE:
+            minima = least_squares(system.at, x[:, None], 40, CLOSE)
+            if not minima.succeeded[0]:
+                return None
+            x = minima.points[:, 0]
+        low, high = np.array(self.bounds).transpose()
+        values, _ = self.signs(x)
+        within = np.all(x >= low - FEASIBLE) and np.all(x <= high + FEASIBLE)
+        if not within or np.min(values, initial=0.0) < -FEASIBLE:
+            return None
+        value = self._value(x)
+        return Optimum(value, tuple(map(float, x))) if np.isfinite(value) else None
+
+    def _value(self, x: Array) -> float:
+        if isinstance(self.goal, Reach):
+            return -self._level(x)
+        return self.goal.at(x)[0]
+
+    def _level(self, x: Array) -> float:
+        """The largest y, up to bisection, up to which the inequalities of the level hold."""
+        import numpy as np
+
+        assert isinstance(self.goal, Reach)
+
+        def holds(y: float) -> bool:
+            try:
+                values, _ = self.goal.at(np.append(x, y))
+            except np.linalg.LinAlgError:
+                return False
+            return bool(np.min(values) >= -FEASIBLE)
+
+        low, high = 0.0, 1e-3
+        while high < HIGHEST and holds(high):
+            low, high = high, 1.25 * high
+        if not low:
+            return 0.0
+        for _ in range(45):
+            middle = (low + high) / 2
+            low, high = (middle, high) if holds(middle) else (low, middle)
+        return low
+
+    def _objective(self, z: Array, scale: float) -> tuple[float, Array]:
+        import numpy as np
+
+        if not isinstance(self.goal, Reach):
+            value, gradient = self.goal.at(z)
+            return scale * value, scale * gradient
+        gradient = np.zeros(len(z))
+        gradient[-1] = -1.0
+        return -float(z[-1]), gradient
+
+    def _inequalities(self, z: Array, n: int) -> Gradient:
+        import numpy as np
+
+        values, slopes = self.signs(z[:n])
+        slopes = _padded(slopes, len(z))
+        if isinstance(self.goal, Reach):
+            of_level, slopes_of_level = self.goal.at(z)
+            values = np.concatenate([values, of_level])
+            slopes = np.concatenate([slopes, slopes_of_level])
+        return values, slopes
+
+    def shortened(
+        self, best: Optimum, wanted: Sequence[RationalFunction]
+    ) -> tuple[Fixings, Optimum]:
+        """Short values for functions, as many as solutions leave free, which cost little.
+
+        Args:
+            best: an optimum.
+            wanted: functions that are to be short, in this order.
+        """
+        import numpy as np
+
+        fixed: list[Fixed] = []
+        present = best
+        most = best.value + SLACK * abs(best.value)
+        known = self._rank(fixed, present)
+        for function in wanted:
+            if known == len(best.point):
+                break
+            if self._rank([*fixed, Fixed(function, fmpq(0))], present) == known:
+                continue
+            now = with_gradients([function], np.array(present.point)[:, None])[0]
+            for value in _near(float(now[0, 0])):
+                check_time()
+                more = [*fixed, Fixed(function, value)]
+                moved = self._moved(present, more)
+                if moved is None or moved.value > most:
+                    continue
+                if self._rank(more, moved) > known:
+                    fixed, present, known = more, moved, self._rank(more, moved)
+                    most = min(most, moved.value + SLACK * abs(moved.value))
+                    break
+        return Fixings(self.conditions, fixed), present
+
+    def _rank(self, fixed: Sequence[Fixed], at: Optimum) -> int:
+        import numpy as np
+
+        _, jacobian = self.equations(np.array(at.point), fixed)
+        return len(rank(jacobian))
+
+    def _moved(self, present: Optimum, fixed: Sequence[Fixed]) -> Optimum | None:
+        """The best method with given values near another one."""
+        import numpy as np
+
+        system = Fixings(self.conditions, fixed)
+        minima = least_squares(system.at, np.array(present.point)[:, None], 60, CLOSE)
+        if not minima.succeeded[0]:
+            return None
+        back = [float(x) for x in minima.points[:, 0]]
+        found = self.improved(back, fixed)
+        return found or self.evaluated(np.array(back), fixed)
+
+
+def _near(present: float) -> Iterator[fmpq]:
+    """Numbers near one, the shorter first; each once."""
+    known = set()
+    for q in (*DENOMINATORS, *FINE):
+        value = fmpq(round(present * q), q)
+        if abs(as_float(value) - present) < 0.02 and value not in known:
+            known.add(value)
+            yield value
+
+
+def _padded(slopes: Array, size: int) -> Array:
+    """Derivatives by further unknowns, which are zero."""
+    import numpy as np
+
+    return np.pad(slopes, ((0, 0), (0, size - slopes.shape[1])))

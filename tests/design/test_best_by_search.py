@@ -1,0 +1,246 @@
+"""``gark design --search --minimise``: objectives in floats against the exact ones, and optima that
+are known.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from flint import fmpq
+
+from garkcli import loads_family, minimise, search_methods
+from garkcli.design.member import member
+from garkcli.design.minimise.objective import Level, Objective
+from garkcli.design.search.goals import Reach, Smooth, meant
+from garkcli.design.search.optimum import Program
+from garkcli.design.search.search import Search
+from garkcli.errors import UsageProblem
+from garkcli.methodfile.family import FamilyFile
+from garkcli.problems.draw import Draw
+from tests.cli.harness import gark
+
+EXPLICIT3 = "unknown: {stages: 3, shape: explicit}\ndesign: {order: 2}"
+SSP33 = "unknown: {stages: 3, shape: explicit}\ndesign: {order: 3}"
+SSP43 = "unknown: {stages: 4, shape: explicit}\ndesign: {order: 3}"
+IMEX = "unknown: {stages: 3, shape: imex}\ndesign: {order: 2}"
+SPLITTING = "unknown: {stages: 3, shape: splitting}\ndesign: {order: 2}"
+SDIRK = "unknown: {stages: 3, shape: [sdirk, stiffly-accurate]}\ndesign: {order: 2}"
+ROSENBROCK = "unknown: {stages: 3, shape: rosenbrock}\ndesign: {order: 2}"
+
+
+def program(text: str, objective: str) -> tuple[Search, Program]:
+    """The search of a family, and its minimisation."""
+    family = loads_family(text)
+    assert family.order is not None
+    search = Search(family, family.order, objective=objective)
+    return search, search.program
+
+
+def points(search: Search, count: int, seed: int = 1) -> list[list[fmpq]]:
+    """Methods at rational values of the unknowns; they need no order."""
+    draw = Draw(seed)
+    names = search.family.ring.names
+    return [[fmpq(draw.word() % 61 + 5, 60) for _ in names] for _ in range(count)]
+
+
+def floats(point: list[fmpq]) -> Any:
+    return np.array([int(x.p) / int(x.q) for x in point])
+
+
+@pytest.mark.parametrize("text", [EXPLICIT3, IMEX, SPLITTING, SDIRK, ROSENBROCK])
+@pytest.mark.parametrize("objective", ["error", "error-coupling", "coefficients"])
+def test_smooth_objectives_are_the_exact_ones(text: str, objective: str) -> None:
+    """Sums over trees in floats are the exact ones without a list of trees; so are gradients, by
+    differences.
+    """
+    if objective == "error-coupling" and text not in (IMEX, SPLITTING):
+        with pytest.raises(UsageProblem, match="one colour"):
+            program(text, objective)
+        return
+    if objective == "coefficients" and text == ROSENBROCK:
+        return
+    search, made = program(text, objective)
+    exact = meant(objective, search.tableau)
+    assert isinstance(made.goal, Smooth)
+    assert isinstance(exact, Objective)
+    for point in points(search, 3):
+        values = dict(zip(search.family.ring.names, point, strict=True))
+        tableau = member(search.tableau, search.family.ring, values)
+        quotient = exact.formula(tableau, search.order, None)
+        wanted = quotient.numerator / quotient.denominator
+        value, gradient = made.goal.at(floats(point))
+        assert value == pytest.approx(int(wanted.p) / int(wanted.q), rel=1e-10)
+        assert_gradient(lambda x: made.goal.at(x)[0], floats(point), gradient)
+
+
+def assert_gradient(function: Any, x: Any, gradient: Any) -> None:
+    """Derivatives are those of central differences."""
+    for k in range(len(x)):
+        step = np.zeros(len(x))
+        step[k] = 1e-4
+        slope = (function(x + step) - function(x - step)) / 2e-4
+        # weights near 0 magnify rounding
+        assert gradient[k] == pytest.approx(slope, rel=1e-4, abs=2e-3)
+
+
+RK4 = """
+parameters: {t: {free: true}}
+A: [[0, 0, 0, 0], [t, 0, 0, 0], [0, 1/2, 0, 0], [0, 0, 1, 0]]
+b: [1/6, 1/3, 1/3, 1/6]
+design: {order: 4}
+"""
+VERLET = """
+parameters: {t: free}
+prk: {q: {A: [[0, 0], [t, 1/2]], b: [1/2, 1/2]}, p: {A: [[1/2, 0], [1/2, 0]], b: [1/2, 1/2]}}
+design: {order: 2}
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "objective"),
+    [
+        (RK4, "-real-interval"),
+        (RK4, "-imaginary-interval"),
+        (VERLET, "-oscillator-interval"),
+        (SSP33, "-ssp"),
+    ],
+)
+def test_levels_hold_up_to_the_exact_one(text: str, objective: str) -> None:
+    """The inequalities in floats hold a little below the level that is decided exactly, and fail a
+    little above; their derivatives are those of differences.
+    """
+    search, made = program(text, objective)
+    exact = meant(objective, search.tableau)
+    assert isinstance(made.goal, Reach)
+    assert isinstance(exact, Level)
+    names = search.family.ring.names
+    point = [fmpq(1, 2)] if len(names) == 1 else SSP33_POINT
+    values = dict(zip(names, point, strict=True))
+    found = exact.shown(exact.value(member(search.tableau, search.family.ring, values)))
+    assert found is not None
+    level = float(found.ball(64))
+    x = floats(point)
+    below, slopes = made.goal.at(np.append(x, 0.99 * level))
+    above, _ = made.goal.at(np.append(x, 1.02 * level))
+    assert min(below) >= -1e-12
+    assert min(above) < 0
+    for k in range(len(below)):
+        assert_gradient(lambda z, k=k: made.goal.at(z)[0][k], np.append(x, 0.99 * level), slopes[k])
+
+
+SSP33_POINT = [fmpq(1), fmpq(1, 2), fmpq(1, 4), fmpq(1, 6), fmpq(1, 6), fmpq(2, 3)]
+"""c2, c3, a32 and the weights of Shu and Osher's method."""
+
+
+def test_conditions_at_one_point_are_those_at_many() -> None:
+    """Products of matrices and sums entry by entry agree, also beside polynomial stages."""
+    families = [EXPLICIT3, IMEX, SPLITTING, ROSENBROCK, POLYNOMIAL]
+    for text in families:
+        search = Search(loads_family(text), 3)
+        for point in points(search, 2):
+            values, slopes = search.conditions.at(floats(point)[:, None])
+            alone, slopes_alone = search.conditions.at_one(floats(point))
+            assert np.allclose(values[:, 0], alone, atol=1e-13)
+            assert np.allclose(slopes[:, :, 0], slopes_alone, atol=1e-12)
+
+
+POLYNOMIAL = """
+parameters: {t: free}
+methods: [gauss-2, gauss-3]
+transfer: {interpolation: t, conjugate-collocation: 1 - t}
+"""
+
+
+def best(text: str, objective: str, starts: int = 12, most: int = 1) -> Any:
+    """The result of a search for the best method of the order that the file wants."""
+    family = loads_family(text)
+    assert family.order is not None
+    return search_methods(family, family.order, starts, most=most, objective=objective)
+
+
+def test_an_ssp_method_of_print_comes_out_exactly() -> None:
+    """Kraaijevanger's method of four stages and order 3 has the radius 2; with order 4 there is
+    none of four stages.
+    """
+    [method] = best(SSP43, "-ssp").methods
+    assert (method.proof, method.order, method.objective) == ("exact", 3, "2")
+    assert method.values["c2"] == "1/2"
+    assert method.values["b4"] == "1/2"
+
+
+def test_the_least_error_is_that_of_the_exact_minimum() -> None:
+    """Ralston's method among two stages of order 2, decided exactly and found."""
+    text = "parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [1 - 1/(2*t), 1/(2*t)]\n"
+    family = loads_family(text + "design: {order: 2}")
+    exact = minimise(family, "error")
+    [method] = search_methods(family, 2, 10, objective="error").methods
+    assert method.values == {"t": "2/3"}
+    assert exact.value is not None
+    assert float(method.objective or "") == pytest.approx(float(exact.value.ball(64)))
+
+
+def test_signs_and_ranges_are_constraints() -> None:
+    """The best method with a node in a range ends at the range's end; weights stay positive."""
+    text = (
+        "unknown: {stages: 2, shape: explicit}\n"
+        "design: {order: 2, range: {c2: [3/4, 1]}, positive-weights: true}"
+    )
+    [method] = best(text, "error").methods
+    assert method.values["c2"] == "3/4"
+
+
+def test_stability_is_a_constraint() -> None:
+    """The least error of two L-stable stages of order 2 is that of the smaller γ."""
+    text = (
+        "unknown: {stages: 2, shape: [sdirk, stiffly-accurate]}\ndesign: {order: 2, l-stable: true}"
+    )
+    [method] = best(text, "error").methods
+    assert method.values["gamma"] == "1 - sqrt(2)/2"
+
+
+def test_methods_are_told_the_best_first() -> None:
+    """Several optima are in the order of the objective, each once."""
+    found = best("unknown: {stages: 2, shape: dirk}\ndesign: {order: 3}", "coefficients", 20, 3)
+    numbers = [float(method.objective) for method in found.methods]
+    assert numbers == sorted(numbers)
+    assert len({tuple(x.values.items()) for x in found.methods}) == len(found.methods)
+
+
+def test_without_scipy_the_cure_is_a_line_to_type(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """SciPy is an extra."""
+    monkeypatch.setitem(sys.modules, "scipy.optimize", None)
+    file = tmp_path / "ssp.yaml"
+    file.write_text(SSP43, encoding="utf-8")
+    result = gark("design", str(file), "--search", "3", "--minimise=-ssp")
+    assert result.code == 2
+    assert 'pip install "garkcli[design]"' in result.err
+
+
+def test_the_command_writes_the_best_ones(tmp_path: Path) -> None:
+    """--output-dir goes with a search; files say what was minimised and its value."""
+    file = tmp_path / "ssp.yaml"
+    file.write_text(SSP43, encoding="utf-8")
+    result = gark(
+        "design", str(file), "--search", "6", "--minimise=-ssp", "--output-dir", str(tmp_path)
+    )
+    assert result.code == 0, result.err
+    assert "greatest ssp found 2, the best of 6 starts" in " ".join(result.out.split())
+    [made] = tmp_path.glob("ssp-1.gark.yaml")
+    text = made.read_text(encoding="utf-8")
+    assert "--minimise -ssp" in text
+    assert gark("check", str(made)).code == 0
+
+
+def test_objectives_without_meaning_are_refused() -> None:
+    """A linear problem that stages do not see has no interval."""
+    family: FamilyFile = loads_family(SPLITTING)
+    with pytest.raises(UsageProblem, match="linear test equation"):
+        search_methods(family, 2, 3, objective="-real-interval")
+    with pytest.raises(UsageProblem, match="no objective"):
+        search_methods(family, 2, 3, objective="speed")
