@@ -206,13 +206,28 @@ def _stiffly_accurate(layout: Layout) -> Layout:
     return replace(changed, b=(weights,) * len(layout.b))
 
 
+def _palindromic_splitting(layout: Layout) -> Layout:
+    """a_{s+1−i} = a_i, b_{s−i} = b_i and b_s = 0: the last map is the first one again.
+
+    R. McLachlan, *On the numerical integration of ordinary differential equations by symmetric
+    composition methods*, SIAM Journal on Scientific Computing 16, 1995.
+    """
+    s = layout.stages
+    drifts, kicks = layout.b
+    a = tuple(drifts[min(i, s - 1 - i)] for i in range(s))
+    b = (*(kicks[min(i, s - 2 - i)] for i in range(s - 1)), ZERO)
+    return replace(layout, A=(_lower(a, 1), _lower(b, 0)), b=(a, b))
+
+
 def _palindromic(layout: Layout) -> Layout:
     """b_{s+1−i} = b_i and a_{s+1−i,s+1−j} = b_j − a_ij.
 
     G. Wanner, *Runge-Kutta-methods with expansion in even powers of h*, Computing 11, 1973.
     """
+    if layout.kind == "prk":
+        return _palindromic_splitting(layout)
     if layout.kind != "tableau" or "gamma" in layout.unknowns:
-        message = "palindromic goes with full, dirk and symplectic-dirk"
+        message = "palindromic goes with full, dirk, symplectic-dirk and splitting"
         raise MethodError(message, "leave one of them out", code="not-together")
     s = layout.stages
     (weights,), (matrix,) = layout.b, layout.A

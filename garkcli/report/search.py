@@ -6,10 +6,13 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple, get_args
 
+from flint import arb, ctx, fmpq
+
 from garkcli.design.member import Whose
 from garkcli.design.minimise.objective import Level as LevelObjective
 from garkcli.design.minimise.objective import Objective
 from garkcli.design.search.run import Ending, Method, Result
+from garkcli.design.search.run import decimals as decimals_of
 from garkcli.design.search.search import Proof, Search
 from garkcli.errors import counted
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
@@ -21,7 +24,10 @@ from garkcli.tell.report import Report
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 SHOWN = 24
-"""Decimals of numbers that are not exact; files have all."""
+"""Decimals of numbers that are not exact, or long fractions; files have all."""
+FRACTION = re.compile(r"(-?[0-9]+)/([0-9]+)")
+LONG = 50
+"""Signs of a fraction that nobody reads."""
 ROOT = re.compile(r"root_of\([^()]*\)")
 ENDINGS: dict[Ending, str] = {
     "interrupt": "interrupted",
@@ -98,7 +104,18 @@ def _values(method: Method, d: Plain) -> Iterator[str]:
             yield f"{d.expression(name)} = {d.prose(f'{whole}.{decimals[:SHOWN]}…')}"
         return
     for name, value in with_root(method.values).items():
-        yield f"{d.expression(name)} = {d.expression(value)}"
+        yield f"{d.expression(name)} = {_shown(value, d)}"
+
+
+def _shown(value: str, d: Plain) -> str:
+    """A number; a long fraction in decimals, which one can read."""
+    found = FRACTION.fullmatch(value)
+    if found is None or len(value) < LONG:
+        return d.expression(value)
+    with ctx.workprec(4 * LONG):
+        ball = arb(fmpq(int(found[1]), int(found[2])))
+    whole, _, decimals = decimals_of(ball).partition(".")
+    return d.prose(f"{whole}.{decimals[:SHOWN]}…")
 
 
 def method_rows(report: SearchReport, d: Plain) -> list[tuple[str, str]]:

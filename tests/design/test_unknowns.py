@@ -193,6 +193,20 @@ def test_palindromes_are_symmetric(shape: str) -> None:
             assert A[2 - i][2 - j] == b[2 - j] - A[i][j]
 
 
+def test_palindromic_splittings_are_symmetric() -> None:
+    """The last map is the first one again: four stages of order 4 are the method of E. Forest and
+    R. Ruth (1990) with a₁ = 1/(2(2 − ∛2)); every member is symmetric.
+    """
+    text = "unknown: {stages: 4, shape: [splitting, palindromic]}\n"
+    found = find_parameters(loads_family(text), 4)
+    assert decimals(found, "a1") == pytest.approx([1 / (2 * (2 - 2 ** (1 / 3)))])
+    family = loads_family("unknown: {stages: 5, shape: [splitting, palindromic]}\n")
+    assert family.parameters == ("a1", "a2", "a3", "b1", "b2")
+    values = {name: f"{k + 1}/{2 * k + 3}" for k, name in enumerate(family.parameters)}
+    method = loads(with_values(family, values, "any", "order: 0"))
+    assert find_property(method, "symmetric").value is True
+
+
 @pytest.mark.parametrize(
     "shapes", [["explicit", "palindromic"],
                ["sdirk", "palindromic"], ["splitting", "stiffly-accurate"],

@@ -35,6 +35,8 @@ RESIDUAL = f"1e-{floor(log10(2) * small_bits(BITS))}"
 """What all residuals are below after the last step of Newton's method. The residuals themselves are
 rounding, and no two machines need to agree on them.
 """
+SHORT = 12
+"""Digits of an objective."""
 TOLERANCE = "1e-30"
 """What a file with so many decimals is meant up to."""
 
@@ -226,7 +228,7 @@ def _method(search: Search, find: Find | None) -> object:
     objective = None
     if search.objective is not None:
         value = search.value(find)
-        objective = "infinity" if value is None else root_decimal(value, DIGITS)
+        objective = "infinity" if value is None else root_decimal(value, SHORT)
     return Method(find.start, find.proof, find.order, values, residual, objective)
 
 
