@@ -101,6 +101,8 @@ Start: TypeAlias = list[float]
 Ending: TypeAlias = Literal["interrupt", "time", "worker"]
 FIRST = 64
 """Starts of the first batch, so that something is found soon; batches grow twofold, for speed."""
+TOGETHER = 4
+"""Starts from which an objective is minimised before the best of all is proved."""
 SAME = 1e-6
 """Solutions no further apart in any unknown are one solution."""
 
@@ -355,14 +357,20 @@ class _Run:
         """The best methods near some solutions; those that are now the best of all are proved."""
         self.search.program  # noqa: B018 -- what it has to refuse it refuses here
         tasks = [Descent(solution.start, solution.point) for solution in new]
-        for task, timed in zip(tasks, self._done(tasks), strict=True):
-            found = timed.result
-            if isinstance(found, Optimum) and not any(
-                _are_same(found.point, other.optimum.point) for other in self._optima
-            ):
-                self._optima.append(Best(task.start, found))
+        for first in range(0, len(tasks), TOGETHER):
+            some = tasks[first : first + TOGETHER]
+            for task, timed in zip(some, self._done(some), strict=True):
+                found = timed.result
+                if isinstance(found, Optimum) and not any(
+                    _are_same(found.point, other.optimum.point) for other in self._optima
+                ):
+                    self._optima.append(Best(task.start, found))
+            self._optima.sort(key=lambda best: (best.optimum.grade, best.start))
+            self._prove()
             yield self.result
-        self._optima.sort(key=lambda best: (best.optimum.grade, best.start))
+
+    def _prove(self) -> None:
+        """Prove the best optima that were not, until as many as are wanted make methods."""
         while now := [x for x in self._chosen() if x.start not in self._known]:
             for best, timed in zip(now, self._done(now), strict=True):
                 made = timed.result
@@ -371,10 +379,11 @@ class _Run:
                     self._known[best.start] = made
                 self.result.unstable += made is False
                 self.result.degenerate += made is None
-        self.result.methods = [
-            made for x in self._chosen() if (made := self._known[x.start]) is not None
-        ]
-        yield self.result
+        methods = [x for best in self._chosen() if (x := self._known[best.start]) is not None]
+        is_level = isinstance(self.search.objective, Level)
+        self.result.methods = sorted(
+            methods, key=lambda x: float(x.objective or 0), reverse=is_level
+        )
 
     def _chosen(self) -> list[Best]:
         """The best optima that make methods, as far as is known."""
