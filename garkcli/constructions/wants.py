@@ -77,7 +77,10 @@ _MEANT: dict[str, Callable[[Tableau], Tableau]] = {
     **dict.fromkeys(("embedded-order", *OF_ROSENBROCK), _itself),
     **dict.fromkeys(("positive-weights", "R-infinity"), on_linear_problems),
     **dict.fromkeys(("a-stable", "l-stable", "p-stable", "i-stable"), on_linear_problems),
-    "nodes-in-unit-interval": lambda tableau: Rosenbrock.of(tableau).arrays[0],
+    **dict.fromkeys(
+        ("nodes-in-unit-interval", "nodes-ascending"),
+        lambda tableau: Rosenbrock.of(tableau).arrays[0],
+    ),
     "stiffly-accurate": _itself,
 }
 """Which tableau of a Rosenbrock method a want is about."""

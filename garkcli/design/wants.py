@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
-from itertools import chain
+from itertools import chain, pairwise
 from typing import Any, cast
 
 from flint import fmpq
@@ -219,6 +219,25 @@ def _nodes_in_unit_interval(asked: Asked) -> Meaning:
     return Meaning(not_negative=(*nodes, *(1 - x for x in nodes)))
 
 
+def _nodes_ascending(asked: Asked) -> Meaning:
+    rows = [asked.tableau.colours[l].c for l in asked.colours]
+    return Meaning(not_negative=tuple(y - x for row in rows for x, y in pairwise(row)))
+
+
+def _coefficients(asked: Asked) -> tuple[Any, ...]:
+    """The entries of all blocks of the colours, and their weights."""
+    blocks = [block for (_, m), block in asked.tableau.blocks.items() if m in asked.colours]
+    weights = [asked.tableau.colours[l].b for l in asked.colours]
+    return tuple(chain(*chain.from_iterable(blocks), *weights))
+
+
+def _largest_coefficient(asked: Asked) -> Meaning:
+    """|a| ≤ M and |b| ≤ M."""
+    most: Any = asked.value
+    entries = _coefficients(asked)
+    return Meaning(not_negative=(*(most - x for x in entries), *(most + x for x in entries)))
+
+
 def _oscillating(kind: str, asked: Asked) -> Meaning:
     """Decided at each solution, in its number field."""
     if len(asked.colours) < asked.tableau.size:
@@ -257,6 +276,19 @@ WANTS = {
             ),
         ),
         Want("nodes-in-unit-interval", "flag", "every node is in [0, 1]", _nodes_in_unit_interval),
+        Want("nodes-ascending", "flag", "no node is below the one before", _nodes_ascending),
+        Want(
+            "nonnegative-coefficients",
+            "flag",
+            "no entry of A and no weight is negative",
+            lambda asked: Meaning(not_negative=_coefficients(asked)),
+        ),
+        Want(
+            "largest-coefficient",
+            "number",
+            "no entry of A and no weight is larger in size",
+            _largest_coefficient,
+        ),
         Want(
             "a-stable", "flag", "|R(z)| ≤ 1 in the left half plane", partial(stability, "a-stable")
         ),

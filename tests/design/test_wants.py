@@ -134,6 +134,31 @@ def test_nodes_are_filtered_by_exact_signs() -> None:
     assert taken(inside, "a21") == [1]
 
 
+@pytest.mark.parametrize(
+    ("wanted", "nodes"),
+    [
+        ("consistent: true", [1 / 3, 1 / 2, 1]),
+        ("nodes-ascending: true", [1 / 3, 1 / 2]),
+        ("nonnegative-coefficients: true", [1 / 3, 1]),
+        ("largest-coefficient: 3/4", [1 / 3]),
+        ("largest-coefficient: 2", [1 / 3, 1 / 2, 1]),
+    ],
+)
+def test_signs_and_sizes_of_coefficients(wanted: str, nodes: list[float]) -> None:
+    """Heun's and Kutta's methods and that with the nodes 1 and 2/3, of order 3: Kutta's has −1 and 2,
+    Heun's has no coefficient above 3/4.
+    """
+    found = []
+    for node, texts in ((1 / 3, ("1/3", "2/3")), (1 / 2, ("1/2", "1")), (1, ("1", "2/3"))):
+        family = loads_family(
+            "unknown: {stages: 3, shape: explicit}\n"
+            f"design: {{order: 3, fix: {{c2: {texts[0]}, c3: {texts[1]}}}, {wanted}}}\n"
+        )
+        if any(accepted_methods(find_parameters(family, 3))):
+            found.append(node)
+    assert found == nodes
+
+
 def test_ranges_that_meet() -> None:
     """A range under ``design`` and that of the parameter both hold; without a number in both the
     file is refused.
