@@ -466,10 +466,9 @@ class _Finding(Frozen):
         parts = Design(self.family, self.whose, tableau, (step,)).parts(step)
         found = []
         for part in parts:
-            if part.dimension > 0:
-                with suppress(NotDecided):
-                    found.append(stable_part(self.family, self.whose, part))
-        is_real = has_stable_method(self.family, found)
+            with suppress(NotDecided):
+                found.append(stable_part(self.family, self.whose, part))
+        is_real = has_stable_method(self.family, self.whose, found)
         is_whole = len(found) == len(parts)
         stable = joined(self.family, found) if is_whole else ()
         if is_real is not True and not is_whole:

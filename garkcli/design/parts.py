@@ -179,6 +179,26 @@ def at_root(name: str, root: RealRoot) -> Solution:
     return Solution(modulus, number_field, {name: value}, 1, roots)
 
 
+MOST_POINTS = 60
+"""Points of a part of dimension 0, complex ones included, so also the degree of their fields."""
+
+
+def points_of(part: Part) -> Iterator[Solution]:
+    """The solutions of a part of dimension 0, in its coordinates.
+
+    Raises:
+        NotDecided: they are too many.
+    """
+    if not part.ring.names:
+        yield Solution(fmpq_poly([0, 1]), None, {}, 1, (RealRoot.rational(fmpq(0)),))
+        return
+    if part.ideal.degree > MOST_POINTS:
+        raise NotDecided
+    for solution in solutions(part.ideal):
+        if all(value_of(p, part.ring, solution.values) for p in part.nonzero):
+            yield solution
+
+
 def what_is_asked(part: Part, name: str) -> fmpq_mpoly | None:
     """What a part asks of one coordinate alone, in that; None where it asks nothing."""
     place = part.ring.names.index(name)

@@ -17,7 +17,15 @@ from flint import fmpq, fmpq_mpoly
 
 from garkcli.deadline import check_time
 from garkcli.design.fewer import step_polynomials
-from garkcli.design.member import TABLEAUS, Whose, is_admissible, is_in, is_stable, member
+from garkcli.design.member import (
+    TABLEAUS,
+    Whose,
+    is_admissible,
+    is_as_stable,
+    is_in,
+    is_stable,
+    member,
+)
 from garkcli.design.parts import (
     Chart,
     Part,
@@ -25,6 +33,7 @@ from garkcli.design.parts import (
     charts,
     diagonal_unknowns,
     parts_within,
+    points_of,
     values_on,
     what_is_asked,
 )
@@ -33,7 +42,7 @@ from garkcli.design.stability_kinds import Members, driven
 from garkcli.design.stable_values import MOST_DEGREE, StableValues, stable_values
 from garkcli.design.step_plane import StepPlane, step_plane
 from garkcli.errors import NotDecided, ZeroWeight
-from garkcli.exact.cells import Interval, Point, between, ends_of, has, where
+from garkcli.exact.cells import Interval, Point, between, ends_of, has, sign_of, where
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix
 from garkcli.exact.parametric import Parameters, common_denominator, fraction
@@ -57,10 +66,12 @@ class StablePart(Frozen):
     Attributes:
         part: with the sets in which its coordinates are.
         kinds: for each kind of stability the values of the coordinate on which it depends.
+        attained: for each kind the values that this coordinate has in the part.
     """
 
     part: Part
     kinds: tuple[StableValues, ...]
+    attained: tuple[tuple[Interval, ...], ...]
 
     @property
     def parts(self) -> Iterator[Part]:
@@ -83,24 +94,50 @@ class StablePart(Frozen):
 
 
 def stable_part(family: Family, whose: Whose, part: Part) -> StablePart:
-    """The stable methods of a part that has coordinates.
+    """The stable methods of a part.
 
     Raises:
         NotDecided: the step depends on several coordinates, or on one on a curve; or the time is
             not enough.
         UsageProblem: a kind of stability has no meaning for the methods.
     """
-    if family.radicals or not part.ring.names:
+    if family.radicals:
         raise NotDecided
+    if not part.dimension:
+        return _stable_points(family, whose, part)
     family = family.on_linear_problems
-    kinds = []
+    kinds, attained = [], []
     for wanted in dict.fromkeys(family.stable):
         line = _Line(family, whose, part, wanted)
         found, undecided = line.values()
-        kinds.append(line.told(found, undecided))
+        told, all_of_it = line.told(found, undecided)
+        kinds.append(told)
+        attained.append(all_of_it)
         values = {**part.values, line.name: part.ring.parameter(line.name)}
         part = replace(part, values=values, sets=(*part.sets, (line.name, found)))
-    return StablePart(part, tuple(kinds))
+    return StablePart(part, tuple(kinds), tuple(attained))
+
+
+def _stable_points(family: Family, whose: Whose, part: Part) -> StablePart:
+    """The stable methods among finitely many, by their values of an unknown on a diagonal."""
+    name = next(iter(diagonal_unknowns(family.tableau, family.ring)), family.parameters[0])
+    alone = replace(
+        family, ring=Parameters([name]), parameters=(name,), ranges={name: (None, None)}
+    )
+    methods = [(x, root) for x in map(part.whole, points_of(part)) for root in x.real]
+    kinds = []
+    for wanted in dict.fromkeys(family.stable):
+        one = replace(family, stable=(wanted,))
+        values: dict[bool | None, list[RealRoot]] = {True: [], False: [], None: []}
+        for solution, root in methods:
+            value = value_at(solution.values[name], root)
+            values[is_as_stable(one, whose, solution, root)].append(value)
+        kind: Any = wanted.kind
+        found = tuple(map(point_of, sorted(set(values[True]))))
+        undecided = tuple(set(values[None]) - set(values[True]))
+        kinds.append(StableValues(alone, whose, kind, found, undecided, colour=wanted.colour))
+    attained = tuple(map(point_of, sorted({value_at(x.values[name], t) for x, t in methods})))
+    return StablePart(part, tuple(kinds), (attained,) * len(kinds))
 
 
 class _Line:
@@ -177,8 +214,10 @@ class _Line:
                 stable.append(point_of(t))
         return tuple(stable), tuple(undecided)
 
-    def told(self, found: tuple[Interval, ...], undecided: tuple[RealRoot, ...]) -> StableValues:
-        """The same, of an unknown on a diagonal where that is a x + b."""
+    def told(
+        self, found: tuple[Interval, ...], undecided: tuple[RealRoot, ...]
+    ) -> tuple[StableValues, tuple[Interval, ...]]:
+        """The same, of an unknown on a diagonal where that is a x + b; and all values of it."""
         is_same = not found or found == (Interval(None, None),)
         name, a, b = self._shown(is_same)
         kind: Any = self.wanted.kind
@@ -192,13 +231,23 @@ class _Line:
             (start, has_start), (end, has_end) = ends if a > 0 else ends[::-1]
             return Interval(start, end, has_start, has_end)
 
-        shown = list(map(moved_part, found[:: 1 if a > 0 else -1]))
-        if found and not a:
-            shown = [point_of(RealRoot.rational(b))]
+        step = 1 if a > 0 else -1
+        shown = tuple(map(moved_part, found[::step]))
+        attained = tuple(map(moved_part, self._attained[::step]))
+        if not a:
+            attained = (point_of(RealRoot.rational(b)),)
+            shown = attained if found else ()
         open_values = tuple(map(moved, undecided))
-        return StableValues(
-            family, self.whose, kind, tuple(shown), open_values, colour=self.wanted.colour
-        )
+        told = StableValues(family, self.whose, kind, shown, open_values, colour=self.wanted.colour)
+        return told, attained
+
+    @property
+    def _attained(self) -> tuple[Interval, ...]:
+        """The values of the coordinate that methods of the part have."""
+        if self.root is not None:
+            return tuple(point_of(t) for t, _ in real_roots(in_one(self.root)))
+        left_out = [content_in(p, self.part.ring, self.name) for p in self.part.nonzero]
+        return where(lambda t: all(sign_of(p, t) for p in left_out), left_out)
 
     def _shown(self, is_same: bool) -> tuple[str, fmpq, fmpq]:
         """An unknown a x + b with a and b; a may be 0 where all methods are alike."""
@@ -285,16 +334,23 @@ class PartMembers(Members):
     def poles(self) -> tuple[Polynomial, ...]:
         """A polynomial in the coordinate that is zero where no line has a method."""
         common = common_denominator(self.tableau.entries, self.part.ring)
-        place = self.part.ring.names.index(self.name)
-        alone = Parameters([self.name])
-        slices: dict[tuple[int, ...], dict[tuple[int, ...], Any]] = {}
-        for e, a in common.to_dict().items():
-            others = tuple(int(k) for i, k in enumerate(e) if i != place)
-            slices.setdefault(others, {})[(int(e[place]),)] = a
-        content = alone.constant(fmpq(0))
-        for terms in slices.values():
-            content = content.gcd(alone.context.from_dict(dict(terms)))
-        return (in_one(content),)
+        return (content_in(common, self.part.ring, self.name),)
+
+
+def content_in(p: fmpq_mpoly, ring: Parameters, name: str) -> Polynomial:
+    """The greatest common divisor of the coefficients of a polynomial as one in the others: it is
+    zero at the values of an unknown at which the polynomial is zero whatever the others are.
+    """
+    place = ring.names.index(name)
+    alone = Parameters([name])
+    slices: dict[tuple[int, ...], dict[tuple[int, ...], Any]] = {}
+    for e, a in p.to_dict().items():
+        others = tuple(int(k) for i, k in enumerate(e) if i != place)
+        slices.setdefault(others, {})[(int(e[place]),)] = a
+    content = alone.constant(fmpq(0))
+    for terms in slices.values():
+        content = content.gcd(alone.context.from_dict(dict(terms)))
+    return in_one(content)
 
 
 def points(size: int) -> Iterator[tuple[fmpq, ...]]:
@@ -302,10 +358,17 @@ def points(size: int) -> Iterator[tuple[fmpq, ...]]:
     return islice(product(VALUES, repeat=size), MOST_POINTS)
 
 
-def methods_on(family: Family, part: Part) -> Iterator[tuple[Solution, RealRoot]]:
-    """Some methods of a part, all of whose coordinates but one are short rational numbers: it is
-    free, or asks something of that one alone.
+def methods_on(family: Family, whose: Whose, part: Part) -> Iterator[tuple[Solution, RealRoot]]:
+    """Some stable methods of a part, all of whose coordinates but one are short rational numbers:
+    it is free, or asks something of that one alone; of finitely many all.
     """
+    if not part.dimension:
+        for whole in map(part.whole, points_of(part)):
+            for root in whole.real:
+                is_method = is_admissible(family, whole, root)
+                if is_method and is_as_stable(family, whose, whole, root):
+                    yield whole, root
+        return
     names = part.ring.names
     *_, name = [names[0], *(x for x, _ in part.sets if x in names)]
     if not charts(part):
@@ -330,10 +393,11 @@ def is_on(family: Family, part: Part, solution: Solution, root: RealRoot) -> boo
 
 def joined(family: Family, parts: Sequence[StablePart]) -> tuple[StableValues, ...]:
     """For each kind of stability the values of one unknown, within its range, that the parts have
-    together; nothing where they depend on different ones.
+    together; nothing where they depend on different ones, or where of two methods with
+    one value, of which one is a part by itself, one is stable.
     """
     together = []
-    for same in zip(*(x.kinds for x in parts), strict=True):
+    for place, same in enumerate(zip(*(x.kinds for x in parts), strict=True)):
         name = same[0].parameter
         asked = {key for key, ends in family.ranges.items() if ends != (None, None)} - {name}
         is_apart = bool(asked or family.positive or family.not_negative)
@@ -345,6 +409,8 @@ def joined(family: Family, parts: Sequence[StablePart]) -> tuple[StableValues, .
         )
         admitted = (Interval(start, end, start is not None, end is not None),)
         sets = [x.found for x in same]
+        if _differ(sets, [x.attained[place] for x in parts], [x.part for x in parts]):
+            return ()
         critical = [p for x in (*sets, admitted) for p in ends_of(x)]
         found = where(partial(_is_in_one, sets, admitted), critical)
         undecided = dict.fromkeys(t for x in same for t in x.undecided)
@@ -353,15 +419,32 @@ def joined(family: Family, parts: Sequence[StablePart]) -> tuple[StableValues, .
     return tuple(together)
 
 
+def _differ(
+    stable: Sequence[tuple[Interval, ...]],
+    attained: Sequence[tuple[Interval, ...]],
+    parts: Sequence[Part],
+) -> bool:
+    """Whether a value of a single point is stable there and unstable in another part, or the other
+    way round.
+    """
+    for found, values, part in zip(stable, attained, parts, strict=True):
+        for t in (x.start for x in values if not part.dimension):
+            assert t is not None
+            for others, all_of_them in zip(stable, attained, strict=True):
+                if has(all_of_them, t) and has(others, t) is not has(found, t):
+                    return True
+    return False
+
+
 def _is_in_one(
     sets: Sequence[tuple[Interval, ...]], admitted: tuple[Interval, ...], t: Point
 ) -> bool:
     return has(admitted, t) and any(has(x, t) for x in sets)
 
 
-def has_stable_method(family: Family, parts: Sequence[StablePart]) -> bool | None:
+def has_stable_method(family: Family, whose: Whose, parts: Sequence[StablePart]) -> bool | None:
     """Whether a part has a stable method; None where none is found that could be."""
-    if any(True for x in parts for _ in methods_on(family, x.part)):
+    if any(True for x in parts for _ in methods_on(family, whose, x.part)):
         return True
     is_none = all(x.is_decided and not all(y.found for y in x.kinds) for x in parts)
     return False if is_none else None

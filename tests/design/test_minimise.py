@@ -757,7 +757,7 @@ def test_what_is_refused(tmp_path: Path) -> None:
     asked = "design e.yaml --minimise"
     for options, said in (
         ("error-coupling", "has one colour"),
-        ("error --search 3", "--search finds some"),
+        ("error --output-dir .", "--output-dir writes several"),
         ("error --a-stable", "gives a set of values"),
         ("colour", "'colour' is not one of"),
     ):

@@ -16,7 +16,7 @@ from garkcli.design.ideal import Ideal
 from garkcli.design.member import Whose
 from garkcli.design.minimise.line import Within
 from garkcli.design.parts import Part
-from garkcli.design.stable_parts import StablePart, joined
+from garkcli.design.stable_parts import StablePart, joined, point_of
 from garkcli.design.stable_plane import stable_set
 from garkcli.design.stable_values import StableValues, stable_values
 from garkcli.errors import MethodFileError
@@ -331,7 +331,7 @@ def test_the_set_with_other_wishes() -> None:
 
 
 def test_a_stable_point_beside_a_line() -> None:
-    """G = 1 with any d, and g = 2 with d = 0, which is A-stable too: no set without it."""
+    """G = 1 with any d, and g = 2 with d = 0, which is A-stable too: the set has both."""
     text = """
 parameters: {g: free, d: free}
 A: [[g, "1/2 - g + (g-1)*(g-2)"], [0, g]]
@@ -339,9 +339,25 @@ b: [1, "(g-1)*d"]
 design: {order: 2, a-stable: true}
 """
     run = gark("design", "-", stdin=text)
-    assert "exactly" not in run.out
+    assert "A-stable for exactly g = 1 or g = 2" in run.out
     point = gark("design", "-", "--set", "d=0", stdin=text)
     assert "g = 2: order 2 of the method, proved, A-stable" in point.out
+
+
+def test_parts_of_one_set_with_a_point() -> None:
+    """Stage order 2 of three ESDIRK stages asks for c₂ (c₂ − 2γ) = 0: a line, another one with
+    γ = 1/2, and two points; the L-stable ones have γ = 1 ± √2/2, as on the line alone.
+    """
+    text = "unknown: {stages: 3, shape: [esdirk, stiffly-accurate]}\ndesign: {order: 2, "
+    whole = find_parameters(loads_family(text + "l-stable: true, stage-order: 2}"))
+    line = find_parameters(
+        loads_family(text + "l-stable: true, stage-order: 2, fix: {c2: 2*gamma}}")
+    )
+    (found,), (alone,) = whole.last.stable, line.last.stable
+    assert (found.parameter, found.found) == ("gamma", alone.found)
+    assert [float(x.start.ball(64)) for x in found.found] == pytest.approx(
+        [1 - 2**0.5 / 2, 1 + 2**0.5 / 2]
+    )
 
 
 @pytest.mark.parametrize(
@@ -392,6 +408,31 @@ def test_values_of_parts_together() -> None:
         ((Interval(zero, three, has_start=True, has_end=True),), ()),
     ]
     kinds = [StableValues(family, "method", "a-stable", *x) for x in sets]
-    (together,) = joined(family, [StablePart(part, (x,)) for x in kinds])
+    everything = (Interval(None, None),)
+    (together,) = joined(family, [StablePart(part, (x,), (everything,)) for x in kinds])
     assert together.found == (*sets[1][0], Interval(five, ten, has_end=True))
     assert together.undecided == (five,)
+
+
+@pytest.mark.parametrize("is_stable", [True, False])
+@pytest.mark.parametrize("on_line", [True, False, None])
+def test_a_point_beside_a_line(is_stable: bool, on_line: bool | None) -> None:
+    """No set is told where of two methods with the value 1, a point and one of a line, one is
+    stable; it is told where the line has no such method.
+    """
+    family = loads_family(SDIRK)
+    context = family.ring.context
+    line = Part(family.ring, {}, (), Ideal(family.ring))
+    point = Part(family.ring, {}, (), Ideal(family.ring).with_zeros([context.gen(0) - 1]))
+    one = RealRoot.rational(fmpq(1))
+    alone = (point_of(one),)
+    above = Interval(one, None, has_start=bool(on_line))
+    of_point = StableValues(family, "method", "a-stable", alone if is_stable else (), ())
+    of_line = StableValues(family, "method", "a-stable", (above,), ())
+    attained = (Interval(None, one), above) if on_line is None else (Interval(None, None),)
+    parts = [StablePart(point, (of_point,), (alone,)), StablePart(line, (of_line,), (attained,))]
+    told = joined(family, parts)
+    if on_line is not None and on_line is not is_stable:
+        assert told == ()
+    else:
+        assert told[0].found == (Interval(one, None, has_start=is_stable),)

@@ -7,18 +7,18 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from typing import Any, cast
 
-from flint import fmpq, fmpq_mpoly, fmpq_poly
+from flint import fmpq_mpoly
 
 from garkcli.deadline import check_time
 from garkcli.design.design import Design, Found, Step, embedded_of, order_of
 from garkcli.design.ideal import Ideal
-from garkcli.design.member import is_admissible, is_as_stable, member, not_negative, value_of
+from garkcli.design.member import is_admissible, is_as_stable, member, not_negative
 from garkcli.design.minimise.climbing import GRID, Point, climbed
 from garkcli.design.minimise.line import Conditions, Within
 from garkcli.design.minimise.objective import Level, Objective, Size
 from garkcli.design.minimise.result import Candidate, Extent, Limit, Minimum, Proof
 from garkcli.design.pairs import least_error
-from garkcli.design.parts import Chart, Part, charts
+from garkcli.design.parts import Chart, Part, charts, points_of
 from garkcli.design.solutions import Solution, solutions
 from garkcli.design.stable_parts import is_on, stable_part
 from garkcli.design.want import sign_polynomial
@@ -30,11 +30,6 @@ from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.roots import RealRoot
 from garkcli.frozen import Mutable, field, replace
 from garkcli.tableau.tableau import Tableau
-
-MOST_POINTS = 60
-"""Critical points, complex ones included, that are reported apart; degrees of number fields are up
-to that.
-"""
 
 
 class Comparison(Mutable):
@@ -149,7 +144,7 @@ class Comparison(Mutable):
     def over(self, part: Part) -> None:
         """The candidates of one part."""
         if part.dimension == 0:
-            for point in _points(part):
+            for point in points_of(part):
                 solution = part.whole(point)
                 for index, root in enumerate(solution.real):
                     if self.takes(solution, root, part):
@@ -269,18 +264,6 @@ class Comparison(Mutable):
                 for over, under in [fraction(part.values[name], part.ring)]
             ],
         )
-
-
-def _points(part: Part) -> Iterator[Solution]:
-    """The solutions of a part of dimension 0."""
-    if not part.ring.names:
-        yield Solution(fmpq_poly([0, 1]), None, {}, 1, (RealRoot.rational(fmpq(0)),))
-        return
-    if part.ideal.degree > MOST_POINTS:
-        raise NotDecided
-    for solution in solutions(part.ideal):
-        if all(value_of(p, part.ring, solution.values) for p in part.nonzero):
-            yield solution
 
 
 _STRENGTH = ("exact", "exists", "numerical")
