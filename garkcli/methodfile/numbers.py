@@ -179,6 +179,8 @@ class Numbers(Mutable):
             cure = "write parameters: {tau: free} for any other unknown"
             self.source.fault(node, message, cure, where=where, code="unknown-entry-misplaced")
             return Literal(ZERO)
+        if self.places.get(name) is node:  # of a row that colours share
+            return self.parameters[name]
         if name in self.parameters:
             message = f"{where}: its name {name} is that of a parameter"
             self.source.fault(node, message, "call the parameter something else", code="name-taken")

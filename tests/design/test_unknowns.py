@@ -193,6 +193,21 @@ def test_palindromes_are_symmetric(shape: str) -> None:
             assert A[2 - i][2 - j] == b[2 - j] - A[i][j]
 
 
+def test_colours_share_unknown_embedded_weights() -> None:
+    """A row of unknowns for both colours has one name an entry, also where one gets its value; a row
+    a colour has others.
+    """
+    text = "ark:\n  A: [[[0, 0], [1, 0]], [[0, 0], [0, 1]]]\n  b: [1/2, 1/2]\n"
+    wanted = "design: {embedded-order: 1}\n"
+    shared = loads_family(f"{text}  embedded: ['?', '?']\n{wanted}")
+    assert shared.parameters == ("bh1", "bh2")
+    given = loads_family(f"{text}  embedded: ['?', '?']\n{wanted}", settings={"bh1": "1/3"})
+    (method,) = accepted_methods(find_parameters(given, 2))
+    assert method.values == {"bh2": "2/3"}
+    apart = loads_family(f"{text}  embedded: [['?', '?'], ['?', '?']]\n{wanted}")
+    assert len(apart.parameters) == 4
+
+
 def test_palindromic_splittings_are_symmetric() -> None:
     """The last map is the first one again: four stages of order 4 are the method of E. Forest and
     R. Ruth (1990) with a₁ = 1/(2(2 − ∛2)); every member is symmetric.
