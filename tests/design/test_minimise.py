@@ -24,6 +24,7 @@ from garkcli.design.minimise.objective import Level
 from garkcli.design.minimise.objectives import OBJECTIVES
 from garkcli.design.minimise.result import Candidate, Minimum
 from garkcli.design.minimise.smallest import (
+    Smallest,
     critical_equations,
     is_nowhere_less,
     is_of_one_dimension,
@@ -836,3 +837,53 @@ def test_components_of_several_dimensions() -> None:
     assert not is_of_one_dimension(both)
     sphere = part_of(x**2 + y**2 + z**2 - 1)
     assert is_of_one_dimension(sphere)
+
+
+TWO_PARTS = """
+unknown: {stages: 3, shape: [esdirk, stiffly-accurate]}
+design: {order: 2, stage-order: 2, range: {gamma: [1/2, 2]}}
+"""
+
+
+def test_a_part_that_is_not_decided_leaves_the_best_of_the_others(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Without one part the least value is one that was found; without all it is not decided."""
+    family = find_parameters(loads_family(TWO_PARTS))
+    whole = minimise(family, "coefficients")
+    assert whole.extent != "found"
+    over = Smallest.over_whole
+    missed: list[Part] = []
+
+    def over_some(self: Smallest, part: Part) -> None:
+        if part.dimension in skipped:
+            missed.append(part)
+            raise NotDecided
+        over(self, part)
+
+    monkeypatch.setattr(Smallest, "over_whole", over_some)
+    skipped = {0}
+    rest = minimise(family, "coefficients")
+    assert missed
+    assert (rest.extent, rest.value) == ("found", whole.value)
+    skipped = {0, 1}
+    with pytest.raises(NotDecided):
+        minimise(family, "coefficients")
+
+
+@in_whole
+def test_the_best_of_two_parts(tmp_path: Path) -> None:
+    """An implicit-explicit pair of stage order 2: c₂ = 0 is a part of its own, which is too curved;
+    the best of the other one is that of the file with c₂ = 2γ.
+    """
+    text = """
+unknown: {stages: 4, shape: [imex, stiffly-accurate]}
+design: {order: 3, R-infinity: {2: 0}, stage-order: {2: 2}, range: {gamma: [2/5, 1/2]}%s}
+"""
+    (tmp_path / "two.yaml").write_text(text % "")
+    (tmp_path / "one.yaml").write_text(text % ", fix: {c2: 2*gamma}")
+    runs = [
+        gark("design", f, "--minimise", "error", cwd=tmp_path) for f in ("two.yaml", "one.yaml")
+    ]
+    for run in runs:
+        assert (run.code, "least error found 0.026730736" in run.out) == (0, True)

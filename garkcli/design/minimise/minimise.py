@@ -8,6 +8,7 @@ happens at infinity is not looked at.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from time import monotonic
 
 from garkcli.deadline import seconds_left, until, within
@@ -18,7 +19,8 @@ from garkcli.design.minimise.objective import Either, Level, Objective
 from garkcli.design.minimise.objectives import OBJECTIVES
 from garkcli.design.minimise.result import Minimum
 from garkcli.design.minimise.smallest import Smallest
-from garkcli.errors import UsageProblem
+from garkcli.design.parts import Part
+from garkcli.errors import NotDecided, UsageProblem
 from garkcli.frozen import replace
 
 SHARE = 0.25
@@ -79,6 +81,26 @@ def minimise(
         elif not (objective is OBJECTIVES["error"] and comparison.by_theorem()):
             with until(comparison.share):
                 parts = of_whom.parts(among)
-            for part in parts:
-                comparison.over_whole(part)
+            _over(comparison, parts)
         return replace(comparison.result(), design=design, step=step)
+
+
+def _over(comparison: Comparison, parts: Sequence[Part]) -> None:
+    """Compare the methods of all parts, each in its share of the time; where a part is too large or
+    curved, the best of the others is the best that was found.
+
+    Raises:
+        NotDecided: no part has a method that is compared.
+    """
+    missed = 0
+    for number, part in enumerate(parts):
+        left = seconds_left()
+        try:
+            with within(None if left is None else left / (len(parts) - number)):
+                comparison.over_whole(part)
+        except NotDecided:
+            missed += 1
+    if missed:
+        comparison.extent, comparison.is_open = "found", True
+        if not comparison.candidates:
+            raise NotDecided
