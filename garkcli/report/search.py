@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple, get_args
 
-from flint import arb, ctx, fmpq
+from flint import ctx
 
 from garkcli.design.member import Whose
 from garkcli.design.minimise.objective import Level as LevelObjective
@@ -14,7 +14,10 @@ from garkcli.design.minimise.objective import Objective
 from garkcli.design.search.run import Ending, Method, Result
 from garkcli.design.search.run import decimals as decimals_of
 from garkcli.design.search.search import Proof, Search
-from garkcli.errors import counted
+from garkcli.errors import ExpressionError, counted
+from garkcli.exact.enclosing import enclose
+from garkcli.exact.expression import parse
+from garkcli.exact.rewriting import names_in
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Kind, Level, Row, Section, maybe, optional, via
@@ -24,10 +27,11 @@ from garkcli.tell.report import Report
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 SHOWN = 24
-"""Decimals of numbers that are not exact, or long fractions; files have all."""
-FRACTION = re.compile(r"(-?[0-9]+)/([0-9]+)")
+"""Decimals of numbers that are not exact, or long; files have all."""
 LONG = 50
-"""Signs of a fraction that nobody reads."""
+"""Signs of a number that nobody reads."""
+PRECISION = 1000
+"""Bits in which it is evaluated."""
 ROOT = re.compile(r"root_of\([^()]*\)")
 ENDINGS: dict[Ending, str] = {
     "interrupt": "interrupted",
@@ -108,13 +112,18 @@ def _values(method: Method, d: Plain) -> Iterator[str]:
 
 
 def _shown(value: str, d: Plain) -> str:
-    """A number; a long fraction in decimals, which one can read."""
-    found = FRACTION.fullmatch(value)
-    if found is None or len(value) < LONG:
+    """A number; what nobody reads in decimals. The long root has a name, and stays."""
+    if len(value) < LONG or ROOT.search(value):
         return d.expression(value)
-    with ctx.workprec(4 * LONG):
-        ball = arb(fmpq(int(found[1]), int(found[2])))
-    whole, _, decimals = decimals_of(ball).partition(".")
+    try:
+        parsed = parse(value)
+    except ExpressionError:  # its numbers are too long
+        return d.expression(value)
+    if any(True for _ in names_in(parsed)):
+        return d.expression(value)
+    with ctx.workprec(PRECISION):
+        number = enclose(parsed)
+    whole, _, decimals = decimals_of(number).partition(".")
     return d.prose(f"{whole}.{decimals[:SHOWN]}…")
 
 

@@ -21,6 +21,8 @@ from garkcli.design.search.search import Search
 from garkcli.errors import UsageProblem
 from garkcli.methodfile.family import FamilyFile
 from garkcli.problems.draw import Draw
+from garkcli.report.search import _shown
+from garkcli.tell.dialect import Plain
 from tests.cli.harness import gark
 
 EXPLICIT3 = "unknown: {stages: 3, shape: explicit}\ndesign: {order: 2}"
@@ -244,3 +246,13 @@ def test_objectives_without_meaning_are_refused() -> None:
         search_methods(family, 2, 3, objective="-real-interval")
     with pytest.raises(UsageProblem, match="no objective"):
         search_methods(family, 2, 3, objective="speed")
+
+
+def test_numbers_that_nobody_reads_are_shown_in_decimals() -> None:
+    """Long fractions and radicals; a number beside a named root, and a short one, stay."""
+    long = "100000000000000000000000001/300000000000000000000000000"
+    root = f"1/2 + sqrt(2)*{long}"
+    assert _shown(long, Plain()) == "0.333333333333333333333333…"
+    assert _shown(root, Plain()).startswith("0.97140452079103168")
+    assert _shown(f"r*{long}", Plain()) == f"r*{long}"
+    assert _shown("1/3", Plain()) == "1/3"
