@@ -12,7 +12,8 @@ Sources: O. Knoth, R. Wolke, Appl. Numer. Math. 28 (1998) 327; J. Wensch, O. Kno
 49 (2009) 449, with α and γ; A. Sandu, SIAM J. Numer. Anal. 57 (2019) 2300, with polynomials; R.
 Chinomona, D. Reynolds, SIAM J. Sci. Comput. 43 (2021) A3082, with two slow parts; V. T. Luan, R.
 Chinomona, D. Reynolds, SIAM J. Sci. Comput. 42 (2020) A1245, and A. Fish, D. Reynolds, S. Roberts,
-J. Comput. Appl. Math. 438 (2024) 115534, where every fast problem begins at y_n.
+J. Comput. Appl. Math. 438 (2024) 115534, where every fast problem begins at y_n; S. Roberts, A.
+Sarshar, A. Sandu, SIAM J. Sci. Comput. 42 (2020) A1609, with step-predictors.
 """
 
 from __future__ import annotations
@@ -33,8 +34,8 @@ from garkcli.constructions.multirate import (
     START,
     Program,
     Value,
+    add_slow_stages,
     of_slopes,
-    slowest_first,
     summed,
 )
 from garkcli.errors import MethodError
@@ -405,34 +406,77 @@ def infinitesimal(
     """
     if fast is not None:
         refuse_large(len(coupling.every) * (steps * fast.stages + 2), SMALLER)
-    made, further = _Infinitesimal(coupling, plan, fast, steps).made()
+    return _finished(_Infinitesimal(coupling, plan, fast, steps), plan)
+
+
+def _finished(program: _Infinitesimal, plan: Plan) -> tuple[Tableau, Further]:
+    """The method: without stages that are equal, or with stages on a flow."""
+    made, further = program.made()
     if plan.order is None:
         return from_colours(merged(as_colours(made, further)), further)
     flow, *others = made.spaces
     return replace(made, spaces=(Flow(flow.nodes, plan.order), *others)), further
 
 
-def plan_for_slow(slow: Method) -> Plan:
-    """For a slow method that takes the step for both parts before the fast problem."""
+def interpolation(slow: Method) -> Powers:
+    """The forcing that interpolates the slopes at the nodes of a method.
+
+    Raises:
+        CoincidingNodes: two nodes are equal.
+    """
+    polynomials = tuple(slow.space.basis_polynomials())
+    return tuple(tuple(p[k] for p in polynomials) for k in range(slow.stages))
+
+
+def plan_for_predictor(slow: Method, forcing: Iterable[Powers], fast: Method | None) -> Plan:
+    """For a slow method that takes the step for both parts before the fast problem.
+
+    Args:
+        slow: the method.
+        forcing: of the fast problem, and of that for the embedded value.
+        fast: the method of the small steps; None for the exact solution.
+    """
     s = slow.stages
+    stages = tuple(range(s))
+    degrees = [max(len(powers), 1) for powers in forcing]
+    if fast is not None:
+        return Plan((1,) * len(degrees), stages)
     is_explicit = not any(x for i, row in enumerate(slow.A) for x in row[i:])
     is_lower = not any(x for i, row in enumerate(slow.A) for x in row[i + 1 :])
     order = s if is_explicit else s + 1 if is_lower else 2 * s
-    order = max(1, min(order, (MAX_STAGES - 2 * s - 1) // s))
-    return Plan((s * order + 1,), tuple(range(s)), order + 1)
+    room = MAX_STAGES - 2 * s - len(degrees)
+    order = max(1, min(order, room // sum(degrees)))
+    return Plan(tuple(d * order + 1 for d in degrees), stages, order + 1)
 
 
-def predicted(slow: Method, plan: Plan) -> Tableau:
-    """The slow method takes the step for both parts; then the fast problem is solved exactly with
-    its slow slopes interpolated: a step-predictor.
+def predicted(
+    slow: Method,
+    forcing: tuple[Powers, ...],
+    plan: Plan,
+    fast: Method | None = None,
+    steps: int = 1,
+) -> tuple[Tableau, Further]:
+    """A step-predictor: the slow method takes the step for both parts; then the fast problem is
+    solved from y_n to the end of the step, with polynomials of the slow slopes as forcing.
+
+    Args:
+        slow: the method.
+        forcing: of the fast problem, and of that for the embedded value, if there is one.
+        plan: what was decided of them.
+        fast: the method of the small steps, its stages at points; None for the exact solution.
+        steps: how many of them.
 
     Raises:
-        CoincidingNodes: two nodes of the slow method are equal.
+        MethodError: there are too many stages.
     """
-    assert plan.order is not None
-    made = slowest_first(slow, collocation(plan.fast[0]), 1)
-    flow, *others = made.spaces
-    return replace(made, spaces=(Flow(flow.nodes, plan.order), *others))
+    if fast is not None:
+        refuse_large(2 * slow.stages + len(forcing) * steps * fast.stages, SMALLER)
+    zeros = _zeros(slow.stages + 1)
+    ways = [
+        Interval(zeros, zeros, ONE, (tuple((*row, ZERO) for row in powers),)) for powers in forcing
+    ]
+    coupling = Coupling((*slow.c, ONE), tuple(ways[:1]), ways[1] if len(ways) > 1 else None)
+    return _finished(_Predicted(coupling, plan, fast, steps, slow), plan)
 
 
 def slow_part(method: AnyTableau) -> AnyTableau:
@@ -463,15 +507,20 @@ class _Infinitesimal:
 
     def made(self) -> tuple[Tableau, Further]:
         """The whole; slow slopes that nothing looks at are left out."""
-        self._reached(START)
-        for i, interval in enumerate(self.coupling.intervals):
-            self._reached(self._after(i, interval))
+        result = self._result()
         further = NOTHING
         if self.coupling.embedded is not None:
             value = self._after(len(self.coupling.intervals), self.coupling.embedded)
             weights = self.program.tableau(value)
             further = Further(tuple(colour.b for colour in weights.colours))
-        return self.program.tableau(self.values[-1]), further
+        return self.program.tableau(result), further
+
+    def _result(self) -> Value:
+        """The value at the end of the step, from stage to stage."""
+        self._reached(START)
+        for i, interval in enumerate(self.coupling.intervals):
+            self._reached(self._after(i, interval))
+        return self.values[-1]
 
     def _reached(self, value: Value) -> None:
         """A slow stage; its own slope is in its value already, of an implicit one."""
@@ -564,3 +613,17 @@ class _Infinitesimal:
                 for k, row in enumerate(powers)
             )
         )
+
+
+class _Predicted(_Infinitesimal):
+    """A method whose slow stages are those of a method for both parts."""
+
+    def __init__(
+        self, coupling: Coupling, plan: Plan, fast: Method | None, steps: int, slow: Method
+    ) -> None:
+        super().__init__(coupling, plan, fast, steps)
+        self.slow = slow
+
+    def _result(self) -> Value:
+        add_slow_stages(self.program, self.slow)
+        return self._after(0, self.coupling.intervals[0])

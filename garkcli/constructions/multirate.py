@@ -116,6 +116,15 @@ def by_rule(slow: Method, fast: Method, steps: int, rule: Rule) -> Tableau:
     return gark([whole, slow], {(FAST, SLOW): rule(whole, slow), (SLOW, FAST): rule(slow, whole)})
 
 
+def add_slow_stages(program: Program, slow: Method) -> None:
+    """The stages of a slow method that takes the step for both parts."""
+    every = range(slow.stages)
+    for row, node in zip(slow.A, slow.c, strict=True):
+        coarse = summed(of_slopes(FAST, every, row), of_slopes(SLOW, every, row))
+        program.add(FAST, coarse, node)
+        program.add(SLOW, coarse, node)
+
+
 def slowest_first(slow: Method, fast: Method, steps: int) -> Tableau:
     """The slow method takes the whole step for both parts; then the fast part is taken again in
     small steps, with the slow slopes interpolated.
@@ -127,10 +136,7 @@ def slowest_first(slow: Method, fast: Method, steps: int) -> Tableau:
     refuse_large(2 * slow.stages + steps * fast.stages, SMALLER)
     program = Program([FAST, SLOW])
     every = range(slow.stages)
-    for row, node in zip(slow.A, slow.c, strict=True):
-        coarse = summed(of_slopes(FAST, every, row), of_slopes(SLOW, every, row))
-        program.add(FAST, coarse, node)
-        program.add(SLOW, coarse, node)
+    add_slow_stages(program, slow)
     whole = small_steps(fast, steps)
     first = slow.stages
     stages = range(first, first + whole.stages)

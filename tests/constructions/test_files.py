@@ -82,6 +82,8 @@ FAULTS = {
     "multirate: {slow: heun, fast: heun, steps: 2, coupling: {fast-slow: [[0, 0], [0, 0]]}}": "slow-fast missing",
     "multirate: {slow: heun, fast: heun, steps: 2, coupling: {fast-slow: [[0, 0], [0, 0]], slow-fast: [[0, lambda]]}}": "slow-fast is 1 by 2",
     "multirate: {slow: heun, fast: heun, steps: 2, coupling: {fast-slow: [[0, 0], [0, 0]], slow-fast: [[0, 0], [0, n]]}}": "'n' is not a parameter",
+    "multirate: {slow: heun, fast: heun, steps: 2, coupling: {gamma: [[1]]}}": "gamma has 1 column, and the slow method 2 stages",
+    "multirate: {slow: heun, fast: heun, steps: 2, coupling: {embedded: [[1, 1]]}}": "gamma missing",
     "A: [[0]]\nb: [lambda]": "'lambda' is not a parameter",
 }
 """Files with one fault each, and what is told."""
@@ -116,6 +118,7 @@ GOOD = (
     "multirate: {slow: heun, fast: explicit-midpoint, steps: 3, coupling: collocation}",
     "multirate: {mri: {c: [0, 1], gamma: [[[1]]]}, fast: heun, steps: 2}",
     "multirate: {slow: heun, fast: heun, steps: 2, coupling: {fast-slow: [[0, 0], [lambda/M, 0]], slow-fast: [[0, 0], [1, 0]]}}",
+    "multirate: {slow: rk4, fast: exact, coupling: {gamma: [[1, 0, 0, 0]], embedded: [[0, 0, 0, 1]]}}",
 )
 BAD = (
     "compose: {of: heun, steps: []}",

@@ -30,6 +30,7 @@ from garkcli.order.conditions import all_conditions, elementary_weight
 from garkcli.tableau.tableau import Tableau
 from tests.oracles import multirate_series as series
 from tests.oracles.brute import brute_order
+from tests.whole import at_most
 
 LIMIT = 4
 
@@ -192,26 +193,112 @@ def test_no_method_exceeds_its_bound(name: str) -> None:
     assert highest(coupling(m)) >= order
 
 
-def test_step_predictor() -> None:
-    """``slow`` with ``fast: exact``: the slow method takes the step for both parts, then the fast
-    problem is solved with interpolated slopes: order 3 for Kutta's method, as the power series say.
+def predictor(A: str, *gamma: str) -> series.Method:
+    """A step-predictor: the slow method, and the forcing of its slopes for each power of τ."""
+    A_rows = rows(A, len(A.split(";")))
+    s = len(A_rows)
+    nothing: series.Row = []
+    forcing = [[nothing] * (s - 1) + [row(text)] for text in gamma]
+    c = [*map(sum, A_rows), Fraction(1)]
+    return series.Method("predictor", c, [forcing], A_rows)
+
+
+PREDICTORS = {
+    "kutta, interpolated": (3, predictor("0;1/2;-1 2", "1 0 0", "-3 4 -1", "2 -4 2")),
+    "kutta": (3, predictor("0;1/2;-1 2", "2/3 2/3 -1/3", "-1 0 1")),
+    "rk4": (4, predictor("0;1/2;0 1/2;0 0 1", "2/3 1/3 1/3 -1/3", "-1 0 0 1")),
+    "implicit midpoint": (2, predictor("1/2", "1")),
+    "radau-iia": (3, predictor("5/12 -1/12; 3/4 1/4", "3/2 -1/2", "-3/2 3/2")),
+    "lobatto-iiic": (2, predictor("1/2 -1/2; 1/2 1/2", "1 0", "-1 1")),
+}
+"""With their orders: the conditions are linear in the forcing, and solved by hand."""
+
+
+def changed_predictor(m: series.Method, dice: Random) -> series.Method:
+    """The method with one to three of its coefficients changed, or none: of the forcing so that
+    the integral or the sum of a row stays, or not; or of A.
     """
-    made = loads("multirate: {slow: kutta, fast: exact}").tableau
-    assert find_order(made).order == 3
-    half = [Fraction(x) for x in ("0", "1/2", "1")]
-    m = series.Method(
-        "predictor",
-        [*half, Fraction(1)],
-        [
-            [
-                [[]] * 2 + [row("1 0 0 0")],
-                [[]] * 2 + [row("-3 4 -1 0")],
-                [[]] * 2 + [row("2 -4 2 0")],
-            ]
-        ],
-        alpha=rows("0;1/2;-1 2 0", 4),
+    forcing = [[list(r) for r in matrix] for matrix in m.forcing[0]]
+    A = [list(r) for r in m.alpha]
+    s = len(A)
+    for _ in range(dice.randrange(4)):
+        shift = Fraction(dice.choice([-2, -1, 1, 2]), dice.randint(1, 4))
+        i, j = dice.randrange(s), dice.randrange(s)
+        k = dice.randrange(len(forcing))
+        match dice.randrange(4):
+            case 0:
+                A[i][j] += shift
+            case 1:
+                forcing[k][-1][i] += shift
+            case 2:
+                forcing[k][-1][i] += shift
+                forcing[k][-1][j] -= shift
+            case 3:  # the integral stays
+                forcing[k][-1][i] += shift * (k + 1)
+                forcing[0][-1][i] -= shift
+    return series.Method("predictor", [*map(sum, A), Fraction(1)], [forcing], A)
+
+
+def predictor_tableau(m: series.Method) -> Tableau:
+    """The method as gark has it, read from a file."""
+
+    def text(matrix: series.Matrix) -> str:
+        return "[" + ", ".join("[" + ", ".join(map(str, r)) + "]" for r in matrix) + "]"
+
+    gamma = [matrix[-1] for matrix in m.forcing[0]]
+    weights = [
+        sum((r[j] / (k + 1) for k, r in enumerate(gamma)), Fraction(0)) for j in range(len(m.alpha))
+    ]
+    slow = f"{{A: {text(m.alpha)}, b: [{', '.join(map(str, weights))}]}}"
+    return loads(
+        f"multirate: {{slow: {slow}, fast: exact, coupling: {{gamma: {text(gamma)}}}}}"
+    ).tableau
+
+
+@pytest.mark.parametrize("name", PREDICTORS)
+def test_step_predictors(name: str) -> None:
+    """The order by the spans is that of the power series; one more fails."""
+    order, m = PREDICTORS[name]
+    assert find_order(predictor_tableau(m)).order == order
+    assert series.order(m, order + 1) == order
+
+
+def test_random_step_predictors_three_ways() -> None:
+    """Spans, all trees and power series find one order; all up to 3 occur."""
+    found: Counter[int] = Counter()
+    limit = 3
+    for seed in range(at_most(40, 250)):
+        dice = Random(seed)
+        _, m = dice.choice([*PREDICTORS.values()])
+        m = changed_predictor(m, dice)
+        made = predictor_tableau(m)
+        order = find_order(made, limit).order
+        assert order == series.order(m, limit, seed) == brute_order(made, limit), m
+        found[order] += 1
+    assert {0, 1, 2, 3} <= found.keys()
+
+
+def test_interpolation_is_a_forcing() -> None:
+    """``slow`` with ``fast: exact`` and no coupling interpolates the slopes."""
+    interpolated = loads("multirate: {slow: kutta, fast: exact}").tableau
+    assert interpolated == predictor_tableau(PREDICTORS["kutta, interpolated"][1])
+
+
+def test_small_steps_of_a_predictor() -> None:
+    """With small steps of a method the order is at most that of this method; small steps of
+    Gauss's method with 2 stages see polynomials of degree 1 exactly.
+    """
+    text = (
+        "multirate: {slow: rk4, fast: %s, coupling: {gamma: [[2/3, 1/3, 1/3, -1/3], [-1, 0, 0, 1]],"
+        " embedded: [[1/6, 1/3, 1/3, 1/6]]}, steps: 3}"
     )
-    assert series.order(m, 4) == 3
+    assert find_order(loads(text % "kutta").tableau).order == 3
+    found = loads(text % "{family: gauss, stages: 2}")
+    assert find_order(found.tableau).order == 4
+    assert found.embedded is not None
+    colours = zip(found.tableau.colours, found.embedded, strict=True)
+    other = replace(found.tableau, colours=tuple(replace(x, b=b) for x, b in colours))
+    assert find_order(other).order == 2
 
 
 def test_embedded_value_is_a_method() -> None:

@@ -230,7 +230,8 @@ VALUES |= {
                 )
             ),
             "coupling": SCALARS
-            | st.fixed_dictionaries({}, optional={"fast-slow": MATRIX, "slow-fast": MATRIX}),
+            | st.fixed_dictionaries({}, optional={"fast-slow": MATRIX, "slow-fast": MATRIX})
+            | st.fixed_dictionaries({"gamma": MATRIX}, optional={"embedded": MATRIX}),
         },
     ),
 }

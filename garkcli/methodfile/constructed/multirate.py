@@ -18,11 +18,12 @@ from garkcli.constructions.infinitesimal import (
     following,
     generalized,
     infinitesimal,
+    interpolation,
     mis_coupling,
     of_step_time,
     plan_for_flow,
     plan_for_method,
-    plan_for_slow,
+    plan_for_predictor,
     predicted,
     restarted,
 )
@@ -53,7 +54,7 @@ _FORM_OF_MRI = "write {c: [0, 1/2, 1], gamma: [[[1/2, 0], [0, 1/2]]]}"
 _FORM_OF_MIS = (
     "write a method, or {alpha: [[], [0, 1/2]], beta: [[1/2], [0, 1/2]], gamma: [[0], [0]]}"
 )
-_FORM_OF_COUPLING = "write slowest-first, collocation, or "
+_FORM_OF_COUPLING = "write slowest-first, collocation, {gamma: [[…]]}, or "
 _FORM_OF_COUPLING += "{fast-slow: [[…]], slow-fast: [[…]]}"
 MAX_STEPS = 400
 """Most small steps."""
@@ -90,6 +91,31 @@ _COUPLING = g.mapping(
     ),
     form=_FORM_OF_COUPLING,
 )
+_PREDICTOR = g.mapping(
+    g.Key(
+        "gamma: [[2/3, 1/3, 1/3, -1/3], [-1, 0, 0, 1]]",
+        MATRIX,
+        "How the slow slopes force the fast problem, which goes through the whole step after the "
+        "slow method has taken it for both parts: a row for each power of the time of the step, "
+        "a column a slow stage.",
+        is_needed=True,
+    ),
+    g.Key("embedded: [[1/6, 1/3, 1/3, 1/6]]", MATRIX, "The rows that lead to the embedded value."),
+    form=_FORM_OF_COUPLING,
+)
+
+
+def _one_of(names: tuple[str, ...], kind: g.Kind, other: g.Kind) -> g.Kind:
+    """A mapping that is known by one of its keys, or something else."""
+
+    def is_it(node: Node) -> bool:
+        return isinstance(node, MappingNode) and any(k.value in names for k, _ in node.value)
+
+    return g.Kind(
+        lambda: {"anyOf": [other.schema(), kind.schema()]},
+        lambda at, node, where: (kind if is_it(node) else other).read(at, node, where),
+        lambda: (*other.inside(), *kind.inside()),
+    )
 
 
 def _powers(key: str) -> g.Kind:
@@ -146,17 +172,7 @@ _GENERALIZED = g.mapping(
 )
 
 
-def _is_generalized(node: Node) -> bool:
-    return isinstance(node, MappingNode) and any(key.value == "beta" for key, _ in node.value)
-
-
-_MIS = g.Kind(
-    lambda: {"anyOf": [METHOD.schema(), _GENERALIZED.schema()]},
-    lambda at, node, where: (_GENERALIZED if _is_generalized(node) else METHOD).read(
-        at, node, where
-    ),
-    _GENERALIZED.inside,
-)
+_MIS = _one_of(("beta",), _GENERALIZED, METHOD)
 
 
 def _is_exact(node: Node) -> bool:
@@ -186,9 +202,12 @@ _KEYS = g.mapping(
     g.Key("slow: kutta", METHOD, "The method of the slow part, of one colour."),
     g.Key(
         "coupling: slowest-first",
-        g.either(g.word(lambda: (SLOWEST_FIRST, *RULES)), at_mapping=_COUPLING),
+        g.either(
+            g.word(lambda: (SLOWEST_FIRST, *RULES)),
+            at_mapping=_one_of(("gamma", "embedded"), _PREDICTOR, _COUPLING),
+        ),
         "How the slow and the fast part see each other: slowest-first, a transfer rule for all "
-        "small steps as one method, or the matrices of each small step.",
+        "small steps as one method, the matrices of each small step, or a forcing by polynomials.",
         SLOWEST_FIRST,
     ),
     g.Key(
@@ -249,6 +268,38 @@ class Infinitesimal(Frozen):
         plan: Plan = values.once(("plan", id(self)), lambda: plan_for(coupling))
         fast = None if self.fast is None else _method(tableau_of, self.fast, "fast")
         return infinitesimal(coupling, plan, fast, self.steps)
+
+
+class Predictor(Frozen):
+    """What makes a step-predictor.
+
+    Attributes:
+        slow: the method that takes the step for both parts.
+        fast: that of the fast problem; None for the exact solution.
+        forcing: the rows of the fast problem, and of that for the embedded value; none where the
+            slow slopes are interpolated.
+        steps: small ones.
+    """
+
+    slow: PartText
+    fast: PartText | None
+    forcing: Mapping[str, Rows]
+    steps: int
+
+    def __call__(self, tableau_of: TableauOf, values: Values) -> tuple[Tableau, Further]:
+        """The method, and its embedded weights."""
+        slow = _method(tableau_of, self.slow, "slow")
+        forcing = tuple(map(values.matrix, self.forcing.values())) or (interpolation(slow),)
+        for key, rows in zip(self.forcing, forcing, strict=False):
+            if len(rows[0]) != slow.stages:
+                message = f"{key} has {counted(len(rows[0]), 'column')}, and the slow method "
+                message += f"{counted(slow.stages, 'stage')}"
+                raise MethodError(message, "give a column a slow stage", code="wrong-size")
+        if self.fast is None:
+            _refuse_parameters((*slow.A, *chain.from_iterable(forcing)))
+        fast = None if self.fast is None else _method(tableau_of, self.fast, "fast")
+        plan = values.once(("plan", id(self)), lambda: plan_for_predictor(slow, forcing, fast))
+        return predicted(slow, forcing, plan, fast, self.steps)
 
 
 def _method(tableau_of: TableauOf, part: PartText, key: str) -> Method:
@@ -338,20 +389,27 @@ def _coupled(at: PartReader, found: g.Found) -> Make:
     """Two methods with a coupling by name, or by matrices."""
     coupling = found.get("coupling", SLOWEST_FIRST)
     is_exact = found["fast"] == EXACT
+    if isinstance(coupling, g.Found) and "gamma" in coupling:
+        rows = {key: coupling[key] for key in ("gamma", "embedded") if key in coupling}
+        for key, matrix in rows.items():
+            at.numbers.rectangular(matrix, coupling.nodes[key], key)
+        fast = None if is_exact else found["fast"]
+        return Predictor(found["slow"], fast, rows, found.get("steps", 1))
     if is_exact and coupling != SLOWEST_FIRST:
-        message = "multirate: fast: exact goes with slowest-first, not with another coupling"
+        message = (
+            "multirate: fast: exact goes with slowest-first or gamma, not with another coupling"
+        )
         cure = "name a fast method and its steps"
         at.source.fault(found.nodes["fast"], message, cure, code="not-together")
         coupling = SLOWEST_FIRST
+    if is_exact:
+        return Predictor(found["slow"], None, {}, 1)
     steps: int = found.get("steps", 1)
     keys = _BLOCKS if isinstance(coupling, g.Found) else ()
     matrices = [[*_small_steps(at, coupling[key], key, steps)] for key in keys]
 
     def made(tableau_of: TableauOf, values: Values) -> Tableau:
         slow = _method(tableau_of, found["slow"], "slow")
-        if is_exact:
-            _refuse_parameters((*slow.A, slow.b))
-            return predicted(slow, values.once(("plan", id(made)), lambda: plan_for_slow(slow)))
         fast = _method(tableau_of, found["fast"], "fast")
         if coupling == SLOWEST_FIRST:
             return slowest_first(slow, fast, steps)
