@@ -87,8 +87,9 @@ class Coupling(Frozen):
         nodes: of the slow stages, from 0 to 1; the last one is the end of the step.
         intervals: those that lead to each stage but the first.
         embedded: that which leads to the embedded value; None without that.
-        matrices: of methods whose fast problems follow each other, for each slow part the matrices
-            of τ⁰, τ¹, …; row i leads from stage i to the next. Of others None.
+        matrices: for each slow part those of τ⁰, τ¹, …, as the file has them; row i leads to the
+            stage after stage i. None of methods with α, β and γ.
+        restart: how they are meant of methods whose fast problems begin at y_n; else empty.
         has_own_nodes: whether its coefficients make the nodes.
     """
 
@@ -96,6 +97,7 @@ class Coupling(Frozen):
     intervals: tuple[Interval, ...]
     embedded: Interval | None = None
     matrices: tuple[tuple[Matrix, ...], ...] | None = None
+    restart: str = ""
     has_own_nodes: bool = False
 
     @property

@@ -27,7 +27,13 @@ def read(tmp_path: Path, text: str, **others: str) -> dict[str, Audited]:
     return {x.table.name: x for x in found if x.table.source == paths[0]}
 
 
-@pytest.mark.parametrize("name", ["mri-gark-erk33a", "mri-gark-irk21a", "imex-mri-gark-midpoint"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        *("mri-gark-erk33a", "mri-gark-irk21a", "imex-mri-gark-midpoint"),
+        *("merk21", "merk32", "imex-mri-sr21"),
+    ],
+)
 def test_what_is_exported_is_read_back(tmp_path: Path, name: str) -> None:
     """The same method with its embedded rows and its orders; its audit finds nothing."""
     method = load(name)

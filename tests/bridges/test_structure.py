@@ -252,7 +252,7 @@ def test_the_coupling_of_a_file_is_exported() -> None:
 @in_whole
 def test_embedded_rows_of_a_coupling_are_exported() -> None:
     """With the exact fast solution the orders are those of the paper, and the embedded rows are
-    beside them; methods whose fast problems begin anew are refused.
+    beside them; methods whose fast problems begin between stages are refused.
     """
     slow = slow_part(prepared(load("mri-gark-erk45a")))
     assert slow.order == 4
@@ -263,9 +263,8 @@ def test_embedded_rows_of_a_coupling_are_exported() -> None:
     text = bridges()["sundials-mri"].written(prepared(load("mri-gark-erk45a")))
     assert "C->W[1][6][j] = dW[6 + j];" in text
     assert "with the fast equation solved exactly" in text
-    for name in ("merk32", "imex-mri-sr21", "mis2"):
-        with pytest.raises(CannotExport, match="do not follow each other"):
-            slow_part(prepared(load(name)))
+    with pytest.raises(CannotExport, match="begin between stages"):
+        slow_part(prepared(load("mis2")))
 
 
 DECOUPLED = """
@@ -289,6 +288,69 @@ def test_what_mristep_refuses_is_not_exported(old: str, new: str, message: str) 
     """
     with pytest.raises(CannotExport, match=message):
         slow_part(payload_of(DECOUPLED.replace(old, new)))
+
+
+@pytest.mark.parametrize(
+    ("name", "groups"),
+    [
+        ("merk21", [[1, 3], [2]]),
+        ("merk32", [[1], [2, 4], [3]]),
+        ("merk43", [[1], [3, 2], [5, 4, 7], [6]]),
+    ],
+)
+def test_stages_of_merk_are_grouped(name: str, groups: list[list[int]]) -> None:
+    """As MRIStep's own tables are: one fast problem for stages with one forcing, by ascending
+    nodes, the embedded value last in the last but one.
+    """
+    slow = slow_part(prepared(load(name)))
+    assert slow.groups == groups
+    text = bridges()["sundials-mri"].written(prepared(load(name)))
+    assert f"({len(slow.matrices['W'])}, {len(slow.nodes)}, MRISTEP_MERK)" in text
+    assert f"C->group[{len(groups) - 1}][0] = {groups[-1][0]};" in text
+
+
+MERK = """
+multirate:
+  mri: {restart: merk, c: [0, 1/2, 1], omega: [[[1], [1]], [[0], [-2, 2]]]}
+  fast: exact
+"""
+SR = """
+multirate:
+  mri:
+    restart: sr
+    c: [0, 1/2, 1]
+    omega: [[[1/2], [0, 1]]]
+    gamma: [[[-1/2, 1/2], [-1/2, 0, 1/2]]]
+  fast: exact
+"""
+
+
+def test_couplings_with_restarts_are_exported() -> None:
+    """Their matrices are those of the file; without embedded rows MERK has a group for them."""
+    merk = slow_part(payload_of(MERK))
+    assert merk.groups == [[1], [3], [2]]
+    assert [matrix[2] for matrix in merk.matrices["W"]] == [(ONE, ZERO, ZERO), (-2, 2, ZERO)]
+    slow = slow_part(payload_of(SR))
+    assert slow.type == "MRISTEP_SR"
+    assert slow.matrices["W"][0][1:] == ((fmpq(1, 2), ZERO, ZERO), (ZERO, ONE, ZERO))
+    assert slow.matrices["G"][0][2] == (fmpq(-1, 2), ZERO, fmpq(1, 2))
+    alone = slow_part(payload_of(SR.replace("    gamma: [[[-1/2, 1/2], [-1/2, 0, 1/2]]]\n", "")))
+    assert (list(alone.matrices), alone.type) == (["W"], "MRISTEP_SR")
+
+
+@pytest.mark.parametrize(
+    ("text", "old", "new", "message"),
+    [
+        (MERK, "[0, 1/2, 1]", "[0, 0, 1]", "has no length"),
+        (MERK, "[[1], ", "[[1, 1], ", "uses a later one"),
+        (SR, "[-1/2, 1/2]", "[-1/2, 0, 1/2]", "uses a later one"),
+    ],
+)
+def test_restarts_that_mristep_refuses(text: str, old: str, new: str, message: str) -> None:
+    """A fast problem without length, a forcing by the stage itself, a later stage in gamma."""
+    assert old in text
+    with pytest.raises(CannotExport, match=message):
+        slow_part(payload_of(text.replace(old, new, 1)))
 
 
 def test_embedded_rows_of_more_powers_have_room() -> None:

@@ -2,7 +2,8 @@
 
 It is the coupling of a file with ``multirate: {mis: …}`` or ``{mri: …}``, or an explicit method:
 stage i goes on from stage i − 1: the fast equation is solved from c_{i−1} to c_i, with the constant
-slow tendency Σ_j (a_{ij} − a_{i−1,j}) f_j / (c_i − c_{i−1}). The last stage is the new value.
+slow tendency Σ_j (a_{ij} − a_{i−1,j}) f_j / (c_i − c_{i−1}). The last stage is the new value. With
+``restart`` the fast equation is solved from the beginning of the step.
 """
 
 from __future__ import annotations
@@ -38,12 +39,42 @@ class Slow(Frozen):
         order: with the fast equation solved exactly, or as well as the file says.
         embedding: the rows that lead to the embedded value, by W or G a row for each power, and
             its order; None without it.
+        restart: merk or sr, of methods whose fast problems begin with the step.
     """
 
     nodes: Row
     matrices: Mapping[str, Sequence[Rows]]
     order: int
     embedding: tuple[Mapping[str, Sequence[Row]], int] | None = None
+    restart: str = ""
+
+    @property
+    def type(self) -> str:
+        """As MRIStep calls it."""
+        if self.restart:
+            return f"MRISTEP_{self.restart.upper()}"
+        names = {"W": "EXPLICIT", "G": "IMPLICIT", "WG": "IMEX"}
+        return f"MRISTEP_{names[''.join(self.matrices)]}"
+
+    @property
+    def groups(self) -> Sequence[Sequence[int]]:
+        """Of ``merk`` stages with one forcing: MRIStep goes through them in one fast problem. The
+        embedded value is the last stage of the last group but one, and has the number of stages;
+        the new value is a group of its own.
+        """
+        last = len(self.nodes) - 1
+        forcing = [tuple(matrix[i] for matrix in self.matrices["W"]) for i in range(last + 1)]
+        found: dict[object, list[int]] = {}
+        for i in range(1, last):
+            found.setdefault(forcing[i], []).append(i)
+        groups = [sorted(x, key=lambda i: float(ball(self.nodes[i]))) for x in found.values()]
+        rows = () if self.embedding is None else self.embedding[0]["W"]
+        zeros = ((ZERO,) * (last + 1),) * (len(forcing[0]) - len(rows))
+        if groups and forcing[groups[-1][0]] == (*rows, *zeros):
+            groups[-1].append(last + 1)
+        else:
+            groups.append([last + 1])
+        return [*groups, [last]]
 
 
 def values(payload: Payload, _: Sequence[Table]) -> Values:
@@ -88,8 +119,10 @@ def _coupled(payload: Payload, coupling: Coupling) -> Slow:
     nothing = (ZERO,) * len(coupling.nodes)
     found: dict[str, list[Rows]] = {}
     if coupling.matrices is None:
-        message = f"the fast problems of {payload.name} do not follow each other"
-        raise CannotExport(message, "choose a coupling without restart, and without α and γ")
+        message = f"the fast problems of {payload.name} begin between stages"
+        raise CannotExport(message, "choose a coupling without α and γ")
+    if coupling.restart:
+        return _restarted(payload, coupling)
     _refuse_stages(payload.name, coupling.nodes, coupling.matrices)
     rows: dict[str, Sequence[Row]] = {}
     last = coupling.embedded
@@ -101,12 +134,45 @@ def _coupled(payload: Payload, coupling: Coupling) -> Slow:
             message = f"both slow parts of {payload.name} are {'im' if is_implicit else 'ex'}plicit"
             raise CannotExport(message, "MRIStep takes an explicit and an implicit one")
         rows[letter] = () if last is None else last.forcing[part]
-        missing = len(rows[letter]) - len(powers)  # the embedded rows may have more powers
-        zeros = (nothing,) * len(nothing)
-        found[letter] = [*((nothing, *matrix) for matrix in powers), *[zeros] * missing]
+        found[letter] = _with_first_rows(powers, nothing, len(rows[letter]))
     matrices = {letter: found[letter] for letter in "WG" if letter in found}
     embedding = None if last is None else (rows, payload.orders.embedded or 0)
     return Slow(coupling.nodes, matrices, payload.orders.effective, embedding)
+
+
+def _with_first_rows(powers: Sequence[Rows], nothing: Row, least: int) -> list[Rows]:
+    """The matrices, each with a row for the first stage; at least so many, for embedded rows of
+    more powers.
+    """
+    zeros = (nothing,) * len(nothing)
+    return [*((nothing, *matrix) for matrix in powers), *[zeros] * (least - len(powers))]
+
+
+def _restarted(payload: Payload, coupling: Coupling) -> Slow:
+    """A coupling whose fast problems begin with the step.
+
+    Raises:
+        CannotExport: one has no length, or a stage uses a later one, or itself in its forcing.
+    """
+    assert coupling.matrices is not None
+    nodes, last = coupling.nodes, coupling.embedded
+    if any(ball(c) <= 0 for c in nodes[1:]):
+        message = f"a fast problem of {payload.name} has no length"
+        raise CannotExport(message, "choose a coupling whose nodes after the first are positive")
+    for powers, used in zip(coupling.matrices, (1, 2), strict=False):
+        if any(any(row[i + used :]) for matrix in powers for i, row in enumerate(matrix)):
+            cure = "choose one whose forcing uses the stages before, and gamma these and the stage"
+            raise CannotExport(f"a stage of {payload.name} uses a later one", cure)
+    nothing = (ZERO,) * len(nodes)
+    rows = {} if last is None else {"W": last.forcing[0], "G": last.after[-1:]}
+    matrices = {
+        letter: _with_first_rows(powers, nothing, len(rows.get(letter, ())))
+        for letter, powers in zip("WG", coupling.matrices, strict=False)
+    }
+    embedding = None
+    if last is not None:
+        embedding = {x: rows[x] for x in matrices}, payload.orders.embedded or 0
+    return Slow(nodes, matrices, payload.orders.effective, embedding, coupling.restart)
 
 
 def _refuse_stages(name: str, nodes: Row, parts: Sequence[Sequence[Rows]]) -> None:

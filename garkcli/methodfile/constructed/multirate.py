@@ -487,14 +487,17 @@ def _polynomials(at: PartReader, found: g.Found) -> Callable[[TableauOf, Values]
         if restart == "merk":
             (forcing,) = powers.values()
             last = None if embedded is None else tuple(embedded.values())
-            return restarted(nodes, (of_step_time(nodes[1:], forcing),), last)
-        parts = max(len(powers), 1)
-        forcing = powers.get("omega", powers.get("gamma", ()))
-        after = powers["gamma"][0] if parts > 1 else None
-        if embedded is None:
-            return restarted(nodes, (forcing,) * parts, None, after)
-        row = embedded["gamma"][0] if parts > 1 and embedded["gamma"] else None
-        return restarted(nodes, (forcing,) * parts, (embedded["omega"],) * parts, after, row)
+            made = restarted(nodes, (of_step_time(nodes[1:], forcing),), last)
+        else:
+            parts = max(len(powers), 1)
+            forcing = powers.get("omega", powers.get("gamma", ()))
+            after = powers["gamma"][0] if parts > 1 else None
+            last = row = None
+            if embedded is not None:
+                last = (embedded["omega"],) * parts
+                row = embedded["gamma"][0] if parts > 1 and embedded["gamma"] else None
+            made = restarted(nodes, (forcing,) * parts, last, after, row)
+        return replace(made, matrices=tuple(powers.values()), restart=restart)
 
     return coupling
 
