@@ -166,6 +166,8 @@ def _audit(table: FoundTable) -> Audited | None:
         return Audited(table, findings=(AuditFinding("shape", table.trouble),))
     if table.trouble:
         return _noted(table, table.trouble)
+    if table.form is not None:
+        return _of_export(table)
     if table.gamma is not None or table.is_multirate:
         return _of_rosenbrock(table)
     try:
@@ -193,6 +195,16 @@ def subject_of(table: FoundTable, method: MethodFile) -> Subject:
     """A table with its orders, as far as an audit looks for them."""
     is_high = not table.order or table.order >= HIGH
     return with_orders(table, method, HIGH if is_high else None)
+
+
+def _of_export(table: FoundTable) -> Audited:
+    from garkcli.bridges.exported import judged_export  # few sources have them
+
+    try:
+        found = judged_export(table)
+    except MethodFileError as error:
+        return _noted(table, error.faults[0].message)
+    return Audited(table, found.method, found.order, found.embedded_order, None, found.findings)
 
 
 def _of_rosenbrock(table: FoundTable) -> Audited:

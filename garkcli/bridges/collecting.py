@@ -135,6 +135,10 @@ def _result(table: FoundTable, name: str, is_recognising: bool, is_as_found: boo
     if table.trouble:
         return Result(table, trouble=table.trouble)
     try:
+        if table.form is not None:
+            from garkcli.bridges.exported import judged_export  # few sources have them
+
+            return Result(table, method=judged_export(table, name, is_as_found))
         if table.gamma is not None or table.is_multirate:
             from garkcli.bridges.rosenbrock import imported_row  # few sources have them
 

@@ -88,8 +88,7 @@ def head(payload: Payload, *notes: str) -> list[str]:
         notes: what else the target has to say.
     """
     colours = counted(payload.size, "vector field")
-    has_flow = payload.own is None and payload.tableau.exact_to is not None
-    stages = ", ".join(map(str, payload.stages[has_flow:]))
+    stages = ", ".join(map(str, payload.stages[payload.kind == "mri" :]))
     fields = f"stages {stages}" if payload.own else f"{colours}, stages {stages}"
     lines = [
         f"Written by gark {payload.version}.",
@@ -115,7 +114,7 @@ _CLASSES = {
     "nprk": "y' = F(y, y), the two arguments at stages of their own",
     "derivatives": "y' = f(t, y) with derivatives of f along the solution",
     "gark": "y' = {terms}, each at stages of its own",
-    "flow": "y' = {terms}, f1 fast and solved exactly",
+    "mri": "y' = {terms}, f1 fast and solved exactly",
 }
 
 
@@ -130,8 +129,7 @@ def problem_class(payload: Payload) -> str:
         return "Hamiltonian problems that are split, a pair (q, p) a term"
     names = [f"f{l}(t, y)" for l in range(1, payload.size + 1)]
     terms = " + ".join(names) if len(names) < 4 else "f1(t, y) + ... + fN(t, y)"
-    kind = "flow" if payload.tableau.exact_to is not None else payload.kind
-    return _CLASSES[kind].format(terms=terms)
+    return _CLASSES[payload.kind].format(terms=terms)
 
 
 _PARTS = {

@@ -140,7 +140,12 @@ def _better(
     tables_in: Callable[[str], list[FoundTable]],
 ) -> str:
     """The text with the repair of table k; empty where none is sure."""
-    if found.method is None or found.order is None or found.table.gamma is not None:
+    if (
+        found.method is None
+        or found.order is None
+        or found.table.gamma is not None
+        or found.table.form
+    ):
         return ""
     wanted, before = list(_wanted(subject_of(tables[k], read(tables[k])))), _orders(found)
     for is_whole in (False, True):

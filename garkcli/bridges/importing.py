@@ -100,6 +100,8 @@ def _lines(value: Mapping[str, Tree] | Sequence[Tree], indent: str) -> Iterator[
 
 def _coefficients(table: FoundTable) -> Mapping[str, Tree]:
     """What a method file has of the coefficients."""
+    if table.form is not None:
+        return table.form
     if table.gamma is not None:
         return {"rosenbrock": _rosenbrock(table)}
     if table.is_multirate:

@@ -24,10 +24,14 @@ if TYPE_CHECKING:
     from garkcli.constructions.infinitesimal import Coupling
     from garkcli.constructions.rosenbrock import Rosenbrock
 
-Kind: TypeAlias = Literal["rk", "ark", "prk", "gark", "row", "nystrom", "nprk", "derivatives"]
+Kind: TypeAlias = Literal[
+    "rk", "ark", "prk", "gark", "row", "nystrom", "nprk", "derivatives", "mri"
+]
 """One vector field; several that share all stages; the pair (q, p); any other GARK method; a
-Rosenbrock method; the kinds with arrays of their own.
+Rosenbrock method; the kinds with arrays of their own; a multirate method with the exact fast part.
 """
+SCHEMA = "gark/export/1"
+"""Of what is written as JSON."""
 
 Part: TypeAlias = tuple[int, int | str, Sequence[Row]]
 """An array: its colour and, of a block, the colour that it sees, from 1; its rows."""

@@ -64,11 +64,14 @@ def prepared(method: GarkMethod, digits: int | None = None) -> Payload:
         embedded, dense = embedded and embedded[:N], dense and DenseOutput(dense.weights[:N])
         tableau = row.without_jacobian
     found = _NO_ENTRIES if own else _entries(tableau, digits)
+    kind: Kind = own or (kind_of(tableau) if row is None else "row")
+    if own is None and tableau.exact_to is not None:
+        kind = "mri"
     return Payload(
         name=printable(
             derived_name(method.derivation, _name(file)) if method.derivation else _name(file)
         ),
-        kind=own or (kind_of(tableau) if row is None else "row"),
+        kind=kind,
         tableau=tableau if own else in_points(tableau) or tableau,
         A=found.A,
         b=found.b,

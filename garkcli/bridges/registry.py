@@ -74,7 +74,6 @@ class Bridge(Frozen):
         file: how its file has to be called to be run.
         reads_back: whether ``gark import`` reads what it writes.
         write: the file of a method, where no template writes it.
-        couples: whether it takes the coupling of slow stages, whatever solves the fast problems.
         linear: what its template for Rosenbrock methods, ``NAME-row.SUFFIX.jinja``, has beyond what
             all have; raises ``CannotExport`` with the reason and the cure.
     """
@@ -95,7 +94,6 @@ class Bridge(Frozen):
     file: FileName | None = None
     reads_back: bool = False
     write: Callable[[Payload], str] | None = None
-    couples: bool = False
     linear: Callable[[Payload], Values] = lambda payload: {"linear": printed_stages(payload)}
 
     def tested(self, payload: Payload, file: str) -> Mapping[str, str]:
@@ -235,6 +233,7 @@ _KINDS: Mapping[Kind, str] = {
     "prk": "methods for a pair (q, p)",
     "gark": "methods whose vector fields have stages of their own",
     "row": "Rosenbrock methods",
+    "mri": "multirate infinitesimal methods",
     **KINDS,
 }
 

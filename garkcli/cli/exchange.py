@@ -41,7 +41,7 @@ def export(given: Given, output: Output) -> None:
         raise UsageProblem(message, "leave out --test", code="cannot-export")
     method = given.method(is_any_kind=True)
     if not (is_rosenbrock(method.tableau) or own_kind(method.tableau)):
-        method.tableau.demand_fields("this command", with_flow=bridge.couples)
+        method.tableau.demand_fields("this command", with_flow="mri" in bridge.kinds)
     refuse_rounded(method)
     payload = prepared(method, given.digits)
     table = bridge.written(payload)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from flint import fmpq
 
@@ -103,6 +103,9 @@ class FoundTable(Frozen):
         coupling: of a multirate infinitesimal method, whose fast problems are solved exactly; None
             of others.
         is_slow: whether it is the slow method of such a method, whose forcing is constant.
+        form: of a method of another form, what its file has under the keys of the coefficients;
+            None of others.
+        form_stages: how many stages it has.
         base: the name of the table that it is made of, where another source has that.
         is_assembled: whether it was put together from single numbers, by their names.
         units: by how much coefficients may be off that were made of printed ones.
@@ -143,6 +146,8 @@ class FoundTable(Frozen):
     d: Row | None = None
     coupling: FoundCoupling | None = None
     is_slow: bool = False
+    form: Mapping[str, Any] | None = None
+    form_stages: int = 0
     base: str = ""
     is_assembled: bool = False
     units: Units = ()
@@ -160,6 +165,8 @@ class FoundTable(Frozen):
     @property
     def stages(self) -> int:
         """The stages of all colours, those that are shared once; the slow ones of a coupling."""
+        if self.form is not None:
+            return self.form_stages
         if self.coupling is not None:
             return len(self.coupling.c) - 1
         if len(self.A) == 1:
@@ -174,7 +181,7 @@ class FoundTable(Frozen):
     @property
     def is_read(self) -> bool:
         """Whether it has coefficients."""
-        return bool(self.b) or self.is_multirate
+        return bool(self.b) or self.is_multirate or self.form is not None
 
     @property
     def is_unlike(self) -> bool:

@@ -7,9 +7,12 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from garkcli.bridges.exported import exported_table
 from garkcli.bridges.readers.printed import Values, reader
+from garkcli.frozen import replace
 from garkcli.sources import ir
 from garkcli.sources.formulas import formula
+from garkcli.sources.found import FoundTable
 from garkcli.sources.naming import ROLES
 
 MAX_DEPTH = 12
@@ -100,4 +103,13 @@ def _value(content: object, depth: int = 0) -> ir.Expr:
     return ir.Opaque("what is no number")
 
 
-READER = reader("json", "JSON: gark's export, or any object with A and b", (".json",), _found)
+_OBJECTS = reader("json", "JSON: gark's export, or any object with A and b", (".json",), _found)
+
+
+def _find(text: str, source: str) -> list[FoundTable]:
+    """The method that gark exported, or the tables of any objects."""
+    table = exported_table(text, source, _OBJECTS.name)
+    return _OBJECTS.find(text, source) if table is None else [table]
+
+
+READER = replace(_OBJECTS, find=_find)

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any, Literal
 
 from flint import fmpq
 
+from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.comments import HASH, head, problem_class
+from garkcli.bridges.couplings import keys_of
 from garkcli.bridges.numbers import EXACT, Style
-from garkcli.bridges.payload import Payload
+from garkcli.bridges.payload import SCHEMA, Payload
 from garkcli.bridges.readers.rows import COLUMNS
 from garkcli.bridges.registry import EVERYTHING, STEPPED, Bridge
+from garkcli.constructions.infinitesimal import Coupling
 from garkcli.exact.display import decimal
 from garkcli.frozen import replace
 from garkcli.page.record import Field, Record, schema_named
@@ -30,7 +33,6 @@ from garkcli.page.schema import (
 )
 from garkcli.tableau.tableau import Colour
 
-SCHEMA = "gark/export/1"
 DIGITS = 40
 """Of entries that have no simple radicals."""
 _EXACT = replace(EXACT, digits=DIGITS)
@@ -59,12 +61,47 @@ def _array(name: str) -> Callable[[Payload], Any]:
     def texts(payload: Payload) -> Any:
         if payload.own is not None:
             return _texts(payload, payload.own.get(name))
+        if payload.kind == "mri":
+            return None
         found = getattr(payload, name)
         if payload.kind in {"rk", "row"} and payload.size == 1 and found is not None:
             found = found[0][0] if name == "A" else found[0]
         return _texts(payload, found)
 
     return texts
+
+
+def _nodes(payload: Payload) -> Any:
+    """The texts of the nodes; of a coupling those of its slow stages."""
+    if payload.kind != "mri":
+        return _array("c")(payload)
+    return _texts(payload, _coupling(payload).nodes)
+
+
+def _coupling(payload: Payload) -> Coupling:
+    """The coupling of the slow stages.
+
+    Raises:
+        CannotExport: the file has none.
+    """
+    if payload.coupling is None:
+        message = f"{payload.name} is no multirate infinitesimal step"
+        cure = "give the slow method alone, or a file with multirate: {mis: ...} or {mri: ...}"
+        raise CannotExport(message, cure)
+    return payload.coupling
+
+
+def _multirate(payload: Payload) -> Any:
+    """The keys of a method file with their texts, of a multirate infinitesimal method."""
+    if payload.kind != "mri":
+        return None
+    return _told(payload, keys_of(_coupling(payload)))
+
+
+def _told(payload: Payload, value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return {key: _told(payload, x) for key, x in value.items()}
+    return value if isinstance(value, str) else _texts(payload, value)
 
 
 def _own(name: str) -> Callable[[Payload], Any]:
@@ -102,6 +139,30 @@ _MATRIX = array(_NUMBERS)
 _ONE_ROW = one_of(_NUMBERS, _MATRIX)
 _ONE_BLOCK = one_of(_MATRIX, array(array(_MATRIX)))
 _MATRICES = array(_MATRIX)
+_MULTIRATE: Schema = {
+    "type": "object",
+    "properties": {
+        "mri": {
+            "type": "object",
+            "properties": {
+                "restart": TEXT,
+                "c": _NUMBERS,
+                "omega": _MATRICES,
+                "gamma": _MATRICES,
+                "embedded": one_of(_MATRIX, {"type": "object", "additionalProperties": _MATRIX}),
+            },
+            "required": ["c"],
+            "additionalProperties": False,
+        },
+        "mis": {
+            "type": "object",
+            "properties": dict.fromkeys(("alpha", "beta", "gamma"), _MATRIX),
+            "required": ["alpha", "beta", "gamma"],
+            "additionalProperties": False,
+        },
+    },
+    "additionalProperties": False,
+}
 
 
 def _decimal(tolerance: fmpq | None) -> str | None:
@@ -127,7 +188,7 @@ _REPORT: Record[Payload] = Record(
     Field("reference", nullable(TEXT), lambda x: x.reference or None),
     Field("exact", FLAG, lambda x: x.is_exact and x.digits is None),
     _COLOUR.every("colours", lambda x: x.tableau.colours),
-    Field("c", _ONE_ROW, _array("c")),
+    Field("c", _ONE_ROW, _nodes),
     Field("Abar", _MATRIX, _own("Abar"), is_optional=True),
     Field("a", _MATRICES, _own("a"), is_optional=True),
     Field(
@@ -140,10 +201,11 @@ _REPORT: Record[Payload] = Record(
     Field("gamma", _ONE_BLOCK, lambda x: _linear(x, "gamma"), is_optional=True),
     Field("d", _ONE_ROW, lambda x: _linear(x, "d"), is_optional=True),
     Field("bbar", _NUMBERS, _own("bbar"), is_optional=True),
-    Field("b", _ONE_ROW, _array("b")),
+    Field("b", _ONE_ROW, _array("b"), is_optional=True),
     Field("embedded_bbar", _NUMBERS, _own("embedded_bbar"), is_optional=True),
     Field("embedded", _ONE_ROW, _array("embedded"), is_optional=True),
     Field("dense", one_of(_MATRIX, array(_MATRIX)), _array("dense"), is_optional=True),
+    Field("multirate", _MULTIRATE, _multirate, is_optional=True),
 )
 
 
@@ -169,7 +231,7 @@ BRIDGES = (
     Bridge(
         name="json",
         summary="JSON, every number as exact text",
-        kinds=STEPPED,
+        kinds=(*STEPPED, "mri"),
         suffix=".json",
         write=_json,
         reads_back=True,

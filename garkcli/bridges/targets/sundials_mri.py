@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 from flint import fmpq
 
 from garkcli.bridges.cannot import CannotExport
+from garkcli.bridges.couplings import embedded_rows
 from garkcli.bridges.numbers import c_style
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.registry import Bridge
@@ -79,7 +80,7 @@ class Slow(Frozen):
 
 def values(payload: Payload, _: Sequence[Table]) -> Values:
     """The coupling; the orders of a file's are those with its fast steps, where it has them."""
-    has_steps = payload.coupling is not None and payload.tableau.exact_to is None
+    has_steps = payload.coupling is not None and payload.kind != "mri"
     return {"slow": slow_part(payload), "has_steps": has_steps}
 
 
@@ -155,7 +156,7 @@ def _restarted(payload: Payload, coupling: Coupling) -> Slow:
         CannotExport: one has no length, or a stage uses a later one, or itself in its forcing.
     """
     assert coupling.matrices is not None
-    nodes, last = coupling.nodes, coupling.embedded
+    nodes = coupling.nodes
     if any(ball(c) <= 0 for c in nodes[1:]):
         message = f"a fast problem of {payload.name} has no length"
         raise CannotExport(message, "choose a coupling whose nodes after the first are positive")
@@ -164,13 +165,13 @@ def _restarted(payload: Payload, coupling: Coupling) -> Slow:
             cure = "choose one whose forcing uses the stages before, and gamma these and the stage"
             raise CannotExport(f"a stage of {payload.name} uses a later one", cure)
     nothing = (ZERO,) * len(nodes)
-    rows = {} if last is None else {"W": last.forcing[0], "G": last.after[-1:]}
+    rows = dict(zip("WG", embedded_rows(coupling).values(), strict=False))
     matrices = {
         letter: _with_first_rows(powers, nothing, len(rows.get(letter, ())))
         for letter, powers in zip("WG", coupling.matrices, strict=False)
     }
     embedding = None
-    if last is not None:
+    if coupling.embedded is not None:
         embedding = {x: rows[x] for x in matrices}, payload.orders.embedded or 0
     return Slow(nodes, matrices, payload.orders.effective, embedding, coupling.restart)
 
@@ -222,11 +223,10 @@ BRIDGES = (
     Bridge(
         name="sundials-mri",
         summary="C for MRIStep: slow methods, MIS and MRI couplings",
-        kinds=("rk", "ark", "gark"),
+        kinds=("rk", "ark", "gark", "mri"),
         suffix=".c",
         stages="explicit",
         style=c_style("SUN_RCONST"),
         values=values,
-        couples=True,
     ),
 )

@@ -1,0 +1,184 @@
+"""Methods of further kinds in what gark exports as JSON: the keys of their files, what the document
+declares, and whether that is so.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterator, Mapping
+from typing import Any, TypeAlias
+
+from garkcli.bridges.finding import AuditFinding
+from garkcli.bridges.importing import place_of, written
+from garkcli.bridges.judging import Judged
+from garkcli.bridges.orders import find_orders
+from garkcli.bridges.payload import SCHEMA, Kind
+from garkcli.bridges.subject import Subject
+from garkcli.frozen import replace
+from garkcli.methodfile.load import loads
+from garkcli.sources.found import FoundTable
+
+_KEYS: Mapping[Kind, tuple[str, ...]] = {
+    "row": ("alpha", "gamma", "b", "c", "d", "embedded", "dense"),
+    "nystrom": ("Abar", "A", "c", "bbar", "b", "embedded", "dense"),
+    "nprk": ("a", "b", "embedded"),
+    "derivatives": ("A", "b", "c", "embedded"),
+    "mri": ("c", "alpha", "beta", "omega", "gamma", "embedded"),
+}
+"""Arrays of the forms, by the kinds of methods."""
+_DEEPEST = 5
+_TOLERANCE = re.compile(r"[0-9.]+(e-?[0-9]+)?", re.IGNORECASE)
+_RESTARTS = ("merk", "sr")
+Arrays: TypeAlias = dict[str, Any]
+
+
+def exported_table(text: str, source: str, format: str) -> FoundTable | None:
+    """The method of a document that gark wrote; None where it is no such document, or its method
+    is of a kind that readers know.
+    """
+    if SCHEMA not in text:
+        return None
+    try:
+        document = json.loads(text, parse_float=str, parse_int=str)
+    except (ValueError, RecursionError):
+        return None
+    if not isinstance(document, dict) or document.get("schema") != SCHEMA:
+        return None
+    kind = next((x for x in _KEYS if x == document.get("kind")), None)
+    if kind is None:
+        return None
+    form = _FORMS.get(kind, _alone)(kind, document)
+    name = document.get("name")
+    return FoundTable(
+        source,
+        1,
+        format,
+        name if isinstance(name, str) else "",
+        (),
+        (),
+        (),
+        order=_count(document.get("order")),
+        embedded_order=_count(document.get("embedded_order")),
+        form={**form, **_tolerance(document)},
+        form_stages=len(document.get("c") or ()),
+    )
+
+
+def _count(value: object) -> int | None:
+    return int(value) if isinstance(value, str) and value.isdecimal() and len(value) < 4 else None
+
+
+def _arrays(kind: Kind, document: Mapping[str, Any]) -> Arrays:
+    """The arrays of a kind that are arrays of texts, as deep as they are."""
+    return {key: document[key] for key in _KEYS[kind] if _is_array(document.get(key))}
+
+
+def _is_array(value: object, depth: int = 0) -> bool:
+    """Whether it is a row of texts, or rows as deep as each other, or nothing in place of one."""
+    if not isinstance(value, list) or depth > _DEEPEST:
+        return False
+    is_row = all(isinstance(x, str) for x in value)
+    return is_row or all((x is None and depth) or _is_array(x, depth + 1) for x in value)
+
+
+def _alone(kind: Kind, document: Mapping[str, Any]) -> Arrays:
+    return {kind: _arrays(kind, document)}
+
+
+def _rosenbrock(kind: Kind, document: Mapping[str, Any]) -> Arrays:
+    """As papers print it; several colours in blocks."""
+    arrays = _arrays(kind, document)
+    b = arrays.get("b") or [""]
+    if isinstance(b[0], list):
+        return {"rosenbrock": {"blocks": arrays}}
+    return {"rosenbrock": _with_dense(arrays)}
+
+
+def _with_dense(arrays: Arrays) -> Arrays:
+    """Dense output with its degree."""
+    dense = arrays.pop("dense", None)
+    if dense:
+        arrays["dense"] = {"degree": str(max(map(len, dense))), "weights": dense}
+    return arrays
+
+
+def _nystrom(kind: Kind, document: Mapping[str, Any]) -> Arrays:
+    """With both rows of embedded weights in one place."""
+    arrays = _arrays(kind, document)
+    embedded = arrays.pop("embedded", None)
+    bbar = document.get("embedded_bbar")
+    if embedded and _is_array(bbar):
+        arrays["embedded"] = {"bbar": bbar, "b": embedded}
+    return {"nystrom": arrays}
+
+
+def _multirate(kind: Kind, document: Mapping[str, Any]) -> Arrays:
+    """The coupling of the slow stages."""
+    given = document.get("multirate")
+    found: Arrays = {"fast": "exact"}
+    for key in ("mri", "mis"):
+        coupling = given.get(key) if isinstance(given, dict) else None
+        if isinstance(coupling, dict):
+            arrays = _arrays(kind, coupling)
+            restart, embedded = coupling.get("restart"), coupling.get("embedded")
+            if isinstance(embedded, dict):
+                arrays["embedded"] = _arrays(kind, embedded)
+            known = {"restart": restart} if restart in _RESTARTS else {}
+            found[key] = {**known, **arrays}
+    return {"multirate": found}
+
+
+_FORMS = {"row": _rosenbrock, "nystrom": _nystrom, "mri": _multirate}
+
+
+def _tolerance(document: Mapping[str, Any]) -> Arrays:
+    """By the keys of method files."""
+    keys = {"others": "tolerance", "embedded": "embedded_tolerance", "dense": "dense_tolerance"}
+    found = {
+        name: text
+        for name, key in keys.items()
+        if isinstance(text := document.get(key), str) and _TOLERANCE.fullmatch(text)
+    }
+    if not found:
+        return {}
+    if "others" in found and len(set(found.values())) == 1:
+        return {"tolerance": found["others"]}
+    return {"tolerance": found}
+
+
+def judged_export(table: FoundTable, name: str = "", is_as_found: bool = False) -> Subject:
+    """The method of such a document with its orders, its file and what is wrong.
+
+    Raises:
+        MethodFileError: its numbers make no method.
+    """
+    method = loads(written(table, name, None, {}), place_of(table))
+    orders = find_orders(method.tableau, method.embedded, method.tolerance)
+    order = Judged(orders.order, is_limited=orders.is_lower_bound)
+    embedded = None if orders.embedded is None else Judged(orders.embedded)
+    found = Subject(table, method, order, embedded)
+    found = replace(found, findings=tuple(_findings(found)))
+    claims = {"order": order.claim}
+    if embedded is not None and embedded.order:
+        claims["embedded-order"] = embedded.claim
+    if not is_as_found:
+        claims |= {key: claim for x in found.findings for key, claim in x.claims.items()}
+    text = written(table, name, None, claims)
+    return replace(found, method=loads(text, place_of(table)), text=text)
+
+
+def _findings(found: Subject) -> Iterator[AuditFinding]:
+    """Declared orders that are not the true ones."""
+    pairs = {
+        "order": (found.order, found.table.order),
+        "embedded-order": (found.embedded_order, found.table.embedded_order),
+    }
+    for code, (judged, declared) in pairs.items():
+        if judged is None or declared is None or judged.order == declared or judged.is_limited:
+            continue
+        message = f"{code.replace('-', ' ')} {judged.order}, declared {declared}"
+        if judged.order > declared:
+            yield AuditFinding(f"{code}-higher", message, level="warning")
+        else:
+            yield AuditFinding(code, message, claims={code: str(declared)})
