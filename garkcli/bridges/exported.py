@@ -104,12 +104,15 @@ def _with_dense(arrays: Arrays) -> Arrays:
 
 
 def _nystrom(kind: Kind, document: Mapping[str, Any]) -> Arrays:
-    """With both rows of embedded weights in one place."""
+    """With the further weights of both steps in one place."""
     arrays = _arrays(kind, document)
     embedded = arrays.pop("embedded", None)
     bbar = document.get("embedded_bbar")
     if embedded and _is_array(bbar):
         arrays["embedded"] = {"bbar": bbar, "b": embedded}
+    dense, of_q = arrays.pop("dense", None), document.get("dense_bbar")
+    if dense and of_q and _is_array(of_q):
+        arrays["dense"] = {"degree": str(max(map(len, of_q))), "bbar": of_q, "b": dense}
     return {"nystrom": arrays}
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 from garkcli.bridges.cannot import CannotExport
 from garkcli.constructions.nprk import arrays_of, is_nprk, matrix_of
 from garkcli.constructions.nystrom import POSITIONS, VELOCITIES, Nystrom, is_nystrom
-from garkcli.tableau.embedded import Weights
+from garkcli.tableau.embedded import Further
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
@@ -39,43 +39,46 @@ def own_kind(tableau: Tableau) -> OwnKind | None:
     return "nprk" if is_nprk(tableau) else None
 
 
-def own_arrays(kind: OwnKind, tableau: Tableau, embedded: Weights | None) -> OwnArrays:
+def own_arrays(kind: OwnKind, tableau: Tableau, further: Further) -> OwnArrays:
     """The arrays of a method of such a kind.
 
     Args:
         kind: of it.
         tableau: its tableau.
-        embedded: the embedded weights, a row per colour.
+        further: its embedded weights and its dense output.
     """
     made = {"nystrom": _of_nystrom, "nprk": _of_nprk, "derivatives": _of_derivatives}[kind]
-    return {name: rows for name, rows in made(tableau, embedded) if rows is not None}
+    return {name: rows for name, rows in made(tableau, further) if rows is not None}
 
 
 _Named: TypeAlias = Iterator[tuple[str, Nested | None]]
 
 
-def _of_nystrom(tableau: Tableau, embedded: Weights | None) -> _Named:
+def _of_nystrom(tableau: Tableau, further: Further) -> _Named:
     method = Nystrom.of(tableau)
     yield from (("Abar", method.Abar), ("A", method.A), ("c", method.c))
     yield from (("bbar", method.bbar), ("b", method.b))
+    embedded, dense = further.embedded, further.dense
     if embedded is not None:
         yield from (("embedded_bbar", embedded[POSITIONS]), ("embedded", embedded[VELOCITIES]))
+    if dense is not None:
+        yield from (("dense_bbar", dense.weights[POSITIONS]), ("dense", dense.weights[VELOCITIES]))
 
 
-def _of_nprk(tableau: Tableau, embedded: Weights | None) -> _Named:
+def _of_nprk(tableau: Tableau, further: Further) -> _Named:
     a, c = arrays_of(tableau)
     yield from (("a", a), ("c", c), ("b", matrix_of(tableau.colours[0].b, tableau)))
-    if embedded is not None:
-        yield "embedded", matrix_of(embedded[0], tableau)
+    if further.embedded is not None:
+        yield "embedded", matrix_of(further.embedded[0], tableau)
 
 
-def _of_derivatives(tableau: Tableau, embedded: Weights | None) -> _Named:
+def _of_derivatives(tableau: Tableau, further: Further) -> _Named:
     from garkcli.constructions.derivatives import Derivatives, embedded_of  # few need it
 
     method = Derivatives.of(tableau)
     yield from (("A", method.A), ("c", method.nodes), ("b", method.b))
-    if embedded is not None:
-        yield "embedded", embedded_of(embedded, tableau)
+    if further.embedded is not None:
+        yield "embedded", embedded_of(further.embedded, tableau)
 
 
 def stepped_values(payload: Payload) -> Mapping[str, Any]:

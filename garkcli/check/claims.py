@@ -76,9 +76,12 @@ PLACES = {
     "dense-order": "dense.order",
     "dense-continuous": "dense.ends_at_step",
     "dense-smooth": "dense.is_smooth",
+    "dense-position-order": "dense.position_order",
+    "dense-velocity-order": "dense.velocity_order",
 }
 """Where an analysis has what a claim is on, if not under its name."""
-OF_DENSE = ("dense-order", "dense-continuous", "dense-smooth")
+_OF_DENSE_STEPS = ("dense-position-order", "dense-velocity-order")
+OF_DENSE = ("dense-order", "dense-continuous", "dense-smooth", *_OF_DENSE_STEPS)
 OF_DAE = ("index-1-order", "index-1-y-order", "index-1-z-order", "embedded-index-1-order")
 """The orders of Rosenbrock methods on differential-algebraic equations."""
 OF_ROSENBROCK = (
@@ -88,10 +91,14 @@ OF_ROSENBROCK = (
 """The orders that Rosenbrock methods have besides."""
 OF_NYSTROM = (
     *("position-order", "velocity-order", "embedded-position-order", "embedded-velocity-order"),
+    *_OF_DENSE_STEPS,
 )
 """The orders that Nyström methods have besides."""
 OF_INFINITESIMAL = ("slow-order",)
 """Those that multirate methods with the exact fast solution have besides."""
+
+
+_OF_OTHERS = frozenset({*OF_ROSENBROCK, *OF_NYSTROM, *OF_INFINITESIMAL})
 
 
 def found_value(key: str, analysis: AnyAnalysis) -> object:
@@ -100,11 +107,11 @@ def found_value(key: str, analysis: AnyAnalysis) -> object:
     if not isinstance(analysis, Analysis) and key not in OF_DENSE:
         view = analysis.view(key)
         found = None if view is None else view[0]
-    elif key in (*OF_ROSENBROCK, *OF_NYSTROM, *OF_INFINITESIMAL):
+    elif isinstance(analysis, Analysis) and key in _OF_OTHERS:
         return None
     else:
         for name in PLACES.get(key, key.replace("-", "_")).split("."):
-            found = found and getattr(found, name)
+            found = found and getattr(found, name, None)
     if hasattr(found, "is_lower_bound"):
         # an order at which nothing is known to fail is at least that large, no more
         return AtLeast(found.order) if found.is_lower_bound else found.order

@@ -43,6 +43,14 @@ def witness_text(witness: Witness, colours: bool | Sequence[str]) -> Reason:
     return _told(witness, Code(format_tree(witness.tree, colours)))
 
 
+DENSE_ORDERS = {
+    "dense-order": "order",
+    "dense-position-order": "position_order",
+    "dense-velocity-order": "velocity_order",
+}
+"""Claims on orders of dense output, with what has them."""
+
+
 def dense_witness_text(found: DenseWitness, colours: bool | Sequence[str]) -> Reason:
     """Which power of θ in the condition of which tree is not what it should be."""
     tree = Code(format_tree(found.witness.tree, colours))
@@ -96,12 +104,11 @@ def claim_witness(outcome: Outcome, claim: str) -> Reason:
         if claim.endswith("sharp-bound"):
             equation = f"{found.sharp_bound} = {SHARP_BOUND}"
         return Reason("{} with {}", equation, bound_numbers(found))
-    if claim == "dense-order":
-        dense = analysis.dense
-        if dense is None or dense.order.witness is None:
+    if claim in DENSE_ORDERS:
+        dense = getattr(analysis.dense, DENSE_ORDERS[claim], None)
+        if dense is None or dense.witness is None:
             return NO_REASON
-        has_colours = analysis.tableau.size > 1
-        return dense_witness_text(dense.order.witness, has_colours)
+        return dense_witness_text(dense.witness, analysis.tableau.size > 1)
     order, tableau = order_of(analysis, claim)
     if order is None or tableau is None or order.witness is None:
         return NO_REASON

@@ -7,18 +7,27 @@ from typing import ClassVar
 
 from flint import fmpq
 
-from garkcli.check.further import estimate
-from garkcli.constructions.nystrom import Which, seen
+from garkcli.check.further import DenseFacts, estimate
+from garkcli.constructions.nystrom import POSITIONS, VELOCITIES, Which, seen
+from garkcli.exact.field import ZERO
 from garkcli.frozen import Frozen
 from garkcli.order.certificate import DEFAULT_LIMIT, StageSpans
 from garkcli.order.deciding import AnyOrder, order_of
+from garkcli.order.dense import (
+    DenseOrder,
+    Ends,
+    dense_order,
+    ends_at_step,
+    slope_at_one,
+    slopes_where,
+)
 from garkcli.order.functionals import Estimator
-from garkcli.order.meant import AnyTableau, as_embedded, meant, printed
+from garkcli.order.meant import AnyTableau, as_dense, as_embedded, meant, printed, with_further
 from garkcli.order.simplifying import simplifying
 from garkcli.properties.property import Verdict
 from garkcli.properties.subject import Subject
 from garkcli.reason import Reason
-from garkcli.tableau.embedded import NOTHING, Further
+from garkcli.tableau.embedded import NOTHING, DenseOutput, Further
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
 
@@ -57,6 +66,43 @@ class NystromOrders(Frozen):
         if claim == "order":
             return found, self.tableau
         return found, printed(seen(self.tableau, VIEWS[claim]))
+
+
+class NystromDense(DenseFacts):
+    """The truth about dense output; its slope is that of q, and should be q′ at both ends.
+
+    Attributes:
+        position_order: for all θ, of q.
+        velocity_order: likewise of q′.
+    """
+
+    position_order: DenseOrder
+    velocity_order: DenseOrder
+
+    @classmethod
+    def of(
+        cls, method: AnyTableau, dense: DenseOutput, limit: int, spans: StageSpans | None
+    ) -> NystromDense:
+        """Decide it up to a limit."""
+        whole, known = with_further(method) or method, as_dense(method)
+        return cls(
+            order=dense_order(known, dense, limit, spans),
+            degree=dense.degree,
+            ends_at_step=ends_at_step(whole, dense),
+            slopes=slopes_where(whole, dense, _ends_of_slope),
+            position_order=dense_order(seen(known, "in_positions"), dense, limit, spans),
+            velocity_order=dense_order(seen(known, "in_velocities"), dense, limit, spans),
+        )
+
+
+def _ends_of_slope(dense: DenseOutput, tableau: Tableau) -> Ends:
+    """The slope of q is q′ + h Σ b̄_i'(θ) g_i: b̄'(0) = 0, and b̄'(1) = b."""
+    b = tableau.colours[VELOCITIES].b
+    zeros = (ZERO,) * len(b)
+    first = dense.coefficients(1)[POSITIONS]
+    last = slope_at_one(dense.weights)[POSITIONS]
+    off = tuple(x - y for x, y in zip(last, b, strict=True))
+    return (zeros, first, (ZERO,)), (zeros, off, (ZERO,))
 
 
 class EmbeddedOrders(Frozen):
@@ -101,6 +147,7 @@ class NystromAnalysis(Shown, Frozen):
         limit: where the search for orders stopped.
         tolerance: the rounding within which all of this holds; None where it holds exactly.
         embedded: the truth about its embedded weights; None where it has none.
+        dense: the truth about its dense output; likewise.
         further: these weights.
     """
 
@@ -109,6 +156,7 @@ class NystromAnalysis(Shown, Frozen):
     limit: int
     tolerance: fmpq | None = None
     embedded: EmbeddedOrders | None = None
+    dense: NystromDense | None = None
     further: Further = NOTHING
 
     kind: ClassVar[str] = "a Nyström method"
@@ -117,10 +165,6 @@ class NystromAnalysis(Shown, Frozen):
     def order(self) -> AnyOrder:
         """The order of both steps: the smaller one."""
         return self.orders.order
-
-    @property
-    def dense(self) -> None:
-        """It has no dense output."""
 
     @cached_property
     def subject(self) -> NystromSubject:
@@ -156,7 +200,7 @@ def analyse_nystrom(
         tableau: of the method.
         limit: where the search for orders stops.
         tolerance: the rounding of its coefficients; None for coefficients that are meant exactly.
-        further: its embedded weights.
+        further: its embedded weights and its dense output.
     """
     method = meant(tableau, tolerance, further)
     spans = StageSpans(tableau) if method is tableau else None
@@ -166,4 +210,7 @@ def analyse_nystrom(
         other = NystromOrders.of(as_embedded(method, further.embedded), limit, spans)
         found = estimate(method, further.embedded, (orders.order, other.order), limit, spans)
         embedded = EmbeddedOrders(other, found)
-    return NystromAnalysis(tableau, orders, limit, tolerance, embedded, further)
+    dense = None
+    if further.dense is not None:
+        dense = NystromDense.of(method, further.dense, limit, spans)
+    return NystromAnalysis(tableau, orders, limit, tolerance, embedded, dense, further)

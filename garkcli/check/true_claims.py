@@ -23,6 +23,7 @@ OF_ROSENBROCK = (
 OF_NYSTROM = (
     *("order", "position-order", "velocity-order"),
     *("embedded-order", "embedded-position-order", "embedded-velocity-order"),
+    *("dense-order", "dense-position-order", "dense-velocity-order"),
 )
 """Claims on the orders of Nyström methods."""
 OF_INFINITESIMAL = ("order", "slow-order", "nonautonomous-order", "embedded-order")

@@ -18,13 +18,13 @@ from typing import Literal, TypeAlias
 
 from flint import fmpq
 
-from garkcli.errors import ShapeMismatch
+from garkcli.errors import MethodError, ShapeMismatch
 from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.frozen import Frozen, replace
 from garkcli.ntrees.kind import ARGUMENT, LEAF, Kind
 from garkcli.order.meant import AnyTableau, keep, meant, printed
-from garkcli.tableau.embedded import Weights
+from garkcli.tableau.embedded import DenseOutput, Weights
 from garkcli.tableau.forms import with_linear
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Colour, Edge, Tableau
@@ -176,6 +176,26 @@ def partitioned(tableau: Tableau, tolerance: fmpq | None) -> Tableau:
 def weights_of(bbar: Vector, b: Vector) -> Weights:
     """A row per colour from those of the steps in q and in q′, such as embedded ones."""
     return bbar, b, (ONE,)
+
+
+def dense_of(bbar: Matrix, b: Matrix | None) -> DenseOutput:
+    """Dense output q + θhq′ + h² Σ b̄_i(θ) g_i, q′ + h Σ b_i(θ) g_i.
+
+    Args:
+        bbar: for each stage the coefficients of θ, θ², … in b̄_i.
+        b: those of b_i; None where q′ is the slope of q.
+
+    Raises:
+        MethodError: the slope of q does not begin with q′.
+    """
+    if b is None:
+        if any(row[0] for row in bbar):
+            message = "dense, b missing: the slope of q does not begin with q′"
+            raise MethodError(message, "give b", code="missing-key")
+        b = tuple((*(k * x for k, x in enumerate(row[1:], start=2)), ZERO) for row in bbar)
+    degree = len(bbar[0])
+    start = (ONE, *(ZERO,) * (degree - 1))
+    return DenseOutput((bbar, b, (start,)))
 
 
 def nystrom(Abar: Matrix, A: Matrix | None, c: Vector, bbar: Vector, b: Vector) -> Nystrom:

@@ -12,6 +12,7 @@ ORDERS = (
     *("embedded_order", "embedded_nonautonomous_order", "dense_order"),
     *("slow_order", "position_order", "velocity_order"),
     *("embedded_position_order", "embedded_velocity_order"),
+    *("dense_position_order", "dense_velocity_order"),
     *("w_order", "old_jacobian_order", "embedded_w_order", "embedded_old_jacobian_order"),
     *("index_1_order", "index_1_y_order", "index_1_z_order", "embedded_index_1_order"),
     *("stage_order", "weak_stage_order", "symplectic_order", "energy_order"),

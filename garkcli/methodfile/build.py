@@ -11,7 +11,7 @@ from flint import fmpq
 from yaml.nodes import Node
 
 from garkcli.constructions.nprk import nprk
-from garkcli.constructions.nystrom import Nystrom, nystrom, weights_of
+from garkcli.constructions.nystrom import Nystrom, dense_of, nystrom, weights_of
 from garkcli.constructions.registers import as_butcher
 from garkcli.constructions.rosenbrock import Rosenbrock, transformed, transformed_weights
 from garkcli.errors import GarkError, MethodError, MethodFileError, ShapeMismatch
@@ -305,9 +305,10 @@ class Builder(Generic[V]):
         texts = d.further_of(self.text.description.content)
         if not texts:
             return self._made
-        if isinstance(self.text.description.content, d.NystromText):
-            bbar, b = (self.values.vector(x.embedded or ()) for x in texts)
-            return Further(weights_of(bbar, b))
+        content = self.text.description.content
+        if isinstance(content, d.NystromText):
+            node = content.node
+            return self._at(node, lambda: self._beside_nystrom(*texts))
         given = [texts[colour.term] for colour in self.tableau.colours]
         embedded = [self.values.vector(x.embedded) for x in given if x.embedded is not None]
         blocks = [self.values.matrix(x.dense) for x in given if x.dense is not None]
@@ -316,7 +317,6 @@ class Builder(Generic[V]):
             degree = max(len(block[0]) for block in blocks)
             dense = DenseOutput(tuple(padded(x, degree) for x in blocks))
         found = Further(tuple(embedded) or None, dense)
-        content = self.text.description.content
         if isinstance(content, d.RosenbrockText) and content.diagonal is not None:
             return self._transformed(content, found)
         return found
@@ -370,6 +370,17 @@ class Builder(Generic[V]):
         A = None if text.A is None else matrix(text.A)
         c = vector(text.c or ()) if A is None or text.c else butcher(A, vector(text.b)).c
         return nystrom(matrix(text.Abar), A, c, vector(text.bbar), vector(text.b))
+
+    def _beside_nystrom(self, of_q: d.FurtherText, of_v: d.FurtherText) -> Further:
+        """The further weights of a Nyström method."""
+        embedded = dense = None
+        if of_q.embedded is not None and of_v.embedded is not None:
+            vector = self.values.vector
+            embedded = weights_of(vector(of_q.embedded), vector(of_v.embedded))
+        if of_q.dense is not None:
+            b = None if of_v.dense is None else self.values.matrix(of_v.dense)
+            dense = dense_of(self.values.matrix(of_q.dense), b)
+        return Further(embedded, dense)
 
     def _transformed(self, text: d.RosenbrockText, further: Further) -> Further:
         """The further weights at the stages of the method, with what ``e`` says."""

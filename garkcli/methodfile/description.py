@@ -242,6 +242,8 @@ class NystromText(Frozen):
         b: those of the step in q′.
         embedded: the embedded ones of both, each None where they are those of the method; None
             where there are none.
+        dense: the polynomials of both steps, those of q′ None where they are the slopes of the
+            others; None where there are none.
     """
 
     node: Node
@@ -251,15 +253,17 @@ class NystromText(Frozen):
     bbar: Row
     b: Row
     embedded: tuple[Row | None, Row | None] | None = None
+    dense: tuple[Rows, Rows | None] | None = None
 
     @property
     def further(self) -> tuple[FurtherText, ...]:
         """What is beside the weights of each step."""
-        if self.embedded is None:
+        if self.embedded is None and self.dense is None:
             return ()
+        embedded, dense = self.embedded, self.dense or (None, None)
         return tuple(
-            FurtherText(row or own)
-            for row, own in zip(self.embedded, (self.bbar, self.b), strict=True)
+            FurtherText(None if embedded is None else embedded[k] or own, dense[k])
+            for k, own in enumerate((self.bbar, self.b))
         )
 
 

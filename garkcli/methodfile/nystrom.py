@@ -12,6 +12,10 @@ from garkcli.methodfile.parameters import MATRIX, ROW
 
 _FORM = "give {Abar: [[], [1/2]], c: [0, 1], bbar: [1/2, 0], b: [1/2, 1/2]}, with A for g(q, q′)"
 _FORM_OF_EMBEDDED = "give {bbar: [1/2, 0], b: [1, 0]}, or one of them"
+_FORM_OF_DENSE = (
+    "write dense: {degree: 2, bbar: [[0, 1/2], [0, 0]], b: [[1, -1/2], [0, 1/2]]}, "
+    "a row per stage: the coefficients of θ, θ², …"
+)
 _OF_STAGES = "give one per stage"
 EMBEDDED = g.mapping(
     g.Key(
@@ -28,6 +32,29 @@ EMBEDDED = g.mapping(
     form=_FORM_OF_EMBEDDED,
 )
 """The keys under ``embedded``."""
+_POLYNOMIALS = g.Kind(lambda: {"type": "array", "minItems": 1})
+DENSE = g.mapping(
+    g.Key(
+        "degree: 2",
+        g.count(1, spelled_out.MAX_DEGREE),
+        "The degree of the polynomials in θ.",
+        is_needed=True,
+    ),
+    g.Key(
+        "bbar: [[0, 1/2], [0, 0]]",
+        _POLYNOMIALS,
+        "A row per stage with the coefficients of θ, θ², … in the weight of q.",
+        is_needed=True,
+        also=("b_bar", "Bbar"),
+    ),
+    g.Key(
+        "b: [[1, -1/2], [0, 1/2]]",
+        _POLYNOMIALS,
+        "The same in the weight of q′; where they are left out, q′ is the slope of q.",
+    ),
+    form=_FORM_OF_DENSE,
+)
+"""The keys under ``dense``."""
 NYSTROM = g.mapping(
     g.Key(
         "Abar: [[], [1/2]]",
@@ -62,6 +89,12 @@ NYSTROM = g.mapping(
         EMBEDDED,
         "Embedded weights of both steps, or of one of them.",
         also=("bhat", "b_hat", "bh"),
+    ),
+    g.Key(
+        "dense: {degree: 2, bbar: [[0, 1/2], [0, 0]], b: [[1, -1/2], [0, 1/2]]}",
+        DENSE,
+        "Dense output of both steps: weights polynomial in θ without constant terms.",
+        page="docs/method-file.md#nystrom-nyström-methods",
     ),
     form=_FORM,
     rules=(
@@ -109,4 +142,19 @@ def nystrom(at: Reading, node: Node) -> d.NystromText | None:
         embedded = row(inside, "bbar", "embedded, bbar"), row(inside, "b", "embedded, b")
         if embedded == (None, None):
             at.source.fault(inside.node, "embedded is empty", _FORM_OF_EMBEDDED, code="empty")
-    return d.NystromText(node, Abar, matrix("A"), row(found, "c", "c"), bbar, b, embedded)
+    dense = _dense(at, found["dense"], stages) if "dense" in found else None
+    return d.NystromText(node, Abar, matrix("A"), row(found, "c", "c"), bbar, b, embedded, dense)
+
+
+def _dense(at: Reading, found: g.Found, stages: int) -> tuple[Rows, Rows | None] | None:
+    """The polynomials of both steps, those of q′ None where they are the slopes of the others."""
+
+    def rows(key: str) -> Rows | None:
+        node, where = found.nodes[key], f"dense, {key}"
+        return spelled_out.polynomials(at, node, where, stages, found["degree"])
+
+    if not {"degree", "bbar"} <= found.keys():
+        return None
+    bbar = rows("bbar")
+    b = rows("b") if "b" in found else None
+    return None if bbar is None else (bbar, b)

@@ -411,7 +411,7 @@ def further_of_method(
     degree, weights = _parts(at, entries, names[1])
     where = f"{names[1]}, weights"
     if weights is not None and not _is_of_several(at, weights, where, 3):
-        dense = _polynomials(at, weights, where, stages, degree)
+        dense = polynomials(at, weights, where, stages, degree)
     return _further(entries, embedded, dense)
 
 
@@ -434,7 +434,7 @@ def further_of_colours(
     degree, weights = _parts(at, entries, "dense")
     if weights is not None:
         for l, item, name in _a_colour(at, weights, "dense, weights", stages, is_shared, 2):
-            blocks[l] = _polynomials(at, item, name, stages[l], degree)
+            blocks[l] = polynomials(at, item, name, stages[l], degree)
     return tuple(_further(entries, rows.get(l), blocks.get(l)) for l in range(len(stages)))
 
 
@@ -489,7 +489,7 @@ def _parts(at: Reading, entries: Entries, where: str) -> tuple[int, Node | None]
     return found["degree"], found["weights"]
 
 
-def _polynomials(at: Reading, node: Node, where: str, stages: int, degree: int) -> Rows | None:
+def polynomials(at: Reading, node: Node, where: str, stages: int, degree: int) -> Rows | None:
     """A row per stage, a coefficient per power of θ."""
     rows = at.numbers.matrix(node, where)
     if not rows or not stages:

@@ -256,6 +256,8 @@ def _places(content: d.Content) -> Iterator[_Place]:
         case d.NystromText():
             for row in content.embedded or ():
                 yield from _of_rows([row or ()], 0, "embedded")
+            for polynomials in content.dense or ():
+                yield from _of_rows(polynomials or (), 0, "dense")
     if isinstance(content, d.TableauText | d.ArkText | d.RegistersText | d.RosenbrockText):
         for l, further in enumerate(content.further):
             yield from _of_further(further, l)

@@ -12,8 +12,8 @@ more stages, which see nothing, and what b gives.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, TypeAlias
 
 from flint import fmpq
 
@@ -145,19 +145,43 @@ def slopes(method: AnyTableau, dense: DenseOutput) -> Slopes:
     It is what it should be where the stages that have weight in it evaluate at x_0, or at x_1;
     it is not where an elementary weight says so.
     """
-    known = dense
-    whole: Tableau | Near = _with_ends(printed(method))
-    if not isinstance(method, Tableau):
+
+    def ends(known: DenseOutput, _: Tableau) -> Ends:
+        first = known.coefficients(1)
+        return _beside(first, (-ONE, ZERO)), _beside(slope_at_one(known.weights), (ZERO, -ONE))
+
+    return slopes_where(method, dense, ends, _with_ends)
+
+
+Ends: TypeAlias = tuple[Weights, Weights]
+"""Weights that vanish on every problem where a slope is right at the beginning, and at the end."""
+
+
+def slopes_where(
+    method: AnyTableau,
+    dense: DenseOutput,
+    ends: Callable[[DenseOutput, Tableau], Ends],
+    change: Callable[[Tableau], Tableau] = lambda tableau: tableau,
+) -> Slopes:
+    """Whether the weights of both ends vanish.
+
+    Args:
+        method: the tableau, with its rounding where it is rounded.
+        dense: its dense output.
+        ends: from dense output and the tableau, exact or one of those that it may be.
+        change: what is made of the tableau before.
+    """
+    whole: Tableau | Near
+    if isinstance(method, Tableau):
+        tableau = change(method)
+        whole = tableau
+    else:
         from garkcli.order.rounded import Near  # balls, which exact methods do without
 
-        known = method.further.dense or dense
-        whole = Near(_with_ends(method.near), method.grain)
-    first = known.coefficients(1)
-    ends = (
-        Functional(_beside(first, (-ONE, ZERO))),
-        Functional(_beside(_slope_at_one(known.weights), (ZERO, -ONE))),
-    )
-    start, end = (_vanishes(whole, x) for x in ends)
+        dense = method.further.dense or dense
+        tableau = change(method.near)
+        whole = Near(tableau, method.grain)
+    start, end = (_vanishes(whole, Functional(x)) for x in ends(dense, tableau))
     return Slopes(start, end)
 
 
@@ -175,7 +199,7 @@ def _with_ends(tableau: Tableau) -> Tableau:
     return Tableau(tuple(spaces), tuple(colours), blocks)
 
 
-def _slope_at_one(weights: Sequence[Sequence[Vector]]) -> Weights:
+def slope_at_one(weights: Sequence[Sequence[Vector]]) -> Weights:
     """b'(1) = Σ_k k B_k, a row per colour."""
     rows = []
     for of_colour in weights:

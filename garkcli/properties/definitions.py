@@ -241,6 +241,18 @@ _ORDERS = (
         meaning=_WITH_DENSE,
     ),
     Definition(
+        "dense-position-order",
+        "The order of dense output in q of a Nyström method, for every θ.",
+        _HAIRER_II_14,
+        meaning="Nyström methods with dense output",
+    ),
+    Definition(
+        "dense-velocity-order",
+        "The order of dense output in q′ of a Nyström method, for every θ.",
+        _HAIRER_II_14,
+        meaning="Nyström methods with dense output",
+    ),
+    Definition(
         "dense-continuous",
         "Dense output ends where the step does, b(1) = b; it begins where the step does in any"
         " case, as it has no constant terms.",

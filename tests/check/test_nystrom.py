@@ -77,12 +77,75 @@ def test_one_embedded_row(tmp_path: Path) -> None:
             "a Nyström method needs numbers, and g is free",
         ),
         (f"conjugate: true\n{VERLET}", "conjugate"),
+        (VERLET.replace("}", ", dense: {degree: 1, b: [[1], [0]]}}"), "bbar missing"),
+        (VERLET.replace("}", ", dense: {degree: 1, bbar: [[1]]}}"), "1 row for 2 stages"),
+        (VERLET.replace("}", ", dense: {degree: 2, bbar: [[1], [1]]}}"), "1 entry for degree 2"),
+        (
+            VERLET.replace("}", ", dense: {degree: 1, bbar: [[1], [0]]}}"),
+            "dense, b missing: the slope of q does not begin with q′",
+        ),
     ],
 )
 def test_faults(text: str, message: str) -> None:
     """What is wrong is said, with its place."""
     with pytest.raises(MethodFileError, match=message):
         loads(text)
+
+
+QUARTIC = """
+  dense:
+    degree: 4
+    bbar: [[0, 1/2, -31/45, 53/180], [0, 0, 0, 0], [0, 0, 81/100, -99/200], [0, 0, -16/225, 32/225],
+           [0, 0, -1/20, 7/120]]
+"""
+"""Hermite's polynomial through both ends, with g at the beginning, of Fine's pair."""
+
+
+def test_dense_output(tmp_path: Path) -> None:
+    """Its orders of both steps, how it fits together, and what fails beyond; the slope of the
+    output is continuous where it is the velocity.
+    """
+    text = FINE.rstrip() + QUARTIC
+    claims = "expect: {dense-order: 3, dense-position-order: 4, dense-velocity-order: 3,"
+    claims += " dense-continuous: true, dense-smooth: true}\n"
+    path = _written(tmp_path, text + claims)
+    assert check_file(path).exit_code == 0
+    shown = gark("check", "-v", path).out
+    assert "dense order     3: fails at order 4" in shown
+    assert "dense, q        4: fails at order 5" in shown
+    larger = claims.replace("dense-order: 3", "dense-order: 4").replace("order: 4,", "order: 5,")
+    failed = check_file(_written(tmp_path, text + larger)).failed_claims
+    assert [x.claim for x in failed] == ["dense-order", "dense-position-order"]
+    straight = (
+        "\n  dense: {degree: 2, bbar: [[0, 19/180], [0, 0], [0, 63/200], [0, 16/225], [0, 1/120]],"
+        " b: [[1/9, 0], [0, 0], [9/20, 0], [16/45, 0], [1/12, 0]]}\n"
+    )
+    rest = "expect: {dense-order: 1, dense-continuous: true, dense-smooth: false}\n"
+    path = _written(tmp_path, FINE.rstrip() + straight + rest)
+    assert check_file(path).exit_code == 0
+    ends = text.replace("53/180]", "53/181]") + "expect: {dense-continuous: false}\n"
+    assert check_file(_written(tmp_path, ends)).exit_code == 0
+    without = FINE + "expect: {dense-position-order: 3}\n"
+    assert check_file(_written(tmp_path, without)).exit_code == 1
+    assert claims_of(loads(text))["dense-velocity-order"] == "3"
+
+
+def test_rounded_dense_output(tmp_path: Path) -> None:
+    """Digits that are off leave the orders within the tolerance, a wrong one does not."""
+    off = QUARTIC.replace("-99/200", "-0.4950001").replace("81/100", "0.8099999")
+    claims = "expect: {dense-order: 3, dense-position-order: 4, dense-velocity-order: 3}\n"
+    text = "tolerance: {dense: 1e-6}\n" + FINE.rstrip() + off
+    assert check_file(_written(tmp_path, text + claims)).exit_code == 0
+    wrong = text.replace("-0.4950001", "-0.4850001")
+    assert check_file(_written(tmp_path, wrong + claims)).exit_code == 1
+
+
+def test_claims_of_other_kinds(tmp_path: Path) -> None:
+    """Orders in q and q′ have no meaning for the dense output of other methods."""
+    text = "A: [[0]]\nb: [1]\ndense: {degree: 1, weights: [[1]]}\n"
+    found = check_file(_written(tmp_path, text + "expect: {dense-position-order: 1}\n"))
+    (claim,) = found.failed_claims
+    assert claim.found == "none: it is no Nyström method"
 
 
 def test_rounded_numbers(tmp_path: Path) -> None:

@@ -9,7 +9,8 @@ from random import Random
 import pytest
 from flint import fmpq
 
-from garkcli.constructions.nystrom import Nystrom, nystrom
+from garkcli.check.nystrom import NystromDense
+from garkcli.constructions.nystrom import Nystrom, dense_of, nystrom
 from garkcli.errors import ShapeMismatch
 from garkcli.exact.matrix import apply, apply_left
 from garkcli.frozen import replace
@@ -251,3 +252,67 @@ def test_wrong_shapes() -> None:
     ):
         with pytest.raises(ShapeMismatch, match="b has 2 entries"):
             nystrom(*wrong)
+
+
+Polynomials = list[list[Fraction]]
+
+
+def interpolated(method: series.Method, seed: int) -> tuple[Polynomials, Polynomials | None]:
+    """Hermite's polynomials through both ends of the step, of degree 3, or with g at the beginning
+    of degree 4, the velocity their slope; one coefficient changed or none.
+    """
+    dice = Random(seed)
+    is_quartic, bbar = dice.random() < 0.7, Polynomials()
+    for i, (x, y) in enumerate(zip(method.bbar, method.b, strict=True)):
+        first = Fraction(is_quartic and i == 0)
+        D, V = x - first / 2, y - first
+        tail = [4 * D - V, V - 3 * D] if is_quartic else [V - 2 * D, Fraction(0)]
+        bbar.append([Fraction(0), first / 2 if is_quartic else 3 * D - V, *tail])
+    if dice.random() < 0.4:
+        return bbar, None
+    b = [[k * x for k, x in enumerate(row[1:], start=2)] + [Fraction(0)] for row in bbar]
+    which = dice.choice([bbar, b])
+    which[dice.randrange(len(b))][dice.randint(1, 3)] += Fraction(dice.randint(0, 1), 3)
+    return bbar, b
+
+
+def at(method: series.Method, theta: Fraction, bbar: Polynomials, b: Polynomials) -> series.Method:
+    """The output at θ as a step of θh."""
+
+    def value(row: list[Fraction]) -> Fraction:
+        return sum((x * theta**k for k, x in enumerate(row, start=1)), Fraction(0))
+
+    def over(rows: series.Matrix, factor: Fraction) -> series.Matrix:
+        return [[x / factor for x in row] for row in rows]
+
+    return series.Method(
+        over(method.Abar, theta**2),
+        None if method.A is None else over(method.A, theta),
+        [x / theta for x in method.c],
+        [value(row) / theta**2 for row in bbar],
+        [value(row) / theta for row in b],
+    )
+
+
+def test_dense_output_by_power_series() -> None:
+    """The orders of dense output in q and in q′ are the smallest of those at several θ, by power
+    series; all from 1 to 4 occur.
+    """
+    of_q, of_v = Counter[int](), Counter[int]()
+    for seed in range(at_most(60, 250)):
+        method = random_method(seed)
+        bbar, b = interpolated(method, seed)
+        dense = dense_of(engine(bbar), None if b is None else engine(b))
+        b = b or [[k * x for k, x in enumerate(row[1:], start=2)] for row in bbar]
+        found = NystromDense.of(made(method).tableau, dense, LIMIT, None)
+        seen = [
+            series.orders(at(method, Fraction(theta), bbar, b), LIMIT, seed)
+            for theta in ("1/3", "3/5", "5/7", "-2/3", "3/2")
+        ]
+        q, v = (min(x) for x in zip(*seen, strict=True))
+        assert (found.position_order.order, found.velocity_order.order) == (q, v)
+        assert found.order.order == min(q, v)
+        of_q[q] += 1
+        of_v[v] += 1
+    assert {1, 2, 3, 4} <= of_q.keys()
+    assert {0, 1, 2, 3} <= of_v.keys()

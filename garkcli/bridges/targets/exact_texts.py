@@ -201,9 +201,10 @@ _REPORT: Record[Payload] = Record(
     Field("gamma", _ONE_BLOCK, lambda x: _linear(x, "gamma"), is_optional=True),
     Field("d", _ONE_ROW, lambda x: _linear(x, "d"), is_optional=True),
     Field("bbar", _NUMBERS, _own("bbar"), is_optional=True),
-    Field("b", _ONE_ROW, _array("b"), is_optional=True),
+    Field("b", nullable(_ONE_ROW), _array("b")),
     Field("embedded_bbar", _NUMBERS, _own("embedded_bbar"), is_optional=True),
     Field("embedded", _ONE_ROW, _array("embedded"), is_optional=True),
+    Field("dense_bbar", _MATRIX, _own("dense_bbar"), is_optional=True),
     Field("dense", one_of(_MATRIX, array(_MATRIX)), _array("dense"), is_optional=True),
     Field("multirate", _MULTIRATE, _multirate, is_optional=True),
 )

@@ -22,6 +22,7 @@ OF_OTHER_KINDS = (
     *("w_order", "old_jacobian_order", "index_1_order", "index_1_y_order", "index_1_z_order"),
     *("embedded_w_order", "embedded_old_jacobian_order", "embedded_index_1_order", "slow_order"),
     *("position_order", "velocity_order", "embedded_position_order", "embedded_velocity_order"),
+    *("dense_position_order", "dense_velocity_order"),
 )
 ORDERS = (
     *("order", "embedded_order", "dense_order", "conjugate_order", "pair_order"),
