@@ -8,9 +8,6 @@ from garkcli.check.claims import verify
 from garkcli.check.culprit import culprit
 from garkcli.check.deciding import analyse, analyse_any, remark_of
 from garkcli.check.outcome import Outcome
-from garkcli.constructions.nprk import is_nprk
-from garkcli.constructions.nystrom import is_nystrom
-from garkcli.constructions.rosenbrock import is_rosenbrock
 from garkcli.errors import HasFreeParameters, MethodFileError
 from garkcli.frozen import replace
 from garkcli.methodfile.build import MethodFile
@@ -83,6 +80,10 @@ def check_method(
 
 def _check_other_kind(method: MethodFile, limit: int, want_constants: bool) -> Outcome:
     """Check a method that is no GARK method."""
+    from garkcli.constructions.nprk import is_nprk  # few methods need these
+    from garkcli.constructions.nystrom import is_nystrom
+    from garkcli.constructions.rosenbrock import is_rosenbrock
+
     found = analyse_any(method, limit)
     outcome = Outcome(
         file=method.source,

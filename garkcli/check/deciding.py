@@ -14,9 +14,6 @@ from garkcli.check.analysis import (
     is_pair_of_itself,
     nonautonomous,
 )
-from garkcli.constructions.nprk import is_nprk
-from garkcli.constructions.nystrom import is_nystrom
-from garkcli.constructions.rosenbrock import is_rosenbrock
 from garkcli.doing import doing
 from garkcli.frozen import replace
 from garkcli.order.certificate import DEFAULT_LIMIT, StageSpans
@@ -46,6 +43,12 @@ def analyse_any_tableau(
     further: Further = NOTHING,
 ) -> AnyAnalysis:
     """The analysis of a tableau of any kind; see ``analyse``."""
+    if tableau.is_gark:
+        return analyse(tableau, limit, tolerance, further)
+    from garkcli.constructions.nprk import is_nprk  # few methods need these
+    from garkcli.constructions.nystrom import is_nystrom
+    from garkcli.constructions.rosenbrock import is_rosenbrock
+
     if is_rosenbrock(tableau):
         from garkcli.check.rosenbrock import analyse_rosenbrock  # few methods are
 
@@ -62,11 +65,9 @@ def analyse_any_tableau(
         from garkcli.check.derivatives import DerivativesAnalysis  # likewise
 
         return DerivativesAnalysis.with_flow(tableau, limit, tolerance, further)
-    if tableau.exact_to is not None:
-        from garkcli.check.infinitesimal import InfinitesimalAnalysis  # likewise
+    from garkcli.check.infinitesimal import InfinitesimalAnalysis  # likewise
 
-        return InfinitesimalAnalysis.with_flow(tableau, limit, tolerance, further)
-    return analyse(tableau, limit, tolerance, further)
+    return InfinitesimalAnalysis.with_flow(tableau, limit, tolerance, further)
 
 
 def analyse(

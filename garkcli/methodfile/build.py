@@ -10,10 +10,6 @@ from typing import TYPE_CHECKING, Generic, TypeAlias, TypeVar
 from flint import fmpq
 from yaml.nodes import Node
 
-from garkcli.constructions.nprk import nprk
-from garkcli.constructions.nystrom import Nystrom, dense_of, nystrom, weights_of
-from garkcli.constructions.registers import as_butcher
-from garkcli.constructions.rosenbrock import Rosenbrock, transformed, transformed_weights
 from garkcli.errors import GarkError, MethodError, MethodFileError, ShapeMismatch
 from garkcli.exact.field import ONE, ZERO
 from garkcli.exact.matrix import Matrix, Vector
@@ -43,6 +39,8 @@ from garkcli.transfer import (
 )
 
 if TYPE_CHECKING:
+    from garkcli.constructions.nystrom import Nystrom
+    from garkcli.constructions.rosenbrock import Rosenbrock
     from garkcli.methodfile.printed import Printed
 
 
@@ -321,7 +319,11 @@ class Builder(Generic[V]):
             return self._transformed(content, found)
         return found
 
+    # few files are of these kinds: what makes them is imported on use
+
     def _rosenbrock(self, text: d.RosenbrockText) -> Rosenbrock:
+        from garkcli.constructions.rosenbrock import Rosenbrock, transformed
+
         matrix = self.values.matrix
         alpha, gamma = (
             tuple(tuple(map(matrix, row)) for row in blocks) for blocks in (text.alpha, text.gamma)
@@ -336,6 +338,8 @@ class Builder(Generic[V]):
         return replace(made, c=c, d=None if text.d is None else matrix(text.d))
 
     def _registers(self, text: d.RegistersText, description: d.Description) -> Tableau:
+        from garkcli.constructions.registers import as_butcher
+
         numbers = [
             self.values.matrix(x) if isinstance(x[0], tuple) else self.values.vector(x)
             for x in text.numbers
@@ -346,6 +350,8 @@ class Builder(Generic[V]):
         return forms.gark([as_butcher(text.scheme, numbers, c, grain)], {})
 
     def _nprk(self, text: d.NprkText) -> Tableau:
+        from garkcli.constructions.nprk import nprk
+
         matrix = self.values.matrix
         embedded = None if text.embedded is None else matrix(text.embedded)
         tableau, row = nprk([*map(matrix, text.a)], matrix(text.b), embedded)
@@ -354,7 +360,7 @@ class Builder(Generic[V]):
         return tableau
 
     def _derivatives(self, text: d.DerivativesText) -> Tableau:
-        from garkcli.constructions.derivatives import Derivatives, plan  # few files need it
+        from garkcli.constructions.derivatives import Derivatives, plan
 
         matrix, vector = self.values.matrix, self.values.vector
         c = None if text.c is None else vector(text.c)
@@ -366,6 +372,8 @@ class Builder(Generic[V]):
         return method.tableau(order)
 
     def _nystrom(self, text: d.NystromText) -> Nystrom:
+        from garkcli.constructions.nystrom import nystrom
+
         matrix, vector = self.values.matrix, self.values.vector
         A = None if text.A is None else matrix(text.A)
         c = vector(text.c or ()) if A is None or text.c else butcher(A, vector(text.b)).c
@@ -373,6 +381,8 @@ class Builder(Generic[V]):
 
     def _beside_nystrom(self, of_q: d.FurtherText, of_v: d.FurtherText) -> Further:
         """The further weights of a Nyström method."""
+        from garkcli.constructions.nystrom import dense_of, weights_of
+
         embedded = dense = None
         if of_q.embedded is not None and of_v.embedded is not None:
             vector = self.values.vector
@@ -384,6 +394,8 @@ class Builder(Generic[V]):
 
     def _transformed(self, text: d.RosenbrockText, further: Further) -> Further:
         """The further weights at the stages of the method, with what ``e`` says."""
+        from garkcli.constructions.rosenbrock import transformed_weights
+
         vector = self.values.vector
         if text.error is not None:
             pairs = zip(vector(text.b[0]), vector(text.error), strict=True)
