@@ -14,7 +14,7 @@ from garkcli.check.analysis import MethodProof
 from garkcli.check.deciding import analyse_any
 from garkcli.check.true_claims import TrueClaims, true_claims, usual_keys
 from garkcli.constructions.nystrom import is_nystrom, partitioned
-from garkcli.constructions.test_equation import on_test_equation
+from garkcli.constructions.same_stability import on_test_equation
 from garkcli.deadline import SECONDS
 from garkcli.errors import MethodError, UsageProblem, did_you_mean
 from garkcli.methodfile.build import MethodFile

@@ -67,6 +67,18 @@ def hamiltonian(name: str, terms: Whole = 1, seed: Whole = 1) -> Hamiltonian:
     return builtin.hamiltonian(name, whole(terms, "terms", 1), whole(seed, "seed"))
 
 
+def demand_name(given: object) -> None:
+    """Refuse what is no name of a problem, and no path to one.
+
+    Raises:
+        MethodError: that is the case.
+    """
+    if not isinstance(given, (str, os.PathLike)):
+        message = f"a problem is expected, not {type(given).__name__}"
+        cure = "give the name of a built-in one, or what load_problem returns"
+        raise MethodError(message, cure, code="arrays")
+
+
 def problem_for(
     given: AnyProblem,
     tableau: Tableau,
@@ -93,12 +105,7 @@ def problem_for(
     """
     if isinstance(given, (Problem, Oscillator)):
         return given
-    if not isinstance(given, (str, os.PathLike)):
-        raise MethodError(
-            f"a problem is expected, not {type(given).__name__}",
-            "give the name of a built-in one, or what load_problem returns",
-            code="arrays",
-        )
+    demand_name(given)
     if os.fspath(given) == OSCILLATOR:
         terms = terms_of(tableau)
         frequency = fmpq(1) if omega is None else omega

@@ -6,11 +6,11 @@ import os
 
 from flint import fmpq
 
-from garkcli.api.problems import OSCILLATOR, AnyProblem
+from garkcli.api.problems import OSCILLATOR, AnyProblem, demand_name
 from garkcli.constructions.nprk import additive, is_nprk
 from garkcli.constructions.nystrom import Nystrom, Which, is_nystrom, seen
 from garkcli.convergence.result import MAX_ORDER
-from garkcli.errors import MethodError, UsageProblem
+from garkcli.errors import UsageProblem
 from garkcli.methodfile.problem import load_problem
 from garkcli.order.deciding import order_of
 from garkcli.order.meant import AnyTableau, keep, meant, printed
@@ -78,12 +78,7 @@ def _read(problem: AnyProblem | None) -> Problem | Oscillator | None:
     """The problem that is meant, in two terms where it is named; None for any Hamiltonian one."""
     if problem is None or isinstance(problem, (Problem, Oscillator)):
         return problem
-    if not isinstance(problem, (str, os.PathLike)):
-        raise MethodError(
-            f"a problem is expected, not {type(problem).__name__}",
-            "give the name of a built-in one, or what load_problem returns",
-            code="arrays",
-        )
+    demand_name(problem)
     name = os.fspath(problem)
     if name == OSCILLATOR:
         return None

@@ -13,29 +13,20 @@ from garkcli.errors import MethodError
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix, Vector
 from garkcli.frozen import Frozen
+from garkcli.stepping.linearly_implicit import LinearlyImplicit
 from garkcli.tableau.embedded import DenseOutput, Further
 from garkcli.tableau.pointwise import Row
 
 
-class LinearStages(Frozen):
-    """A method whose stages are computed one after the other.
+class LinearStages(LinearlyImplicit, kw_only=True):
+    """A method whose stages are computed one after the other, with its further weights.
 
     Attributes:
-        alpha: shape (s, s), zero on and above the diagonal.
-        gamma: shape (s, s), zero above the diagonal.
-        b: the weights.
-        c: where f is evaluated.
-        d: the weights of ∂f/∂t.
         embedded: the embedded weights; None without them.
         dense: the coefficients of θ, θ², … of each b_i(θ); None without them.
         has_row_sums: whether c and d are the sums of the rows.
     """
 
-    alpha: Rows
-    gamma: Rows
-    b: Vector
-    c: Vector
-    d: Vector
     embedded: Row | None
     dense: Rows | None
     has_row_sums: bool
@@ -53,12 +44,18 @@ def printed_stages(payload: Payload) -> LinearStages:
     if any(any(alpha[i][i:]) or any(gamma[i][i + 1 :]) for i in stages):
         message = f"a stage of {payload.name} needs a later one, and programs solve one at a time"
         raise CannotExport(message, "--to json has any method")
-    embedded = None if payload.embedded is None else payload.embedded[0]
-    dense = None if payload.dense is None else payload.dense[0]
     (c,), (d,) = method.nodes
     plain = method.without_row_sums
-    has_row_sums = plain.c is None and plain.d is None
-    return LinearStages(alpha, gamma, method.b[0], c, d, embedded, dense, has_row_sums)
+    return LinearStages(
+        alpha,
+        gamma,
+        method.b[0],
+        c,
+        d,
+        embedded=None if payload.embedded is None else payload.embedded[0],
+        dense=None if payload.dense is None else payload.dense[0],
+        has_row_sums=plain.c is None and plain.d is None,
+    )
 
 
 class Program(Frozen):
