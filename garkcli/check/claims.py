@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from garkcli.check.derivatives import DerivativesAnalysis
     from garkcli.check.infinitesimal import InfinitesimalAnalysis
     from garkcli.check.nprk import NprkAnalysis
-    from garkcli.check.nystrom import NystromAnalysis, NystromSubject
+    from garkcli.check.nystrom import NystromAnalysis
     from garkcli.check.order_facts import LinearSubject
     from garkcli.check.rosenbrock import RosenbrockAnalysis
     from garkcli.properties.property import NoProperties
@@ -27,7 +27,7 @@ AnyAnalysis: TypeAlias = (
     "Analysis | RosenbrockAnalysis | NystromAnalysis | NprkAnalysis | DerivativesAnalysis"
     " | InfinitesimalAnalysis"
 )
-AnySubject: TypeAlias = "Subject | LinearSubject | NystromSubject | NoProperties"
+AnySubject: TypeAlias = "Subject | LinearSubject | NoProperties"
 
 
 def verify(claims: tuple[ClaimText, ...], analysis: AnyAnalysis) -> tuple[Claim, ...]:

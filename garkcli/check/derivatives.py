@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cached_property
 
 from garkcli.check.order_facts import LinearSubject, OrderFacts
-from garkcli.constructions.test_equation import with_same_function
+from garkcli.constructions.same_stability import with_same_function
 from garkcli.order.meant import meant
 from garkcli.properties.registry import OF_TEST_EQUATION
 from garkcli.reason import Reason

@@ -8,6 +8,7 @@ from typing import ClassVar
 from flint import fmpq
 
 from garkcli.check.further import DenseFacts, estimate
+from garkcli.check.order_facts import LinearSubject
 from garkcli.constructions.nystrom import POSITIONS, VELOCITIES, Which, seen
 from garkcli.exact.field import ZERO
 from garkcli.frozen import Frozen
@@ -23,9 +24,6 @@ from garkcli.order.dense import (
 )
 from garkcli.order.functionals import Estimator
 from garkcli.order.meant import AnyTableau, as_dense, as_embedded, meant, printed, with_further
-from garkcli.order.simplifying import simplifying
-from garkcli.properties.property import Verdict
-from garkcli.properties.subject import Subject
 from garkcli.reason import Reason
 from garkcli.tableau.embedded import NOTHING, DenseOutput, Further
 from garkcli.tableau.tableau import Tableau
@@ -117,27 +115,6 @@ class EmbeddedOrders(Frozen):
     estimator: Estimator
 
 
-class NystromSubject(Frozen):
-    """The properties of a Nyström method: those on the oscillator.
-
-    Attributes:
-        on_oscillator: the partitioned method for q̇ = p, ṗ = g(q).
-    """
-
-    on_oscillator: Subject
-
-    @property
-    def rounding(self) -> fmpq:
-        """By how much the printed coefficients may be off."""
-        return self.on_oscillator.rounding
-
-    def verdict(self, key: str) -> Verdict:
-        """What is true of a property."""
-        if key not in OF_OSCILLATOR:
-            return Verdict.meaningless(_NO_PROPERTY)
-        return self.on_oscillator.verdict(key)
-
-
 class NystromAnalysis(Shown, Frozen):
     """The truth about a Nyström method.
 
@@ -167,12 +144,10 @@ class NystromAnalysis(Shown, Frozen):
         return self.orders.order
 
     @cached_property
-    def subject(self) -> NystromSubject:
+    def subject(self) -> LinearSubject:
         """The method whose properties are decided on demand."""
         method = seen(meant(self.tableau, self.tolerance), "partitioned")
-        conditions = simplifying(method, self.limit)
-        order = self.order.order
-        return NystromSubject(Subject.read(method, order, conditions, self.limit, NOTHING))
+        return LinearSubject.of(method, self.order.order, self.limit, OF_OSCILLATOR, _NO_PROPERTY)
 
     def view(self, claim: str) -> tuple[AnyOrder, Tableau] | None:
         """The order that a claim is on, with the tableau that has it; None for other claims."""

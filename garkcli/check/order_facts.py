@@ -31,15 +31,16 @@ if TYPE_CHECKING:
 
 
 class LinearSubject(Frozen):
-    """The properties of a method that are those of a Runge–Kutta method with the same R(z).
+    """The properties of a method that are those of another with the same steps on linear problems:
+    of a Runge–Kutta method with the same R(z), or of a partitioned one on the oscillator.
 
     Attributes:
-        on_test_equation: that Runge–Kutta method.
+        on_linear_problems: that method.
         keys: these properties.
         reason: why it has no others.
     """
 
-    on_test_equation: Subject
+    on_linear_problems: Subject
     keys: frozenset[str]
     reason: Reason
 
@@ -47,26 +48,26 @@ class LinearSubject(Frozen):
     def of(
         method: AnyTableau, order: int, limit: int, keys: frozenset[str], reason: Reason
     ) -> LinearSubject:
-        """Of that Runge–Kutta method, exact or rounded, and the order of the method."""
+        """Of that other method, exact or rounded, and the order of the method."""
         conditions = simplifying(method, limit)
         return LinearSubject(Subject.read(method, order, conditions, limit, NOTHING), keys, reason)
 
     @property
     def rounding(self) -> fmpq:
         """By how much the printed coefficients may be off."""
-        return self.on_test_equation.rounding
+        return self.on_linear_problems.rounding
 
     @cached_property
     def at_infinity(self) -> Number | None:
         """R(∞); None where R is not bounded, or rounded coefficients leave it open."""
-        inner = self.on_test_equation
+        inner = self.on_linear_problems
         return None if inner.tolerance else inner.linear.at_infinity()
 
     def verdict(self, key: str) -> Verdict:
         """What is true of a property."""
         if key not in self.keys:
             return Verdict.meaningless(self.reason)
-        return self.on_test_equation.verdict(key)
+        return self.on_linear_problems.verdict(key)
 
 
 class OrderFacts(Shown, Frozen):

@@ -50,7 +50,7 @@ STABILITY = (
     optional(
         "R",
         kinds.ratio("z"),
-        lambda a: None if a.tolerance else a.subject.on_test_equation.linear,
+        lambda a: None if a.tolerance else a.subject.on_linear_problems.linear,
         DETAIL,
         label="R(z)",
     ),

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from garkcli.constructions.derivatives import words_of
 from garkcli.report import check as c
-from garkcli.report.test_equation import STABILITY
+from garkcli.report.decided_by_stability import STABILITY
 from garkcli.tell import kinds
 from garkcli.tell.facts import Level, Row, maybe
 from garkcli.tell.parts import part, picture

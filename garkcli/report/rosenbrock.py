@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from garkcli.constructions.rosenbrock import Rosenbrock
 from garkcli.errors import counted
 from garkcli.report import check as c
-from garkcli.report.test_equation import STABILITY
+from garkcli.report.decided_by_stability import STABILITY
 from garkcli.tell import kinds
 from garkcli.tell.facts import Level, Row, maybe
 from garkcli.tell.parts import SAID, part, picture
