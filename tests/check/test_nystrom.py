@@ -123,6 +123,13 @@ def test_dense_output(tmp_path: Path) -> None:
     rest = "expect: {dense-order: 1, dense-continuous: true, dense-smooth: false}\n"
     path = _written(tmp_path, FINE.rstrip() + straight + rest)
     assert check_file(path).exit_code == 0
+    late = (
+        "\n  dense: {degree: 2, bbar: [[1/10, 1/180], [0, 0], [9/50, 27/200], [-16/75, 64/225],"
+        " [-1/15, 3/40]], b: [[1/9, 0], [0, 0], [9/20, 0], [16/45, 0], [1/12, 0]]}\n"
+    )
+    shown = gark("check", "-v", _written(tmp_path, FINE.rstrip() + late)).out
+    assert "slope at start  no" in shown
+    assert "slope at end    yes" in shown
     ends = text.replace("53/180]", "53/181]") + "expect: {dense-continuous: false}\n"
     assert check_file(_written(tmp_path, ends)).exit_code == 0
     without = FINE + "expect: {dense-position-order: 3}\n"
