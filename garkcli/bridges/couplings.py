@@ -5,8 +5,24 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from garkcli.bridges.cannot import CannotExport
+from garkcli.bridges.payload import Payload
 from garkcli.constructions.infinitesimal import Coupling
 from garkcli.exact.matrix import Vector
+
+
+def coupling_of(payload: Payload) -> Coupling:
+    """The coupling of the slow stages.
+
+    Raises:
+        CannotExport: the method has none.
+    """
+    if payload.coupling is None:
+        message = f"{payload.name} is no multirate infinitesimal step"
+        cure = "give the slow method alone, or a file with multirate: {mis: ...} or {mri: ...}"
+        raise CannotExport(message, cure)
+    return payload.coupling
+
 
 _NAMES = {"": (("gamma",), ("omega", "gamma")), "merk": (("omega",),)}
 _NAMES["sr"] = (("omega",), ("omega", "gamma"))

@@ -6,10 +6,9 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator, Mapping
-from typing import Any, TypeAlias
+from collections.abc import Mapping
+from typing import Any, TypeAlias, TypeGuard
 
-from garkcli.bridges.finding import AuditFinding
 from garkcli.bridges.importing import place_of, written
 from garkcli.bridges.judging import Judged
 from garkcli.bridges.orders import find_orders
@@ -49,7 +48,7 @@ def exported_table(text: str, source: str, format: str) -> FoundTable | None:
     if kind is None:
         return None
     form = _FORMS.get(kind, _alone)(kind, document)
-    name = document.get("name")
+    name, nodes = document.get("name"), document.get("c", [])
     return FoundTable(
         source,
         1,
@@ -61,7 +60,7 @@ def exported_table(text: str, source: str, format: str) -> FoundTable | None:
         order=_count(document.get("order")),
         embedded_order=_count(document.get("embedded_order")),
         form={**form, **_tolerance(document)},
-        form_stages=len(document.get("c") or ()),
+        form_stages=len(nodes) if _is_array(nodes) else 0,
     )
 
 
@@ -74,8 +73,8 @@ def _arrays(kind: Kind, document: Mapping[str, Any]) -> Arrays:
     return {key: document[key] for key in _KEYS[kind] if _is_array(document.get(key))}
 
 
-def _is_array(value: object, depth: int = 0) -> bool:
-    """Whether it is a row of texts, or rows as deep as each other, or nothing in place of one."""
+def _is_array(value: object, depth: int = 0) -> TypeGuard[list[Any]]:
+    """Whether it is a row of texts, or rows, or nothing in place of one."""
     if not isinstance(value, list) or depth > _DEEPEST:
         return False
     is_row = all(isinstance(x, str) for x in value)
@@ -156,12 +155,14 @@ def judged_export(table: FoundTable, name: str = "", is_as_found: bool = False) 
     Raises:
         MethodFileError: its numbers make no method.
     """
+    from garkcli.bridges.rosenbrock import RowSubject, row_findings  # few sources have them
+
     method = loads(written(table, name, None, {}), place_of(table))
     orders = find_orders(method.tableau, method.embedded, method.tolerance)
     order = Judged(orders.order, is_limited=orders.is_lower_bound)
     embedded = None if orders.embedded is None else Judged(orders.embedded)
-    found = Subject(table, method, order, embedded)
-    found = replace(found, findings=tuple(_findings(found)))
+    found = RowSubject(table, method, order, embedded)
+    found = replace(found, findings=tuple(row_findings(found)))
     claims = {"order": order.claim}
     if embedded is not None and embedded.order:
         claims["embedded-order"] = embedded.claim
@@ -169,19 +170,3 @@ def judged_export(table: FoundTable, name: str = "", is_as_found: bool = False) 
         claims |= {key: claim for x in found.findings for key, claim in x.claims.items()}
     text = written(table, name, None, claims)
     return replace(found, method=loads(text, place_of(table)), text=text)
-
-
-def _findings(found: Subject) -> Iterator[AuditFinding]:
-    """Declared orders that are not the true ones."""
-    pairs = {
-        "order": (found.order, found.table.order),
-        "embedded-order": (found.embedded_order, found.table.embedded_order),
-    }
-    for code, (judged, declared) in pairs.items():
-        if judged is None or declared is None or judged.order == declared or judged.is_limited:
-            continue
-        message = f"{code.replace('-', ' ')} {judged.order}, declared {declared}"
-        if judged.order > declared:
-            yield AuditFinding(f"{code}-higher", message, level="warning")
-        else:
-            yield AuditFinding(code, message, claims={code: str(declared)})

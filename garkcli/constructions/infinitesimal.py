@@ -471,8 +471,8 @@ def predicted(
     Raises:
         MethodError: there are too many stages.
     """
-    if fast is not None:
-        refuse_large(2 * slow.stages + len(forcing) * steps * fast.stages, SMALLER)
+    of_fast = sum(plan.fast) if fast is None else len(forcing) * steps * fast.stages
+    refuse_large(2 * slow.stages + of_fast, SMALLER)
     zeros = _zeros(slow.stages + 1)
     ways = [
         Interval(zeros, zeros, ONE, (tuple((*row, ZERO) for row in powers),)) for powers in forcing

@@ -7,14 +7,12 @@ from typing import Any, Literal
 
 from flint import fmpq
 
-from garkcli.bridges.cannot import CannotExport
 from garkcli.bridges.comments import HASH, head, problem_class
-from garkcli.bridges.couplings import keys_of
+from garkcli.bridges.couplings import coupling_of, keys_of
 from garkcli.bridges.numbers import EXACT, Style
 from garkcli.bridges.payload import SCHEMA, Payload
 from garkcli.bridges.readers.rows import COLUMNS
 from garkcli.bridges.registry import EVERYTHING, STEPPED, Bridge
-from garkcli.constructions.infinitesimal import Coupling
 from garkcli.exact.display import decimal
 from garkcli.frozen import replace
 from garkcli.page.record import Field, Record, schema_named
@@ -75,27 +73,14 @@ def _nodes(payload: Payload) -> Any:
     """The texts of the nodes; of a coupling those of its slow stages."""
     if payload.kind != "mri":
         return _array("c")(payload)
-    return _texts(payload, _coupling(payload).nodes)
-
-
-def _coupling(payload: Payload) -> Coupling:
-    """The coupling of the slow stages.
-
-    Raises:
-        CannotExport: the file has none.
-    """
-    if payload.coupling is None:
-        message = f"{payload.name} is no multirate infinitesimal step"
-        cure = "give the slow method alone, or a file with multirate: {mis: ...} or {mri: ...}"
-        raise CannotExport(message, cure)
-    return payload.coupling
+    return _texts(payload, coupling_of(payload).nodes)
 
 
 def _multirate(payload: Payload) -> Any:
     """The keys of a method file with their texts, of a multirate infinitesimal method."""
     if payload.kind != "mri":
         return None
-    return _told(payload, keys_of(_coupling(payload)))
+    return _told(payload, keys_of(coupling_of(payload)))
 
 
 def _told(payload: Payload, value: Any) -> Any:

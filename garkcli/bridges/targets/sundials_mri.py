@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 from flint import fmpq
 
 from garkcli.bridges.cannot import CannotExport
-from garkcli.bridges.couplings import embedded_rows
+from garkcli.bridges.couplings import coupling_of, embedded_rows
 from garkcli.bridges.numbers import c_style
 from garkcli.bridges.payload import Payload
 from garkcli.bridges.registry import Bridge
@@ -90,12 +90,8 @@ def slow_part(payload: Payload) -> Slow:
     Raises:
         CannotExport: it is none.
     """
-    if payload.coupling is not None:
-        return _coupled(payload, payload.coupling)
-    if payload.kind != "rk":
-        message = f"{payload.name} is no multirate infinitesimal step"
-        cure = "give the slow method alone, or a file with multirate: {mis: ...} or {mri: ...}"
-        raise CannotExport(message, cure)
+    if payload.kind != "rk" or payload.coupling is not None:
+        return _coupled(payload, coupling_of(payload))
     found = table(payload)
     ends = zip(found.c, (*found.c[1:], ONE), strict=True)
     goes_on = not any(ball(combined((1, y), (-1, x))) < 0 for x, y in ends)
