@@ -168,7 +168,7 @@ def slopes_where(
     Args:
         method: the tableau, with its rounding where it is rounded.
         dense: its dense output.
-        ends: from dense output and the tableau, exact or one of those that it may be.
+        ends: from dense output and the tableau, exact or one within the rounding.
         change: what is made of the tableau before.
     """
     whole: Tableau | Near
