@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 
 from garkcli.api.converging import converge
 from garkcli.api.runs import long_run
-from garkcli.constructions.test_equation import on_test_equation
+from garkcli.constructions.same_stability import on_test_equation
 from garkcli.convergence.convergence import in_common, seeing_problem
 from garkcli.errors import GarkError
 from garkcli.frozen import Frozen
