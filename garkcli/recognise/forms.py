@@ -4,6 +4,7 @@ and drifts, second-order equations.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import permutations
 from typing import TYPE_CHECKING
@@ -43,7 +44,7 @@ def other_readings(arrays: Sequence[Given]) -> tuple[list[Reading], int]:
     matrices = [x for x in arrays if x.is_matrix and 1 < len(x.rows) <= MOST_STAGES][:MOST_ARRAYS]
     tried = [
         *(each for x, y in permutations(rows, 2) for each in _of_two_rows(x, y, rows)),
-        *(_shu_osher(x, y) for x, y in permutations(matrices, 2)),
+        *(_shu_osher(x, y) for of in (matrices, rows) for x, y in permutations(of, 2)),
         *(each for x in arrays[:MOST_ARRAYS] for each in _nystrom(x, rows)),
     ]
     return [x for x in tried if x is not None], len(tried)
@@ -180,7 +181,9 @@ def _splitting(form: str, drifts: Given, kicks: Given) -> Reading | None:
 
 def _shu_osher(x: Given, y: Given) -> Reading | None:
     """Convex combinations: α with row sums 1, and β."""
-    alpha, beta = x.numbers, y.numbers
+    alpha, beta = (z.numbers if z.is_matrix else _triangle(z.numbers) for z in (x, y))
+    if alpha is None or beta is None:
+        return None
     n = len(alpha)
     if len(beta) != n or not y.fractions or max(alpha.shape[1], beta.shape[1]) > n:
         return None
@@ -205,6 +208,16 @@ def _shu_osher(x: Given, y: Given) -> Reading | None:
     return Reading(
         "Shu–Osher", told, "the form of Shu and Osher", bits, order, linked, (x, y), x.line
     )
+
+
+def _triangle(row: Floats) -> Floats | None:
+    """A lower triangle, its diagonal in it, that is stored row by row."""
+    n = (math.isqrt(1 + 8 * len(row)) - 1) // 2
+    if n < 2 or n * (n + 1) != 2 * len(row):
+        return None
+    found = np.zeros((n, n, row.shape[-1]))
+    found[np.tril_indices(n)] = row
+    return found
 
 
 def _of_combinations(alpha: Floats, beta: Floats) -> tuple[Floats, Floats]:

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from garkcli.arrays import Floats
 
 MOST_STAGES = 60
+CLOSE = 1e-6
 
 
 class Parts(NamedTuple):
@@ -171,7 +172,27 @@ MATRICES: tuple[Shape, ...] = (
 
 def _flat(row: Floats) -> Parts | None:
     s = math.isqrt(len(row))
-    return Parts(row.reshape(s, s, -1), how="row by row") if s * s == len(row) and s > 1 else None
+    if s * s != len(row) or s < 2 or (s == 2 and abs(row[:, VALUE].sum() - 1) < CLOSE):
+        # four weights: with b = (1/2, 1/2) that is order 2, whatever they are
+        return None
+    return Parts(row.reshape(s, s, -1), how="row by row")
+
+
+def _flat_bordered(row: Floats, count: int) -> Parts | None:
+    """``[c A; q b; p b̂]`` row by row."""
+    s = next((s for s in range(2, MOST_STAGES) if (s + 1) * (s + count) >= len(row)), 0)
+    found = None
+    if s and (s + 1) * (s + count) == len(row):
+        found = _bordered(row.reshape(s + count, s + 1, -1), count)
+    if found is None or found.c is None or not _are_sums(found.A, found.c):
+        return None
+    return found._replace(how=f"{found.how}, row by row", needs_nodes=True)
+
+
+def _are_sums(A: Floats, c: Floats) -> bool:
+    """Whether the nodes are the row sums, but for one."""
+    off = A[..., VALUE].sum(1) - c[:, VALUE]
+    return int((np.abs(off) > CLOSE).sum()) <= (len(c) > 2) and bool(c[:, VALUE].any())
 
 
 def _flat_columns(row: Floats) -> Parts | None:
@@ -201,6 +222,8 @@ ROWS: tuple[Shape, ...] = (
     partial(_packed, diagonal=1, by="columns"),
     _flat,
     _flat_columns,
+    partial(_flat_bordered, count=1),
+    partial(_flat_bordered, count=2),
 )
 """Of all numbers in one row."""
 

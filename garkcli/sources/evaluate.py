@@ -63,9 +63,16 @@ _SAME = frozenset({"copy", "astype", "tolist", "to", "clone", "item", "double", 
 """Methods that give the array or the number itself."""
 _OF_ARRAYS = frozenset({"reshape", "transpose", "sum", "flatten", "ravel"})
 """Methods that are functions of the array."""
+_GETTERS = frozenset({"get_index", "get", "getEntry", "coeff"})
+"""Methods that give an entry."""
+_SETTERS = frozenset({"set_index", "set", "setEntry"})
+"""Methods that assign to an entry: its indices come before the number."""
 _EMPTYING = frozenset({"resize", "clear", "reinit"})
 """Methods after which an array has what is assigned from then on."""
 _METHODS = _GROWING | _EMPTYING | {"reserve", "fill"}
+
+
+_NO_EXTENT = "an extent that is not known"
 
 
 class OutOfSteps(Exception):
@@ -291,7 +298,7 @@ class Evaluator:
         for size_, count in zip(sizes, counts, strict=True):
             if size_ is not None and (count is None or not 0 <= count <= MAX_STAGES**2):
                 is_array = isinstance(value, Array) and is_filled
-                return value if is_array else self.unknown("an extent that is not known")
+                return value if is_array else self.unknown(_NO_EXTENT)
         if math.prod(filter(None, counts)) > MAX_STAGES**2:
             return self.unknown(f"an array of more than {MAX_STAGES**2} entries")
         fill: Value = FILL if is_filled else self.unknown("never assigned")
@@ -367,6 +374,8 @@ class Evaluator:
         elif isinstance(made, Array) and isinstance(old, Number):
             # A = 0, where nothing is known of the array so far
             is_free, made.fill = True, FILL if old.is_zero else old
+        elif isinstance(made, Array) and isinstance(old, Unknown) and old.reason == _NO_EXTENT:
+            made.fill = self.unknown("never assigned")
         elif isinstance(made, Array):
             is_free = old is None or isinstance(old, Null) or _is_unset(old)
         if not is_free:
@@ -615,7 +624,7 @@ class Evaluator:
     def _each(self, sign: str, x: Value, y: Value) -> Value:
         if isinstance(x, Array) and isinstance(y, Array):
             if sign == "*" and (x.is_matrix or y.is_matrix):
-                return self.unknown("a product of matrices")
+                return self._product(x, y)
             if len(x.items) != len(y.items):
                 return self.unknown("arrays of different lengths")
         found = self.array(())
@@ -625,6 +634,26 @@ class Evaluator:
             self.allowance.spend(0 if isinstance(item, Array) else size(item))
             found.items.append(item)
         return found
+
+    def _product(self, x: Array, y: Array) -> Value:
+        """A product of matrices in MATLAB and Julia; a list is a row on the left, else a column."""
+        rows = [items_of(row) for row in x.items] if x.is_matrix else [x.items]
+        turned = transposed(y, self.line) if y.is_matrix else y
+        columns = [*map(items_of, items_of(turned))] if is_matrix(turned) else [items_of(turned)]
+        is_known = self.base == 1 and not self.has_whole_quotients
+        if not is_known or {*map(len, rows)} != {*map(len, columns)} or not rows[0]:
+            return self.unknown("a product of matrices")
+        self.allowance.spend(len(rows) * len(columns) * len(rows[0]))
+        found = [[self._dot(row, column) for column in columns] for row in rows]
+        if not y.is_matrix:
+            return self.array(row[0] for row in found)
+        return self.array(map(self.array, found)) if x.is_matrix else self.array(found[0])
+
+    def _dot(self, x: Sequence[Value], y: Sequence[Value]) -> Value:
+        first, *others = (self.combined("*", a, b) for a, b in zip(x, y, strict=True))
+        for each in others:
+            first = self.combined("+", first, each)
+        return first
 
     # calls
 
@@ -638,6 +667,12 @@ class Evaluator:
         match callee:
             case ir.Field(of=ir.Index(of=ir.Field(of=of, name="at"), at=at), name="set"):
                 return self._with_entries(of, at, call.args, space)
+        if isinstance(callee, ir.Field) and name in _SETTERS and len(call.args) in (2, 3):
+            is_array = bool(items_of(self.value(callee.of, space)))
+            if is_array:
+                entry = self.value(call.args[-1], space)
+                self._store(ir.Index(callee.of, call.args[:-1]), entry, space, self.line)
+                return NULL
         line = self.line
         args = [self.value(x, space) for x in call.args]
         named = {key: self.value(x, space) for key, x in call.named}
@@ -651,6 +686,10 @@ class Evaluator:
             return conversion(args, self.line) if args else self.unknown(f"the call {name}")
         if isinstance(target, Array) and args:
             return self._sliced(target, call.args, space)
+        if isinstance(callee, ir.Field) and plain in _GETTERS and len(args) in (1, 2):
+            owner = self.value(callee.of, space)
+            if isinstance(owner, Array) and all(whole(x) is not None for x in args):
+                return self._sliced(owner, call.args, space)
         if isinstance(callee, ir.Field) and plain in _OF_ARRAYS:
             owner = self.value(callee.of, space)
             args = [owner, *args] if isinstance(owner, Array) else args
@@ -691,6 +730,11 @@ class Evaluator:
         """The value of a function of one expression."""
         if self._inlined >= MAX_INLINED:
             return self.unknown("calls that are nested too deep")
+        if len(args) == 1 < len(function.parameters) and isinstance(args[0], Array):
+            # each (x, y) of pairs
+            args = args[0].items
+        if len(args) != len(function.parameters):
+            return self.unknown("a call with other arguments")
         inner = Space(function.space)
         inner.update(zip(function.parameters, args, strict=True))
         self._inlined += 1
@@ -827,7 +871,7 @@ def _targets(body: Iterable[ir.Statement]) -> Iterator[tuple[ir.Expr, int]]:
             case ir.Assign(target=target, line=line):
                 yield target, line
             case ir.Do(value=ir.Call(callee=ir.Field(of=of, name=name)), line=line):
-                if name in _METHODS:
+                if name in _METHODS | _SETTERS:
                     yield of, line
             case ir.Do(value=ir.Call(callee=ir.Name(name=name), args=(of, *_)), line=line):
                 if name in _GROWN:

@@ -135,7 +135,7 @@ _TYPES = """
     const_cast reinterpret_cast
     deepcopy copy freeze array_from rational float128 cpp_bin_float String as
     from_f64 from_f32 from_usize from_i32 from Ratio BigDecimal BigFraction Some Ok Box valueOf
-    constant to_array from_vec from_slice from_array arr1 arr2 Rational64 BigRational
+    constant to_array from_slice from_array arr1 arr2 Rational64 BigRational
     LinearAlgebra string value_type RC REAL N SA SA_F64 SA_F32 SetPrecision SetAccuracy Rationalize
 """
 CONVERSIONS = frozenset(_TYPES.split())
@@ -251,6 +251,9 @@ def _filled(call: Call, fill: Value, args: Iterable[Value]) -> Value:
     if len(known) > 1 and isinstance(known[0], Unknown):
         # zeros(T, 2, 2), where T is not known
         known = known[1:]
+    if len(known) > 1 and isinstance(known[-1], Unknown):
+        # zeros(2, 2, context)
+        known = known[:-1]
     sizes = _sizes(known[:3])
     if not sizes or max(sizes) > MAX_STAGES:
         return call.unknown("an array of unknown size")
@@ -359,9 +362,12 @@ def _reshaped(call: Call, value: Value, *shape: Value) -> Value | None:
     )
 
 
-@_known("from_row_slice from_column_slice")
+@_known("from_row_slice from_column_slice from_vec")
 def _of_slice(call: Call, *given: Value) -> Value | None:
     """``DMatrix::from_row_slice(2, 2, …)``: the entries of a matrix by rows, or by columns."""
+    if len(given) > 1 and isinstance(given[-1], Unknown):
+        # where it is stored
+        given = given[:-1]
     *sizes, entries = given
     if not sizes:
         return entries
@@ -415,6 +421,15 @@ def _each(call: Call, function: Value, values: Value) -> Value | None:
 
 
 CALLS["list of each"] = _each
+
+
+@_known("zip")
+def _zipped(call: Call, *lists: Value) -> Value | None:
+    """Lists entry by entry, as long as the shortest one."""
+    if not lists or not all(isinstance(x, Array) for x in lists):
+        return call.unknown()
+    call.evaluator.allowance.spend(sum(map(size, lists)))
+    return call.array(call.array(x) for x in zip(*map(items_of, lists), strict=False))
 
 
 @_known("power pow Power SUNRpowerR")

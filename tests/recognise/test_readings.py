@@ -55,6 +55,9 @@ STORED: dict[str, Callable[[], tuple[Floats, ...]]] = {
     "a tableau with its nodes and weights in one matrix": lambda: (
         np.vstack([np.column_stack([c, A]), [4, *b]]),
     ),
+    "a tableau with its nodes and weights in one matrix, row by row": lambda: (
+        np.vstack([np.column_stack([c, A]), [4, *b]]).ravel(),
+    ),
     "row by row": lambda: (A.ravel(), b, c),
     "the triangle row by row": lambda: (A[np.tril_indices(4, -1)], b, c),
 }
@@ -77,6 +80,13 @@ def test_other_numbers_are_none() -> None:
     assert read(np.eye(4), b, np.ones(4)) == []
 
 
+def test_weights_are_no_matrix() -> None:
+    """Four weights and two equal ones meet order 2, whatever they are."""
+    w = np.sqrt(30) / 72
+    weights = np.array([1 / 4 - w, 1 / 4 + w, 1 / 4 + w, 1 / 4 - w])
+    assert read(weights, np.array([1, 1]) / 2, np.array([1 / 4 - w, 1 / 4 + w])) == []
+
+
 def test_embedded_weights_and_what_is_idle() -> None:
     """Weights of a lower order are embedded ones; what is called b and is none is idle."""
     low = np.array([1 / 4, 0, 3 / 4, 0])
@@ -93,8 +103,10 @@ def test_other_forms() -> None:
     assert (found.form, found.order) == ("2N", 3)
     alpha = np.array([[1, 0, 0], [3 / 4, 1 / 4, 0], [1 / 3, 0, 2 / 3]])
     beta = np.array([[1, 0, 0], [0, 1 / 4, 0], [0, 0, 2 / 3]])
-    (found,) = read(alpha, beta)
-    assert (found.form, found.order) == ("Shu–Osher", 3)
+    at = np.tril_indices(3)
+    for arrays in ((alpha, beta), (alpha[at], beta[at])):
+        (found,) = read(*arrays)
+        assert (found.form, found.order) == ("Shu–Osher", 3)
     t = 1 / (2 - 2 ** (1 / 3))
     drifts = np.array([t, 1 - t, 1 - t, t]) / 2
     (found,) = read(drifts, np.array([t, 1 - 2 * t, t, 0]))

@@ -195,6 +195,32 @@ SAME = {
         "real, parameter :: b(2) = [0.25, 0.75]\nend module\n"
     ),
     "m, a column and a transpose": "A = [0 0; 2/3 0];\nb = [1/4; 3/4]';\n",
+    "m, properties of a class": (
+        "classdef Ralston < Scheme\n  properties (Constant)\n    A = [0 0; 2/3 0];\n"
+        "    b = [1/4 3/4];\n  end\nend\n"
+    ),
+    "m, a class whose function makes its base": (
+        "classdef Ralston < Schemes.Table\n  methods\n    function it = Ralston()\n"
+        "      t.A = [0 0; 2/3 0];\n      t.b = [1/4 3/4];\n"
+        "      it@Schemes.Table('Ralston', t);\n    end\n  end\nend\n"
+    ),
+    "m, products of matrices": "M = [0 0; 2 0];\nA = M*[1/3 0; 0 0];\nb = [1 1]*[1/4 0; 0 3/4];\n",
+    "rs, entries by methods": (
+        "fn ralston<M: Dense>(ctx: M::C) -> Tableau<M> {\n"
+        "    let w = M::V::from_vec(vec![0.25, M::T::from_f64(0.75).unwrap()], ctx.clone());\n"
+        "    let mut a = M::zeros(2, 2, ctx.clone());\n    a.set_index(1, 0, 2.0 / 3.0);\n"
+        "    let a = M::from_vec(2, 2, vec![0., a.get_index(1, 0), 0., 0.], ctx.clone());\n"
+        "    let mut b = M::V::zeros(2, ctx);\n"
+        "    for i in 0..2 { b.set_index(i, w.get_index(i)); }\n    Tableau { a, b }\n}\n"
+    ),
+    "py, functions under other names": (
+        "from numpy import (array as array_of, sqrt as root_of_two)\n"
+        "A = array_of([[0, 0], [root_of_two(4)/3, 0]])\nb = [1/4, 3/4]\n"
+    ),
+    "py, pairs of lists": (
+        "low = (1, 0)\nby = [3/4, -3/4]\nA = [[], [2/3]]\n"
+        "b = tuple(x - y for x, y in zip(low, by))\n"
+    ),
 }
 
 

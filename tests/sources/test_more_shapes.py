@@ -8,7 +8,7 @@ import pytest
 
 from garkcli.bridges.audit import Audited, audit
 from garkcli.sources.found import Find, TooLarge
-from garkcli.sources.languages import c, fortran, julia, matlab, python
+from garkcli.sources.languages import c, fortran, julia, matlab, python, rust
 
 SHU_OSHER = """
 function SSPRK33ConstantCache(::Type{T}, ::Type{T2}) where {T, T2}
@@ -595,9 +595,44 @@ def test_what_is_not_read_is_told(find: Find, text: str, orders: str, told: str)
     assert bool(told) == bool(texts)
 
 
+ELSEWHERE = """
+module kutta
+  real, allocatable :: W(:), M(:,:)
+contains
+  subroutine set(n)
+    call allocate_them(n)
+    select case (n)
+    case (3)
+      M(2,1) = 0.5
+      M(3,1:2) = [-1.0, 2.0]
+      W(1:3) = [1.0/6.0, 2.0/3.0, 1.0/6.0]
+    case (4)
+      M(2,1) = 1.0/3.0
+      M(3,1:2) = [-1.0/3.0, 1.0]
+      M(4,1:3) = [1.0, -1.0, 1.0]
+      W(1:4) = [0.125, 0.375, 0.375, 0.125]
+    end select
+  end subroutine
+end module
+"""
+
+
+def test_arrays_that_are_allocated_elsewhere() -> None:
+    """Each case has a table of its own; entries that it does not assign are zeros where that makes
+    a method, and otherwise unknown.
+    """
+    tables = fortran.find(ELSEWHERE, "x.f90")
+    found = [audit(x) for x in tables]
+    assert [x.order.order for x in found if x is not None and x.order] == [3, 4]
+    wrong = ELSEWHERE.replace("2.0]", "9.0]").replace("-1.0, 1.0]", "-1.0, 9.0]")
+    for text in (wrong, wrong.replace("M(", "A(").replace("W(", "b(")):
+        assert not any(x.is_read for x in fortran.find(text, "x.f90"))
+
+
 @pytest.mark.parametrize(
     ("find", "text"),
     [
+        (rust.find, "fn f() { let a = [1.0, 2.0]; let b = a.map(|x, y| x); }"),
         (python.find, "x.A = [[0, 0], [1, 0]]\ny = x.A()\n"),
         (fortran.find, "program p\nreal :: a(2)\na = [1.0, 2.0]\na() = 3.0\nend program\n"),
     ],

@@ -22,7 +22,7 @@ class MatlabLowering(Lowering):
     grammar = "tree_sitter_matlab"
     kinds = kinds(
         comment="line_continuation",
-        block="source_file block ERROR",
+        block="source_file block ERROR methods properties",
         tried="try_statement",
         assignment="assignment",
         switch="switch_statement",
@@ -31,7 +31,7 @@ class MatlabLowering(Lowering):
         number="number",
         text="string",
         list="multioutput_variable",
-        inside="parenthesis",
+        inside="parenthesis default_value",
         unary="unary_operator",
         binary="binary_operator",
         range="range",
@@ -45,6 +45,11 @@ class MatlabLowering(Lowering):
                 parameters = tuple(self.text(x) for each in given for x in each)
                 name, body = self.text(part(node, "name")), self.block(inside[-1:])
                 yield ir.Scope("function", name, body, line, parameters)
+            case "class_definition":
+                name, body = self.text(part(node, "name") or inside[0]), self.block(inside[1:])
+                yield ir.Scope("class", name, body, line)
+            case "property" if len(inside) > 1:
+                yield ir.Assign(self.expr(inside[0]), self.expr(inside[-1]), line)
             case "for_statement":
                 bound = self.children(inside[0]) if inside else []
                 counter, over = bound if len(bound) == 2 else (None, None)
@@ -73,6 +78,10 @@ class MatlabLowering(Lowering):
                     return ir.Rows(rows, is_row_a_matrix=False)
                 return ir.Items(rows[0] if len(rows) == 1 else tuple(map(ir.Items, rows)))
             case "function_call":
+                # this@Base(…) makes what the class is of
+                base = next((x for x in inside if x.type == "superclass"), None)
+                if base is not None:
+                    return self._called(ir.Name(self.text(base).rpartition(".")[2]), node)
                 return self._called(self.expr(part(node, "name")), node)
             case "field_expression":
                 # m.A and m.A{1,2}, where the call is on the field

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from garkcli.frozen import replace
 from garkcli.sources import ir
 from garkcli.sources.found import FoundTable
+from garkcli.sources.known import CALLS, CONVERSIONS
 from garkcli.sources.lowering import Lowering, kinds, less_one, line_of, part, reader, unmeant
 
 if TYPE_CHECKING:
@@ -64,7 +65,7 @@ class PythonLowering(Lowering):
                     # from fractions import Fraction as F
                     if alias := part(each, "alias"):
                         name = self.text(part(each, "name")).rpartition(".")[2]
-                        yield ir.Assign(ir.Name(self.text(alias)), ir.Name(name), line)
+                        yield ir.Assign(ir.Name(self.text(alias)), _imported(name), line)
             case "expression_statement":
                 for each in inside:
                     if self.is_a("assignment", each):
@@ -101,10 +102,11 @@ class PythonLowering(Lowering):
             case "attribute":
                 name, of = self.text(part(node, "attribute")), self.expr(part(node, "object"))
                 return ir.Transposed(of) if name == "T" else ir.Field(of, name)
-            case "list_comprehension" if len(inside) == 2:
+            case "list_comprehension" | "generator_expression" if len(inside) == 2:
                 target, over = part(inside[1], "left"), self.expr(part(inside[1], "right"))
-                if self.is_a("name", target):
-                    each = ir.Lambda((self.text(target),), self.expr(inside[0]))
+                names = [target] if self.is_a("name", target) else self.children(target)
+                if names and all(self.is_a("name", x) for x in names):
+                    each = ir.Lambda(tuple(map(self.text, names)), self.expr(inside[0]))
                     return ir.Call(ir.Name("list of each"), (each, over))
             case "lambda":
                 given = self.children(part(node, "parameters"))
@@ -126,6 +128,9 @@ class PythonLowering(Lowering):
         return unmeant(node)
 
     def expression(self, node: Node, inside: list[Node]) -> ir.Expr:
+        if node.type == "call" and inside[-1].type == "generator_expression":
+            # list(x for x in …)
+            return ir.Call(self.expr(inside[0]), self.exprs(inside[1:]))
         match found := super().expression(node, inside):
             case ir.Binary(sign, ir.Items() as left, right) if sign in _OF_LISTS:
                 return ir.Call(ir.Name(_OF_LISTS[sign]), (left, right))
@@ -147,6 +152,13 @@ class PythonLowering(Lowering):
             match self.expr(part(each, "key")):
                 case ir.Text(key) | ir.Literal(key):
                     yield key, self.expr(part(each, "value"))
+
+
+def _imported(name: str) -> ir.Expr:
+    """What a name is imported for: functions of one argument, types and constants."""
+    if name in CALLS and name not in CONVERSIONS:
+        return ir.Lambda(("x",), ir.Call(ir.Name(name), (ir.Name("x"),)))
+    return ir.Name(name)
 
 
 _TYPED = re.compile(r"^([ \t]*)(?:c|cp)def[ \t]+(.*)$|^([ \t]*)DEF[ \t]+(?=\w)", re.MULTILINE)
