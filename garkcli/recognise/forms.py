@@ -54,6 +54,12 @@ def _names(*named: bool) -> int:
     return sum(map(bool, named))
 
 
+def _head(name: str) -> str:
+    """A name without a short ending: ``as_``, ``alpha_v``."""
+    head, _, tail = name.rpartition("_")
+    return head if head and len(tail) < 2 else name
+
+
 def _of_two_rows(x: Given, y: Given, rows: Sequence[Given]) -> Iterator[Reading | None]:
     """The schemes of two rows: 2N registers; kicks and drifts."""
     if not (x.fractions and y.fractions):
@@ -204,10 +210,10 @@ def _shu_osher(x: Given, y: Given) -> Reading | None:
     linked = bits
     bits += float(np.minimum(30, alpha[several][..., LENGTH].max(1, initial=0)).sum())
     told = {"alpha": alpha, "beta": beta}
-    bits += _places(x, y) - 2
-    return Reading(
-        "Shu–Osher", told, "the form of Shu and Osher", bits, order, linked, (x, y), x.line
-    )
+    names = _names(*map(bool, (MATRIX.search(_head(x.name)), WEIGHTS.search(_head(y.name)))))
+    bits += _places(x, y) - 2 + 1.5 * names
+    how = "the form of Shu and Osher"
+    return Reading("Shu–Osher", told, how, bits, order, linked, (x, y), x.line, names=names)
 
 
 def _triangle(row: Floats) -> Floats | None:

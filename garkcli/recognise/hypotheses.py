@@ -172,10 +172,13 @@ MATRICES: tuple[Shape, ...] = (
 
 def _flat(row: Floats) -> Parts | None:
     s = math.isqrt(len(row))
-    if s * s != len(row) or s < 2 or (s == 2 and abs(row[:, VALUE].sum() - 1) < CLOSE):
+    if s * s != len(row) or s < 2:
+        return None
+    A = row.reshape(s, s, -1)
+    if s == 2 and abs(row[:, VALUE].sum() - 1) < CLOSE and not is_lower(A):
         # four weights: with b = (1/2, 1/2) that is order 2, whatever they are
         return None
-    return Parts(row.reshape(s, s, -1), how="row by row")
+    return Parts(A, how="row by row")
 
 
 def _flat_bordered(row: Floats, count: int) -> Parts | None:

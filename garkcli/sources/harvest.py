@@ -116,7 +116,8 @@ class Harvester(Evaluator):
         if not arrays and id(space) not in self._handles:
             return
         around = None if space.up is None else self._handle(space.up)
-        words = " ".join([*(x.name for x in self._scopes), scope.title])
+        names = [*(x.name for x in self._scopes), *(x.name for x in arrays), scope.title]
+        words = " ".join(names)
         place = self._handle(space), around
         speaks = bool(METHODS.search(words))
         self.groups.append(Group(place, scope.line, scope.title, arrays, found.orders, speaks))
@@ -191,9 +192,23 @@ class Harvest:
             for i, x in enumerate(value.args):
                 yield from self.arrays(f"{name or value.kind}.{i}", x, line, level + 1)
         elif isinstance(value, Array) and 0 < len(value.items) <= MOST_ENTRIES:
-            yield from self._ofitems_of(name, [_flatter(x) for x in value.items], line, level)
+            nodes = self._with_nodes(name, value.items, line)
+            yield from nodes or self._of_items(name, [*map(_flatter, value.items)], line, level)
 
-    def _ofitems_of(self, name: str, items: list[Value], line: int, level: int) -> Iterator[Given]:
+    def _with_nodes(self, name: str, items: Sequence[Value], line: int) -> list[Given]:
+        """Rows behind their nodes, ``{c, {a, …}}``; nothing where there are none."""
+        pairs = [x.items for x in items if isinstance(x, Array) and len(x.items) == 2]
+        rows = [x[1].items for x in pairs if isinstance(x[1], Array)]
+        lengths = [*map(len, rows)]
+        if not len(rows) == len(items) > 1 or lengths != sorted(lengths) or lengths[-1] < 2:
+            return []
+        nodes, known = self._row([x[0] for x in pairs]), [self._row(x) for x in rows]
+        found = tuple(x for x in known if x is not None)
+        if nodes is None or len(found) < len(known):
+            return []
+        return [Given(f"{name}.c", line, (nodes,)), Given(f"{name}.A", line, found, is_matrix=True)]
+
+    def _of_items(self, name: str, items: list[Value], line: int, level: int) -> Iterator[Given]:
         inner = [x for x in items if isinstance(x, Array)]
         if not inner:
             row = self._row(items)
@@ -212,18 +227,6 @@ class Harvest:
                     yield Given(name, line, (tuple(x[0] for x in whole_rows),))
                 else:
                     yield Given(name, line, whole_rows, is_matrix=True)
-                return
-        pairs = [x.items for x in inner if len(x.items) == 2 and isinstance(x.items[1], Array)]
-        if len(pairs) == len(items) > 1:
-            # {c, {a, …}}
-            nodes, rows = (
-                self._row([x[0] for x in pairs]),
-                [self._row(items_of(x[1])) for x in pairs],
-            )
-            known = tuple(x for x in rows if x is not None)
-            if nodes is not None and len(known) == len(rows) and any(known):
-                yield Given(f"{name}.c", line, (nodes,))
-                yield Given(f"{name}.A", line, known, is_matrix=True)
                 return
         for i, x in enumerate(items):
             if isinstance(x, Array | Record):

@@ -34,6 +34,10 @@ class Quad(Method):
     B = [1/6, 1/3, 0]
     Bp = [1/6, 4/6, 1/6]
 """
+BEHIND_NODES = """
+def tableau():
+    return [[0, []], [1/2, [1/2]], [1, [-1, 2]]], [1/6, 2/3, 1/6]
+"""
 BLOCK = """
 tableau = {'Rule': [[0, 0, 0, 0, 0], [1/3, 1/3, 0, 0, 0], [2/3, -1/3, 1, 0, 0], [1, 1, -1, 1, 0],
     [4, 1/8, 3/8, 3/8, 1/8]]}
@@ -54,6 +58,7 @@ def found_in(folder: Path, text: str) -> list[Audited]:
         (COLUMNS, 4, "columns are stages"),
         (LAST_ROW, 2, "rows 2 to s, and the weights below them"),
         (NYSTROM, 4, "for second-order equations"),
+        (BEHIND_NODES, 3, "columns of zeros are left out"),
     ],
 )
 def test_a_table_is_read_as_its_numbers_say(

@@ -85,6 +85,26 @@ def test_weights_are_no_matrix() -> None:
     w = np.sqrt(30) / 72
     weights = np.array([1 / 4 - w, 1 / 4 + w, 1 / 4 + w, 1 / 4 - w])
     assert read(weights, np.array([1, 1]) / 2, np.array([1 / 4 - w, 1 / 4 + w])) == []
+    heun = [
+        given(x, np.array(y, dtype=float))
+        for x, y in (("a", [0, 0, 1, 0]), ("b", [0.5, 0.5]), ("c", [0, 1]))
+    ]
+    (found,) = readings_of([Group((0, None), 1, "", heun, speaks=True)])
+    assert found.is_enough
+
+
+def test_names_speak_for_combinations() -> None:
+    """A method of order 2 in the form of Shu and Osher has few numbers: their names decide."""
+    alpha = np.array([[1, 0, 0], [0, 1, 0], [1 / 3, 0, 2 / 3]])
+    beta = np.diag([1 / 2, 1 / 2, 1 / 3])
+    found = [
+        readings_of([Group((0, None), 1, "", [given(x, alpha), given(y, beta)], speaks=True)])
+        for x, y in (("alpha_v", "beta_v"), ("as_", "bs_"), ("x", "y"))
+    ]
+    readings = [next(iter(x)) for x in found]
+    assert [x.form for x in readings] == ["Shu–Osher"] * 3
+    assert [x.names for x in readings] == [2, 2, 0]
+    assert readings[0].bits == readings[1].bits == readings[2].bits + 3
 
 
 def test_embedded_weights_and_what_is_idle() -> None:
