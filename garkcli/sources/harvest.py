@@ -8,7 +8,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise
 
-from garkcli.frozen import Mutable, field
+from garkcli.frozen import Mutable, field, replace
 from garkcli.recognise.given import (
     FLOAT,
     MOST_BITS,
@@ -46,6 +46,7 @@ _FAMILY = re.compile(
     r"(?P<stem>.*?[^\d_])_?(?P<i>\d{1,4})(?:_(?P<j>\d{1,2}))?(?P<tail>_?[A-Za-z]*)"
 )
 _ROW = re.compile(r"(?P<stem>.*?[^\d_])_?(?P<i>\d{1,2})(?P<tail>\D*)")
+_LETTER = re.compile(r"(?P<letter>[abcw])_(?P<behind>[a-z]\w+)", re.IGNORECASE)
 _INDICES = str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789")
 _SETTER = re.compile(r"set|fill|assign", re.IGNORECASE)
 _ORDER = re.compile(
@@ -113,6 +114,7 @@ class Harvester(Evaluator):
         known = {x.key for x in arrays}
         arrays += [x for x in _families(found.singles) if x.key not in known]
         arrays += _of_rows(arrays)
+        arrays = _in_records(arrays)
         if not arrays and id(space) not in self._handles:
             return
         around = None if space.up is None else self._handle(space.up)
@@ -322,6 +324,25 @@ def _of_rows(arrays: Sequence[Given]) -> Iterator[Given]:
         if is_gapless and (are_growing or len({*lengths}) == 1):
             of = tuple(rows[i].rows[0] for i in numbers)
             yield Given(stem, rows[numbers[0]].line, of, is_matrix=True, is_made=True)
+
+
+def _in_records(arrays: Sequence[Given]) -> list[Given]:
+    """Arrays whose names share what is behind a letter, ``a_im`` and ``b_im``, as those of a record
+    where a matrix and weights do: ``im.a`` and ``im.b``.
+    """
+    parts = {x.name: found for x in arrays if (found := _LETTER.fullmatch(x.name))}
+    heads: dict[str, set[str]] = defaultdict(set)
+    for found in parts.values():
+        heads[found["behind"].lower()].add(found["letter"].lower())
+    records = {tail for tail, of in heads.items() if "a" in of and of & {"b", "w"}}
+
+    def placed(x: Given) -> Given:
+        found = parts.get(x.name)
+        if found is None or found["behind"].lower() not in records:
+            return x
+        return replace(x, name=f"{found['behind']}.{found['letter']}")
+
+    return [placed(x) for x in arrays]
 
 
 def _flatter(value: Value) -> Value:

@@ -624,6 +624,9 @@ def test_arrays_that_are_allocated_elsewhere() -> None:
     tables = fortran.find(ELSEWHERE, "x.f90")
     found = [audit(x) for x in tables]
     assert [x.order.order for x in found if x is not None and x.order] == [3, 4]
+    # what is behind their letters tells which arrays belong together
+    pair = ELSEWHERE.replace("M(", "A_ex(").replace("W(", "w_ex(")
+    assert [x.name for x in fortran.find(pair, "x.f90") if x.is_read] == ["ex", "ex"]
     wrong = ELSEWHERE.replace("2.0]", "9.0]").replace("-1.0, 1.0]", "-1.0, 9.0]")
     for text in (wrong, wrong.replace("M(", "A(").replace("W(", "b(")):
         assert not any(x.is_read for x in fortran.find(text, "x.f90"))
