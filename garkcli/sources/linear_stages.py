@@ -2,12 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from functools import partial
+from itertools import permutations
 
 from garkcli.frozen import replace
 from garkcli.sources.found import FoundTable, Misshapen, Row, Rows, Unreadable
 from garkcli.sources.shaping import ZERO, Texts, is_zero, weights
-from garkcli.sources.values import Array, Number, Value, Word, first_unknown, items_of, whole
+from garkcli.sources.values import (
+    FILL,
+    Array,
+    Number,
+    Value,
+    Word,
+    first_unknown,
+    integer,
+    items_of,
+    near,
+    whole,
+)
 
 FORMS = ("rosenbrock", "transformed", "kpp")
 """Signatures as papers print a method, as programs store it, packed by rows."""
@@ -22,6 +35,8 @@ _OF_KPP = {
     **dict.fromkeys(("elo", "estimator_of_local_order"), "local_order"),
     "name": "title",
 }
+NEAR = 1e-9
+"""Row sums that are printed are that near."""
 _WHOLE = frozenset(("A", "C", "b", "c", "d", "stages"))
 
 
@@ -32,8 +47,10 @@ def roles_of_kpp(values: Mapping[str, Value], prefix: str = "ros_") -> Mapping[s
     lower = {name.lower(): x for name, x in values.items()}
     own = {name: x for name, x in lower.items() if name.startswith(prefix)}
     named = {name.removeprefix(prefix).rstrip("_"): x for name, x in own.items()}
-    if not {"a", "m", "alpha", "gamma"} <= set(named):
+    if not {"m", "alpha", "gamma"} <= set(named):
         return None
+    if "a" not in named:
+        named |= _by_row_sums(values, *(named[x] for x in ("m", "alpha", "gamma")))
     roles = {role: named[name] for name, role in _OF_KPP.items() if name in named}
     stages = whole(roles.get("stages"))
     if not stages or not set(roles) >= _WHOLE:
@@ -49,6 +66,49 @@ def roles_of_kpp(values: Mapping[str, Value], prefix: str = "ros_") -> Mapping[s
         roles.pop("title", None)
     roles["gamma"] = items_of(roles["d"])[0]
     return roles
+
+
+def _by_row_sums(
+    values: Mapping[str, Value], m: Value, alpha: Value, gamma: Value
+) -> Mapping[str, Value]:
+    """The matrices A and C whose row sums make alpha and gamma, packed by rows, whatever they are
+    called; nothing where there are none.
+    """
+    stages = len(items_of(m))
+    nodes, sums = ([near(x) for x in items_of(of)] for of in (alpha, gamma))
+    packed = [x for x in map(partial(_triangle, stages=stages), values.values()) if x]
+    if not (1 < stages == len(nodes) == len(sums)):
+        return {}
+    for A, C in permutations(packed, 2):
+        # (I/γ - C)Γ𝟙 = 𝟙 and α𝟙 = AΓ𝟙
+        is_met = all(
+            abs(sums[0] * (1 + _below(C, i, sums)) - sums[i]) < NEAR
+            and abs(_below(A, i, sums) - nodes[i]) < NEAR
+            for i in range(stages)
+        )
+        if is_met and any(near(x) for x in A):
+            return {"a": Array([*A]), "c": Array([*C]), "s": integer(stages)}
+    return {}
+
+
+def _triangle(value: Value, stages: int) -> list[Value]:
+    """What a matrix has below its diagonal, by rows, zeros where nothing was written; nothing for
+    what is no such matrix.
+    """
+    rows = [items_of(x) for x in items_of(value)]
+    if not (1 < len(rows) <= stages and any(rows)) or any(
+        near(x) for i, row in enumerate(rows) for x in row[i:]
+    ):
+        return []
+    rows += [[]] * (stages - len(rows))
+    found = [row[j] if j < len(row) else FILL for i, row in enumerate(rows) for j in range(i)]
+    return [x if isinstance(x, Number) else FILL for x in found]
+
+
+def _below(packed: Sequence[Value], i: int, x: Sequence[float]) -> float:
+    """The entry i of the product of a triangle below the diagonal with a vector."""
+    row = packed[i * (i - 1) // 2 : i * (i + 1) // 2]
+    return sum(near(a) * b for a, b in zip(row, x, strict=False))
 
 
 def _entries(value: Value, count: int) -> Array:

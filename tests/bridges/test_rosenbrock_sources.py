@@ -206,3 +206,36 @@ def test_many_rounded_numbers_are_judged_one_by_one(monkeypatch: pytest.MonkeyPa
     orders = [[x and x.order for x in each.judged_orders] for each in (together, alone)]
     assert orders == [[4, 4, 3]] * 2
     assert all(x is not None and x.witness is not None for x in alone.judged_orders[:1])
+
+
+SQUARE = """
+subroutine two_stages(s, up, shift, ros_m, ros_e, ros_alpha, ros_gamma, ros_elo)
+  integer, intent(in) :: s
+  real(8) :: up(s,s), shift(s,s), other(s,s), ros_m(s), ros_e(s), ros_alpha(s), ros_gamma(s)
+  g = 1 + 1/sqrt(2d0)
+  other(2,1) = 1
+  up(2,1) = 1/g
+  shift(2,1) = -2/g
+  ros_m(1) = 3/(2*g)
+  ros_m(2) = 1/(2*g)
+  ros_e(1) = 1/(2*g)
+  ros_e(2) = 1/(2*g)
+  ros_elo = 2
+  ros_alpha(1) = 0
+  ros_alpha(2) = 1
+  ros_gamma(1) = g
+  ros_gamma(2) = -g
+end subroutine
+"""
+
+
+def test_the_matrices_of_kpp_by_their_row_sums() -> None:
+    """Square matrices, whatever they are called, are those whose row sums are the nodes; none are
+    with another sign.
+    """
+    (table,) = tables(SQUARE, "fortran")
+    found = audit(table)
+    assert found is not None
+    assert found.order is not None
+    assert (found.order.order, found.findings) == (2, ())
+    assert not any(x.is_read for x in tables(SQUARE.replace("-2/g", "2/g"), "fortran"))
