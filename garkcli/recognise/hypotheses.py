@@ -189,7 +189,8 @@ def _flat_bordered(row: Floats, count: int) -> Parts | None:
         found = _bordered(row.reshape(s + count, s + 1, -1), count)
     if found is None or found.c is None or not _are_sums(found.A, found.c):
         return None
-    return found._replace(how=f"{found.how}, row by row", needs_nodes=True)
+    how = f"{found.how}, row by row"
+    return found._replace(weights=found.weights[:1], how=how, needs_nodes=True)
 
 
 def _are_sums(A: Floats, c: Floats) -> bool:
