@@ -77,7 +77,11 @@ CONSTANTS: Mapping[str, Value] = {
     "ZERO": ZERO,
     "ONE": real(ONE),
     "TWO": real(integer(2)),
-    **{f"sqrt{n}": root(integer(n), 2, 0) for n in (2, 3)},
+    **{
+        f"{name}{n}": root(integer(n), 2, 0)
+        for n in (2, 3, 5, 6, 7, 10, 15, 21)
+        for name in ("sqrt", "sqrt_", "SQRT", "SQRT_", "M_SQRT")
+    },
     "#": Number(None, math.nan, written=Scalar("x")),
 }
 """Names that mean the same everywhere; ``#`` is the variable of a polynomial."""

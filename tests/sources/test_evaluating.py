@@ -304,6 +304,13 @@ def test_what_is_not_known_is_told(name: str) -> None:
         assert (table.trouble, table.b) == (trouble, ())
 
 
+def test_roots_by_their_names() -> None:
+    """Constants that other files have."""
+    text = "use lab::SQRT_6;\nconst A: [[f64; 2]; 2] = [[0.0, 0.0], [SQRT_6 / 4.0, 0.0]];\n"
+    table = one("rs", f"{text}const B: [f64; 2] = [0.25, 0.75];\n")
+    assert table.A[0][0][1] == ("sqrt(6)/4", "0")
+
+
 def test_printed_digits_are_kept() -> None:
     """A long decimal is what was printed, in sums too; short ones are exact."""
     text = "double g = 0.29289321881345254, A[2][2] = {{g}, {1 - g, 0.1 + 0.2}}, b[2] = {0.5, .5};"
