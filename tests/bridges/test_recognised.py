@@ -34,6 +34,15 @@ class Quad(Method):
     B = [1/6, 1/3, 0]
     Bp = [1/6, 4/6, 1/6]
 """
+QUADRATURES = """
+x2 = [-sqrt(1/12), sqrt(1/12)]
+w2 = [1/2, 1/2]
+w4 = [(18 - sqrt(30))/72, (18 + sqrt(30))/72, (18 + sqrt(30))/72, (18 - sqrt(30))/72]
+"""
+FLAT = """
+data = [1/4, 1/4, 0, 0, 0, 11/28, 1/7, 1/4, 0, 0, 1/3, 61/144, -49/144, 1/4, 0,
+    1, 0, 0, 3/4, 1/4, 3, 0, 0, 3/4, 1/4, 2, -61/600, 49/600, 79/100, 23/100]
+"""
 BEHIND_NODES = """
 def tableau():
     return [[0, []], [1/2, [1/2]], [1, [-1, 2]]], [1/6, 2/3, 1/6]
@@ -59,6 +68,7 @@ def found_in(folder: Path, text: str) -> list[Audited]:
         (LAST_ROW, 2, "rows 2 to s, and the weights below them"),
         (NYSTROM, 4, "for second-order equations"),
         (BEHIND_NODES, 3, "columns of zeros are left out"),
+        (FLAT, 3, "a tableau with its nodes and weights in one matrix, row by row"),
     ],
 )
 def test_a_table_is_read_as_its_numbers_say(
@@ -76,6 +86,11 @@ def test_a_table_is_read_as_its_numbers_say(
     assert method.method is not None
     assert method.method.order.order == order
     assert method.errors == []
+
+
+def test_weights_are_no_matrix(tmp_path: Path) -> None:
+    """Four weights and two equal ones meet order 2, whatever they are."""
+    assert found_in(tmp_path, QUADRATURES) == []
 
 
 def test_a_misprint_of_told_arrays_is_an_error(tmp_path: Path) -> None:

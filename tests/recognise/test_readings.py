@@ -80,11 +80,8 @@ def test_other_numbers_are_none() -> None:
     assert read(np.eye(4), b, np.ones(4)) == []
 
 
-def test_weights_are_no_matrix() -> None:
-    """Four weights and two equal ones meet order 2, whatever they are."""
-    w = np.sqrt(30) / 72
-    weights = np.array([1 / 4 - w, 1 / 4 + w, 1 / 4 + w, 1 / 4 - w])
-    assert read(weights, np.array([1, 1]) / 2, np.array([1 / 4 - w, 1 / 4 + w])) == []
+def test_heun_in_one_row() -> None:
+    """Few numbers, with names."""
     heun = [
         given(x, np.array(y, dtype=float))
         for x, y in (("a", [0, 0, 1, 0]), ("b", [0.5, 0.5]), ("c", [0, 1]))
