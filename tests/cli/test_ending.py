@@ -30,6 +30,7 @@ WORKED = 0.05
 FILES = {
     "long.m": "A = [1 ...\n" * 20_000,
     "dirk.yaml": "unknown: {stages: 7, shape: dirk}\n",
+    "ssp.yaml": "unknown: {stages: 10, shape: explicit}\n",
     "spec.yaml": "methods: [{family: gauss, stages: 100..120}]\ncolumns: [order, error]\n",
 }
 LONG = {
@@ -52,6 +53,7 @@ LONG = {
         "design dirk.yaml --order 7 --seconds 1000",
         "design dirk.yaml --order 7 --search 1000000",
         "design dirk.yaml --order 7 --search 1000000 --jobs 2",
+        "design ssp.yaml --order 4 --search 1000000 --minimise=-ssp",
     ],
     "sweep": ["sweep spec.yaml", "sweep spec.yaml --jobs 2"],
     "import": ["import long.m"],
