@@ -161,6 +161,27 @@ def _splitting(layout: Layout) -> Layout:
     return Layout("prk", (_lower(drifts, 1), _lower(kicks, 0)), (drifts, kicks))
 
 
+def _low_storage(layout: Layout) -> Layout:
+    """ΔY ← A_i ΔY + h f(Y), Y ← Y + B_i ΔY in two registers: after register step i the slope of
+    stage j has the weight Σ_{m=j}^i B_m A_m ⋯ A_{j+1}.
+
+    J. H. Williamson, *Low-storage Runge–Kutta schemes*, Journal of Computational Physics 35, 1980.
+    """
+    s, join = layout.stages, _join(layout.stages)
+
+    def weight(i: int, j: int) -> str:
+        """Of stage j after register step i, both counted from 1."""
+        terms = [
+            "*".join([f"B{join}{m}", *(f"A{join}{k}" for k in range(j + 1, m + 1))])
+            for m in range(j, i + 1)
+        ]
+        return " + ".join(terms) or ZERO
+
+    stages = range(1, s + 1)
+    rows = tuple(tuple(weight(i - 1, j) for j in stages) for i in stages)
+    return replace(layout, A=(rows,), b=(tuple(weight(s, j) for j in stages),))
+
+
 def _rosenbrock(layout: Layout) -> Layout:
     alpha = [[x.replace("a", "alpha", 1) for x in row] for row in _explicit(layout).A[0]]
     gamma = [[x.replace("a", "gamma", 1) for x in row] for row in _dirk(layout).A[0]]
@@ -295,6 +316,9 @@ SHAPES = {
         ),
         Shape(
             "splitting", "a1 h of the first part, b1 h of the second, and so on", _splitting, True
+        ),
+        Shape(
+            "low-storage", "two registers, ΔY ← A_i ΔY + h f(Y), Y ← Y + B_i ΔY", _low_storage, True
         ),
         Shape(
             "rosenbrock", "α below the diagonal, γ too, with gamma on its own", _rosenbrock, True

@@ -24,6 +24,7 @@ from garkcli.problems.draw import Draw
 from garkcli.report.search import _shown
 from garkcli.tell.dialect import Plain
 from tests.cli.harness import gark
+from tests.whole import in_whole
 
 EXPLICIT3 = "unknown: {stages: 3, shape: explicit}\ndesign: {order: 2}"
 SSP33 = "unknown: {stages: 3, shape: explicit}\ndesign: {order: 3}"
@@ -202,6 +203,17 @@ def test_stability_is_a_constraint() -> None:
     )
     [method] = best(text, "error").methods
     assert method.values["gamma"] == "1 - sqrt(2)/2"
+
+
+@in_whole
+def test_an_interval_on_the_imaginary_axis() -> None:
+    """Five stages of order 4 in two registers: more than the 3.34 of Carpenter and Kennedy's method
+    (NASA TM 109112, 1994); no such method has more than 2√3, where |R|² loses its term y⁶.
+    """
+    text = "unknown: {stages: 5, shape: low-storage}\ndesign: {order: 4}"
+    [method] = best(text, "-imaginary-interval", 20).methods
+    assert method.proof == "exists"
+    assert 3.34 < float(method.objective) < 2 * 3**0.5 + 1e-4
 
 
 def test_methods_are_told_the_best_first() -> None:

@@ -208,6 +208,19 @@ def test_colours_share_unknown_embedded_weights() -> None:
     assert len(apart.parameters) == 4
 
 
+def test_two_registers() -> None:
+    """The tableau of register steps is that of a method file in the form 2N with these numbers."""
+    family = loads_family("unknown: {stages: 4, shape: low-storage}\n")
+    assert set(family.parameters) == {"B1", "B2", "B3", "B4", "A2", "A3", "A4"}
+    values = {name: f"{k + 1}/{k + 3}" for k, name in enumerate(sorted(family.parameters))}
+    A = [values[f"A{i}"] for i in (2, 3, 4)]
+    B = [values[f"B{i}"] for i in (1, 2, 3, 4)]
+    method = loads(with_values(family, values, "any", "order: 0"))
+    registers = loads(f"low-storage: {{form: 2N, A: [0, {', '.join(A)}], B: [{', '.join(B)}]}}\n")
+    assert method.tableau.block(0, 0) == registers.tableau.block(0, 0)
+    assert method.tableau.colours[0].b == registers.tableau.colours[0].b
+
+
 def test_palindromic_splittings_are_symmetric() -> None:
     """The last map is the first one again: four stages of order 4 are the method of E. Forest and
     R. Ruth (1990) with a₁ = 1/(2(2 − ∛2)); every member is symmetric.

@@ -41,6 +41,8 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 SAMPLES = 40
 """Points of an interval at which a stability function is held against 1."""
+HEAVIEST = 1e5
+"""The largest weight of a point near 0: rounding must not look like an inequality that fails."""
 FAR = 1.5
 """Points of the imaginary axis, for A-stability, are y = (1/t - 1)^FAR with t between 0 and 1."""
 
@@ -310,7 +312,7 @@ class _Bounded:
 
         z = self.direction * length * self.points
         M, slopes, by_z = (found[..., 0, 0] for found in self.step.at(x, z))
-        weight = np.minimum(1.0, self.points) ** -self.power
+        weight = np.minimum(np.minimum(1.0, self.points) ** -self.power, HEAVIEST)
         value = 1 - np.abs(M) ** 2
         derivatives = -2 * (M.conj() * slopes).real
         by_length = -2 * (M.conj() * by_z * self.direction * self.points).real
@@ -367,7 +369,7 @@ class _Oscillating:
         trace = M[:, 0, 0] + M[:, 1, 1]
         of_trace = every[..., 0, 0] + every[..., 1, 1]
         small = np.minimum(1.0, self.points)
-        near, far = small**-self.power, small**-2.0
+        near, far = np.minimum(small**-self.power, HEAVIEST), small**-2.0
         values = [near * (1 - det), far * (1 + det - trace), 1 + det + trace]
         derivatives = [-near * of_det, far * (of_det - of_trace), of_det + of_trace]
         return np.concatenate(values), np.concatenate(derivatives, axis=1).transpose()

@@ -48,6 +48,8 @@ MARGIN = 1e-6
 """Positive functions are at least so large."""
 HIGHEST = 1e4
 """A level is no higher."""
+FIRST_LEVEL = 0.5
+"""The level at which the optimiser starts is no lower: at 0 nothing depends on the unknowns."""
 CLOSE = 1e-12
 """Residuals of a method in floats."""
 SLACK = 1e-7
@@ -189,7 +191,7 @@ class Program:
             values, slopes = equations(z)
             return values[rows], _padded(slopes[rows], len(z))
 
-        guess = np.append(x, self._level(x)) if has_level else x
+        guess = np.append(x, max(self.level(x), FIRST_LEVEL)) if has_level else x
         constraints = [
             {"type": kind, "fun": lambda z, f=f: f(z)[0], "jac": lambda z, f=f: f(z)[1]}
             for kind, f in (("eq", equal), ("ineq", inequalities))
@@ -231,10 +233,10 @@ class Program:
 
     def _value(self, x: Array) -> float:
         if isinstance(self.goal, Reach):
-            return -self._level(x)
+            return -self.level(x)
         return self.goal.at(x)[0]
 
-    def _level(self, x: Array) -> float:
+    def level(self, x: Array) -> float:
         """The largest y, up to bisection, up to which the inequalities of the level hold."""
         import numpy as np
 

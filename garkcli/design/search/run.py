@@ -35,8 +35,6 @@ RESIDUAL = f"1e-{floor(log10(2) * small_bits(BITS))}"
 """What all residuals are below after the last step of Newton's method. The residuals themselves are
 rounding, and no two machines need to agree on them.
 """
-SHORT = 12
-"""Digits of an objective."""
 TOLERANCE = "1e-30"
 """What a file with so many decimals is meant up to."""
 
@@ -227,10 +225,7 @@ def _method(search: Search, find: Find | None) -> object:
     else:
         values = {name: decimals(find.digits[name]) for name in search.family.parameters}
     residual = "0" if find.found is not None else RESIDUAL
-    objective = None
-    if search.objective is not None:
-        value = search.value(find)
-        objective = "infinity" if value is None else root_decimal(value, SHORT)
+    objective = None if search.objective is None else search.value(find)
     return Method(find.start, find.proof, find.order, values, residual, objective)
 
 

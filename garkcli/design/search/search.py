@@ -21,7 +21,7 @@ from garkcli.design.member import (
 from garkcli.design.minimise.objective import Level
 from garkcli.design.search.goals import meant
 from garkcli.design.search.least_squares import least_squares
-from garkcli.design.search.optimum import Optimum, Program
+from garkcli.design.search.optimum import HIGHEST, Optimum, Program
 from garkcli.design.search.points import Fixings, is_proved, polished
 from garkcli.design.search.rational import (
     RationalFunction,
@@ -36,6 +36,7 @@ from garkcli.design.search.snap import fixed_nearby, nodes_of, snapped, unknowns
 from garkcli.design.solutions import Solution, value_at
 from garkcli.design.want import Asked, numerators
 from garkcli.exact.field import ZERO, Number
+from garkcli.exact.polynomial_text import root_decimal
 from garkcli.exact.roots import RealRoot
 from garkcli.frozen import Frozen, replace
 from garkcli.problems.draw import Draw
@@ -93,6 +94,10 @@ Proof: TypeAlias = Literal["exact", "exists", "numerical"]
 """What is known of a find: its exact order; that there is one; that residuals are small."""
 BITS = 1024
 """Bits to which solutions are polished."""
+SHORT = 12
+"""Digits of an objective."""
+FEW_DIGITS = 6
+"""Digits of a level in floats."""
 DECIMALS = 40
 """Decimals of numbers that are not known exactly."""
 FEW_BITS = 212
@@ -223,10 +228,12 @@ class Search:
             return None
         return self._exact(start, x) or self._inexact(start, system, x)
 
-    def value(self, find: Find) -> RealRoot | None:
-        """The objective of a method; of numbers that are not rational at their decimals. None for
-        infinity.
+    def value(self, find: Find) -> str:
+        """The objective of a method as a decimal, or ``infinity``; a level of numbers that are not
+        rational in floats, to fewer digits: the next digits of the numbers would decide it.
         """
+        import numpy as np
+
         assert self.objective is not None
         names = self.family.ring.names
         values: dict[str, Number] = {}
@@ -234,15 +241,19 @@ class Search:
         if find.found is not None:
             values = dict(find.found.solution.values)
             digits = _digits_of(find.found.solution)
-        if not all(isinstance(values.get(name), fmpq) for name in names):
+        is_rational = all(isinstance(values.get(name), fmpq) for name in names)
+        if isinstance(self.objective, Level) and not is_rational:
+            level = self.program.level(np.array([float(digits[name].mid()) for name in names]))
+            return "infinity" if level >= HIGHEST else f"{level:.{FEW_DIGITS}g}"
+        if not is_rational:
             with ctx.workprec(BITS):
                 values = {x: fmpq(in_decimals(digits[x], DECIMALS), 10**DECIMALS) for x in names}
         tableau = member(self.tableau, self.family.ring, values)
         if isinstance(self.objective, Level):
-            y = self.objective.value(tableau)
-            return self.objective.shown(y)
+            y = self.objective.shown(self.objective.value(tableau))
+            return "infinity" if y is None else root_decimal(y, SHORT)
         quotient = self.objective.formula(tableau, self.order, None)
-        return RealRoot.rational(quotient.numerator / quotient.denominator)
+        return root_decimal(RealRoot.rational(quotient.numerator / quotient.denominator), SHORT)
 
     def find(self, start: int, point: list[float]) -> Find | None:
         """What can be proved of a solution in floats; None where it is no solution after all.
