@@ -34,8 +34,10 @@ ONE = at_least(1)
 """The order of every method whose weights have the sum 1."""
 ROW_SUMS = {"stage-order": at_least(1)}
 """The claim of a method file whose nodes are row sums."""
-LINKED = 12
-"""So many bits that link matrix and weights speak against another reading of the same numbers."""
+LINKED, ENOUGH = 12, 10
+"""So many bits that link matrix and weights speak against another reading of the same numbers; or
+where that has order 1 alone, and none is declared.
+"""
 FEWEST_ROWS = 3
 """So many rows of several entries have their nodes for sums where one other is wrong."""
 MAX_BLAMED = 12
@@ -122,12 +124,17 @@ def _late(table: FoundTable) -> Audited:
 
 def audit(table: FoundTable) -> Audited | None:
     """What is true of a table; None where it is no method at all. Nothing is an error while the
-    same numbers, read otherwise, are a method.
+    same numbers, read otherwise, are a method; nor is order 1 all of it, where nobody declares it.
     """
     found = _audit(table)
-    if found is None or found.has_errors or not found.is_read:
-        is_none = found is None or found.order is None or not found.order.order
-        others = map(_audit, readings_of(table, is_none))
+    order = 0 if found is None or found.order is None else found.order.order
+    is_low = order < 2 and not table.order
+    # of a table of single numbers an error is a doubt
+    wrong = {"error", "warning"} if table.is_assembled else {"error"}
+    is_wrong = found is not None and any(x.level in wrong for x in found.findings)
+    if found is None or not found.is_read or is_wrong or is_low:
+        least = (ENOUGH if is_low else LINKED) if order else 0
+        others = map(_audit, readings_of(table, least))
         found = next((x for x in others if x is not None and fits(x, table)), found)
     return found
 
@@ -145,15 +152,13 @@ def fits(found: Audited, told: FoundTable) -> bool:
     return found.order.is_limited or found.order.order >= (told.order or 2)
 
 
-def readings_of(table: FoundTable, is_none: bool) -> Iterator[FoundTable]:
-    """Other readings of the numbers of a table, with its names and orders: those with much
-    evidence, or all where the table has no order. Who calls a function of a library stores a matrix
-    as that does.
+def readings_of(table: FoundTable, least: float) -> Iterator[FoundTable]:
+    """Other readings of the numbers of a table, with its names and orders: those with so many bits
+    of evidence. Who calls a function of a library stores a matrix as that does.
     """
     for each in table.rivals:
-        is_likely = is_none or each.linked >= LINKED
         is_turned = any(x in each.how for x in ("columns are stages", "column by column"))
-        if is_likely and not (table.is_sure and is_turned):
+        if each.linked >= least and not (table.is_sure and is_turned):
             told = {x: getattr(table, x) for x in ("name", "line", "order", "said_order", "notes")}
             yield replace(each, **told, is_sure=True, is_recognised=False)
 
@@ -175,6 +180,8 @@ def _audit(table: FoundTable) -> Audited | None:
     except MethodFileError as error:
         return _noted(table, error.faults[0].message)
     if not is_plausible(table, method):
+        if table.is_assembled:
+            return _noted(table, UNRECOGNISED)
         may_be = table.c[0] is None and _may_be_method(method)
         message = "A and b without nodes, which may be no method"
         return _noted(table, message) if may_be else None

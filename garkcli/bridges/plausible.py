@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
+from pathlib import PurePath
 
 from flint import arb, fmpq
 
@@ -10,7 +12,10 @@ from garkcli.exact.display import to_ball
 from garkcli.exact.field import Number
 from garkcli.methodfile.build import MethodFile
 from garkcli.sources.found import FoundTable
+from garkcli.sources.naming import METHODS
 
+_EULER = re.compile("euler", re.IGNORECASE)
+"""The methods that have whole numbers alone."""
 NEAR = 0.01
 """Sums that differ by less are meant to be the same."""
 FAR = 0.5
@@ -18,14 +23,22 @@ FAR = 0.5
 
 
 def is_plausible(table: FoundTable, method: MethodFile) -> bool:
-    """Whether a table is a method: its source says so, or its numbers do.
+    """Whether a table is a method: its source says so, or its numbers do. Whole numbers, of one
+    stage or without nodes, need words.
 
     The nodes of a method are the row sums of its matrix, most of them even where one is misprinted;
     without nodes the sum of its weights is 1, and its matrix is triangular or meets order 2.
     """
-    if table.is_sure or table.order is not None:
+    if table.is_sure:
         return True
     tableau = method.tableau
+    rows = [row for block in tableau.blocks.values() for row in block]
+    is_bare = len(rows) < 2 or table.c[0] is None
+    if is_bare and are_whole((*rows, *(x.b for x in tableau.colours))):
+        words = f"{table.name} {PurePath(table.source).name}"
+        return METHODS.search(words) is not None or _EULER.search(words) is not None
+    if table.order is not None:
+        return True
     if table.colours > 1:
         return all(abs(_sum(x.b) - 1) < FAR for x in tableau.colours)
     block = tableau.block(0, 0)

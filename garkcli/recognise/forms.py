@@ -17,14 +17,15 @@ from garkcli.recognise.evidence import (
     ROUNDING,
     agreement,
     conditions,
+    order_of,
     row_sums,
     unit_of,
 )
-from garkcli.recognise.given import LENGTH, UNIT, VALUE, Given
-from garkcli.recognise.hypotheses import is_lower, parts_of
-from garkcli.recognise.names import MATRIX, NODES, WEIGHTS
+from garkcli.recognise.given import ALL, LENGTH, UNIT, VALUE, Given
+from garkcli.recognise.hypotheses import is_lower, padded, parts_of
+from garkcli.recognise.names import ALPHA, BETA, EMBEDDED, MATRIX, NODES, WEIGHTS
 from garkcli.recognise.readings import Reading
-from garkcli.recognise.vectors import Vector, fitted
+from garkcli.recognise.vectors import Vector, fitted, nodes_in
 
 if TYPE_CHECKING:
     from garkcli.arrays import Floats
@@ -44,14 +45,16 @@ def other_readings(arrays: Sequence[Given]) -> tuple[list[Reading], int]:
     matrices = [x for x in arrays if x.is_matrix and 1 < len(x.rows) <= MOST_STAGES][:MOST_ARRAYS]
     tried = [
         *(each for x, y in permutations(rows, 2) for each in _of_two_rows(x, y, rows)),
-        *(_shu_osher(x, y) for of in (matrices, rows) for x, y in permutations(of, 2)),
+        *(_shu_osher(x, y, rows) for of in (matrices, rows) for x, y in permutations(of, 2)),
         *(each for x in arrays[:MOST_ARRAYS] for each in _nystrom(x, rows)),
     ]
     return [x for x in tried if x is not None], len(tried)
 
 
-def _names(*named: bool) -> int:
-    return sum(map(bool, named))
+def _names(*named: bool) -> tuple[int, float]:
+    """How many names there are of three, and their bits."""
+    count = sum(map(bool, named))
+    return count, 1.5 * count + 2 * (count == 3)
 
 
 def _head(name: str) -> str:
@@ -70,60 +73,75 @@ def _of_two_rows(x: Given, y: Given, rows: Sequence[Given]) -> Iterator[Reading 
     if len(a) != len(b):
         return
     if not a[0, VALUE] and len(b) > 2:
-        yield _registers(x, a, y, b, rows)
+        is_one = abs(b[:, VALUE].sum() - 1) <= ROUNDING + 12 * unit_of(b) * len(b)
+        for form in _REGISTERS if is_one else _REGISTERS[:2]:
+            yield _registers(form, x, a, y, b, rows)
     if len(x.rows[0]) == len(b):
         for form in ("drift-first", "force-first"):
             yield _splitting(form, x, y)
 
 
-def _registers(x: Given, a: Floats, y: Given, b: Floats, rows: Sequence[Given]) -> Reading | None:
-    """Williamson's form with two registers."""
-    A, weights = _of_registers(a[:, VALUE], b[:, VALUE])
+def _registers(
+    form: str, x: Given, a: Floats, y: Given, b: Floats, rows: Sequence[Given]
+) -> Reading | None:
+    """A form with two registers."""
+    A, weights = _of_registers(form, a[:, VALUE], b[:, VALUE])
     unit = unit_of(a, b)
     bits, order = _of_conditions(A, weights, unit, [*a[:, LENGTH], *b[:, LENGTH]])
     if order < 2:
         return None
-    best, wrong, nodes = 0.0, 0, None
-    for each in rows:
-        if each in (x, y):
-            continue
-        for c in fitted(Vector(each, each.numbers), len(b)):
-            off = np.abs(A.sum(1) - c.numbers[:, VALUE])
-            is_met = off <= 1e-12 + 30 * (unit * len(b) + c.numbers[:, UNIT])
-            met = float(np.minimum(c.numbers[is_met, LENGTH], MOST).sum())
-            if (~is_met).sum() <= len(b) // 3 and met > best:
-                best, wrong, nodes = met, int((~is_met).sum()), c
+    best, wrong, nodes = _nodes(A, unit, [z for z in rows if z not in (x, y)])
+    for z in rows:
+        is_low = z not in (x, y) and len(z.rows[0]) == len(b) and EMBEDDED.search(z.name)
+        if is_low and order_of(A, z.numbers[:, VALUE], unit, 2):
+            low = {"embedded": z.numbers}
+            break
+    else:
+        low = {}
     named = MATRIX.search(x.name), WEIGHTS.search(y.name), nodes and NODES.search(nodes.of.name)
-    told = {"A": x.numbers, "b": y.numbers, **({"c": nodes.numbers} if nodes else {})}
+    told = {"A": x.numbers, "b": y.numbers, **low, **({"c": nodes.numbers} if nodes else {})}
     used = (x, y, *([nodes.of] if nodes else []))
+    names, by_names = _names(*map(bool, named))
     bits = bits + best - 2 + _places(*used)
-    linked = bits - 2
-    how = "the form 2N"
+    linked, bits = bits - 2, bits + by_names
+    how = f"the form {form}"
     idle = [
         z for z in rows if z not in used and z.owner == x.owner and len(z.rows[0]) == len(x.rows[0])
     ]
-    idle = [z for z in idle if nodes is None and NODES.search(z.name)]
+    idle = [z for z in idle if nodes is None and NODES.search(z.name) and not z.name[-1].isdigit()]
     return Reading(
-        "2N",
-        told,
-        how,
-        bits,
-        order,
-        linked,
-        used,
-        x.line,
-        not wrong,
-        tuple(idle),
-        _names(*map(bool, named)),
+        form, told, how, bits, order, linked, used, x.line, not wrong, tuple(idle), names
     )
 
 
-def _of_registers(a: Floats, b: Floats) -> tuple[Floats, Floats]:
+def _nodes(A: Floats, unit: float, rows: Iterable[Given]) -> tuple[float, int, Vector | None]:
+    """The nodes that fit most rows of a tableau that was derived: bits, how many are wrong."""
+    best, wrong, nodes = 0.0, 0, None
+    for c in (c for x in rows for c in nodes_in(Vector(x, x.numbers), A)):
+        off = np.abs(A.sum(1) - c.numbers[:, VALUE])
+        is_met = off <= 1e-12 + 30 * (unit * len(A) + c.numbers[:, UNIT])
+        met = float(np.minimum(c.numbers[is_met, LENGTH], MOST).sum())
+        if (~is_met).sum() <= len(A) // 3 and met > best and not c.is_incomplete:
+            best, wrong, nodes = met, int((~is_met).sum()), c
+    return best, wrong, nodes
+
+
+_REGISTERS = ("2N", "2N with -A", "van der Houwen", "2C")
+"""Forms of two rows, as ``garkcli.constructions.registers`` has them; b of the last two has the sum
+1.
+"""
+
+
+def _of_registers(form: str, a: Floats, b: Floats) -> tuple[Floats, Floats]:
     s = len(b)
-    A, d, y = np.zeros((s, s)), np.zeros(s), np.zeros(s)
-    for i in range(s):
+    A, d, y = np.tril(np.tile(b, (s, 1)), -1), np.zeros(s), np.zeros(s)
+    if form not in _REGISTERS[:2]:
+        below = a[1:] + b[:-1] if form == "2C" else a[1:]
+        A[range(1, s), range(s - 1)] = below
+        return A, b
+    for i, x in enumerate(a if form == "2N" else -a):
         A[i] = y
-        d = a[i] * d
+        d = x * d
         d[i] += 1
         y = y + b[i] * d
     return A, y
@@ -185,12 +203,20 @@ def _splitting(form: str, drifts: Given, kicks: Given) -> Reading | None:
     )
 
 
-def _shu_osher(x: Given, y: Given) -> Reading | None:
-    """Convex combinations: α with row sums 1, and β."""
+def _shu_osher(x: Given, y: Given, rows: Sequence[Given]) -> Reading | None:
+    """Convex combinations: α with row sums 1, and β. In a row of single numbers that has no α the
+    value before it is meant.
+    """
     alpha, beta = (z.numbers if z.is_matrix else _triangle(z.numbers) for z in (x, y))
     if alpha is None or beta is None:
         return None
     n = len(alpha)
+    if x.is_made and y.is_made:
+        n = max(n, len(beta))
+        alpha, beta = padded(alpha, n), padded(beta, n)
+        for i in range(1, n):
+            if not alpha[i, :, VALUE].any():
+                alpha[i, i - 1] = ALL
     if len(beta) != n or not y.fractions or max(alpha.shape[1], beta.shape[1]) > n:
         return None
     if not (is_lower(alpha) and is_lower(beta)):
@@ -202,18 +228,27 @@ def _shu_osher(x: Given, y: Given) -> Reading | None:
         return None
     alpha, beta = alpha[first:], beta[first:]
     A, b = _of_combinations(alpha[..., VALUE], beta[..., VALUE])
-    lengths = [*alpha[..., LENGTH].ravel(), *beta[..., LENGTH].ravel()]
-    bits, order = _of_conditions(A, b, unit_of(alpha, beta), lengths)
-    if not order:
+    lengths, unit = [*alpha[..., LENGTH].ravel(), *beta[..., LENGTH].ravel()], unit_of(alpha, beta)
+    bits, order = _of_conditions(A, b, unit, lengths)
+    if order < 1 + x.is_made:
         return None
     several = np.count_nonzero(alpha[..., VALUE], axis=1) > 1
     linked = bits
     bits += float(np.minimum(30, alpha[several][..., LENGTH].max(1, initial=0)).sum())
-    told = {"alpha": alpha, "beta": beta}
-    names = _names(*map(bool, (MATRIX.search(_head(x.name)), WEIGHTS.search(_head(y.name)))))
-    bits += _places(x, y) - 2 + 1.5 * names
+    best, wrong, nodes = _nodes(A, unit, rows)
+    told = {"alpha": alpha, "beta": beta, **({"nodes": nodes.numbers} if nodes else {})}
+    used = (x, y, *([nodes.of] if nodes else []))
     how = "the form of Shu and Osher"
-    return Reading("Shu–Osher", told, how, bits, order, linked, (x, y), x.line, names=names)
+    named = nodes is not None and NODES.search(nodes.of.name)
+    names, by_names = _names(
+        bool(MATRIX.search(_head(x.name)) or ALPHA.search(x.name)),
+        bool(WEIGHTS.search(_head(y.name)) or BETA.search(y.name)),
+        bool(named),
+    )
+    bits += best + by_names + _places(*used) - 2
+    return Reading(
+        "Shu–Osher", told, how, bits, order, linked, used, x.line, not wrong, names=names
+    )
 
 
 def _triangle(row: Floats) -> Floats | None:
@@ -281,7 +316,7 @@ def _with_velocities(
     used = tuple(dict.fromkeys([x, b.of, c.of, *([of_q.of] if of_q else [])]))
     told = {"A_q": A, "b": b.numbers, "c": c.numbers, **({"b_q": of_q.numbers} if of_q else {})}
     how = "; ".join(filter(None, ["for second-order equations", stored]))
-    names = _names(bool(WEIGHTS.search(b.of.name)), bool(NODES.search(c.of.name)), True)
+    names, _ = _names(bool(WEIGHTS.search(b.of.name)), bool(NODES.search(c.of.name)), True)
     bits = row_bits + linked + best - 1 + _places(*used)
     linked += row_bits
     return Reading("nystrom", told, how, bits, order, linked, used, x.line, names=names)

@@ -43,6 +43,8 @@ class Entry(NamedTuple):
 
 NOTHING = Entry(0.0, 0.0, 0.0, 0)
 """A zero that nobody wrote."""
+ALL = Entry(1.0, 0.0, 0.0, 1)
+"""A one that nobody wrote."""
 
 
 class Given(Frozen, eq=False):
@@ -54,6 +56,7 @@ class Given(Frozen, eq=False):
         rows: its numbers; of a vector there is one row.
         is_matrix: whether it is more than that row.
         is_made: whether it was put together, of single numbers or rows with like names.
+        beside: numbers without an index beside it, one of which may be its diagonal.
     """
 
     name: str
@@ -61,6 +64,7 @@ class Given(Frozen, eq=False):
     rows: tuple[tuple[Entry, ...], ...]
     is_matrix: bool = False
     is_made: bool = False
+    beside: tuple[Entry, ...] = ()
 
     @property
     def owner(self) -> str:

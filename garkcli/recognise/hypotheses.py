@@ -128,6 +128,13 @@ def _nodes_left_short(M: Floats) -> Parts | None:
     return Parts(padded(M[:, 1:], r), M[:, 0], how=how, needs_nodes=True)
 
 
+def _weights_below_diagonal(M: Floats) -> Parts | None:
+    r, k = M.shape[:2]
+    if r != k or r < 3 or not (is_lower(M) and _has_diagonal(M[:-1])) or M[:, -1, VALUE].any():
+        return None
+    return Parts(M[:-1, :-1], None, (M[-1, :-1],), "the weights are the last row")
+
+
 def _weights_below_from_second(M: Floats) -> Parts | None:
     r, k = M.shape[:2]
     if r != k + 1 or k < 2 or not is_lower(M[:-1]) or not _has_diagonal(M[:-1]):
@@ -161,6 +168,7 @@ MATRICES: tuple[Shape, ...] = (
     _nodes_left,
     _nodes_left_from_second,
     _nodes_left_short,
+    _weights_below_diagonal,
     _weights_below_from_second,
     partial(_weights_last, count=1),
     partial(_weights_last, count=2),
@@ -254,8 +262,29 @@ def _all_parts(given: Given) -> Iterator[Parts]:
     if max(numbers.shape[:2]) > MOST_STAGES or numbers.size < 8:
         return
     yield from filter(None, (shape(numbers) for shape in MATRICES))
+    if is_lower(numbers) and numbers.shape[0] == numbers.shape[1]:
+        for entry in given.beside:
+            yield from _with_diagonal(numbers, np.array(entry))
     if len({*map(len, given.rows)}) == 1:
         turned = numbers.transpose(1, 0, 2)
         for parts in filter(None, (shape(turned) for shape in MATRICES)):
             how = "columns are stages" + (f": {parts.how}" if parts.how else "")
             yield parts._replace(how=how, prior=parts.prior - 2)
+
+
+def _with_diagonal(M: Floats, entry: Floats) -> Iterator[Parts]:
+    """A lower matrix with a number where its diagonal has none: everywhere, from the second row on,
+    also as all of that row, or without the last row, which has the weights.
+    """
+    how = "the diagonal is a number of its own"
+    for first in (0, 1):
+        A = M.copy()
+        missing = [i for i in range(first, len(A)) if not A[i, i, VALUE]]
+        A[missing, missing] = entry
+        yield Parts(A, how=how)
+        if first and not A[1, 0, VALUE]:
+            A = A.copy()
+            A[1, 0] = entry
+            yield Parts(A, how=how)
+        if not M[:, -1, VALUE].any():
+            yield Parts(A[:-1, :-1], None, (M[-1, :-1],), f"{how}; the weights are the last row")

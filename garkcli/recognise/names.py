@@ -17,3 +17,4 @@ MATRIX = re.compile(
     re.I,
 )
 EMBEDDED = re.compile(r"hat|emb|err|low|tilde|star|2|bh|_e$|b_?e|cmp|E$", re.I)
+ALPHA, BETA = re.compile("alpha|α", re.I), re.compile("beta|β", re.I)

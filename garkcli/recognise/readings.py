@@ -13,7 +13,7 @@ from garkcli.recognise.evidence import Evidence, evidence, order_of, row_sums, u
 from garkcli.recognise.given import LENGTH, UNIT, VALUE, Given, Group
 from garkcli.recognise.hypotheses import Parts, is_lower, parts_of
 from garkcli.recognise.names import EMBEDDED, MATRIX, NODES, WEIGHTS
-from garkcli.recognise.vectors import Vector, fitted, sums_of, vectors_of
+from garkcli.recognise.vectors import Vector, fitted, nodes_in, sums_of, vectors_of
 
 if TYPE_CHECKING:
     from garkcli.arrays import Floats
@@ -120,11 +120,7 @@ class _Search:
                 off, _, explained = row_sums(parts.A, parts.c)
                 if (np.abs(off) > explained).any():
                     continue
-            near = [
-                x
-                for x in self._vectors
-                if x.of is not of and (abs(len(x.numbers) - s) <= 1 or s < len(x.numbers) <= s + 8)
-            ]
+            near = [x for x in self._vectors if x.of is not of and s - 3 <= len(x.numbers) <= s + 8]
             near = sorted(near, key=lambda x: abs(x.of.line - of.line))[:NEAREST]
             weights = self._weights(of, parts, near)
             for c in self._nodes(of, parts, near) if weights else ():
@@ -142,7 +138,7 @@ class _Search:
         sums = [x for x in sums if abs(x.of.line - of.line) < 80 and not _is_alike(x.of, parts.A)]
         found: list[tuple[int, Vector]] = []
         for each in (*near, *sums):
-            for c in fitted(each, s):
+            for c in nodes_in(each, parts.A[..., VALUE]):
                 if c.is_cut_in_front and parts.A[-1, :, VALUE].any():
                     continue
                 self.tried += 1
@@ -194,7 +190,7 @@ class _Search:
         plain = found.bits - 4 * len(found.wrong_rows)
         bits = plain
         if s > 2 and (b.is_off or len(found.wrong_rows) == 1):
-            mended = _mended(parts.A, b.numbers, nodes, found, b.is_off)
+            mended = _mended(parts.A, b.numbers, nodes, found, b.is_off, of.is_made)
             if b.is_off and mended < 0:
                 return None
             bits = max(bits, mended)
@@ -234,7 +230,7 @@ class _Search:
     def _may_have_order_one(self, of: Given, parts: Parts, b: Vector, c: Vector | None) -> bool:
         """Whether a method of order 1 is read: there are nodes, in one record, with all names."""
         if parts.weights or c is None or b.of is of:
-            return bool(parts.weights) and c is not None
+            return bool(parts.weights) and c is not None and not of.is_made
         are_named = MATRIX.search(of.name) and WEIGHTS.search(b.of.name)
         has_nodes = parts.c is not None or NODES.search(c.of.name)
         return b.of.owner == of.owner and bool(are_named and has_nodes)
@@ -276,6 +272,7 @@ def _prior(of: Given, parts: Parts, b: Vector, c: Vector | None) -> tuple[float,
     elif c is not None and c.of is not of:
         named.append(bool(NODES.search(c.of.name)))
         prior += 1.5 * named[-1]
+        named += [named[0]] * b.is_last_row
     prior += 2.0 * (sum(named) == 3)
     for x in (b, c):
         if x is not None and x.of is not of:
@@ -284,8 +281,12 @@ def _prior(of: Given, parts: Parts, b: Vector, c: Vector | None) -> tuple[float,
     return prior, sum(named)
 
 
-def _mended(A: Floats, b: Floats, c: Floats | None, found: Evidence, is_off: bool) -> float:
-    """Bits of the best table that differs by one entry, less what it costs to name that."""
+def _mended(
+    A: Floats, b: Floats, c: Floats | None, found: Evidence, is_off: bool, is_made: bool
+) -> float:
+    """Bits of the best table that differs by one entry, less what it costs to name that. Where each
+    entry has a name, one that is left out may be known elsewhere.
+    """
     best: float | None = None
     count = int((A[..., VALUE] != 0).sum()) + 2 * len(b)
     if is_off:
@@ -299,6 +300,8 @@ def _mended(A: Floats, b: Floats, c: Floats | None, found: Evidence, is_off: boo
     elif c is not None:
         (i,) = found.wrong_rows
         lower = is_lower(A)
+        if is_made and not A[i, :i, VALUE].all():
+            return -1e9
         for j in range(len(b)):
             if (lower and j > i) or (not A[i, j, VALUE] and len(b) > 8):
                 continue
@@ -320,22 +323,26 @@ def with_beside(reading: Reading, group: Iterable[Given]) -> Reading:
     assert b is not None
     sums, unit = A[..., VALUE].sum(1), unit_of(A, b)
     rows, used, idle = dict(reading.rows), reading.used, []
-    for each in (x for given in group for x in vectors_of(given)):
-        if each.of in reading.used or len(each.numbers) != len(b) or each.is_behind_first:
+    vectors = (x for given in group for x in vectors_of(given) if given not in reading.used)
+    for each in (x for of in vectors for x in fitted(of, len(b))):
+        if each.is_behind_zero or each.is_behind_first:
             continue
         v = each.numbers[:, VALUE]
         if any(x is not None and np.array_equal(v, x[:, VALUE]) for x in (b, c)):
             continue
         if abs(each.of.line - reading.line) > BESIDE or each.of.owner != reading.used[0].owner:
             continue
-        off, is_error = each.total - 1, abs(each.total) <= each.rounding
-        is_low = abs(off) <= each.rounding and order_of(A[..., VALUE], v, unit, 2) > 0
+        off, is_error, name = each.total - 1, abs(each.total) <= each.rounding, each.of.name
+        least = 2 if each.is_fitted and not EMBEDDED.search(name) else 1
+        is_low = abs(off) <= each.rounding and order_of(A[..., VALUE], v, unit, 2) >= least
         if "embedded" not in rows and "error" not in rows and (is_low or is_error) and v.any():
             rows["error" if is_error else "embedded"] = each.numbers
             used = (*used, each.of)
-        elif not (is_low or is_error) and WEIGHTS.search(each.of.name):
+        elif each.is_fitted or each.of.is_made or is_low or is_error:
+            continue
+        elif WEIGHTS.search(name):
             idle.append(each.of)
-        elif c is None and NODES.search(each.of.name) and not WEIGHTS.search(each.of.name):
+        elif c is None and NODES.search(name):
             wide = 30 * (each.numbers[:, UNIT] + A[..., UNIT].sum(1)) + 1e-12
             idle += [each.of] if (np.abs(v - sums) > wide).any() else []
     return replace(reading, rows=rows, used=used, idle=tuple(dict.fromkeys(idle)))

@@ -8,11 +8,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from garkcli.frozen import Frozen, replace
-from garkcli.recognise.given import LENGTH, UNIT, VALUE, Given
+from garkcli.recognise.given import ALL, AT, LENGTH, UNIT, VALUE, Given
 
 if TYPE_CHECKING:
     from garkcli.arrays import Floats
 
+MOST_LACKING = 3
+"""So many nodes may be left out."""
 WIDEST = 3
 """A matrix of so many rows or columns may be several vectors."""
 
@@ -27,6 +29,8 @@ class Vector(Frozen, eq=False):
         how: that is said in words.
         is_behind_first: whether another number is in front.
         is_behind_zero, is_cut_in_front: whether a zero was put in front, or behind.
+        is_fitted: whether zeros were put in, or left out.
+        is_incomplete: whether some of its numbers are row sums.
         is_sum: whether it has the row sums of a matrix.
         is_off: whether its sum is nearly 1, and no rounding explains the difference.
         is_last_row: whether it is one of the matrix that it is tried with.
@@ -39,6 +43,8 @@ class Vector(Frozen, eq=False):
     is_behind_first: bool = False
     is_behind_zero: bool = False
     is_cut_in_front: bool = False
+    is_fitted: bool = False
+    is_incomplete: bool = False
     is_sum: bool = False
     is_off: bool = False
     is_last_row: bool = False
@@ -94,7 +100,33 @@ def fitted(vector: Vector, stages: int) -> Iterator[Vector]:
         yield vector
     elif n == stages - 1 and stages > 1:
         zero = np.zeros((1, numbers.shape[1]))
+        vector = replace(vector, is_fitted=True)
         yield replace(vector, numbers=np.concatenate([zero, numbers]), is_behind_zero=True)
         yield replace(vector, numbers=np.concatenate([numbers, zero]), is_cut_in_front=True)
     elif n > stages and not numbers[stages:, VALUE].any():
-        yield replace(vector, numbers=numbers[:stages])
+        yield replace(vector, numbers=numbers[:stages], is_fitted=True)
+
+
+def nodes_in(vector: Vector, A: Floats) -> Iterator[Vector]:
+    """A vector as nodes. Those that have names of their own may lack the last ones, which are 1,
+    and the first one, which is 0; others that are left out are row sums.
+
+    Args:
+        vector: of them.
+        A: the matrix, shape (s, s).
+    """
+    numbers, n, stages = vector.numbers, len(vector.numbers), len(A)
+    found = list(fitted(vector, stages))
+    lacking = stages - n if vector.of.is_made and stages > 2 else 0
+    for ones in (lacking - 1, lacking) if lacking <= MOST_LACKING else ():
+        if ones > 0:
+            parts = [np.zeros((lacking - ones, numbers.shape[1])), numbers, np.array([ALL] * ones)]
+            found.append(replace(vector, numbers=np.concatenate(parts)))
+    for each in found:
+        missing = (each.numbers[:, AT] == 0) & (A.sum(1) != 0) if vector.of.is_made else [False]
+        if np.any(missing):
+            filled = each.numbers.copy()
+            filled[missing, VALUE] = A.sum(1)[missing]
+            each = replace(each, numbers=filled, is_incomplete=True)
+        if np.sum(missing) < 3:
+            yield each

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import isqrt
 from typing import TypeAlias
 
 from garkcli.frozen import Frozen, replace
@@ -13,7 +12,7 @@ from garkcli.sources.found import MAX_STAGES, FoundTable, Misshapen, Row, Rows, 
 from garkcli.sources.known import conversion
 from garkcli.sources.linear_stages import FORMS as ROSENBROCK
 from garkcli.sources.linear_stages import rosenbrock_table
-from garkcli.sources.registers import Converted, converted, recognised
+from garkcli.sources.registers import Converted, converted
 from garkcli.sources.shaping import (
     ZERO,
     Texts,
@@ -127,7 +126,7 @@ def table_of(meant: Meant) -> FoundTable:
         if not (is_sure or is_unread or (is_close and _has_weights(roles))):
             trouble = f"arrays called A and b do not fit together: {trouble}"
             return replace(troubled(empty, trouble), is_sure=False)
-        return troubled(empty, trouble, is_sure and is_misshapen)
+        return troubled(empty, trouble, told.is_sure and is_misshapen)
 
 
 def _refuse_uses(roles: Roles) -> None:
@@ -241,7 +240,7 @@ def _of_blocks(roles: Roles, empty: FoundTable) -> FoundTable:
     are_alike = len(set(A)) == 1 and len(set(c or "-")) == 1
     return replace(
         empty,
-        is_sure=True,
+        is_sure=empty.is_sure or colours > 1,
         A=A[:1] if are_alike else A,
         b=b,
         c=(c or (None,) * len(A))[: 1 if are_alike else None],
@@ -284,7 +283,7 @@ def _stages(roles: Roles) -> int:
 def _single(meant: Meant, roles: Roles, empty: FoundTable) -> FoundTable:
     """A table of one colour."""
     stages = 0
-    roles = _without_further_stages(_with_ends(_with_both_rows(roles)))
+    roles = _with_ends(_with_both_rows(roles))
     if "stages" in meant.signature.roles:
         stages = _stages(roles)
     elif empty.is_sure:
@@ -343,29 +342,6 @@ def _with_both_rows(roles: Roles) -> Roles:
     return {**roles, "b": rows[0], "embedded": rows[1]}
 
 
-def _without_further_stages(roles: Roles) -> Roles:
-    """The stages that have weights, where A is a triangle in one row and has further stages: those
-    of dense output. The nodes are the row sums.
-    """
-    A, b, c = (items_of(roles.get(x)) for x in ("A", "b", "c"))
-    stages = (1 + isqrt(1 + 8 * len(A))) // 2
-    nodes = c[1 - stages :]
-    if 2 * len(A) != stages * (stages - 1) or len(nodes) != stages - 1 or not 1 < len(b) < stages:
-        return roles
-    has_diagonal = len(b) == len(c) and abs(near(*c[:1])) < _SAME
-    if has_diagonal or any(isinstance(x, Array) for x in (*A, *b, *c)):
-        return roles
-    rows = [A[i * (i - 1) // 2 : i * (i + 1) // 2] for i in range(stages)]
-    pairs = zip(rows[1:], nodes, strict=True)
-    if sum(abs(near(*row) - near(node)) > _SAME for row, node in pairs) > 1:
-        return roles
-    return {
-        **roles,
-        "A": Array([Array(x) for x in rows[: len(b)]]),
-        "c": Array(nodes[: len(b) - 1]),
-    }
-
-
 def _orders(roles: Roles) -> tuple[int | None, int | None]:
     """The declared orders; a pair of them, or the lower and the higher one, are those of weights
     and embedded weights that are rows of one matrix.
@@ -410,10 +386,10 @@ def _of_registers(meant: Meant, roles: Roles) -> tuple[str, Converted] | None:
     if not isinstance(A, Array) or is_matrix(A) or not isinstance(b, Array):
         return None
     row, b_row = plain(A), weights(plain(b))
-    if not is_row(row) or not _is_pair_of_rows(row_of(row), len(b_row)):
-        return None
-    nodes = None if c is None else [near(x) for x in Array([c]).flat()]
-    return recognised(row_of(row), b_row, nodes)
+    if is_row(row) and _is_pair_of_rows(row_of(row), len(b_row)):
+        # numbers of registers, which say themselves of which form
+        raise NoTable
+    return None
 
 
 def _is_pair_of_rows(row: Row, stages: int) -> bool:

@@ -222,6 +222,12 @@ class Evaluator:
         before, self._steps = self._steps, 0
         self._walked(scope, inner)
         self._steps = before
+        if isinstance(inner.get("this"), Array):
+            # the entries of a class that is an array
+            is_class = scope.kind == "class"
+            self._store(
+                ir.Name(scope.name if is_class else "this"), inner["this"], space, scope.line
+            )
         if scope.name == "order" and isinstance(inner.returned, Number):
             # a method of a class, which gives the order
             space[scope.name] = inner.returned

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import defaultdict
-from collections.abc import Collection, Iterator, Mapping, Sequence
-from operator import sub
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 from garkcli.frozen import Mutable, field, replace
@@ -29,7 +28,7 @@ from garkcli.sources.linear_stages import roles_of_kpp
 from garkcli.sources.naming import ROLES, role_of, roles_of_parts
 from garkcli.sources.overlooked import overlooked, sized
 from garkcli.sources.rklab import blocks_in
-from garkcli.sources.scalar_names import NEAR, scalar_roles
+from garkcli.sources.scalar_names import NEAR, whole_families
 from garkcli.sources.signatures import (
     DRIFT_FIRST,
     KPP,
@@ -65,9 +64,6 @@ _NUMBERED = re.compile(
     r"_?(?P<at>[0-9]{1,2}(?:_[0-9]{1,2})?)"
 )
 """Names of arrays with the numbers of vector fields."""
-_ARRAY = re.compile(r"(?P<stem>\w{1,200}?)_(?P<role>(?:a[0-9]{1,2}|b|db|c)|[ab]_type)")
-"""Names of classes that are arrays."""
-_OF_CLASSES = {"a_type": "drifts", "b_type": "kicks", "b": "b", "c": "c", "db": "error"}
 _WHOLE = re.compile(
     r"(?:(?P<stem>\w{1,200}?)_)??(?:butcher_?)?(?:tableau|table|matrix)(?:_?matrix)?"
 )
@@ -127,10 +123,10 @@ class TableFinder(Harvester):
         self._meant: list[Meant] = []
         self._other: dict[tuple[str, int], FoundTable] = {}
         self._users: dict[tuple[str, int], dict[str, Value | None]] = {}
-        self._arrays: dict[str, dict[str, tuple[Array, int]]] = {}
         self._taken: set[tuple[str, int]] = set()
         self._refilled: dict[int, Value] = {}
         self._halves: set[tuple[str, int]] = set()
+        self._made: set[int] = set()
         self.told: dict[int, Roles] = {}
 
     def tables(self, body: ir.Body, text: str) -> list[FoundTable]:
@@ -139,7 +135,7 @@ class TableFinder(Harvester):
         used: set[str] = set()
         read: set[object] = set()
         doubtful: dict[object, object] = {}
-        for meant in [*self._meant, *self._of_classes()]:
+        for meant in self._meant:
             users = self._users.get((meant.maker, meant.table.line), {})
             for order in users.values():
                 if order is not None:
@@ -165,7 +161,6 @@ class TableFinder(Harvester):
         # a call that takes the arrays of a table which is read
         found = {key: x for key, x in found.items() if doubtful.get(key) not in read}
         told = [x.line for x in (*found.values(), *self._other.values())]
-        told += [line for arrays in self._arrays.values() for _, line in arrays.values()]
         for scope in overlooked(body, text, self.source, told, used, self.lost):
             trouble = self.lost.get((scope.kind, scope.line), UNRECOGNISED)
             self._unread(scope.title, scope.line, trouble, other_kind(scope.name))
@@ -186,11 +181,6 @@ class TableFinder(Harvester):
         written out, by the names of numbers.
         """
         super().ended(scope, space)
-        named = _ARRAY.fullmatch(scope.name)
-        entries = space.get("this")
-        if named and isinstance(entries, Array):
-            self._arrays.setdefault(named["stem"], {})[named["role"]] = entries, scope.line
-            return
         records = [x.fields for x in space.values() if isinstance(x, Record) and not x.kind]
         packed = roles_of_kpp(space)
         packed = packed or next(filter(None, (roles_of_kpp(x, "") for x in records)), None)
@@ -210,24 +200,24 @@ class TableFinder(Harvester):
         for record in made:
             if (record.kind, record.line) not in self._halves:
                 self._of_record(record, scope)
-        values, lines = dict(space), space.lines
+        rows = [x for x in self.rows if (role_of(x.name) or "")[1:] == ("A",)]
+        values = {x.name: self.harvest.value(x) for x in rows} | dict(space)
+        lines = {x.name: x.line for x in rows} | space.lines
         known = {shown(x) for meant in self._meant[first:] for x in meant.roles.values()}
         if self._count() == count or known:
             self._of_names(values, lines, scope, known)
         looks_like_a_step = self._count() == count and self._of_step(scope, space)
-        if self._count() > count:
-            return
-        for owner, own in _by_owner(values).items():
-            line = scope.line if not owner else min(lines.get(f"{owner}::{x}", 1) for x in own)
-            self._of_scalars(owner or scope.title, own, line)
+        if self._count() == count and self.made:
+            # c10 is an entry of c
+            by_kind = sorted(self.made, key=lambda x: not x.is_matrix)
+            named = {x.name.replace(".", "::"): x for x in by_kind}
+            arrays = whole_families({name: self.harvest.value(x) for name, x in named.items()})
+            self._made = set(map(id, arrays.values()))
+            self._of_names(arrays, {name: x.line for name, x in named.items()}, scope)
         if self._count() > count:
             return
         if looks_like_a_step:
             self.lost[scope.kind, scope.line] = "a step that is not followed"
-        for record in made:
-            if _looks_like_a_table(record.args):
-                told = f"a matrix, its row sums and weights as arguments of {record.kind}"
-                self._unread(self._name(record, scope), record.line, told)
 
     def _count(self) -> int:
         return len(self._meant) + len(self._other)
@@ -262,19 +252,6 @@ class TableFinder(Harvester):
         if is_whole and id(record.fields[name]) not in self._refilled:
             self._of_record(record, scope)
             self._refilled |= both
-
-    def _of_classes(self) -> Iterator[Meant]:
-        """Tables whose arrays are classes: a1, a2, …, b, db, c."""
-        for stem, arrays in self._arrays.items():
-            given = {name: x for name, (x, _) in arrays.items()}
-            roles: Roles = {x: given[name] for name, x in _OF_CLASSES.items() if name in given}
-            rows = [given[f"a{i}"] for i in range(1, len(given) + 1) if f"a{i}" in given]
-            line = min(line for _, line in arrays.values())
-            if {"drifts", "kicks"} <= set(roles):
-                yield Meant(self._place("", line), roles, DRIFT_FIRST)
-            elif "b" in roles and rows:
-                roles["A"] = Array([Array([]), *rows])
-                yield Meant(self._place(stem.removesuffix("_coefficients"), line), roles)
 
     def _declared_by_class(self, scope: ir.Scope, space: Space) -> None:
         """The order of a class is that of the table which it uses; a table whose name is private
@@ -332,8 +309,6 @@ class TableFinder(Harvester):
         roles = _roles_of({} if parts else fields, told) | roles
         is_coupling = signature.form in {COUPLING, "slow"}
         if not (is_complete(roles) or signature.has_default_weights or is_coupling):
-            if signature is NAMED:
-                self._of_scalars(name, fields, record.line)
             return
         if signature.is_guess and not all(isinstance(roles.get(x), Array) for x in ("A", "b")):
             return
@@ -381,7 +356,8 @@ class TableFinder(Harvester):
         ]
         for key, block, line in tableaus:
             own = scope.title if len(tableaus) == 1 and scope.title else key
-            self._meant.append(Meant(self._place(own, line), dict(block), maker="B"))
+            place = self._place(own, line, is_sure=len(items_of(block["A"])) > 1)
+            self._meant.append(Meant(place, dict(block), maker="B"))
         if tableaus:
             return
         records = [x for x in values.values() if isinstance(x, Record) and not x.kind]
@@ -390,9 +366,6 @@ class TableFinder(Harvester):
         orders = {x: fields[x] for x in _ORDERS if x in fields and not is_table}
         for stem, group in self._groups(values, lines, scope, beside).items():
             roles = _with_grid(group.roles)
-            if {"A", "c", "gamma"} <= set(roles) and _is_triangle(roles["c"], roles["gamma"]):
-                # α, β, γ are the matrix in one row, the weights and the nodes
-                roles |= {"A": roles["c"], "b": roles["A"], "c": roles.pop("gamma")}
             if known and not (is_complete(roles) and shown(roles.get("A", NULL)) not in known):
                 continue
             if not is_complete(roles):
@@ -413,8 +386,11 @@ class TableFinder(Harvester):
                     self._unread(name, max(line for _, line in group.places), ANEW)
                 continue
             notes = not_read(group.unread)
-            place = self._place(name, begin, is_sure=is_sure, notes=notes)
-            self._meant.append(Meant(place, roles, PARTS if are_parts else NAMED, bases=bases))
+            is_made = isinstance(roles.get("A"), Array) and id(roles["A"]) in self._made
+            told = {"is_assembled": is_made, "notes": notes}
+            place = self._place(name, begin, is_sure=is_sure, **told)
+            signature = PARTS if are_parts else DRIFT_FIRST if "drifts" in roles else NAMED
+            self._meant.append(Meant(place, roles, signature, bases=bases))
 
     def _groups(
         self,
@@ -481,16 +457,6 @@ class TableFinder(Harvester):
         self.allowance.table(found, is_kept=(name, line) not in self._other)
         self._other[name, line] = found if kind else troubled(found, trouble)
 
-    def _of_scalars(self, name: str, values: Mapping[str, Value], line: int) -> None:
-        """Coefficients with names of their own: a21, b1."""
-        found = scalar_roles(values)
-        if found is not None and found.kind:
-            self._unread(name, line, kind=found.kind)
-        elif found is not None:
-            notes = tuple(found.notes)
-            place = self._place(name, line, is_sure=False, is_assembled=True, notes=notes)
-            self._meant.append(Meant(place, found.roles))
-
 
 def _is_matrix_of_stages(name: str) -> bool:
     """Whether the name is one of A, or of a block of it: it is no whole tableau then."""
@@ -526,28 +492,6 @@ def _is_general_linear(values: Mapping[str, Value]) -> bool:
     return any(all(map(is_matrix, case)) for case in cases)
 
 
-def _looks_like_a_table(values: Sequence[Value]) -> bool:
-    """Whether there are a matrix, its row sums and a row of numbers with the sum 1."""
-    for A in values:
-        if is_matrix(A) and first_unknown(A) is None:
-            sums = [near(row) for row in A.items]
-            given = [[near(x) for x in items_of(row)] for row in values if row is not A]
-            rows = [row for row in given if len(row) == len(sums) > 1]
-            are_nodes = [max(map(abs, map(sub, row, sums))) < NEAR for row in rows]
-            if len(rows) > 1 and any(are_nodes) and any(abs(sum(x) - 1) < NEAR for x in rows):
-                return True
-    return False
-
-
-def _by_owner(values: Mapping[str, Value]) -> Mapping[str, Mapping[str, Value]]:
-    """The values by the class that they belong to: ``RKF45::a21``."""
-    found: dict[str, dict[str, Value]] = {}
-    for name, value in values.items():
-        owner, _, plain = name.rpartition("::")
-        found.setdefault(owner, {})[plain] = value
-    return found
-
-
 def _is_given(value: Value) -> bool:
     """Whether a value is an argument, or a part of one: then a table is used, and none is made."""
     return isinstance(value, Unknown) and "the argument" in value.reason
@@ -579,12 +523,6 @@ def _with_grid(given: Roles) -> Roles:
     elif {at for at in of if at[0] == "b"} == {("b", "1"), ("b", "2")}:
         roles = {"b": of["b", "1"], "embedded": of["b", "2"], **roles}
     return roles
-
-
-def _is_triangle(entries: Value, row: Value) -> bool:
-    """Whether there is an entry for each pair of what is in a row."""
-    m, n = (len(items_of(x)) for x in (entries, row))
-    return n > 0 and 2 * m == n * (n - 1) and not any(isinstance(x, Array) for x in items_of(row))
 
 
 def _halves_of(values: Sequence[Value]) -> Sequence[Record]:

@@ -25,6 +25,7 @@ from garkcli.sources.evaluate import Evaluator, Space
 from garkcli.sources.naming import METHODS
 from garkcli.sources.values import (
     FILL,
+    ONE,
     Array,
     Null,
     Number,
@@ -53,6 +54,8 @@ _ORDER = re.compile(
     r"(?:^|[._])(?:p|q|order\w*|rk_?order|expected_order|__order__|p_?order|ord)$", re.IGNORECASE
 )
 MOST_INDEX = 40
+MOST_BESIDE = 3
+"""So many numbers are tried as a diagonal."""
 MOST_ORDER = 20
 
 _Rows = tuple[tuple[Entry, ...], ...]
@@ -70,6 +73,8 @@ class Harvester(Evaluator):
     Attributes:
         groups: the scopes, inner ones first.
         harvest: their arrays.
+        made, rows: arrays of the last scope that were put together, of numbers or rows with like
+            names.
     """
 
     def __init__(
@@ -80,6 +85,8 @@ class Harvester(Evaluator):
         self.format = format
         self.groups: list[Group] = []
         self.harvest = Harvest()
+        self.made: list[Given] = []
+        self.rows: list[Given] = []
         self._before: dict[int, list[Given]] = defaultdict(list)
         self._placed: dict[tuple[int, str], _Numbers] = defaultdict(dict)
         self._handles: dict[int, tuple[int, Space]] = {}
@@ -112,9 +119,9 @@ class Harvester(Evaluator):
                 if len({*map(len, numbers)}) == 1:
                     arrays += _filled(name, numbers, scope.line, self.base)
         known = {x.key for x in arrays}
-        arrays += [x for x in _families(found.singles) if x.key not in known]
-        arrays += _of_rows(arrays)
-        arrays = _in_records(arrays)
+        self.made = [x for x in _families(found.singles) if x.key not in known]
+        self.rows = list(_of_rows([*arrays, *self.made]))
+        arrays = _in_records([*arrays, *self.made, *self.rows])
         if not arrays and id(space) not in self._handles:
             return
         around = None if space.up is None else self._handle(space.up)
@@ -162,7 +169,7 @@ class Harvest:
     """
 
     def __init__(self) -> None:
-        self.numbers: list[Number] = [FILL]
+        self.numbers: list[Number] = [FILL, ONE]
 
     def gather(self, name: str, value: Value, line: int, found: Gathered) -> None:
         """The arrays, single numbers and orders that a value has."""
@@ -246,6 +253,11 @@ class Harvest:
                 return None
         return tuple(found)
 
+    def value(self, x: Given) -> Value:
+        """An array of the numbers as they are in the source."""
+        rows = [Array([self.numbers[entry.at] for entry in row]) for row in x.rows]
+        return Array([*rows]) if x.is_matrix else rows[0]
+
     def entry(self, x: Number) -> Entry:
         """A number with what its text says."""
         if x is FILL or x.is_zero:
@@ -271,9 +283,11 @@ class Harvest:
 def _families(singles: Mapping[str, tuple[Entry, int]]) -> Iterator[Given]:
     """Numbers whose names differ in their indices: ``a21``, ``b_1``."""
     families: dict[tuple[str, int], _Numbers] = defaultdict(dict)
+    beside: dict[str, list[Entry]] = defaultdict(list)
     for name, (entry, line) in singles.items():
         found = _FAMILY.fullmatch(name.translate(_INDICES))
         if found is None:
+            beside[name.rpartition(".")[0]].append(entry)
             continue
         stem = f"{found['stem']}{found['tail']}"
         i, j = found["i"], found["j"]
@@ -291,7 +305,9 @@ def _families(singles: Mapping[str, tuple[Entry, int]]) -> Iterator[Given]:
         if highest <= MOST_INDEX and not is_sparse and (len(numbers) > 1 or highest == 2):
             line = min(line for _, line in numbers.values())
             first = 0 if any(0 in at for at in numbers) else 1
-            yield from _filled(stem, numbers, line, first)
+            others = [x for x in beside[stem.rpartition(".")[0]] if not x.value.is_integer()]
+            for x in _filled(stem, numbers, line, first):
+                yield replace(x, beside=tuple(others[:MOST_BESIDE])) if x.is_matrix else x
 
 
 def _filled(name: str, numbers: _Numbers, line: int, first: int) -> Iterator[Given]:
@@ -320,7 +336,7 @@ def _of_rows(arrays: Sequence[Given]) -> Iterator[Given]:
         numbers = sorted(rows)
         lengths = [len(rows[i].rows[0]) for i in numbers]
         are_growing = all(y - x == 1 for x, y in pairwise(lengths))
-        is_gapless = numbers[-1] - numbers[0] + 1 == len(numbers) > 2
+        is_gapless = numbers[-1] - numbers[0] + 1 == len(numbers) > (1 if lengths == [1, 2] else 2)
         if is_gapless and (are_growing or len({*lengths}) == 1):
             of = tuple(rows[i].rows[0] for i in numbers)
             yield Given(stem, rows[numbers[0]].line, of, is_matrix=True, is_made=True)

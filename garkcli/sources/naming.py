@@ -34,6 +34,8 @@ _WORDS: Mapping[str, tuple[str, ...]] = {
     "b_q": ("bbar", "b_bar", "b̄", "weights_bar"),
     "A1": ("A_hat",),
     "c1": ("c_hat",),
+    "drifts": ("a_type",),
+    "kicks": ("b_type",),
     "stages": ("stages", "s", "n_stages", "nstages"),
     "title": ("name", "title"),
     "fsal": ("fsal", "FSAL", "is_fsal"),
@@ -43,7 +45,7 @@ ROLES = {word: role for role, words in _WORDS.items() for word in words}
 _PREFIX = re.compile(r"(?P<word>[AaBbCcEd]|bhat|bh|Amat|bembed|order)_(?P<stem>\w+)")
 _SUFFIX = re.compile(
     r"(?P<stem>\w+?)_(?P<word>A|a|b|B|c|C|E|bh|bhat|b_hat|bembed|b2|order"
-    r"|embedded_order|embedded|dense|nodes|weights|stages|fsal|name)"
+    r"|embedded_order|embedded|dense|nodes|weights|stages|fsal|name|[ab]_type)"
 )
 _DIGIT = re.compile(r"(?P<stem>\w*[A-Za-z]\w*[0-9])(?P<word>[Aabc]|[Abc]_hat)")
 """``rk4a``, ``lsrk54b``, ``ars222A_hat``."""

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, TypeAlias
 
+from garkcli.constructions.registers import FORMS as REGISTERS
 from garkcli.frozen import replace
 from garkcli.sources.assembling import Meant, NoTable, table_of
 from garkcli.sources.finder import TableFinder
-from garkcli.sources.found import FoundTable, Row
-from garkcli.sources.shaping import changed
+from garkcli.sources.found import FoundTable, Row, Rows
+from garkcli.sources.shaping import ZERO, changed, is_zero
 from garkcli.sources.signatures import DRIFT_FIRST, NAMED, OTHER_KINDS, Signature
 from garkcli.sources.values import Array, Number, Value
 
@@ -27,7 +28,7 @@ _BESIDE = frozenset(
     for role in ("b", "c", "b_q", "drifts", "kicks", "embedded", "error")
     for part in ("", "1", "2")
 )
-_TABLEAU = re.compile("tableau|butcher|table|^[0-9]*$", re.IGNORECASE)
+_TABLEAU = re.compile("tableau|butcher|table|^new$|^[0-9]*$", re.IGNORECASE)
 """Names that many methods have."""
 _OTHERS = frozenset(
     ("Rosenbrock", "modified Patankar", "multirate", "general linear", "exponential", "stochastic")
@@ -36,8 +37,7 @@ _OTHERS = frozenset(
 FEWEST_NUMBERS = 4
 """So many numbers in arrays may be a method."""
 _FORMS = {
-    "2N": Signature([], "2N"),
-    "Shu–Osher": Signature([], "Shu–Osher"),
+    **{form: Signature([], form) for form in (*REGISTERS, "Shu–Osher")},
     "nystrom": NAMED,
     "drift-first": DRIFT_FIRST,
     "force-first": Signature(["drifts", "kicks"], "force-first"),
@@ -54,7 +54,8 @@ def with_readings(finder: TableFinder, tables: Sequence[FoundTable]) -> list[Fou
     from garkcli.recognise.choosing import readings_of  # numpy takes long to import
 
     source = _Source(finder)
-    told = [_told(finder.told.get(id(x), {})) for x in tables]
+    written = set(map(id, finder.harvest.numbers))
+    told = [_told(finder.told.get(id(x), {}), written) for x in tables]
     read_off = [x for x, table in zip(told, tables, strict=True) if table.is_read]
     everywhere = frozenset(n for x in read_off for own in x.values() for n in own)
     new: list[FoundTable] = []
@@ -90,7 +91,7 @@ def _in_place_of(reading: Reading, tables: Sequence[FoundTable]) -> Iterator[int
     group = reading.group
     lines = {reading.line, *(x.line for x in reading.used), *([group.line] if group else [])}
     for i, x in enumerate(tables):
-        if not (x.is_read or x.kind) and x.line in lines:
+        if not x.is_read and x.kind not in _OTHERS and x.line in lines:
             yield i
 
 
@@ -129,7 +130,7 @@ class _Source:
             return replace(empty, kind=kind) if kind else self._of_rk(reading, empty)
         rows = {role: self._value(x) for role, x in reading.rows.items()}
         if reading.form == "Shu–Osher":
-            rows = {"c": rows["alpha"], "A": rows["beta"]}
+            rows = {"c": rows.pop("alpha"), "A": rows.pop("beta"), **rows}
         if reading.form == "nystrom" and "b_q" not in rows:
             return None
         try:
@@ -142,7 +143,7 @@ class _Source:
         rows = reading.rows
         A = tuple(map(self._row, rows["A"]))
         b = self._row(rows["b"])
-        c = self._row(rows["c"]) if "c" in rows else None
+        c = self._nodes(rows["c"], A) if "c" in rows else None
         table = replace(empty, A=((A,),), b=(b,), c=(c,))
         if "embedded" in rows:
             return replace(table, embedded=(self._row(rows["embedded"]),))
@@ -151,6 +152,11 @@ class _Source:
             low, high = changed("-", b, error), changed("+", b, error)
             return replace(table, embedded=(low,), turned=(high,))
         return table
+
+    def _nodes(self, c: Floats, A: Rows) -> Row:
+        """The nodes; one that nobody wrote is the sum of its row."""
+        sums = (" + ".join(f"({x})" for x in row if not is_zero(x)) or ZERO for row in A)
+        return tuple(self._text(int(x[-1])) if x[-1] else y for x, y in zip(c, sums, strict=True))
 
     def _row(self, row: Floats) -> Row:
         return tuple(self._text(int(x[-1])) for x in row)
@@ -178,11 +184,13 @@ def _kind(names: str) -> str:
     return next(found, "")
 
 
-def _told(roles: Mapping[str, Value]) -> _Told:
-    """The same of the numbers of a table, by their roles."""
+def _told(roles: Mapping[str, Value], written: Collection[int]) -> _Told:
+    """The same of the numbers of a table that are written, by their roles."""
     arrays = {role: Array([x]).flat() for role, x in roles.items() if isinstance(x, Array)}
     return {
-        role: frozenset(id(x) for x in of if isinstance(x, Number) and not x.is_zero)
+        role: frozenset(
+            id(x) for x in of if isinstance(x, Number) and not x.is_zero and id(x) in written
+        )
         for role, of in arrays.items()
     }
 
@@ -195,8 +203,10 @@ def _is_about(numbers: frozenset[int], told: _Told) -> bool:
 
 def _explains(reading: Reading, numbers: frozenset[int], told: _Told) -> bool:
     """Whether a reading has all nodes and weights of a table, and most of its matrix; embedded ones
-    only where its form has them.
+    only where its form has them. A few numbers may be those of other tables, too.
     """
+    if sum(map(len, told.values())) < FEWEST_NUMBERS:
+        return False
     for role, own in told.items():
         common = len(own & numbers)
         if role.startswith("A") and common < MOST_OF * len(own):
@@ -211,4 +221,4 @@ def _explains(reading: Reading, numbers: frozenset[int], told: _Told) -> bool:
 
 def _is_same(x: FoundTable, y: FoundTable) -> bool:
     """Whether two tables are the same method."""
-    return (x.A, x.b, x.parts) == (y.A, y.b, y.parts)
+    return (x.A, x.b, x.c, x.parts) == (y.A, y.b, y.c, y.parts)

@@ -37,8 +37,6 @@ DIGITS = 300
 """Of balls around irrational ones."""
 COARSE = fmpq(1, 10**16)
 """A fraction that would approximate a number no better than that is exact."""
-NEAR = 1e-4
-"""Nodes and sums of rows that differ by less are meant to be the same."""
 SCHEMES: Mapping[str, Callable[..., Steps]] = {
     **FORMS,
     "3S*": three_registers,
@@ -135,32 +133,3 @@ def written(x: Number | int, ball: arb | int, units: dict[str, fmpq]) -> str:
     unit = rounded_up(arb(ball.rad()) + arb(10) ** min(last, first))
     units[text] = max(unit, units.get(text, unit))
     return text
-
-
-def recognised(A: Row, b: Row, c: Sequence[float] | None) -> tuple[str, Converted]:
-    """The scheme of two rows whose sums are the nodes, and whose weights have the sum 1.
-
-    Raises:
-        Unreadable: none of them, or several.
-    """
-    alike: dict[Converted, str] = {}
-    for form in FORMS:
-        made = converted(form, A, b)
-        nodes = [sum(row) for row in made.near[:-1]]
-        given = nodes if c is None else [0.0] * (len(b) - len(c)) + list(c)
-        pairs = [(sum(made.near[-1]), 1.0), *zip(nodes, given, strict=False)]
-        if len(given) == len(b) and all(abs(x - y) < NEAR for x, y in pairs):
-            alike.setdefault(made, form)
-    if len(alike) > 1 and c is None:
-        # the nodes are the row sums, and weights make at least order 2 with these
-        alike = {made: form for made, form in alike.items() if _has_order_two(made)} or alike
-    if len(alike) != 1:
-        kind = "no low-storage method" if not alike else "more than one low-storage method"
-        raise Unreadable(f"A and b are {kind} with these nodes" if c else f"A and b are {kind}")
-    made, form = alike.popitem()
-    return form, made
-
-
-def _has_order_two(made: Converted) -> bool:
-    *rows, weights = made.near
-    return abs(sum(b * sum(row) for b, row in zip(weights, rows, strict=True)) - 1 / 2) < NEAR

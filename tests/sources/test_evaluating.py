@@ -355,9 +355,12 @@ def test_two_stages_of_single_numbers() -> None:
     table = one("jl", f"{text}    c2 = T(2 // 3)\n    return Ralston(a21, b1, b2, c2)\nend\n")
     assert (table.A[0][0], table.b, table.is_assembled) == (RALSTON[0], (("1/4", "3/4"),), True)
     (table,) = julia.find(f"{text}    return Ralston(a21, b1, b2)\nend\n", "x")
-    assert (table.A[0][0], table.b, table.is_recognised) == (RALSTON[0], (("1/4", "3/4"),), True)
+    assert (table.A[0][0], table.b, table.c) == (RALSTON[0], (("1/4", "3/4"),), (None,))
     other = text.replace("1 // 4", "1 // 3")
-    assert julia.find(f"{other}    return Ralston(a21, b1, b2)\nend\n", "x") == []
+    (table,) = julia.find(f"{other}    return Ralston(a21, b1, b2)\nend\n", "x")
+    judged = audit(table)
+    assert judged is not None
+    assert not judged.is_read
 
 
 def test_the_order_of_a_class_is_that_of_its_table() -> None:

@@ -148,7 +148,7 @@ def test_the_order_is_that_of_the_method(name: str) -> None:
     assert found.order is not None
     assert found.order.order == order
     assert (found.embedded_order and found.embedded_order.order) == low
-    assert not found.findings
+    assert {x.code for x in found.findings} <= {"stored"}
 
 
 @pytest.mark.parametrize(
@@ -319,7 +319,7 @@ def test_the_same_method_however_it_is_stored(language: ModuleType, text: str) -
     judged = audit(table)
     assert judged is not None
     assert judged.order is not None
-    assert (judged.order.order, judged.findings) == (3, ())
+    assert (judged.order.order, {x.code for x in judged.findings} - {"stored"}) == (3, set())
 
 
 def test_loops_of_data_statements_make_no_zeros() -> None:
@@ -360,10 +360,12 @@ def test_tables_one_after_the_other_are_not_mixed() -> None:
     assert (mixed.trouble, mixed.b) == ("A is assigned anew without b, or b without A", ())
 
 
-def test_arguments_that_look_like_a_table_are_told() -> None:
-    """Heun's, for a class whose parameters are not known; a linear system is none."""
-    (table,) = python.find("heun = Tab([[0, 0], [1, 0]], [1/2, 1/2], [0, 1])", "x.py")
-    assert table.trouble == "a matrix, its row sums and weights as arguments of Tab"
+def test_arguments_that_are_a_table_are_one() -> None:
+    """Kutta's third order, for a class whose parameters are not known; a linear system is none."""
+    arguments = "[[0, 0, 0], [1/2, 0, 0], [-1, 2, 0]], [1/6, 2/3, 1/6], [0, 1/2, 1]"
+    found = only(python.find, f"k = Tab({arguments})")
+    assert found.order is not None
+    assert found.order.order == 3
     assert python.find("solve([[0, 0], [1, 0]], [1/2, 1/2], [1, 1])", "x.py") == []
 
 
@@ -546,7 +548,8 @@ def test_further_stages_new_arrays_diagonals(
     found = audit(table)
     assert found is not None
     assert found.order is not None
-    assert (found.order.order, found.findings) == (order, ())
+    assert found.order.order == order
+    assert {x.level for x in found.findings} <= {"note"}
     assert (found.embedded_order and found.embedded_order.order) == low
 
 
@@ -574,7 +577,7 @@ template <typename T, typename = void> struct Kutta {
 @pytest.mark.parametrize(
     ("find", "text", "orders", "told"),
     [
-        (matlab.find, "r.A = [0 0; 1 0]; r.b = [.5 .5]; r.A = [0 0; 0 0]; r.b = [0 1];", "21", ""),
+        (matlab.find, "r.A = [0 0; 1 0]; r.b = [.5 .5]; r.A = [0 0; .5 0]; r.b = [0 1];", "22", ""),
         (matlab.find, "A_1 = [0 0; 1 0]; b_1 = [.5 .5];", "-", "A and b have numbers"),
         (matlab.find, f"A = {KUTTA}; b = [1 4 1] / 6; c = sum(A, 2);", "3", ""),
         (julia.find, f"const K = (; A = SA{KUTTA}, b = SA[1/6, 2/3, 1/6])", "3", ""),

@@ -127,7 +127,7 @@ def test_names_and_forms() -> None:
         "RDPK3Sp35ConstantCache",
         ("the coefficients are those of the form 3S*",),
     )
-    assert told["2N, Carpenter and Kennedy"][0] == "rk4"
+    assert told["2N, Carpenter and Kennedy"][1][-1].endswith("the form 2N")
 
 
 def test_the_same_method_in_two_forms() -> None:
@@ -137,15 +137,13 @@ def test_the_same_method_in_two_forms() -> None:
     assert (str(found.A), str(found.b)) == (str(wanted.A), str(wanted.b))
 
 
-def test_without_nodes_it_is_a_guess() -> None:
-    """Weights with the sum 1 tell 2N from the others, and the table is in doubt; where these do not
-    tell it is not read.
-    """
+def test_numbers_tell_the_form() -> None:
+    """Also without nodes; numbers that meet order 2 in no form are none."""
     text = "\n".join(WILLIAMSON.splitlines()[:2])
     (table,) = c.find(text, "x.c")
-    assert (table.trouble, table.is_assembled) == ("", True)
-    (table,) = c.find("double a[3] = {0, .5, .25}, b[3] = {.25, .5, .25};", "x.c")
-    assert "more than one low-storage method" in table.trouble
+    assert (table.trouble, table.how) == ("", "the form 2N")
+    (wrong,) = c.find(text.replace("15", "14"), "x.c") or [None]
+    assert wrong is None
 
 
 def test_a_wrong_number_is_found(tmp_path: Path) -> None:

@@ -240,7 +240,7 @@ def test_the_order_is_that_of_the_method(name: str) -> None:
     assert found.order is not None
     assert found.order.order == order
     assert (found.embedded_order and found.embedded_order.order) == low
-    assert not found.findings
+    assert {x.code for x in found.findings} <= {"stored"}
 
 
 def test_two_tables_in_one_have_its_name_and_order() -> None:
@@ -317,6 +317,9 @@ LINEAR_ALGEBRA = {
     "complex numbers": "A = [[1, 2j], [3, 4]]\nb = [1, 2]\n",
     "one after the other": "A = [[1, 2], [3, 4]]\nb = [5, 6]\nf(A, b)\nA = [[2, 1], [0, 1]]\n",
     "a double integrator": "A = [[0, 1], [0, 0]]\nb = [[0], [1]]\nc = [[2, 0]]\n",
+    "two records": "a = array([(5, 42), (10, 1)])\nb = array([(5, 43), (10, 1)])\n",
+    "ones": "order = 1\na = [[1, 0], [0, 1]]\nb = [[1, 1], [1, 1]]\n",
+    "whole numbers": "a = array([[1, 0], [0, 1]])\nb = array([[0, 1], [1, 0]])\n",
     "one entry": f"Exact = {[[0] * 4] * 3 + [[0, 0, 0, 1]]}\n",
 }
 
@@ -343,11 +346,10 @@ def test_a_wrong_node_among_good_ones_is_told() -> None:
     assert "row 4 has the sum 3/5, its node is 4/5" in found.findings[0].message
 
 
-def test_a_node_of_a_row_with_an_entry_left_out_is_none() -> None:
-    """Where an entry is not there, the step may have it as a number of its own: nothing is read."""
+def test_a_row_with_an_entry_left_out_has_no_node() -> None:
+    """Where an entry is not there, the step may have it as a number of its own: no error."""
     text = LAST_DIAGONAL.replace("a42 = convert(T, -137 // 2720); ", "").replace("a42, ", "")
-    (table,) = julia.find(text, "x")
-    assert table.trouble == "rows and nodes that do not fit together"
+    assert not any(x.has_errors for x in map(audit, julia.find(text, "x")) if x is not None)
 
 
 @in_whole
