@@ -54,13 +54,11 @@ class Converted(Frozen):
         A: the matrix.
         b: the weights.
         units: by how much each of their texts may be off.
-        near: the floats next to A and, behind it, b.
     """
 
     A: Rows
     b: Row
     units: Units
-    near: Sequence[Sequence[float]]
 
 
 def converted(form: str, *printed: Nested) -> Converted:
@@ -99,8 +97,7 @@ def converted(form: str, *printed: Nested) -> Converted:
             tuple(written(x, ball, off) for x, ball in zip(*row, strict=True))
             for row in zip((*exact.A, exact.b), (*rounded.A, rounded.b), strict=True)
         )
-        near = tuple(tuple(float(_ball(x).mid()) for x in row) for row in (*exact.A, exact.b))
-    return Converted(tuple(A), b, tuple(off.items()), near)
+    return Converted(tuple(A), b, tuple(off.items()))
 
 
 def _steps(form: str, rows: Sequence[Any]) -> Steps:

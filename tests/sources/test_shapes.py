@@ -346,6 +346,15 @@ def test_a_wrong_node_among_good_ones_is_told() -> None:
     assert "row 4 has the sum 3/5, its node is 4/5" in found.findings[0].message
 
 
+def test_a_wrong_node_beside_ones_that_are_left_out_is_told() -> None:
+    """The first node and the last one are row sums; the third one is a misprint of 11/20."""
+    _, found = only(julia.find, LAST_DIAGONAL.replace("11 // 20", "12 // 20"))
+    assert found.order is not None
+    assert found.order.order == 4
+    (finding,) = [x for x in found.findings if x.level != "note"]
+    assert (finding.code, "row 3 has the sum 11/20" in finding.message) == ("nodes", True)
+
+
 def test_a_row_with_an_entry_left_out_has_no_node() -> None:
     """Where an entry is not there, the step may have it as a number of its own: no error."""
     text = LAST_DIAGONAL.replace("a42 = convert(T, -137 // 2720); ", "").replace("a42, ", "")
