@@ -231,9 +231,11 @@ def findings_of(subject: Subject) -> tuple[AuditFinding, ...]:
 
 
 def is_unrecognised(subject: Subject) -> bool:
-    """Whether single numbers that were put together are no method, by what it does."""
+    """Whether single numbers that were put together are no method, by what it does, or as more
+    than one row has another sum than its node.
+    """
     is_far_off = subject.order.order < 2 and not subject.is_slightly_off
-    return subject.table.is_assembled and is_far_off
+    return subject.table.is_assembled and (is_far_off or len(subject.wrong_rows) > 1)
 
 
 def _noted(table: FoundTable, message: str, code: str = "unread", level: Level = "note") -> Audited:

@@ -330,7 +330,9 @@ def with_beside(reading: Reading, group: Iterable[Given]) -> Reading:
         v = each.numbers[:, VALUE]
         if any(x is not None and np.array_equal(v, x[:, VALUE]) for x in (b, c)):
             continue
-        if abs(each.of.line - reading.line) > BESIDE or each.of.owner != reading.used[0].owner:
+        # numbers with names of their own take many lines
+        is_far = abs(each.of.line - reading.line) > BESIDE and not each.of.is_made
+        if is_far or each.of.owner != reading.used[0].owner:
             continue
         off, is_error, name = each.total - 1, abs(each.total) <= each.rounding, each.of.name
         least = 2 if each.is_fitted and not EMBEDDED.search(name) else 1

@@ -332,7 +332,9 @@ def test_a_linear_system_is_no_table(name: str) -> None:
 
 
 def test_a_wrong_node_among_good_ones_is_told() -> None:
-    """One of five nodes is no row sum: the table is read, and the row is named, as a doubt."""
+    """One of five nodes is no row sum: the table is read, and the row is named, as a doubt; with two
+    it is none.
+    """
     rows = {2: "1/5", 3: "3/40 9/40", 4: "3/10 -9/10 6/5", 5: "-11/54 5/2 -70/27 35/27"}
     rows |= {6: "1631/55296 175/512 575/13824 44275/110592 253/4096"}
     named = {f"a{i}{j}": x for i, row in rows.items() for j, x in enumerate(row.split(), start=1)}
@@ -344,6 +346,10 @@ def test_a_wrong_node_among_good_ones_is_told() -> None:
     assert found.order.order == 5
     assert [(x.code, x.level) for x in found.findings] == [("nodes", "warning")]
     assert "row 4 has the sum 3/5, its node is 4/5" in found.findings[0].message
+    (table,) = python.find(text.replace("c3 = 3/10", "c3 = 1/10"), "x")
+    two = audit(table)
+    assert two is not None
+    assert not two.is_read
 
 
 def test_a_wrong_node_beside_ones_that_are_left_out_is_told() -> None:
