@@ -25,7 +25,7 @@ FEWEST_FRACTIONS = 2
 MOST_LEFT = 60
 """So many arrays without a reading are tried with those of the scope around them."""
 NEAR = 100
-"""The same numbers in so many lines of a scope are one method."""
+"""The same numbers in so many lines are one method."""
 
 
 def readings_of(groups: Sequence[Group]) -> Iterator[Reading]:
@@ -42,7 +42,8 @@ def readings_of(groups: Sequence[Group]) -> Iterator[Reading]:
         used: set[int] = set()
         for each in _of_group(replace(group, arrays=arrays), used):
             rows = (x[..., VALUE].tobytes() for x in each.rows.values())
-            key = group.line, each.form, *rows
+            # single numbers of another scope are those of another function
+            key = each.used[0].is_made and group.line, each.form, *rows
             if abs(seen.get(key, -NEAR) - each.line) >= NEAR:
                 seen[key] = each.line
                 yield each
