@@ -223,6 +223,8 @@ class Ideal:
             NotDecided: the time is not enough.
         """
         alone = Ideal(self.ring)
+        if self.nonzero and self.dimension == 0:
+            return alone._with_basis(self._relations(alone._context), self.is_proved)
         basis, weight = self.basis, 1
         while True:
             if self.nonzero:
@@ -237,6 +239,41 @@ class Ideal:
             powers = [*[1] * (self.variables - 1), weight]
             raised = [p.inflate(powers) for p in self.basis]
             basis = groebner.groebner_basis(raised, self._context)
+
+    def _relations(self, context: fmpz_mpoly_ctx) -> list[fmpz_mpoly]:
+        """The polynomials without UNIT of an ideal of dimension 0, as a Gröbner basis: of the
+        monomials without it, the smallest first, each that is a combination of smaller ones modulo
+        the ideal is the leading one of a member (J.-C. Faugère, P. Gianni, D. Lazard, T. Mora,
+        1993).
+
+        Raises:
+            NotDecided: the time is not enough.
+        """
+        size = len(self.ring.names)
+        one = fmpq_mat(self.degree, 1)
+        one[0, 0] = fmpq(1)  # the least monomial is 1
+        columns = {(0,) * size: one}
+        echelon = _Echelon(self.degree)
+        leading: list[groebner.Exponents] = []
+        found = []
+        waiting = {(0,) * size}
+        while waiting:
+            check_time()
+            e = min(waiting, key=groebner.degrevlex)
+            waiting.remove(e)
+            if any(groebner.divides(x, e) for x in leading):
+                continue
+            if any(e):
+                i, lower = next(x for x in lowered(e) if x[1] in columns)
+                columns[e] = self.multiplications[i] * columns[lower]
+            terms = echelon.relation(e, columns[e])
+            if terms is None:
+                waiting.update(_raised(e))
+                continue
+            leading.append(e)
+            scale = _common([a.q for a in terms.values()])
+            found.append(context.from_dict({m: (a * scale).p for m, a in terms.items()}))
+        return groebner.reduced(found, context)
 
     @property
     def without_unit(self) -> list[fmpq_mpoly]:
@@ -389,6 +426,39 @@ class Ideal:
         before, after = (0,) * variable, (0,) * (self.variables - variable - 1)
         terms = {(*before, k, *after): a for k, a in enumerate(p.coeffs()) if a}
         return self._context.from_dict(terms)
+
+
+class _Echelon:
+    """Columns that are independent, in echelon form, each a combination of monomials.
+
+    Args:
+        size: the number of rows.
+    """
+
+    def __init__(self, size: int) -> None:
+        self.size = size
+        self._rows: dict[int, tuple[list[fmpq], dict[groebner.Exponents, fmpq]]] = {}
+
+    def relation(
+        self, e: groebner.Exponents, column: fmpq_mat
+    ) -> dict[groebner.Exponents, fmpq] | None:
+        """The monomial as a combination of those before it, as a polynomial that is zero; None, and
+        it is one more, where it is independent of them.
+        """
+        rest = [column[k, 0] for k in range(self.size)]
+        terms = {e: fmpq(1)}
+        for k in range(self.size):
+            if not rest[k]:
+                continue
+            if k not in self._rows:
+                self._rows[k] = rest, terms
+                return None
+            others, known = self._rows[k]
+            factor = rest[k] / others[k]
+            rest = [a - factor * b for a, b in zip(rest, others, strict=True)]
+            for m, a in known.items():
+                terms[m] = terms.get(m, fmpq(0)) - factor * a
+        return {m: a for m, a in terms.items() if a}
 
 
 MOST_ROWS = 50

@@ -189,6 +189,53 @@ def test_elimination_by_weights() -> None:
     assert ideal.closure.dimension == ideal.dimension == 1
 
 
+@pytest.mark.parametrize("seed", range(12))
+def test_points_without_the_unit(seed: int) -> None:
+    """Of finitely many points the polynomials without UNIT are those of sympy's elimination by a
+    lexicographic order.
+    """
+    draw = Draw(seed)
+    x, y = sympy.symbols("x y")
+    unit = sympy.Symbol("u")
+
+    def number() -> int:
+        return draw.word() % 7 - 3
+
+    f = sum(number() * x**i * y**j for i in range(3) for j in range(3)) + x**3
+    g = sum(number() * x**i * y**j for i in range(3) for j in range(2)) + y**2
+    product = (x - 1) * (y + number())
+    ring = Parameters(["x", "y"])
+
+    def of_ring(p: sympy.Expr) -> fmpq_mpoly:
+        terms = sympy.Poly(p, x, y).terms()
+        return ring.context.from_dict({e: fmpq(int(a)) for e, a in terms})
+
+    ideal = Ideal(ring, [of_ring(product)]).with_zeros([of_ring(f), of_ring(g)])
+    assert ideal.dimension <= 0
+    basis = sympy.groebner([f, g, unit * product - 1], unit, x, y, order="lex")
+    free = [p for p in basis.exprs if not p.has(unit)]
+    theirs = sympy.groebner(free, x, y, order="grevlex")
+    ours = {sympy.Poly(str(p).replace("^", "**"), x, y).monic() for p in ideal.closure.basis}
+    assert ours == {sympy.Poly(p, x, y).monic() for p in theirs.exprs}
+
+
+def test_many_points_of_two_unknowns() -> None:
+    """Order 3 of three stages whose entries have denominators: 21 solutions, three of them real;
+    elimination by weights did not end in a minute.
+    """
+    text = """
+parameters: {g: free, h: free}
+A:
+  - [2*h - 1/2, 0, 0]
+  - [(g*(g + 5) + 3)/h, h*(-h - 1) + 2, 0]
+  - ["(-8*g*(g*(g + 5) + h^2*(-h - 1) + 2*h + 3) - h*(1 - 2*g)*(4*h - 1) + 2*h)/(4*h*(1 - 2*g))",
+     -1/4, h]
+b: [0, 2*g, 1 - 2*g]
+"""
+    (found,) = find_parameters(loads_family(text), 3).last.found
+    assert (found.solution.degree, len(found.accepted)) == (21, 3)
+
+
 @in_whole
 def test_a_large_set_is_said_with_what_is_not_zero() -> None:
     """Where elimination is large, the polynomials are cleared of the denominator: an implicit-explicit
