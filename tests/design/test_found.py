@@ -145,6 +145,24 @@ def test_the_error_is_less_than_that_of_published_pairs(
         assert found.all.largest < constants.all.largest
 
 
+@pytest.mark.parametrize(
+    ("name", "norm"),
+    [
+        ("methods/found/splitting6-order4.gark.yaml", 3.639e-4),
+        ("blanes-moan-s-6", 4.282e-4),
+        ("mclachlan-ss-5", 7.751e-3),
+    ],
+)
+def test_errors_of_splittings(name: str, norm: float) -> None:
+    """The norms of docs/found.md, over all trees; the methods have order 4 and no more."""
+    constants = error_constants(load(name).tableau, 5)
+    assert constants is not None
+    assert float(constants.all.two) == pytest.approx(norm, rel=2e-4)
+    below = error_constants(load(name).tableau, 4)
+    assert below is not None
+    assert float(below.all.two) < 1e-14
+
+
 @pytest.mark.parametrize("name", ["imex6-order4", "imex4-order3", "imex4-order3-imaginary"])
 def test_the_parts_are_those_of_the_pair(name: str) -> None:
     """What is claimed of a part alone is claimed of the same coefficients."""
