@@ -405,7 +405,7 @@ def _orders(method: Chosen, whose: Whose) -> str:
 
 def _wanted(family: Family, whose: Whose) -> str:
     """What a method file may claim of stability and further orders that were wanted."""
-    wanted = [f', {key}: ">= {order}"' for key, order in family.orders]
+    wanted = [f", {key}: {value}" for key, value in family.claims_of_wanted]
     wanted += [f", {x.kind}: true" for x in family.stable if x.colour is None]
     return "".join(wanted) if whose == "method" else ""
 

@@ -40,7 +40,7 @@ def _order(key: str, asked: Asked) -> Meaning:
         raise MethodError(message, cure, code="wanted-without-meaning") from None
     assert isinstance(found, Tableau)
     order = cast("int", asked.value)
-    return replace(order_meaning(found, asked), orders=((key, order),))
+    return replace(order_meaning(found, asked), claims=((key, f'">= {order}"'),))
 
 
 def _stiffly_accurate(asked: Asked) -> Meaning:
@@ -74,7 +74,7 @@ def _itself(tableau: Tableau) -> Tableau:
 
 
 _MEANT: dict[str, Callable[[Tableau], Tableau]] = {
-    **dict.fromkeys(("embedded-order", *OF_ROSENBROCK), _itself),
+    **dict.fromkeys(("embedded-order", "dense-order", *OF_ROSENBROCK), _itself),
     **dict.fromkeys(("positive-weights", "R-infinity"), on_linear_problems),
     **dict.fromkeys(("a-stable", "l-stable", "p-stable", "i-stable"), on_linear_problems),
     **dict.fromkeys(

@@ -14,7 +14,7 @@ from flint import fmpq_mpoly, fmpz_mpoly
 from garkcli.deadline import check_time, only_small, seconds_left, until, within
 from garkcli.design.conditions import Condition, FamilyConditions
 from garkcli.design.ideal import Ideal, without_multiples
-from garkcli.design.member import TABLEAUS, Whose, is_admissible, is_as_stable, member
+from garkcli.design.member import TABLEAUS, Whose, dense_member, is_admissible, is_as_stable, member
 from garkcli.design.minimise.squared_error import squared_error
 from garkcli.design.msolve import find_msolve
 from garkcli.design.pairs import PairConditions, pair_conditions
@@ -33,6 +33,7 @@ from garkcli.exact.roots import RealRoot
 from garkcli.frozen import Frozen, replace
 from garkcli.ntrees.tree import Tree
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, find_order
+from garkcli.order.dense import DenseOrder, dense_order
 from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.family import Family
 from garkcli.tableau.stages import PointSpace
@@ -55,6 +56,7 @@ class Found(Frozen):
         open: which of them are not decided to be stable, as their field is too large.
         embedded: the order of the embedded weights, and Σ ê(u)² over the trees of the next order;
             None where there are none.
+        dense: the order of the dense output; None where there is none.
     """
 
     solution: Solution
@@ -63,6 +65,7 @@ class Found(Frozen):
     unstable: tuple[int, ...] = ()
     open: tuple[int, ...] = ()
     embedded: tuple[Order, Number] | None = None
+    dense: DenseOrder | None = None
 
 
 class Step(Frozen):
@@ -519,8 +522,8 @@ class _Finding(Frozen):
             ]
             _ = solution.real_values  # reports show them, when the time may be over
             order = order_of(self.family, self.whose, solution)
-            embedded = embedded_of(self.family, self.whose, solution)
-            one = Found(solution, order, tuple(accepted), embedded=embedded)
+            further = further_of(self.family, self.whose, solution)
+            one = Found(solution, order, tuple(accepted), **further)
             found.append(one if order is None else self._sorted(one))
         return tuple(found)
 
@@ -616,21 +619,23 @@ def order_of(family: Family, whose: Whose, solution: Solution) -> Order | None:
         return None
 
 
-def embedded_of(family: Family, whose: Whose, solution: Solution) -> tuple[Order, Number] | None:
-    """The order of a method with its embedded weights, and Σ ê(u)² over the trees of the next one;
-    None where there are none.
-    """
-    weights = family.further.embedded
+def further_of(family: Family, whose: Whose, solution: Solution) -> dict[str, Any]:
+    """``embedded`` and ``dense`` of ``Found``, where a method has such weights."""
     is_spelled_out = all(isinstance(x, PointSpace) for x in family.tableau.spaces)
-    if weights is None or whose != "method" or not is_spelled_out:
-        return None
-    try:
-        tableau = member(with_weights(family.tableau, weights), family.ring, solution.values)
-    except ZeroDivisionError:
-        return None
-    order = find_order(tableau)
-    error = squared_error(tableau, order.order + 1, None)
-    return order, error.numerator / error.denominator
+    if whose != "method" or not is_spelled_out:
+        return {}
+    tableau, further, at = family.tableau, family.further, (family.ring, solution.values)
+    found: dict[str, Any] = {}
+    with suppress(ZeroDivisionError):
+        if further.dense is not None:
+            dense = dense_member(further.dense, *at)
+            found["dense"] = dense_order(member(tableau, *at), dense, DEFAULT_LIMIT)
+        if further.embedded is not None:
+            embedded = member(with_weights(tableau, further.embedded), *at)
+            order = find_order(embedded)
+            error = squared_error(embedded, order.order + 1, None)
+            found["embedded"] = order, error.numerator / error.denominator
+    return found
 
 
 def estimates_nothing(design: Design, step: Step) -> bool:

@@ -16,8 +16,8 @@ from garkcli.tableau.family import Radical, Stability
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
-Kind: TypeAlias = Literal["flag", "count", "number"]
-"""How its value is written: true, a whole number, a coefficient."""
+Kind: TypeAlias = Literal["flag", "count", "number", "smoothness"]
+"""How its value is written: true, a whole number, a coefficient, 0 or 1."""
 
 
 class Asked(Frozen):
@@ -26,7 +26,7 @@ class Asked(Frozen):
     Attributes:
         tableau: entries are rational numbers and rational functions of the parameters.
         ring: the parameters.
-        value: a count, or a number, which may have parameters; True for a flag.
+        value: a count, a smoothness, or a number, which may have parameters; True for a flag.
         colours: of which colours it is wanted, counted from 0.
         further: its embedded weights and its dense output.
         radicals: the roots among the coefficients, the last unknowns of ``ring``.
@@ -77,7 +77,7 @@ class Meaning(Frozen):
         positive: rational functions that are positive at the solutions that are taken.
         not_negative: those that are at least 0.
         stable: the kinds of stability of the accepted solutions.
-        orders: least orders, by what files claim of them.
+        claims: what files may claim of the methods, and its value.
         unsettled: keys of wishes whose meaning was not worked out in time.
         real: keys of wishes of which ``zeros`` have what real values satisfy, not complex ones.
         impossible: what is wanted and no value makes true, with the reason.
@@ -88,7 +88,7 @@ class Meaning(Frozen):
     positive: tuple[object, ...] = ()
     not_negative: tuple[object, ...] = ()
     stable: tuple[Stability, ...] = ()
-    orders: tuple[tuple[str, int], ...] = ()
+    claims: tuple[tuple[str, str], ...] = ()
     unsettled: tuple[str, ...] = ()
     real: tuple[str, ...] = ()
     impossible: tuple[str, ...] = ()

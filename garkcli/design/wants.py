@@ -9,6 +9,7 @@ from typing import Any, cast
 from flint import fmpq
 
 from garkcli.design.conditions import FamilyConditions
+from garkcli.design.dense import DENSE
 from garkcli.design.pairs import pair_conditions
 from garkcli.design.want import Asked, Meaning, Want, stability
 from garkcli.errors import MethodError
@@ -305,6 +306,7 @@ WANTS = {
             "bounded on the oscillator for every step size",
             partial(_oscillating, "i-stable"),
         ),
+        *DENSE,
     )
 }
 """Every one of them by its key, in the order of the documentation."""

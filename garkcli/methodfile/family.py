@@ -237,7 +237,7 @@ def _family(
         not_negative=_signs(meaning.not_negative, ring),
         order=wishes.order,
         stable=meaning.stable,
-        orders=meaning.orders,
+        claims_of_wanted=meaning.claims,
         unsettled=meaning.unsettled,
         real=meaning.real,
         impossible=meaning.impossible,

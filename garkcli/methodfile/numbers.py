@@ -23,10 +23,11 @@ if TYPE_CHECKING:
 
 UNKNOWN = "?"
 """What is in a file for a coefficient that is not known."""
-_MATRICES = {"A", "alpha", "gamma"}
+_MATRICES = {"A", "alpha", "gamma", "dense"}
+_LETTERS = {"embedded": "bh", "dense": "bt"}
 _PLACE = (
-    r"(?:(?P<part>[qp])\.)?(?:rosenbrock, )?(?P<letter>[Abcd]|alpha|gamma|embedded)"
-    r"(?:\^\{(?P<colours>[0-9,]+)\})?"
+    r"(?:(?P<part>[qp])\.)?(?:rosenbrock, )?(?P<letter>[Abcd]|alpha|gamma|embedded|dense)"
+    r"(?:\^\{(?P<colours>[0-9,]+)\})?(?:, weights)?"
     r"(?:, row (?P<row>[0-9]+))?(?:, entry (?P<entry>[0-9]+))?"
 )
 
@@ -42,6 +43,8 @@ def name_of_place(where: str) -> str | None:
     ('b2_1', 'q_a10_2')
     >>> name_of_place("embedded, entry 1"), name_of_place("gamma, row 2, entry 1")
     ('bh1', 'gamma21')
+    >>> name_of_place("dense, weights, row 3, entry 2"), name_of_place("dense^{2}, weights, row 1")
+    ('bt32', 'bt2_11')
     """
     found = re.fullmatch(_PLACE, where)
     if found is None:
@@ -50,7 +53,7 @@ def name_of_place(where: str) -> str | None:
     # one value in place of a row of one is its only entry
     indices = [row or "1", entry or "1"] if letter in _MATRICES else [entry or "1"]
     of_colours = f"{_together(colours.split(','))}_" if colours else ""
-    name = ("bh" if letter == "embedded" else letter.lower()) + of_colours + _together(indices)
+    name = _LETTERS.get(letter, letter.lower()) + of_colours + _together(indices)
     return f"{part}_{name}" if part else name
 
 
@@ -175,7 +178,7 @@ class Numbers(Mutable):
         """An entry without a value: an unknown named by its place, or the value given for it."""
         name = name_of_place(where)
         if name is None:
-            message = f"{UNKNOWN} stands for an entry of A, b, c, embedded, α, γ or d"
+            message = f"{UNKNOWN} stands for an entry of A, b, c, embedded, dense, α, γ or d"
             cure = "write parameters: {tau: free} for any other unknown"
             self.source.fault(node, message, cure, where=where, code="unknown-entry-misplaced")
             return Literal(ZERO)

@@ -31,6 +31,7 @@ _VALUES = {
     "flag": (Kind(FLAG.schema, lambda at, node, where: FLAG.read(at, node, where) or None), "true"),
     "count": (_COUNT, "3"),
     "number": (NUMBER, "0"),
+    "smoothness": (count(0, 1), "1"),
 }
 """What a want is written with, by its kind, and an example."""
 

@@ -145,12 +145,7 @@ def slopes(method: AnyTableau, dense: DenseOutput) -> Slopes:
     It is what it should be where the stages that have weight in it evaluate at x_0, or at x_1;
     it is not where an elementary weight says so.
     """
-
-    def ends(known: DenseOutput, _: Tableau) -> Ends:
-        first = known.coefficients(1)
-        return _beside(first, (-ONE, ZERO)), _beside(slope_at_one(known.weights), (ZERO, -ONE))
-
-    return slopes_where(method, dense, ends, _with_ends)
+    return slopes_where(method, dense, lambda known, _: slopes_at_ends(known), with_ends)
 
 
 Ends: TypeAlias = tuple[Weights, Weights]
@@ -185,7 +180,15 @@ def slopes_where(
     return Slopes(start, end)
 
 
-def _with_ends(tableau: Tableau) -> Tableau:
+def slopes_at_ends(dense: DenseOutput) -> Ends:
+    """The slope at θ = 0 minus f(x_0), and that at θ = 1 minus f(x_1), as weights at the stages of
+    ``with_ends``.
+    """
+    start = _beside(dense.coefficients(1), (-ONE, ZERO))
+    return start, _beside(slope_at_one(dense.weights), (ZERO, -ONE))
+
+
+def with_ends(tableau: Tableau) -> Tableau:
     """The tableau with two more stages in each space: at x_0 and at x_1, without weights."""
     spaces = [PointSpace((*x.nodes, ZERO, ONE)) for x in tableau.spaces]
     colours = [
@@ -214,7 +217,7 @@ def slope_at_one(weights: Sequence[Sequence[Vector]]) -> Weights:
 
 
 def _beside(rows: Weights, ends: Vector) -> Weights:
-    """Weights with those of the two stages of ``_with_ends``."""
+    """Weights with those of the two stages of ``with_ends``."""
     return tuple((*row, *ends) for row in rows)
 
 

@@ -9,15 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import combinations
-from typing import Any
 
 from flint import fmpq
 
 from garkcli.doing import doing
-from garkcli.exact.field import ZERO, Number
+from garkcli.exact.field import ZERO
 from garkcli.exact.matrix import Vector, apply
 from garkcli.frozen import replace
-from garkcli.order.tolerance import within
+from garkcli.order.equal_stages import equal_stages, sums_over
 from garkcli.properties.pattern import Vertex, is_nonzero, spaces_that_matter
 from garkcli.tableau.embedded import NOTHING, Further, as_colours, from_colours
 from garkcli.tableau.stages import PointSpace
@@ -186,7 +185,7 @@ def merged(tableau: Tableau, tolerance: fmpq = ZERO) -> Tableau:
         tableau: over point spaces.
         tolerance: of equal numbers.
     """
-    classes = _equal_stages(tableau, tolerance)
+    classes = equal_stages(tableau, tolerance)
     firsts = [[members[0] for members in of_space] for of_space in classes]
     spaces = []
     for space, stages in zip(tableau.spaces, firsts, strict=True):
@@ -200,66 +199,6 @@ def merged(tableau: Tableau, tolerance: fmpq = ZERO) -> Tableau:
         columns = classes[tableau.colours[m].space]
         blocks[k, m] = tuple(sums_over(block[i], columns) for i in firsts[k])
     return Tableau(tuple(spaces), tuple(colours), blocks)
-
-
-def sums_over(row: Vector, classes: Sequence[Sequence[int]]) -> Vector:
-    """The sum of the entries of a row over each class of stages."""
-    sums: list[Number] = []
-    for members in classes:
-        total: Number = ZERO
-        for j in members:
-            if row[j]:  # most are zero
-                total = total + row[j] if total else row[j]
-        sums.append(total)
-    return tuple(sums)
-
-
-def _equal_stages(tableau: Tableau, tolerance: fmpq) -> list[list[list[int]]]:
-    """For each space its stages in classes of equal ones, the coarsest partition that is stable."""
-    numbers = range(len(tableau.spaces))
-    classes = [[list(range(space.stages))] for space in tableau.spaces]
-    while True:
-        finer = [_split(tableau, k, classes, tolerance) for k in numbers]
-        if list(map(len, finer)) == list(map(len, classes)):
-            return finer
-        classes = finer
-
-
-def _split(
-    tableau: Tableau, k: int, classes: list[list[list[int]]], tolerance: fmpq
-) -> list[list[int]]:
-    """The classes of one space, divided by what their stages see."""
-
-    def are_equal(seen: list[Any], sight: list[Any]) -> bool:
-        if not tolerance:
-            return seen == sight
-        pairs = zip(_numbers(seen), _numbers(sight), strict=True)
-        return all(within(x - y, tolerance) for x, y in pairs)
-
-    found: list[list[int]] = []
-    blocks = [(tableau.blocks.get((k, m)), x.space) for m, x in enumerate(tableau.colours)]
-    for members in classes[k]:
-        if len(members) == 1:
-            found.append(members)
-            continue
-        by_sight: list[tuple[list[Any], list[int]]] = []
-        for i in members:
-            # what the stage sees: its node, and the sums of its entries over each class
-            sight: list[Any] = [tableau.spaces[k].nodes[i]]
-            sight += [sums_over(A[i], classes[space]) for A, space in blocks if A is not None]
-            # compared, not hashed: that of a fraction is slow to be had first
-            alike = next((x for seen, x in by_sight if are_equal(seen, sight)), None)
-            if alike is None:
-                by_sight.append((sight, [i]))
-            else:
-                alike.append(i)
-        found += [alike for _, alike in by_sight]
-    return sorted(found)
-
-
-def _numbers(sight: list[Any]) -> list[Number]:
-    node, *rows = sight
-    return [node, *(x for row in rows for x in row)]
 
 
 @doing("smallest method")

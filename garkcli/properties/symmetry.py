@@ -23,9 +23,9 @@ from garkcli.deadline import check_time
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector, add, apply_left, multiply, outer
 from garkcli.frozen import Frozen
+from garkcli.order.equal_stages import sums_over
 from garkcli.order.tolerance import within
 from garkcli.properties.pattern import Vertex
-from garkcli.properties.reduction import sums_over
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Edge, Tableau

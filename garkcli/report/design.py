@@ -238,13 +238,19 @@ def certified(order: Any, whose: str) -> str:
     return f"order {'at least ' * order.is_lower_bound}{order.order} of the {whose}"
 
 
-def _embedded(found: Found, root: RealRoot, d: Plain) -> list[str]:
-    """The embedded weights of a solution: their order, and their error at the next."""
-    if found.embedded is None:
-        return []
-    order, error = found.embedded
-    known = "order at least" if order.is_lower_bound else "order"
-    return [f"embedded {known} {order.order} with error {_number(value_at(error, root), d)}"]
+def _further(found: Found, root: RealRoot, d: Plain) -> list[str]:
+    """The orders of a solution's embedded weights, with their error at the next order, and of its
+    dense output.
+    """
+    said = []
+    if found.embedded is not None:
+        order, error = found.embedded
+        known = "order at least" if order.is_lower_bound else "order"
+        at_next = _number(value_at(error, root), d)
+        said.append(f"embedded {known} {order.order} with error {at_next}")
+    if found.dense is not None:
+        said.append(f"dense order {found.dense.order}")
+    return said
 
 
 def _verdict(x: Solutions, d: Plain) -> str:
@@ -260,7 +266,7 @@ def _verdict(x: Solutions, d: Plain) -> str:
         return f"{order}; stability not decided: its field is too large, or the time too short"
     if index not in found.accepted:
         return "not of this file: out of a range, a sign not wanted, or another root"
-    beside = _embedded(found, found.solution.real[index], d)
+    beside = _further(found, found.solution.real[index], d)
     return ", ".join([f"{order}, proved", *beside, *kinds])
 
 
@@ -485,7 +491,7 @@ def _candidate(minimum: Minimum, candidate: Candidate, d: Plain) -> str:
         said.append("and others: the value is the same at all methods near it")
     if candidate.found.order is not None:
         said.append(f"{certified(candidate.found.order, minimum.design.whose)}, proved")
-    said += _embedded(candidate.found, candidate.found.solution.real[candidate.index], d)
+    said += _further(candidate.found, candidate.found.solution.real[candidate.index], d)
     return f"{joined(_parameters(minimum, candidate), d)}: {'; '.join(said)}"
 
 
@@ -544,6 +550,10 @@ def _embedded_order(found: Found) -> int | None:
     return None if found.embedded is None else found.embedded[0].order
 
 
+def _dense_order(found: Found) -> int | None:
+    return None if found.dense is None else found.dense.order
+
+
 def _embedded_error(found: Found, index: int) -> RealRoot | None:
     return found.embedded and value_at(found.embedded[1], found.solution.real[index])
 
@@ -555,6 +565,7 @@ REAL = Section(
     Row("stable", TRUTH, _accepted, has_null=True, is_optional=True),
     optional("embedded_order", COUNT, lambda x: _embedded_order(x.found)),
     optional("embedded_error", END, lambda x: _embedded_error(x.found, x.number)),
+    optional("dense_order", COUNT, lambda x: _dense_order(x.found)),
     *OF_FOUND,
 )
 NOT_REAL = Section(
@@ -637,6 +648,7 @@ MINIMISER = Section(
     Row("constant", TRUTH, "1.is_constant"),
     optional("embedded_order", COUNT, lambda x: _embedded_order(x[1].found)),
     optional("embedded_error", END, lambda x: _embedded_error(x[1].found, x[1].index)),
+    optional("dense_order", COUNT, lambda x: _dense_order(x[1].found)),
 )
 OBJECTIVE = Section(
     Row("name", TEXT, "objective.key"),

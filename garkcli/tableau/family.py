@@ -85,7 +85,7 @@ class Family(Frozen, kw_only=True):
         not_negative: those that are at least 0 there.
         order: which is wanted of them, where the file says so.
         stable: the kinds of stability of the accepted solutions.
-        orders: least orders of other kinds that are wanted, by what files claim of them.
+        claims_of_wanted: what files may claim of them by what is wanted, and its value.
         unsettled: what is wanted of them and was not worked out in time, by its keys.
         real: the keys of which ``relations`` have what real values satisfy, not complex ones.
         further: its embedded weights and its dense output.
@@ -104,7 +104,7 @@ class Family(Frozen, kw_only=True):
     not_negative: tuple[fmpq_mpoly, ...] = ()
     order: int | None = None
     stable: tuple[Stability, ...] = ()
-    orders: tuple[tuple[str, int], ...] = ()
+    claims_of_wanted: tuple[tuple[str, str], ...] = ()
     unsettled: tuple[str, ...] = ()
     real: tuple[str, ...] = ()
     further: Further = NOTHING

@@ -10,7 +10,7 @@ from typing import Any, cast
 from flint import fmpq_mpoly
 
 from garkcli.deadline import check_time
-from garkcli.design.design import Design, Found, Step, embedded_of, order_of
+from garkcli.design.design import Design, Found, Step, further_of, order_of
 from garkcli.design.ideal import Ideal
 from garkcli.design.member import is_admissible, is_as_stable, member, not_negative
 from garkcli.design.minimise.climbing import GRID, Point, climbed
@@ -116,7 +116,7 @@ class Comparison(Mutable):
         """With its order by the ordinary certificate."""
         solution = candidate.found.solution
         asked = self.design.family, self.design.whose, solution
-        found = Found(solution, order_of(*asked), (candidate.index,), embedded=embedded_of(*asked))
+        found = Found(solution, order_of(*asked), (candidate.index,), **further_of(*asked))
         return replace(candidate, found=found)
 
     def selection(self) -> None:

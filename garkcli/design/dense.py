@@ -1,0 +1,119 @@
+"""What may be wanted of dense output: its order for every θ, and that its pieces fit together.
+
+With b_i(θ) = Σ_k B_ik θ^k the order q asks B_kᵀ 𝒜^[u] = 1/γ(u) for k = ρ(u) and 0 for every other
+k, of all trees of at most q vertices (``garkcli.order.dense``): members that span those of all
+trees are enough, as in ``garkcli.design.conditions``, and each condition is linear in the weights.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import chain
+from typing import Any, cast
+
+from flint import fmpq
+
+from garkcli.design.conditions import FamilyConditions
+from garkcli.design.want import Asked, Meaning, Want
+from garkcli.errors import MethodError
+from garkcli.exact.field import ONE, ZERO
+from garkcli.exact.matrix import dot
+from garkcli.exact.parametric import Parametric
+from garkcli.frozen import replace
+from garkcli.ntrees.kind import PLAIN
+from garkcli.order.dense import slopes_at_ends, with_ends
+from garkcli.order.equal_stages import equal_stages
+from garkcli.order.functionals import Functional
+from garkcli.tableau.embedded import DenseOutput
+from garkcli.tableau.stages import PointSpace
+from garkcli.tableau.tableau import Tableau
+
+
+def _dense(asked: Asked, key: str) -> DenseOutput:
+    """The dense output.
+
+    Raises:
+        MethodError: there is none, or some colours are meant alone.
+    """
+    dense = asked.further.dense
+    if dense is None or len(asked.colours) < asked.tableau.size:
+        message = f"design: {key} is meant of the dense output of the whole method"
+        cure = 'write dense: {degree: 2, weights: [["?", "?"], ["?", "?"]]} beside b'
+        raise MethodError(message, cure, code="wanted-without-meaning")
+    return dense
+
+
+def _order(asked: Asked) -> Meaning:
+    """The conditions of all trees, a power of θ after the other."""
+    dense = _dense(asked, "dense-order")
+    order = cast("int", asked.value)
+    claims = (("dense-order", f'">= {order}"'),)
+    if order > dense.degree:
+        why = f"no value has dense order {order}: it is no larger than the degree {dense.degree}"
+        return Meaning((ONE,), impossible=(why,))
+    tableau, ring = asked.tableau, asked.ring
+    conditions = FamilyConditions(tableau, ring)
+    functionals = [Functional(dense.coefficients(k), k) for k in range(1, dense.degree + 1)]
+    one = ring.constant(fmpq(1))
+    zeros: list[Any] = []
+    for n in range(1, order + 1):
+        for l, forest in conditions.members(n, tableau.roots):
+            vector: Any = [ring.quotient(x * one, one) for x in forest.vector]
+            scale = ring.quotient(forest.scale * one, one)
+            required = scale * forest.required(tableau.colours[l].kind, n - tableau.roots[l])
+            zeros += [dot(x.weights[l], vector) - x.share(n) * required for x in functionals]
+    return Meaning(tuple(zeros), conditions.denominators, claims=claims)
+
+
+def _continuity(asked: Asked) -> Meaning:
+    """0: b(1) = b. 1: the slope is f(x_0) at θ = 0 and f(x_1) at θ = 1 too: the weights cancel in
+    each class of stages that are equal to one another, or to these two values.
+    """
+    dense = _dense(asked, "dense-continuity")
+    tableau = asked.tableau
+    pairs = zip(tableau.colours, dense.at(ONE), strict=True)
+    zeros: list[Any] = [x - y for colour, row in pairs for x, y in zip(colour.b, row, strict=True)]
+    claims = [("dense-continuous", "true")]
+    if asked.value:
+        ends = _timeless(with_ends(_known(tableau)))
+        classes = equal_stages(ends, ZERO)
+        for l, colour in enumerate(ends.colours):
+            for row in slopes_at_ends(dense):
+                members = classes[colour.space]
+                zeros += [sum((row[l][i] for i in x), start=ZERO) for x in members]
+        claims.append(("dense-smooth", "true"))
+    return Meaning(tuple(zeros), claims=tuple(claims))
+
+
+def _known(tableau: Tableau) -> Tableau:
+    """The tableau, if its stages can be compared.
+
+    Raises:
+        MethodError: they have unknowns, or a vector field is of a special kind.
+    """
+    entries: Sequence[object] = [*chain.from_iterable(chain.from_iterable(tableau.blocks.values()))]
+    weights: Sequence[object] = [*chain.from_iterable(colour.b for colour in tableau.colours)]
+    is_known = not any(isinstance(x, Parametric) for x in (*entries, *weights))
+    if is_known and all(colour.kind == PLAIN for colour in tableau.colours):
+        return tableau
+    message = "design: dense-continuity: 1 needs A and b without unknowns and roots, no linear part"
+    cure = "give them values, by --set; dense-order and dense-continuity: 0 take all"
+    raise MethodError(message, cure, code="wanted-without-meaning")
+
+
+def _timeless(tableau: Tableau) -> Tableau:
+    """The tableau on autonomous problems, which see no nodes."""
+    spaces = tuple(PointSpace((ZERO,) * space.stages) for space in tableau.spaces)
+    return replace(tableau, spaces=spaces)
+
+
+DENSE = (
+    Want("dense-order", "count", "the order of the dense output for every θ", _order),
+    Want(
+        "dense-continuity",
+        "smoothness",
+        "0 for continuous dense output, 1 for a continuous slope too",
+        _continuity,
+    ),
+)
+"""What may be wanted of dense output."""
