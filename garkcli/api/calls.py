@@ -14,13 +14,14 @@ from garkcli.check.analysis import MethodProof
 from garkcli.check.deciding import analyse_any
 from garkcli.check.true_claims import TrueClaims, true_claims, usual_keys
 from garkcli.constructions.nystrom import is_nystrom, partitioned
-from garkcli.constructions.same_stability import on_test_equation
+from garkcli.constructions.same_stability import on_test_equation, with_same_function
 from garkcli.deadline import SECONDS
 from garkcli.errors import MethodError, UsageProblem, did_you_mean
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.carried import write_claims
 from garkcli.methodfile.expectations import CLAIMS, highest_order
 from garkcli.order.certificate import DEFAULT_LIMIT
+from garkcli.order.meant import AnyTableau, as_embedded, meant, printed
 from garkcli.stability.summary import Stability, stability, stability_of_rounded
 from garkcli.stability.two_frequencies import (
     SlowInterval,
@@ -139,10 +140,17 @@ def find_stability(
     tableau = linear or method.tableau
     if is_nystrom(tableau):
         tableau = partitioned(tableau, near)
+    embedded: AnyTableau | None = None
+    if method.embedded is not None and not is_nystrom(method.tableau):
+        whole = meant(method.tableau, near, method.further)
+        embedded = as_embedded(whole, method.embedded)
+        embedded = with_same_function(embedded) or embedded
     if near is None:
-        found = stability(tableau, further, seconds)
+        found = stability(
+            tableau, further, seconds, None if embedded is None else printed(embedded)
+        )
     else:
-        found = stability_of_rounded(tableau, near)
+        found = stability_of_rounded(tableau, near, embedded)
     return found.of_linear_problems if linear else found
 
 

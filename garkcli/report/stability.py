@@ -284,6 +284,18 @@ OF_COLOUR = Section(
 )
 
 
+OF_EMBEDDED = Section(
+    replace(LINEAR[0], label="R̂(z)"),
+    replace(LINEAR[1], label="R̂(∞)"),
+    *LINEAR[2:5],
+    *(replace(row, level=DETAIL) for row in LINEAR[5:7]),
+    title=lambda _, d: d.prose("embedded weights"),
+)
+EMBEDDED = maybe(
+    "embedded", part(OF_EMBEDDED), lambda x: _open(x.found, "embedded") or x.found.embedded
+)
+
+
 def conserved(o: Any) -> Answer:
     """The quadratic form that a step keeps."""
     if not o.determinant.is_one:
@@ -491,8 +503,8 @@ WAVES = {
 TAIL = [maybe("algebraically_stable", kinds.TRUTH, algebraic), PLOT]
 LINEARS = {
     "none": [*head("oscillator")],
-    "alike": [*head("linear"), *ALIKE, ALONE],
-    "several": [*head("linear"), *SEVERAL],
+    "alike": [*head("linear"), *ALIKE, ALONE, EMBEDDED],
+    "several": [*head("linear"), *SEVERAL, EMBEDDED],
 }
 """By what the colours do on the linear test equation: ``R`` has a z for each colour, or one."""
 COLUMNS = ("file", "a_stable", "l_stable", "real_interval", "imaginary_interval", "ssp")
@@ -598,6 +610,8 @@ def formulas(found: Stability) -> Iterator[tuple[str, str]]:
         for one in found.linear:
             name = "R(z)" if one.name == "all" else rf"R_{{\mathrm{{{one.name}}}}}(z)"
             yield name, quotient(one.R, "z")
+        if found.embedded is not None:
+            yield r"\hat R(z)", quotient(found.embedded.R, "z")
     if found.oscillator is not None:
         yield r"\operatorname{tr} M(x)", quotient(found.oscillator.trace, "x")
         yield r"\det M(x)", quotient(found.oscillator.determinant, "x")

@@ -18,7 +18,7 @@ from garkcli.exact.cells import Interval
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.polynomial import Polynomial
 from garkcli.frozen import Frozen, replace
-from garkcli.order.meant import meant
+from garkcli.order.meant import AnyTableau, meant, printed
 from garkcli.stability.algebraic import AlgebraicStability, algebraic_stability, algebraic_within
 from garkcli.stability.damping import ImexPair, Ray, imex_pair
 from garkcli.stability.fraction import Fraction, lines_needed, stability_fraction
@@ -131,7 +131,8 @@ class LinearStability(Frozen):
     time is not enough.
 
     Attributes:
-        name: which colours are driven: ``all``, or the name of one with the others at 0.
+        name: which colours are driven: ``all``, or the name of one with the others at 0;
+            ``embedded`` for all with the embedded weights.
         R: the stability function.
         e_polynomial: |Q(iy)|² − |P(iy)|² as a polynomial in y².
         a_stable: |R(z)| ≤ 1 in the left half plane.
@@ -185,6 +186,8 @@ class Stability(Shown, Frozen):
             is not decided.
         late: the attributes for which the time was not enough; they are None.
         is_linear_alone: whether it is that of linear problems alone.
+        embedded: R̂ for all colours together, with the embedded weights in place of b; None where
+            there are none, or ``linear`` is empty.
     """
 
     tableau: Tableau
@@ -196,6 +199,7 @@ class Stability(Shown, Frozen):
     algebraic_within: bool | None = None
     late: frozenset[str] = frozenset()
     is_linear_alone: bool = False
+    embedded: LinearStability | None = None
 
     @property
     def of_linear_problems(self) -> Stability:
@@ -221,7 +225,10 @@ class Stability(Shown, Frozen):
 
 @doing("stability")
 def stability(
-    tableau: Tableau, ratios: Sequence[fmpq] = (), seconds: float | None = SECONDS
+    tableau: Tableau,
+    ratios: Sequence[fmpq] = (),
+    seconds: float | None = SECONDS,
+    embedded: Tableau | None = None,
 ) -> Stability:
     """Decide everything that ``gark stability`` reports.
 
@@ -229,6 +236,7 @@ def stability(
         tableau: the method, with coefficients that are meant exactly.
         ratios: r_2/r_1 of further additive SSP radii of methods of two colours.
         seconds: of processor time, after which the rest stays undecided; None for no limit.
+        embedded: the method with its embedded weights for b; None where it has none.
 
     Raises:
         NotDecided: the time is not enough for R.
@@ -246,6 +254,9 @@ def stability(
         colours = None
         if linear and tableau.size > 1:
             colours = several_colours(tableau, ratios)
+        of_embedded = None
+        if linear and embedded is not None:
+            of_embedded = _in_time(late, "embedded", lambda: _embedded(embedded))
         linear = [_with_sector(x) for x in linear]
     return Stability(
         tableau=tableau,
@@ -254,42 +265,67 @@ def stability(
         algebraic=algebraic,
         colours=colours,
         late=frozenset(late),
+        embedded=of_embedded,
     )
 
 
+def _embedded(tableau: Tableau) -> LinearStability:
+    """Linear stability with the embedded weights."""
+    shares: list[Number] = [ONE] * tableau.size
+    return _with_sector(linear_stability(tableau, "embedded", shares, is_linear_alone=True))
+
+
 @doing("stability")
-def stability_of_rounded(tableau: Tableau, tolerance: fmpq) -> Stability:
+def stability_of_rounded(
+    tableau: Tableau, tolerance: fmpq, embedded: AnyTableau | None = None
+) -> Stability:
     """Stability of the method that a rounded one is taken to be, where it is decided.
 
     Args:
         tableau: the method.
         tolerance: the rounding of its coefficients.
+        embedded: the method with its embedded weights for b, which may be exact; None where it has
+            none.
     """
     method = meant(tableau, tolerance)
     assert not isinstance(method, Tableau)
-    near, grain = method.near, method.grain
-    linear = []
-    for name, shares in directions(tableau):
-        decided = stability_within(near, shares, grain)
-        if not (decided.a_stable and decided.l_stable):
-            decided = _unless_another(decided, method, shares)
-        R = stability_function(tableau, shares)
-        linear.append(
-            LinearStability(
-                name=name,
-                R=R,
-                e_polynomial=e_polynomial(R),
-                a_stable=decided.a_stable,
-                l_stable=decided.l_stable,
-                sector=None,
-                real=None,
-                imaginary=None,
-                ssp=None,
-                within=decided,
-            )
-        )
-    algebraic = algebraic_within(near, grain)
-    return Stability(tableau, tuple(linear), None, None, tolerance, algebraic_within=algebraic)
+    linear = tuple(_of_rounded(method, *x) for x in directions(tableau))
+    of_embedded = None
+    if linear and embedded is not None:
+        if isinstance(embedded, Tableau):
+            of_embedded = _embedded(embedded)
+        else:
+            found = _of_rounded(embedded, "embedded", [ONE] * tableau.size)
+            of_embedded = replace(found, is_linear_alone=True)
+    return Stability(
+        tableau,
+        linear,
+        None,
+        None,
+        tolerance,
+        algebraic_within=algebraic_within(method.near, method.grain),
+        embedded=of_embedded,
+    )
+
+
+def _of_rounded(method: RoundedTableau, name: str, shares: Sequence[Number]) -> LinearStability:
+    """What is decided of a rounded method in one direction of (λ_1, …, λ_N)."""
+    decided = stability_within(method.near, shares, method.grain)
+    if not (decided.a_stable and decided.l_stable):
+        decided = _unless_another(decided, method, shares)
+    R = stability_function(printed(method), shares)
+    return LinearStability(
+        name=name,
+        R=R,
+        e_polynomial=e_polynomial(R),
+        a_stable=decided.a_stable,
+        l_stable=decided.l_stable,
+        sector=None,
+        real=None,
+        imaginary=None,
+        ssp=None,
+        within=decided,
+    )
 
 
 def _unless_another(
@@ -316,7 +352,9 @@ def directions(tableau: Tableau) -> list[tuple[str, list[Number]]]:
     return [("all", [ONE] * size), *(alone if size > 1 else [])]
 
 
-def linear_stability(tableau: Tableau, name: str, shares: Sequence[Number]) -> LinearStability:
+def linear_stability(
+    tableau: Tableau, name: str, shares: Sequence[Number], is_linear_alone: bool = False
+) -> LinearStability:
     """Linear stability in one direction of (λ_1, …, λ_N), but for the sector."""
     R = stability_function(tableau, shares)
     late: set[str] = set()
@@ -331,8 +369,11 @@ def linear_stability(tableau: Tableau, name: str, shares: Sequence[Number]) -> L
         sector=None,
         real=_in_time(late, "real", lambda: real_set(R)),
         imaginary=_in_time(late, "imaginary", lambda: imaginary_set(R)),
-        ssp=_in_time(late, "ssp", lambda: ssp_coefficient(tableau, shares)),
+        ssp=None
+        if is_linear_alone
+        else _in_time(late, "ssp", lambda: ssp_coefficient(tableau, shares)),
         late=frozenset(late),
+        is_linear_alone=is_linear_alone,
     )
 
 

@@ -42,6 +42,7 @@ _DIGITS = 8
 _IN_WORDS = {
     "4D² − N²": r"4D^2-N^2", "A(α)": r"A(\alpha)", "B(r)": "B(r)", "C(η)": r"C(\eta)",
     "D(ζ)": r"D(\zeta)", "R(z)": "R(z)", "R(∞)": r"R(\infty)", "cos α": r"\cos\alpha",
+    "R̂(z)": r"\hat R(z)", "R̂(∞)": r"\hat R(\infty)",
     "|R(z)| ≤ 1": r"\lvert R(z)\rvert\le 1", "q̈ = −ω²q": r"\ddot{q}=-\omega^2q", "r ≤": r"r\le",
     "|R(iy)| > 1": r"\lvert R(iy)\rvert\gt 1", "E(y²)": "E(y^2)", "x = y²": "x=y^2", "y²": "y^2",
     "x = (hω)²": r"x=(h\omega)^2", "(hω)²": r"(h\omega)^2", "x = (hω_fast)²":
