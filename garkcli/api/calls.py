@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from flint import fmpq
 
 from garkcli.api.anymethod import AnyMethod, method_of, with_tolerance
-from garkcli.api.numbers import Number, Whole, colour_of, rational, rationals, whole
+from garkcli.api.numbers import Number, Point, Whole, colour_of, points, rational, rationals, whole
 from garkcli.check import analysis
 from garkcli.check.analysis import MethodProof
 from garkcli.check.deciding import analyse_any
@@ -110,6 +110,7 @@ def find_stability(
     tolerance: Number | None = None,
     ratios: Sequence[Number] = (),
     seconds: float | None = SECONDS,
+    at: Sequence[Point] = (),
 ) -> Stability:
     """Everything that ``gark stability`` decides of a method.
 
@@ -120,15 +121,20 @@ def find_stability(
         ratios: the ratios r_2/r_1 of further additive SSP radii of a method of two colours with
             exact coefficients.
         seconds: of processor time, after which the rest stays undecided; None for no limit.
+        at: points z = x + iy, such as ``"0.01+2i"``, at which R(z) and |R(z)| are computed.
 
     Raises:
-        MethodError: there are ratios for another method, or one is not positive.
+        MethodError: there are ratios for another method, one is not positive, or the method has no
+            R(z) whose value at a point is asked for.
         NotDecided: the time is not enough for R.
 
     >>> found = find_stability("gauss-3")
     >>> found, found.linear[0].a_stable
     (<Stability A-stable, not L-stable>, True)
+    >>> find_stability("rk4", at=["1/2+i"]).linear[0].points[0].value
+    (337/384, 67/48)
     """
+    places = points(at, "at")
     method, near = with_tolerance(method, tolerance, is_any_kind=True)
     further = rationals(ratios, "ratios")
     if further and (near is not None or method.tableau.size != 2):
@@ -151,6 +157,10 @@ def find_stability(
         )
     else:
         found = stability_of_rounded(tableau, near, embedded)
+    if places and not found.linear:
+        message = "R(z) has no meaning: some stages do not see every vector field"
+        raise MethodError(message, "leave the points out", code="wanted-without-meaning")
+    found = found.at(places)
     return found.of_linear_problems if linear else found
 
 

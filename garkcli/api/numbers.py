@@ -8,12 +8,14 @@ from typing import Any, SupportsIndex, TypeAlias
 from flint import fmpq
 
 from garkcli.errors import MethodError, counted
-from garkcli.exact.given import EXACTLY, AnyNumber, number_text, rational_of
+from garkcli.exact.given import EXACTLY, AnyNumber, complex_parts, number_text, rational_of
 
 Number: TypeAlias = AnyNumber
 """A number, or its text: an int, a Fraction, a Decimal, a float of at most 15 digits, ``"1/3"``; a
 number of NumPy, SymPy or FLINT.
 """
+Point: TypeAlias = "Number | complex | tuple[Number, Number]"
+"""A complex number with rational parts: ``"0.01+2i"``, a number of Python, or its two parts."""
 Whole: TypeAlias = "SupportsIndex"
 """A whole number of Python, NumPy, SymPy or FLINT."""
 Settings: TypeAlias = "Mapping[str, Number]"
@@ -50,6 +52,33 @@ def rationals(given: Iterable[Number], where: str) -> list[fmpq]:
     if not _is_list(given):
         raise MethodError(f"{where}: {given!r} is no list", "give a list", code="wrong-value")
     return [rational_of(x, f"{where}[{i}]") for i, x in enumerate(given)]
+
+
+def points(given: Iterable[Point], where: str) -> list[tuple[fmpq, fmpq]]:
+    """Complex numbers with rational parts.
+
+    Raises:
+        MethodError: one is none, or they are no list.
+
+    >>> points(["0.01+2i", 2j, ("1/3", 0)], "at")
+    [(1/100, 2), (0, 2), (1/3, 0)]
+    """
+    if not _is_list(given):
+        cure = "give a list, such as ['0.01+2i']"
+        raise MethodError(f"{where}: {given!r} is no list", cure, code="wrong-value")
+    return [_point(x, f"{where}[{i}]") for i, x in enumerate(given)]
+
+
+def _point(given: Point, where: str) -> tuple[fmpq, fmpq]:
+    parts: Any = given, 0
+    if isinstance(given, str):
+        parts = complex_parts(given)
+    elif isinstance(given, complex):
+        parts = given.real, given.imag
+    elif isinstance(given, tuple) and len(given) == 2:
+        parts = given
+    real, imaginary = (rational_of(x, where) for x in parts)
+    return real, imaginary
 
 
 def whole(given: Any, where: str, least: int = 0) -> int:

@@ -296,6 +296,18 @@ def positives(option: str, text: str) -> tuple[fmpq, ...]:
     return tuple(positive(option, x) for x in text.split(","))
 
 
+def point(option: str, text: str) -> tuple[fmpq, fmpq]:
+    """A complex number, by its parts.
+
+    Raises:
+        UsageProblem: they are not rational.
+    """
+    from garkcli.exact.given import complex_parts
+
+    real, imaginary = (rational(option, x, "such as 0.01+2i") for x in complex_parts(text))
+    return real, imaginary
+
+
 def ratio(option: str, text: str) -> fmpq:
     """The ratio of two radii.
 

@@ -76,6 +76,7 @@ KINDS: dict[str, dict[str, Any]] = {
     "problem": {"type": arguments.ProblemType()},
     "positive": {"callback": read_by(arguments.positive)},
     "positives": {"callback": read_by(arguments.positives)},
+    "points": {"callback": read_by(arguments.point)},
     "ratios": {"callback": read_by(arguments.ratio)},
     "jobs": {"callback": arguments.workers},
     "square": {"callback": read_by(arguments.square)},

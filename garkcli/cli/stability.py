@@ -48,6 +48,7 @@ def stability(given: Given, output: Output) -> None:
                 f"--{given.which}": given.which,
                 "--slow": given.slow,
                 "--ratio": given.ratio,
+                "--at": given.at,
                 "--plot": given.plot,
             }
             read, family = read_family(error, given.settings, needs)

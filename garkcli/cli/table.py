@@ -181,6 +181,7 @@ convert --recognise = convert.is_recognising
     | The slow one of two springs: its (hω)², or A..B for all of them; with --fast.
 --fast COLOUR default= = two_springs.fast | With --slow: the colour of the fast spring.
 --ratio Q many ratios = find_stability.ratios
+--at Z many points = find_stability.at
 stability --seconds T seconds = find_stability.seconds
     | Seconds of processor time after which the rest is not decided.
 stability --digits N 1..1000 default=12 | Digits of numbers that have no simple radicals.
@@ -314,7 +315,7 @@ looking_up: cite FILE... | the publication of a method, as BibTeX
 [Analyse]
 stability: stability FILE... | A-, L-, P-stability, intervals, SSP coefficient, exactly
     = find_stability two_springs
-    --conjugate --pair --slow --fast --ratio --seconds --digits --plot --order-star --set
+    --conjugate --pair --slow --fast --ratio --at --seconds --digits --plot --order-star --set
 trees: conditions [FILE] | the order conditions, in general or of one method
     = all_conditions conditions elementary_weight
     --colours --order --only --coloured --conjugate --pair --failing --sort --digits --document
@@ -435,6 +436,8 @@ design: --colour without --a-stable --l-stable
 energy: --omega --split --stiffness --digits --symplecticity --bounded --max-error --plot
     with --modified | OPTION does not go with --modified | leave it out
 modified: --seed without --problem | --seed is for the problem | give --problem too
+stability: --ratio --at with --slow
+    | OPTION goes with the whole report | leave it or --slow out
 stability: --order-star without --plot --verbose
     | --order-star is for the picture | give -v or --plot FILE too
 export: --test without --output

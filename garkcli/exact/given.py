@@ -173,6 +173,23 @@ def _sympy_power(x: Any, where: str) -> str:
 _ROOTS = {2: "sqrt", 3: "cbrt"}
 
 
+def complex_parts(text: str) -> tuple[str, str]:
+    """The texts of the real and the imaginary part of a complex number.
+
+    >>> complex_parts("0.01+2i"), complex_parts("1e-3 - 3/4*i"), complex_parts("-j")
+    (('0.01', '2'), ('1e-3', '-3/4'), ('0', '-1'))
+    """
+    text = "".join(text.split())
+    if not text.endswith(("i", "j")):
+        return text, "0"
+    body = text[:-1].removesuffix("*")
+    # a sign that is not that of an exponent, nor of the whole
+    signs = [k for k, sign in enumerate(body) if k and sign in "+-" and body[k - 1] not in "eE"]
+    cut = signs[-1] if signs else 0
+    imaginary = body[cut:].removeprefix("+")
+    return body[:cut] or "0", f"{imaginary}1" if imaginary in {"", "-"} else imaginary
+
+
 def rational_of(x: Any, where: str, is_rounded: bool = False) -> fmpq:
     """A number of any kind as the rational number that it is.
 

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 from flint import arb, ctx
 
-from garkcli.exact.display import BITS_OF_A_DIGIT
+from garkcli.exact.display import BITS_OF_A_DIGIT, to_ball, to_text
+from garkcli.exact.field import Number
 from garkcli.exact.multivariate import Multivariate
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import (
@@ -256,6 +257,53 @@ def ssp(x: Any) -> Any:
     return found or _open(x, "ssp") or without_nodes
 
 
+def _complex_words(x: Any, d: Plain) -> str:
+    """A complex number of texts."""
+    real, imaginary = x
+    text = real
+    if imaginary != "0":
+        minus, size = "-" * imaginary.startswith("-"), imaginary.removeprefix("-")
+        unit = "i" if size == "1" else f"{size}i"
+        text = f"{minus}{unit}" if real == "0" else f"{real} {minus or '+'} {unit}"
+    return d.formula(text, text)
+
+
+def _points_words(points: Any, d: Plain) -> str:
+    """R and |R| at each point, and whether that is bounded by 1."""
+    said = []
+    for x in points:
+        z = f"z = {_complex_words(list(map(to_text, x.z)), d)}"
+        if x.value is None:
+            said.append(f"{z}: a pole")
+            continue
+        value = _complex_words([_decimals_of(y, d.digits) for y in x.value], d)
+        size = _modulus(x, d.digits)
+        than = {-1: "less than 1", 0: "exactly", 1: "more than 1"}[sign(x.squared - 1)]
+        said.append(f"{z}: {value}, {d.formula(rf'|R| = {size}', f'|R| = {size}')}, {than}")
+    return "; ".join(said)
+
+
+def _decimals_of(x: Number, digits: int) -> str:
+    return ball_decimal(to_ball(x, digits + 4), digits)
+
+
+def _modulus(x: Any, digits: int) -> str:
+    return _decimals(lambda _: to_ball(x.squared, digits + 24).sqrt(), digits)
+
+
+DECIMALS = Kind(
+    S.array(S.TEXT),
+    lambda x, d: [_decimals_of(y, d.digits) for y in x],
+    lambda x, d: ", ".join(_decimals_of(y, d.digits) for y in x),
+)
+POINT = Section(
+    Row("z", kinds.EXACTS),
+    maybe("value", kinds.EXACTS),
+    maybe("decimals", DECIMALS, "value"),
+    maybe("squared", kinds.EXACT),
+    maybe("size", Kind(S.TEXT, lambda x, d: _modulus(x, d.digits)), lambda x: x.value and x),
+    maybe("bounded", kinds.TRUTH, lambda x: None if x.value is None else sign(x.squared - 1) <= 0),
+)
 LINEAR = [
     Row(
         "R",
@@ -276,6 +324,12 @@ LINEAR = [
     maybe("real_interval", REAL, either("real")),
     maybe("imaginary_interval", IMAGINARY, either("imaginary")),
     maybe("ssp", SSP, ssp),
+    Row(
+        "points",
+        parts(POINT, _points_words),
+        lambda x: Answer(x.points, reason=PRINTED if x.within and x.points else NO_REASON),
+        label="at points",
+    ),
 ]
 OF_COLOUR = Section(
     Row("name", kinds.TEXT, level=DATA),
@@ -289,6 +343,7 @@ OF_EMBEDDED = Section(
     replace(LINEAR[1], label="R̂(∞)"),
     *LINEAR[2:5],
     *(replace(row, level=DETAIL) for row in LINEAR[5:7]),
+    LINEAR[-1],
     title=lambda _, d: d.prose("embedded weights"),
 )
 EMBEDDED = maybe(

@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import lru_cache
 from itertools import pairwise
+from typing import TypeAlias
 
 from garkcli.exact.cells import Interval, Point, is_half_line, sign_of, where
 from garkcli.exact.field import ONE, ZERO, Number
@@ -25,6 +26,9 @@ from garkcli.frozen import Frozen
 from garkcli.stepping.linear import StageSystem, stage_system
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
+
+Complex: TypeAlias = tuple[Number, Number]
+"""A real and an imaginary part."""
 
 
 class StepFunction(Frozen):
@@ -114,9 +118,25 @@ class StabilityFunction(Shown, Frozen):
             return None
         return self.numerator[self.denominator.degree] / self.denominator.leading
 
+    def at(self, z: Complex) -> Complex | None:
+        """R at one point; None at a pole."""
+        (p, q), (u, v) = (_value(x, z) for x in (self.numerator, self.denominator))
+        size = u * u + v * v
+        return ((p * u + q * v) / size, (q * u - p * v) / size) if size else None
+
     def __repr__(self) -> str:
         P, Q = (polynomial_text(x, "z") for x in (self.numerator, self.denominator))
         return f"<R(z) = {P}>" if Q == "1" else f"<R(z) = ({P})/({Q})>"
+
+
+def _value(p: Polynomial, z: Complex) -> Complex:
+    """A polynomial at a point, by Horner's rule."""
+    x, y = z
+    real: Number = ZERO
+    imaginary: Number = ZERO
+    for a in reversed(p.coefficients):
+        real, imaginary = real * x - imaginary * y + a, real * y + imaginary * x
+    return real, imaginary
 
 
 def stability_function(

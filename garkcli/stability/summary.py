@@ -23,6 +23,7 @@ from garkcli.stability.algebraic import AlgebraicStability, algebraic_stability,
 from garkcli.stability.damping import ImexPair, Ray, imex_pair
 from garkcli.stability.fraction import Fraction, lines_needed, stability_fraction
 from garkcli.stability.linear import (
+    Complex,
     StabilityFunction,
     e_polynomial,
     imaginary_set,
@@ -126,6 +127,26 @@ def _word(word: str, is_so: bool | None) -> str:
     return word if is_so else f"not {word}"
 
 
+class AtPoint(Frozen):
+    """R at one point.
+
+    Attributes:
+        z: the point.
+        value: R(z), exact; None at a pole.
+    """
+
+    z: Complex
+    value: Complex | None
+
+    @property
+    def squared(self) -> Number | None:
+        """|R(z)|²."""
+        if self.value is None:
+            return None
+        real, imaginary = self.value
+        return real * real + imaginary * imaginary
+
+
 class LinearStability(Frozen):
     """What a stability function R(z) tells; None where rounded coefficients leave it open, or the
     time is not enough.
@@ -146,6 +167,7 @@ class LinearStability(Frozen):
         late: the attributes for which the time was not enough.
         is_linear_alone: whether the method is one of these on linear problems alone, as a
             Rosenbrock method is; there is no SSP coefficient then.
+        points: R at the points that are asked for.
     """
 
     name: str
@@ -160,6 +182,11 @@ class LinearStability(Frozen):
     within: StabilityWithin | None = None
     late: frozenset[str] = frozenset()
     is_linear_alone: bool = False
+    points: tuple[AtPoint, ...] = ()
+
+    def at(self, points: Sequence[Complex]) -> LinearStability:
+        """The same, with R at some points."""
+        return replace(self, points=tuple(AtPoint(z, self.R.at(z)) for z in points))
 
     @property
     def words(self) -> str:
@@ -200,6 +227,11 @@ class Stability(Shown, Frozen):
     late: frozenset[str] = frozenset()
     is_linear_alone: bool = False
     embedded: LinearStability | None = None
+
+    def at(self, points: Sequence[Complex]) -> Stability:
+        """The same, with R at some points."""
+        linear = tuple(x.at(points) for x in self.linear)
+        return replace(self, linear=linear, embedded=self.embedded and self.embedded.at(points))
 
     @property
     def of_linear_problems(self) -> Stability:
