@@ -125,7 +125,7 @@ def find_stability(
 
     Raises:
         MethodError: there are ratios for another method, one is not positive, or the method has no
-            R(z) whose value at a point is asked for.
+            R(z) for a value at a point.
         NotDecided: the time is not enough for R.
 
     >>> found = find_stability("gauss-3")

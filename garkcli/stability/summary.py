@@ -167,7 +167,7 @@ class LinearStability(Frozen):
         late: the attributes for which the time was not enough.
         is_linear_alone: whether the method is one of these on linear problems alone, as a
             Rosenbrock method is; there is no SSP coefficient then.
-        points: R at the points that are asked for.
+        points: R at given points.
     """
 
     name: str
