@@ -16,7 +16,7 @@ from garkcli import loads_family, minimise, search_methods
 from garkcli.design.member import member
 from garkcli.design.minimise.objective import Level, Objective
 from garkcli.design.search.goals import Reach, Smooth, meant
-from garkcli.design.search.optimum import Program
+from garkcli.design.search.optimum import HIGHEST, Program
 from garkcli.design.search.search import Search
 from garkcli.errors import UsageProblem
 from garkcli.methodfile.family import FamilyFile
@@ -268,3 +268,48 @@ def test_numbers_that_nobody_reads_are_shown_in_decimals() -> None:
     assert _shown(root, Plain()).startswith("0.97140452079103168")
     assert _shown(f"r*{long}", Plain()) == f"r*{long}"
     assert _shown("1/3", Plain()) == "1/3"
+
+
+def test_no_error_is_one_order_more() -> None:
+    """Where the least error is none the method has exact numbers and the next order."""
+    found = best("unknown: {stages: 4, shape: explicit}\ndesign: {order: 3}", "error", 8, 1)
+    [method] = found.methods
+    assert (method.proof, method.order, method.objective) == ("exact", 4, "0")
+
+
+def test_no_error_is_zero_for_radicals_too() -> None:
+    """Two stages of order 4 are those of Gauss."""
+    [method] = best("unknown: {stages: 2, shape: full}\ndesign: {order: 3}", "error", 8, 1).methods
+    assert (method.proof, method.order, method.objective) == ("exact", 4, "0")
+    assert "sqrt(3)" in "".join(method.values.values())
+
+
+def test_intervals_of_radicals_are_exact() -> None:
+    """Rounded numbers miss the conditions of order 2, and then |R(iy)| > 1 for small y."""
+    text = (
+        'A: [[0, 0, 0], ["?", 0, 0], ["?", "?", 0]]\n'
+        'b: ["?", "?", "?"]\n'
+        "c: [0, sqrt(2)/2, 1]\n"
+        "design: {order: 2, consistent: true}"
+    )
+    [method] = best(text, "-imaginary-interval", 3).methods
+    assert "sqrt(2)" in method.values["b2"]
+    assert float(method.objective or "") == pytest.approx(2, rel=1e-7)
+
+
+def test_a_minimum_is_no_larger_than_its_start() -> None:
+    """The optimiser may leave a better start; short numbers found before stay short."""
+    [method] = best("unknown: {stages: 3, shape: imex}\ndesign: {order: 2}", "-ssp", 1).methods
+    assert method.objective == "1.5"
+    assert method.values["a32"] == "1/2"
+
+
+def test_levels_have_a_highest() -> None:
+    """The interval of an A-stable method is infinite; in floats all long ones are alike."""
+    _, made = program(
+        "parameters: {g: free}\nA: [[g]]\nb: [1]\ndesign: {order: 1}", "-real-interval"
+    )
+    for g in (1.0, 3.0):
+        found = made.evaluated(np.array([g]))
+        assert found is not None
+        assert found.value == -HIGHEST

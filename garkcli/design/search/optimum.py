@@ -40,6 +40,8 @@ ACCURACY = 1e-12
 """The change of the objective at which the optimiser ends."""
 TINY = 1e-20
 """A smaller objective is none."""
+ROUNDING = 1e-17
+"""A smaller sum of squares may be zero."""
 LARGEST = 20.0
 """Unknowns are no larger."""
 FEASIBLE = 1e-9
@@ -74,6 +76,11 @@ class Optimum(Frozen):
     def grade(self) -> float:
         """The objective to seven digits: what is the same up to rounding is the same."""
         return float(f"{self.value:.6e}")
+
+    @property
+    def is_none(self) -> bool:
+        """Whether the objective, a sum of squares, is zero up to rounding."""
+        return 0 <= self.value < ROUNDING
 
     def is_less(self, other: Optimum, part: float = 0.0) -> bool:
         """Whether the objective is less than at another one by more than a part of it."""
@@ -163,13 +170,18 @@ class Program:
         """
         import numpy as np
 
-        best = None
         with np.errstate(all="ignore"):
+            best = self.evaluated(np.array(start), fixed)
             for _ in range(ROUNDS):
                 found = self._round(np.array(start), fixed)
-                if found is None or (best is not None and not found.is_less(best, GAIN)):
+                if found is None:
                     break
-                start, best = found.point, found
+                before, start = best, found.point
+                # a round may end where the objective is larger than at its start
+                if best is None or found.is_less(best):
+                    best = found
+                if before is not None and not found.is_less(before, GAIN):
+                    break
         return best
 
     def _round(self, x: Array, fixed: Sequence[Fixed]) -> Optimum | None:
@@ -250,8 +262,10 @@ class Program:
             return bool(np.min(values) >= -FEASIBLE)
 
         low, high = 0.0, 1e-3
-        while high < HIGHEST and holds(high):
-            low, high = high, 1.25 * high
+        while holds(high):
+            if high >= HIGHEST:
+                return HIGHEST
+            low, high = high, min(1.25 * high, HIGHEST)
         if not low:
             return 0.0
         for _ in range(45):
@@ -293,7 +307,7 @@ class Program:
 
         fixed: list[Fixed] = []
         present = best
-        most = best.value + SLACK * abs(best.value)
+        most = ROUNDING if best.is_none else best.value + SLACK * abs(best.value)
         known = self._rank(fixed, present)
         for function in wanted:
             if known == len(best.point):
@@ -309,7 +323,8 @@ class Program:
                     continue
                 if self._rank(more, moved) > known:
                     fixed, present, known = more, moved, self._rank(more, moved)
-                    most = min(most, moved.value + SLACK * abs(moved.value))
+                    if not best.is_none:
+                        most = min(most, moved.value + SLACK * abs(moved.value))
                     break
         return Fixings(self.conditions, fixed), present
 
@@ -327,9 +342,7 @@ class Program:
         minima = least_squares(system.at, np.array(present.point)[:, None], 60, CLOSE)
         if not minima.succeeded[0]:
             return None
-        back = [float(x) for x in minima.points[:, 0]]
-        found = self.improved(back, fixed)
-        return found or self.evaluated(np.array(back), fixed)
+        return self.improved([float(x) for x in minima.points[:, 0]], fixed)
 
 
 def _near(present: float) -> Iterator[fmpq]:

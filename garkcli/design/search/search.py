@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from functools import cached_property
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
@@ -15,6 +16,7 @@ from garkcli.design.member import (
     is_admissible,
     is_as_stable,
     member,
+    method_at,
     not_negative,
     value_of,
 )
@@ -35,12 +37,14 @@ from garkcli.design.search.residuals import Generators, Residuals
 from garkcli.design.search.snap import fixed_nearby, nodes_of, snapped, unknowns_of
 from garkcli.design.solutions import Solution, value_at
 from garkcli.design.want import Asked, numerators
+from garkcli.errors import NotDecided
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.polynomial_text import root_decimal
 from garkcli.exact.roots import RealRoot
 from garkcli.frozen import Frozen, replace
 from garkcli.problems.draw import Draw
 from garkcli.tableau.family import Family
+from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
     from garkcli.design.search.rational import Array
@@ -219,6 +223,13 @@ class Search:
             start: the number of the start that led to it.
             optimum: a method in floats.
         """
+        if self.objective is not None and self.objective.key == "error" and optimum.is_none:
+            # the errors are the conditions of one order more
+            higher = Search(self.family, self.order + 1, self.whose).find(
+                start, list(optimum.point)
+            )
+            if higher is not None and higher.found is not None and higher.is_stable:
+                return higher
         system, near = self.program.shortened(optimum, self._preferences[0])
         x = polished(system, list(near.point), BITS)
         if x is None:
@@ -229,13 +240,23 @@ class Search:
         return self._exact(start, x) or self._inexact(start, system, x)
 
     def value(self, find: Find) -> str:
-        """The objective of a method as a decimal, or ``infinity``; a level of numbers that are not
-        rational in floats, to fewer digits: the next digits of the numbers would decide it.
+        """The objective of a method as a decimal, or ``infinity``.
+
+        A level is that of the exact numbers; where they are not known, or their field is too large,
+        that in floats, to fewer digits: the next digits of the numbers would decide it.
         """
         import numpy as np
 
         assert self.objective is not None
+        if self.objective.key == "error" and find.order > self.order:
+            return "0"
         names = self.family.ring.names
+        if isinstance(self.objective, Level) and find.found is not None:
+            solution = find.found.solution
+            with suppress(NotDecided):
+                method = method_at(self.tableau, self.family.ring, solution, solution.real[0])
+                if method is not None:
+                    return self._told(self.objective, method)
         values: dict[str, Number] = {}
         digits = find.digits
         if find.found is not None:
@@ -250,10 +271,13 @@ class Search:
                 values = {x: fmpq(in_decimals(digits[x], DECIMALS), 10**DECIMALS) for x in names}
         tableau = member(self.tableau, self.family.ring, values)
         if isinstance(self.objective, Level):
-            y = self.objective.shown(self.objective.value(tableau))
-            return "infinity" if y is None else root_decimal(y, SHORT)
+            return self._told(self.objective, tableau)
         quotient = self.objective.formula(tableau, self.order, None)
         return root_decimal(RealRoot.rational(quotient.numerator / quotient.denominator), SHORT)
+
+    def _told(self, level: Level, tableau: Tableau) -> str:
+        y = level.shown(level.value(tableau))
+        return "infinity" if y is None else root_decimal(y, SHORT)
 
     def find(self, start: int, point: list[float]) -> Find | None:
         """What can be proved of a solution in floats; None where it is no solution after all.
