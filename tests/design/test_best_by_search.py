@@ -284,6 +284,18 @@ def test_no_error_is_zero_for_radicals_too() -> None:
     assert "sqrt(3)" in "".join(method.values.values())
 
 
+def test_solutions_that_the_optimiser_leaves_are_counted() -> None:
+    """SDIRK methods of two stages are L-stable for no γ in the range."""
+    text = (
+        "unknown: {stages: 2, shape: [sdirk, stiffly-accurate]}\n"
+        "parameters: {gamma: {free: true, range: [1/50, 1/5]}}\n"
+        "design: {order: 1, a-stable: true}"
+    )
+    found = best(text, "error", 3)
+    assert not found.methods
+    assert found.degenerate == found.successes > 0
+
+
 def test_intervals_of_radicals_are_exact() -> None:
     """Rounded numbers miss the conditions of order 2, and then |R(iy)| > 1 for small y."""
     text = (

@@ -112,7 +112,8 @@ class Result(Mutable):
         starts: how many have been tried.
         successes: how many of them solve the conditions in floats.
         degenerate: how many of the different solutions that were searched are no methods:
-            no solution with more digits is near.
+            no solution with more digits is near, or the optimiser, which an objective needs, ends
+            outside the ranges, signs and stability that are wanted.
         unstable: how many of them are not shown to be as stable as the file wants.
         methods: each once, in the order of the starts; where an objective is minimised the best
             first.
@@ -356,9 +357,9 @@ class _Run:
             some = tasks[first : first + TOGETHER]
             for task, timed in zip(some, self._done(some), strict=True):
                 found = timed.result
-                if isinstance(found, Optimum) and not any(
-                    _are_same(found.point, other.optimum.point) for other in self._optima
-                ):
+                if not isinstance(found, Optimum):
+                    self.result.degenerate += 1
+                elif not any(_are_same(found.point, x.optimum.point) for x in self._optima):
                     self._optima.append(Best(task.start, found))
             self._optima.sort(key=lambda best: (best.optimum.grade, best.start))
             self._prove()
