@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cached_property
 from itertools import chain, permutations
 from typing import TYPE_CHECKING, Generic, TypeAlias, TypeVar
@@ -11,8 +11,9 @@ from flint import fmpq
 from yaml.nodes import Node
 
 from garkcli.errors import GarkError, MethodError, MethodFileError, ShapeMismatch
-from garkcli.exact.field import ONE, ZERO
+from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.matrix import Matrix, Vector
+from garkcli.exact.nodes import Expression
 from garkcli.exact.parametric import Parametric
 from garkcli.frozen import replace
 from garkcli.methodfile import description as d
@@ -41,7 +42,6 @@ from garkcli.transfer import (
 if TYPE_CHECKING:
     from garkcli.constructions.nystrom import Nystrom
     from garkcli.constructions.rosenbrock import Rosenbrock
-    from garkcli.methodfile.printed import Printed
 
 
 Blocks: TypeAlias = dict[tuple[int, int], Matrix]
@@ -212,7 +212,7 @@ class MethodFile(GarkMethod, kw_only=True):
     description: str = ""
     aliases: tuple[str, ...] = ()
     bibliography: Reference | None = None
-    printed: Printed = ()
+    printed: Sequence[tuple[Expression, Number]] = ()
     left_behind: tuple[str, ...] = ()
     rules: tuple[d.BlockRule, ...] = ()
 

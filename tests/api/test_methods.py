@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import pydoc
 import re
 from pathlib import Path
 
@@ -185,6 +186,11 @@ def test_help_of_the_package_has_every_name() -> None:
     assert set(garkcli.__all__) <= words
     named = {word for word in words if "_" in word}
     assert named <= set(garkcli.__all__)
+
+
+def test_help_of_the_package_is_written() -> None:
+    """``help(garkcli)`` asks each public class for its signature: its types are there to be read."""
+    assert "class MethodFile(" in pydoc.render_doc(garkcli, renderer=pydoc.plaintext)
 
 
 def test_the_example_of_a_file_on_disk(tmp_path: Path) -> None:
