@@ -4,6 +4,7 @@ are known.
 
 from __future__ import annotations
 
+import json
 import sys
 from pathlib import Path
 from typing import Any
@@ -325,3 +326,15 @@ def test_levels_have_a_highest() -> None:
         found = made.evaluated(np.array([g]))
         assert found is not None
         assert found.value == -HIGHEST
+
+
+@in_whole
+def test_processes_do_not_change_what_is_found(tmp_path: Path) -> None:
+    """Two processes take larger batches; the methods, their starts and all counts are the same."""
+    file = tmp_path / "dirk.yaml"
+    file.write_text("unknown: {stages: 3, shape: dirk}\ndesign: {order: 3}\n", encoding="utf-8")
+    asked = "--search", "150", "--minimise", "coefficients", "--most", "3", "--format", "json"
+    one, two = (json.loads(gark("design", str(file), *asked, "-j", j).out) for j in ("1", "2"))
+    for report in (one, two):
+        del report["seconds"]
+    assert one == two

@@ -297,6 +297,8 @@ def results(
         workers: who does the work; what is found does not depend on that.
     """
     workers = workers or Alone(partial(do, search))
+    if search.objective is not None:
+        search.program  # noqa: B018 -- an objective without meaning is refused at once
     coming = search.starts(seed, starts)
     run = _Run(search, workers, most, seed)
     size = FIRST
@@ -305,6 +307,7 @@ def results(
         size = max(1, min(size, search.batch, -(-starts // together)))
         group = list(islice(coming, size * together))
         if not group:
+            yield from run.rest()
             return
         yield from run.take(group, size)
         size *= 2
@@ -322,6 +325,7 @@ class _Run:
         )
         self._seen: list[Start] = []
         self._texts: set[tuple[str, ...]] = set()
+        self._waiting: list[Descent] = []
         self._optima: list[Best] = []
         self._known: dict[int, Method | None] = {}
 
@@ -350,29 +354,38 @@ class _Run:
             yield self.result
 
     def _descend(self, new: Sequence[Solution]) -> Iterator[Result]:
-        """The best methods near some solutions; those that are now the best of all are proved."""
-        self.search.program  # noqa: B018 -- what it has to refuse it refuses here
-        tasks = [Descent(solution.start, solution.point) for solution in new]
-        for first in range(0, len(tasks), TOGETHER):
-            some = tasks[first : first + TOGETHER]
-            for task, timed in zip(some, self._done(some), strict=True):
-                found = timed.result
-                if not isinstance(found, Optimum):
-                    self.result.degenerate += 1
-                elif not any(_are_same(found.point, x.optimum.point) for x in self._optima):
-                    self._optima.append(Best(task.start, found))
-            self._optima.sort(key=lambda best: (best.optimum.grade, best.start))
-            self._prove()
-            yield self.result
+        """The best methods near some solutions; those that are now the best of all are proved.
+
+        So many solutions at a time, however many come at once: what is proved does not depend on
+        the number of processes.
+        """
+        self._waiting += [Descent(solution.start, solution.point) for solution in new]
+        while len(self._waiting) >= TOGETHER:
+            some, self._waiting = self._waiting[:TOGETHER], self._waiting[TOGETHER:]
+            yield self._descended(some)
+
+    def rest(self) -> Iterator[Result]:
+        """The best methods near the last solutions."""
+        if self._waiting:
+            yield self._descended(self._waiting)
+
+    def _descended(self, tasks: Sequence[Descent]) -> Result:
+        for task, timed in zip(tasks, self._done(tasks), strict=True):
+            found = timed.result
+            if not isinstance(found, Optimum):
+                self.result.degenerate += 1
+            elif not any(_are_same(found.point, x.optimum.point) for x in self._optima):
+                self._optima.append(Best(task.start, found))
+        self._optima.sort(key=lambda best: (best.optimum.grade, best.start))
+        self._prove()
+        return self.result
 
     def _prove(self) -> None:
         """Prove the best optima that were not, until as many as are wanted make methods."""
         while now := [x for x in self._chosen() if x.start not in self._known]:
             for best, timed in zip(now, self._done(now), strict=True):
                 made = timed.result
-                self._known[best.start] = None
-                if isinstance(made, Method) and self._is_first(made):
-                    self._known[best.start] = made
+                self._known[best.start] = made if isinstance(made, Method) else None
                 self.result.unstable += made is False
                 self.result.degenerate += made is None
         methods = [x for best in self._chosen() if (x := self._known[best.start]) is not None]
@@ -382,9 +395,20 @@ class _Run:
         )
 
     def _chosen(self) -> list[Best]:
-        """The best optima that make methods, as far as is known."""
-        able = [x for x in self._optima if self._known.get(x.start, True) is not None]
-        return able[: self.most]
+        """The best optima that make methods, as far as is known, each method once."""
+        chosen: list[Best] = []
+        texts: set[tuple[str, ...]] = set()
+        for best in self._optima:
+            made = self._known.get(best.start)
+            if made is not None and tuple(made.values.values()) in texts:
+                continue
+            if made is not None:
+                texts.add(tuple(made.values.values()))
+            if made is not None or best.start not in self._known:
+                chosen.append(best)
+            if len(chosen) == self.most:
+                break
+        return chosen
 
     def _done(self, tasks: Sequence[Task]) -> Iterator[Timed]:
         """What comes of tasks, in their order."""

@@ -23,7 +23,7 @@ from garkcli.design.member import (
 from garkcli.design.minimise.objective import Level
 from garkcli.design.search.goals import meant
 from garkcli.design.search.least_squares import least_squares
-from garkcli.design.search.optimum import HIGHEST, Optimum, Program
+from garkcli.design.search.optimum import Optimum, Program
 from garkcli.design.search.points import Fixings, is_proved, polished
 from garkcli.design.search.rational import (
     RationalFunction,
@@ -243,7 +243,8 @@ class Search:
         """The objective of a method as a decimal, or ``infinity``.
 
         A level is that of the exact numbers; where they are not known, or their field is too large,
-        that in floats, to fewer digits: the next digits of the numbers would decide it.
+        that in floats, to fewer digits and no higher than ``HIGHEST``: the next digits of the
+        numbers would decide it.
         """
         import numpy as np
 
@@ -265,7 +266,7 @@ class Search:
         is_rational = all(isinstance(values.get(name), fmpq) for name in names)
         if isinstance(self.objective, Level) and not is_rational:
             level = self.program.level(np.array([float(digits[name].mid()) for name in names]))
-            return "infinity" if level >= HIGHEST else f"{level:.{FEW_DIGITS}g}"
+            return f"{level:.{FEW_DIGITS}g}"
         if not is_rational:
             with ctx.workprec(BITS):
                 values = {x: fmpq(in_decimals(digits[x], DECIMALS), 10**DECIMALS) for x in names}
