@@ -12,7 +12,7 @@ from garkcli.bridges.elsewhere import declared_orders, with_bases, with_declared
 from garkcli.bridges.estimates import with_orders
 from garkcli.bridges.finding import EXPLAINED, AuditFinding, Level
 from garkcli.bridges.judging import Judged, at_least, judged
-from garkcli.bridges.limited import read_within_limits
+from garkcli.bridges.limited import judged_within_limits
 from garkcli.bridges.plausible import are_whole, is_plausible
 from garkcli.bridges.readers.registry import demand_grammars, find_tables, readers_for
 from garkcli.bridges.subject import HIGH, Subject, orders_of, read
@@ -101,25 +101,25 @@ def audited(
     given = list(paths)
     demand_grammars(given)
     work = partial(_tables, orders=declared_orders(given), others=given)
-    for found in read_within_limits(given, work, _late, jobs):
-        for each in found:
-            if each.table.is_unlike:
-                told(f"{each.table.source}:{each.table.line}: {each.table.trouble}")
-            else:
-                yield each
+    for each in judged_within_limits(given, work, audit, _late, jobs):
+        if each is None:
+            continue
+        if each.table.is_unlike:
+            told(f"{each.table.source}:{each.table.line}: {each.table.trouble}")
+        else:
+            yield each
 
 
 def _tables(
     text: str, source: str, orders: Mapping[str, int], others: Sequence[str]
-) -> list[Audited]:
+) -> list[FoundTable]:
     """The tables of one source."""
     tables = with_bases(find_tables(text, source, readers_for(source)), source, others)
-    found = [audit(table) for table in with_declared(tables, text, orders)]
-    return [x for x in found if x is not None]
+    return list(with_declared(tables, text, orders))
 
 
-def _late(table: FoundTable) -> Audited:
-    return _noted(table, table.trouble, level="warning")
+def _late(table: FoundTable, seconds: str) -> Audited:
+    return _noted(table, f"read, not judged: judging took {seconds}", "unjudged")
 
 
 def audit(table: FoundTable) -> Audited | None:
@@ -170,7 +170,7 @@ def _audit(table: FoundTable) -> Audited | None:
     if table.is_misshapen:
         return Audited(table, findings=(AuditFinding("shape", table.trouble),))
     if table.trouble:
-        return _noted(table, table.trouble)
+        return _noted(table, table.trouble, level="warning" if table.is_source else "note")
     if table.form is not None:
         return _of_export(table)
     if table.gamma is not None or table.is_multirate:

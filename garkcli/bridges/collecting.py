@@ -106,7 +106,7 @@ def collected(
     given = list(paths)
     demand_grammars(given, format)
     work = partial(_tables, format=format, orders=declared_orders(given), others=given)
-    for table in chain.from_iterable(read_within_limits(given, work, lambda table: table)):
+    for table in read_within_limits(given, work):
         if table.is_unlike:
             continue
         table = settled(table)

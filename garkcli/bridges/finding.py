@@ -46,6 +46,7 @@ CODES = {
     "stored": "the numbers of a table say how it is stored",
     "idle": "an array beside a table has no role in it",
     "unread": "coefficients are not written out",
+    "unjudged": "judging a table takes too long",
     "other-kind": "the table is not one of a Runge–Kutta method",
 }
 """Every kind of finding."""

@@ -1,4 +1,5 @@
-"""Sources that are read within a limit of time, by a process that can be ended.
+"""Sources that are read, and tables that are judged, within a limit of time, by a process that can
+be ended.
 
 Grammars of tree-sitter are C: deaf while they parse, and on text of another language they may take
 time like the square of its length. Their callbacks end older versions of tree-sitter, and leak.
@@ -7,14 +8,15 @@ time like the square of its length. Their callbacks end older versions of tree-s
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Iterator
-from functools import partial
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import AbstractContextManager
+from itertools import chain
 from typing import Any, TypeVar
 
 from garkcli.bridges.readers.registry import readers_for
 from garkcli.bridges.sources import source_text
 from garkcli.crew.hiring import hired
-from garkcli.crew.work import Limit, WorkerLost, in_order
+from garkcli.crew.work import Limit, WorkerLost, Workers, in_order
 from garkcli.doing import counting, doing
 from garkcli.frozen import Frozen
 from garkcli.sources.found import FoundTable, unread
@@ -28,12 +30,8 @@ FREE_SECONDS = 20
 """Seconds that every source has, a hundred times what one of 50 KB takes on an idle machine."""
 BYTES_PER_SECOND = 50_000
 """And one more for so many bytes."""
-BYTES_PER_TABLE = 1_500
-"""And one more for so many of the first ``FULL`` bytes, which a method has that is judged in less
-than a second within the rounding of its decimals.
-"""
-FULL = 60_000
-"""A longer source is seldom full of methods."""
+JUDGING_SECONDS = 60.0
+"""Seconds that every table has: a pair of order 10 with its 17 stages takes a third of them."""
 
 
 class Source(Frozen):
@@ -51,32 +49,97 @@ class Source(Frozen):
 
 
 def read_within_limits(
-    paths: Iterable[str],
-    work: Callable[[str, str], list[T]],
-    late: Callable[[FoundTable], T],
-    jobs: int = 1,
-) -> Iterator[list[T]]:
-    """The outcome of each source, in order.
+    paths: Iterable[str], read: Callable[[str, str], list[FoundTable]], jobs: int = 1
+) -> Iterator[FoundTable]:
+    """The tables of all sources, in order; a source whose parser takes too long has a place holder.
 
     Args:
         paths: of the sources; ``-`` is standard input.
-        work: from the text of a source and its name to the outcome; both travel between processes.
-        late: the outcome of a source that was not read, as its parser took too long.
+        read: from the text of a source and its name to its tables; both travel between processes.
         jobs: how many processes read them; 0 is one per processor.
 
     Raises:
         UsageProblem: a source cannot be read.
     """
     given = [_source(path) for path in paths]
+    with _crew(_Work(read), given, jobs) as workers:
+        for tables in _known(workers, given, "files"):
+            yield from tables
+
+
+def judged_within_limits(
+    paths: Iterable[str],
+    read: Callable[[str, str], list[FoundTable]],
+    judge: Callable[[FoundTable], T],
+    late: Callable[[FoundTable, str], T],
+    jobs: int = 1,
+) -> Iterator[T]:
+    """What is said of each table of all sources, in order.
+
+    Args:
+        paths: of the sources; ``-`` is standard input.
+        read: from the text of a source and its name to its tables; both travel between processes.
+        judge: what is said of a table; it travels too.
+        late: what is said of a table whose judging takes too long, and how long that is.
+        jobs: how many processes work; 0 is one per processor.
+
+    Raises:
+        UsageProblem: a source cannot be read.
+    """
+    given = [_source(path) for path in paths]
+    with _crew(_Work(read, judge, late), given, jobs) as workers:
+        tables = list(chain.from_iterable(_known(workers, given, "files")))
+        yield from _known(workers, tables, "tables")
+
+
+class _Work(Frozen, eq=False):
+    """The reading of sources and, where it is requested, the judging of their tables: either item
+    has a limit of time of its own.
+    """
+
+    read: Callable[[str, str], list[FoundTable]]
+    judge: Callable[[FoundTable], Any] | None = None
+    late: Callable[[FoundTable, str], Any] | None = None
+
+    def done(self, item: Source | FoundTable) -> Any:
+        """The outcome of an item, or what kept it from having one: both travel."""
+        try:
+            if isinstance(item, Source):
+                with doing(item.name):
+                    text = source_text(item.name)[0] if item.text is None else item.text
+                    return self.read(text, item.name)
+            return None if self.judge is None else self.judge(item)
+        except Exception as error:
+            return error
+
+    def given_up(self, item: Source | FoundTable) -> Any:
+        """The outcome of an item that takes too long."""
+        seconds = f"longer than {_limit(item):.0f} s"
+        if isinstance(item, FoundTable):
+            return None if self.late is None else self.late(item, seconds)
+        readers = readers_for(item.name)
+        format = readers[0].name if len(readers) == 1 else ""
+        return [unread(item.name, format, f"the parser took {seconds}")]
+
+
+def _crew(
+    work: _Work, given: Sequence[Source], jobs: int
+) -> AbstractContextManager[Workers[Source | FoundTable, Any]]:
+    """Who reads and judges: other processes, unless there is little to read."""
     jobs = min(jobs or os.cpu_count() or 1, len(given))
     is_apart = jobs > 1 or any(source.size > SMALL for source in given)
-    limit = Limit(_seconds, partial(_late, late)) if is_apart else None
-    done: Callable[[Source], list[T] | Exception] = partial(_done, work)
-    with hired(done, _lost, jobs, limit=limit) as workers:
-        for found in counting("files", in_order(workers, given), len(given)):
-            if isinstance(found, Exception):
-                raise found
-            yield found
+    limit = Limit(_limit, work.given_up) if is_apart else None
+    return hired(work.done, _lost, jobs, limit=limit)
+
+
+def _known(
+    workers: Workers[Source | FoundTable, Any], items: Sequence[Source | FoundTable], what: str
+) -> Iterator[Any]:
+    """Every outcome in order; what kept an item from having one is raised."""
+    for found in counting(what, in_order(workers, items), len(items)):
+        if isinstance(found, Exception):
+            raise found
+        yield found
 
 
 def _source(path: str) -> Source:
@@ -86,27 +149,16 @@ def _source(path: str) -> Source:
     return Source(name, len(text), text)
 
 
+def _limit(item: Source | FoundTable) -> float:
+    """How long it may take to read a source, or to judge a table."""
+    return _seconds(item) if isinstance(item, Source) else JUDGING_SECONDS
+
+
 def _seconds(source: Source) -> float:
     """How long it may take to read a source."""
-    tables = min(source.size, FULL) // BYTES_PER_TABLE
-    return FREE_SECONDS + tables + source.size // BYTES_PER_SECOND
+    return FREE_SECONDS + source.size // BYTES_PER_SECOND
 
 
-def _done(work: Callable[[str, str], list[T]], source: Source) -> list[T] | Exception:
-    """The outcome of one source, or what kept it from being read: both travel."""
-    try:
-        with doing(source.name):
-            text = source_text(source.name)[0] if source.text is None else source.text
-            return work(text, source.name)
-    except Exception as error:
-        return error
-
-
-def _late(outcome: Callable[[FoundTable], T], source: Source) -> list[T] | Exception:
-    why = f"the parser took longer than {_seconds(source):.0f} s"
-    readers = readers_for(source.name)
-    return [outcome(unread(source.name, readers[0].name if len(readers) == 1 else "", why))]
-
-
-def _lost(source: Source, why: str) -> list[Any] | Exception:
-    return WorkerLost(f"the reading of {source.name} was ended {why}", "use fewer --jobs")
+def _lost(item: Source | FoundTable, why: str) -> Exception:
+    name = item.name if isinstance(item, Source) else f"{item.source}:{item.line}"
+    return WorkerLost(f"the reading of {name} was ended {why}", "use fewer --jobs")

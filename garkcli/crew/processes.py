@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import sys
 import threading
+import time
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, nullcontext, suppress
@@ -23,6 +25,8 @@ if TYPE_CHECKING:  # slow to import, and of no use to work that is not shared
 
 MOST_WORKERS = 60
 """Windows waits for 63 things at a time, a few of which are its own."""
+PATIENCE = 10
+"""So many times the processor time that an item may take has it by the clock."""
 BATCH = 8
 """Items that a worker has at hand: it should not wait while another's outcome is read."""
 
@@ -32,7 +36,9 @@ class _Worker(Generic[Item, Outcome]):
 
     Attributes:
         items: their numbers, first the one that it is at.
-        due: the reading of ``time.monotonic`` at which it is late with that one.
+        due: the reading of ``time.monotonic`` at which it may be late with that one.
+        last: that at which it is, however little it has worked.
+        most: its processor time at which it is late too.
     """
 
     def __init__(
@@ -43,7 +49,7 @@ class _Worker(Generic[Item, Outcome]):
         is_own: bool,
     ) -> None:
         self.items: deque[int] = deque()
-        self.due = FOR_EVER
+        self.due = self.last = self.most = FOR_EVER
         self.connection, other = context.Pipe()
         # a forked worker has the ends of this process too; while it holds them nobody hears that
         # this process has ended
@@ -65,6 +71,19 @@ class _Worker(Generic[Item, Outcome]):
         self.items.append(number)
         with suppress(OSError):
             self.connection.send(item)
+
+    def limit(self, seconds: float) -> None:
+        """The time of the item that it is at begins."""
+        now = monotonic()
+        self.due, self.last = now + seconds, now + PATIENCE * seconds
+        self.most = _worked(self.process) + seconds
+
+    def is_late(self) -> bool:
+        """Whether its time is over; else it has as much more as it has not worked, at least."""
+        now = monotonic()
+        if self.due <= now < self.last:
+            self.due = min(now + max(0.0, self.most - _worked(self.process)), self.last)
+        return self.due <= now
 
     def end(self) -> None:
         """End the process, whatever it is at."""
@@ -179,7 +198,7 @@ class Crew(Generic[Item, Outcome]):
         an outcome that is there when it looks is never late.
         """
         if self.limit is not None and worker.items:
-            worker.due = monotonic() + self.limit.seconds(self.items[worker.items[0]])
+            worker.limit(self.limit.seconds(self.items[worker.items[0]]))
 
     def _seconds_left(self) -> float | None:
         """Until the time is over, or a worker is late; None for no limit."""
@@ -196,7 +215,7 @@ class Crew(Generic[Item, Outcome]):
             NotDecided: the time around all of it is over.
         """
         check_time()
-        for worker in [x for x in self.workers if x.items and x.due <= monotonic()]:
+        for worker in [x for x in self.workers if x.items and x.is_late()]:
             yield from self._bury(worker, is_late=True)
 
     def _bury(
@@ -214,6 +233,14 @@ class Crew(Generic[Item, Outcome]):
             else:
                 yield items[0], self.crashed(item, _cause(worker.process.exitcode))
         self._hire()
+
+
+def _worked(process: BaseProcess) -> float:
+    """The processor time of another process, where the system says it; else that of the clock."""
+    if sys.platform == "linux" and process.pid is not None:
+        with suppress(OSError):
+            return time.clock_gettime((~process.pid << 3) | 2)  # as clock_getcpuclockid(3) has it
+    return monotonic()
 
 
 def _cause(code: int | None) -> str:

@@ -24,7 +24,7 @@ class Limit(Frozen, Generic[Item, Outcome]):
     """How long an item may take a process of its own, which is ended in the middle of a call in C.
 
     Attributes:
-        seconds: of an item.
+        seconds: of an item, of processor time where the system says that of another process.
         late: the outcome of an item that took longer.
     """
 

@@ -6,14 +6,18 @@ import json
 import os
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
 
+import garkcli.bridges.audit
 from garkcli import audit, import_methods
 from garkcli.bridges import limited
+from garkcli.bridges.audit import Audited
 from garkcli.crew import processes
 from garkcli.report.audited import FORMATS
+from garkcli.sources.found import FoundTable
 from garkcli.sources.languages import c
 from garkcli.sources.lowering import Lowering
 from tests.cli.harness import ROOT, gark
@@ -46,6 +50,59 @@ def test_an_audit_goes_on_behind_a_source_that_takes_too_long(
     assert [x.findings for x in found if x.is_read] == [(), ()]
     (finding,) = found[1].findings
     assert (finding.code, finding.level, finding.message) == ("unread", "warning", WHY)
+
+
+SLOW = "slow"
+
+
+def _slowly(table: FoundTable) -> str:
+    """As a judge that works without end on one table, and waits for long at another one."""
+    while table.name == SLOW:
+        pass
+    time.sleep(0.5 if table.name == "idle" else 0)
+    return f"{table.name} judged"
+
+
+def _read(text: str, source: str) -> list[FoundTable]:
+    return [FoundTable(source, 1, "", name, (), ()) for name in text.split()]
+
+
+def test_one_table_that_takes_too_long_does_not_cost_the_others(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Its time is its own, and that of the processor: who waits for that is not late."""
+    monkeypatch.setattr(limited, "JUDGING_SECONDS", 0.2)
+    monkeypatch.setattr(limited, "SMALL", 0)
+    path = tmp_path / "a.py"
+    path.write_text(f"first {SLOW} idle last")
+    given = limited.judged_within_limits(
+        [str(path)], _read, _slowly, lambda table, seconds: f"{table.name} {seconds}"
+    )
+    idle = "idle judged" if sys.platform == "linux" else "idle longer than 0 s"
+    assert list(given) == ["first judged", "slow longer than 0 s", idle, "last judged"]
+
+
+def test_a_table_that_takes_too_long_is_a_note(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The source is read, and its other tables are judged."""
+    monkeypatch.setattr(limited, "JUDGING_SECONDS", 0.3)
+    monkeypatch.setattr(limited, "SMALL", 0)
+    judging = garkcli.bridges.audit._audit
+
+    def slow(table: FoundTable) -> Audited | None:
+        while table.name == "Second":
+            pass
+        return judging(table)
+
+    monkeypatch.setattr(garkcli.bridges.audit, "_audit", slow)
+    path, arrays = tmp_path / "a.py", KUTTA.replace("\n", "\n    ")
+    path.write_text(f"class First:\n    {arrays}\nclass Second:\n    {arrays}")
+    first, second = audit([str(path)])
+    assert (first.is_read, second.is_read, second.looks_like) == (True, False, True)
+    (finding,) = second.findings
+    assert (finding.code, finding.level) == ("unjudged", "note")
+    assert finding.message == "read, not judged: judging took longer than 0 s"
 
 
 @in_whole
@@ -113,7 +170,7 @@ def test_a_program_is_not_run_again(tmp_path: Path) -> None:
 def test_limits_grow_with_sources() -> None:
     """A megabyte has more time than a kilobyte, and both have some."""
     seconds = [limited._seconds(limited.Source("x", size)) for size in (0, 1000, 10**6, 4 * 10**6)]
-    assert seconds == [20, 20, 80, 140]
+    assert seconds == [20, 20, 40, 100]
 
 
 @pytest.mark.parametrize(
