@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from garkcli.recognise.compositions import composition
 from garkcli.recognise.evidence import (
     COARSEST,
     MOST,
@@ -47,6 +48,7 @@ def other_readings(arrays: Sequence[Given]) -> tuple[list[Reading], int]:
         *(each for x, y in permutations(rows, 2) for each in _of_two_rows(x, y, rows)),
         *(_shu_osher(x, y, rows) for of in (matrices, rows) for x, y in permutations(of, 2)),
         *(each for x in arrays[:MOST_ARRAYS] for each in _nystrom(x, rows)),
+        *(each for x in rows for each in composition(x)),
     ]
     return [x for x in tried if x is not None], len(tried)
 

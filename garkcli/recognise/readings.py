@@ -50,7 +50,7 @@ class Reading(Frozen, eq=False):
 
     Attributes:
         form: ``rk``, or one that is made a tableau first: ``2N``, ``Shu–Osher``, ``nystrom``,
-            ``drift-first``, ``force-first``.
+            ``drift-first``, ``force-first``, ``composition``.
         rows: its numbers by their roles; A, b, c, embedded of ``rk``.
         how: they are stored, in words.
         bits: that speak for it.

@@ -13,7 +13,7 @@ from garkcli.sources.finder import TableFinder
 from garkcli.sources.found import FoundTable, Row, Rows
 from garkcli.sources.shaping import ZERO, changed, is_zero
 from garkcli.sources.signatures import DRIFT_FIRST, NAMED, OTHER_KINDS, Signature
-from garkcli.sources.values import Array, Number, Value
+from garkcli.sources.values import Array, Number, Value, computed, integer, items_of
 
 if TYPE_CHECKING:
     from garkcli.arrays import Floats
@@ -40,6 +40,7 @@ _FORMS = {
     **{form: Signature([], form) for form in (*REGISTERS, "Shu–Osher")},
     "nystrom": NAMED,
     "drift-first": DRIFT_FIRST,
+    "composition": DRIFT_FIRST,
     "force-first": Signature(["drifts", "kicks"], "force-first"),
 }
 
@@ -131,6 +132,8 @@ class _Source:
         rows = {role: self._value(x) for role, x in reading.rows.items()}
         if reading.form == "Shu–Osher":
             rows = {"c": rows.pop("alpha"), "A": rows.pop("beta"), **rows}
+        if reading.form == "composition":
+            rows = _steps(*next(iter(rows.items())), reading.line)
         if reading.form == "nystrom" and "b_q" not in rows:
             return None
         try:
@@ -176,6 +179,17 @@ class _Source:
         """What tells the numbers of a reading from others that are equal."""
         entries = (x for of in reading.used for row in of.rows for x in row if x.value)
         return frozenset(id(self._numbers[x.at]) for x in entries)
+
+
+def _steps(form: str, row: Value, line: int) -> dict[str, Value]:
+    """A symmetric composition as drifts and kicks."""
+    from garkcli.recognise.compositions import drifts_and_kicks  # numpy takes long to import
+
+    def compute(sign: str, x: Value, y: Value) -> Value:
+        return computed(sign, x, y, line)
+
+    drifts, kicks = drifts_and_kicks(form, items_of(row), compute, integer)
+    return {"drifts": Array(drifts), "kicks": Array(kicks)}
 
 
 def _kind(names: str) -> str:
