@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from fractions import Fraction
 from typing import TYPE_CHECKING, TypeAlias
+
+from flint import arb, fmpq, fmpz_poly
 
 from garkcli.frozen import Frozen
 from garkcli.sources import ir
 from garkcli.sources.found import MAX_STAGES, Unreadable
-from garkcli.sources.scalars import Scalar, real_root
+from garkcli.sources.scalars import DIGITS_OF_ROOTS, Scalar, real_root
 from garkcli.sources.values import (
     FILL,
     NULL,
@@ -25,6 +28,7 @@ from garkcli.sources.values import (
     Word,
     computed,
     copied,
+    exact,
     integer,
     items_of,
     literal,
@@ -70,6 +74,8 @@ class Call(Frozen):
 Known: TypeAlias = Callable[..., Value | None]
 """The value of a call with these arguments; None where the function is another one of that name."""
 
+PI = Number(None, math.pi, written=Scalar("pi"))
+"""No coefficient, and in angles."""
 CONSTANTS: Mapping[str, Value] = {
     **dict.fromkeys(("NULL", "nullptr", "nothing", "None", "missing", "PETSC_NULLPTR"), NULL),
     **{name: Word("true") for name in ("true", "True", "SUNTRUE", "PETSC_TRUE")},
@@ -82,9 +88,12 @@ CONSTANTS: Mapping[str, Value] = {
         for n in (2, 3, 5, 6, 7, 10, 15, 21)
         for name in ("sqrt", "sqrt_", "SQRT", "SQRT_", "M_SQRT")
     },
+    **dict.fromkeys(("pi", "PI", "M_PI", "π"), PI),
     "#": Number(None, math.nan, written=Scalar("x")),
 }
 """Names that mean the same everywhere; ``#`` is the variable of a polynomial."""
+MOST_PARTS, CLOSE = 120, 1e-14
+"""Of a turn, in an angle whose cosine is known; by how much a float may be off it."""
 CALLS: dict[str, Known] = {}
 """What is known of each function."""
 
@@ -211,6 +220,33 @@ def _root(call: Call, value: Value, index: Value = NULL) -> Value | None:
     if isinstance(value, Array):
         return value.map(lambda x: root(x, n, call.line))
     return root(value, n, call.line)
+
+
+@_known("acos atan")
+def _angle(call: Call, value: Value) -> Value | None:
+    """How programs write π: ``acos(-1)``, ``4*atan(1)``."""
+    if call.name == "acos" and whole(value) == -1:
+        return PI
+    is_one = call.name == "atan" and whole(value) == 1
+    return computed("/", PI, integer(4), call.line) if is_one else call.unknown()
+
+
+@_known("cos sin Cos Sin dcos dsin")
+def _of_angle(call: Call, angle: Value) -> Value | None:
+    """The cosine of a rational multiple of π, which is half of a root of an integer polynomial."""
+    if not isinstance(angle, Number) or not (angle.is_zero or "pi" in angle.scalar.text):
+        return call.unknown()
+    turns = Fraction(angle.near / math.tau).limit_denominator(MOST_PARTS)
+    if abs(turns - angle.near / math.tau) > CLOSE:
+        return call.unknown()
+    if call.name.lower().endswith("sin"):
+        turns = Fraction(1, 4) - turns
+    polynomial = fmpz_poly.cos_minpoly(turns.denominator)
+    if polynomial.degree() == 1:
+        return exact(fmpq(-polynomial[0], 2))
+    twice = 2 * arb.cos_pi_fmpq(fmpq(2 * turns.numerator, turns.denominator))
+    text = Scalar(f"root_of({polynomial}, {twice.str(DIGITS_OF_ROOTS, radius=False)})")
+    return computed("/", Number(None, float(twice), written=text), integer(2), call.line)
 
 
 @_known("constructor")

@@ -398,7 +398,7 @@ _ITSELF = frozenset(
 )
 """Methods that give the number or the list itself."""
 _OF_IT = {"recip": "inv", "reciprocal": "inv"} | {
-    x: x for x in ("sqrt", "cbrt", "len", "map", "transpose", "sum")
+    x: x for x in ("sqrt", "cbrt", "cos", "sin", "len", "map", "transpose", "sum")
 }
 """Methods that are functions of the number or of the list."""
 

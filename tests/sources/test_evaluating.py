@@ -311,6 +311,51 @@ def test_roots_by_their_names() -> None:
     assert table.A[0][0][1] == ("sqrt(6)/4", "0")
 
 
+CROUZEIX = {
+    "py": "g = 2*cos(np.pi/18)/np.sqrt(3)",
+    "jl": "g = 2/sqrt(3)*sin(4*pi/9)",
+    "c": "double g = 2/sqrt(3)*cos(M_PI/18);",
+    "m": "g = 2*cos(pi/18)/sqrt(3);",
+    "f90": "real, parameter :: pi = 4*atan(1.0)\nreal, parameter :: g = 2*cos(pi/18)/sqrt(3.0)",
+    "rs": "const G: f64 = (std::f64::consts::PI / 18.0).cos() * 2.0 / 3.0.sqrt();",
+}
+"""The parameter of his method of three stages and order 4 (1975)."""
+ARRAYS = {
+    "py": "A = [[(1+g)/2, 0, 0], [-g/2, (1+g)/2, 0], [1+g, -1-2*g, (1+g)/2]]\nb = [w, 1-2*w, w]",
+    "jl": "A = [(1+g)/2 0 0; -g/2 (1+g)/2 0; 1+g -1-2*g (1+g)/2]\nb = [w, 1-2*w, w]",
+    "c": "double A[3][3] = {{(1+g)/2}, {-g/2, (1+g)/2}, {1+g, -1-2*g, (1+g)/2}};\n"
+    "double b[3] = {w, 1-2*w, w};",
+    "f90": "real :: A(3,3) = reshape([(1+g)/2, -g/2, 1+g, 0., (1+g)/2, -1-2*g, 0., 0., (1+g)/2],"
+    " [3,3])\nreal :: b(3) = [w, 1-2*w, w]",
+    "rs": "const A: [[f64; 3]; 3] = [[(1.0+G)/2.0, 0.0, 0.0], [-G/2.0, (1.0+G)/2.0, 0.0],"
+    " [1.0+G, -1.0-2.0*G, (1.0+G)/2.0]];\nconst B: [f64; 3] = [W, 1.0-2.0*W, W];",
+}
+WEIGHT = {
+    "c": "double w = 1/(6*g*g);",
+    "f90": "real, parameter :: w = 1/(6*g*g)",
+    "rs": "const W: f64 = 1.0/(6.0*G*G);",
+}
+
+
+@pytest.mark.parametrize("name", CROUZEIX)
+def test_cosines_of_parts_of_a_turn_are_exact(name: str) -> None:
+    """They are roots of polynomials, so that the order is proved without any tolerance."""
+    weight = WEIGHT.get(name, "w = 1/(6*g^2)" if name != "py" else "w = 1/(6*g**2)")
+    text = f"{CROUZEIX[name]}\n{weight}\n{ARRAYS.get(name, ARRAYS['jl'])}\n"
+    found = audit(one(name, f"module dirk\n{text}end module\n" if name == "f90" else text))
+    assert found is not None
+    assert found.order is not None
+    assert (found.order.order, found.method and found.method.tolerance) == (4, None)
+
+
+@pytest.mark.parametrize("angle", ["x", "1/3", "pi/1001", "pi*pi"])
+def test_other_cosines_are_not_known(angle: str) -> None:
+    table = one(
+        "py", f"def f(x):\n    g = cos({angle})\n    A = [[0, 0], [g, 0]]\n    b = [1/2, 1/2]\n"
+    )
+    assert table.trouble
+
+
 def test_printed_digits_are_kept() -> None:
     """A long decimal is what was printed, in sums too; short ones are exact."""
     text = "double g = 0.29289321881345254, A[2][2] = {{g}, {1 - g, 0.1 + 0.2}}, b[2] = {0.5, .5};"

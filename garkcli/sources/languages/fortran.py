@@ -28,7 +28,12 @@ if TYPE_CHECKING:
 NAME = "fortran"
 _PROCEDURES = frozenset({"subroutine", "function", "module_procedure", "program"})
 _WHOLE = re.compile(r"\s*(?:integer|logical)", re.IGNORECASE)
-_FUNCTIONS = frozenset({"real", "dble", "sqrt", "reshape", "transpose", "sum", "size", "spread"})
+_FUNCTIONS = frozenset(
+    {
+        *("real", "dble", "reshape", "transpose", "sum", "size", "spread"),
+        *("sqrt", "cos", "sin", "acos", "atan"),
+    }
+)
 _RESHAPE = ir.Name("reshape")
 _UNKNOWN = ir.Opaque("a data statement")
 _ONE = ir.Literal("1", is_whole=True)
