@@ -72,19 +72,21 @@ def composition(x: Given) -> Iterator[Reading | None]:
     row = x.numbers
     if not FEWEST <= len(row) <= MOST_STEPS or len({*abs(row[:, VALUE])} - {0.0}) < FEWEST:
         return
-    for form in FORMS:
-        yield _reading(form, x, row)
-
-
-def _reading(form: str, x: Given, row: Floats) -> Reading | None:
     values = row[:, VALUE].tolist()
-    if form == "palindrome" and (len(values) < 3 or values != values[::-1]):
-        return None
-    drifts, kicks = drifts_and_kicks(form, values, lambda sign, a, b: _SIGNS[sign](a, b), float)
-    tolerance = ROUNDING + 12 * unit_of(row) * len(drifts)
-    off = (abs(sum(drifts) - 1), abs(sum(kicks) - 1))
-    if max(off) > tolerance or max(map(abs, drifts)) > 1e3:
-        return None
+    for form in FORMS:
+        if form == "palindrome" and (len(values) < 3 or values != values[::-1]):
+            continue
+        steps = drifts_and_kicks(form, values, lambda sign, a, b: _SIGNS[sign](a, b), float)
+        tolerance = ROUNDING + 12 * unit_of(row) * len(steps[0])
+        if max(abs(sum(z) - 1) for z in steps) <= tolerance and max(map(abs, steps[0])) < 1e3:
+            yield _reading(form, x, row, steps, tolerance)
+
+
+def _reading(
+    form: str, x: Given, row: Floats, steps: tuple[list[float], list[float]], tolerance: float
+) -> Reading | None:
+    """A composition whose drifts and kicks have the sum 1; None where it has no order 3."""
+    drifts, kicks = steps
     # a step of order 3 of a splitting has two conditions, which are one of steps of order 2
     moments = (_moment(kicks, drifts), _moment(drifts, [0.0, *kicks]))
     if max(abs(z) for z in moments) > 5 * tolerance:
