@@ -14,8 +14,8 @@ from garkcli.methodfile.build import MethodFile
 from garkcli.sources.found import FoundTable
 from garkcli.sources.naming import METHODS
 
-_EULER = re.compile("euler", re.IGNORECASE)
-"""The methods that have whole numbers alone."""
+_SHORT = re.compile("euler|midpoint|implicit|trapez|crank", re.IGNORECASE)
+"""Words for methods of few numbers."""
 NEAR = 0.01
 """Sums that differ by less are meant to be the same."""
 FAR = 0.5
@@ -34,9 +34,10 @@ def is_plausible(table: FoundTable, method: MethodFile) -> bool:
     tableau = method.tableau
     rows = [row for block in tableau.blocks.values() for row in block]
     is_bare = len(rows) < 2 or table.c[0] is None
-    if is_bare and are_whole((*rows, *(x.b for x in tableau.colours))):
-        words = f"{table.name} {PurePath(table.source).name}"
-        return METHODS.search(words) is not None or _EULER.search(words) is not None
+    is_single = len(rows) < 2 and table.order is None
+    if is_single or (is_bare and are_whole((*rows, *(x.b for x in tableau.colours)))):
+        words = f"{table.name} {table.around} {PurePath(table.source).name}"
+        return METHODS.search(words) is not None or _SHORT.search(words) is not None
     if table.order is not None:
         return True
     if table.colours > 1:

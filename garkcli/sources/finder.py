@@ -449,7 +449,8 @@ class TableFinder(Harvester):
 
     def _place(self, name: str, line: int, **told: Any) -> FoundTable:
         """A table without its coefficients."""
-        return FoundTable(self.source, line, self.format, name, (), (), **told)
+        around = " ".join(x.title for x in self._scopes)
+        return FoundTable(self.source, line, self.format, name, (), (), around=around, **told)
 
     def _unread(self, name: str, line: int, trouble: str = "", kind: str = "") -> None:
         """A place with a table that is of another kind, or else not read."""
@@ -539,6 +540,10 @@ def _roles_of(fields: Mapping[str, Value], told: Mapping[str, str]) -> Roles:
             roles.setdefault(told[key], value)
     if isinstance(fields.get("c1"), Number) and "c" in roles:
         roles["c"] = Array([fields["c1"], *items_of(roles["c"])])
+    single = {x: y for x, y in roles.items() if x in ("A", "b", "c") and isinstance(y, Number)}
+    if "A" in fields and {"A", "b"} <= set(single):
+        # numbers are matrices with one entry
+        roles |= {x: Array([y]) for x, y in single.items()} | {"A": Array([Array([single["A"]])])}
     diagonal = items_of(fields.get("a_diagonal"))
     rows = [items_of(x) or [x] for x in items_of(roles.get("A"))]
     rows = [[]] * (len(rows) == len(diagonal) - 1) + rows

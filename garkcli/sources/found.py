@@ -114,6 +114,7 @@ class FoundTable(Frozen):
         linked: bits of what links its matrix and its weights, where it is read off the numbers.
         is_recognised: whether its numbers alone say that it is a table.
         rivals: other readings of the same numbers, which may explain what is wrong with this one.
+        around: the names of the scopes that it is in.
     """
 
     source: str
@@ -156,6 +157,7 @@ class FoundTable(Frozen):
     linked: float = 0.0
     is_recognised: bool = False
     rivals: tuple[FoundTable, ...] = ()
+    around: str = ""
 
     @property
     def colours(self) -> int:

@@ -10,7 +10,19 @@ from garkcli.sources.values import Value, is_matrix, items_of, near
 
 _WORDS: Mapping[str, tuple[str, ...]] = {
     "A": ("A", "a", "Amat", "amat", "beta", "β", "a_lower", "A_matrix", "aCoefficients"),
-    "b": ("b", "B", "bvec", "b_sol", "bsol", "c_sol", "weights", "α", "b_vec", "bCoefficients"),
+    "b": (
+        "b",
+        "B",
+        "w",
+        "bvec",
+        "b_sol",
+        "bsol",
+        "c_sol",
+        "weights",
+        "α",
+        "b_vec",
+        "bCoefficients",
+    ),
     "c": ("c", "C", "cvec", "nodes", "alpha", "c_vec", "abscissae", "cCoefficients"),
     "embedded": (
         *("bhat", "b_hat", "bh", "bembed", "bstar", "b_star", "btilde"),
@@ -32,8 +44,8 @@ _WORDS: Mapping[str, tuple[str, ...]] = {
     "gamma": ("gamma",),
     "A_q": ("Abar", "abar", "A_bar", "a_bar", "Ā", "matrix_bar"),
     "b_q": ("bbar", "b_bar", "b̄", "weights_bar"),
-    "A1": ("A_hat",),
-    "c1": ("c_hat",),
+    "A1": ("A_hat", "a_hat", "Ahat", "ahat", "Â"),
+    "c1": ("c_hat", "chat", "ĉ"),
     "drifts": ("a_type",),
     "kicks": ("b_type",),
     "stages": ("stages", "s", "n_stages", "nstages"),
@@ -42,15 +54,15 @@ _WORDS: Mapping[str, tuple[str, ...]] = {
 }
 ROLES = {word: role for role, words in _WORDS.items() for word in words}
 """From the name of an array to what it is; where several have a role, the first name counts."""
-_PREFIX = re.compile(r"(?P<word>[AaBbCcEd]|bhat|bh|Amat|bembed|order)_(?P<stem>\w+)")
+_PREFIX = re.compile(r"(?P<word>[AaBbCcEdw]|bhat|bh|Amat|bembed|order)_(?P<stem>\w+)")
 _SUFFIX = re.compile(
-    r"(?P<stem>\w+?)_(?P<word>A|a|b|B|c|C|E|bh|bhat|b_hat|bembed|b2|order"
+    r"(?P<stem>\w+?)_(?P<word>A|a|b|B|c|C|E|w|bh|bhat|b_hat|bembed|b2|order"
     r"|embedded_order|embedded|dense|nodes|weights|stages|fsal|name|[ab]_type)"
 )
 _DIGIT = re.compile(r"(?P<stem>\w*[A-Za-z]\w*[0-9])(?P<word>[Aabc]|[Abc]_hat)")
 """``rk4a``, ``lsrk54b``, ``ars222A_hat``."""
 METHODS = re.compile(
-    r"runge|kutta|butcher|tableau|(?<![a-z])i?e?rk(?![a-z]{2})|rk\d|ssp(?![a-z])|dirk|dopri|dormand"
+    r"runge|kutta|butcher|tableau|(?<![a-z])i?e?rk(?![a-z]{2})|rk\d|ssp(?:rk)?(?![a-z])|dirk|dopri|dormand"
     r"|rosenbrock|\bros\d|rodas|rock\d|ralston|heun(?![a-z])|fehlberg|merson|mclachlan|yoshida"
     r"|low.?storage|symplectic|leapfrog|adams|(?<![a-z])ode\d|multistep|exponential.integrator"
     r"|(?<![^\W_])a_?[23]1(?!\w)|imex|imkg|cash.?karp|verner|gauss.?legendre|radau|lobatto|tsit5|magnus",
@@ -59,7 +71,7 @@ METHODS = re.compile(
 """Words for methods."""
 MAX_NAME = 200
 _PART = re.compile(
-    r"(?P<word>butcher|matrix|weights|nodes|[abc]|b_?hat|b_?embed)"
+    r"(?P<word>butcher|matrix|weights|nodes|[abcw]|b_?hat|b_?embed)"
     r"_?(?P<part>exp?|explicit|imp?|implicit)(?:_tableau)?",
     re.IGNORECASE,
 )

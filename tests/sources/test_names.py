@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from garkcli.bridges.audit import audit
 from garkcli.bridges.claiming import imported
-from garkcli.sources.languages import julia, python
+from garkcli.sources.languages import julia, matlab, python
 
 HEUN = "A=[[0, 0], [1, 0]], b=[0.5, 0.5], c=[0, 1]"
 PYTHON = {
@@ -60,3 +61,57 @@ def test_julia() -> None:
     assert (first.name, first.c, len(first.A)) == ("SSP222", (None, None), 2)
     assert (second.name, second.b, len(second.A)) == ("ARS111", (("1", "0"), ("0", "1")), 1)
     assert (imported(first, "x").order.order, imported(second, "x").order.order) == (2, 1)
+
+
+HATS = """
+def ars_233():
+    g = (3 + sqrt(3))/6
+    ahat = [[0, 0, 0], [g, 0, 0], [g - 1, 2*(1 - g), 0]]
+    bhat = [0, 0.5, 0.5]
+    a = [[0, 0, 0], [0, g, 0], [0, 1 - 2*g, g]]
+    b = [0, 0.5, 0.5]
+    order = 3
+    return ahat, bhat, a, b
+"""
+"""Of Ascher, Ruuth and Spiteri (1997)."""
+
+
+def test_a_hat_on_both_is_the_explicit_part() -> None:
+    """Weights with a hat are embedded ones only beside one matrix."""
+    (table,) = python.find(HATS, "x.py")
+    assert (table.colours, table.embedded) == (2, None)
+    found = audit(table)
+    assert found is not None
+    assert found.order is not None
+    assert (found.order.order, found.findings) == (3, ())
+
+
+@pytest.mark.parametrize(
+    ("text", "order"),
+    [
+        ("class BackwardEuler:\n    A = [[1.0]]\n    b = [1.0]\n", 1),
+        ("class ImplicitMidpoint:\n    A = [[0.5]]\n    w = [1]\n", 2),
+        ("class Shift:\n    A = [[1.0]]\n    b = [1.0]\n", None),
+        ("class Shift:\n    A = [[0.5]]\n    b = [1.0]\n    c = [0.5]\n", None),
+    ],
+)
+def test_one_stage_needs_words(text: str, order: int | None) -> None:
+    """Its numbers say nothing."""
+    (table,) = python.find(text, "x.py")
+    found = audit(table)
+    assert (found and found.order and found.order.order) == order
+
+
+def test_numbers_of_matlab_are_matrices() -> None:
+    """So is the method of one stage in a structure, where its class speaks of it."""
+    text = (
+        "classdef {} < Solver\n  methods\n    function this = {}()\n      t.A = 1;\n"
+        "      t.b = 1;\n      t.c = 1;\n      this@Solver(t);\n    end\n  end\nend\n"
+    )
+    (table,) = matlab.find(text.replace("{}", "ImplicitEuler"), "x.m")
+    found = audit(table)
+    assert found is not None
+    assert found.order is not None
+    assert found.order.order == 1
+    (other,) = matlab.find(text.replace("{}", "Shift"), "x.m")
+    assert audit(other) is None
