@@ -49,6 +49,8 @@ Roles: TypeAlias = dict[str, Value]
 """What is known of a table, by role: A, b, c, embedded, error, dense, order, …"""
 
 
+CLOSE = 0.01
+"""Sums of combinations are nearer to 1."""
 FAR = 1
 """Embedded weights have a sum that is nearer to 1, and their differences one nearer to 0, misprints
 included.
@@ -376,6 +378,8 @@ def _of_registers(meant: Meant, roles: Roles) -> tuple[str, Converted] | None:
         rows[2] = rows[2] or (ZERO,) * len(rows[-1])
         return "3S*", converted("3S*", *rows)
     if b is None and is_matrix(c) and is_matrix(A):
+        if not _are_combinations(c):
+            raise NoTable
         return "Shu–Osher", converted("Shu–Osher", rows_of(plain(c)), rows_of(plain(A)))
     if form != "rk":
         diagonals = [_row(roles, x) for x in roles if x in {"A", "A_2", "A_3", "A_4"}]
@@ -390,6 +394,12 @@ def _of_registers(meant: Meant, roles: Roles) -> tuple[str, Converted] | None:
         # numbers of registers, which say themselves of which form
         raise NoTable
     return None
+
+
+def _are_combinations(alpha: Value | None) -> bool:
+    """Whether most rows have the sum 1, but for those of zeros."""
+    sums = [near(*items_of(row)) for row in items_of(alpha) if any(near(x) for x in items_of(row))]
+    return 2 * sum(abs(x - 1) < CLOSE for x in sums) > len(sums)
 
 
 def _is_pair_of_rows(row: Row, stages: int) -> bool:

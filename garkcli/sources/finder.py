@@ -24,7 +24,7 @@ from garkcli.sources.couplings import FORM as COUPLING
 from garkcli.sources.evaluate import Space, shown
 from garkcli.sources.found import FoundTable, troubled
 from garkcli.sources.harvest import Harvester
-from garkcli.sources.linear_stages import roles_of_kpp
+from garkcli.sources.linear_stages import roles_by_sums, roles_of_kpp
 from garkcli.sources.naming import ROLES, role_of, roles_of_parts
 from garkcli.sources.overlooked import overlooked, sized
 from garkcli.sources.rklab import blocks_in
@@ -184,6 +184,7 @@ class TableFinder(Harvester):
         records = [x.fields for x in space.values() if isinstance(x, Record) and not x.kind]
         packed = roles_of_kpp(space)
         packed = packed or next(filter(None, (roles_of_kpp(x, "") for x in records)), None)
+        packed = packed or roles_by_sums(space)
         if packed is not None:
             place = self._place(scope.title, scope.line)
             self._meant.append(Meant(place, dict(packed), SIGNATURES[KPP], KPP))

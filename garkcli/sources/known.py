@@ -387,7 +387,8 @@ def _reshaped(call: Call, value: Value, *shape: Value) -> Value | None:
     is_by_rows = call.evaluator.base == 0
     turned = value if is_by_rows or not value.is_matrix else transposed(value, call.line)
     flat = list((turned if isinstance(turned, Array) else value).flat())
-    sizes = _sizes(_without_open(shape, len(flat)))
+    shape = shape or tuple(filter(None, [call.named.get("shape")]))
+    sizes = _sizes(_without_open(shape, len(flat))) or _of_square(shape, len(flat))
     if not sizes or math.prod(sizes) != len(flat):
         return call.unknown()
     if len(sizes) == 1:
@@ -400,6 +401,14 @@ def _reshaped(call: Call, value: Value, *shape: Value) -> Value | None:
     return call.array(
         call.array(flat[at if is_by_rows else slice(i, None, rows)]) for i, at in enumerate(starts)
     )
+
+
+def _of_square(shape: Sequence[Value], count: int) -> list[int]:
+    """The sizes of a matrix that has one unknown size twice; none of others."""
+    sizes = items_of(shape[0]) if len(shape) == 1 else list(shape)
+    reasons = [x.reason for x in sizes if isinstance(x, Unknown)]
+    is_square = len(sizes) == len(reasons) == 2 and reasons[0] == reasons[1]
+    return [math.isqrt(count)] * 2 if is_square else []
 
 
 @_known("from_row_slice from_column_slice from_vec")

@@ -15,8 +15,11 @@ from garkcli.sources.values import (
     Number,
     Value,
     Word,
+    computed,
     first_unknown,
     integer,
+    is_matrix,
+    is_written,
     items_of,
     near,
     whole,
@@ -37,6 +40,8 @@ _OF_KPP = {
 }
 NEAR = 1e-9
 """Row sums that are printed are that near."""
+MOST_MATRICES = 6
+"""So many of a scope are tried in pairs."""
 _WHOLE = frozenset(("A", "C", "b", "c", "d", "stages"))
 
 
@@ -75,20 +80,76 @@ def _by_row_sums(
     called; nothing where there are none.
     """
     stages = len(items_of(m))
-    nodes, sums = ([near(x) for x in items_of(of)] for of in (alpha, gamma))
+    sums = [near(x) for x in items_of(gamma)]
     packed = [x for x in map(partial(_triangle, stages=stages), values.values()) if x]
-    if not (1 < stages == len(nodes) == len(sums)):
+    if not (1 < stages == len(items_of(alpha)) == len(sums)):
         return {}
     for A, C in permutations(packed, 2):
-        # (I/γ - C)Γ𝟙 = 𝟙 and α𝟙 = AΓ𝟙
-        is_met = all(
-            abs(sums[0] * (1 + _below(C, i, sums)) - sums[i]) < NEAR
-            and abs(_below(A, i, sums) - nodes[i]) < NEAR
-            for i in range(stages)
-        )
-        if is_met and any(near(x) for x in A):
+        if any(near(x) for x in A) and _are_sums(A, C, alpha, sums):
             return {"a": Array([*A]), "c": Array([*C]), "s": integer(stages)}
     return {}
+
+
+def roles_by_sums(values: Mapping[str, Value]) -> Mapping[str, Value] | None:
+    """The roles of the arrays of a method as programs store it, whatever they are called; None
+    where there is none. Its nodes α and row sums γ may be the diagonals of A and C.
+    """
+    arrays = [x for x in values.values() if isinstance(x, Array) and len(x.items) > 1]
+    matrices = [x for x in arrays if any(isinstance(y, Array) for y in x.items)][:MOST_MATRICES]
+    vectors = [x for x in arrays if not is_matrix(x) and is_written(x)]
+    for A, C in permutations(matrices, 2):
+        stages = len(A.items)
+        rows = [x for x in vectors if len(x.items) == stages == len(C.items)]
+        low_A, low_C = (_triangle(_strict(x), stages) for x in (A, C))
+        if not (rows and any(map(near, low_A)) and any(map(near, low_C))):
+            continue
+        for alpha, gamma in [(_diagonal(A), _diagonal(C)), *permutations(rows, 2)]:
+            sums = [near(x) for x in items_of(gamma)]
+            # Σ b = mᵀΓ𝟙
+            m = [x for x in rows if abs(_dot(x, sums) - 1) < NEAR and x not in (alpha, gamma)]
+            if m and not sums[0].is_integer() and _are_sums(low_A, low_C, alpha, sums):
+                order = values.get("order")
+                return {
+                    "A": Array([*low_A]),
+                    "C": Array([*low_C]),
+                    "b": m[0],
+                    "c": alpha,
+                    "d": gamma,
+                    "gamma": items_of(gamma)[0],
+                    "stages": integer(stages),
+                    **({"order": order} if isinstance(order, Number) else {}),
+                    **({"error": _difference(*m[:2])} if len(m) > 1 else {}),
+                }
+    return None
+
+
+def _difference(x: Array, y: Array) -> Array:
+    return Array([computed("-", a, b, 0) for a, b in zip(x.items, y.items, strict=True)])
+
+
+def _strict(matrix: Array) -> Array:
+    """What a matrix has, but for its diagonal."""
+    rows = [items_of(x) for x in matrix.items]
+    return Array([Array([*row[:i], FILL, *row[i + 1 :]]) for i, row in enumerate(rows)])
+
+
+def _diagonal(matrix: Array) -> Array:
+    pairs = enumerate(map(items_of, matrix.items))
+    found = [row[i] if i < len(row) else FILL for i, row in pairs]
+    return Array([x if isinstance(x, Number) else FILL for x in found])
+
+
+def _dot(x: Array, y: Sequence[float]) -> float:
+    return sum(near(a) * b for a, b in zip(x.items, y, strict=True))
+
+
+def _are_sums(A: Sequence[Value], C: Sequence[Value], alpha: Value, sums: Sequence[float]) -> bool:
+    """Whether (I/γ - C)Γ𝟙 = 𝟙 and α𝟙 = AΓ𝟙, of triangles that are packed by rows."""
+    return all(
+        abs(sums[0] * (1 + _below(C, i, sums)) - sums[i]) < NEAR
+        and abs(_below(A, i, sums) - near(x)) < NEAR
+        for i, x in enumerate(items_of(alpha))
+    )
 
 
 def _triangle(value: Value, stages: int) -> list[Value]:
