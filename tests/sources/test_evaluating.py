@@ -37,6 +37,9 @@ SAME = {
         "void f(int *s, double A[], double b[]) { *s = 2; A[0] = 0; A[1] = 0; A[2] = 2./3;\n"
         "  A[3] = 0; b[0] = 0.25; b[1] = 1 - b[0]; }"
     ),
+    "cpp, lists of Boost": (
+        "Ralston::Ralston() { a += 0., 0.,\n 2./3., 0.; b += 1./4., 3./4.; c += 0., 2./3.; }"
+    ),
     "c, types that the grammar does not know": (
         "void f(void) { Scalar g = 3; Scalar A[2][2] = {{0}}, b[2]; A[1][0] = (Scalar)-2.0/(Scalar)(-g);\n"
         "  b[0] = (Scalar)(0.25); b[1] = (Scalar)0.75; }"

@@ -39,6 +39,8 @@ _WHOLE_TYPES = re.compile(r"\b(?:int|long|short|unsigned|size_t|auto|bool|PetscI
 _NUMBER = re.compile(r"(?P<digits>[0-9']*\.?[0-9']*(?:[eE][-+]?[0-9]+)?)(?P<suffix>[a-zA-Z_]\w*)?")
 _LIST = re.compile(r"\bvector\s*<")
 _DECLARED = frozenset({"array_declarator", "identifier", "field_identifier"})
+_VALUES = frozenset({"number_literal", "unary_expression", "binary_expression"})
+"""What a list of coefficients has."""
 _DEVICE = re.compile(rb"__(?:constant|device|shared|host|global)__")
 """Where CUDA keeps what is declared: no part of the grammar."""
 _ASIDE = re.compile(
@@ -117,6 +119,11 @@ class CLowering(Lowering):
                 yield ir.Do(ir.Call(ir.Name(self.name(inside[0])), args), line)
             case "comma_expression" | "binary_expression":
                 first, *more = self._parts(node)
+                to, value = part(first, "left"), part(first, "right")
+                if to and value and more and self._fills(first, more):
+                    row = ir.Items(self.exprs([value, *more]))
+                    yield ir.Assign(self.target(to), row, line)
+                    return
                 match self.expr(first):
                     case ir.Binary("<<", left, right):
                         # A << 0, 1; of Eigen
@@ -257,6 +264,11 @@ class CLowering(Lowering):
         if node.type != "comma_expression":
             return [node]
         return [y for x in self.children(node) for y in self._parts(x)]
+
+    def _fills(self, first: Node, more: Sequence[Node]) -> bool:
+        """Whether an array that is empty gets its numbers: ``a += 0, 1;`` of Boost."""
+        is_sum = self.text(part(first, "operator")) == "+="
+        return is_sum and all(x.type in _VALUES for x in more)
 
     def _counted(self, node: Node) -> tuple[str, ir.Expr]:
         """What ``for (i = a; i < b; i++)`` counts; an empty name for other loops."""
