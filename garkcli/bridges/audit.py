@@ -182,7 +182,7 @@ def _audit(table: FoundTable) -> Audited | None:
     if not is_plausible(table, method):
         if table.is_assembled:
             return _noted(table, UNRECOGNISED)
-        may_be = table.c[0] is None and _may_be_method(method)
+        may_be = table.c[0] is None and (table.order or _may_be_method(method))
         message = "A and b without nodes, which may be no method"
         return _noted(table, message) if may_be else None
     subject = subject_of(table, method)

@@ -38,10 +38,11 @@ def is_plausible(table: FoundTable, method: MethodFile) -> bool:
     if is_single or (is_bare and are_whole((*rows, *(x.b for x in tableau.colours)))):
         words = f"{table.name} {table.around} {PurePath(table.source).name}"
         return METHODS.search(words) is not None or _SHORT.search(words) is not None
+    are_near = all(abs(_sum(x.b) - 1) < FAR for x in tableau.colours)
     if table.order is not None:
-        return True
+        return are_near or table.c[0] is not None
     if table.colours > 1:
-        return all(abs(_sum(x.b) - 1) < FAR for x in tableau.colours)
+        return are_near
     block = tableau.block(0, 0)
     colour = tableau.colours[0]
     if block is None:

@@ -184,10 +184,8 @@ class TableFinder(Harvester):
         records = [x.fields for x in space.values() if isinstance(x, Record) and not x.kind]
         packed = roles_of_kpp(space)
         packed = packed or next(filter(None, (roles_of_kpp(x, "") for x in records)), None)
-        packed = packed or roles_by_sums(space)
         if packed is not None:
-            place = self._place(scope.title, scope.line)
-            self._meant.append(Meant(place, dict(packed), SIGNATURES[KPP], KPP))
+            self._of_kpp(packed, scope)
             return
         made = list(space.calls)
         if isinstance(space.returned, Record) and space.returned not in made:
@@ -201,6 +199,10 @@ class TableFinder(Harvester):
         for record in made:
             if (record.kind, record.line) not in self._halves:
                 self._of_record(record, scope)
+        stored = roles_by_sums(space) if self._count() == count else None
+        if stored is not None:
+            self._of_kpp(stored, scope)
+            return
         rows = [x for x in self.rows if (role_of(x.name) or "")[1:] == ("A",)]
         values = {x.name: self.harvest.value(x) for x in rows} | dict(space)
         lines = {x.name: x.line for x in rows} | space.lines
@@ -219,6 +221,11 @@ class TableFinder(Harvester):
             return
         if looks_like_a_step:
             self.lost[scope.kind, scope.line] = "a step that is not followed"
+
+    def _of_kpp(self, roles: Mapping[str, Value], scope: ir.Scope) -> None:
+        """The Rosenbrock method of a scope as programs store it."""
+        place = self._place(scope.title, scope.line)
+        self._meant.append(Meant(place, dict(roles), SIGNATURES[KPP], KPP))
 
     def _count(self) -> int:
         return len(self._meant) + len(self._other)

@@ -107,7 +107,7 @@ def roles_by_sums(values: Mapping[str, Value]) -> Mapping[str, Value] | None:
             sums = [near(x) for x in items_of(gamma)]
             # Σ b = mᵀΓ𝟙
             m = [x for x in rows if abs(_dot(x, sums) - 1) < NEAR and x not in (alpha, gamma)]
-            if m and not sums[0].is_integer() and _are_sums(low_A, low_C, alpha, sums):
+            if m and sums[0] % 1 and _are_sums(low_A, low_C, alpha, sums):
                 order = values.get("order")
                 return {
                     "A": Array([*low_A]),

@@ -121,8 +121,8 @@ class CLowering(Lowering):
                 first, *more = self._parts(node)
                 to, value = part(first, "left"), part(first, "right")
                 if to and value and more and self._fills(first, more):
-                    row = ir.Items(self.exprs([value, *more]))
-                    yield ir.Assign(self.target(to), row, line)
+                    numbers = ir.Items(self.exprs([value, *more]))
+                    yield ir.Assign(self.target(to), numbers, line)
                     return
                 match self.expr(first):
                     case ir.Binary("<<", left, right):
