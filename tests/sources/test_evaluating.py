@@ -397,6 +397,14 @@ def test_an_error_estimate_of_either_sign(sign: str, declared: str) -> None:
     assert tuple(map(to_text, low)) == FIFTH
 
 
+def test_nodes_of_zeros_are_told() -> None:
+    """No reading without nodes explains them away."""
+    head, _, _ = FEHLBERG.rpartition("c = ")
+    found = audit(one("py", f"{head}c = [0, 0, 0, 0, 0, 0]\norder = 4\n"))
+    assert found is not None
+    assert [x.code for x in found.findings if x.level == "error"] == ["nodes"]
+
+
 def test_two_stages_of_single_numbers() -> None:
     """One entry, two weights and the node are a table; without the node their numbers say so."""
     text = "function ralston(T)\n    a21 = T(2 // 3)\n    b1 = T(1 // 4)\n    b2 = T(3 // 4)\n"
