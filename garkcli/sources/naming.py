@@ -11,17 +11,8 @@ from garkcli.sources.values import Value, is_matrix, items_of, near
 _WORDS: Mapping[str, tuple[str, ...]] = {
     "A": ("A", "a", "Amat", "amat", "beta", "β", "a_lower", "A_matrix", "aCoefficients"),
     "b": (
-        "b",
-        "B",
-        "w",
-        "bvec",
-        "b_sol",
-        "bsol",
-        "c_sol",
-        "weights",
-        "α",
-        "b_vec",
-        "bCoefficients",
+        *("b", "B", "w", "bvec", "b_sol", "bsol"),
+        *("c_sol", "weights", "α", "b_vec", "bCoefficients"),
     ),
     "c": ("c", "C", "cvec", "nodes", "alpha", "c_vec", "abscissae", "cCoefficients"),
     "embedded": (

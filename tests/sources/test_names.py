@@ -115,3 +115,12 @@ def test_numbers_of_matlab_are_matrices() -> None:
     assert found.order.order == 1
     (other,) = matlab.find(text.replace("{}", "Shift"), "x.m")
     assert audit(other) is None
+
+
+def test_weights_far_from_1_need_nodes() -> None:
+    """A declared order alone does not make a table of multistep coefficients."""
+    text = "def ssp():\n    a = [3/4, 0, 1/4]\n    b = [{}, 0, 0]\n    order = 2\n"
+    (table,) = python.find(text.format("3/2"), "x.py")
+    found = audit(table)
+    assert found is not None
+    assert (found.is_read, [x.level for x in found.findings]) == (False, ["note"])
