@@ -437,7 +437,7 @@ energy: --omega --split --stiffness --digits --symplecticity --bounded --max-err
     with --modified | OPTION does not go with --modified | leave it out
 modified: --seed without --problem | --seed is for the problem | give --problem too
 stability: --ratio --at with --slow
-    | OPTION goes with the whole report | leave it or --slow out
+    | OPTION does not go with --slow | leave one of them out
 stability: --order-star without --plot --verbose
     | --order-star is for the picture | give -v or --plot FILE too
 export: --test without --output

@@ -101,7 +101,7 @@ def test_reports() -> None:
         (("methods/rectangular.gark.yaml", "--at", "1"), "R(z) has no meaning"),
         (
             ("methods/three-colours.gark.yaml", "--at", "1", "--slow", "1", "--fast", "1"),
-            "--at goes with the whole report",
+            "--at does not go with --slow",
         ),
         (("tests/examples/families/sdirk.gark.yaml", "--at", "1"), "--at"),
     ],
