@@ -12,7 +12,7 @@ from garkcli.frozen import Frozen, replace
 from garkcli.recognise.evidence import Evidence, evidence, order_of, row_sums, unit_of
 from garkcli.recognise.given import LENGTH, UNIT, VALUE, Given, Group
 from garkcli.recognise.hypotheses import Parts, is_lower, parts_of
-from garkcli.recognise.names import EMBEDDED, MATRIX, NODES, WEIGHTS
+from garkcli.recognise.names import BETA, EMBEDDED, MATRIX, NODES, WEIGHTS
 from garkcli.recognise.vectors import Vector, fitted, nodes_in, sums_of, vectors_of
 
 if TYPE_CHECKING:
@@ -171,7 +171,18 @@ class _Search:
                 elif off < FAR and s > 2:
                     found.append(replace(b, is_off=True))
         last = Vector(of, parts.A[-1], is_last_row=True)
-        return [*found, *([last] if abs(last.total - 1) < 1e-6 else [])]
+        is_one = abs(last.total - 1) < 1e-6 and not self._has_others(of, last)
+        return [*found, *([last] if is_one else [])]
+
+    def _has_others(self, of: Given, last: Vector) -> bool:
+        """Whether single numbers beside those of a matrix have a name of weights, and other values
+        than its last row.
+        """
+        own = [x for x in self._vectors if x.of.is_made and x.of.owner == of.owner]
+        named = [x for x in own if WEIGHTS.search(x.of.name) or BETA.search(x.of.name)]
+        named = [x for x in named if not EMBEDDED.search(x.of.name)]
+        values = {*last.numbers[:, VALUE], 0.0}
+        return of.is_made and any(not values.issuperset(x.numbers[:, VALUE]) for x in named)
 
     def _reading(self, of: Given, parts: Parts, b: Vector, c: Vector | None) -> Reading | None:
         """A matrix with weights and nodes; None if too little speaks for it."""
@@ -340,11 +351,11 @@ def with_beside(reading: Reading, group: Iterable[Given]) -> Reading:
         if "embedded" not in rows and "error" not in rows and (is_low or is_error) and v.any():
             rows["error" if is_error else "embedded"] = each.numbers
             used = (*used, each.of)
-        elif each.is_fitted or each.of.is_made or is_low or is_error:
+        elif each.is_fitted or is_low or is_error:
             continue
-        elif WEIGHTS.search(name):
+        elif WEIGHTS.search(name) or (each.of.is_made and EMBEDDED.search(name)):
             idle.append(each.of)
-        elif c is None and NODES.search(name):
+        elif c is None and not each.of.is_made and NODES.search(name):
             wide = 30 * (each.numbers[:, UNIT] + A[..., UNIT].sum(1)) + 1e-12
             idle += [each.of] if (np.abs(v - sums) > wide).any() else []
     return replace(reading, rows=rows, used=used, idle=tuple(dict.fromkeys(idle)))

@@ -497,7 +497,7 @@ def _with_embedded(table: FoundTable, roles: Roles, meant: Meant) -> FoundTable:
     total = near(roles[role])
     is_error = abs(total) < 0.05 or (role == "error" and meant.table.is_assembled)
     off = total if role == "error" else total - 1
-    if not (meant.table.is_sure or is_error) and abs(off) > FAR:
+    if not (meant.table.is_sure or meant.table.is_assembled or is_error) and abs(off) > FAR:
         # an array of that name which is something else
         return table
     if len(row) == len(b) + 1 and is_zero(row[-1]):

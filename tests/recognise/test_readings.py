@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
+from garkcli.frozen import replace
 from garkcli.recognise.choosing import readings_of
 from garkcli.recognise.evidence import conditions, order_of
 from garkcli.recognise.given import Entry, Given, Group
@@ -132,3 +133,15 @@ def test_other_forms() -> None:
     weights = np.array([1 / 6, 2 / 3, 1 / 6])
     (found,) = read(bar, weights, np.array([1 / 6, 1 / 3, 0]), np.array([0, 1 / 2, 1]))
     assert (found.form, found.order) == ("nystrom", 4)
+
+
+@pytest.mark.parametrize(("weights", "is_read"), [([2 / 9, 1 / 3, 0], True), ([1 / 9, 1], False)])
+def test_single_weights_beside_a_last_row(weights: list[float], is_read: bool) -> None:
+    """Bogacki and Shampine's last row are the weights, of which some have names of their own, too;
+    other values with these names say that the weights are elsewhere.
+    """
+    rows = np.array([[0, 0, 0, 0], [1 / 2, 0, 0, 0], [0, 3 / 4, 0, 0], [2 / 9, 1 / 3, 4 / 9, 0]])
+    of = [given("a", rows), given("b", np.array(weights)), given("c", rows.sum(1))]
+    made = [replace(x, is_made=True) for x in of]
+    found = [x for x in readings_of([Group((0, None), 1, "", made)]) if x.is_enough]
+    assert [x.how for x in found] == ["b is the last row"] * is_read
