@@ -11,11 +11,11 @@ from flint import fmpq
 from garkcli.bridges.elsewhere import declared_orders, with_bases, with_declared
 from garkcli.bridges.estimates import with_orders
 from garkcli.bridges.finding import EXPLAINED, AuditFinding, Level
-from garkcli.bridges.judging import Judged, at_least, judged
+from garkcli.bridges.judging import Judged, at_least
 from garkcli.bridges.limited import judged_within_limits
-from garkcli.bridges.plausible import are_whole, is_plausible
+from garkcli.bridges.plausible import is_plausible, speaks
 from garkcli.bridges.readers.registry import demand_grammars, find_tables, readers_for
-from garkcli.bridges.subject import HIGH, Subject, orders_of, read
+from garkcli.bridges.subject import HIGH, Subject, read
 from garkcli.check.findings import repair_text, total_text, witness_text
 from garkcli.errors import MethodFileError, counted
 from garkcli.exact.field import ZERO
@@ -134,9 +134,37 @@ def audit(table: FoundTable) -> Audited | None:
     is_wrong = found is not None and any(x.level in wrong for x in found.findings)
     if found is None or not found.is_read or is_wrong or is_low:
         least = (ENOUGH if is_low else LINKED) if order else 0
-        others = map(_audit, readings_of(table, least))
-        found = next((x for x in others if x is not None and fits(x, table)), found)
+        for told in readings_of(table):
+            other = _audit(told)
+            if other is None or not fits(other, table):
+                continue
+            turned = found is not None and _is_turned(found, other)
+            # no single misprint makes all columns fit the nodes
+            if told.linked >= least or (turned and told.c[0] is not None):
+                return _transposed(found, other) if found and turned and table.is_sure else other
     return found
+
+
+def _is_turned(found: Audited, other: Audited) -> bool:
+    """Whether another reading has the matrix by columns, with the same weights and nodes."""
+    if found.method is None or other.method is None:
+        return False
+    before, after = found.method.tableau, other.method.tableau
+    block, turned = before.block(0, 0), after.block(0, 0)
+    if block is None or turned is None or before.colours[0].b != after.colours[0].b:
+        return False
+    are_alike = None in found.table.c or before.colours[0].c == after.colours[0].c
+    return are_alike and turned != block and turned == tuple(zip(*block, strict=True))
+
+
+def _transposed(found: Audited, other: Audited) -> Audited:
+    """An error: who calls a function of a library stores a matrix as that does."""
+    assert other.order is not None
+    order = other.order.order
+    message = f"with the matrix transposed the order is {order}"
+    finding = AuditFinding("transposed", message, claims={"order": str(order)})
+    others = (x for x in other.findings if x.code != "stored")
+    return replace(found, findings=(finding, *others))
 
 
 def settled(table: FoundTable) -> FoundTable:
@@ -152,15 +180,17 @@ def fits(found: Audited, told: FoundTable) -> bool:
     return found.order.is_limited or found.order.order >= (told.order or 2)
 
 
-def readings_of(table: FoundTable, least: float) -> Iterator[FoundTable]:
-    """Other readings of the numbers of a table, with its names and orders: those with so many bits
-    of evidence. Who calls a function of a library stores a matrix as that does.
+def readings_of(table: FoundTable) -> Iterator[FoundTable]:
+    """Other readings of the numbers of a table, with its names and orders; and kicks and drifts as
+    those of second-order equations.
     """
+    if [[x is None for x in row] for row in table.A] == [[True, False], [False, True]]:
+        yield replace(
+            table, parts=("q", "p"), structure="nystrom", how="for q'' = f(q)", linked=LINKED
+        )
     for each in table.rivals:
-        is_turned = any(x in each.how for x in ("columns are stages", "column by column"))
-        if each.linked >= least and not (table.is_sure and is_turned):
-            told = {x: getattr(table, x) for x in ("name", "line", "order", "said_order", "notes")}
-            yield replace(each, **told, is_sure=True, is_recognised=False)
+        told = {x: getattr(table, x) for x in ("name", "line", "order", "said_order", "notes")}
+        yield replace(each, **told, is_sure=True, is_recognised=False)
 
 
 def _audit(table: FoundTable) -> Audited | None:
@@ -180,11 +210,8 @@ def _audit(table: FoundTable) -> Audited | None:
     except MethodFileError as error:
         return _noted(table, error.faults[0].message)
     if not is_plausible(table, method):
-        if table.is_assembled:
-            return _noted(table, UNRECOGNISED)
-        may_be = table.c[0] is None and (table.order or _may_be_method(method))
-        message = "A and b without nodes, which may be no method"
-        return _noted(table, message) if may_be else None
+        is_told = table.is_assembled or speaks(table)
+        return _noted(table, UNRECOGNISED) if is_told else None
     subject = subject_of(table, method)
     if is_unrecognised(subject):
         return _noted(subject.table, UNRECOGNISED)
@@ -241,18 +268,6 @@ def is_unrecognised(subject: Subject) -> bool:
 def _noted(table: FoundTable, message: str, code: str = "unread", level: Level = "note") -> Audited:
     """A table that is not judged, and why."""
     return Audited(table, findings=(AuditFinding(code, message, level=level),))
-
-
-def _may_be_method(method: MethodFile) -> bool:
-    """Whether b has about the sum 1, exactly where A is not strictly triangular, and not all are
-    whole numbers.
-    """
-    block, b = method.tableau.block(0, 0), method.tableau.colours[0].b
-    if block is None or len(b) < 2 or are_whole((*block, b)):
-        return False
-    is_explicit = not any(any(row[i:]) for i, row in enumerate(block))
-    off = sum(b, ZERO) - 1
-    return not off or (is_explicit and any(block[-1]) and within(off, fmpq(1, 2)))
 
 
 def _weighed(finding: AuditFinding, subject: Subject) -> AuditFinding:
@@ -314,16 +329,8 @@ def _order(subject: Subject) -> Iterator[AuditFinding]:
     finding = _held(subject.order, declared, "order", subject.tableau)
     if finding is None or declared is None:
         return
-    found = subject.order.order
     if finding.level != "error":
         yield finding
-    elif _is_transposed(subject):
-        message = f"with the matrix transposed the order is {declared}"
-        message = f"order {found}, declared {declared}: {message}"
-        yield AuditFinding("transposed", message, claims=finding.claims)
-    elif _is_of_nystrom(subject, declared):
-        message = f"order {declared} where q' = p, and else {found}"
-        yield replace(finding, message=message, level="warning", claims={})
     else:
         yield replace(finding, help=_culprit(subject, declared))
 
@@ -360,26 +367,6 @@ def _witness(found: Judged, tableau: Tableau) -> str:
     if found.witness is None:
         return ""
     return f"; {witness_text(found.witness, tableau.size > 1)}"
-
-
-def _is_of_nystrom(subject: Subject, declared: int) -> bool:
-    """Whether kicks and drifts have the declared order for second-order equations: two vector
-    fields, neither of which sees itself, whatever else the source says of them.
-    """
-    table = replace(subject.table, parts=("q", "p"), structure="nystrom")
-    if set(subject.tableau.edges()) != {(0, 1), (1, 0)}:
-        return False
-    return orders_of(read(table), table)[0].order >= declared
-
-
-def _is_transposed(subject: Subject) -> bool:
-    """Whether the declared order is that of the transposed matrix."""
-    block, turned = subject.block, tuple(zip(*subject.block, strict=True))
-    if turned == block:
-        return False
-    declared = subject.table.order
-    other = replace(subject.tableau, blocks={(0, 0): turned})
-    return judged(subject.digits, other, declared).order >= (declared or 0)
 
 
 def _culprit(subject: Subject, declared: int) -> str:
@@ -450,10 +437,7 @@ def _nodes(subject: Subject) -> Iterator[AuditFinding]:
     timed = subject.nonautonomous
     wanted = subject.order.order if declared is None else declared
     loses = timed is not None and timed.order < min(wanted, subject.order.order)
-    is_upper = not any(any(row[: i + 1]) for i, row in enumerate(subject.block))
-    if (loses or declared is None or is_upper) and _is_turned(subject):
-        yield AuditFinding("transposed", "the columns have the nodes for sums", claims=ROW_SUMS)
-    elif loses and timed is not None:
+    if loses and timed is not None:
         message = f"order {timed.order} where f depends on t, and else {wanted}: {_listed(rows)}"
         claims = {"nonautonomous-order": at_least(min(wanted, subject.order.order))}
         yield AuditFinding("nodes", message, claims=claims)
@@ -466,14 +450,6 @@ def _nodes(subject: Subject) -> Iterator[AuditFinding]:
 def _listed(rows: Sequence[str]) -> str:
     text = "; ".join(rows[:3])
     return f"{text}; and {len(rows) - 3} more" if len(rows) > 3 else text
-
-
-def _is_turned(subject: Subject) -> bool:
-    """Whether the columns of the only matrix sum to the nodes."""
-    tolerance = (len(subject.block) + 1) * subject.rounded.tolerance
-    columns = zip(*subject.block, strict=True)
-    pairs = zip(columns, subject.tableau.colours[0].c, strict=False)
-    return bool(subject.block) and all(within(sum(x, ZERO) - c, tolerance) for x, c in pairs)
 
 
 def _flags(subject: Subject) -> Iterator[AuditFinding]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 import re
 from collections.abc import Iterable, Sequence
 from pathlib import PurePath
@@ -26,52 +27,46 @@ def is_plausible(table: FoundTable, method: MethodFile) -> bool:
     """Whether a table is a method: its source says so, or its numbers do. Whole numbers, of one
     stage or without nodes, need words.
 
-    The nodes of a method are the row sums of its matrix, most of them even where one is misprinted;
-    without nodes the sum of its weights is 1, and its matrix is triangular or meets order 2.
+    Where no reading of them tells, as of several misprints, the sum of its weights is near 1, and
+    its nodes are the row sums of half of its rows; without nodes order 2 nearly holds, or its
+    matrix is triangular.
     """
-    if table.is_sure:
+    if table.is_sure or table.linked:
         return True
     tableau = method.tableau
     rows = [row for block in tableau.blocks.values() for row in block]
     is_bare = len(rows) < 2 or table.c[0] is None
     is_single = len(rows) < 2 and table.order is None
-    if is_single or (is_bare and are_whole((*rows, *(x.b for x in tableau.colours)))):
-        words = f"{table.name} {table.around} {PurePath(table.source).name}"
-        return METHODS.search(words) is not None or _SHORT.search(words) is not None
-    are_near = all(abs(_sum(x.b) - 1) < FAR for x in tableau.colours)
-    if table.order is not None:
-        return are_near or table.c[0] is not None
-    if table.colours > 1:
-        return are_near
-    block = tableau.block(0, 0)
+    if is_single or (is_bare and _are_whole((*rows, *(x.b for x in tableau.colours)))):
+        return speaks(table)
+    has_nodes, is_declared = table.c[0] is not None, table.order is not None
+    limit = FAR if has_nodes or is_declared else NEAR
+    is_near = all(bool(abs(_sum(x.b) - 1) < limit) for x in tableau.colours)
+    if is_declared:
+        return is_near or has_nodes
+    if table.colours > 1 or not is_near:
+        return is_near
     colour = tableau.colours[0]
-    if block is None:
-        return False
-    off = abs(_sum(colour.b) - 1)
-    if table.c[0] is None:
-        products = [to_ball(x) * _sum(row) for x, row in zip(colour.b, block, strict=True)]
-        has_order_two = abs(sum(products, arb(0)) - 0.5) < NEAR
-        is_triangular = not any(any(row[i + 1 :]) for i, row in enumerate(block))
-        return bool(off < NEAR) and len(block) > 1 and (is_triangular or bool(has_order_two))
-    columns = tuple(zip(*block, strict=True))
+    if not has_nodes:
+        is_lower = not any(any(row[i + 1 :]) for i, row in enumerate(rows))
+        moment = _sum(map(operator.mul, colour.b, colour.c)) - 0.5
+        return len(rows) > 1 and (is_lower or bool(abs(moment) < NEAR))
+    pairs = zip(rows, colour.c, strict=True)
+    agreeing = sum(bool(abs(_sum(row) - to_ball(c)) < NEAR) for row, c in pairs)
     # whole numbers alone may be a linear system, whose zeros agree
-    least = len(block) if are_whole((*block, colour.b)) else (len(block) + 1) // 2
-    agreeing = max(_agreeing(block, colour.c), _agreeing(columns, colour.c))
-    return bool(off < FAR) and agreeing >= least
+    return agreeing >= (len(rows) if _are_whole((*rows, colour.b)) else len(rows) / 2)
 
 
-def are_whole(rows: Iterable[Sequence[Number]]) -> bool:
+def speaks(table: FoundTable) -> bool:
+    """Whether the names of a table, around it or of its source are those of a method."""
+    words = f"{table.name} {table.around} {PurePath(table.source).name}"
+    return METHODS.search(words) is not None or _SHORT.search(words) is not None
+
+
+def _are_whole(rows: Iterable[Sequence[Number]]) -> bool:
     """Whether there are no fractions in some rows."""
     return all(isinstance(x, fmpq) and x.q == 1 for row in rows for x in row)
 
 
-def _sum(row: Sequence[Number]) -> arb:
+def _sum(row: Iterable[Number]) -> arb:
     return sum(map(to_ball, row), arb(0))
-
-
-def _agreeing(rows: Sequence[Sequence[Number]], nodes: Sequence[Number]) -> int:
-    """How many rows have a node for a sum."""
-    count = 0
-    for row, node in zip(rows, nodes, strict=True):
-        count += bool(abs(_sum(row) - to_ball(node)) < NEAR)
-    return count

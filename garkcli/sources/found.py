@@ -111,7 +111,8 @@ class FoundTable(Frozen):
         units: by how much coefficients may be off that were made of printed ones.
         how: its arrays are stored, in words, where that is read off the numbers.
         idle: arrays beside it with names of nodes or weights, and no role in it.
-        linked: bits of what links its matrix and its weights, where it is read off the numbers.
+        linked: bits of what links its matrix and its weights, in the reading of its numbers for
+            which most speaks; 0 where there is none.
         is_recognised: whether its numbers alone say that it is a table.
         rivals: other readings of the same numbers, which may explain what is wrong with this one.
         around: the names of the scopes that it is in.

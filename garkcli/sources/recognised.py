@@ -61,11 +61,13 @@ def with_readings(finder: TableFinder, tables: Sequence[FoundTable]) -> list[Fou
     everywhere = frozenset(n for x in read_off for own in x.values() for n in own)
     new: list[FoundTable] = []
     rivals: dict[int, list[FoundTable]] = {}
+    linked: dict[int, float] = {}
     settled: set[int] = set()
     for reading in readings_of(finder.groups):
         numbers = source.numbers(reading)
         about = [i for i, x in enumerate(told) if _is_about(numbers, x)]
         read = [i for i in about if tables[i].is_read]
+        linked |= {i: max(reading.linked, linked.get(i, 0.0)) for i in read}
         explained = [i for i in read if not reading.idle and _explains(reading, numbers, told[i])]
         is_new = reading.is_enough and not read and not any(tables[i].is_misshapen for i in about)
         # arrays of several tables together are none
@@ -80,7 +82,7 @@ def with_readings(finder: TableFinder, tables: Sequence[FoundTable]) -> list[Fou
             new.append(made)
             settled |= {*about, *_in_place_of(reading, tables)}
     kept = [
-        replace(x, rivals=tuple(rivals[i])) if i in rivals else x
+        replace(x, rivals=tuple(rivals.get(i, ())), linked=float(linked[i])) if i in linked else x
         for i, x in enumerate(tables)
         if i not in settled
     ]

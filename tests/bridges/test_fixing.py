@@ -25,8 +25,8 @@ MENDED = (
 )
 """Planted errors that one sign or digit explains."""
 LEFT = (
-    *("c, an embedded weight", "c, the order", "c, transposed", "def, p", "def, a root"),
-    *("petsc, the order", "petsc, symplectic", "scipy, n_stages", "python, an entry"),
+    *("c, an embedded weight", "c, the order", "def, transposed", "def, p", "def, a root"),
+    *("petsc, the order", "petsc, symplectic", "scipy, n_stages"),
     *("julia, fsal", "json, the order", "latex, an embedded weight"),
 )
 """Others: of an order, a shape, several numbers, or one that several numbers would mend."""

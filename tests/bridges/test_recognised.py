@@ -8,8 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from garkcli.bridges.audit import Audited, audited
+from garkcli.bridges.audit import Audited, audit, audited
 from garkcli.bridges.collecting import collected
+from garkcli.sources.languages import julia
 
 WITHOUT_NAMES = """
 x1 = [[0, 0, 0, 0], [1/3, 0, 0, 0], [-1/3, 1, 0, 0], [1, -1, 1, 0]]
@@ -132,6 +133,43 @@ def test_known_calls_have_their_layout(tmp_path: Path) -> None:
     )
     (found,) = audited([str(path)])
     assert [x.code for x in found.findings] == ["transposed"]
+
+
+def test_columns_that_fit_all_nodes_are_meant(tmp_path: Path) -> None:
+    """Lobatto IIIA 2 by columns: no single misprint makes all columns fit, however few bits agree.
+    One that is wrong as well is an error.
+    """
+    text = "A = [[0, 1/2], [0, 1/2]]\nb = [1/2, 1/2]\nc = [0, 1]\n"
+    (found,) = found_in(tmp_path, text)
+    assert found.order is not None
+    assert (found.order.order, [x.code for x in found.findings]) == (2, ["stored"])
+    (found,) = found_in(tmp_path, "order = 2\n" + text.replace("[0, 1/2]]", "[0, 1/3]]"))
+    assert found.has_errors
+    path = tmp_path / "x.c"
+    path.write_text(
+        "double A[3][3] = {{0, 0.5, -1}, {0, 0, 2}}, b[3] = {1./6, 2./3, 1./6};\n"
+        "double c[3] = {0, 0.5, 1};\nint order = 3;\n",
+        encoding="utf-8",
+    )
+    (found,) = audited([str(path)])
+    assert [x.code for x in found.findings] == ["stored"]
+
+
+def test_single_embedded_weights_far_from_1_are_told() -> None:
+    """Error weights of the wrong sign have no sum near 1 or 0: a doubt."""
+    text = """
+    function RK4ConstantCache(::Type{T}) where {T}
+        a21 = T(1 // 2); a32 = T(1 // 2); a43 = T(1)
+        b1 = T(1 // 6); b2 = T(1 // 3); b3 = T(1 // 3); b4 = T(1 // 6)
+        btilde1 = T(5 // 2); btilde2 = T(9 // 4); btilde3 = T(1 // 3); btilde4 = T(7 // 6)
+        c2 = T(1 // 2); c3 = T(1 // 2); c4 = T(1)
+        return RK4ConstantCache(a21, a32, a43, b1, b2, b3, b4, btilde1, btilde2, btilde3, btilde4)
+    end
+    """
+    (table,) = julia.find(text, "x.jl")
+    found = audit(table)
+    assert found is not None
+    assert ("embedded-weights", "warning") in [(x.code, x.level) for x in found.findings]
 
 
 def test_one_matrix_is_called_after_its_key(tmp_path: Path) -> None:

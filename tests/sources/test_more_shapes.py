@@ -554,15 +554,19 @@ def test_further_stages_new_arrays_diagonals(
 
 
 @pytest.mark.parametrize(
-    ("last", "b", "is_told"),
-    [("0, 1, 0]", "[0.0, 0.6, 0.5]", True), ("1, 2, 3]", "[3.0, 4.0, 5.0]", False)],
+    ("name", "last", "b", "is_told"),
+    [
+        ("rk", "0, 1, 0]", "[0.0, 0.6, 0.5]", True),
+        ("rk", "1, 2, 3]", "[3.0, 4.0, 5.0]", True),
+        ("my", "1, 2, 3]", "[3.0, 4.0, 5.0]", False),
+    ],
 )
-def test_a_matrix_and_a_row_without_nodes_are_told(last: str, b: str, is_told: bool) -> None:
-    """A strictly triangular matrix whose weights may be wrong, but no linear system."""
-    (table,) = python.find(f"rk_A = [[0, 0, 0], [0.5, 0, 0], [{last}]\nrk_b = {b}\n", "x")
+def test_what_fits_no_reading_is_told(name: str, last: str, b: str, is_told: bool) -> None:
+    """Where its name is that of a method: elsewhere it is a linear system."""
+    rows = f"[[0, 0, 0], [0.5, 0, 0], [{last}]"
+    (table,) = python.find(f"{name}_A = {rows}\n{name}_b = {b}\n", "x")
     found = audit(table)
-    assert (found is not None) == is_told
-    assert not is_told or (found is not None and found.looks_like)
+    assert (found is not None and found.looks_like) == is_told
 
 
 KUTTA = "[0 0 0; 1/2 0 0; -1 2 0]"
