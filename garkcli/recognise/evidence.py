@@ -28,6 +28,8 @@ COPY = 3.0
 """Most bits of a row with one entry: a copy is no equation."""
 FEW = 4.0
 """Most bits of an order where there is one weight."""
+SHORT, LONG = 24.0, 45.0
+"""Bits of numbers: where half of them are long, short ones are not rounded."""
 MOST = 50.0
 ROUNDING = 5e-14
 COARSEST = 1e-2
@@ -59,9 +61,15 @@ def conditions(A: Floats, b: Floats) -> Iterator[tuple[Floats, Floats]]:
 
 
 def unit_of(*arrays: Floats | None) -> float:
-    """The coarsest unit of some numbers."""
-    units = (float(x[..., UNIT].max()) for x in arrays if x is not None and x.size)
-    return max(units, default=0.0)
+    """The coarsest unit of some numbers; short ones among many long ones are exact."""
+    given = [x.reshape(-1, x.shape[-1]) for x in arrays if x is not None and x.size]
+    if not given:
+        return 0.0
+    numbers = np.concatenate(given)
+    lengths = numbers[:, LENGTH]
+    if 2 * (lengths >= LONG).sum() >= (lengths > 0).sum():
+        numbers = numbers[(lengths == 0) | (lengths >= SHORT)]
+    return float(numbers[:, UNIT].max(initial=0.0))
 
 
 def agreement(residual: float, size: float, tolerance: float) -> float:

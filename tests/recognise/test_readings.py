@@ -10,7 +10,7 @@ import pytest
 
 from garkcli.frozen import replace
 from garkcli.recognise.choosing import readings_of
-from garkcli.recognise.evidence import conditions, order_of
+from garkcli.recognise.evidence import conditions, order_of, unit_of
 from garkcli.recognise.given import Entry, Given, Group
 from garkcli.recognise.readings import Reading
 
@@ -145,3 +145,11 @@ def test_single_weights_beside_a_last_row(weights: list[float], is_read: bool) -
     made = [replace(x, is_made=True) for x in of]
     found = [x for x in readings_of([Group((0, None), 1, "", made)]) if x.is_enough]
     assert [x.how for x in found] == ["b is the last row"] * is_read
+
+
+def test_short_numbers_among_long_ones_are_exact() -> None:
+    """0.107925 beside numbers of 16 digits is no rounded number; among short ones it is."""
+    long, short = [0.3, 1e-16, 52.0, 1.0], [0.107925, 1e-6, 20.0, 1.0]
+    assert unit_of(np.array([long, short, long])) == 1e-16
+    assert unit_of(np.array([long, short, short])) == 1e-6
+    assert unit_of(None) == 0
