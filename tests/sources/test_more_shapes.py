@@ -393,6 +393,13 @@ def test_general_linear_methods_are_none_of_runge_kutta() -> None:
     assert table.kind == "general linear"
 
 
+def test_whole_numbers_alone_are_no_block() -> None:
+    """Bounds of integrals: a row after two has the sum 1 behind a 1, as an order before weights."""
+    assert python.find("b = [[1, 1, 1], [0, 0, 0], [1, 0, 1], [0, 1, 0]]\n", "x.py") == []
+    (table,) = python.find("b = [[0, 0, 0], [1/2, 1/2, 0], [2, 0, 1]]\n", "x.py")
+    assert table.order == 2
+
+
 def test_numbers_with_names_of_coefficients_are_told() -> None:
     """Methods with parallel stages are not read; that they are there is told."""
     text = """
