@@ -67,7 +67,8 @@ def with_readings(finder: TableFinder, tables: Sequence[FoundTable]) -> list[Fou
         numbers = source.numbers(reading)
         about = [i for i, x in enumerate(told) if _is_about(numbers, x)]
         read = [i for i in about if tables[i].is_read]
-        linked |= {i: max(reading.linked, linked.get(i, 0.0)) for i in read}
+        bits = reading.linked if reading.form == "rk" else 0.0
+        linked |= {i: max(bits, linked.get(i, 0.0)) for i in read}
         explained = [i for i in read if not reading.idle and _explains(reading, numbers, told[i])]
         is_new = reading.is_enough and not read and not any(tables[i].is_misshapen for i in about)
         # arrays of several tables together are none

@@ -155,6 +155,15 @@ def test_columns_that_fit_all_nodes_are_meant(tmp_path: Path) -> None:
     assert [x.code for x in found.findings] == ["stored"]
 
 
+def test_a_reading_of_another_form_bears_no_table_out(tmp_path: Path) -> None:
+    """Weights of positions of a Nyström pair beside its matrix: no method of Runge and Kutta."""
+    rows = "[0, 0, 0, 0], [1/32, 0, 0, 0], [7/1000, 119/500, 0, 0], [1/14, 8/27, 25/189, 0]"
+    text = f"a = [{rows}]\nc = [0, 1/4, 7/10, 1]\nb = [-7/150, 67/150, 3/20, -1/20]\n"
+    text += "bp = [13/21, -20/27, 275/189, -1/3]\nbhat = [1/14, 8/27, 25/189, 0]\n"
+    text += "bhatp = [1/14, 32/81, 250/567, 5/54]\n"
+    assert not any(x.has_errors for x in found_in(tmp_path, text))
+
+
 def test_single_embedded_weights_far_from_1_are_told() -> None:
     """Error weights of the wrong sign have no sum near 1 or 0: a doubt."""
     text = """
