@@ -74,13 +74,13 @@ def judged_within_limits(
     late: Callable[[FoundTable, str], T],
     jobs: int = 1,
 ) -> Iterator[T]:
-    """What is said of each table of all sources, in order.
+    """The verdict on each table of all sources, in order.
 
     Args:
         paths: of the sources; ``-`` is standard input.
         read: from the text of a source and its name to its tables; both travel between processes.
-        judge: what is said of a table; it travels too.
-        late: what is said of a table whose judging takes too long, and how long that is.
+        judge: the verdict on a table; it travels too.
+        late: the verdict on a table whose judging takes too long, and how long that is.
         jobs: how many processes work; 0 is one per processor.
 
     Raises:

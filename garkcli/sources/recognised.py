@@ -225,7 +225,7 @@ def _explains(reading: Reading, numbers: frozenset[int], told: _Told) -> bool:
     if sum(map(len, told.values())) < FEWEST_NUMBERS:
         return False
     if reading.form == "rk" and "c" in told and not told["c"] and "c" not in reading.rows:
-        # nodes of zeros alone are told, too
+        # nodes of zeros alone count too
         return False
     for role, own in told.items():
         common = len(own & numbers)
