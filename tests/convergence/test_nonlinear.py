@@ -286,6 +286,19 @@ def test_usage_errors_come_before_the_work(monkeypatch: pytest.MonkeyPatch) -> N
             converge(RECTANGULAR, problem, steps=[fmpq(1, 10**16)])
 
 
+@pytest.mark.parametrize("order", [2, 4])
+def test_the_reference_has_more_digits_than_a_row(order: int) -> None:
+    """Six more than are right in a row, and for a method of order 4 at once those of its later
+    rows: the solution is not sought twice.
+    """
+    problem = hamiltonian("kepler", 2)
+    solver = SteppedSolver(bind(RECTANGULAR, problem), problem.t_end, Visible(order, False, ""))
+    first = solver.row(fmpq(1, 64), None)
+    assert (first.digits, solver.reference.digits >= 21) == (15, True)
+    if order == 4:
+        assert solver.reference.digits >= 26
+
+
 def test_round_off_is_below_its_bound() -> None:
     """What came out of floats lies far within the ball that the digits promise, for energies that
     are kept: the bound hangs on no rounding.

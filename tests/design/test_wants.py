@@ -159,6 +159,15 @@ def test_signs_and_sizes_of_coefficients(wanted: str, nodes: list[float]) -> Non
     assert found == nodes
 
 
+def test_sizes_of_negative_coefficients() -> None:
+    """An entry −2 is larger in size than 1, an entry −1 is not."""
+    text = "parameters: {{t: free}}\nA: [[0, 0], [t, 0]]\nb: [1/2, 1/2]\n"
+    text += "design: {{order: 1, largest-coefficient: 1, fix: {{t: {}}}}}\n"
+    for value, count in (("-1", 1), ("-2", 0)):
+        found = find_parameters(loads_family(text.format(value)), 1)
+        assert len(list(accepted_methods(found))) == count
+
+
 def test_ranges_that_meet() -> None:
     """A range under ``design`` and that of the parameter both hold; without a number in both the
     file is refused.
