@@ -106,7 +106,7 @@ class Program:
             import scipy.optimize  # noqa: F401 -- it may be missing
         except ImportError:
             message = "--search with --minimise needs SciPy"
-            cure = 'type pip install "garkcli[design]"'
+            cure = 'type pip install "garkcli[design]", or in a checkout pip install ".[design]"'
             raise UsageProblem(message, cure, code="missing-package") from None
         ring = family.ring
         order = conditions.table.max_order
@@ -235,10 +235,8 @@ class Program:
             if not minima.succeeded[0]:
                 return None
             x = minima.points[:, 0]
-        low, high = np.array(self.bounds).transpose()
         values, _ = self.signs(x)
-        within = np.all(x >= low - FEASIBLE) and np.all(x <= high + FEASIBLE)
-        if not within or np.min(values, initial=0.0) < -FEASIBLE:
+        if np.min(values, initial=0.0) < -FEASIBLE:
             return None
         value = self._value(x)
         return Optimum(value, tuple(map(float, x))) if np.isfinite(value) else None
