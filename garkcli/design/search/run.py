@@ -433,15 +433,10 @@ class _Run:
         if not isinstance(found, Method):
             self.result.degenerate += 1
             return
-        if self._is_first(found):
-            self.result.methods.append(found)
-
-    def _is_first(self, found: Method) -> bool:
-        """Whether no other one has the same numbers."""
         texts = tuple(found.values.values())
-        is_first = texts not in self._texts
-        self._texts.add(texts)
-        return is_first
+        if texts not in self._texts:
+            self._texts.add(texts)
+            self.result.methods.append(found)
 
 
 def _are_same(one: Sequence[float], other: Sequence[float]) -> bool:
