@@ -371,6 +371,16 @@ class TreeTable(Frozen):
             exact[ids] &= exact[self.stem[ids]] & exact[self.branch[ids]]
         return exact
 
+    @cached_property
+    def is_mixed(self) -> Column:
+        """For each tree whether vertices of several colours are in it."""
+        mixed: Column = np.zeros(len(self), dtype=bool)
+        for order in range(2, self.max_order + 1):
+            ids = np.flatnonzero((self.order == order) & (self.stem >= 0))
+            stem, branch = self.stem[ids], self.branch[ids]
+            mixed[ids] = mixed[stem] | mixed[branch] | (self.root[stem] != self.root[branch])
+        return mixed
+
     @property
     def stem(self) -> Column:
         """The id of the tree without its last branch; -1 for a single vertex."""

@@ -26,7 +26,6 @@ if TYPE_CHECKING:
 
     import numpy as np
 
-    from garkcli.ntrees.table import TreeTable
 
 EXACT_CONDITIONS = 3_000
 """Most conditions that are evaluated exactly; beyond them floats do."""
@@ -159,7 +158,7 @@ def _in_floats(tableau: Tableau, order: int, share: int) -> ErrorConstants:
     values = elementary_weights(table, rows, blocks, weights)[last]
     required = share * table.is_exact[last] / table.gamma[last].astype(float)
     coefficients = np.abs((values - required) / table.sigma[last].astype(float))
-    mixes = _mixes(table)[last]
+    mixed = table.is_mixed[last]
 
     def norms(chosen: Mask) -> Norms:
         sizes = np.where(chosen, coefficients, 0.0)
@@ -177,22 +176,8 @@ def _in_floats(tableau: Tableau, order: int, share: int) -> ErrorConstants:
         )
 
     own = np.isin(table.root[last], [*tableau.roots])
-    return ErrorConstants(order, False, norms(own), norms(mixes & own))
+    return ErrorConstants(order, False, norms(own), norms(mixed & own))
 
 
 def _floats(row: Iterable[Cell]) -> list[float]:
     return [float(x) if isinstance(x, arb) else to_float(x) for x in row]
-
-
-def _mixes(table: TreeTable) -> Mask:
-    """For each tree of a table whether more than one colour occurs in it."""
-    import numpy as np
-
-    mixes = np.zeros(len(table), dtype=bool)
-    for n in range(2, table.max_order + 1):
-        ids = np.flatnonzero((table.order == n) & (table.stem >= 0))
-        stem = table.stem[ids]
-        branch = table.branch[ids]
-        differs = table.root[stem] != table.root[branch]
-        mixes[ids] = (mixes[stem] | mixes[branch]) | differs
-    return mixes

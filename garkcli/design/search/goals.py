@@ -140,13 +140,8 @@ def meant(name: str, tableau: Tableau) -> Objective | Level:
 
 
 def _alone(function: RationalFunction, x: Array) -> tuple[float, Array]:
-    values, gradients = _at([function], x)
-    return float(values[0]), gradients[0]
-
-
-def _at(functions: Sequence[RationalFunction], x: Array) -> Gradient:
-    values, gradients = with_gradients(functions, x[:, None])
-    return values[:, 0], gradients[:, :, 0]
+    values, gradients = with_gradients([function], x[:, None])
+    return float(values[0, 0]), gradients[0, :, 0]
 
 
 def squared_error(trees: Trees, is_coupling: bool) -> Smooth:
@@ -159,13 +154,7 @@ def squared_error(trees: Trees, is_coupling: bool) -> Smooth:
     import numpy as np
 
     table = trees.table
-    colours = np.zeros(len(table), object)
-    for u in range(len(table)):
-        stem, branch = int(table.stem[u]), int(table.branch[u])
-        colours[u] = 1 << int(table.root[u])
-        if stem >= 0:
-            colours[u] = colours[stem] | colours[branch]
-    ids = [u for u in table.ids(table.max_order) if not is_coupling or colours[u].bit_count() > 1]
+    ids = [u for u in table.ids(table.max_order) if table.is_mixed[u] or not is_coupling]
     scale = np.array(
         [
             table.admissible.kinds[int(table.root[u])].integrated(table.max_order)
