@@ -123,7 +123,7 @@ def _late(table: FoundTable, seconds: str) -> Audited:
 
 
 def audit(table: FoundTable) -> Audited | None:
-    """What is true of a table; None where it is no method at all. Nothing is an error while the
+    """The verdict on a table; None where it is no method at all. Nothing is an error while the
     same numbers, read otherwise, are a method; nor is order 1 all of it, where nobody declares it.
     """
     found = _audit(table)

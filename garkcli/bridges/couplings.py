@@ -29,7 +29,7 @@ _NAMES["sr"] = (("omega",), ("omega", "gamma"))
 
 
 def names_of(coupling: Coupling) -> Sequence[str]:
-    """What the matrices of each slow part are called."""
+    """Names of the matrices of each slow part."""
     assert coupling.matrices is not None
     return _NAMES[coupling.restart][len(coupling.matrices) - 1]
 

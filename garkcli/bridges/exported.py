@@ -74,7 +74,7 @@ def _arrays(kind: Kind, document: Mapping[str, Any]) -> Arrays:
 
 
 def _is_array(value: object, depth: int = 0) -> TypeGuard[list[Any]]:
-    """Whether it is a row of texts, or rows, or nothing in place of one."""
+    """Whether a value is a row of texts, rows of them, or nothing."""
     if not isinstance(value, list) or depth > _DEEPEST:
         return False
     is_row = all(isinstance(x, str) for x in value)

@@ -31,7 +31,7 @@ Kind: TypeAlias = Literal[
 Rosenbrock method; the kinds with arrays of their own; a multirate method with the exact fast part.
 """
 SCHEMA = "gark/export/1"
-"""Of what is written as JSON."""
+"""The format of JSON documents."""
 
 Part: TypeAlias = tuple[int, int | str, Sequence[Row]]
 """An array: its colour and, of a block, the colour that it sees, from 1; its rows."""

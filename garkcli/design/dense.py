@@ -1,4 +1,4 @@
-"""What may be wanted of dense output: its order for every θ, and that its pieces fit together.
+"""Wants on dense output: its order for every θ, and that its pieces fit together.
 
 With b_i(θ) = Σ_k B_ik θ^k the order q asks B_kᵀ 𝒜^[u] = 1/γ(u) for k = ρ(u) and 0 for every other
 k, of all trees of at most q vertices (``garkcli.order.dense``): members that span those of all
@@ -116,4 +116,4 @@ DENSE = (
         _continuity,
     ),
 )
-"""What may be wanted of dense output."""
+"""The wants on dense output."""

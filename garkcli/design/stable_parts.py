@@ -217,7 +217,7 @@ class _Line:
     def told(
         self, found: tuple[Interval, ...], undecided: tuple[RealRoot, ...]
     ) -> tuple[StableValues, tuple[Interval, ...]]:
-        """The same, of an unknown on a diagonal where that is a x + b; and all values of it."""
+        """The stable values of an unknown a x + b on a diagonal, and all values that it has."""
         is_same = not found or found == (Interval(None, None),)
         name, a, b = self._shown(is_same)
         kind: Any = self.wanted.kind

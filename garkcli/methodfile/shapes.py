@@ -170,7 +170,7 @@ def _low_storage(layout: Layout) -> Layout:
     s, join = layout.stages, _join(layout.stages)
 
     def weight(i: int, j: int) -> str:
-        """Of stage j after register step i, both counted from 1."""
+        """The weight of stage j after register step i, both counted from 1."""
         terms = [
             "*".join([f"B{join}{m}", *(f"A{join}{k}" for k in range(j + 1, m + 1))])
             for m in range(j, i + 1)

@@ -25,7 +25,7 @@ FEWEST_FRACTIONS = 2
 MOST_LEFT = 60
 """So many arrays without a reading are tried with those of the scope around them."""
 NEAR = 100
-"""The same numbers in so many lines are one method."""
+"""Equal numbers within so many lines are one method."""
 
 
 def readings_of(groups: Sequence[Group]) -> Iterator[Reading]:

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 HIGHEST = 8
 """Conditions of higher orders are not tried."""
 NEARLY = 22.0
-"""What holds to so many bits is meant to hold."""
+"""An identity that holds to so many bits is meant."""
 COPY = 3.0
 """Most bits of a row with one entry: a copy is no equation."""
 FEW = 4.0
@@ -99,7 +99,7 @@ def row_sums(A: Floats, c: Floats, power: int = 1) -> tuple[Floats, Floats, Floa
 
 
 class Evidence(Frozen, eq=False):
-    """What speaks for a matrix, weights and nodes.
+    """The evidence for a matrix, weights and nodes.
 
     Attributes:
         bits: all of it.
@@ -141,7 +141,7 @@ def _taken(*lengths: Floats) -> float:
 
 
 def evidence(A: Floats, b: Floats, c: Floats | None) -> Evidence:
-    """What speaks for a method with numbers of the shapes (s, s, 4), (s, 4) and (s, 4)."""
+    """The evidence for a method with numbers of the shapes (s, s, 4), (s, 4) and (s, 4)."""
     of_A, of_b = A[..., LENGTH].copy(), b[:, LENGTH].copy()
     of_c = np.zeros(0) if c is None else c[:, LENGTH].copy()
     is_alone = np.count_nonzero(b[:, VALUE]) < 2

@@ -1,4 +1,4 @@
-"""What is given: arrays of numbers with names and places, each number with what its text says."""
+"""The arrays that recognition is given: numbers with names, places and units of digits."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from garkcli.arrays import Floats
 
 VALUE, UNIT, LENGTH, AT = range(4)
-"""What the last axis of an array of numbers has, see ``Entry``."""
+"""Places on the last axis of an array of numbers, see ``Entry``."""
 MOST_BITS = 52.0
 """No number counts for more."""
 PER_DIGIT = 3.32
@@ -73,7 +73,7 @@ class Given(Frozen, eq=False):
 
     @cached_property
     def key(self) -> object:
-        """The same for arrays of the same numbers."""
+        """A key that arrays with equal numbers share."""
         return self.is_matrix, tuple(tuple(x.value for x in row) for row in self.rows)
 
     @cached_property

@@ -23,7 +23,7 @@ CLOSE = 1e-6
 
 
 class Parts(NamedTuple):
-    """What an array would be.
+    """The rows that an array would be.
 
     Attributes:
         A: the matrix, shape (s, s, 4).

@@ -1,4 +1,4 @@
-"""What the names of arrays suggest: they rank readings, and decide none."""
+"""Roles that names of arrays suggest: they rank readings, and decide none."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What arrays may be: of all ways in which they are a method those for which most speaks."""
+"""Readings of arrays: of all ways in which they are a method, those with the most evidence."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ ONE_WRONG = 6.0
 """Bits that a wrong entry costs beside those that tell where it is."""
 LAST_ROW = 3.0
 CLOSE = 1e-5
-"""What is further from 0 beside its terms is no condition that holds."""
+"""A residual that is larger, relative to its terms, is that of a condition that fails."""
 MOST_TRIED = 5_000
 """So many hypotheses are tried for the arrays of a scope."""
 WORDS = 3.0
@@ -113,7 +113,7 @@ class _Search:
         self.tried = 0
 
     def with_matrix(self, of: Given) -> Iterator[Reading]:
-        """Those whose matrix is in an array."""
+        """The readings whose matrix is in an array."""
         for parts in parts_of(of):
             s = len(parts.A)
             if parts.needs_nodes and parts.c is not None:

@@ -97,13 +97,13 @@ class Harvester(Evaluator):
         self._before[id(space)] += self.harvest.arrays(name, space[name], line)
 
     def refilled(self, scope: ir.Scope, record: Record, name: str) -> None:
-        """The same of a field."""
+        """Harvest a field before a new value takes its place."""
         del scope
         path = f"{record.key or record.kind}.{name}"
         self._before[0] += self.harvest.arrays(path, record.fields.get(name), self.line)
 
     def ended(self, scope: ir.Scope, space: Space) -> None:
-        """The arrays of a scope."""
+        """Harvest the arrays of a scope that ends."""
         found = Gathered()
         for name, value in space.items():
             self.harvest.gather(name, value, space.lines.get(name, scope.line), found)
@@ -132,7 +132,7 @@ class Harvester(Evaluator):
         self.groups.append(Group(place, scope.line, scope.title, arrays, found.orders, speaks))
 
     def _handle(self, space: Space) -> int:
-        """What tells a scope from others, also when it is gone."""
+        """A number for a scope that no other one gets, also when it is gone."""
         return self._handles.setdefault(id(space), (len(self._handles), space))[0]
 
     def _called(self, call: ir.Call, space: Space) -> Value:
@@ -148,7 +148,7 @@ class Harvester(Evaluator):
 
 
 class Gathered(Mutable):
-    """What a scope has.
+    """The arrays of a scope.
 
     Attributes:
         arrays: of numbers.

@@ -93,7 +93,7 @@ CONSTANTS: Mapping[str, Value] = {
 }
 """Names that mean the same everywhere; ``#`` is the variable of a polynomial."""
 MOST_PARTS, CLOSE = 120, 1e-14
-"""Of a turn, in an angle whose cosine is known; by how much a float may be off it."""
+"""The largest denominator of a part of a turn whose cosine is known; the error of a float."""
 CALLS: dict[str, Known] = {}
 """What is known of each function."""
 

@@ -128,7 +128,7 @@ def _difference(x: Array, y: Array) -> Array:
 
 
 def _strict(matrix: Array) -> Array:
-    """What a matrix has, but for its diagonal."""
+    """The entries of a matrix off its diagonal."""
     rows = [items_of(x) for x in matrix.items]
     return Array([Array([*row[:i], FILL, *row[i + 1 :]]) for i, row in enumerate(rows)])
 
@@ -153,9 +153,7 @@ def _are_sums(A: Sequence[Value], C: Sequence[Value], alpha: Value, sums: Sequen
 
 
 def _triangle(value: Value, stages: int) -> list[Value]:
-    """What a matrix has below its diagonal, by rows, zeros where nothing was written; nothing for
-    what is no such matrix.
-    """
+    """The entries below the diagonal, by rows, 0 where nothing was written; empty for no matrix."""
     rows = [items_of(x) for x in items_of(value)]
     if not (1 < len(rows) <= stages and any(rows)) or any(
         near(x) for i, row in enumerate(rows) for x in row[i:]

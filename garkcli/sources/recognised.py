@@ -179,7 +179,7 @@ class _Source:
         return Array([self._numbers[int(entry[-1])] for entry in x])
 
     def numbers(self, reading: Reading) -> frozenset[int]:
-        """What tells the numbers of a reading from others that are equal."""
+        """A key of the places of the numbers of a reading: equal numbers elsewhere have another."""
         entries = (x for of in reading.used for row in of.rows for x in row if x.value)
         return frozenset(id(self._numbers[x.at]) for x in entries)
 
@@ -196,13 +196,13 @@ def _steps(form: str, row: Value, line: int) -> dict[str, Value]:
 
 
 def _kind(names: str) -> str:
-    """What other method has such names, and a matrix and weights, too; empty for none."""
+    """The kind of another method that has such names, with a matrix and weights; empty for none."""
     found = (kind for pattern, kind in OTHER_KINDS if kind in _OTHERS and pattern.search(names))
     return next(found, "")
 
 
 def _told(roles: Mapping[str, Value], written: Collection[int]) -> _Told:
-    """The same of the numbers of a table that are written, by their roles."""
+    """The numbers of a table that are written, by their roles."""
     arrays = {role: Array([x]).flat() for role, x in roles.items() if isinstance(x, Array)}
     return {
         role: frozenset(

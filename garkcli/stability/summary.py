@@ -185,7 +185,7 @@ class LinearStability(Frozen):
     points: tuple[AtPoint, ...] = ()
 
     def at(self, points: Sequence[Complex]) -> LinearStability:
-        """The same, with R at some points."""
+        """The result with R at some points added."""
         return replace(self, points=tuple(AtPoint(z, self.R.at(z)) for z in points))
 
     @property
@@ -229,7 +229,7 @@ class Stability(Shown, Frozen):
     embedded: LinearStability | None = None
 
     def at(self, points: Sequence[Complex]) -> Stability:
-        """The same, with R at some points."""
+        """The result with R at some points added."""
         linear = tuple(x.at(points) for x in self.linear)
         return replace(self, linear=linear, embedded=self.embedded and self.embedded.at(points))
 
@@ -341,7 +341,7 @@ def stability_of_rounded(
 
 
 def _of_rounded(method: RoundedTableau, name: str, shares: Sequence[Number]) -> LinearStability:
-    """What is decided of a rounded method in one direction of (λ_1, …, λ_N)."""
+    """The decisions on a rounded method in one direction of (λ_1, …, λ_N)."""
     decided = stability_within(method.near, shares, method.grain)
     if not (decided.a_stable and decided.l_stable):
         decided = _unless_another(decided, method, shares)

@@ -55,7 +55,7 @@ FIRST_LEVEL = 0.5
 CLOSE = 1e-12
 """Residuals of a method in floats."""
 SLACK = 1e-7
-"""What short numbers may cost, as a part of the objective."""
+"""The part of the objective that short numbers may cost."""
 DENOMINATORS = (1, 2, 3, 4, 5, 6, 8, 10, 12, 15, 16, 20, 24, 25, 30, 40, 50, 100, 200, 500)
 FINE = tuple(10**k for k in range(3, 13))
 """Denominators where none of the short ones does."""

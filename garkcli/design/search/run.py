@@ -160,7 +160,7 @@ class Batch(Frozen):
     starts: list[Start]
 
     def result(self, search: Search) -> object:
-        """What comes of it."""
+        """The outcome of the work."""
         return search.solve(self.starts)
 
 
@@ -177,7 +177,7 @@ class Solution(Frozen):
     point: Start
 
     def result(self, search: Search) -> object:
-        """What comes of it."""
+        """The outcome of the work."""
         return _method(search, search.find(self.start, self.point))
 
 
@@ -193,7 +193,7 @@ class Descent(Frozen):
     point: Start
 
     def result(self, search: Search) -> object:
-        """What comes of it."""
+        """The outcome of the work."""
         return search.program.improved(self.point)
 
 
@@ -209,7 +209,7 @@ class Best(Frozen):
     optimum: Optimum
 
     def result(self, search: Search) -> object:
-        """What comes of it."""
+        """The outcome of the work."""
         return _method(search, search.best(self.start, self.optimum))
 
 

@@ -217,7 +217,7 @@ class Search:
         return Program(self.family, self.conditions, self.objective)
 
     def best(self, start: int, optimum: Optimum) -> Find | None:
-        """What can be proved of an optimum, its numbers made short; None where it is no method.
+        """The proof about an optimum, its numbers made short; None where it is no method.
 
         Args:
             start: the number of the start that led to it.

@@ -271,7 +271,7 @@ class Infinitesimal(Frozen):
 
 
 class Predictor(Frozen):
-    """What makes a step-predictor.
+    """The parts of a step-predictor.
 
     Attributes:
         slow: the method that takes the step for both parts.

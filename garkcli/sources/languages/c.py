@@ -40,7 +40,7 @@ _NUMBER = re.compile(r"(?P<digits>[0-9']*\.?[0-9']*(?:[eE][-+]?[0-9]+)?)(?P<suff
 _LIST = re.compile(r"\bvector\s*<")
 _DECLARED = frozenset({"array_declarator", "identifier", "field_identifier"})
 _VALUES = frozenset({"number_literal", "unary_expression", "binary_expression"})
-"""What a list of coefficients has."""
+"""Nodes of the numbers in a list of coefficients."""
 _DEVICE = re.compile(rb"__(?:constant|device|shared|host|global)__")
 """Where CUDA keeps what is declared: no part of the grammar."""
 _ASIDE = re.compile(

@@ -155,7 +155,7 @@ class PythonLowering(Lowering):
 
 
 def _imported(name: str) -> ir.Expr:
-    """What a name is imported for: functions of one argument, types and constants."""
+    """The expression that an imported name stands for: a function of one argument, or itself."""
     if name in CALLS and name not in CONVERSIONS:
         return ir.Lambda(("x",), ir.Call(ir.Name(name), (ir.Name("x"),)))
     return ir.Name(name)
