@@ -1,10 +1,10 @@
 """Affine forms: numbers that depend on others which are known within radii.
 
-A form is c + Σ_k g_k ε_k + ρ with |ε_k| ≤ 1 and |ρ| ≤ r: ε_k is by how much the k-th printed
-number is off, in units of its radius. The centre c is a ball of many bits, the slopes g_k are
-floats, and r bounds what they leave out: their own rounding and all terms of second order. So a
-form encloses what is made of the printed numbers for all numbers within their radii, and equal
-numbers stay equal: a − a is 0.
+A form is c + Σ_k g_k ε_k + ρ with |ε_k| ≤ 1 and |ρ| ≤ r: ε_k is the error of the k-th printed
+number, in units of its radius. The centre c is a ball of many bits, the slopes g_k are floats, and
+r bounds what they leave out: their own rounding and all terms of second order. So a form encloses
+what is made of the printed numbers for all numbers within their radii, and equal numbers stay
+equal: a − a is 0.
 
 Slopes and remainders are bounded however floats are rounded: every operation adds a few units in
 the last place of the sizes that take part, and the radius of a ball of which the middle is used.
@@ -35,17 +35,17 @@ LEAST = 1e-300
 
 
 def size(ball: arb) -> float:
-    """No less than the absolute value of all numbers in a ball."""
+    """An upper bound of |x| over all numbers x in a ball."""
     return float(ball.abs_upper()) * (1 + UNIT)
 
 
 def lost(ball: arb) -> float:
-    """By how much the numbers in a ball are off the float that takes its place, at most."""
+    """An upper bound of the distance between a number in a ball and the float of its centre."""
     return float(ball.rad()) * (1 + UNIT) + UNIT * size(ball)
 
 
 class Affine:
-    """One form; its slopes are those that are not zero.
+    """A number c + Σ g_k ε_k + ρ; ``slopes`` has the g_k that are not zero.
 
     A form is no zero, and equal to nothing but itself: a sum without slopes is a plain number.
     """
@@ -59,14 +59,13 @@ class Affine:
 
     @property
     def reach(self) -> float:
-        """How far the form is from its centre at most."""
+        """Returns an upper bound of the distance from the centre."""
         return (sum(map(abs, self.slopes.values())) + self.remainder) * (
             1 + len(self.slopes) * UNIT
         )
 
     @property
     def ball(self) -> arb:
-        """All values."""
         return self.centre + arb(0, self.reach * (1 + UNIT))
 
     def _combined(self, factor: float, other: Affine, factor_of_other: float) -> dict[int, float]:
@@ -76,7 +75,7 @@ class Affine:
         return slopes
 
     def height_bits(self) -> int:
-        """Its length does not grow with that of what it is made of."""
+        """0: the form does not get longer with the numbers that it comes from."""
         return 0
 
     def __add__(self, other: Any) -> Affine:
@@ -116,7 +115,7 @@ class Affine:
     __rmul__ = __mul__
 
     def inverse(self) -> Affine:
-        """1/x = 1/c − (x − c)/c² + (x − c)²/(c² x); without a bound where x may be 0."""
+        """1/x = 1/c − (x − c)/c² + (x − c)²/(c² x); unbounded if x may be 0."""
         reach = self.reach
         nearest = float(self.centre.abs_lower()) * (1 - UNIT)
         if nearest <= reach * (1 + UNIT):
@@ -129,8 +128,8 @@ class Affine:
         return Affine(1 / self.centre, slopes, rest * (1 + 8 * UNIT) + LEAST)
 
     def root(self, index: int) -> Affine:
-        """The real root, f(x) = f(c) + f'(c) (x − c) + f''(ξ) (x − c)²/2; without a bound where x
-        may be 0, or the root is not real.
+        """Returns the real root, f(x) = f(c) + f'(c) (x − c) + f''(ξ) (x − c)²/2; unbounded if x
+        may be 0 or the root is not real.
         """
         if index % 2 and self.centre < 0:
             return -((-self).root(index))
@@ -161,7 +160,7 @@ class Affine:
 
 
 def constant(number: Any) -> arb:
-    """A number to the bits of the context."""
+    """An enclosure of a number at the current precision."""
     if isinstance(number, Algebraic):
         return to_ball(number, digits_here())
     return arb(number)
@@ -204,31 +203,32 @@ class Forms:
 
     @property
     def are_numbers(self) -> bool:
-        """Whether they depend on nothing: K = 0."""
+        """Whether the forms have no slopes: K = 0."""
         return not self.slopes.shape[1]
 
     @property
     def middle(self) -> Floats:
-        """The centres as floats."""
         if self._middle is None:
             self._middle = np.array([float(x) for x in self.centres])
         return self._middle
 
     @property
     def radii(self) -> Floats:
-        """By how much the numbers in each centre are off its middle, at most."""
+        """Upper bounds of the distances between the numbers in the centres and their floats."""
         if self._radii is None:
             self._radii = np.array([float(x.rad()) for x in self.centres]) * (1 + UNIT)
         return self._radii
 
     @property
     def sizes(self) -> Floats:
-        """No less than the absolute values of all numbers in the centres."""
+        """Upper bounds of the absolute values in the centres."""
         return np.abs(self.middle) * (1 + UNIT) + self.radii
 
     @property
     def reach(self) -> Floats:
-        """How far each form is from its centre at most, but for its remainder."""
+        """Upper bounds of Σ |g_k|, form by form: the distance from the centre without the
+        remainder.
+        """
         if self._reach is None:
             count = self.slopes.shape[1]
             self._reach = np.abs(self.slopes).sum(axis=1) * (1 + (count + 8) * UNIT)
@@ -251,7 +251,6 @@ class Forms:
         return Forms(centres, slopes, rest * (1 + 8 * UNIT) + LEAST)
 
     def scaled(self, factor: fmpq) -> Forms:
-        """The forms times a number."""
         ball, x = arb(factor), to_float(factor)
         rest = abs(x) * (self.remainders + UNIT * self.reach)
         centres = [ball * c for c in self.centres]
@@ -260,7 +259,7 @@ class Forms:
         return Forms(centres, x * self.slopes, rest * (1 + UNIT) + LEAST)
 
     def minus(self, other: Forms, share: fmpq) -> Forms:
-        """The differences with a share of others."""
+        """The difference with share · other, form by form."""
         ball, factor = arb(share), to_float(share)
         centres = [x - ball * y for x, y in zip(self.centres, other.centres, strict=True)]
         if self.are_numbers:
@@ -271,7 +270,7 @@ class Forms:
         return Forms(centres, slopes, rest * (1 + 8 * UNIT) + LEAST)
 
     def dot(self, other: Forms) -> Forms:
-        """The scalar product, a row of one form."""
+        """The scalar product, as a row of one form."""
         centre = scalar_product(self.centres, other.centres)
         if self.are_numbers:
             return Forms([centre], self.slopes[:1], self.remainders[:1])
@@ -285,7 +284,7 @@ class Forms:
 
 
 class FormMatrix:
-    """A matrix of forms whose slopes are few: each entry is made of a few printed numbers.
+    """A matrix of forms with few slopes, kept as a sparse list of them.
 
     Args:
         rows: forms and exact numbers.
@@ -328,11 +327,9 @@ class FormMatrix:
         return self._times(w, self.centres.transpose(), 1)
 
     def row(self, i: int) -> Forms:
-        """Row i."""
         return self._part(0, i, self.centres.tolist()[i], self.remainders[i])
 
     def column(self, j: int) -> Forms:
-        """Column j."""
         return self._part(1, j, self.centres.transpose().tolist()[j], self.remainders[:, j])
 
     def _part(self, axis: int, number: int, centres: list[arb], remainders: Floats) -> Forms:

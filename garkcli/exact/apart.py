@@ -1,4 +1,4 @@
-"""Work in a process of its own, which can be ended in the middle of a call in C."""
+"""Runs work in a process of its own, which can be ended in the middle of a call in C."""
 
 from __future__ import annotations
 
@@ -22,24 +22,24 @@ if TYPE_CHECKING:  # slow to import, and of no use to work that is done here
 
 T = TypeVar("T")
 SPARE = 1.0
-"""Seconds behind the deadline after which a process ends by itself."""
+"""Seconds after the deadline at which a process ends itself."""
 
 
 LEAST = 0.001
-"""Seconds of a timer that ends a process at once; 0 is for never."""
+"""The shortest timer, in seconds: 0 would switch it off."""
 _CAN_COUNT = hasattr(signal, "setitimer")
-"""Whether a process can limit its own time, that of the processor too."""
+"""Whether a process can limit its own time, including that of the processor."""
 
 Task: TypeAlias = tuple[Callable[..., T], tuple[Any, ...]]
 """A function of a module and its arguments, which travel to another process."""
 
 
 def apart(work: Callable[..., T], *arguments: Any) -> T:
-    """What a function returns, within the deadline around it; without one it runs in this process.
+    """Returns work(*arguments), ended at the deadline; without a deadline it runs in this process.
 
     Args:
         work: a function of a module.
-        arguments: of it; they and the result travel between processes.
+        arguments: its arguments; they and the result are pickled.
 
     Raises:
         NotDecided: the time is over, the process ended without a result, or only small work is
@@ -51,7 +51,7 @@ def apart(work: Callable[..., T], *arguments: Any) -> T:
 
 
 def first_of(*tasks: Task[T]) -> T:
-    """The result of the task that is done first, each in a process of its own; the others end.
+    """Runs each task in a process of its own and returns the first result; the others are ended.
 
     Args:
         tasks: ways to the same result.
@@ -84,7 +84,7 @@ def first_of(*tasks: Task[T]) -> T:
 
 @contextmanager
 def _started(task: Task[Any]) -> Iterator[Connection]:
-    """A process that is at a task: the end of the pipe that its result comes out of."""
+    """Starts a process for a task and yields the pipe that its result arrives in."""
     from multiprocessing import get_context
 
     # fork would copy the locks of other threads
@@ -111,7 +111,7 @@ def _serve(
     clock: float | None,
     effort: float | None,
 ) -> None:
-    """What the process does; it ends at the deadline even where nobody is left to end it."""
+    """The body of the process; it ends at the deadline even if its parent has died."""
     without_handlers()
     if _CAN_COUNT:
         if clock is not None:
@@ -124,8 +124,8 @@ def _serve(
 
 
 def without_handlers() -> None:
-    """Let signals end a process that works for another one, but for an interrupt: that is for the
-    process that has the terminal, which ends the others, at its deadline too.
+    """Lets signals end a worker process, except an interrupt: the process with the terminal gets it
+    and ends its workers, at the deadline too.
     """
     forget()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
@@ -138,7 +138,7 @@ def without_handlers() -> None:
 
 
 def start_method() -> str:
-    """How processes begin: ``fork`` keeps the modules that are loaded already.
+    """The start method of processes: ``fork``, which keeps the loaded modules, where it is safe.
 
     Windows has no fork, and on macOS a fork of a process whose libraries have begun threads may
     crash.
@@ -150,8 +150,8 @@ def start_method() -> str:
 
 
 def begin(process: BaseProcess) -> None:
-    """Start a process that no interrupt reaches: one that is not ready yet would say so. Where this
-    one is ended meanwhile, it knows of the other.
+    """Starts a process with interrupts held back, as one would be reported before it is ready. If
+    this process is ended meanwhile, it knows of the new one.
     """
     with _without_signals(), warnings.catch_warnings():
         # the threads are those of numpy's BLAS, which stops them before a fork
@@ -162,8 +162,8 @@ def begin(process: BaseProcess) -> None:
 
 @contextmanager
 def without_program() -> Iterator[None]:
-    """Hide the program that calls gark from processes that begin without a fork: they would run it
-    again, where it does not ask for its name.
+    """Hides the program that calls gark from processes that start without a fork; without a
+    ``__name__`` guard they would run it again.
     """
     program = sys.modules["__main__"]
     sys.modules["__main__"] = ModuleType("__main__")
@@ -174,7 +174,7 @@ def without_program() -> Iterator[None]:
 
 
 def end(process: BaseProcess) -> None:
-    """End a process, whatever it is at, if it has begun."""
+    """Kills a process that has started."""
     if process.pid is not None:
         process.kill()
         process.join()
@@ -182,7 +182,7 @@ def end(process: BaseProcess) -> None:
 
 @contextmanager
 def _without_signals() -> Iterator[None]:
-    """Hold signals that end the run back, where the system can; they arrive at the end."""
+    """Holds back signals that end the run, where the system can; they arrive at the end."""
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return

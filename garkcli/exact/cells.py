@@ -1,8 +1,7 @@
-"""Subsets of the real line that are described by signs of polynomials.
+"""Subsets of the real line, described by signs of polynomials.
 
 The roots of all polynomials that matter cut the line into points and open intervals. On each of
-these cells every sign is constant, so one question a cell decides everything: nothing is sampled
-that could be missed.
+these cells every sign is constant, so one point of each cell decides for all of it.
 """
 
 from __future__ import annotations
@@ -24,7 +23,7 @@ Point: TypeAlias = fmpq | RealRoot
 
 
 class Interval(Frozen):
-    """A set of real numbers without gaps.
+    """An interval of real numbers, bounded or not.
 
     Attributes:
         start: its left end; None for −∞.
@@ -40,12 +39,12 @@ class Interval(Frozen):
 
     @property
     def is_point(self) -> bool:
-        """Whether it is a single number."""
+        """Whether the interval is a single number."""
         return self.start is not None and self.start == self.end
 
 
 def contains(interval: Interval, left: RealRoot, right: RealRoot) -> bool:
-    """Whether [left, right] is a part of it."""
+    """Whether [left, right] lies in an interval."""
     start, end = interval.start, interval.end
     if start is not None and left < start:
         return False
@@ -57,19 +56,18 @@ def contains(interval: Interval, left: RealRoot, right: RealRoot) -> bool:
 
 
 def has(intervals: Iterable[Interval], point: Point) -> bool:
-    """Whether a number belongs to one of several intervals."""
+    """Whether a number lies in one of several intervals."""
     x = point if isinstance(point, RealRoot) else RealRoot.rational(point)
     return any(contains(interval, x, x) for interval in intervals)
 
 
 def ends_of(intervals: Iterable[Interval]) -> list[Polynomial]:
-    """Polynomials that are zero at the ends of intervals."""
+    """Polynomials that vanish at the ends of intervals."""
     ends = (end for x in intervals for end in (x.start, x.end) if end is not None)
     return [Polynomial.from_flint(end.polynomial) for end in dict.fromkeys(ends)]
 
 
 def sign_of(p: Polynomial, point: Point) -> int:
-    """The sign of p at a point, decided exactly."""
     if isinstance(point, RealRoot):
         return sign_at(p, point)
     return sign(p(point))
@@ -78,11 +76,11 @@ def sign_of(p: Polynomial, point: Point) -> int:
 def where(
     holds: Callable[[Point], bool], polynomials: Iterable[Polynomial], start: fmpq | None = None
 ) -> tuple[Interval, ...]:
-    """The numbers x ≥ ``start`` for which something holds, as intervals in ascending order.
+    """Returns the x ≥ ``start`` at which ``holds`` is true, as intervals in ascending order.
 
     Args:
         holds: decides a point; it depends on the signs of ``polynomials`` there alone.
-        polynomials: those whose signs matter; zero ones are left out.
+        polynomials: the polynomials whose signs matter; zero ones are skipped.
         start: where the line begins; None for −∞.
     """
     roots = roots_of(polynomials)
@@ -108,7 +106,7 @@ def where(
 
 
 def roots_of(polynomials: Iterable[Polynomial]) -> list[RealRoot]:
-    """The real roots of polynomials in ascending order; zero ones are left out."""
+    """The real roots of polynomials in ascending order; zero polynomials are skipped."""
     roots: set[RealRoot] = set()
     for p in polynomials:
         if p:
@@ -117,7 +115,7 @@ def roots_of(polynomials: Iterable[Polynomial]) -> list[RealRoot]:
 
 
 def _cells(roots: Sequence[RealRoot], is_bounded: bool) -> Iterator[Interval]:
-    """Open intervals and points in turn, from the left."""
+    """The open intervals and points between and at the roots, from left to right."""
     ends: list[RealRoot | None] = [*roots, None]
     if not is_bounded:
         yield Interval(None, ends[0])
@@ -127,7 +125,7 @@ def _cells(roots: Sequence[RealRoot], is_bounded: bool) -> Iterator[Interval]:
 
 
 def between(left: RealRoot | None, right: RealRoot | None) -> fmpq:
-    """A rational number strictly between two others, of small denominator.
+    """Returns a rational number strictly between two roots, of small denominator.
 
     >>> between(RealRoot.rational(fmpq(1, 3)), RealRoot.rational(fmpq(1, 2)))
     2/5
@@ -154,7 +152,7 @@ def between(left: RealRoot | None, right: RealRoot | None) -> fmpq:
 
 
 def between_roots(polynomials: Iterable[Polynomial]) -> Iterator[fmpq]:
-    """A rational number of each open interval between the roots of polynomials, from the left."""
+    """Yields a rational number from each open interval between the roots of polynomials."""
     for left, right in pairwise([None, *roots_of(polynomials), None]):
         check_time()
         yield between(left, right)
@@ -172,7 +170,7 @@ def _simplest(low: fmpq, high: fmpq) -> fmpq:
 
 
 def where_not_negative(polynomials: Sequence[Polynomial]) -> tuple[Interval, ...]:
-    """The numbers at which polynomials are at least 0.
+    """The numbers at which all polynomials are at least 0.
 
     >>> (found,) = where_not_negative([Polynomial([0, 1]), Polynomial([4, 0, -1])])
     >>> found.start, found.end, found.has_end
@@ -182,12 +180,12 @@ def where_not_negative(polynomials: Sequence[Polynomial]) -> tuple[Interval, ...
 
 
 def is_half_line(intervals: Sequence[Interval]) -> bool:
-    """Whether subsets of x ≥ 0 are one interval that goes on to ∞ and has its start."""
+    """Whether the set is [a, ∞) for some a."""
     return len(intervals) == 1 and intervals[0].has_start and intervals[0].end is None
 
 
 def first_end(intervals: Sequence[Interval]) -> RealRoot | None:
-    """The end of the interval that begins at 0; 0 where none does, None for ∞."""
+    """The end of the interval that begins at 0: 0 if there is none, None for ∞."""
     if not intervals or intervals[0].start != RealRoot.rational(fmpq(0)):
         return RealRoot.rational(fmpq(0))
     return intervals[0].end

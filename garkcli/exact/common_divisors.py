@@ -1,11 +1,11 @@
 """Common divisors of polynomials over a number field K = ℚ(θ), modulo primes.
 
 Euclid's algorithm over K has fractions that grow with each step. Modulo a prime p it has none, over
-F_p[y]/(f) for the minimal polynomial f of θ: where each leading coefficient that it divides by is a
-unit there, and that of one of the polynomials, its result has at least the degree of the common
-divisor over K, and where it has just that, it is that one modulo p. Numbers with small fractions
-are known from their values modulo enough primes; what divides both polynomials is the divisor.
-(J. von zur Gathen, J. Gerhard, *Modern Computer Algebra*, chapter 6.)
+F_p[y]/(f) for the minimal polynomial f of θ: if the leading coefficients that it divides by are
+units there, and so is that of one of the polynomials, its result has at least the degree of the
+common divisor over K; if the degrees agree, it is that divisor modulo p. Rational reconstruction
+from enough primes gives candidates, and one that divides both polynomials is the divisor. (J. von
+zur Gathen, J. Gerhard, *Modern Computer Algebra*, chapter 6.)
 """
 
 from __future__ import annotations
@@ -20,19 +20,19 @@ from garkcli.deadline import check_time
 from garkcli.exact.field import NumberField, modulo
 
 FIRST = 2**62 + 1
-"""Where primes are tried from; python-flint computes with them in one word."""
+"""The search for primes starts here; python-flint computes with them in one word."""
 _Residues: TypeAlias = list[nmod_poly]
-"""A polynomial over F_p[y]/(f), the coefficient of 1 first and the leading one not zero."""
+"""A polynomial over F_p[y]/(f), lowest coefficient first, without leading zeros."""
 
 
 def candidates(
     a: Sequence[fmpq_poly], b: Sequence[fmpq_poly], field: NumberField
 ) -> Iterator[list[fmpq_poly]]:
-    """Monic polynomials over K, of which each could be the greatest common divisor of two, and one
-    is: the first that divides both.
+    """Yields monic candidates for the greatest common divisor over K: it is the first that divides
+    both.
 
     Args:
-        a: the coefficients in θ, that of 1 first and the leading one not zero.
+        a: the coefficients in θ, lowest first, the leading one not zero.
         b: likewise.
         field: K.
     """
@@ -68,7 +68,7 @@ def candidates(
 def _modulo_prime(
     a: Sequence[fmpq_poly], b: Sequence[fmpq_poly], field: NumberField, p: int
 ) -> _Residues | None:
-    """The monic common divisor over F_p[y]/(f); None where p tells nothing."""
+    """The monic common divisor over F_p[y]/(f); None if p is not suitable."""
     try:
         f = modulo(field.modulus, p)
         u, v = ([modulo(x, p) % f for x in q] for q in (a, b))
@@ -104,7 +104,7 @@ def _remainder(u: _Residues, v: _Residues, f: nmod_poly) -> _Residues:
 
 
 def _fractions(values: Sequence[int], modulus: int) -> list[fmpq] | None:
-    """Numbers with a small numerator and denominator from their values; None where one has none."""
+    """Rational reconstruction of small fractions from residues; None if one fails."""
     bound = isqrt(modulus // 2)
     denominator = 1
     found = []

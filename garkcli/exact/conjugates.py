@@ -1,10 +1,10 @@
 """A number field in ℂ, once for every root of its minimal polynomial.
 
 The norm of p ∈ K[x] is the product of the images of p under all embeddings of K in ℂ. Over ℤ its
-coefficients are integers, and balls that hold one integer each are these. And a real number x is
-a root of the norm as often as of all images together: where balls show that it is a root of each
-image at most m_σ times, and Σ m_σ is its multiplicity in the norm, it is exactly that often one of
-each. So nothing is divided in K, where numbers get long.
+coefficients are integers, and balls that hold one integer each are these. The multiplicity of a
+real number x in the norm is the sum of those in the images: if balls bound each of them by m_σ, and
+Σ m_σ is that of the norm, the bounds are attained. So nothing is divided in K, where numbers get
+long.
 """
 
 from __future__ import annotations
@@ -21,13 +21,13 @@ from garkcli.exact.field import NumberField
 from garkcli.frozen import Frozen
 
 SPARE = 64
-"""Bits behind those that a coefficient has."""
+"""Bits beyond those of a coefficient."""
 FIRST_BITS = 128
-"""The precision of roots from which Newton's method goes on."""
+"""Above this precision roots are refined by Newton's method."""
 DIGITS = 20
-"""Digits of θ that tell it from its conjugates most often; they double where they do not."""
+"""First number of digits to tell θ from its conjugates; it doubles until they differ."""
 MOST_BITS_APART = 1024
-"""Roots that are not told apart with so many are too near one another to be sought."""
+"""Roots closer than so many bits resolve are not isolated."""
 
 
 class Image(Frozen):
@@ -35,8 +35,8 @@ class Image(Frozen):
 
     Attributes:
         real: u.
-        imaginary: v; None for an embedding in ℝ. Another one stands for its conjugate too, under
-            which the image is u − iv.
+        imaginary: v; None for an embedding in ℝ. A complex embedding represents its conjugate too,
+            with the image u − iv.
     """
 
     real: arb_poly
@@ -44,18 +44,18 @@ class Image(Frozen):
 
     @property
     def weight(self) -> int:
-        """How many embeddings it stands for."""
+        """The number of embeddings that the image represents."""
         return 1 if self.imaginary is None else 2
 
     @property
     def norm(self) -> arb_poly:
-        """The product of the images under these."""
+        """The product of the images under these embeddings."""
         if self.imaginary is None:
             return self.real
         return self.real * self.real + self.imaginary * self.imaginary
 
     def multiplicity(self, x: arb) -> int:
-        """A number of times that x is a root at most."""
+        """An upper bound of the multiplicity of the root x."""
         parts = [self.real] if self.imaginary is None else [self.real, self.imaginary]
         count = 0
         while any(len(p) for p in parts) and all(p(x).contains(0) for p in parts):
@@ -66,10 +66,8 @@ class Image(Frozen):
 
 @lru_cache(maxsize=64)
 def conjugates(field: NumberField, bits: int) -> tuple[acb, ...] | None:
-    """The roots of the minimal polynomial without a negative imaginary part, with about ``bits``
-    bits; θ itself first, where the field has the radicals that tell it.
-
-    None where some are very near one another: to tell them apart might take for ever.
+    """Returns the roots of the minimal polynomial with imaginary part ≥ 0, to about ``bits`` bits;
+    θ first if the radicals of the field identify it. None if two are too close to isolate.
     """
     check_time()
     modulus = field.modulus.numer()
@@ -101,7 +99,7 @@ def _first_conjugates(field: NumberField, modulus: fmpz_poly) -> tuple[acb, ...]
 
 
 def _narrowed(modulus: fmpz_poly, ball: acb, bits: int) -> acb:
-    """A root that is known to half of so many bits, by a step of Newton's method in balls."""
+    """Doubles the precision of a root by an interval Newton step."""
     check_time()
     with ctx.workprec(bits + 32):
         middle = acb(ball.real.mid(), ball.imag.mid())
@@ -110,8 +108,8 @@ def _narrowed(modulus: fmpz_poly, ball: acb, bits: int) -> acb:
 
 
 def images(p: Sequence[fmpz_poly], field: NumberField, bits: int) -> list[Image] | None:
-    """The images of Σ p_k(θ) x^k, that under the identity first where the field has radicals; None
-    where conjugates of θ are very near one another.
+    """The images of Σ p_k(θ) x^k, with the identity first if the field has radicals; None if two
+    conjugates of θ are too close to isolate.
 
     Args:
         p: the p_k.
@@ -135,7 +133,7 @@ def images(p: Sequence[fmpz_poly], field: NumberField, bits: int) -> list[Image]
 
 
 def over_integers(p: Sequence[fmpq_poly]) -> list[fmpz_poly]:
-    """A multiple of Σ p_k(θ) x^k by a positive integer."""
+    """A positive integer multiple of Σ p_k(θ) x^k with integer coefficients."""
     denominator = fmpz(1)
     for a in p:
         denominator = denominator.lcm(a.denom())
@@ -143,7 +141,7 @@ def over_integers(p: Sequence[fmpq_poly]) -> list[fmpz_poly]:
 
 
 def norm_in_balls(p: Sequence[fmpz_poly], field: NumberField) -> fmpz_poly | None:
-    """A multiple of the norm of Σ p_k(θ) x^k by an integer; None as for ``images``.
+    """An integer multiple of the norm of Σ p_k(θ) x^k; None as for ``images``.
 
     Args:
         p: the p_k; not all are zero.
@@ -169,7 +167,6 @@ def norm_in_balls(p: Sequence[fmpz_poly], field: NumberField) -> fmpz_poly | Non
 
 
 def _exponent(x: arb) -> int:
-    """A k with x ≤ 2^k."""
     if not x.is_finite():
         return FIRST_BITS
     mantissa, exponent = x.abs_upper().man_exp()

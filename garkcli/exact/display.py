@@ -22,12 +22,11 @@ DIGITS_OF_A_BIT = 0.302
 
 
 def to_text(number: Number) -> str:
-    """The number as a method file writes it, for instance ``1/2 - sqrt(3)/6``."""
     return str(number)
 
 
 def shortest(number: Number) -> str:
-    """The number as people read it: a long fraction in decimals where all of these are shorter.
+    """The number as people read it: decimals for a long fraction if all of them are shorter.
 
     >>> shortest(fmpq(732233047, 2500000000)), shortest(fmpq(1, 20)), shortest(fmpq(1, 30000))
     ('0.2928932188', '1/20', '1/30000')
@@ -79,7 +78,7 @@ def _latex_term(coefficient: fmpq, factors: str) -> str:
 
 
 def to_balls(numbers: Iterable[Number], digits: int) -> list[arb]:
-    """Enclosures of numbers as of ``to_ball``; irrational ones that are equal are enclosed once."""
+    """``to_ball`` of each number; equal irrational ones are enclosed once."""
     known: dict[Algebraic, arb] = {}
     balls = []
     with ctx.workprec(_bits(digits) + 32):
@@ -103,7 +102,9 @@ def digits_here() -> int:
 
 
 def to_ball(number: Number | arb, digits: int = 17) -> arb:
-    """An enclosure of a number with at least ``digits`` correct digits; a ball as it is."""
+    """An enclosure of a number with at least ``digits`` correct digits; balls are returned
+    unchanged.
+    """
     if isinstance(number, arb):
         return number
     goal = _bits(digits)
@@ -128,12 +129,11 @@ def _ball(number: Number) -> arb:
 
 
 def to_decimal(number: Number, digits: int = 17) -> str:
-    """The number rounded to ``digits`` significant digits."""
     return to_ball(number, digits).str(digits, radius=False)
 
 
 def in_digits(number: Any, digits: int) -> fmpq:
-    """The decimal of so many significant digits next to a number or the middle of a ball.
+    """The decimal with ``digits`` significant digits nearest to a number or the centre of a ball.
 
     >>> in_digits(fmpq(1, 3), 4)
     3333/10000
@@ -144,7 +144,7 @@ def in_digits(number: Any, digits: int) -> fmpq:
 
 
 def decimal(number: fmpq) -> str:
-    """A positive rational as people write tolerances: ``1e-13``, or a fraction where it is no such
+    """A positive rational as people write tolerances, ``1e-13``; a fraction if it has no finite
     decimal.
 
     >>> decimal(fmpq(1, 10**13)), decimal(fmpq(441, 10**10)), decimal(fmpq(1, 3))
@@ -166,7 +166,7 @@ def decimal(number: fmpq) -> str:
 
 
 def plain_decimal(number: fmpq) -> str:
-    """A rational number in decimals, all of them; a fraction where they do not end.
+    """A rational number with all its decimals; a fraction if they do not end.
 
     >>> plain_decimal(fmpq(-1, 8)), plain_decimal(fmpq(3)), plain_decimal(fmpq(1, 3))
     ('-0.125', '3', '1/3')
@@ -189,9 +189,7 @@ def plain_decimal(number: fmpq) -> str:
 
 
 def nearest_float(number: Algebraic) -> float:
-    """The float that is nearest to an irrational number: the one to which both ends of a narrow
-    enclosure are rounded.
-    """
+    """The float nearest to an irrational number: both ends of a narrow enclosure round to it."""
     digits = 20
     while True:
         ball = to_ball(number, digits)
@@ -203,5 +201,5 @@ def nearest_float(number: Algebraic) -> float:
 
 
 def to_float(number: Number) -> float:
-    """The nearest float, or nearly so."""
+    """The nearest float, up to a unit in the last place."""
     return float(to_ball(number))

@@ -1,8 +1,7 @@
 """Enclosures in balls: of expressions, of real roots, and of polynomials.
 
-What is enclosed has as many digits as ``flint.ctx`` has, and a bound on what is missing. A list of
-coefficients starts with that of 1; statements on polynomials hold for all numbers in the balls,
-and is None where these are too wide to tell.
+Results have the precision of ``flint.ctx``. Lists of coefficients start with the constant one.
+Statements about polynomials hold for all numbers in the balls, and are None if these are too wide.
 """
 
 from __future__ import annotations
@@ -23,7 +22,7 @@ from garkcli.exact.nodes import AlgebraicRoot, Chain, Expression, Literal, Power
 def isolated(coefficients: tuple[int, ...], bits: int) -> tuple[arb, ...]:
     """The real roots of an irreducible polynomial in ascending order, with about ``bits`` bits.
 
-    The complex roots, which python-flint finds, may take for ever where two are near one another.
+    Not by python-flint's complex roots, which may take for ever if two are close.
 
     Args:
         coefficients: the lowest first.
@@ -41,15 +40,15 @@ def isolated(coefficients: tuple[int, ...], bits: int) -> tuple[arb, ...]:
 
 @lru_cache(maxsize=512)
 def _ends(coefficients: tuple[int, ...]) -> list[tuple[fmpq, fmpq]]:
-    """Rational numbers around each of the same roots, and no other."""
+    """Rational ends around each real root, no other root between them."""
     mirrored = [-a if k % 2 else a for k, a in enumerate(coefficients)]
     negative = [(-high, -low) for low, high in reversed(_positive(mirrored))]
     return negative + _positive(coefficients)
 
 
 def _positive(coefficients: Sequence[int]) -> list[tuple[fmpq, fmpq]]:
-    """The same for the roots that are positive: intervals are halved until Descartes' rule knows
-    what is in each.
+    """Rational ends around each positive root: intervals are halved until Descartes' rule counts
+    one root or none in each.
     """
     degree = len(coefficients) - 1
     *lower, leading = (abs(a).bit_length() for a in coefficients)
@@ -77,9 +76,7 @@ _NEXT = fmpz_poly([1, 1])
 
 
 def _narrowed(p: fmpz_poly, low: fmpq, high: fmpq, bits: int) -> arb:
-    """The only root between two numbers, by Newton's method in balls, or halving where that is
-    too wide.
-    """
+    """Refines the only root between two numbers by interval Newton, or by halving if that fails."""
     slopes = p.derivative()
     is_positive = p(low) > 0
     while (high - low) * 2**bits > min(abs(low), abs(high)):
@@ -101,9 +98,7 @@ def _narrowed(p: fmpz_poly, low: fmpq, high: fmpq, bits: int) -> arb:
 
 
 def _value(p: fmpz_poly, x: fmpq) -> arb:
-    """The value at a number, which is no root; the exact one where balls are too wide to tell its
-    sign.
-    """
+    """The value at a number that is not a root: a ball without 0, or the exact value."""
     ball = arb_poly(p)(arb(x))
     return arb(p(x)) if ball.contains(0) else ball
 
@@ -114,11 +109,11 @@ OPERATIONS: Mapping[str, Callable[[Any, Any], Any]] = {
     "*": operator.mul,
     "/": operator.truediv,
 }
-"""What the signs of a chain do with what is before them."""
+"""The operation of each sign in a chain."""
 
 
 def integer_power(base: arb, exponent: int) -> arb:
-    """A ball to an integer power. The operator of python-flint gives nan for balls around 0.
+    """A ball to an integer power. python-flint's operator gives nan for balls around 0.
 
     >>> integer_power(arb(0, 0.5), 2).str(2), (arb(0, 0.5) ** 2).str(2)
     ('[+/- 0.251]', 'nan')
@@ -133,15 +128,13 @@ def integer_power(base: arb, exponent: int) -> arb:
 
 
 def real_root(ball: arb, index: int) -> arb:
-    """The real root of a ball, of index 2 or more."""
     return -((-ball).root(index)) if index % 2 and ball < 0 else ball.root(index)
 
 
 def enclose(expression: Expression) -> arb:
     """A ball that holds the value of ``expression``, at the current ``flint.ctx`` precision.
 
-    The value is undefined, and the ball all of the reals, where a divisor cannot be distinguished
-    from 0.
+    The ball is the whole line if a divisor may be 0.
 
     >>> from garkcli.exact.expression import parse
     >>> bool(abs(enclose(parse("sqrt(2)")) ** 2 - 2) < 1e-14)
@@ -165,18 +158,18 @@ def enclose(expression: Expression) -> arb:
 
 
 def midpoint(ball: arb) -> fmpq:
-    """The middle of a ball, exactly."""
+    """The exact centre of a ball."""
     mantissa, exponent = ball.mid().man_exp()
     return fmpq(mantissa) * fmpq(2) ** int(exponent)
 
 
 def bits_for(grain: fmpq) -> int:
-    """The precision of balls in which numbers larger than ``grain`` are not lost."""
+    """The precision at which numbers larger than ``grain`` are not lost."""
     return 2 * int(grain.q.bit_length()) + 64
 
 
 def root_count(coefficients: Sequence[arb]) -> int | None:
-    """The number of distinct real roots, by Sturm's chain; None too where roots are multiple.
+    """The number of distinct real roots, by Sturm's chain; None also if roots are multiple.
 
     >>> root_count([arb(-2), arb(0), arb(1)]), root_count([arb(2), arb(0), arb(1)])
     (2, 0)
@@ -200,12 +193,11 @@ def cauchy_index(f: Sequence[arb], g: Sequence[arb]) -> int | None:
 
 
 def derivative(coefficients: Sequence[arb]) -> list[arb]:
-    """The derivative."""
     return [k * a for k, a in enumerate(coefficients) if k]
 
 
 def value(coefficients: Sequence[arb | fmpq | fmpz], x: Any) -> Any:
-    """The value at a ball, real or complex, by Horner's rule."""
+    """The value at a real or complex ball, by Horner's rule."""
     total: Any = arb(0)
     for a in reversed(coefficients):
         total = total * x + a
@@ -213,7 +205,7 @@ def value(coefficients: Sequence[arb | fmpq | fmpz], x: Any) -> Any:
 
 
 def _negative_remainder(f: Sequence[arb], g: Sequence[arb]) -> list[arb] | None:
-    """−(f mod g), with a leading coefficient that is not zero."""
+    """−(f mod g), without leading zeros; None if a leading coefficient may be 0."""
     *lower, leading = g
     if leading.contains(0):
         return None
@@ -230,7 +222,7 @@ def _negative_remainder(f: Sequence[arb], g: Sequence[arb]) -> list[arb] | None:
 
 
 def _variations(chain: Sequence[Sequence[arb]], at_plus: bool) -> int:
-    """Changes of sign along the chain at ∞ or −∞."""
+    """Sign changes along the chain at ∞ or −∞."""
     signs = []
     for p in chain:
         is_positive = bool(p[-1] > 0)
@@ -246,20 +238,16 @@ _Vector: TypeAlias = Sequence[arb]
 
 
 def plus(u: _Vector, v: _Vector) -> Entries:
-    """The sum u + v."""
     return [x + y for x, y in zip(u, v, strict=True)]
 
 
 def times(u: _Vector, v: _Vector) -> Entries:
-    """The product u ⊙ v."""
     return [x * y for x, y in zip(u, v, strict=True)]
 
 
 def entrywise_max(u: _Vector, v: _Vector) -> Entries:
-    """The larger of each two entries."""
     return [x.max(y) for x, y in zip(u, v, strict=True)]
 
 
 def scalar_product(u: _Vector, v: _Vector) -> arb:
-    """uᵀ v."""
     return sum(times(u, v), arb(0))

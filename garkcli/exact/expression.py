@@ -1,4 +1,4 @@
-"""Text to expression: the few signs a coefficient may be written with, and nothing that could run.
+"""Parses coefficients: the few signs they may be written with, and nothing that could run.
 
 The grammar, with ``^`` meaning ``**``::
 
@@ -30,7 +30,7 @@ MAX_LENGTH = 20_000
 MAX_DEPTH = 60
 """Deepest nesting of parentheses, signs and functions."""
 MAX_DIGITS = 1_000
-"""Most digits of one number, its decimal exponent written out."""
+"""Most digits of one number with its decimal exponent written out."""
 MAX_EXPONENT = 64
 """Largest exponent after ``**``."""
 MAX_ROOT = 12
@@ -43,7 +43,7 @@ _TOKEN = re.compile(
 )
 ROOT_SIGN = "√"
 INDEX_OF_ROOT = {"sqrt": 2, "cbrt": 3}
-"""The roots that have a name of their own."""
+"""Roots with a name of their own."""
 _SIGN_CURES = dict.fromkeys("−–—", "use the sign - (hyphen)") | {
     **dict.fromkeys("\N{FRACTION SLASH}\N{DIVISION SLASH}\N{DIVISION SIGN}", "use the sign /"),
     "\N{VULGAR FRACTION ONE THIRD}": "write 1/3",
@@ -55,15 +55,15 @@ _SIGN_CURES = dict.fromkeys("−–—", "use the sign - (hyphen)") | {
     "×": "use the sign *",
 }
 FUNCTIONS = frozenset({*INDEX_OF_ROOT, "root", "root_of"})
-"""Names with a meaning of their own: no parameter may be called so."""
+"""Names that parameters cannot have."""
 
 
 def parse(text: str) -> Expression:
-    """Read ``text``.
+    """Parses ``text``.
 
     Raises:
-        ExpressionError: it is not in the grammar; the error knows the offset.
-        LimitExceeded: it is, but beyond the limits of this module.
+        ExpressionError: syntax error, with its offset.
+        LimitExceeded: it exceeds a limit of this module.
 
     >>> parse("1/2 - sqrt(3)/6").signs
     '+-'
@@ -72,14 +72,14 @@ def parse(text: str) -> Expression:
 
 
 class Parser:
-    """Recursive descent over the tokens of one text; its subclasses read more than coefficients.
+    """Recursive descent over the tokens of one text; subclasses extend the grammar.
 
     Attributes:
-        noun: what a text is.
-        value_noun: what is between two signs.
+        noun: the kind of text, in messages.
+        value_noun: the kind of operand, in messages.
         example: the cure for an empty text.
-        cure: what may be written.
-        functions: the cure for a function that is not known.
+        cure: the signs that are allowed.
+        functions: the cure for an unknown function.
     """
 
     noun: ClassVar[str] = "coefficient"
@@ -136,10 +136,10 @@ class Parser:
         self._advance()
 
     def whole(self) -> Expression:
-        """The expression that the text is.
+        """Parses the whole text.
 
         Raises:
-            ExpressionError: it is none.
+            ExpressionError: it is no expression.
         """
         if self.kind == "end":
             self._fail(f"no {self.value_noun} here", self.example)
@@ -205,7 +205,7 @@ class Parser:
         return power
 
     def _raised(self, base: Expression, is_negative: bool, start: int) -> Expression:
-        """``base`` to the exponent that comes next, without its sign."""
+        """Parses an exponent without its sign and returns the power of ``base``."""
         exponent = self._integer("an exponent", MAX_EXPONENT)
         if is_negative:
             exponent = -exponent
@@ -281,7 +281,7 @@ class Parser:
 
 
 def read_decimal(text: str, start: int = 0) -> fmpq:
-    """The rational number that a decimal text is, exactly.
+    """The exact value of a decimal.
 
     >>> read_decimal("0.1"), read_decimal("25e-3")
     (1/10, 1/40)

@@ -1,9 +1,8 @@
 """The half line y > 0 over an algebraic number t_0 of any degree, in the plane.
 
-Polynomials p(y, t) are there polynomials in y over ℚ(t_0). How often roots are multiple, and
-whether two polynomials have one in common, is known by greatest common divisors over that field,
-which need no digits; where roots are is known by balls; and the sign at a rational y is that of a
-polynomial in t at t_0. No field has the degrees of y and t_0 together.
+On it p(y, t) is a polynomial in y over ℚ(t_0). Greatest common divisors over that field decide
+multiplicities and common roots exactly; balls locate the roots; the sign at a rational y is that of
+a polynomial in t at t_0. So no field combines the degrees of y and t_0.
 """
 
 from __future__ import annotations
@@ -25,7 +24,7 @@ from garkcli.exact.roots import FIRST_BITS, RealRoot, root_within, sign_at
 from garkcli.frozen import Frozen, replace
 
 Holds: TypeAlias = Callable[[Sequence[int]], bool]
-"""Whether something holds where polynomials have these signs."""
+"""Decides from the signs of polynomials whether a property holds."""
 
 
 class Root(Frozen, eq=False):
@@ -33,10 +32,9 @@ class Root(Frozen, eq=False):
 
     Attributes:
         fibre: the line.
-        polynomial: over ℚ(t_0), in y; the number is a simple root of it, and the only one from
-            ``low`` to ``high``.
-        low, high: rational numbers, equal where y is that number.
-        curves: which curves meet the line there, by their places.
+        polynomial: in y over ℚ(t_0), with y as a simple root and the only one in [low, high].
+        low, high: rational bounds, equal if y is rational and known.
+        curves: the indices of the curves that meet the line there.
     """
 
     fibre: Fibre
@@ -46,7 +44,7 @@ class Root(Frozen, eq=False):
     curves: frozenset[int]
 
     def refined(self, bits: int) -> Root:
-        """The same with the ends no further apart than 2^−bits."""
+        """The root with ``high − low`` ≤ 2^−bits."""
         low, high = self.low, self.high
         if high - low <= fmpq(1, 1 << bits):
             return self
@@ -64,24 +62,24 @@ class Root(Frozen, eq=False):
         return replace(self, low=low, high=high)
 
     def ball(self, bits: int) -> arb:
-        """An enclosure, by ``bits`` behind the point."""
+        """An enclosure to ``bits`` bits after the point."""
         finer = self.refined(bits)
         with ctx.workprec(2 * bits):
             return arb(finer.low).union(arb(finer.high))
 
     @property
     def exact(self) -> RealRoot:
-        """The number by its polynomial over ℚ."""
+        """The root with its minimal polynomial over ℚ."""
         curve = self.fibre.curves[min(self.curves)]
         return root_within(in_one(resultant(curve, of_root(self.fibre.t), "t")), self.ball)
 
 
 class Fibre:
-    """Where curves meet the line t = t_0, y > 0.
+    """The intersections of curves with the line t = t_0, y > 0.
 
     Args:
         t: the number t_0.
-        curves: irreducible curves, no two of them the same.
+        curves: distinct irreducible curves.
     """
 
     def __init__(self, t: RealRoot, curves: Sequence[fmpq_mpoly]) -> None:
@@ -106,7 +104,7 @@ class Fibre:
 
     @cached_property
     def roots(self) -> list[Root]:
-        """All of them, in ascending order; no two have ends in common."""
+        """All roots in ascending order, with disjoint bounds."""
         roots: list[Root] = []
         for place, curve in enumerate(self.curves):
             p = self.polynomial(curve)
@@ -132,7 +130,7 @@ class Fibre:
             bits *= 2
 
     def _common(self, a: Root, b: Root) -> Root | None:
-        """Two roots as one, if they are the same number."""
+        """The root that two share; None if they differ."""
         low, high = max(a.low, b.low), min(a.high, b.high)
         if low > high or a.curves & b.curves:
             return None
@@ -143,7 +141,7 @@ class Fibre:
         return Root(self, p, low, high, a.curves | b.curves)
 
     def _isolated(self, p: Polynomial) -> Iterator[tuple[fmpq, fmpq]]:
-        """Ends around each positive root of a polynomial without multiple ones."""
+        """Disjoint bounds of the positive roots of a square-free polynomial."""
         bits = FIRST_BITS
         while True:
             try:
@@ -154,7 +152,7 @@ class Fibre:
                 return
 
     def _halved(self, p: Polynomial, bits: int) -> Iterator[tuple[fmpq, fmpq]]:
-        """The same: intervals are halved until p or its derivative has no zero there."""
+        """Halves intervals until p or its derivative has no zero there."""
         values = self._enclosed(p, bits)
         slopes = self._enclosed(p.derivative(), bits)
         waiting = [(fmpq(0), _bound(values, bits))]
@@ -178,14 +176,13 @@ class Fibre:
             waiting += [(middle, high), (low, middle)]
 
     def _enclosed(self, p: Polynomial, bits: int) -> list[arb]:
-        """The coefficients in balls."""
         t = self.t.ball(bits)
         with ctx.workprec(bits):
             return [_ball(a, t) for a in p.coefficients]
 
     @cached_property
     def gaps(self) -> list[fmpq]:
-        """A rational number before, between and behind the roots."""
+        """A rational number below, between and above the roots."""
         if not self.roots:
             return [fmpq(1)]
         between = [(a.high + b.low) / 2 for a, b in pairwise(self.roots)]
@@ -196,14 +193,14 @@ class Fibre:
         return [first.low / 2, *between, self.roots[-1].high + 1]
 
     def first_failure(self, polynomials: Sequence[fmpq_mpoly], holds: Holds) -> Root | fmpq | None:
-        """The y up to which something holds from 0 on.
+        """The smallest y at which a property fails.
 
         Args:
-            polynomials: products of the curves and of what has no zero on the line.
-            holds: by their signs.
+            polynomials: products of the curves and of polynomials without a zero on the line.
+            holds: decides by their signs.
 
         Returns:
-            the y; 0 where it fails at once; None where it does not fail.
+            the y; 0 if it fails at once; None if it never fails.
         """
         divisors = [
             frozenset(k for k, curve in enumerate(self.curves) if p and not p % curve)
@@ -219,7 +216,7 @@ class Fibre:
         return None
 
     def have_common_zero(self, polynomials: Sequence[fmpq_mpoly]) -> bool:
-        """Whether polynomials have a zero in common on the line, real or complex."""
+        """Whether polynomials have a common zero on the line, real or complex."""
         common = Polynomial([])
         for p in polynomials:
             common = gcd(common, self.polynomial(p))
@@ -230,16 +227,16 @@ class Fibre:
 
 
 class _NotFineEnough(Exception):
-    """Balls are too wide."""
+    """Balls are too wide for a decision."""
 
 
 def _ball(a: Number, t: arb) -> arb:
-    """A number of ℚ(t_0) at an enclosure of t_0."""
+    """The enclosure of an element of ℚ(t_0), from one of t_0."""
     return Polynomial.from_flint(poly_of(a)).enclosed_at(t)
 
 
 def _bound(coefficients: Sequence[arb], bits: int) -> fmpq:
-    """A power of 2 that all roots are below (Cauchy).
+    """A power of 2 that bounds all roots (Cauchy).
 
     Raises:
         _NotFineEnough: the leading coefficient may be 0.

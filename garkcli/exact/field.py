@@ -29,9 +29,9 @@ ONE = fmpq(1)
 FIRST_PRIME = 2**31 + 1
 PRIMES_WITHIN = 10_000
 LONG = 50_000
-"""Bits of all coefficients of a number with which its inverse takes tenths of a second."""
+"""Size of a number, degree times bits, beyond which its inverse takes tenths of a second."""
 Word: TypeAlias = tuple[int, ...]
-"""A product of radicals, by their indices in ascending order."""
+"""A product of radicals, as their indices in ascending order."""
 
 
 def _inverse(x: fmpq_poly, modulus: fmpq_poly) -> fmpq_poly:
@@ -49,12 +49,11 @@ def modulo(poly: fmpq_poly, p: int) -> nmod_poly:
 
 
 class NumberField:
-    """K = ℚ(θ) with the radicals it was made for.
+    """K = ℚ(θ), with radicals that generate it.
 
     Args:
         modulus: the minimal polynomial of θ, irreducible over ℚ.
-        radicals: each radical of the source as ``(expression, element)``; they generate K. Without
-            them elements are written in θ.
+        radicals: pairs ``(expression, element)``; without them elements are written in θ.
     """
 
     def __init__(
@@ -65,7 +64,7 @@ class NumberField:
         self.radicals = tuple(radicals)
 
     def is_same(self, other: NumberField) -> bool:
-        """Whether it is the same field, made once more: the radicals tell which root θ is."""
+        """Whether two objects are the same field: the radicals tell which root θ is."""
         if other is self:
             return True
         return (
@@ -76,11 +75,8 @@ class NumberField:
 
     @cached_property
     def place(self) -> tuple[int, int] | None:
-        """A prime p and a simple root of the minimal polynomial modulo p; None where none of the
-        primes that are tried has one.
-
-        That θ is this root makes numbers without p in their denominators numbers modulo p, and
-        keeps sums and products.
+        """A prime p and a simple root of the minimal polynomial modulo p, which map elements with
+        denominators prime to p to F_p; None if no prime that is tried has one.
         """
         primes = (fmpz(n) for n in range(FIRST_PRIME, FIRST_PRIME + PRIMES_WITHIN, 2))
         for p in filter(fmpz.is_prime, primes):
@@ -91,7 +87,7 @@ class NumberField:
         return None
 
     def element(self, poly: fmpq_poly) -> Number:
-        """The class of ``poly`` modulo the minimal polynomial; a plain rational where it is one."""
+        """The class of ``poly``; a plain rational if it is constant."""
         poly %= self.modulus
         if poly.degree() < 1:
             return poly[0]
@@ -103,15 +99,13 @@ class NumberField:
 
     @cached_property
     def monomials(self) -> tuple[Word, ...]:
-        """Products of radicals that form a basis of K over ℚ, as tuples of indices into
-        ``radicals``.
-        """
+        """A basis of K over ℚ of products of radicals, as tuples of indices into ``radicals``."""
         return self._basis[0]
 
     @cached_property
     def _basis(self) -> tuple[tuple[Word, ...], fmpq_mat]:
-        """A multiple of a product that depends on smaller ones does so too: only chosen products
-        are extended.
+        """The monomials and the inverse of their matrix in powers of θ. A multiple of a dependent
+        product is dependent too, so only chosen products are extended.
         """
         if not self.radicals:
             powers = tuple((0,) * k for k in range(self.degree))
@@ -161,8 +155,6 @@ class NumberField:
 
 
 class Algebraic:
-    """An irrational element of a number field."""
-
     __slots__ = ("field", "poly")
 
     def __init__(self, field: NumberField, poly: fmpq_poly) -> None:
@@ -179,7 +171,7 @@ class Algebraic:
         return None
 
     def _of_sum(self, poly: fmpq_poly) -> Number:
-        """The element of a polynomial whose degree is small already."""
+        """The element of a polynomial of degree below that of the field."""
         return Algebraic(self.field, poly) if poly.degree() > 0 else poly[0]
 
     def __add__(self, other: object) -> Number:
@@ -242,12 +234,12 @@ class Algebraic:
         return result
 
     def __float__(self) -> float:
-        """The nearest float; nothing is decided with it."""
+        """The nearest float, for display only."""
         value: float = answered(self, "float")
         return value
 
     def _sympy_(self) -> Any:
-        """The same number for SymPy, which asks for it."""
+        """The same number for SymPy, which calls this."""
         return answered(self, "sympy")
 
     def __bool__(self) -> bool:
@@ -263,7 +255,7 @@ class Algebraic:
         return hash((tuple(self.poly.numer()), self.poly.denom()))
 
     def terms(self) -> Iterator[tuple[fmpq, Word]]:
-        """The number as a sum of radicals: each coefficient with its word, see
+        """The number as a sum of radicals: pairs of a coefficient and a word of
         ``NumberField.monomials``.
         """
         coefficients = self.field.in_radicals(self)
@@ -281,7 +273,7 @@ class Algebraic:
         return text.removeprefix(" + ")
 
     def _term(self, coefficient: fmpq, word: Word) -> str:
-        """A multiple of a product of radicals, without its sign: ``4*sqrt(3)/27``."""
+        """An unsigned multiple of a product of radicals: ``4*sqrt(3)/27``."""
         factors = []
         for factor, power in self.field.powers(word):
             if power > 1:
@@ -307,8 +299,8 @@ def poly_of(number: Number) -> fmpq_poly:
 
 
 def with_radicals(number: Number, radicals: Sequence[Any]) -> Any:
-    """A number with other values in place of the radicals of its field, such as the same radicals
-    in a larger field.
+    """A number with other values in place of the radicals of its field, for example the same
+    radicals in a larger field.
     """
     if not isinstance(number, Algebraic):
         return number
@@ -326,14 +318,14 @@ def coordinates(number: Number, degree: int) -> list[fmpq]:
 
 
 def flat(numbers: Iterable[Number], degree: int) -> list[fmpq]:
-    """The coordinates of all, one number after the other."""
+    """All coordinates, concatenated."""
     if degree == 1:
         return cast("list[fmpq]", list(numbers))
     return [x for number in numbers for x in coordinates(number, degree)]
 
 
 def sum_of_products(pairs: Sequence[tuple[Number, Number]]) -> Number:
-    """Σ x y over pairs with an irrational number each; reduced once instead of once a pair."""
+    """Σ x y over pairs with at least one irrational number each, reduced once."""
     irrational = (x for x in pairs[0] if isinstance(x, Algebraic))
     field = next(irrational).field
     total = fmpq_poly()

@@ -1,4 +1,4 @@
-"""Formulas: expressions with functions and real powers, for problems; coefficients have neither.
+"""Formulas of problems: expressions with functions and real powers, which coefficients do not have.
 
 The grammar is that of ``garkcli.exact.expression`` with::
 
@@ -34,11 +34,11 @@ from garkcli.exact.nodes import (
 from garkcli.exact.rewriting import format_expression
 
 FUNCTIONS = ("sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "log")
-"""The functions of formulas besides the roots: each has a derivative wherever it is defined."""
+"""Functions of formulas besides roots, differentiable wherever they are defined."""
 CONSTANTS = ("pi",)
-"""Names of formulas that have a value of their own."""
+"""Names with a fixed value."""
 RESERVED = frozenset({*FUNCTIONS, *CONSTANTS, *ROOTS})
-"""Names that nothing else can have in a formula."""
+"""Names that variables and parameters cannot have."""
 _CURES = {
     "ln": "write log(x)",
     "abs": "|x| has no derivative at 0; write sqrt(x**2 + d) with some d > 0",
@@ -50,11 +50,11 @@ _CURES = {
 
 
 def parse_formula(text: str) -> Expression:
-    """Read ``text``.
+    """Parses ``text``.
 
     Raises:
-        ExpressionError: it is not in the grammar; the error knows the offset.
-        LimitExceeded: it is, but beyond the limits of ``garkcli.exact.expression``.
+        ExpressionError: syntax error, with its offset.
+        LimitExceeded: it exceeds a limit of ``garkcli.exact.expression``.
 
     >>> parse_formula("exp(-x)").function
     'exp'
@@ -101,7 +101,7 @@ class _FormulaParser(Parser):
 
 
 def _cure_of(name: str) -> str:
-    """What to write instead of a function that is not known."""
+    """The cure for an unknown function."""
     if name in _CURES:
         return _CURES[name]
     known = (*FUNCTIONS, "sqrt")
@@ -116,7 +116,7 @@ Value: TypeAlias = fmpq | arb
 MAX_DENOMINATOR = 10_000
 """Largest denominator of an exponent."""
 FLOAT_BITS = 1000
-"""Largest numbers are 2^``FLOAT_BITS``: floats can still be multiplied by them."""
+"""Values are below 2^``FLOAT_BITS``, so that products with floats do not overflow."""
 _FUNCTIONS: Mapping[str, Callable[[arb], arb]] = {name: getattr(arb, name) for name in FUNCTIONS}
 
 
@@ -125,14 +125,13 @@ def value_of(expression: Expression, names: Mapping[str, Value]) -> Value:
     are exact.
 
     Args:
-        expression: any, with whatever roots, powers and functions.
-        names: a value for each name in it but ``pi``.
+        expression: any formula.
+        names: a value for each name except ``pi``.
 
     Raises:
-        UndefinedValue: an operation has no real value, or none that can be decided: log(-1), 1/0,
-            sqrt(-2). The error knows the offsets of the operation.
-        LimitExceeded: a number of more than ``MAX_BITS`` bits or beyond the floats, or an exponent
-            that is none.
+        UndefinedValue: an operation without a real value, or with an undecided one: log(-1), 1/0;
+            with offsets.
+        LimitExceeded: a number beyond ``MAX_BITS`` or the floats, or an exponent out of range.
         KeyError: a name without a value.
 
     >>> from garkcli.exact.formula import parse_formula
@@ -167,11 +166,11 @@ def value_of(expression: Expression, names: Mapping[str, Value]) -> Value:
 
 
 def exponent_of(expression: Expression, names: Mapping[str, Value]) -> fmpq:
-    """The rational number that an exponent is.
+    """The value of an exponent.
 
     Raises:
         UndefinedValue: it is irrational.
-        LimitExceeded: it is too large, or its denominator is.
+        LimitExceeded: it or its denominator is too large.
     """
     value = value_of(expression, names)
     start, end = expression.start, expression.end
@@ -226,7 +225,7 @@ def _cut(text: str) -> str:
 
 
 def _power(base: Value, exponent: fmpq, at: Expression, of: Expression) -> Value:
-    """A power; the base is positive where the exponent is no whole number."""
+    """A power; the base is positive if the exponent is not an integer."""
     if exponent < 0:
         _check_divisor(base, of)
     if exponent.q == 1:

@@ -1,4 +1,4 @@
-"""Numbers of Python, NumPy, SymPy and FLINT as the text of a method file, exactly."""
+"""Converts numbers of Python, NumPy, SymPy and FLINT to the text of a method file, exactly."""
 
 from __future__ import annotations
 
@@ -19,33 +19,33 @@ AnyNumber: TypeAlias = "SupportsFloat | str"
 or a text such as ``"1/3"``.
 """
 FLOAT_DIGITS = 15
-"""Decimal digits that every float keeps: a decimal of so many is the only one its float prints."""
+"""Any decimal with so many digits is the shortest one of its float."""
 
 
 MAX_BITS = 10_000
-"""Numerators and denominators of more are not written out for the parser, which refuses them:
-Python would not write those of more than 4300 digits.
+"""Longer numerators and denominators are refused before Python, which does not print more than 4300
+digits, writes them out.
 """
 EXACTLY = "give it exactly, as a Fraction or a text such as '1/3'"
-"""What helps where a float is a rounded number."""
+"""The cure for a rounded number."""
 OR_ROUNDED = f"{EXACTLY}, or say tolerance='1e-13'"
-"""The same where rounding may be named."""
+"""The cure for a rounded number where a tolerance is possible."""
 
 
 def number_text(x: Any, where: str, is_rounded: bool, cure: str = OR_ROUNDED) -> str:
     """The text of a coefficient.
 
-    A float stands for the decimal that it prints. With more than 15 digits that is a rounded
-    number, which only goes with a tolerance.
+    A float stands for the decimal that it prints. With more than 15 digits it is a rounded number
+    and needs a tolerance.
 
     Args:
         x: a number, or its text.
-        where: what it is, for messages.
+        where: its name in messages.
         is_rounded: whether a tolerance was given.
         cure: what to do about a rounded number.
 
     Raises:
-        MethodError: it is no number, or it was rounded and no tolerance was given.
+        MethodError: not a number, or a rounded one without a tolerance.
     """
     if isinstance(x, str):
         return x
@@ -90,7 +90,7 @@ def _shown(x: Any) -> str:
 
 
 def _is_float(x: Any) -> bool:
-    """Whether it is a float of Python or of NumPy, which is known without importing NumPy."""
+    """Whether x is a float of Python or NumPy, without importing NumPy."""
     if isinstance(x, float):
         return True
     kind = type(x)
@@ -118,9 +118,8 @@ def _float_text(x: Any, where: str, is_rounded: bool, cure: str) -> str:
 
 
 def _sympy_text(x: Any, where: str, is_part: bool = False) -> str:
-    """The text of a SymPy expression of rationals and real roots; SymPy is not imported.
-
-    ``is_part`` puts parentheses around what would not hold together in a product or a power.
+    """The text of a SymPy expression of rationals and real roots, without importing SymPy. With
+    ``is_part`` it is in parentheses where a product or power needs them.
     """
     if x.is_Pow and x.exp.is_Rational:
         return _sympy_power(x, where)
@@ -140,7 +139,7 @@ def _sympy_text(x: Any, where: str, is_part: bool = False) -> str:
 
 
 def _unreadable(x: Any, where: str) -> MethodError:
-    """Why a SymPy expression is no coefficient."""
+    """The error for a SymPy expression that is no coefficient."""
     if getattr(x, "is_Float", False):
         cure = "give it exactly, as a Rational or a text"
         message = f"{where}: {_shown(x)} is a rounded number"
@@ -151,7 +150,7 @@ def _unreadable(x: Any, where: str) -> MethodError:
 
 
 def _sympy_power(x: Any, where: str) -> str:
-    """A rational power of SymPy, in parentheses where it is more than a root."""
+    """A rational power of SymPy, in parentheses unless it is a root."""
     p = int(x.exp.p)
     q = int(x.exp.q)
     if q == 1:
@@ -174,7 +173,7 @@ _ROOTS = {2: "sqrt", 3: "cbrt"}
 
 
 def complex_parts(text: str) -> tuple[str, str]:
-    """The texts of the real and the imaginary part of a complex number.
+    """The texts of the real and imaginary parts of a complex number.
 
     >>> complex_parts("0.01+2i"), complex_parts("1e-3 - 3/4*i"), complex_parts("-j")
     (('0.01', '2'), ('1e-3', '-3/4'), ('0', '-1'))
@@ -191,15 +190,15 @@ def complex_parts(text: str) -> tuple[str, str]:
 
 
 def rational_of(x: Any, where: str, is_rounded: bool = False) -> fmpq:
-    """A number of any kind as the rational number that it is.
+    """The rational value of any kind of number.
 
     Args:
         x: a number, or its text.
-        where: what it is, for messages.
-        is_rounded: whether floats of more than 15 digits are taken too.
+        where: its name in messages.
+        is_rounded: whether floats of more than 15 digits are accepted.
 
     Raises:
-        MethodError: it is no rational number; of a text with the position of the fault.
+        MethodError: not a rational number; for a text with the position of the error.
 
     >>> rational_of(0.1, "h"), rational_of("1/3 - 1/4", "h")
     (1/10, 1/12)

@@ -1,7 +1,7 @@
 """Matrices of exact numbers, as tuples of rows.
 
 Rational matrices go through python-flint; matrices over a number field entry by entry.
-``LinearMap`` is the way for one matrix and many vectors. Determinants of I − z W are polynomials.
+For one matrix and many vectors use ``LinearMap``. Determinants of I − z W are polynomials.
 """
 
 from __future__ import annotations
@@ -20,21 +20,19 @@ Matrix: TypeAlias = tuple[Vector, ...]
 
 
 class SingularMatrixError(ArithmeticError):
-    """A linear system without a unique solution."""
+    """A linear system has no unique solution."""
 
 
 def is_rational(rows: Iterable[Iterable[Number]]) -> bool:
-    """Whether all entries are rational numbers."""
     return all(isinstance(x, fmpq) for row in rows for x in row)
 
 
 def from_flint(matrix: fmpq_mat) -> Matrix:
-    """The same matrix as tuples."""
     return tuple(tuple(row) for row in matrix.tolist())
 
 
 def to_flint(rows: Sequence[Sequence[Number]], columns: int) -> fmpq_mat:
-    """A rational matrix for python-flint; ``columns`` tells the width when there are no rows."""
+    """A rational matrix for python-flint; ``columns`` is the width if there are no rows."""
     entries: list[Number] = []
     for row in rows:
         entries += row
@@ -42,27 +40,23 @@ def to_flint(rows: Sequence[Sequence[Number]], columns: int) -> fmpq_mat:
 
 
 def identity(size: int) -> Matrix:
-    """The unit matrix."""
     return tuple(tuple(ONE if i == j else ZERO for j in range(size)) for i in range(size))
 
 
 def transpose(a: Matrix) -> Matrix:
-    """Rows and columns exchanged; ``a`` has at least one row."""
+    """The transpose of a matrix with at least one row."""
     return tuple(zip(*a, strict=True))
 
 
 def add(a: Matrix, b: Matrix) -> Matrix:
-    """The sum a + b."""
     return tuple(tuple(x + y for x, y in zip(u, v, strict=True)) for u, v in zip(a, b, strict=True))
 
 
 def subtract(a: Matrix, b: Matrix) -> Matrix:
-    """The difference a − b."""
     return tuple(tuple(x - y for x, y in zip(u, v, strict=True)) for u, v in zip(a, b, strict=True))
 
 
 def scale(factor: Number, a: Matrix) -> Matrix:
-    """The multiple factor · a."""
     return tuple(tuple(factor * x for x in row) for row in a)
 
 
@@ -87,7 +81,6 @@ def dot(u: Sequence[Number], v: Sequence[Number]) -> Number:
 
 
 def apply(a: Matrix, v: Sequence[Number]) -> Vector:
-    """The vector A v."""
     return tuple(dot(row, v) for row in a)
 
 
@@ -97,7 +90,6 @@ def apply_left(u: Sequence[Number], a: Matrix) -> Vector:
 
 
 def multiply(a: Matrix, b: Matrix) -> Matrix:
-    """The product A B."""
     if is_rational(a) and is_rational(b):
         return from_flint(to_flint(a, len(b)) * to_flint(b, len(b[0])))
     columns = transpose(b)
@@ -124,7 +116,6 @@ def solve(a: Matrix, b: Matrix) -> Matrix:
 
 
 def is_singular(a: Matrix) -> bool:
-    """Whether a square matrix has no inverse."""
     try:
         solve(a, tuple((ZERO,) for _ in a))
     except SingularMatrixError:
@@ -133,7 +124,7 @@ def is_singular(a: Matrix) -> bool:
 
 
 def _eliminated(rows: list[list[Number]]) -> Matrix:
-    """A⁻¹ B from the rows of (A B), by Gauss and Jordan's elimination."""
+    """A⁻¹ B from the rows of (A B), by Gauss-Jordan elimination."""
     n = len(rows)
     for k in range(n):
         chosen = next((i for i in range(k, n) if rows[i][k]), None)
@@ -153,8 +144,8 @@ def _eliminated(rows: list[list[Number]]) -> Matrix:
 
 
 def characteristic_coefficients(A: Matrix) -> list[Any]:
-    """Those of det(I − zA) = Σ c_k z^k, by Faddeev's and Le Verrier's recursion: of rational
-    functions of parameters too.
+    """The c_k of det(I − zA) = Σ c_k z^k, by the Faddeev-LeVerrier recursion; entries may be
+    rational functions of parameters.
     """
     stages = range(len(A))
     coefficients: list[Any] = [ONE]
@@ -173,26 +164,26 @@ _Parts: TypeAlias = list[tuple[int, fmpq_mat]]
 """Pairs (k, A_k)."""
 _Rational: TypeAlias = Sequence[fmpq]
 MIN_BITS_APART = 20_000
-"""Bits of all denominators of a row from which on it is examined how much they share."""
+"""Rows with fewer bits in all denominators are never summed as fractions."""
 
 
 class LinearMap:
-    """The map v ↦ A v, and that of functionals, w ↦ wᵀ A: a matrix made ready for many vectors.
+    """The maps v ↦ A v and w ↦ wᵀ A, prepared for many vectors.
 
-    Over ℚ that is one product of two matrices in python-flint. Over K = ℚ(θ) of degree d the matrix
+    Over ℚ this is one product of two matrices in python-flint. Over K = ℚ(θ) of degree d the matrix
     is Σ θᵏ A_k with rational A_k, vectors are Σ θʲ v_j, and
 
         A v = Σ_{j,k} θ^(j+k) A_k v_j:
 
-    at most d² products over ℚ, and one reduction for each entry of the result.
+    at most d² products over ℚ, and one reduction of each entry.
 
-    A product in python-flint puts every row over one denominator. Where the denominators of a row
-    have next to nothing in common, as in interpolation through unrelated fractions, that
-    denominator is as long as many entries together, and the row is summed as fractions instead.
+    A product in python-flint puts every row over one denominator. If the denominators of a row
+    share few factors, as in interpolation through unrelated fractions, that denominator is very
+    long, and the row is summed as fractions instead.
 
     Args:
-        rows: the matrix A; it has a row and a column at least.
-        field: the field of its entries and of the vectors; None where all of them are rational.
+        rows: the matrix A, not empty.
+        field: the field of its entries and of the vectors; None for ℚ.
 
     >>> LinearMap(((fmpq(1), fmpq(2)), (fmpq(0), fmpq(1, 3))), None).images([(fmpq(1), fmpq(6))])
     [(13, 2)]
@@ -208,18 +199,16 @@ class LinearMap:
             self._rows_apart = rational if any(map(_has_denominators_apart, rational)) else None
 
     def images(self, vectors: Sequence[Vector]) -> list[Vector]:
-        """A v for each of the vectors."""
         if self._rows_apart is not None:
             return [_image(self._rows_apart, v) for v in cast("Sequence[_Rational]", vectors)]
         return _products(vectors, self._transposed, self.field)
 
     def pullbacks(self, functionals: Sequence[Vector]) -> list[Vector]:
-        """wᵀ A for each of the functionals."""
         return _products(functionals, self._parts, self.field)
 
 
 class EntrywiseMap:
-    """The same for entries that are rational functions of parameters.
+    """The map v ↦ A v for entries that are rational functions of parameters.
 
     Args:
         rows: the matrix A.
@@ -229,7 +218,6 @@ class EntrywiseMap:
         self._rows = rows
 
     def images(self, vectors: Sequence[Vector]) -> list[Vector]:
-        """A v for each of the vectors."""
         images = []
         for v in vectors:
             check_time()
@@ -237,12 +225,11 @@ class EntrywiseMap:
         return images
 
     def pullbacks(self, functionals: Sequence[Vector]) -> list[Vector]:
-        """wᵀ A for each of the functionals."""
         return [apply_left(w, self._rows) for w in functionals]
 
 
 def _has_denominators_apart(row: _Rational) -> bool:
-    """Whether a row is better summed as fractions."""
+    """Whether a row is faster summed as fractions."""
     denominators = [int(x.q) for x in row]
     bits = sum(q.bit_length() for q in denominators)
     if bits < MIN_BITS_APART:
@@ -257,10 +244,8 @@ def _image(rows: Sequence[_Rational], vector: _Rational) -> Vector:
 
 
 def _sum(terms: _Rational) -> fmpq:
-    """Terms added in pairs, and pairs in pairs, as fractions that are reduced once, at the end.
-
-    Sums of neighbours are of equal length, which is what fast multiplication needs; a reduction of
-    each would take most of the time.
+    """The sum of fractions, added in pairs and reduced once at the end: neighbours are of equal
+    length, which fast multiplication needs, and reducing each would take most of the time.
     """
     fractions = [(term.p, term.q) for term in terms]
     while len(fractions) > 1:
@@ -295,7 +280,7 @@ def _products(rows: Sequence[Vector], parts: _Parts, field: NumberField | None) 
 
 
 def _reduced(powers: Mapping[int, fmpq_mat], field: NumberField) -> list[Vector]:
-    """The rows of Σ θⁿ P_n, entry by entry; ``powers`` has P_0, and others that are not zero."""
+    """The rows of Σ θⁿ P_n, reduced entry by entry; ``powers`` has P_0 and the nonzero P_n."""
     constant = powers[0]
     zeros = fmpq_mat(constant.nrows(), constant.ncols())
     by_power = [powers.get(n, zeros).tolist() for n in range(max(powers) + 1)]
@@ -307,7 +292,7 @@ def _reduced(powers: Mapping[int, fmpq_mat], field: NumberField) -> list[Vector]
 
 
 def _parts(rows: Sequence[Vector], field: NumberField | None) -> _Parts:
-    """The rational matrices of Σ θᵏ A_k, those that are zero left out, but for A_0."""
+    """The nonzero rational matrices A_k of Σ θᵏ A_k, and A_0 always."""
     height = len(rows)
     width = len(rows[0])
     if field is None:

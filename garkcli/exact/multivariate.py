@@ -1,4 +1,4 @@
-"""Polynomials in several variables over ℚ or a number field, and how lines determine them.
+"""Polynomials in several variables over ℚ or a number field, and their interpolation along lines.
 
 Along the line t ↦ t v through the origin a polynomial in N variables is one in t, and its
 coefficient of t^k is the homogeneous part of degree k at v. With v = (1, x_2, …, x_N) that is a
@@ -27,9 +27,9 @@ class Multivariate(Frozen):
     """Σ a_e z^e.
 
     Attributes:
-        variables: how many variables there are.
-        terms: the coefficients that are not zero by their exponents, in descending order: first by
-            the total degree, then by the exponents.
+        variables: the number of variables.
+        terms: pairs of exponents and nonzero coefficient, by descending total degree, then
+            exponents.
     """
 
     variables: int
@@ -37,7 +37,7 @@ class Multivariate(Frozen):
 
     @classmethod
     def of(cls, variables: int, terms: Mapping[Exponents, Number]) -> Multivariate:
-        """The polynomial with these terms; zeros are dropped.
+        """The polynomial with these terms, zeros dropped.
 
         >>> Multivariate.of(2, {(0, 1): fmpq(3), (1, 0): fmpq(0), (1, 1): fmpq(2)}).terms
         (((1, 1), 2), ((0, 1), 3))
@@ -48,7 +48,7 @@ class Multivariate(Frozen):
 
     @property
     def degree(self) -> int:
-        """The total degree; −1 of the zero polynomial."""
+        """The total degree; −1 for the zero polynomial."""
         if not self.terms:
             return -1
         exponents, _ = self.terms[0]
@@ -74,7 +74,6 @@ class Multivariate(Frozen):
         return Multivariate.of(self.variables, products)
 
     def __call__(self, point: Sequence[Number]) -> Number:
-        """The value at an exact point."""
         total: Number = ZERO
         for exponents, a in self.terms:
             powers = [x**k for x, k in zip(point, exponents, strict=True) if k]
@@ -132,10 +131,10 @@ def from_lines(lines: Mapping[Exponents, Polynomial], offset: int, degree: int) 
 
 
 def through_points(values: Mapping[Exponents, Number], degree: int) -> Multivariate:
-    """The polynomial with given values at the points of a lattice.
+    """The polynomial with given values on a lattice.
 
     Args:
-        values: at every point of the lattice of ``degree``.
+        values: its values on the lattice of ``degree``.
         degree: the total degree of the polynomial, or more.
 
     >>> through_points({(0, 0): fmpq(1), (0, 1): fmpq(1), (1, 0): fmpq(3)}, 1).terms
@@ -148,7 +147,7 @@ def through_points(values: Mapping[Exponents, Number], degree: int) -> Multivari
 def _interpolated(
     values: Mapping[Exponents, Number], axes: int, offset: int, degree: int
 ) -> dict[Exponents, Number]:
-    """The polynomial of total degree ≤ ``degree`` through values on a lattice."""
+    """The terms of the polynomial of total degree ≤ ``degree`` through values on a lattice."""
     table = dict(values)
     for axis in range(axes):
         # replace the values along an axis by their forward differences at its first point

@@ -1,4 +1,4 @@
-"""What expressions are made of; only formulas of problems have calls and real powers."""
+"""The nodes of expressions; only formulas of problems have calls and real powers."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from garkcli.frozen import FrozenBut
 
 
 class Expression(FrozenBut, kw_only=True):
-    """A node; ``start`` and ``end`` are its offsets in the text and do not take part in
-    comparisons, nor do ``decimals``: those in the polynomial that it is a root of.
+    """A node. Not compared: ``start`` and ``end``, its offsets in the text, and ``decimals``, those
+    in the polynomial that it is a root of.
     """
 
     besides = frozenset({"start", "end", "decimals"})
@@ -21,12 +21,11 @@ class Expression(FrozenBut, kw_only=True):
 
 
 def divided_by_zero(at: Expression, cure: str = "write another divisor") -> UndefinedValue:
-    """The fault of a divisor that is zero."""
     return UndefinedValue("division by zero", cure, at.start, at.end, code="division-by-zero")
 
 
 class Literal(Expression):
-    """A rational number; ``text`` is how it is printed, where it was read."""
+    """A rational number; ``text`` is its notation if it was parsed."""
 
     besides = Expression.besides | {"text"}
 
@@ -46,10 +45,10 @@ class Name(Expression):
 
 
 class Chain(Expression):
-    """Operands joined from left to right by ``+ -`` or by ``* /``; ``signs`` are before each
-    operand.
+    """Operands joined from left to right by ``+ -`` or by ``* /``, each preceded by one of
+    ``signs``.
 
-    Kept flat, so that the depth of an expression is that of its parentheses.
+    Flat, so that the depth of an expression is that of its parentheses.
     """
 
     signs: str
@@ -74,8 +73,8 @@ class AlgebraicRoot(Expression):
     """A real root of an irreducible polynomial over ℤ of degree 3 or more.
 
     Attributes:
-        coefficients: of the polynomial, the lowest first, the leading one positive.
-        number: which of the real roots it is, counted from 0 in ascending order.
+        coefficients: of the polynomial, lowest first, with a positive leading one.
+        number: its index among the real roots in ascending order, from 0.
     """
 
     coefficients: tuple[int, ...]
@@ -83,21 +82,21 @@ class AlgebraicRoot(Expression):
 
 
 class Call(Expression):
-    """A function of one argument, from the list in ``garkcli.exact.formula``."""
+    """A function of one argument, one of ``garkcli.exact.formula``."""
 
     function: str
     argument: Expression
 
 
 class RealPower(Expression):
-    """A power whose exponent is not a whole number as it is written."""
+    """A power whose exponent is not written as an integer."""
 
     base: Expression
     exponent: Expression
 
 
 def parts(expression: Expression) -> tuple[Expression, ...]:
-    """The expressions that ``expression`` is made of."""
+    """The direct subexpressions."""
     match expression:
         case Chain(operands=operands):
             return operands

@@ -1,8 +1,8 @@
 """Rational functions of parameters, as coefficients of a family of methods.
 
 A number here is a quotient of polynomials over ℚ in the parameters, in python-flint. A rational
-number is a plain ``fmpq``, so such numbers may be wherever exact numbers do: zero is falsy,
-and a method with them goes through the same constructions as one with numbers.
+number is a plain ``fmpq``. Zero is falsy, so the same constructions work for methods with
+parameters and with numbers.
 """
 
 from __future__ import annotations
@@ -21,19 +21,19 @@ from garkcli.exact.rewriting import name_latex
 from garkcli.frozen import Frozen
 
 MAX_TERMS = 500_000
-"""Most terms of a product, multiplied out."""
+"""Most terms of an expanded product."""
 _NAME = r"[A-Za-z_]\w*"
 Mixed: TypeAlias = "fmpq | Parametric"
 """A rational number or a rational function."""
 
 
 class Rule(Frozen):
-    """What a power of an unknown is equal to, such as sqrt(3)² = 3.
+    """A rewriting rule for a power of an unknown, such as sqrt(3)² = 3.
 
     Attributes:
-        index: of the unknown.
-        degree: of the power.
-        instead: a polynomial of a smaller degree in it, without unknowns of later rules.
+        index: the index of the unknown.
+        degree: the exponent.
+        instead: a polynomial of smaller degree in it, without unknowns of later rules.
     """
 
     index: int
@@ -45,11 +45,11 @@ class Parameters:
     """The ring ℚ[t_1, …, t_k], or a quotient of it.
 
     Args:
-        names: of the parameters.
+        names: the names of the parameters.
 
     Attributes:
-        rules: what is equal in it besides; none for the ring itself.
-        shown: how unknowns are written that are no parameters, such as sqrt(3), and in LaTeX.
+        rules: the relations of the quotient; empty for the ring itself.
+        shown: text and LaTeX of unknowns that are not parameters, such as sqrt(3).
 
     >>> ring = Parameters(["t"])
     >>> t = ring.parameter("t")
@@ -65,18 +65,15 @@ class Parameters:
         self._told_apart: dict[str, fmpq_mpoly] | None = None
 
     def parameter(self, name: str) -> Parametric:
-        """A parameter as a number."""
         return Parametric(self, self.context.gen(self.names.index(name)), self.constant(fmpq(1)))
 
     def text(self, polynomial: fmpq_mpoly | fmpz_mpoly) -> str:
-        """A polynomial as people read it."""
         text = str(polynomial)
         if not self.shown:
             return text
         return re.sub(_NAME, lambda name: self.shown.get(name[0], (name[0], ""))[0], text)
 
     def latex(self, polynomial: fmpq_mpoly) -> str:
-        """A polynomial in LaTeX."""
         text = ""
         for exponents, a in polynomial.to_dict().items():
             powers = ""
@@ -98,14 +95,13 @@ class Parameters:
         return text.removeprefix("+") or "0"
 
     def constant(self, number: fmpq) -> fmpq_mpoly:
-        """A number as a polynomial."""
         return self.context.constant(number)
 
     def quotient(self, numerator: fmpq_mpoly, denominator: fmpq_mpoly) -> Mixed:
         """The quotient in lowest terms, its denominator with leading coefficient 1.
 
         Raises:
-            NotDecided: the time is not enough for what is being computed.
+            NotDecided: the time limit has passed.
         """
         check_time()
         if self.rules:
@@ -123,7 +119,7 @@ class Parameters:
         return Parametric(self, numerator, denominator)
 
     def reduced(self, polynomial: fmpq_mpoly) -> fmpq_mpoly:
-        """An equal polynomial of the smallest degrees."""
+        """The polynomial with all rules applied."""
         for rule in reversed(self.rules):
             while polynomial.degrees()[rule.index] >= rule.degree:
                 parts: dict[int, dict[tuple[int, ...], fmpq]] = {}
@@ -139,11 +135,11 @@ class Parameters:
 
     @contextmanager
     def telling_apart(self) -> Iterator[dict[str, fmpq_mpoly]]:
-        """Collect what counts as different from 0 meanwhile.
+        """Collects the polynomials that are taken to be different from 0.
 
-        What is decided then for the parameters as unknowns is true wherever none of these
-        polynomials is zero: each question has the same answer there (D. Duval, *Algebraic numbers:
-        an example of dynamic evaluation*, J. Symb. Comput. 18, 1994).
+        Decisions made meanwhile hold for all values of the parameters at which none of these
+        polynomials vanishes (D. Duval, *Algebraic numbers: an example of dynamic evaluation*, J.
+        Symb. Comput. 18, 1994).
         """
         before, self._told_apart = self._told_apart, {}
         try:
@@ -152,7 +148,7 @@ class Parameters:
             self._told_apart = before
 
     def tell_apart(self, polynomial: fmpq_mpoly) -> None:
-        """Note that a polynomial counts as different from 0."""
+        """Records that a polynomial is taken to be different from 0."""
         if self._told_apart is not None and not polynomial.is_constant():
             self._told_apart[str(polynomial)] = polynomial
 
@@ -161,9 +157,9 @@ class Parametric:
     """A rational function that is not a plain number.
 
     Attributes:
-        ring: of its parameters.
+        ring: the ring of its parameters.
         numerator: a polynomial.
-        denominator: a polynomial without common factor, with leading coefficient 1.
+        denominator: coprime to the numerator, with leading coefficient 1.
     """
 
     __slots__ = ("denominator", "numerator", "ring")
@@ -205,7 +201,6 @@ class Parametric:
     __rmul__ = __mul__
 
     def inverse(self) -> Mixed:
-        """1/self."""
         self.ring.tell_apart(self.numerator)
         return self.ring.quotient(self.denominator, self.numerator)
 
@@ -235,11 +230,9 @@ class Parametric:
         return hash((str(self.numerator), str(self.denominator)))
 
     def height_bits(self) -> int:
-        """Bits of its longest coefficient."""
         return max(map(_height_bits, [*self.numerator.coeffs(), *self.denominator.coeffs()]))
 
     def latex(self) -> str:
-        """The function in LaTeX."""
         numerator = self.ring.latex(self.numerator)
         if self.denominator.is_one():
             return numerator
@@ -259,7 +252,7 @@ def times(p: fmpq_mpoly, q: fmpq_mpoly) -> fmpq_mpoly:
     """The product of two polynomials.
 
     Raises:
-        TooManyTerms: it would fill the memory, and is not computed.
+        TooManyTerms: it would fill the memory.
     """
     if q.is_one():  # most denominators
         return p
@@ -268,7 +261,7 @@ def times(p: fmpq_mpoly, q: fmpq_mpoly) -> fmpq_mpoly:
 
 
 def refuse_long(p: fmpq_mpoly, q: fmpq_mpoly) -> None:
-    """Refuse a product that is too long, before it is computed.
+    """Raises an error if a product would be too long.
 
     Raises:
         TooManyTerms: it would fill the memory.
@@ -281,7 +274,7 @@ def power(p: fmpq_mpoly, exponent: int) -> fmpq_mpoly:
     """A power of a polynomial.
 
     Raises:
-        TooManyTerms: it would fill the memory, and is not computed.
+        TooManyTerms: it would fill the memory.
     """
     if terms_of_power(p, exponent) > MAX_TERMS:
         raise _too_many_terms()
@@ -294,7 +287,7 @@ def _too_many_terms() -> TooManyTerms:
 
 
 def terms_of_product(p: fmpq_mpoly, q: fmpq_mpoly) -> int:
-    """At least so many terms as the product has.
+    """An upper bound of the number of terms of a product.
 
     >>> x, y = Parameters(["x", "y"]).context.gens()
     >>> terms_of_product((1 + x) ** 5, (1 + x) ** 6), len((1 + x) ** 11)
@@ -307,7 +300,7 @@ def terms_of_product(p: fmpq_mpoly, q: fmpq_mpoly) -> int:
 
 
 def terms_of_sum(p: fmpq_mpoly, q: fmpq_mpoly) -> int:
-    """At least so many terms as the sum has."""
+    """An upper bound of the number of terms of a sum."""
     if not p or not q:
         return len(p) + len(q)
     degrees = [max(pair) for pair in zip(p.degrees(), q.degrees(), strict=True)]
@@ -315,7 +308,7 @@ def terms_of_sum(p: fmpq_mpoly, q: fmpq_mpoly) -> int:
 
 
 def terms_of_power(p: fmpq_mpoly, exponent: int) -> int:
-    """At least so many terms as the power has; the exponent is at least 0.
+    """An upper bound of the number of terms of a power with an exponent ≥ 0.
 
     >>> x, y = Parameters(["x", "y"]).context.gens()
     >>> terms_of_power(1 + x + y, 20), len((1 + x + y) ** 20)
@@ -329,8 +322,7 @@ def terms_of_power(p: fmpq_mpoly, exponent: int) -> int:
 
 
 def monomials(degrees: Sequence[int], total: int) -> int:
-    """The monomials of some degrees in each variable at most, and of a total degree at most; a few
-    that are beyond one of both are counted too.
+    """An upper bound of the number of monomials with limited degrees in each variable and in total.
 
     >>> monomials([1, 1, 0], 2), monomials([9, 9], 2)
     (4, 6)
@@ -340,7 +332,7 @@ def monomials(degrees: Sequence[int], total: int) -> int:
 
 
 def factors(polynomials: Iterable[fmpq_mpoly]) -> list[fmpq_mpoly]:
-    """The irreducible factors, each once; none of 0 and of constants."""
+    """The distinct irreducible factors that are not constant; zero polynomials are skipped."""
     found: dict[str, fmpq_mpoly] = {}
     for p in polynomials:
         for factor, _ in p.factor()[1]:
@@ -349,16 +341,13 @@ def factors(polynomials: Iterable[fmpq_mpoly]) -> list[fmpq_mpoly]:
 
 
 def unknowns_of(p: fmpq_mpoly) -> list[int]:
-    """The unknowns that occur, by their places."""
+    """The indices of the variables that occur."""
     return [k for k, degree in enumerate(p.degrees()) if degree]
 
 
 def evaluated(p: fmpq_mpoly, values: Sequence[Any]) -> Any:
-    """A polynomial at values of its unknowns, whatever numbers these are.
-
-    Args:
-        p: the polynomial.
-        values: of all unknowns; any for the ones that do not occur.
+    """The value of a polynomial at numbers of any kind; ``values`` has an entry for each variable,
+    arbitrary if it does not occur.
     """
     total: Any = fmpq(0)
     for exponents, a in p.to_dict().items():
@@ -371,14 +360,13 @@ def evaluated(p: fmpq_mpoly, values: Sequence[Any]) -> Any:
 
 
 def fraction(number: object, ring: Parameters) -> tuple[fmpq_mpoly, fmpq_mpoly]:
-    """Numerator and denominator as polynomials, of a rational number too."""
+    """Numerator and denominator as polynomials; ``number`` may be rational."""
     if isinstance(number, Parametric):
         return number.numerator, number.denominator
     return ring.constant(cast("fmpq", number)), ring.constant(fmpq(1))
 
 
 def common_denominator(numbers: Iterable[object], ring: Parameters) -> fmpq_mpoly:
-    """The least common multiple of the denominators."""
     common = ring.constant(fmpq(1))
     for x in numbers:
         _, d = fraction(x, ring)

@@ -1,4 +1,4 @@
-"""How exact numbers are copied and travel between processes."""
+"""Copies and pickles exact numbers."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from flint import (
 )
 
 Made: TypeAlias = tuple[Callable[..., Any], tuple[Any, ...]]
-"""What makes a value again, and from what."""
+"""A constructor and its arguments."""
 Dyadic: TypeAlias = tuple[int, int]
 """(m, e) for m · 2^e."""
 
@@ -62,10 +62,10 @@ PARTS: Mapping[type, Callable[[Any], Made]] = {
     fmpq_mpoly: _in_several,
     fmpz_mpoly: _in_several,
 }
-"""The numbers of python-flint that results are made of."""
+"""How to rebuild each type of python-flint that occurs in results."""
 
 
 def register() -> None:
-    """Teach pickle the numbers of python-flint."""
+    """Teaches pickle the types of python-flint."""
     for kind, parts in PARTS.items():
         copyreg.pickle(kind, parts)

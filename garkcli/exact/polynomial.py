@@ -39,24 +39,23 @@ class Polynomial:
 
     @classmethod
     def from_flint(cls, poly: fmpq_poly | fmpz_poly) -> Self:
-        """The same polynomial, from python-flint."""
         return cls([fmpq(a) for a in poly.coeffs()])
 
     @property
     def degree(self) -> int:
-        """The degree; −1 of the zero polynomial."""
+        """The degree; −1 for the zero polynomial."""
         return len(self.coefficients) - 1
 
     @property
     def leading(self) -> Number:
-        """The leading coefficient; 0 of the zero polynomial."""
+        """The leading coefficient; 0 for the zero polynomial."""
         if not self.coefficients:
             return ZERO
         return self.coefficients[-1]
 
     @property
     def field(self) -> NumberField | None:
-        """The number field of the coefficients; None when all are rational."""
+        """The number field of the coefficients; None if all are rational."""
         for a in self.coefficients:
             if isinstance(a, Algebraic):
                 return a.field
@@ -64,11 +63,10 @@ class Polynomial:
 
     @property
     def is_rational(self) -> bool:
-        """Whether all coefficients are rational."""
         return self.field is None
 
     def to_flint(self) -> fmpq_poly:
-        """The same polynomial for python-flint; its coefficients are rational."""
+        """The polynomial for python-flint; its coefficients must be rational."""
         return fmpq_poly(list(self.coefficients))  # type: ignore[arg-type]
 
     def __bool__(self) -> bool:
@@ -159,7 +157,6 @@ class Polynomial:
         return self * (ONE / self.leading)
 
     def derivative(self) -> Polynomial:
-        """The derivative."""
         return Polynomial([a * k for k, a in enumerate(self.coefficients)][1:])
 
     def reversed(self, degree: int) -> Polynomial:
@@ -174,14 +171,12 @@ class Polynomial:
         return result
 
     def __call__(self, x: Number) -> Number:
-        """The value at an exact number, by Horner's rule."""
         value: Number = ZERO
         for a in reversed(self.coefficients):
             value = value * x + a
         return value
 
     def enclosed_at(self, x: arb) -> arb:
-        """The value at a ball, at the current precision."""
         digits = int(ctx.prec / 3.32) + 1
         value = arb(0)
         for a in reversed(self.coefficients):
@@ -189,27 +184,26 @@ class Polynomial:
         return value
 
     def square_free(self) -> Polynomial:
-        """The monic polynomial with the same roots, each once."""
+        """The monic polynomial with the same roots, each simple."""
         return (self // gcd(self, self.derivative())).monic()
 
     def norm(self) -> fmpz_poly:
-        """A polynomial over ℤ that has all roots of this one, and those of its conjugates: the
-        determinant of multiplication by p on K[x] over ℚ[x], or a multiple.
+        """A polynomial over ℤ whose roots are those of this one and its conjugates: a multiple of
+        the determinant of multiplication by p on K[x] over ℚ[x].
         """
         if self._norm is None:
             self._norm = self._norm_of(self.field)
         return self._norm
 
     def _norm_of(self, field: NumberField | None) -> fmpz_poly:
-        """The norm over ℚ, or from a number field."""
         if field is None:
             return self.to_flint().numer()
         found = norm_in_balls(over_integers([poly_of(a) for a in self.coefficients]), field)
         return self._norm_by_resultants(field) if found is None else found
 
     def images(self, field: NumberField, bits: int) -> list[Image] | None:
-        """A multiple of this polynomial under all embeddings of its number field, as ``images``
-        has them.
+        """The ``images`` of an integral multiple of this polynomial, under all embeddings of its
+        field.
         """
         if bits not in self._images:
             integral = over_integers([poly_of(a) for a in self.coefficients])
@@ -217,7 +211,9 @@ class Polynomial:
         return self._images[bits]
 
     def _norm_by_resultants(self, field: NumberField) -> fmpz_poly:
-        """The same from values at integers: where conjugates of θ are very near one another."""
+        """The norm by interpolation at integers, for θ with conjugates that are too close to
+        isolate.
+        """
         degree = field.degree * self.degree
         first = -(degree // 2)
         points = [fmpq(first + k) for k in range(degree + 1)]
@@ -236,8 +232,8 @@ def _as_polynomial(value: Polynomial | Number | int) -> Polynomial:
 
 
 def squared_on_axis(p: Sequence[Any]) -> list[Any]:
-    """The coefficients of |p(iy)|² as a polynomial in x = y², for any numbers:
-    Σ (−1)^((j − k)/2) p_j p_k x^((j + k)/2) over even j + k.
+    """The coefficients of |p(iy)|² as a polynomial in x = y²: Σ (−1)^((j − k)/2) p_j p_k x^((j +
+    k)/2) over even j + k.
 
     >>> squared_on_axis([1, 2, 3])  # (1 − 3x)² + 4x
     [1, -2, 9]
@@ -253,7 +249,7 @@ def squared_on_axis(p: Sequence[Any]) -> list[Any]:
 
 
 def in_one(p: fmpq_mpoly, variable: int = 0) -> Polynomial:
-    """A polynomial of a ring in which no variable occurs but this one."""
+    """A polynomial in which only ``variable`` occurs, in one variable."""
     powers = {int(e[variable]): fmpq(a) for e, a in p.to_dict().items()}
     return Polynomial([powers.get(k, ZERO) for k in range(max(powers, default=-1) + 1)])
 
@@ -285,8 +281,8 @@ def interpolated(points: Sequence[fmpq], values: Sequence[Number]) -> Polynomial
 def subresultant(a: Polynomial, b: Polynomial, k: int) -> Number:
     """The principal subresultant coefficient of index k of a and b, deg a ≥ deg b, by Euclid.
 
-    The first nonzero one is that of the degree of the greatest common divisor; the
-    one of index 0 is the resultant (S. Basu, R. Pollack, M.-F. Roy, section 8.3).
+    The first nonzero one has the degree of the greatest common divisor as its index; that of index
+    0 is the resultant (S. Basu, R. Pollack, M.-F. Roy, section 8.3).
 
     >>> x = Polynomial([0, 1])
     >>> subresultant(x * (x - 1), x * (x - 3), 0), subresultant(x * (x - 1), x * (x - 3), 1)
@@ -307,7 +303,7 @@ def subresultant(a: Polynomial, b: Polynomial, k: int) -> Number:
 
 
 def gcd(a: Polynomial, b: Polynomial) -> Polynomial:
-    """The monic greatest common divisor; 0 of two zeros.
+    """The monic greatest common divisor; 0 for two zeros.
 
     >>> gcd(Polynomial([-1, 0, 1]), Polynomial([1, 1]))
     Polynomial([1, 1])
@@ -326,8 +322,8 @@ def gcd(a: Polynomial, b: Polynomial) -> Polynomial:
 
 
 def _are_coprime_modulo_a_prime(a: Polynomial, b: Polynomial) -> bool:
-    """Whether that proves them coprime: a monic divisor of both would be one of degree ≥ 1 there
-    too. Euclid's algorithm over number fields takes long numbers to say so.
+    """Whether two polynomials are coprime modulo a prime, which proves them coprime: a monic
+    divisor of both would have degree ≥ 1 there too. Much shorter numbers than over the field.
     """
     field = a.field or b.field
     if field is None or field.place is None:
@@ -345,8 +341,8 @@ def _are_coprime_modulo_a_prime(a: Polynomial, b: Polynomial) -> bool:
 def reciprocal_characteristic(W: Matrix) -> Polynomial:
     """det(I − z W), the characteristic polynomial of W read backwards.
 
-    The strongly connected components of the graph of W are taken one by one: an explicit method
-    has none but single vertices, and a diagonally implicit one the entries of its diagonal.
+    It is the product over the strongly connected components of the graph of W: single vertices for
+    an explicit method, the diagonal entries for a diagonally implicit one.
 
     Args:
         W: square, exact.
@@ -365,7 +361,7 @@ def reciprocal_characteristic(W: Matrix) -> Polynomial:
 
 
 def _dense(W: Matrix) -> Polynomial:
-    """The same of one component."""
+    """``reciprocal_characteristic`` of one component."""
     size = len(W)
     if size == 1:
         [[entry]] = W

@@ -15,24 +15,19 @@ from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot
 
 LONG_COEFFICIENT = 24
-"""Characters beyond which nobody reads a rational number."""
+"""Longer rational numbers are not printed."""
 
 
 def integral(polynomials: Sequence[Polynomial]) -> list[Polynomial]:
-    """The same polynomials times one positive number that makes all coefficients integers without
-    a common factor; unchanged where a coefficient is irrational.
-
-    >>> integral([Polynomial([2, fmpq(-11, 12)]), Polynomial([1, fmpq(1, 24)])])
-    [Polynomial([48, -22]), Polynomial([24, 1])]
+    """Polynomials scaled by one positive number to coprime integer coefficients; unchanged if a
+    coefficient is irrational.
     """
     scale = integral_scale(a for p in polynomials for a in p.coefficients)
     return [p * scale for p in polynomials]
 
 
 def integral_scale(numbers: Iterable[Number]) -> fmpq:
-    """The positive factor that makes rational numbers integers without a common divisor; 1 where
-    one is irrational.
-    """
+    """The positive factor that makes rational numbers coprime integers; 1 if one is irrational."""
     denominator, content = fmpz(1), fmpz(0)
     for a in numbers:
         if not isinstance(a, fmpq):
@@ -55,7 +50,7 @@ def polynomial_text(p: Polynomial, variable: str) -> str:
 
 
 def polynomial_decimals(p: Polynomial, variable: str, digits: int = 8) -> str:
-    """The same with rational coefficients in decimals; zeros at their ends are left out.
+    """A polynomial with rational coefficients rounded to decimals, without trailing zeros.
 
     >>> polynomial_decimals(Polynomial([fmpq(1), fmpq(10**30 + 1, 7 * 10**30)]), "z")
     '0.14285714*z + 1'
@@ -71,7 +66,6 @@ def polynomial_decimals(p: Polynomial, variable: str, digits: int = 8) -> str:
 
 
 def has_long_coefficients(*polynomials: Polynomial) -> bool:
-    """Whether a rational coefficient has more than ``LONG_COEFFICIENT`` characters."""
     numbers = (a for p in polynomials for a in p.coefficients)
     return any(isinstance(a, fmpq) and len(str(a)) > LONG_COEFFICIENT for a in numbers)
 
@@ -90,7 +84,7 @@ def multivariate_text(p: Multivariate, variables: Sequence[str]) -> str:
 
 
 def sum_text(terms: Iterable[tuple[Number | Parametric | str, str]]) -> str:
-    """Coefficients with what they are multiplied by; zeros are left out."""
+    """A sum of coefficients times powers; zero terms are left out."""
     text = ""
     for a, power in terms:
         if not a:
@@ -106,7 +100,7 @@ def sum_text(terms: Iterable[tuple[Number | Parametric | str, str]]) -> str:
 
 
 def power_text(variable: str, k: int, exponent: str = "") -> str:
-    """x^k, with another exponent in its place where one is given; empty for k = 0."""
+    """x^k, or x^exponent if one is given; empty for k = 0."""
     if k == 0:
         return ""
     if k == 1:
@@ -115,7 +109,7 @@ def power_text(variable: str, k: int, exponent: str = "") -> str:
 
 
 def root_text(root: RealRoot) -> str | None:
-    """A root in radicals where it has simple ones: a rational or a quadratic number.
+    """A rational or quadratic root in radicals; None for others.
 
     >>> from flint import fmpz_poly
     >>> root_text(RealRoot(fmpz_poly([-1, -1, 1]), 1))
@@ -143,7 +137,7 @@ def root_text(root: RealRoot) -> str | None:
 
 
 def root_in_short(root: RealRoot) -> str:
-    """A root in radicals where it has simple ones, else in decimals with what it is a root of.
+    """A rational or quadratic root in radicals, else decimals with the polynomial.
 
     >>> from flint import fmpz_poly
     >>> root_in_short(RealRoot(fmpz_poly([-12, 6, -3, 1]), 0))
@@ -157,12 +151,12 @@ def root_in_short(root: RealRoot) -> str:
 
 
 def root_decimal(root: RealRoot, digits: int) -> str:
-    """A root rounded to significant digits, zeros at the end left out."""
+    """A root rounded to significant digits, without trailing zeros."""
     return ball_decimal(root.ball(int(digits * BITS_OF_A_DIGIT) + 40), digits)
 
 
 def ball_decimal(ball: arb, digits: int) -> str:
-    """An enclosed number rounded to significant digits.
+    """An enclosed number rounded to significant digits, without trailing zeros.
 
     >>> ball_decimal(arb(8), 12)
     '8'

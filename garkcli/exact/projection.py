@@ -1,9 +1,9 @@
-"""Where curves in the plane change their position over a line, seen along the other axis.
+"""The t at which curves in the plane change their position over a line.
 
-Over the t-axis, the curves p_k(y, t) = 0 keep their order and number among the y of an interval but
-at a t where one has a vertical tangent or asymptote, where two cross, or where one meets an end of
-the interval: at roots of discriminants, leading coefficients, resultants and restrictions
-(G. E. Collins 1975). Between two such t every sign in the plane is that of one sample.
+Over the t-axis, the curves p_k(y, t) = 0 keep their order and number among the y of an interval
+except where one has a vertical tangent or asymptote, two cross, or one meets an end of the
+interval: at roots of discriminants, leading coefficients, resultants and restrictions (G. E.
+Collins 1975). Between two such t every sign in the plane is that of one sample.
 """
 
 from __future__ import annotations
@@ -23,21 +23,19 @@ from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.roots import RealRoot, is_nonnegative, number_of
 
 PLANE = fmpq_mpoly_ctx.get(["y", "t"], Ordering.lex)
-"""ℚ[y, t]: y is what is looked along, t is what stays."""
+"""ℚ[y, t]: y is eliminated, t stays."""
 
 
 def in_plane(p: fmpq_mpoly, y: int, t: int) -> fmpq_mpoly:
-    """A polynomial of a ring in the plane, from the places of the unknowns that are y and t there;
-    no others occur in it.
-    """
+    """A polynomial mapped to the plane; ``y`` and ``t`` are the indices of its only variables."""
     return p.project_to_context(PLANE, {t: 1, y: 0})
 
 
 def projected(irreducible: Sequence[fmpq_mpoly], ends: Sequence[fmpq]) -> list[Polynomial]:
-    """The polynomials in t, not zero, between whose roots nothing changes.
+    """The nonzero polynomials in t between whose roots nothing changes.
 
     Args:
-        irreducible: irreducible curves, no two of them the same.
+        irreducible: distinct irreducible curves.
         ends: the ends of the interval of y.
     """
     _, t = PLANE.gens()
@@ -59,14 +57,16 @@ def projected(irreducible: Sequence[fmpq_mpoly], ends: Sequence[fmpq]) -> list[P
 
 
 LARGE = 30_000
-"""Work, as the cube of the degree that goes times the other, that is done in a process apart."""
+"""Larger problems, by the cubed degree in the eliminated variable times the other degree, run in a
+process apart.
+"""
 
 
 def discriminant(p: fmpq_mpoly) -> fmpq_mpoly:
     """The discriminant with respect to y.
 
     Raises:
-        NotDecided: the time is not enough.
+        NotDecided: the time limit has passed.
     """
     check_time()
     y, t = p.degrees()
@@ -76,10 +76,10 @@ def discriminant(p: fmpq_mpoly) -> fmpq_mpoly:
 
 
 def resultant(p: fmpq_mpoly, q: fmpq_mpoly, variable: str = "y") -> fmpq_mpoly:
-    """The resultant with respect to y, or to t.
+    """The resultant with respect to y or t.
 
     Raises:
-        NotDecided: the time is not enough.
+        NotDecided: the time limit has passed.
     """
     check_time()
     largest = [max(degrees) for degrees in zip(p.degrees(), q.degrees(), strict=True)]
@@ -90,18 +90,18 @@ def resultant(p: fmpq_mpoly, q: fmpq_mpoly, variable: str = "y") -> fmpq_mpoly:
 
 
 def of_root(t: RealRoot) -> fmpq_mpoly:
-    """The polynomial of an algebraic number in the plane, in t."""
+    """The polynomial of an algebraic number, in the variable t of the plane."""
     powers = enumerate(t.polynomial.coeffs())
     return PLANE.from_dict({(0, k): fmpq(a) for k, a in powers if a})
 
 
 def leading(p: fmpq_mpoly) -> fmpq_mpoly:
-    """The coefficient of the highest power of y, or what comes first in another ring."""
+    """The coefficient of the highest power of the first variable, y in the plane."""
     return coefficient_of(p, p.degrees()[0])
 
 
 def coefficient_of(p: fmpq_mpoly, power: int, variable: int = 0) -> fmpq_mpoly:
-    """The coefficient of a power of y, or of another variable, a polynomial in the others."""
+    """The coefficient of a power of one variable, as a polynomial in the others."""
     terms = {}
     for e, a in p.to_dict().items():
         if e[variable] == power:
@@ -110,33 +110,32 @@ def coefficient_of(p: fmpq_mpoly, power: int, variable: int = 0) -> fmpq_mpoly:
 
 
 def coefficients(p: fmpq_mpoly) -> list[Polynomial]:
-    """Those of the powers of y, from the lowest, as polynomials in t."""
+    """The coefficients of the powers of y, lowest first, as polynomials in t."""
     return [in_t(coefficient_of(p, k)) for k in range(p.degrees()[0] + 1)]
 
 
 def in_t(p: fmpq_mpoly) -> Polynomial:
-    """A polynomial in t alone."""
     return in_one(p, 1)
 
 
 def at_y(p: fmpq_mpoly, y: fmpq) -> Polynomial:
-    """The polynomial in t for one y."""
+    """p(y, t) for one y."""
     _, t = PLANE.gens()
     return in_t(p.compose(PLANE.constant(y), t))
 
 
 MOST_DEGREE = 12
-"""Polynomials in the plane of a larger degree are not projected: the work grows with its cube and
-more.
+"""Polynomials in the plane of larger degree are not projected: the work grows with more than the
+cube of the degree.
 """
 
 
 def kept_sign(p: fmpq_mpoly) -> int | None:
-    """1 where p ≥ 0 at all real points, −1 where p ≤ 0; None where neither is so or is recognised.
+    """1 if p ≥ 0 at all real points, −1 if p ≤ 0; None if neither holds or the tests below fail.
 
-    Each irreducible factor of an odd power has to keep its sign. It is known to where all of its
-    terms are squares of one sign; of a polynomial in one or two variables always, up to a degree;
-    and of a v² + b v + c where it is of a, and 4ac − b² ≥ 0 is known.
+    Each irreducible factor of odd power has to keep its sign. This is decided if all terms are
+    squares of one sign; in one or two variables always, up to a degree; and for a v² + b v + c if a
+    keeps its sign and 4ac − b² ≥ 0.
 
     >>> from flint import Ordering, fmpq_mpoly_ctx
     >>> x, y, z = fmpq_mpoly_ctx.get(["x", "y", "z"], Ordering.lex).gens()
@@ -158,7 +157,7 @@ def kept_sign(p: fmpq_mpoly) -> int | None:
 
 
 def _of_factor(p: fmpq_mpoly) -> int | None:
-    """The same of an irreducible polynomial, not constant."""
+    """``kept_sign`` of an irreducible polynomial that is not constant."""
     if any(degree % 2 for degree in p.degrees()):
         return None  # it has both signs on a line
     signs = {(a > 0) - (a < 0) for a in p.coeffs()}
@@ -181,15 +180,15 @@ def _of_factor(p: fmpq_mpoly) -> int | None:
 
 
 MOST_FIELD = 6
-"""Single lines of a larger degree are not looked at."""
+"""Single lines over numbers of larger degree are not examined."""
 
 
 def is_nowhere_negative(p: fmpq_mpoly, within: Sequence[Interval] | None = None) -> bool | None:
-    """Whether p(y, t) ≥ 0 in the plane, or for the t of a set; None where that has a single number
-    of a large degree.
+    """Whether p(y, t) ≥ 0 for all t, or the t of a set; None if the set has an isolated number of
+    large degree.
 
-    Between the roots of the projection (``garkcli.exact.projection``) the signs on the lines
-    t = const do not change, so that one line each decides; that p is continuous settles the others.
+    Between the roots of the projection (``garkcli.exact.projection``) the signs on the lines t =
+    const do not change, so one line each decides; the others follow by continuity.
     """
     lines: list[Number] = []
     if within is not None:
@@ -204,5 +203,4 @@ def is_nowhere_negative(p: fmpq_mpoly, within: Sequence[Interval] | None = None)
 
 
 def on_line(p: fmpq_mpoly, t: Number) -> Polynomial:
-    """p(y, t) for one t."""
     return Polynomial([a(t) for a in coefficients(p)])

@@ -1,4 +1,4 @@
-"""What is done with an expression short of evaluating it: measuring, substituting, writing."""
+"""Measures, substitutes and writes expressions."""
 
 from __future__ import annotations
 
@@ -24,18 +24,14 @@ from garkcli.frozen import replace
 
 
 def size_of(expression: Expression, sizes: Mapping[str, int]) -> int:
-    """How many nodes ``expression`` has, each name counting for what it stands for (1 if it is not
-    known).
-    """
+    """The number of nodes, a name counting ``sizes[name]``, or 1 if it is unknown."""
     if isinstance(expression, Name):
         return sizes.get(expression.name, 1)
     return 1 + sum(size_of(x, sizes) for x in parts(expression))
 
 
 def depth_of(expression: Expression, depths: Mapping[str, int]) -> int:
-    """How deep ``expression`` is nested, each name as deep as what it stands for (1 if it is not
-    known).
-    """
+    """The depth of nesting, a name counting ``depths[name]``, or 1 if it is unknown."""
     if isinstance(expression, Name):
         return depths.get(expression.name, 1)
     return 1 + max([depth_of(x, depths) for x in parts(expression)], default=0)
@@ -50,7 +46,7 @@ def names_in(expression: Expression) -> Iterator[Name]:
 
 
 def substitute(expression: Expression, values: Mapping[str, Expression]) -> Expression:
-    """``expression`` with each name replaced by its value; offsets stay those of ``expression``.
+    """``expression`` with each name replaced by its value; it keeps its offsets.
 
     Raises:
         UndefinedValue: a name has no value.
@@ -88,7 +84,7 @@ def _unknown_name(name: Name, values: Mapping[str, Expression]) -> UndefinedValu
 
 
 def roots_in(expression: Expression) -> Iterator[Root | AlgebraicRoot]:
-    """Every root in ``expression``, the inner ones first."""
+    """Every root in ``expression``, inner ones first."""
     for part in parts(expression):
         yield from roots_in(part)
     if isinstance(expression, (Root, AlgebraicRoot)):
@@ -96,22 +92,15 @@ def roots_in(expression: Expression) -> Iterator[Root | AlgebraicRoot]:
 
 
 def format_expression(expression: Expression, latex: bool = False) -> str:
-    """The expression as text that ``parse`` (with functions: ``parse_formula``) reads again, or as
-    LaTeX.
-
-    >>> from garkcli.exact.expression import parse
-    >>> format_expression(parse("1/2 - sqrt(3)/6"))
-    '1/2-(sqrt(3)/6)'
-    """
+    """The expression as LaTeX, or as text that ``parse`` or ``parse_formula`` reads."""
     writer = _Latex() if latex else PlainText()
     return writer.written(expression)
 
 
 class PlainText:
-    """Expressions as the grammar writes them."""
+    """Writes expressions in the grammar of ``parse``."""
 
     def written(self, expression: Expression) -> str:
-        """The text of any expression."""
         match expression:
             case Literal(value=value):
                 return self.number(value)
@@ -132,7 +121,7 @@ class PlainText:
         raise TypeError(f"no expression: {expression!r}")
 
     def chain(self, chain: Chain) -> str:
-        """Operands with the signs before them; a leading + or * is left out."""
+        """The operands with their signs; a leading + or * is dropped."""
         is_product = chain.signs[0] in "*/"
         parts = []
         for sign, operand in zip(chain.signs, chain.operands, strict=True):
@@ -141,7 +130,7 @@ class PlainText:
         return "".join(parts).removeprefix("+").removeprefix("*")
 
     def tight(self, expression: Expression) -> str:
-        """The text in parentheses, unless it is one sign or one call."""
+        """The text, in parentheses unless it is one token or call."""
         text = self.written(expression)
         is_whole_number = isinstance(expression, Literal) and text.isdigit()
         if is_whole_number or isinstance(expression, (Name, Root, AlgebraicRoot, Call)):
@@ -149,34 +138,29 @@ class PlainText:
         return f"({text})"
 
     def name(self, name: str) -> str:
-        """A parameter or an unknown."""
         return name
 
     def number(self, value: fmpq) -> str:
-        """A rational number."""
         return str(value)
 
     def power(self, base: str, exponent: int) -> str:
-        """An integer power."""
         return f"{base}**{exponent}"
 
     def real_power(self, base: str, exponent: str) -> str:
-        """A power whose exponent is an expression."""
         return f"{base}**({exponent})"
 
     def call(self, function: str, argument: str) -> str:
-        """A function of one argument."""
         return f"{function}({argument})"
 
     def root(self, radicand: str, index: int) -> str:
-        """A root by its name, or by its index where it has none."""
+        """A root by its name, or by its index if it has none."""
         for name, named in INDEX_OF_ROOT.items():
             if named == index:
                 return f"{name}({radicand})"
         return f"root({radicand}, {index})"
 
     def algebraic(self, root: AlgebraicRoot) -> str:
-        """A root by its polynomial and its first digits."""
+        """A root by its polynomial and first digits."""
         from garkcli.exact.root_of import approximate
 
         return f"root_of({self.polynomial(root)}, {approximate(root)})"
@@ -191,14 +175,12 @@ class PlainText:
         return text.removeprefix("+")
 
     def monomial(self, a: int, k: int) -> str:
-        """The term a x^k."""
         if k == 0:
             return str(a)
         power = "x" if k == 1 else self.power("x", k)
         return power if a == 1 else self.multiple(a, power)
 
     def multiple(self, a: int, power: str) -> str:
-        """A multiple of a power."""
         return f"{a}*{power}"
 
 
@@ -210,7 +192,7 @@ _GREEK = {
 
 
 def name_latex(name: str) -> str:
-    """The name of a parameter in LaTeX: a21 is an a with indices."""
+    """The LaTeX of a name of a parameter: a21 is an a with indices."""
     letters = name.rstrip("0123456789_")
     index = name[len(letters) :].strip("_").replace("_", ",")
     head = letters.replace("_", r"\_")
@@ -222,12 +204,11 @@ def name_latex(name: str) -> str:
 
 
 def _is_sum(expression: Expression) -> bool:
-    """Whether several operands are added."""
     return isinstance(expression, Chain) and expression.signs[0] in "+-" and expression.signs != "-"
 
 
 class _Latex(PlainText):
-    r"""The same in LaTeX: products without signs, quotients as fractions.
+    r"""Writes expressions in LaTeX: products without signs, quotients as fractions.
 
     >>> from garkcli.exact.expression import parse
     >>> texts = "1/2 - 3*sqrt(154)/77", "1/2*x", "-1/120*z^5", "-2*a12_31*(-x^2 + tau)"
@@ -258,7 +239,7 @@ class _Latex(PlainText):
         return rf"{minus}\frac{{{top.removeprefix(minus)}}}{{{self.product(under)}}}"
 
     def product(self, factors: list[Expression]) -> str:
-        """Factors beside one another; one alone needs no parentheses, nor does a first sign."""
+        """Juxtaposed factors; one alone needs no parentheses, nor does a leading sign."""
         if len(factors) == 1:
             return self.written(factors[0])
         text = ""
@@ -274,7 +255,7 @@ class _Latex(PlainText):
         return f"{text}1" if text in {"", "-"} else text
 
     def factor(self, expression: Expression) -> str:
-        """The text, sums and what has a sign in parentheses."""
+        """The text, with parentheses around sums and negative factors."""
         text = self.written(expression)
         is_whole = not text.startswith("-") and not _is_sum(expression)
         return text if is_whole else rf"\left({text}\right)"

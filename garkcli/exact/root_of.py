@@ -1,7 +1,7 @@
 """Roots of polynomials as coefficients: ``root_of(6*x**3 - 18*x**2 + 9*x - 1, 0.4358665)``.
 
-The polynomial in x has rational coefficients; of its real roots the one nearest to the number after
-it is meant. gark keeps the irreducible factor with that root, so that a number has one form.
+The polynomial in x has rational coefficients; the value is its real root nearest to the second
+argument. gark keeps the irreducible factor with that root, so that a number has one form.
 """
 
 from __future__ import annotations
@@ -31,23 +31,23 @@ MAX_POLYNOMIAL_DEGREE = 12
 MAX_COEFFICIENT_BITS = 4_000
 """Longest coefficient of such a polynomial."""
 BITS = 128
-"""Precision at which roots are compared with the number first; it doubles until they differ."""
+"""First precision for comparing distances; it doubles until they differ."""
 MOST_BITS = 1 << 16
-"""Beyond it two roots are taken to be equally near."""
+"""At this precision two roots count as equally near."""
 VARIABLE = "x"
 
 
 def root_nearest(polynomial: Expression, near: Expression, start: int, end: int) -> Expression:
-    """The real root of a polynomial nearest to a number, as a number where it is rational.
+    """The real root of a polynomial nearest to a number; a ``Literal`` if it is rational.
 
     Args:
         polynomial: in the one name x.
         near: a rational number.
-        start: the offset of the text of the root.
-        end: the offset behind it.
+        start: the offset of the text.
+        end: the offset after it.
 
     Raises:
-        ExpressionError: the polynomial is no such polynomial, or ``near`` no number.
+        ExpressionError: not a polynomial in x, or ``near`` is not a number.
         UndefinedValue: it has no real root, or two are equally near.
         LimitExceeded: its degree or its coefficients are beyond the limits of this module.
     """
@@ -63,7 +63,7 @@ def root_nearest(polynomial: Expression, near: Expression, start: int, end: int)
 
 
 def _root(factor: fmpz_poly, number: int) -> Expression:
-    """One of the real roots of an irreducible polynomial."""
+    """The real root of an irreducible polynomial with an index."""
     if factor.degree() == 1:
         return Literal(fmpq(-factor[0], factor[1]))
     coefficients = tuple(int(a) for a in factor.coeffs())
@@ -77,7 +77,6 @@ def _root(factor: fmpz_poly, number: int) -> Expression:
 
 
 def _decimals(expression: Expression) -> Iterator[Literal]:
-    """The decimals in a polynomial."""
     if isinstance(expression, Literal) and is_decimal(expression):
         yield expression
     for part in parts(expression):
@@ -85,7 +84,7 @@ def _decimals(expression: Expression) -> Iterator[Literal]:
 
 
 def _nearest(p: fmpq_poly, target: fmpq, at: Expression, near: Expression) -> tuple[fmpz_poly, int]:
-    """The irreducible factor with the nearest root, and which of its real roots that is."""
+    """The irreducible factor with the nearest root, and the index of that root."""
     _, factors = p.numer().factor()
     bits = BITS
     while bits <= MOST_BITS:
@@ -112,7 +111,7 @@ def _nearest(p: fmpq_poly, target: fmpq, at: Expression, near: Expression) -> tu
 
 
 def polynomial_in_x(expression: Expression) -> fmpq_poly:
-    """The value in ℚ[x]."""
+    """The value of an expression in ℚ[x]."""
     match expression:
         case Literal(value=value):
             return fmpq_poly([value])
@@ -147,7 +146,7 @@ def _joined(sign: str, left: fmpq_poly, right: fmpq_poly, at: Expression) -> fmp
 
 
 def _power(base: fmpq_poly, exponent: int, at: Expression) -> fmpq_poly:
-    """A power, refused before it is computed where it would be too long."""
+    """A power; one that would be too long is refused before it is computed."""
     if exponent < 0:
         if base.degree() > 0:
             raise _error("a polynomial is not divided by x", at)
@@ -176,7 +175,7 @@ def _error(message: str, at: Expression) -> ExpressionError:
 
 
 def approximate(root: AlgebraicRoot) -> str:
-    """Digits of a root that no other real root of its polynomial is as near to.
+    """Digits of a root to which no other real root of its polynomial is as near.
 
     >>> approximate(AlgebraicRoot((-2, 0, 0, 1), 0))
     '1.259921050'

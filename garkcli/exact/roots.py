@@ -1,7 +1,7 @@
 """Real roots of polynomials over ℚ or a number field, and signs at them.
 
-A real root is kept as an irreducible polynomial over ℚ with the number of the root, so that roots
-are equal exactly when they are the same number. Enclosures only tell apart what is known to differ.
+A real root is an irreducible polynomial over ℚ with the index of the root, so roots are equal
+exactly if they are the same number. Enclosures only separate numbers that are known to differ.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from garkcli.frozen import Frozen
 from garkcli.upward import answered
 
 LARGE = 100_000
-"""Bits of all coefficients of a polynomial whose factors may take tenths of a second."""
+"""Size of a polynomial, degree times bits, beyond which factoring may take tenths of a second."""
 
 
 class RealRoot(Frozen):
@@ -31,7 +31,7 @@ class RealRoot(Frozen):
 
     Attributes:
         polynomial: its minimal polynomial over ℤ, primitive with a positive leading coefficient.
-        number: which of the real roots of that it is, counted from 0 in ascending order.
+        number: its index among the real roots in ascending order, from 0.
     """
 
     polynomial: fmpz_poly
@@ -42,19 +42,17 @@ class RealRoot(Frozen):
 
     @classmethod
     def rational(cls, value: fmpq) -> RealRoot:
-        """A rational number as a root."""
         return cls(fmpz_poly([-value.p, value.q]), 0)
 
     @property
     def exact(self) -> fmpq | None:
-        """The number itself where it is rational."""
+        """The value if it is rational, else None."""
         if self.polynomial.degree() > 1:
             return None
         constant, slope = _integers(self.polynomial)
         return fmpq(-constant, slope)
 
     def ball(self, bits: int) -> arb:
-        """An enclosure with about ``bits`` correct bits."""
         value = self.exact
         if value is not None:
             with ctx.workprec(bits):
@@ -62,7 +60,7 @@ class RealRoot(Frozen):
         return isolated(_integers(self.polynomial), bits)[self.number]
 
     def __float__(self) -> float:
-        """A float next to it; nothing is decided with it."""
+        """A float close to it, for display only."""
         return float(self.ball(80))
 
     def __repr__(self) -> str:
@@ -86,14 +84,13 @@ class RealRoot(Frozen):
 
 
 def _integers(polynomial: fmpz_poly) -> tuple[int, ...]:
-    """The coefficients, the lowest first."""
     return tuple(int(a) for a in polynomial.coeffs())
 
 
 def real_roots(p: Polynomial) -> list[tuple[RealRoot, int]]:
     """The distinct real roots in ascending order, with their multiplicities.
 
-    Over a number field they are among the roots of the norm; which ones is decided by gcds.
+    Over a number field they are roots of the norm with positive multiplicity in p.
 
     Raises:
         ValueError: p is zero.
@@ -118,7 +115,7 @@ def real_roots(p: Polynomial) -> list[tuple[RealRoot, int]]:
 
 
 def factors_of(p: fmpz_poly) -> list[tuple[fmpz_poly, int]]:
-    """The irreducible factors over ℤ that are no numbers, with their multiplicities."""
+    """The irreducible factors over ℤ that are not constant, with their multiplicities."""
     is_large = p.degree() * int(p.height_bits()) > LARGE
     return apart(_factors, p) if is_large else _factors(p)
 
@@ -142,12 +139,12 @@ def is_nonnegative(p: Polynomial) -> bool:
 
 
 def multiplicity_at(p: Polynomial, root: RealRoot, together: int | None = None) -> int:
-    """How often ``root`` is a root of p ≠ 0, decided exactly.
+    """The multiplicity of ``root`` as a root of p ≠ 0, decided exactly.
 
     Args:
         p: the polynomial.
         root: the number.
-        together: how often it is one of the norm; None to count.
+        together: its multiplicity in the norm, if it is known.
     """
     if together is None:
         together = _multiplicity(p.norm(), root.polynomial)
@@ -170,7 +167,7 @@ def multiplicity_at(p: Polynomial, root: RealRoot, together: int | None = None) 
 
 
 def _multiplicity(p: fmpz_poly, factor: fmpz_poly) -> int:
-    """How often a polynomial over ℚ has an irreducible factor."""
+    """The multiplicity of an irreducible factor in a polynomial over ℚ."""
     rest, divisor = fmpq_poly(p), fmpq_poly(factor)
     count = 0
     while True:
@@ -182,7 +179,7 @@ def _multiplicity(p: fmpz_poly, factor: fmpz_poly) -> int:
 
 
 def _multiplicity_by_gcds(p: Polynomial, root: RealRoot) -> int:
-    """The same by common divisors over the number field."""
+    """The multiplicity by common divisors over the number field."""
     multiplicity = 0
     while p and _is_root(p, root):
         multiplicity += 1
@@ -191,7 +188,6 @@ def _multiplicity_by_gcds(p: Polynomial, root: RealRoot) -> int:
 
 
 def sign_at(p: Polynomial, root: RealRoot) -> int:
-    """The sign of p at a real algebraic number, decided exactly."""
     value = root.exact
     if value is not None:
         return sign(p(value))
@@ -214,15 +210,14 @@ def sign_at(p: Polynomial, root: RealRoot) -> int:
 
 
 def vanishes_at(p: Polynomial, root: RealRoot) -> bool:
-    """Whether p is zero at a real algebraic number."""
     return not p or multiplicity_at(p, root) > 0
 
 
 def _is_root(p: Polynomial, root: RealRoot) -> bool:
-    """The same by a common divisor.
+    """Whether p vanishes at a root, by a common divisor.
 
-    With q the minimal polynomial and g = gcd(p, q), q = g · (q/g) has no multiple root, so that
-    the number is a root of exactly one of the two factors; an enclosure shows of which it is none.
+    With q the minimal polynomial and g = gcd(p, q), q = g · (q/g) has no multiple root, so the
+    number is a root of exactly one of the two factors; an enclosure excludes the other.
     """
     q = Polynomial.from_flint(root.polynomial)
     g = gcd(p, q)
@@ -244,11 +239,11 @@ def _is_root(p: Polynomial, root: RealRoot) -> bool:
 
 
 FIRST_BITS = 64
-"""The precision at which signs are tried first; it doubles until they are decided."""
+"""First precision for deciding signs; it doubles until they are decided."""
 
 
 def sign(number: Number) -> int:
-    """The sign of an exact number, −1, 0 or 1: zero is known exactly, the rest by enclosures."""
+    """−1, 0 or 1: zero is known exactly, the rest by enclosures."""
     if not isinstance(number, Algebraic):
         return (number > 0) - (number < 0)
     digits = FIRST_BITS * 3 // 10
@@ -261,8 +256,8 @@ def sign(number: Number) -> int:
 
 
 def roots_below(M: fmpq_poly, x: fmpq) -> int:
-    """How many roots of a polynomial with real roots only are smaller than x, by Descartes' rule,
-    which is exact for these.
+    """The number of roots smaller than x of a polynomial with only real roots, exact by Descartes'
+    rule.
 
     >>> roots_below(fmpq_poly([0, 2, -3, 1]), fmpq(2))  # the roots 0, 1, 2
     2
@@ -273,11 +268,11 @@ def roots_below(M: fmpq_poly, x: fmpq) -> int:
 
 
 def root_within(p: Polynomial, ball: Callable[[int], arb]) -> RealRoot:
-    """The real root of a polynomial that a number is.
+    """The real root of a polynomial that a ball encloses.
 
     Args:
-        p: a polynomial over ℚ, zero at the number.
-        ball: an enclosure of the number with about so many bits.
+        p: a polynomial over ℚ.
+        ball: encloses the root to about so many bits.
     """
     candidates = [x for x, _ in real_roots(p)]
     bits = FIRST_BITS
@@ -290,7 +285,7 @@ def root_within(p: Polynomial, ball: Callable[[int], arb]) -> RealRoot:
 
 
 def number_of(root: RealRoot, most_degree: int) -> Number | None:
-    """A root as an exact number; None where its field would be of a larger degree.
+    """A root as an exact number; None if its degree is larger than ``most_degree``.
 
     >>> from flint import fmpz_poly
     >>> theta = number_of(RealRoot(fmpz_poly([-2, 0, 1]), 1), 4)

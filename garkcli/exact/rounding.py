@@ -6,7 +6,7 @@ from flint import fmpq
 
 
 def in_decimals(number: fmpq, digits: int) -> str:
-    """The nearest decimal number with so many decimals; 0 is written as it is.
+    """The nearest decimal with ``digits`` decimals; ``0`` if that is zero.
 
     >>> in_decimals(fmpq(-1, 3), 4), in_decimals(fmpq(0), 4)
     ('-0.3333', '0')

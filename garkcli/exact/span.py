@@ -1,8 +1,8 @@
-"""Spans over ℚ, grown by exact elimination, and where the pivots of matrices are.
+"""Spans over ℚ, grown by exact elimination, and pivot columns of matrices.
 
-A vector joins the span when it is linearly independent of the members. Of points that are vectors
-(1, point) these are the ones that are no affine combination of those before. Elimination is done
-for many candidates at once in python-flint.
+A vector joins the span when it is linearly independent of the members. With vectors (1, point), a
+point joins if it is no affine combination of those before. Many candidates are eliminated at once
+in python-flint.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ def pivot_columns(matrix: fmpq_mat) -> list[int]:
 
 
 def leading_columns(reduced: fmpq_mat) -> list[int]:
-    """Where each row of a reduced echelon form that is not zero has its first entry."""
+    """The column of the first entry in each nonzero row of a reduced echelon form."""
     columns = []
     for row in reduced.tolist():
         first = next((j for j, x in enumerate(row) if x), None)
@@ -47,16 +47,14 @@ class Span:
         self._pivots: list[int] = []
 
     def __len__(self) -> int:
-        """The number of members, which is the dimension of the span."""
         return len(self._pivots)
 
     @property
     def is_full(self) -> bool:
-        """Whether every vector of ℚⁿ is in the span."""
         return len(self) == self.dimension
 
     def insert(self, vectors: Sequence[Sequence[fmpq]]) -> list[int]:
-        """Insert ``vectors`` from left to right; the indices of the vectors that enlarged the
+        """Inserts ``vectors`` from left to right and returns the indices of those that enlarged the
         span.
         """
         check_time()
@@ -75,9 +73,7 @@ class Span:
         return chosen
 
     def _reduce(self, candidates: fmpq_mat) -> fmpq_mat:
-        """Candidates minus their part along the echelon rows: zero exactly for vectors of the
-        span.
-        """
+        """Candidates minus their part along the echelon rows: zero for vectors in the span."""
         if not self._pivots:
             return candidates
         at_pivots = [[row[p] for p in self._pivots] for row in candidates.tolist()]

@@ -4,8 +4,8 @@ To adjoin a root y of a polynomial f over K = ℚ(θ), such as yⁿ − a, look 
 dimension n·deg K over ℚ. Its element η = y + kθ generates it as soon as its characteristic
 polynomial c is squarefree, and then θ and y are polynomials in η. If c is irreducible the algebra
 is the new field ℚ(η); if not, it is a product of fields, one for each factor of c, and the right
-one is that whose factor vanishes at the real number y + kθ. (Cohen, *A Course in Computational
-Algebraic Number Theory*, sections 2.1 and 3.6.)
+factor vanishes at the real number y + kθ. (Cohen, *A Course in Computational Algebraic Number
+Theory*, sections 2.1 and 3.6.)
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ _X = fmpq_poly([0, 1])
 
 
 class Tower(Frozen):
-    """ℚ(θ) with some real numbers in it.
+    """A field ℚ(θ) with the real numbers adjoined so far.
 
     Attributes:
         modulus: the minimal polynomial of θ; x for ℚ itself, with θ = 0.
@@ -37,15 +37,14 @@ class Tower(Frozen):
 
     @property
     def degree(self) -> int:
-        """The dimension over ℚ."""
         return int(self.modulus.degree())
 
     def adjoin(self, relation: Sequence[fmpq_poly], values: Callable[[], list[arb]]) -> Tower:
-        """The field with a real root y of yⁿ = r_0 + r_1 y + … as a further element.
+        """The field with a real root y of yⁿ = r_0 + r_1 y + … adjoined.
 
         Args:
-            relation: the r_j as polynomials in θ, n ≥ 2 of them; the equation has no double root.
-            values: enclosures of all elements and of y last, at the current precision of flint.
+            relation: the r_j as polynomials in θ, n ≥ 2; the equation has no double root.
+            values: encloses all elements, then y, at the current precision of flint.
         """
         multiply_y, multiply_theta = self._multiplications(relation)
         for k in count():
@@ -83,12 +82,11 @@ class Tower(Frozen):
 
 
 RATIONALS = Tower(_X, (), ())
-"""ℚ."""
 
 
 def _as_polynomials(generator: fmpq_mat, wanted: list[fmpq_mat]) -> list[fmpq_poly]:
-    """Elements of an algebra as polynomials in its generator, all given by their multiplication
-    matrices.
+    """Elements of an algebra, given by their multiplication matrices, as polynomials in its
+    generator.
     """
     size = generator.nrows()
     one = fmpq_mat(size, 1)
@@ -106,9 +104,9 @@ def _as_polynomials(generator: fmpq_mat, wanted: list[fmpq_mat]) -> list[fmpq_po
 def _vanishing_factor(
     characteristic: fmpq_poly, combination: tuple[int, ...], values: Callable[[], list[arb]]
 ) -> fmpq_poly:
-    """The irreducible factor that has the real number Σ combination·values as a root.
+    """The irreducible factor that vanishes at Σ combination·values.
 
-    The factors have no common root, so all but one are distinguished from zero by enough digits.
+    The factors have no common root, so enough digits exclude all but one.
     """
     _, factors = characteristic.factor()
     candidates = [fmpq_poly(factor) for factor, _ in factors]

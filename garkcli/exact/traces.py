@@ -1,4 +1,4 @@
-"""How numbers are made of printed ones: what others need to make them again."""
+"""Records how numbers are computed from printed ones, so that others can recompute them."""
 
 from __future__ import annotations
 
@@ -7,21 +7,21 @@ from typing import Any, TypeAlias
 from flint import arb, fmpq, fmpz
 
 Told: TypeAlias = "str | int | list[Any]"
-"""A rational number as text, the number of a printed one, or [sign, one, other]."""
+"""A rational number as text, the index of a printed number, or [sign, left, right]."""
 
 
 class Untold(ValueError):
-    """Why numbers cannot be made again."""
+    """A number that cannot be recomputed from rationals."""
 
 
 class Trace:
-    """A printed number, or what is made of some.
+    """A printed number, or an expression of some.
 
-    A trace is no zero, and equal to nothing but itself, as an affine form.
+    A trace is never zero, and equal to nothing but itself.
 
     Attributes:
-        told: how it is made.
-        length: how many numbers are in that.
+        told: its expression.
+        length: the number of leaves in it.
     """
 
     __slots__ = ("length", "told")
@@ -31,7 +31,7 @@ class Trace:
         self.length = length
 
     def height_bits(self) -> int:
-        """Its length does not grow with that of what it is made of."""
+        """0: the number of digits does not grow."""
         return 0
 
     def _joined(self, sign: str, other: Any, is_turned: bool = False) -> Trace:
@@ -73,7 +73,7 @@ class Trace:
         return 1 / result if exponent < 0 else result
 
     def root(self, index: int) -> Trace:
-        """It has none: sums and products alone are made again.
+        """Always fails: a recomputation has sums and products only.
 
         Raises:
             Untold: always.
@@ -82,10 +82,10 @@ class Trace:
 
 
 def told(number: Any) -> Told:
-    """How a number is made, a trace or not.
+    """The expression of a number, a trace or not.
 
     Raises:
-        Untold: it is known in a ball alone.
+        Untold: it is only known as a ball.
 
     >>> x = Trace(1)
     >>> told(1 - x * x / 3)
@@ -102,7 +102,7 @@ def told(number: Any) -> Told:
 
 
 def rational_text(number: fmpq) -> str:
-    """A rational number as a fraction, or in decimals where that is shorter; without an exponent.
+    """A rational number as a fraction, or in decimals if that is shorter; without an exponent.
 
     >>> rational_text(fmpq(1, 3)), rational_text(fmpq(1, 10**6)), rational_text(fmpq(-3, 250))
     ('1/3', '0.000001', '-0.012')
@@ -120,7 +120,7 @@ def rational_text(number: fmpq) -> str:
 
 
 def _power(number: fmpz, prime: int) -> int:
-    """How often a prime divides a number."""
+    """The multiplicity of a prime in a number."""
     times = 0
     while number % prime == 0:
         number //= prime
