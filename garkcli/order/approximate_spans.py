@@ -1,13 +1,13 @@
-"""Bounds on the residuals of all trees of an order without listing the trees.
+"""Bounds the residuals of all trees of an order without listing the trees.
 
-The affine spans of ``certificate`` for rounded coefficients, where nothing is exactly dependent.
-Some trees are members, with their normalised stage vectors ψ_i; every other tree u of the same
-order and root colour is
+These are the affine spans of ``certificate`` for rounded coefficients, which are hardly ever
+exactly dependent. Some trees are members, with their normalised stage vectors ψ_i; every other tree
+u of the same order and root colour satisfies
 
     ψ(u) = Σ λ_i ψ_i + e,      Σ λ_i = 1,      Σ|λ_i| ≤ Λ,      |e| ≤ ε,      |ψ(u)| ≤ π,
 
-with one Λ for all trees, and vectors ε and π that hold entry by entry. (Where the exact solution
-does not have all trees the sum is over the members that it has, and 0 of trees that it has not.)
+with one Λ for all trees, and vectors ε and π that hold entry by entry. (If the exact solution does
+not have all trees, Σ λ_i is over the members that it has, and 0 for trees that it does not have.)
 The order condition of u is b_lᵀ ψ(u) = 1/ρ, and it is missed by at most
 
     Λ max_i |b_lᵀ ψ_i − 1/ρ| + |b_l|ᵀ ε.
@@ -39,8 +39,8 @@ Places = list[int]
 
 
 class _Hull(Frozen, eq=False):
-    """Members, and how far all others of their kind are from them: Λ, ε and π; no members where
-    there is nothing of that kind.
+    """Members with the bounds Λ, ε and π for all other trees or forests of their kind; no members
+    if there are none of that kind.
     """
 
     members: Sequence[Forest]
@@ -50,11 +50,11 @@ class _Hull(Frozen, eq=False):
 
 
 class HullSizes(Frozen, eq=False):
-    """How far the conditions of one order are missed.
+    """Bounds on the residuals of one order.
 
     Attributes:
-        bound: no |b_lᵀ ψ(u) − 1/ρ| is larger; no |residual| either.
-        members: trees with their |residuals|, the largest first.
+        bound: on |b_lᵀ ψ(u) − 1/ρ|, and so on |residual|.
+        members: pairs of |residual| and tree, largest first.
     """
 
     bound: arb
@@ -62,17 +62,16 @@ class HullSizes(Frozen, eq=False):
 
     @property
     def reached(self) -> arb:
-        """The largest |residual| of a member."""
         return self.members[0][0] if self.members else arb(0)
 
 
 class ApproximateSpans(OrderByOrder[_Hull]):
-    """Members and bounds for the branches and forests of each stage space, made on demand.
+    """Computes members and bounds for the branches and forests of each stage space, on demand.
 
     Args:
         tableau: the tableau.
         enclosure: its entries; their bits are the precision.
-        grain: a shorter remainder counts as an error and becomes no member.
+        grain: a shorter remainder counts as an error, not as a member.
     """
 
     def __init__(self, tableau: Tableau, enclosure: Enclosure, grain: arb) -> None:
@@ -84,7 +83,7 @@ class ApproximateSpans(OrderByOrder[_Hull]):
         super().__init__(tableau, [_unit(s) for s in enclosure.stages])
 
     def sizes(self, order: int) -> HullSizes:
-        """A bound on all |bᵀψ(u) − 1/ρ| of an order, and the members with their |residuals|."""
+        """A bound on |bᵀψ(u) − 1/ρ| for an order, and the members with their |residuals|."""
         bound = arb(0)
         members: list[tuple[arb, Tree]] = []
         with ctx.workprec(self.enclosure.bits):
@@ -119,10 +118,9 @@ class ApproximateSpans(OrderByOrder[_Hull]):
         )
 
     def _new_forests(self, k: int, order: int) -> _Hull:
-        """The smallest branch times the forest of the others, or one branch.
+        """All products of the smallest branch and a forest of the others, and all single branches.
 
-        The bush comes first: its density is the least, so that where an order fails it often shows
-        it.
+        The bush comes first: it has the smallest density and often shows that an order fails.
         """
         return self._joined(k, chain(self._products(k, order), [self.branches(k, order)]))
 
@@ -141,7 +139,7 @@ class ApproximateSpans(OrderByOrder[_Hull]):
 
 
 def _unit(stages: int) -> _Hull:
-    """What the single vertex has: its vector is 𝟙, and nothing is beyond it."""
+    """The hull of the single vertex: its vector is 𝟙, without an error."""
     one = [arb(1)] * stages
     zero = [arb(0)] * stages
     vertex = Forest(one, ())
@@ -159,7 +157,7 @@ def _product(x: _Hull, y: _Hull) -> _Hull:
 
 
 def _reduced(hulls: Sequence[_Hull], grain: arb) -> _Hull:
-    """Few of the members of all hulls, and bounds that hold for everything in any of them."""
+    """A hull with few of the members of all hulls, and bounds for everything in any of them."""
     members = [member for hull in hulls for member in hull.members]
     points: Rows = [[arb(member.exact), *member.vector] for member in members]
     chosen, weights = _affine_weights(points, grain)
@@ -180,7 +178,7 @@ def _around(kept: Sequence[Forest], hull: _Hull, weights: Rows, misses: Rows) ->
     """The bounds of one hull around the members that are kept.
 
     ``weights`` and ``misses`` have a row for each member of the hull: its λ in the members kept,
-    and what these leave of (1, ψ), or of (0, ψ) where the exact solution has no such tree.
+    and the remainder of (1, ψ), or of (0, ψ) for a tree that the exact solution does not have.
     """
     amount = arb(0)
     for row in weights:
@@ -198,11 +196,11 @@ def _in_both(one: _Hull, other: _Hull) -> _Hull:
 
 
 def _affine_weights(points: Rows, grain: arb) -> tuple[Places, arb_mat]:
-    """Which of the points (1, ψ) become members, and λ of each point in them: a row that sums to 1.
+    """The points (1, ψ) that become members, and λ of each point in them: a row that sums to 1.
 
-    The true λ solve the equations of as many coordinates as there are members, that of the ones
-    among them, so balls around the solution hold weights whose sum is exactly 1. Points (0, ψ) of
-    trees that the exact solution does not have are no different; alone they need no such equation.
+    The true λ solve the equations of some coordinates, one per member and the first among them, so
+    balls around the solution hold weights whose sum is exactly 1. The same holds for points (0, ψ)
+    of trees that the exact solution does not have.
     """
     chosen, columns = _pivots(arb_mat(points), grain)
     while True:
@@ -219,11 +217,9 @@ def _affine_weights(points: Rows, grain: arb) -> tuple[Places, arb_mat]:
 
 
 def _pivots(points: arb_mat, grain: arb) -> tuple[Places, Places]:
-    """Rows far from each other's affine hull, and as many columns, by elimination with the largest
-    pivots.
-
-    The first column comes first, with a row that has 1 in it: combinations of rows that agree in it
-    are affine. Where it is 0 everywhere the largest entry comes first.
+    """Rows far from each other's affine hull, and one column for each, by elimination with the
+    largest pivots. The first pivot is a 1 in the first column, so that combinations of rows that
+    agree there are affine; if that column is 0, it is the largest entry.
     """
     rest = points.mid()
     ones = [i for i in range(rest.nrows()) if rest[i, 0] != 0]
@@ -246,7 +242,7 @@ def _pivots(points: arb_mat, grain: arb) -> tuple[Places, Places]:
 
 
 def _largest(matrix: arb_mat) -> tuple[tuple[int, int], float]:
-    """Where the largest entry is, and how large."""
+    """The place and size of the largest entry."""
     sizes = [*map(float, _absolute(matrix.entries()))]
     largest = max(sizes)
     return divmod(sizes.index(largest), matrix.ncols()), largest

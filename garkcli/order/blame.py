@@ -1,4 +1,4 @@
-"""Which block is to blame for a failing order, and which single entry, changed, would restore it.
+"""Finds the block behind a failing order, and a single entry whose change would restore it.
 
 Both are hints drawn from the failing conditions, never facts about what a source meant to print.
 """
@@ -23,19 +23,18 @@ from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Edge, Tableau
 
 MAX_CONDITIONS = 20_000
-"""Most conditions that are evaluated to find a culprit."""
+"""Most conditions that are evaluated to find the block."""
 MAX_ENTRIES = 2_000
-"""Most entries that are tried."""
 FEW_CHECKED = 20
-"""So many failing conditions are examined before the order is found."""
+"""Failing conditions that are examined before the order is known."""
 GAIN = 2
-"""Of a method that claims no order an entry is named that restores so many. Of published methods
-many are one entry away from the next order, and none of the catalogue from the next but one.
+"""Without a claimed order, an entry is named if it restores so many. Many published methods are one
+entry away from the next order; none of the catalogue is one away from the order after that.
 """
 HIGHEST_LOW = 4
-"""A wrong entry leaves no more than this order: beyond it none is sought without a claim."""
+"""Without a claim no entry is sought above this order, which a wrong one hardly leaves."""
 NEAR = 10
-"""A row sums to its node within so many tolerances: the rounding of all its entries."""
+"""Largest distance of a row sum from its node, in tolerances: the rounding of all entries."""
 FEW_ENTRIES = 400
 """Most entries that are tried without a claim."""
 FEW_CONDITIONS_UNASKED = 2_000
@@ -43,16 +42,16 @@ FEW_CONDITIONS_UNASKED = 2_000
 
 
 class Missed(Frozen):
-    """A claimed order that is missed.
+    """A claimed order that the method misses.
 
     Attributes:
         order: the first failing order.
         claimed: the order that was meant.
-        of: what claims it, as it is called in a file.
-        is_embedded: whether it is claimed of embedded weights: of exact ones only these may be
-            wrong.
-        keeps_shape: whether an entry outside the pattern of its block, such as one on the diagonal
-            of an explicit method, is right as it is.
+        of: the key of the claim in a file.
+        is_embedded: whether it is the order of embedded weights: then only these may be wrong if
+            exact.
+        keeps_shape: whether zeros outside the pattern of a block, such as the diagonal of an
+            explicit method, are taken to be right.
     """
 
     order: int
@@ -62,7 +61,7 @@ class Missed(Frozen):
     keeps_shape: bool = False
 
     def made_of(self, method: Tableau) -> Tableau | None:
-        """What the order is claimed of; None where there is no such thing."""
+        """The tableau that the claim is about; None if it divides by a zero weight."""
         try:
             return printed(derived(method, self.of))
         except ZeroWeight:
@@ -70,8 +69,8 @@ class Missed(Frozen):
 
 
 def repairs(method: AnyTableau, missed: Missed, failing: Sequence[Condition]) -> Iterator[Repair]:
-    """Entries whose change restores what is claimed. Of exact coefficients each must solve a
-    failing condition: one tells as much as all.
+    """Single entries whose change restores the claimed order. With exact coefficients the new value
+    solves one failing condition.
     """
     if not isinstance(method, Tableau):
         from garkcli.order.suspects import suspects  # slopes, which exact methods do without
@@ -98,7 +97,7 @@ def repairs(method: AnyTableau, missed: Missed, failing: Sequence[Condition]) ->
 
 
 def named_block(tableau: Tableau, edge: Edge) -> Edge:
-    """The edge named after the first colour that has these stages: one name for each block."""
+    """The block (l, m) with l the first colour that shares its stages: one name for each block."""
     l, m = edge
     spaces = [colour.space for colour in tableau.colours]
     return spaces.index(spaces[l]), m
@@ -110,12 +109,12 @@ def named_blocks(tableau: Tableau) -> list[Edge]:
 
 
 def count_entries(method: Tableau, missed: Missed) -> int:
-    """How many entries may be wrong."""
+    """The number of entries that may be wrong."""
     return sum(1 for _ in _entries(method, missed.is_embedded, missed.keeps_shape))
 
 
 def _entries(method: Tableau, only_weights: bool, keeps_shape: bool) -> Iterator[Entry]:
-    """The entries that are entries of stages: those of stage spaces of points."""
+    """The entries of blocks and weights of point stages."""
     for l, m in [] if only_weights else named_blocks(method):
         if not (_has_points(method, l) and _has_points(method, m)):
             continue
@@ -132,8 +131,8 @@ def _entries(method: Tableau, only_weights: bool, keeps_shape: bool) -> Iterator
 
 
 def _reach(block: Matrix) -> int:
-    """How many entries of its first row a block has for its shape, row i then i − 1 more: 0 of a
-    strictly lower triangular one, 1 of a lower triangular one, all of a full one.
+    """The number of entries in the first row of a block within its pattern, row i having i − 1
+    more: 0 if strictly lower triangular, 1 if lower triangular, all if full.
     """
     for reach in (0, 1):
         if not any(any(row[i + reach :]) for i, row in enumerate(block)):
@@ -146,8 +145,8 @@ def _has_points(method: Tableau, l: int) -> bool:
 
 
 def _solution(method: Tableau, missed: Missed, entry: Entry, failing: Condition) -> Number | None:
-    """The value with which a failing condition holds, where it is linear in the entry: by its
-    values at the entry and at one and two beyond; None where it is not, or does not depend on it.
+    """The value of an entry with which a failing condition holds, if it is linear in the entry:
+    from its values at the entry and at one and two beyond. None if not linear or constant.
     """
     values = [failing.value]
     for step in (ONE, ONE + ONE):
@@ -163,24 +162,24 @@ def _solution(method: Tableau, missed: Missed, entry: Entry, failing: Condition)
 
 
 class Blame(Frozen):
-    """What the conditions of the first failing order tell.
+    """The diagnosis of the conditions of the first failing order.
 
     Attributes:
         order: the first failing order.
-        failing: how many conditions of it fail.
-        total: how many there are.
+        failing: the number of its conditions that fail.
+        total: the number of its conditions.
         in_every: the blocks (l, m) that take part in every failing condition.
         in_none: the blocks that take part in none.
-        culprit: among ``in_every``, the block whose conditions fail most often; None where there is
-            none, or where several are equally likely.
-        only_coupling: whether every failing condition mixes colours, so that the diagonal methods
-            are right.
+        culprit: among ``in_every``, the block whose conditions fail most often; None if there is no
+            single one.
+        only_coupling: whether every failing condition mixes colours, so the diagonal methods are
+            right.
         repairs: single entries of the method that restore the claimed order.
-        of: the claim that is missed, as it is called in a file.
+        of: the key of the missed claim in a file.
         names: the colours of the tableau whose conditions fail.
         restores: other claims that fail, and hold with the first of ``repairs``: consequences of
             the same fault.
-        restored: the order with each of the repairs where none is claimed; None where one is.
+        restored: without a claimed order, the order with any of the repairs.
     """
 
     order: int
@@ -201,16 +200,16 @@ class Blame(Frozen):
 def blame_of(
     method: AnyTableau, missed: Missed, known: tuple[Repair, ...] | None = None
 ) -> Blame | None:
-    """Look at all conditions of the first failing order of a method, its conjugate or their pair.
+    """Examines all conditions of the first failing order of a method, its conjugate or their pair.
 
     Args:
-        method: the tableau whose entries may be wrong; an exact one with the embedded weights for b
-            where these miss an order.
-        missed: what it was meant to have.
-        known: its repairs, where they are known.
+        method: the tableau whose entries may be wrong; an exact one with the embedded weights as b
+            if these miss an order.
+        missed: the order that it misses.
+        known: its repairs, if they are known.
 
     Returns:
-        None where there are more than ``MAX_CONDITIONS`` conditions.
+        None if there are more than ``MAX_CONDITIONS`` conditions.
     """
     judged = derived(method, missed.of)
     tableau = printed(judged)
@@ -254,19 +253,18 @@ def blame_of(
 
 @doing("which entry is wrong")
 def slip_of(method: AnyTableau, missed: Missed, found: AnyOrder) -> Blame | None:
-    """Which single entry costs a method of which no order is claimed several orders.
+    """Finds a single entry that costs a method several orders, if no order is claimed.
 
-    One entry has one value, so that it satisfies a condition by chance, but hardly all of two
-    orders. Where the nodes are printed, one order is enough for an entry whose row then sums to its
-    node.
+    Some value of an entry may satisfy a condition by chance, but hardly all of two orders. One
+    order is enough for an entry whose row then sums to its printed node.
 
     Args:
         method: the tableau whose entries may be wrong.
-        missed: which order, and of what; its numbers of orders do not matter.
+        missed: which weights; its orders are ignored.
         found: the order of the method.
 
     Returns:
-        None where there is no such entry, or where looking takes long.
+        None if there is no such entry, or the search would take long.
     """
     order, tableau = found.order, printed(method)
     missed = replace(missed, order=order + 1, claimed=order + 1, keeps_shape=True)
@@ -303,7 +301,7 @@ def _restoring(method: AnyTableau, missed: Missed, failing: Tree) -> Iterator[tu
 
 
 def _fits_node(method: AnyTableau, repair: Repair) -> bool:
-    """Whether the row of an entry sums to its node when it is changed, and does not as it is."""
+    """Whether the row of an entry sums to its node after the repair, but not before."""
     if repair.m is None or repair.i is None:
         return False
     tableau, near = printed(method), NEAR * (tolerance_of(method) or ZERO)
@@ -313,7 +311,7 @@ def _fits_node(method: AnyTableau, repair: Repair) -> bool:
 
 
 def _blocks_in(tableau: Tableau, tree: Tree) -> Counter[Edge]:
-    """The blocks that the elementary weight of ``tree`` multiplies by, with how often."""
+    """The blocks in the elementary weight of ``tree``, with multiplicities."""
     return Counter(
         named_block(tableau, (vertex.root, branch.root))
         for vertex in tree.vertices()

@@ -1,6 +1,4 @@
-"""Rows that are affine in bounded numbers: steps that make all of them zero, and proofs that none
-does.
-"""
+"""Affine rows in bounded numbers: steps that make all of them zero, and proofs that none does."""
 
 from __future__ import annotations
 
@@ -18,25 +16,25 @@ if TYPE_CHECKING:
     from garkcli.exact.affine import Floats
 
 INDEPENDENT = 1e-6
-"""Rows that others give but for such a part add nothing to these."""
+"""Rows with a smaller part outside the span of the others count as dependent."""
 END = 1 - 1e-8
-"""How far numbers are moved by first order: the rest is for what is of second order."""
+"""Bound of a step to first order; the rest is left for second-order terms."""
 RIDGE = 1e-3
-"""What a shift by its radius costs, in the compromise between rows that exclude each other."""
+"""Cost of a shift by its radius, in the compromise between rows that exclude each other."""
 MISS = 1e-9
-"""Rows that are missed by no more count as met to first order: small slopes were dropped."""
+"""Rows with smaller residuals count as met to first order: small slopes were dropped."""
 FLOOR = 1e-10
-"""The least part of the largest singular value that is no rounding."""
+"""Singular values below this part of the largest count as rounding."""
 
 
 class Solver:
-    """Steps of Newton's method with the slopes at one method.
+    """Newton steps with the slopes at one method.
 
     Args:
-        rows: there.
-        radius: of the printed numbers, the largest.
-        groups: of each number the group whose numbers move together.
-        fixed: which groups stay where they are.
+        rows: the rows at that method.
+        radius: the largest radius of the printed numbers.
+        groups: for each number its group; a group moves together.
+        fixed: the groups that are held.
     """
 
     def __init__(
@@ -53,8 +51,8 @@ class Solver:
         self._cut = 0.0
 
     def nearest(self, parts: Sequence[arb], shifts: Sequence[fmpq], cut: float) -> Floats | None:
-        """The shifts of the method nearest to the print, as far as first order tells; those that
-        reach an end are fixed there.
+        """The shifts of the method nearest to the print, to first order; None if there are none.
+        Those that reach an end are held there.
         """
         here = np.array([to_float(x) for x in shifts])
         floats = np.array([float(x.mid()) for x in parts])
@@ -67,7 +65,7 @@ class Solver:
         return each
 
     def step(self, parts: Sequence[arb], unit: arb, cut: float) -> Floats:
-        """The least change that makes all rows zero to first order, in some unit."""
+        """The smallest change that makes all rows zero to first order, in some unit."""
         if self._inverse is None or cut < 1e-3 * self._cut:
             self._inverse = _pseudo_inverse(np.where(self.fixed, 0.0, self.slopes), cut)
             self._cut = cut
@@ -97,13 +95,13 @@ def orthonormal(rows: Floats) -> Floats:
 
 
 def scaled(rows: Forms) -> tuple[Floats, Floats, Floats]:
-    """Centres and slopes in units of what the slopes can do, and these units."""
+    """Centres and slopes scaled by the reach of each row, and these scales."""
     scale = np.maximum(rows.reach + rows.remainders, 1e-300)
     return rows.middle / scale, rows.slopes / scale[:, None], scale
 
 
 def excludes(rows: Forms, y: Floats) -> bool:
-    """Whether y · rows is zero nowhere in the box: a proof that no method meets them all."""
+    """Whether y · rows is nonzero in the whole box: a proof that no method meets them all."""
     count = len(rows)
     with ctx.workprec(200):
         centre = abs(sum((arb(float(a)) * x for a, x in zip(y, rows.centres, strict=True)), arb(0)))
@@ -116,8 +114,8 @@ def excludes(rows: Forms, y: Floats) -> bool:
 
 
 def compromise(G: Floats, c: Floats) -> Floats:
-    """By how much rows c + G x are missed where the sum of |misses| is about least, and x_k beyond
-    ±1 is punished: least squares with weights from the step before.
+    """Residuals of rows c + G x with Σ |residual| about minimal and a penalty for |x_k| > 1, by
+    iteratively reweighted least squares.
     """
     misses, shifts = np.ones(len(c)), np.zeros(G.shape[1])
     for _ in range(12):
@@ -132,7 +130,7 @@ def compromise(G: Floats, c: Floats) -> Floats:
 
 
 def bounded_least_squares(G: Floats, c: Floats) -> Floats:
-    """The x with |x_k| ≤ 1 for which |c + G x| is least, by active sets (P. Stark, R. Parker,
+    """The x with |x_k| ≤ 1 that minimises |c + G x|, by active sets (P. Stark, R. Parker,
     *Bounded-variable least-squares*, 1995).
     """
     count = G.shape[1]
@@ -169,11 +167,10 @@ def bounded_least_squares(G: Floats, c: Floats) -> Floats:
 
 
 def nearest(J: Floats, c: Floats, cut: float) -> Floats | None:
-    """The least x with |x_k| ≤ 1 for which c + J x = 0, up to rounding; None where it is not found.
+    """The smallest x with |x_k| ≤ 1 and c + J x = 0, up to rounding; None if none is found.
 
-    Entries beyond an end are held close to it, or at it where that is too little: numbers that lie
-    halfway between two decimals are rounded by their radius. They are let go where the others pull
-    them back.
+    Entries beyond an end are held close to it, or at it if needed: numbers halfway between two
+    decimals are rounded by their radius. They are released if the others pull them back.
     """
     for end, miss in ((END, 1e-4 * (1 - END)), (1.0, MISS), (END, MISS)):
         x = _nearest(J, c, cut, end, miss)
@@ -183,7 +180,7 @@ def nearest(J: Floats, c: Floats, cut: float) -> Floats | None:
 
 
 def _nearest(J: Floats, c: Floats, cut: float, end: float, miss: float) -> Floats | None:
-    """The same with |x_k| ≤ ``end``, where rows count as met that are missed by no more."""
+    """``nearest`` with |x_k| ≤ ``end`` and residuals up to ``miss``."""
     count = J.shape[1]
     held = np.zeros(count)
     for _ in range(count + 20):
@@ -208,7 +205,7 @@ def _nearest(J: Floats, c: Floats, cut: float, end: float, miss: float) -> Float
 
 
 def _pseudo_inverse(J: Floats, cut: float) -> Floats:
-    """J⁺ without singular values that are a smaller part of the largest."""
+    """J⁺ without singular values below ``cut`` times the largest."""
     u, s, v = np.linalg.svd(J, full_matrices=False)
     rank = int((s > cut * s[0]).sum())
     inverse: Floats = (v[:rank].T / s[:rank]) @ u[:, :rank].T
@@ -216,10 +213,9 @@ def _pseudo_inverse(J: Floats, cut: float) -> Floats:
 
 
 def exactly(x: float) -> fmpq:
-    """A float as a fraction."""
     return fmpq(*x.as_integer_ratio())
 
 
 def dyadic(x: float, bits: int) -> fmpq:
-    """A float, cut off after so many binary places."""
+    """A float, truncated to ``bits`` binary places."""
     return fmpq(int(x * 2.0**bits), 1 << bits)

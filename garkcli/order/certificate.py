@@ -1,15 +1,14 @@
 """The exact order, with a witness, in time polynomial in the order.
 
-Instead of evaluating every tree, carry along the affine spans of the normalised stage vectors
+Instead of evaluating every tree, compute the affine spans of the normalised stage vectors
 
     ψ(u) = γ(u)/ρ(u) · 𝒜^[u],      ψ(τ) = 𝟙,      ψ(u) = ⊙_i A^{l,ν_i} (ρ(u_i) ψ(u_i)),
 
 in which the order condition of u reads b_lᵀ ψ(u) = 1/ρ(u). The right-hand side depends on the order
 alone and ψ is affine in each branch, so all conditions of one order hold if and only if they hold
-for a set of trees whose ψ span, and there are at most s + 1 of those a colour. Where trees occur
-that the exact solution does not have, the spans are those of (ε(u), ψ(u)), with ε(u) = 0 for these
-and 1 for the others.
-``docs/exact-order.md`` has the proof.
+for a set of trees whose ψ span, and at most s + 1 per colour are needed. If there are trees that
+the exact solution does not have, the spans are those of (ε(u), ψ(u)), with ε(u) = 0 for these and 1
+for the others. ``docs/exact-order.md`` has the proof.
 """
 
 from __future__ import annotations
@@ -31,7 +30,7 @@ from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
 
 DEFAULT_LIMIT = 60
-"""The order at which the search stops when nothing has failed."""
+"""The order at which the search stops if nothing has failed."""
 
 
 class Witness(Shown, Frozen):
@@ -40,7 +39,7 @@ class Witness(Shown, Frozen):
     Attributes:
         tree: the tree u.
         value: b_lᵀ 𝒜^[u], exact.
-        required: 1/γ(u), or 0 where the exact solution has no such tree.
+        required: 1/γ(u), or 0 if the exact solution has no such tree.
     """
 
     tree: Tree
@@ -49,7 +48,7 @@ class Witness(Shown, Frozen):
 
     @property
     def residual(self) -> Number:
-        """Value − required; not zero."""
+        """Value − required, nonzero."""
         return self.value - self.required
 
     def __repr__(self) -> str:
@@ -65,11 +64,11 @@ class Witness(Shown, Frozen):
 
 
 class Order(Shown, Frozen):
-    """The outcome: every condition up to ``order`` holds.
+    """An exact order: every condition up to ``order`` holds.
 
     Attributes:
-        order: the order, or a lower bound where the search stopped at its limit.
-        witness: the tree whose condition fails at the next order; None where the search stopped.
+        order: the order, or a lower bound if the search stopped at its limit.
+        witness: a tree of the next order whose condition fails; None if the search stopped.
     """
 
     order: int
@@ -77,7 +76,7 @@ class Order(Shown, Frozen):
 
     @property
     def is_lower_bound(self) -> bool:
-        """Whether the search stopped at its limit with nothing failing."""
+        """Whether the search stopped at its limit."""
         return self.witness is None
 
     def __repr__(self) -> str:
@@ -94,7 +93,7 @@ def find_order(
     Args:
         tableau: any tableau; its coupling graph decides which trees count.
         limit: the order at which to stop.
-        spans: of its stage vectors, where some are known; they do not depend on weights.
+        spans: its stage vectors, if some are known; they do not depend on weights.
 
     Returns:
         The largest r ≤ limit for which the conditions of all trees of order ≤ r hold.
@@ -109,8 +108,8 @@ def find_order(
 
 
 def _failing(tableau: Tableau, spans: StageSpans, order: int) -> Witness | None:
-    """The first condition of an order that fails; where that may be rounding, the one that fails by
-    most: all residuals of an order are combinations of those of the spanning trees.
+    """The first condition of an order that fails. If rounding may explain it, the one with the
+    largest residual: all residuals are combinations of those of the spanning trees.
     """
     largest: Witness | None = None
     # the blocks of a family have no coefficients that could be rounded, nor has a root that a
@@ -131,27 +130,26 @@ def _failing(tableau: Tableau, spans: StageSpans, order: int) -> Witness | None:
 
 
 def _size(witness: Witness) -> float:
-    """|residual|, to compare by."""
     from garkcli.exact.display import to_ball  # few residuals are small
 
     return float(abs(to_ball(witness.residual)))
 
 
 def witness_of(tree: Tree, normalised: Number, share: int = 1) -> Witness:
-    """The witness whose tree has b_lᵀ ψ(u) = ``normalised`` instead of share/ρ(u)."""
+    """The witness of a tree with b_lᵀ ψ(u) = ``normalised`` instead of share/ρ(u)."""
     value = normalised * fmpq(tree.kind.integrated(tree.order), tree.density)
     return Witness(tree, value, required_of(tree, share))
 
 
 def required_of(tree: Tree, share: int = 1) -> fmpq:
-    """The elementary weight that a tree should have: share/γ(u), or 0 where the exact solution has
-    no such tree.
+    """The elementary weight that the exact solution requires: share/γ(u), or 0 if it has no such
+    tree.
     """
     return fmpq(share * tree.is_exact, tree.density)
 
 
 class StageSpans(Spans):
-    """Spanning members of Θ (branches) and Φ (forests) for each stage space, made on demand."""
+    """Spanning members of Θ (branches) and Φ (forests) for each stage space, computed on demand."""
 
     def __init__(self, tableau: Tableau) -> None:
         maps = {key: LinearMap(block, tableau.field) for key, block in tableau.blocks.items()}
@@ -172,14 +170,14 @@ class StageSpans(Spans):
 def all_spanning_trees(
     tableau: Tableau, orders: Iterable[int]
 ) -> Iterator[tuple[tuple[Tree, ...], ...]]:
-    """Trees whose ψ span those of all trees of an order, one order after the other.
+    """Trees whose ψ span those of all trees of an order, order by order.
 
     Args:
         tableau: any tableau.
         orders: ascending, from 1 on.
 
     Yields:
-        For each colour the trees with that root; over ℚ at most s + 1 of them.
+        for each colour the trees with that root, over ℚ at most s + 1.
     """
     spans = StageSpans(tableau)
     for order in orders:
@@ -190,11 +188,11 @@ def all_spanning_trees(
 
 
 class Proof(Frozen):
-    """The order of a tableau with what decides it.
+    """The order of a tableau with the trees that decide it.
 
     Attributes:
-        tableau: whose order it is.
-        order: the order, with the tree that fails one higher.
+        tableau: the tableau.
+        order: the order, with a failing tree of the next order.
         spanning: ``spanning[k − 1][l]`` are trees of order k with root colour l whose ψ span those
             of all such trees, for k up to the order.
     """
@@ -208,6 +206,6 @@ class Proof(Frozen):
 
 
 def prove(tableau: Tableau, limit: int = DEFAULT_LIMIT) -> Proof:
-    """The exact order of a tableau and what decides it; up to the order ``limit``."""
+    """The exact order of a tableau with its spanning trees, up to the order ``limit``."""
     order = find_order(tableau, limit)
     return Proof(tableau, order, tuple(all_spanning_trees(tableau, range(1, order.order + 1))))

@@ -28,11 +28,10 @@ class Condition(Shown, Frozen):
     Attributes:
         tree: u, with colours counted from 0.
         value: the elementary weight b_lᵀ 𝒜^[u], exact.
-        allowed: how far rounding of the coefficients can move the value; zero where they are meant
-            exactly.
-        is_met: whether the method that they are a rounding of meets it; of exact ones no.
-        twins: further root colours with which the tree has the same condition, as they share stages
-            and weights.
+        allowed: the largest change of the value by rounding of the coefficients; zero for exact
+            ones.
+        is_met: whether the rounded method is taken to meet it; False for exact ones.
+        twins: further root colours that give the same condition, as they share stages and weights.
     """
 
     tree: Tree
@@ -43,22 +42,20 @@ class Condition(Shown, Frozen):
 
     @property
     def required(self) -> fmpq:
-        """1/γ(u), or 0 where the exact solution has no such tree."""
+        """1/γ(u), or 0 if the exact solution has no such tree."""
         return required_of(self.tree)
 
     @property
     def residual(self) -> Number:
-        """Value − required."""
         return self.value - self.required
 
     @property
     def holds(self) -> bool:
-        """Whether the residual is zero, or that of the method that is rounded."""
+        """Whether the residual is zero, exactly or for the method that is rounded."""
         return self.is_exact or self.is_met
 
     @property
     def is_exact(self) -> bool:
-        """Whether the residual is exactly zero."""
         return not self.residual
 
     @property
@@ -68,8 +65,8 @@ class Condition(Shown, Frozen):
 
     @property
     def is_coupling(self) -> bool:
-        """Whether more than one colour takes part in each tree; otherwise a diagonal method has the
-        condition.
+        """Whether every tree has more than one colour; otherwise the condition is one of a diagonal
+        method.
         """
         return all(len(tree.colours) > 1 for tree in self.trees)
 
@@ -81,11 +78,12 @@ class Condition(Shown, Frozen):
 
 
 def conditions(method: AnyTableau, trees: Iterable[Tree]) -> Iterator[Condition]:
-    """The conditions of ``trees`` for a tableau; what comes of shared branches is computed once.
+    """The conditions of ``trees`` for a tableau; stage vectors of shared branches are computed
+    once.
 
     Raises:
-        MethodError: a tree that the coupling graph does not admit, or for which collocation does
-            not stand for an exact solution.
+        MethodError: a tree that the coupling graph does not admit, or beyond the order up to which
+            the conditions are known.
     """
     tableau = method if isinstance(method, Tableau) else method.tableau
     vectors = TreeVectors(tableau)
@@ -112,7 +110,7 @@ def elementary_weight(tableau: Tableau, tree: Tree) -> Number:
 
 
 def is_admissible(tableau: Tableau, tree: Tree) -> bool:
-    """Whether every parent sees its branches and may have as many."""
+    """Whether every vertex sees its branches and may have as many."""
     if not tableau.colours[tree.root].kind.allows(len(tree.branches)):
         return False
     for branch in tree.branches:
@@ -124,23 +122,23 @@ def is_admissible(tableau: Tableau, tree: Tree) -> bool:
 
 
 def coupling_graph(tableau: Tableau) -> Admissible:
-    """Which trees are admissible: which colours see which, and what their vertices are like."""
+    """The admissible trees of a tableau: which colours see which, and the kinds of their
+    vertices.
+    """
     colours = range(tableau.size)
     branches = tuple(tuple(m for m in colours if tableau.block(l, m) is not None) for l in colours)
     return Admissible(tableau.size, branches, tuple(colour.kind for colour in tableau.colours))
 
 
 def are_few(tableau: Tableau, order: int, most: int) -> bool:
-    """Whether the trees of an order can be listed, and are no more than ``most``."""
+    """Whether the trees of an order can be listed and are at most ``most``."""
     return tableau.is_listed and sum(counts_of(coupling_graph(tableau), order)) <= most
 
 
 def twin_roots(tableau: Tableau) -> dict[int, tuple[int, ...]]:
-    """The first of each group of colours whose conditions are identical as roots, with the whole
-    group; without colours that have none.
-
-    Colours that share stages and weights, as V^l and F^l of the symplectic pair, give every tree
-    the same elementary weight when they are its root.
+    """Groups of root colours with identical conditions, by their first colour; colours without
+    conditions are left out. Colours with the same stages and weights, such as V^l and F^l of the
+    symplectic pair, give every tree the same elementary weight.
     """
     groups: dict[int, tuple[int, ...]] = {}
     for l in tableau.roots:
@@ -155,22 +153,20 @@ def twin_roots(tableau: Tableau) -> dict[int, tuple[int, ...]]:
 
 
 def _are_twins(one: Colour, other: Colour) -> bool:
-    """Whether two colours share their stages, their weights, and what their vertices are like."""
+    """Whether two colours share stages, weights and the kind of their vertices."""
     if (one.space, one.kind, one.late) != (other.space, other.kind, other.late):
         return False
     return one.b == other.b
 
 
 def count_conditions(tableau: Tableau, order: int) -> int:
-    """How many conditions of ``order`` a tableau has, those of twin roots counted once."""
+    """The number of conditions of ``order``, those of twin roots counted once."""
     by_root = counts_of(coupling_graph(tableau), order)
     return sum(by_root[root] for root in twin_roots(tableau))
 
 
 def all_conditions(method: AnyTableau, order: int) -> Iterator[Condition]:
-    """Every condition of ``order``, its value exact, with the twins of its root: identical ones
-    come once.
-    """
+    """Every condition of ``order``, with the twins of its root; identical conditions occur once."""
     tableau = method if isinstance(method, Tableau) else method.tableau
     twins = twin_roots(tableau)
     for condition in conditions(method, admissible_trees(tableau, order)):
@@ -178,9 +174,7 @@ def all_conditions(method: AnyTableau, order: int) -> Iterator[Condition]:
 
 
 def admissible_trees(tableau: Tableau, order: int) -> Iterator[Tree]:
-    """The trees of ``order`` that the coupling graph admits, one root colour of each group of
-    twins.
-    """
+    """The admissible trees of ``order``, with one root colour of each group of twins."""
     from garkcli.ntrees.blocks import blocks_of  # numpy is paid for here
 
     for block in blocks_of(coupling_graph(tableau), order, 1 << 14, twin_roots(tableau)):

@@ -1,4 +1,4 @@
-"""The principal error: how far the first failing conditions are off, over all their trees.
+"""The principal error: norms of the first failing conditions over all their trees.
 
 The local error of a method of order r is h^(r+1) Σ e(u) F(u) + …, with e(u) = (b_lᵀ 𝒜^[u] − 1/γ(u))
 / σ(u) over the trees of order r + 1. Hairer, Nørsett & Wanner, *Solving Ordinary Differential
@@ -28,28 +28,28 @@ if TYPE_CHECKING:
 
 
 EXACT_CONDITIONS = 3_000
-"""Most conditions that are evaluated exactly; beyond them floats do."""
+"""Most conditions that are evaluated exactly, not in floats."""
 EXACT_ESTIMATES = 300
-"""The same of the estimate of the error, which every check of an embedded method reports."""
+"""Most conditions of the error estimate that are evaluated exactly; every check has them."""
 _BITS = 128
-"""Precision of norms on their way to floats."""
+"""Bits of norms before they become floats."""
 MAX_TREES = 10_000_000
-"""Most trees up to the order in question; beyond them there are no error constants."""
+"""Most trees up to an order for which error constants are computed."""
 Mask: TypeAlias = "np.ndarray[tuple[int], np.dtype[np.bool_]]"
 _Coefficient: TypeAlias = "tuple[Number, Sequence[Tree]]"
-"""e(u), and the trees u that have it: they differ in their root colours."""
+"""e(u), and the trees u that share it, with different root colours."""
 
 
 class Norms(Frozen):
     """Norms of the error coefficients e(u) of some trees.
 
     Attributes:
-        trees: how many.
-        two_squared: Σ e(u)², exact where the coefficients are; else None.
+        trees: their number.
+        two_squared: Σ e(u)² if the coefficients are exact, else None.
         two: (Σ e(u)²)^½, a float.
         largest: max |e(u)|, a float.
-        worst: a tree where it is reached; None where all are zero or there are no trees.
-        worst_value: e(worst), exact where the coefficients are; else None.
+        worst: a tree with the largest |e(u)|; None if all are zero or there are no trees.
+        worst_value: e(worst) if the coefficients are exact, else None.
     """
 
     trees: int
@@ -61,10 +61,10 @@ class Norms(Frozen):
 
 
 class ErrorConstants(Frozen):
-    """The norms of one order, over all trees and over the trees that mix colours.
+    """Norms of the error coefficients of one order.
 
     Attributes:
-        order: of the trees; the order of the method plus one.
+        order: the order of the trees, one more than that of the method.
         is_exact: whether the coefficients were computed exactly; otherwise in floats.
         all: over all trees.
         coupling: over the trees with more than one colour.
@@ -77,19 +77,19 @@ class ErrorConstants(Frozen):
 
 
 def error_constants(tableau: Tableau, order: int) -> ErrorConstants | None:
-    """The error constants at ``order``; None where there are more than ``MAX_TREES`` trees."""
+    """The error constants at ``order``; None if there are more than ``MAX_TREES`` trees."""
     return _constants(tableau, order, 1, EXACT_CONDITIONS)
 
 
 def estimate_constants(
     difference: Tableau, order: int, is_rounded: bool = False
 ) -> ErrorConstants | None:
-    """The same norms of (b − b̂)_lᵀ 𝒜^[u] / σ(u): of the error estimate h Σ (b_i − b̂_i) k_i.
+    """Norms of (b − b̂)_lᵀ 𝒜^[u] / σ(u): those of the error estimate h Σ (b_i − b̂_i) k_i.
 
     Args:
         difference: the tableau with the weights b − b̂.
-        order: of the trees.
-        is_rounded: whether the coefficients are, so that nothing is gained by exact norms.
+        order: the order of the trees.
+        is_rounded: whether the coefficients are rounded, so exact norms mean nothing.
     """
     exact = 0 if is_rounded else EXACT_ESTIMATES
     return _constants(difference, order, 0, exact)

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from garkcli.order.rounded import RoundedOrder
 
 AnyOrder: TypeAlias = Union[Order, "RoundedOrder"]
-"""An order found exactly, or within a tolerance: both have ``order``, ``witness`` and
+"""An order found exactly, or within a tolerance; both have ``order``, ``witness`` and
 ``is_lower_bound``.
 """
 
@@ -23,9 +23,9 @@ def order_of(
     """The largest r ≤ ``limit`` for which the conditions of all trees of order ≤ r are met.
 
     Args:
-        method: a tableau, with its rounding where it is rounded.
+        method: an exact or a rounded tableau.
         limit: the order at which to stop.
-        spans: of its stage vectors, where some are known; they do not depend on weights.
+        spans: its stage vectors, if some are known; they do not depend on weights.
     """
     if isinstance(method, Tableau):
         return find_order(method, limit, spans)

@@ -1,13 +1,13 @@
-"""The order of dense output x + h Σ b_i(θ) k_i, for all θ at once, and how its pieces fit together.
+"""The order of dense output x + h Σ b_i(θ) k_i for all θ at once, and the smoothness of its pieces.
 
 With b_i(θ) = Σ_k B_ik θ^k the condition of a tree u, Σ_i b_i(θ) 𝒜^[u]_i = θ^ρ(u)/γ(u), is one of
 polynomials in θ: B_kᵀ 𝒜^[u] is 1/γ(u) for k = ρ(u) and zero for every other k. So the order is no
 larger than the degree, and each power of θ is a functional at the stages (``order.functionals``).
 Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, II.6.
 
-At θ = 0 the output is x. It is continuous where b(1) = b. Its slope h Σ b_i'(θ) k_i is continuous,
-for whatever step sizes, where it is h f(x_0) at θ = 0 and h f(x_1) at θ = 1; that is decided by two
-more stages, which see nothing, and what b gives.
+At θ = 0 the output is x. It is continuous if b(1) = b. Its slope h Σ b_i'(θ) k_i is continuous, for
+all step sizes, if it is h f(x_0) at θ = 0 and h f(x_1) at θ = 1; two further stages, at x_0 and
+x_1, decide that.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
 
 class DenseWitness(Frozen):
-    """A coefficient of θ^power in the condition of a tree that is not what it should be."""
+    """A wrong coefficient of θ^power in the condition of a tree."""
 
     power: int
     witness: Witness
@@ -45,10 +45,11 @@ class DenseOrder(Shown, Frozen):
     """The order of dense output.
 
     Attributes:
-        order: every condition up to it holds, for all θ; within ``tolerance`` where that is given.
-        witness: what fails one order higher; None where the search stopped, or nothing is decided.
-        undecided: why the next order is undecided; empty where it is decided, or not asked for.
-        tolerance: the rounding of the coefficients; None where they are exact.
+        order: every condition up to it holds, for all θ; within ``tolerance`` if there is one.
+        witness: a failing condition of the next order; None if the search stopped or it is
+            undecided.
+        undecided: why the next order is undecided; empty otherwise.
+        tolerance: the rounding of the coefficients; None for exact ones.
     """
 
     order: int
@@ -70,13 +71,13 @@ class DenseOrder(Shown, Frozen):
 def dense_order(
     method: AnyTableau, dense: DenseOutput, limit: int, spans: StageSpans | None = None
 ) -> DenseOrder:
-    """The largest order ≤ ``limit`` up to which dense output meets all conditions, for every θ.
+    """The largest order ≤ ``limit`` for which all conditions of dense output hold, for every θ.
 
     Args:
-        method: the tableau, with its rounding where it is rounded.
+        method: an exact or a rounded tableau.
         dense: its dense output.
         limit: the order at which to stop.
-        spans: of the stage vectors, where some are known.
+        spans: its stage vectors, if some are known.
     """
     known = dense if isinstance(method, Tableau) else method.further.dense or dense
     functionals = [Functional(known.coefficients(k), k) for k in range(1, dense.degree + 1)]
@@ -102,9 +103,7 @@ def dense_order(
 
 
 def ends_at_step(method: AnyTableau, dense: DenseOutput) -> bool:
-    """Whether b(1) = b, entry by entry, or as far as rounding lets it be: then the output is
-    continuous from step to step.
-    """
+    """Whether b(1) = b, exactly or within rounding: then the output is continuous."""
     if not isinstance(method, Tableau):
         search = method.search
         search.settled  # noqa: B018 -- it adds the tableaus
@@ -121,8 +120,8 @@ class Slopes(Frozen):
     """Whether the slope of dense output is continuous from step to step, on autonomous problems.
 
     Attributes:
-        at_start: whether it is f(x_0) at θ = 0; None where that is not decided.
-        at_end: whether it is f(x_1) at θ = 1; likewise.
+        at_start: whether it is f(x_0) at θ = 0; None if undecided.
+        at_end: whether it is f(x_1) at θ = 1; None if undecided.
     """
 
     at_start: bool | None
@@ -130,9 +129,7 @@ class Slopes(Frozen):
 
     @property
     def are_continuous(self) -> bool | None:
-        """Whether both are, so that pieces fit whatever their step sizes are; None where that is
-        not decided.
-        """
+        """Whether both ends are right, so pieces of any step sizes fit; None if undecided."""
         both = {self.at_start, self.at_end}
         if both == {True}:
             return True
@@ -140,16 +137,14 @@ class Slopes(Frozen):
 
 
 def slopes(method: AnyTableau, dense: DenseOutput) -> Slopes:
-    """The slope at both ends of a step.
-
-    It is what it should be where the stages that have weight in it evaluate at x_0, or at x_1;
-    it is not where an elementary weight says so.
+    """The slopes at both ends of a step: right if the stages with weight in them evaluate at x_0 or
+    x_1, wrong if an elementary weight differs.
     """
     return slopes_where(method, dense, lambda known, _: slopes_at_ends(known), with_ends)
 
 
 Ends: TypeAlias = tuple[Weights, Weights]
-"""Weights that vanish on every problem where a slope is right at the beginning, and at the end."""
+"""Weights that vanish on every problem if a slope is right at the beginning, and at the end."""
 
 
 def slopes_where(
@@ -158,13 +153,13 @@ def slopes_where(
     ends: Callable[[DenseOutput, Tableau], Ends],
     change: Callable[[Tableau], Tableau] = lambda tableau: tableau,
 ) -> Slopes:
-    """Whether the weights of both ends vanish.
+    """Whether the weights of both ends vanish on every problem.
 
     Args:
-        method: the tableau, with its rounding where it is rounded.
+        method: an exact or a rounded tableau.
         dense: its dense output.
-        ends: from dense output and the tableau, exact or one within the rounding.
-        change: what is made of the tableau before.
+        ends: the weights for dense output and a tableau.
+        change: transforms the tableau first.
     """
     whole: Tableau | Near
     if isinstance(method, Tableau):
@@ -189,7 +184,7 @@ def slopes_at_ends(dense: DenseOutput) -> Ends:
 
 
 def with_ends(tableau: Tableau) -> Tableau:
-    """The tableau with two more stages in each space: at x_0 and at x_1, without weights."""
+    """The tableau with two more stages in each space, at x_0 and x_1, without weights."""
     spaces = [PointSpace((*x.nodes, ZERO, ONE)) for x in tableau.spaces]
     colours = [
         replace(colour, b=(*colour.b, ZERO, ZERO), c=(*colour.c, ZERO, ONE))
@@ -203,7 +198,7 @@ def with_ends(tableau: Tableau) -> Tableau:
 
 
 def slope_at_one(weights: Sequence[Sequence[Vector]]) -> Weights:
-    """b'(1) = Σ_k k B_k, a row per colour."""
+    """b'(1) = Σ_k k B_k, a row for each colour."""
     rows = []
     for of_colour in weights:
         row = []
@@ -217,12 +212,11 @@ def slope_at_one(weights: Sequence[Sequence[Vector]]) -> Weights:
 
 
 def _beside(rows: Weights, ends: Vector) -> Weights:
-    """Weights with those of the two stages of ``with_ends``."""
     return tuple((*row, *ends) for row in rows)
 
 
 def _vanishes(method: Tableau | Near, functional: Functional) -> bool | None:
-    """Whether a functional is zero on every problem; None where that is not decided."""
+    """Whether a functional is zero on every problem; None if undecided."""
     tableau, grain = (method, ZERO) if isinstance(method, Tableau) else (method.near, method.grain)
     if all(_cancels(tableau, grain, functional.weights, l) for l in range(tableau.size)):
         return True
@@ -235,7 +229,7 @@ def _vanishes(method: Tableau | Near, functional: Functional) -> bool | None:
 
 
 def _cancels(tableau: Tableau, grain: fmpq, weights: Weights, l: int) -> bool:
-    """Whether the weights of a colour cancel at stages that evaluate at the same place."""
+    """Whether the weights of a colour cancel at stages with equal rows."""
     k = tableau.colours[l].space
     blocks = [block for (j, _), block in tableau.blocks.items() if j == k]
     places: list[Vector] = []

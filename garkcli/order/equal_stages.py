@@ -1,5 +1,5 @@
-"""Which stages are equal for every problem (W. H. Hundsdorfer, M. N. Spijker, BIT 21, 1981): the
-coarsest partition in which the stages of a class see equal sums of weights in each class.
+"""Stages that are equal for every problem (W. H. Hundsdorfer, M. N. Spijker, BIT 21, 1981): the
+coarsest partition in which the stages of a class have equal sums of weights over each class.
 """
 
 from __future__ import annotations
@@ -16,7 +16,6 @@ from garkcli.tableau.tableau import Tableau
 
 
 def sums_over(row: Vector, classes: Sequence[Sequence[int]]) -> Vector:
-    """The sum of the entries of a row over each class of stages."""
     sums: list[Number] = []
     for members in classes:
         total: Number = ZERO
@@ -28,7 +27,7 @@ def sums_over(row: Vector, classes: Sequence[Sequence[int]]) -> Vector:
 
 
 def equal_stages(tableau: Tableau, tolerance: fmpq) -> list[list[list[int]]]:
-    """For each space its stages in classes of equal ones, the coarsest partition that is stable."""
+    """For each space the classes of equal stages, the coarsest stable partition."""
     numbers = range(len(tableau.spaces))
     classes = [[list(range(space.stages))] for space in tableau.spaces]
     while True:
@@ -41,7 +40,7 @@ def equal_stages(tableau: Tableau, tolerance: fmpq) -> list[list[list[int]]]:
 def _split(
     tableau: Tableau, k: int, classes: list[list[list[int]]], tolerance: fmpq
 ) -> list[list[int]]:
-    """The classes of one space, divided by what their stages see."""
+    """The classes of one space, split by the sums that their stages have over all classes."""
 
     def are_equal(seen: list[Any], sight: list[Any]) -> bool:
         if not tolerance:

@@ -1,12 +1,12 @@
-"""A proof that a method of some order is in a box, by L. E. J. Brouwer's fixed point theorem.
+"""Proves that a box has a method of some order, by Brouwer's fixed point theorem.
 
 Around the recovered method the conditions of all trees are F = c + G ε + ρ, |ε_k| ≤ 1, |ρ_i| ≤ r_i.
 Let the shifts be ε = W η, |η_j| ≤ 1, where rows of W have Σ_j |W_kj| ≤ 1, and M = G W. The map
 
     T_i(η) = η_i − F_i(W η) / M_ii
 
-is continuous. Where |c_i| + Σ_{j≠i} |M_ij| + r_i ≤ |M_ii| for all i it maps the cube into itself,
-so it has a fixed point there, at which F = 0.
+is continuous. If |c_i| + Σ_{j≠i} |M_ij| + r_i ≤ |M_ii| for all i, it maps the cube into itself, so
+it has a fixed point there, at which F = 0.
 """
 
 from __future__ import annotations
@@ -36,23 +36,23 @@ if TYPE_CHECKING:
 SHARE = fmpq(1, 10**6)
 """The part of its radius by which each number moves in the proof."""
 FEW = 50
-"""Up to so many conditions the proof is tried, even with fewer numbers: some hold exactly."""
+"""Up to so many conditions a proof is tried with fewer numbers too: some hold exactly."""
 NOTHING = 1e-250
-"""A bound on remainders that are zero but for the rounding of floats."""
+"""Bound on remainders that are zero apart from the rounding of floats."""
 MOST_TREES = 2_000
-"""So many conditions are joined to exclude an order."""
+"""Most conditions that are combined to exclude an order."""
 DIGITS = (4, 7, 10, 14)
-"""Decimal places of a written proof: the first of these that prove it."""
+"""Decimal places of a written proof; the first that suffices is used."""
 
 
 class Existence(Frozen):
-    """A proof that a method of some order is in a box.
+    """A proof that a box has a method of some order.
 
     Attributes:
         trees: all conditions up to the order.
-        shifts: a method near the one that exists, in units of the radii.
-        widths: by how much each of its numbers moves, likewise.
-        W: how they move together: a row a number, a column a tree.
+        shifts: a method near the existing one, in units of the radii.
+        widths: how far each number moves, in units of the radii.
+        W: how they move together, shape (numbers, trees).
     """
 
     trees: tuple[Tree, ...]
@@ -87,10 +87,9 @@ class _Around:
 
 
 def is_proved_to_exist(search: Recovery, order: int) -> bool:
-    """Whether a method of the box is proved to meet the conditions of all trees up to an order;
-    False says nothing.
-
-    Where conditions depend on each other, as where simplifying conditions hold, there is no proof.
+    """Whether Brouwer's theorem proves that a method of the box meets the conditions of all trees
+    up to an order. False is no statement; dependent conditions, as with simplifying conditions,
+    have no proof.
     """
     place, box = search.settled, search.box
     tableau = place.exact("method")
@@ -103,7 +102,7 @@ def is_proved_to_exist(search: Recovery, order: int) -> bool:
 
 
 def prove_existence(search: Recovery, order: int) -> Existence | None:
-    """The same proof in few digits, to be checked by others; None where there is none."""
+    """The proof of existence in few digits, to be checked by others; None if there is none."""
     if not is_proved_to_exist(search, order):
         return None
     with ctx.workprec(search.bits):
@@ -125,13 +124,12 @@ def prove_existence(search: Recovery, order: int) -> Existence | None:
 
 
 def _is_met(tableau: Tableau, tree: Tree) -> bool:
-    """Whether an elementary weight is rational and as it should be."""
     weight = elementary_weight(tableau, tree)
     return isinstance(weight, fmpq) and weight == required_of(tree)
 
 
 def has_zero(rows: Forms, is_free: np.typing.NDArray[np.bool_]) -> bool:
-    """Whether all forms are zero somewhere, as far as some of the numbers alone move."""
+    """Whether all forms have a common zero, moving only the free numbers."""
     G = _free(rows, is_free)
     if not np.linalg.norm(G, axis=1).all():
         return False
@@ -171,14 +169,13 @@ def _ball(x: Any) -> arb:
 
 
 def _towards_zero(x: fmpq, unit: fmpq) -> fmpq:
-    """A multiple of a unit that is no larger."""
     size = unit * (abs(x) / unit).floor()
     return size if x > 0 else -size
 
 
 def exclusion(search: Recovery, order: int) -> tuple[tuple[Tree, fmpq], ...] | None:
-    """Factors of the conditions b·ψ(u) = 1/ρ(u) of trees up to an order, so that their sum is zero
-    for no method of the box; None where none are found.
+    """Factors of the conditions b·ψ(u) = 1/ρ(u) of trees up to an order whose weighted sum is
+    nonzero in the whole box; None if none are found.
     """
     place = search.origin
     tableau = place.exact("method")

@@ -1,14 +1,13 @@
-"""Weights at the stages of a method besides b, held against what they should give, tree by tree.
+"""Weights at the stages besides b, compared with the values they should give, tree by tree.
 
-A functional is a row of weights a colour. At one order, or at none, its elementary weights should
-be those of the exact solution, 1/γ(u), and at all others they should vanish: of the difference of
-two rows of weights, of the coefficients of one power of θ in dense output, of a slope. As with b
-that is a condition on all trees of an order at once, decided on the spanning ones
-(``order.certificate``), and of rounded coefficients on all trees (``order.rounded``).
+A functional has weights for each colour. At one order at most its elementary weights should be
+those of the exact solution, 1/γ(u), and at all others they should vanish: examples are b − b̂, the
+coefficients of one power of θ in dense output, and a slope. As with b this is decided on spanning
+trees (``order.certificate``), or for rounded coefficients on all trees (``order.rounded``).
 
 The error estimate h Σ (b_i − b̂_i) k_i of a method and its embedded weights b̂ has the B-series
-coefficients (b − b̂)_lᵀ 𝒜^[u] / σ(u); they vanish up to the smaller of the two orders, and the first
-that do not are its leading term. Hairer, Nørsett & Wanner, *Solving Ordinary Differential
+coefficients (b − b̂)_lᵀ 𝒜^[u] / σ(u); they vanish up to the smaller of the two orders, and the
+first that do not are its leading term. Hairer, Nørsett & Wanner, *Solving Ordinary Differential
 Equations I*, II.4.
 """
 
@@ -38,31 +37,30 @@ MOST_TREES = 50_000
 
 
 class Functional(Frozen):
-    """Weights at the stages, and what they should give.
+    """Weights at the stages, and the values they should give.
 
     Attributes:
-        weights: a row per colour.
+        weights: the weights of each colour.
         exact_at: the order at which their elementary weights should be 1/γ(u); at all others, and
-            everywhere where it is None, they should be zero.
+            always if it is None, they should be zero.
     """
 
     weights: Weights
     exact_at: int | None = None
 
     def share(self, order: int) -> int:
-        """1 where the weights of an order should be those of the exact solution, else 0."""
         return int(order == self.exact_at)
 
 
 class Failure(Frozen):
-    """A functional that does not give what it should: which one in the sequence, and the tree."""
+    """A functional, by its index, with a tree for which it is wrong."""
 
     number: int
     witness: Witness
 
 
 class Undecided(Exception):
-    """More trees of an order, its argument, than are examined one by one."""
+    """An order has more trees than are examined one by one."""
 
     def __init__(self, order: int) -> None:
         super().__init__(f"{order}: more than {MOST_TREES} trees")
@@ -75,18 +73,11 @@ def first_failure(
     orders: Iterable[int],
     spans: StageSpans | None = None,
 ) -> Failure | None:
-    """The first condition that is not met, exactly or as far as rounding explains, order by order;
-    None where all are.
-
-    Args:
-        method: whose stages they are at.
-        functionals: each is held against every tree; of a rounded method those of the method that
-            it is taken to be.
-        orders: of the trees.
-        spans: of the stage vectors, where some are known.
+    """The first condition that is not met, exactly or within rounding, order by order; None if all
+    are met.
 
     Raises:
-        Undecided: of a rounded method an order has more than ``MOST_TREES`` trees.
+        Undecided: for a rounded method an order has more than ``MOST_TREES`` trees.
     """
     if isinstance(method, Tableau):
         return _first_exact(method, functionals, orders, spans)
@@ -125,14 +116,14 @@ def _first_exact(
 
 
 class Estimator(Frozen):
-    """The estimate of the error.
+    """The error estimate of embedded weights.
 
     Attributes:
-        sums: Σ (b_i − b̂_i) of each colour, zero where both rows meet the condition of order 1.
-        order: of the first trees at which the estimate is not zero, so that it is O(h^order); None
-            where none was found.
-        constants: the norms of its coefficients at that order; None where there are too many trees.
-        is_zero: whether b̂ is b, and the estimate always zero.
+        sums: Σ (b_i − b̂_i) of each colour, zero if both satisfy the condition of order 1.
+        order: of the first trees at which the estimate is nonzero, so that it is O(h^order); None
+            if none was found.
+        constants: the norms of its coefficients at that order; None if there are too many trees.
+        is_zero: whether b̂ = b.
     """
 
     sums: Vector
@@ -142,12 +133,12 @@ class Estimator(Frozen):
 
 
 class Orders(Frozen):
-    """What is known of the orders of b and b̂ when their difference is examined.
+    """The known orders of b and b̂ before their difference is examined.
 
     Attributes:
-        least: the smaller one; up to it the estimate vanishes.
-        differ: whether one of them is known to be larger: then the next order shows in it.
-        limit: the largest order of trees that are examined.
+        least: the smaller order; up to it the estimate vanishes.
+        differ: whether one is known to be larger: then the next order shows in the estimate.
+        limit: the largest order of trees to examine.
     """
 
     least: int
@@ -158,14 +149,13 @@ class Orders(Frozen):
 def estimator(
     method: AnyTableau, embedded: Weights, orders: Orders, spans: StageSpans | None = None
 ) -> Estimator:
-    """The estimate that embedded weights give.
+    """The error estimate that embedded weights give.
 
     Args:
-        method: the tableau, with its rounding where it is rounded, which the estimate has to
-            exceed.
-        embedded: a row of weights a colour.
-        orders: of both rows of weights.
-        spans: of the stage vectors, where some are known.
+        method: an exact or a rounded tableau; the estimate has to exceed rounding.
+        embedded: the weights of each colour.
+        orders: the orders of b and b̂.
+        spans: its stage vectors, if some are known.
     """
     tableau = printed(method)
     rows = _differences(tableau, embedded)
@@ -194,7 +184,6 @@ def _unless_within(number: Number, grain: fmpq) -> Number:
 
 
 def _differences(tableau: Tableau, embedded: Weights) -> list[Vector]:
-    """B − b̂, a row per colour."""
     return [
         tuple(b - other for b, other in zip(colour.b, row, strict=True))
         for colour, row in zip(tableau.colours, embedded, strict=True)
@@ -204,7 +193,7 @@ def _differences(tableau: Tableau, embedded: Weights) -> list[Vector]:
 def _leading(
     method: AnyTableau, difference: Functional, orders: range, spans: StageSpans | None
 ) -> int | None:
-    """The first order of trees at which the estimate does not vanish."""
+    """The first order of trees at which the estimate does not vanish; None if undecided."""
     try:
         failure = first_failure(method, [difference], orders, spans)
     except Undecided:

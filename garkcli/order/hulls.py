@@ -2,7 +2,7 @@
 
 A stage value over ℚ(θ) of degree d is a vector of s d rational numbers: entry i d + e is the
 coefficient of θᵉ at stage i. ψ of a tree is affine in each branch (``docs/certificate.md``), so
-hulls that are closed under the recursion for ψ contain it for all trees; who checks that needs no
+hulls that are closed under the recursion for ψ contain it for all trees. To check that takes no
 list of trees and no theory of number fields.
 """
 
@@ -22,10 +22,10 @@ from garkcli.tableau.tableau import Tableau
 
 
 class Hull(Frozen):
-    """All points base + Σ v_pivot direction.
+    """The affine space of all base + Σ v_pivot direction.
 
     Attributes:
-        base: a point that is zero at all pivots.
+        base: a point with zeros at all pivots.
         directions: in reduced echelon form, each with its pivot.
     """
 
@@ -34,7 +34,6 @@ class Hull(Frozen):
 
     @classmethod
     def of(cls, points: Sequence[Sequence[fmpq]]) -> Hull:
-        """The affine hull of at least one point."""
         first, *others = points
         rows = [[x - y for x, y in zip(other, first, strict=True)] for other in others]
         if not rows:
@@ -61,9 +60,9 @@ class Hulls(Frozen):
 
     Attributes:
         trees: ``trees[k][l]`` holds ψ of the trees of order k + 1 with root colour l, k < p; None
-            where there is no such tree.
-        branches: ``branches[j][l]`` holds A^{l,m} (j ψ(u)) for all trees u of order j, j < p;
-            likewise.
+            if there are none.
+        branches: ``branches[j][l]`` holds A^{l,m} (j ψ(u)) for all trees u of order j, j < p; None
+            if there are none.
     """
 
     trees: tuple[tuple[Hull | None, ...], ...]
@@ -71,7 +70,6 @@ class Hulls(Frozen):
 
 
 def hulls(tableau: Tableau, order: int) -> Hulls:
-    """The hulls of a tableau without linear colours up to ``order``."""
     colours = range(tableau.size)
     degree = tableau.degree
 

@@ -1,4 +1,4 @@
-"""How coefficients are meant: exactly, or rounded by the tolerance of their file."""
+"""Exact and rounded methods: the methods that printed coefficients may mean."""
 
 from __future__ import annotations
 
@@ -20,21 +20,20 @@ if TYPE_CHECKING:
     from garkcli.tableau.garkmethod import GarkMethod
 
 AnyTableau: TypeAlias = "Tableau | RoundedTableau"
-"""A tableau as it is, or with all methods that it may be a rounding of."""
+"""An exact tableau, or a rounded one with all methods that it may mean."""
 Radii: TypeAlias = "Callable[[Sequence[tuple[Expression, Number]]], Sequence[fmpq]]"
-"""By how much printed numbers may be off, as they are written."""
+"""The radii of printed numbers, from how they are written."""
 ByRadii: TypeAlias = "Callable[[Radii], tuple[Box, Further]]"
-"""All methods that a file may mean, with its further weights, where its numbers may be off so."""
+"""The box of a file and its further weights, for given radii."""
 
 
 def meant(tableau: Tableau, tolerance: fmpq | None, further: Further | None = None) -> AnyTableau:
-    """The tableau itself, or with the method that it may be a rounding of; that is sought once.
+    """The tableau itself, or the rounded tableau within its tolerance, which is computed once.
 
     Args:
         tableau: the method.
-        tolerance: the rounding of its coefficients; None or 0 for exact ones.
-        further: its embedded weights and dense output, which are rounded too; None where they do
-            not matter.
+        tolerance: the rounding of its coefficients; None or 0 if they are exact.
+        further: its embedded weights and dense output, rounded too; None to ignore them.
     """
     if not tolerance:
         return tableau
@@ -61,12 +60,8 @@ def meant(tableau: Tableau, tolerance: fmpq | None, further: Further | None = No
 
 
 def within_digits(tableau: Tableau, radii: Radii) -> RoundedTableau | None:
-    """The tableau with what its printed numbers leave open; None where all are exact, or nobody
-    knows how they are printed.
-
-    Args:
-        tableau: the method.
-        radii: by how much its numbers may be off.
+    """The tableau with the rounding of its printed numbers; None if all are exact, or their print
+    is unknown.
     """
     box: ByRadii | None = tableau.__dict__.get("digits")
     if box is None:
@@ -80,38 +75,34 @@ def within_digits(tableau: Tableau, radii: Radii) -> RoundedTableau | None:
 
 
 def remember_digits(tableau: Tableau, box: ByRadii) -> None:
-    """Keep how a tableau is made of its printed numbers, for other radii than the file has."""
+    """Stores how a tableau depends on its printed numbers, for radii other than those of the
+    file.
+    """
     tableau.__dict__["digits"] = box
 
 
 def remember(
     tableau: Tableau, tolerance: fmpq | None, box: Callable[[], tuple[Box, Further]]
 ) -> None:
-    """Keep which numbers of a tableau are rounded, and how it is made of them: ``meant`` takes each
-    coefficient that is not 0 for one of them where nobody knows better.
-
-    Args:
-        tableau: the method.
-        tolerance: its rounding; None where only further weights are rounded.
-        box: all methods that it may be, with its further weights.
+    """Stores which numbers of a tableau are rounded and how it depends on them; without this
+    ``meant`` treats each nonzero coefficient as a printed number.
     """
     tableau.__dict__["box"] = tolerance, box
 
 
 def remembered(tableau: Tableau) -> Callable[[], tuple[Box, Further]]:
-    """What ``remember`` kept of a tableau."""
     box: Callable[[], tuple[Box, Further]] = tableau.__dict__["box"][1]
     return box
 
 
 def remembered_digits(tableau: Tableau) -> ByRadii:
-    """What ``remember_digits`` kept of a tableau."""
     box: ByRadii = tableau.__dict__["digits"]
     return box
 
 
 def remember_base(tableau: Tableau, base: GarkMethod, which: str) -> None:
-    """Keep what a tableau is made of: it is as uncertain as the numbers of that make it.
+    """Stores the method that a tableau is made of: it is as uncertain as the numbers of that
+    method.
 
     Args:
         tableau: the conjugate or the pair.
@@ -122,13 +113,13 @@ def remember_base(tableau: Tableau, base: GarkMethod, which: str) -> None:
 
 
 def keep(method: RoundedTableau) -> None:
-    """Keep of a rounded tableau that was made of another what it is a rounding of."""
+    """Stores a rounded tableau that was derived from another, for ``meant``."""
     method.tableau.__dict__.setdefault("meant", {})[method.tolerance] = method
 
 
 def with_further(method: AnyTableau) -> RoundedTableau | None:
-    """A method with its further weights, where any of its numbers is rounded; an exact method may
-    have rounded ones.
+    """A method with its further weights if any number is rounded, else None; an exact method may
+    have rounded further weights.
     """
     if not isinstance(method, Tableau):
         return method
@@ -147,7 +138,7 @@ def with_further(method: AnyTableau) -> RoundedTableau | None:
 
 
 def as_embedded(method: AnyTableau, weights: Weights) -> AnyTableau:
-    """A method with its embedded weights in place of its own, rounded where these or A are."""
+    """A method with its embedded weights as b, rounded if these or A are."""
     rounded = with_further(method)
     found = None if rounded is None else rounded.with_embedded()
     return with_weights(printed(method), weights) if found is None else found
@@ -161,7 +152,7 @@ def as_dense(method: AnyTableau) -> AnyTableau:
 
 
 def as_meant(method: GarkMethod) -> AnyTableau:
-    """The tableau of a method, with its rounding where it has a tolerance."""
+    """The tableau of a method, rounded if it has a tolerance."""
     return meant(method.tableau, method.tolerance, method.further)
 
 
@@ -169,9 +160,9 @@ def derived(method: AnyTableau, which: str | None) -> AnyTableau:
     """The symplectic conjugate or the symplectic pair of a method, or the method itself.
 
     Args:
-        method: rounded or not; what is made of it is rounded by what its rounding does.
-        which: ``conjugate`` or ``pair``, or the order that is claimed of them; of a rounded method
-            also ``embedded-order``. Anything else is the method.
+        method: exact or rounded; the rounding carries over.
+        which: ``conjugate`` or ``pair``, or the claim about their order; for a rounded method also
+            ``embedded-order``. Anything else means the method.
 
     Raises:
         ZeroWeight: a weight that it divides by is 0.
@@ -187,10 +178,8 @@ def derived(method: AnyTableau, which: str | None) -> AnyTableau:
 
 
 def printed(method: AnyTableau) -> Tableau:
-    """The tableau as it is printed."""
     return method if isinstance(method, Tableau) else method.tableau
 
 
 def tolerance_of(method: AnyTableau) -> fmpq | None:
-    """The rounding of its coefficients; None where they are exact."""
     return None if isinstance(method, Tableau) else method.tolerance

@@ -1,11 +1,10 @@
-"""How far the method that a rounded one is taken to be is from the print, and which printed number
-alone is far off.
+"""The distance of a rounded method from its print, and a printed number that alone is far off.
 
 The shifts x, in units of the radii, are the least ones that meet rows with slopes J: they are in
-the span of the rows, on which P projects. Let one of them cost nothing: then |x|² falls by
-x_k²/P_kk, number k is x_k/P_kk off, and the others are left with x − (x_k/P_kk) P e_k, but for k
-itself. A number that leaves next to nothing to all others, where no other number does, is a
-suspect: rounding moves them all.
+the span of the rows, on which P projects. If one of them costs nothing, |x|² falls by x_k²/P_kk,
+number k is x_k/P_kk off, and the others are left with x − (x_k/P_kk) P e_k, apart from k itself. A
+number is a suspect if it leaves next to nothing to all others, and no other number does: rounding
+moves them all.
 """
 
 from __future__ import annotations
@@ -26,22 +25,22 @@ if TYPE_CHECKING:
     from garkcli.order.recovering import Recovery
 
 FEWEST_ROWS = 5
-"""Fewer independent rows leave many numbers alone by chance."""
+"""With fewer independent rows many numbers are suspects by chance."""
 FAR = 0.5
-"""Rounding to a last place moves a number by half a unit of it."""
+"""Least shift of a suspect: rounding to a last place moves a number by half a unit of it."""
 NEXT_TO_NOTHING = 0.1
-"""The part of the suspect's shift that the others may have."""
+"""Largest shift of the other numbers, as a part of the suspect's."""
 
 
 class Entry(Frozen):
-    """An entry of a method; all count from 0.
+    """An entry of a method, all indices from 0.
 
     Attributes:
         letter: a, b, c; or ``embedded`` or ``dense`` for further weights.
         l: its colour.
-        m: of a block the colour that is seen; None otherwise.
-        i: of a block the row; of dense output the power of θ less one; None otherwise.
-        j: the place in its row.
+        m: for a block the colour that is seen; else None.
+        i: for a block the row; for dense output the power of θ minus one; else None.
+        j: the index in its row.
     """
 
     letter: str
@@ -52,15 +51,15 @@ class Entry(Frozen):
 
 
 class Nearness(Frozen):
-    """How far the print is from the method that it is taken to mean.
+    """The distance of the print from the method that it is taken to mean.
 
     Attributes:
         distance: the largest shift of a printed number, in units of its radius; to two digits.
-        entry: one that this number is in; None where no number is off.
-        suspect: an entry whose printed number alone is far off; None where none is.
-        is_full: whether the conditions are met fully, and not to second order only.
-        is_proved: whether a method of the order is proved to exist within the radii; False says
-            nothing.
+        entry: an entry with this number; None if no number is off.
+        suspect: an entry whose printed number alone is far off; None if there is none.
+        is_full: whether the conditions are met fully, not to second order only.
+        is_proved: whether a method of the order is proved to exist within the radii; False is no
+            statement.
     """
 
     distance: fmpq
@@ -71,11 +70,11 @@ class Nearness(Frozen):
 
 
 def nearness(search: Recovery, order: int) -> Nearness:
-    """How far the method that a search has settled on is from the print.
+    """The distance of the method that a search has settled on from the print.
 
     Args:
-        search: for it.
-        order: of the method.
+        search: the search.
+        order: the order of the method.
     """
     place = search.settled
     shifts = np.array([to_float(x) for x in place.shifts])
@@ -92,21 +91,23 @@ def nearness(search: Recovery, order: int) -> Nearness:
 
 
 def _two_digits(x: float) -> fmpq:
-    """A size that is not near the end of its second digit by chance: floats end in noise."""
+    """A size rounded to hundredths, after millionths: floats end in noise."""
     millionths = fmpq(round(x * 10**6), 10**6)
     unit = fmpq(1, 100)
     return unit * (millionths / unit + fmpq(1, 2)).floor()
 
 
 def _suspect(search: Recovery, shifts: Floats) -> int | None:
-    """The number that alone is far off."""
+    """The number that alone is far off; None if there is none."""
     if not any(search.wanted.values()):
         return None
     return far_alone(orthonormal(search.place.rows(search.wanted).slopes), shifts)
 
 
 def far_alone(basis: Floats, shifts: Floats) -> int | None:
-    """The number that alone is far off, where the slopes of the rows have an orthonormal basis."""
+    """The number that alone is far off, from an orthonormal basis of the slopes of the rows; None
+    if there is none.
+    """
     if len(basis) < FEWEST_ROWS:
         return None
     projector = basis.T @ basis
@@ -126,7 +127,7 @@ def far_alone(basis: Floats, shifts: Floats) -> int | None:
 
 
 def _entry_of(search: Recovery, k: int) -> Entry:
-    """The first entry that is a printed number itself, or else one that it is in."""
+    """The first entry that is a printed number itself, or else one that depends on it."""
     with ctx.workprec(search.bits):
         made = search.box.around(search.origin.shifts).made
     size = made.size // (1 + len(search.printed_further.rows))
@@ -152,7 +153,7 @@ def _entry_of(search: Recovery, k: int) -> Entry:
 
 
 def _weight(search: Recovery, row: int, l: int, j: int) -> Entry:
-    """An entry of b, or of a further row of weights."""
+    """The entry of b, or of a further row of weights."""
     if not row:
         return Entry("b", l, None, None, j)
     if search.printed_further.embedded is not None:

@@ -17,13 +17,13 @@ if TYPE_CHECKING:
 
 
 class Condition(Frozen):
-    """A condition of one colour or of one block.
+    """A simplifying condition of one colour or block.
 
     Attributes:
-        letter: B, C or D; or ``even``, b_l(c^k A^{l,m} c^k) = 1/(2 (k + 1)²).
-        number: as in B(n), C(k), D(k), and that k.
+        letter: B, C or D; or ``even``: b_l(c^k A^{l,m} c^k) = 1/(2 (k + 1)²).
+        number: n of B(n), k of C(k), D(k) and ``even``.
         l: a colour.
-        m: another, where it is about the block A^{l,m}; the same as ``l`` for B.
+        m: the second colour of the block A^{l,m}; ``l`` for B.
     """
 
     letter: Literal["B", "C", "D", "even"]
@@ -33,15 +33,14 @@ class Condition(Frozen):
 
 
 class PairCriterion(Frozen):
-    """What the criterion says of a tableau.
+    """The result of the criterion for a tableau.
 
-    With nodes that are row sums and edges closed under reversal the pair has at least this order;
-    it has no larger one where all weights are positive and no colour is linear.
+    If nodes are row sums and edges are closed under reversal, the pair has at least this order;
+    exactly this order if all weights are positive and no colour is linear.
 
     Attributes:
         order: the largest n for which its conditions hold, up to the limit.
-        missing: the conditions that order n + 1 needs besides, and that do not hold; none at the
-            limit.
+        missing: the further conditions of order n + 1 that do not hold; empty at the limit.
     """
 
     order: int
@@ -49,7 +48,7 @@ class PairCriterion(Frozen):
 
 
 def added(order: int) -> Iterator[tuple[Literal["B", "C", "D", "even"], int]]:
-    """The conditions that an order needs besides those of the orders below.
+    """The conditions that an order needs beyond those of the orders below.
 
     >>> list(added(5)), list(added(6))
     ([('B', 5), ('C', 2), ('D', 2)], [('B', 6), ('even', 2)])
@@ -64,10 +63,10 @@ def added(order: int) -> Iterator[tuple[Literal["B", "C", "D", "even"], int]]:
 
 
 def pair_criterion(method: AnyTableau, limit: int = DEFAULT_LIMIT) -> PairCriterion:
-    r"""The largest order of the pair that the criterion bears out, up to ``limit``.
+    r"""The largest order of the pair that the criterion proves, up to ``limit``.
 
     Args:
-        method: exact, or rounded: then a condition holds where rounding explains its defect.
+        method: exact, or rounded: then a condition holds if rounding explains its defect.
         limit: the order at which to stop.
 
     >>> from garkcli import loads
@@ -84,7 +83,7 @@ def pair_criterion(method: AnyTableau, limit: int = DEFAULT_LIMIT) -> PairCriter
 
 
 def missing_of_block(tableau: Tableau, edge: tuple[int, int], order: int) -> list[Condition]:
-    """The conditions of a block that do not hold, and that an order of the pair needs."""
+    """The conditions of a block that an order of the pair needs and that do not hold."""
     defects, (l, m) = defects_of(tableau), edge
     needed = [
         Condition(letter, number, l, m)
@@ -96,7 +95,7 @@ def missing_of_block(tableau: Tableau, edge: tuple[int, int], order: int) -> lis
 
 
 def _missing(defects: Defects, order: int) -> Iterator[Condition]:
-    """Those of the conditions that an order adds which do not hold."""
+    """The conditions added by an order that do not hold."""
     tableau = defects.tableau
     diagonal = [(l, l) for l in range(tableau.size)]
     for letter, number in added(order):

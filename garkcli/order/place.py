@@ -1,4 +1,4 @@
-"""One method of a box: what its conditions miss there, and what the box may move them by."""
+"""One method of a box: the residuals of its conditions, and how far the box can move them."""
 
 from __future__ import annotations
 
@@ -30,35 +30,35 @@ if TYPE_CHECKING:
     from garkcli.order.recovering import Recovery
 
 MOST_TREES = 50_000
-"""Up to so many trees of an order all are evaluated."""
+"""Most trees of an order that are evaluated one by one."""
 MOST_ROWS = 60
-"""Rows that one order adds at a time."""
+"""Most rows that one order adds at a time."""
 COARSENING = 16.0
-"""By so many times the radii a condition moves, where it is met to second order only."""
+"""Factor on the radii for conditions that are met to second order only."""
 
 Derive: TypeAlias = Callable[[Tableau], Tableau]
-"""A tableau from that of the box: its own colours, the conjugate, the pair, …"""
+"""Transforms the tableau of the box: to its own colours, the conjugate, the pair, …"""
 System: TypeAlias = "Mapping[str, Chosen]"
-"""Rows by the name of the tableau that they are of."""
+"""Rows by the name of their tableau."""
 
 
 @contextmanager
 def arithmetic(bits: int) -> Iterator[None]:
-    """Balls of so many bits; what is beyond floats leaves all open."""
+    """Balls of so many bits; overflow of floats leaves questions open."""
     with ctx.workprec(bits), np.errstate(all="ignore"):
         yield
 
 
 class Place:
-    """A method of the box, and all that is made around it.
+    """A method of the box, and the tableaus around it.
 
     Args:
-        search: for the box and the tableaus made from it.
-        shifts: by how much its numbers are off, in units of their radii.
+        search: the search, with the box and its tableaus.
+        shifts: the shifts of its numbers, in units of their radii.
 
     Attributes:
-        slack: up to which part of what the radii can do a row counts as met: 0 where Newton's
-            method converged; else rows are met to second order only, as where varieties cross.
+        slack: the part of its reach up to which a row counts as met: 0 if Newton's method
+            converged; otherwise rows are met to second order only, as where varieties cross.
     """
 
     def __init__(self, search: Recovery, shifts: Sequence[fmpq]) -> None:
@@ -83,12 +83,12 @@ class Place:
 
     @property
     def distance(self) -> float:
-        """By how much a number is off at most, in units of its radius."""
+        """The largest shift of a number, in units of its radius."""
         return max((abs(to_float(x)) for x in self.shifts), default=0.0)
 
     @property
     def is_inside(self) -> bool:
-        """Whether all its numbers are within their radii."""
+        """Whether all shifts are at most 1."""
         return all(abs(x) <= 1 for x in self.shifts)
 
     @cached_property
@@ -102,25 +102,24 @@ class Place:
 
     @property
     def grain(self) -> fmpq:
-        """What counts as zero of numbers that are made of its own."""
+        """The size below which numbers computed from this method count as zero."""
         if not self.slack:
             return self.search.grain
         return max(self.search.grain, exactly(COARSENING * self.slack * self.search.radius))
 
     @property
     def further(self) -> Further:
-        """Its embedded weights and its dense output."""
         return from_colours(self._method, self.search.printed_further)[1]
 
     def exact(self, name: str) -> Tableau:
-        """A tableau of this method."""
+        """A derived tableau of this method."""
         if name not in self._exact:
             with arithmetic(self.search.bits):
                 self._exact[name] = self.search.targets[name](self._method)
         return self._exact[name]
 
     def defects(self, name: str) -> FormDefects:
-        """The defects of a tableau made from forms around this method."""
+        """The defects of a derived tableau, as forms around this method."""
         if name not in self._defects:
             with arithmetic(self.search.bits):
                 made = self.search.targets[name](self._made.made)
@@ -128,17 +127,16 @@ class Place:
         return self._defects[name]
 
     def in_balls(self, name: str) -> Tableau:
-        """A tableau with all its numbers within the radii around this method as balls."""
+        """A derived tableau with the numbers within the radii as balls."""
         with arithmetic(self.search.bits):
             return self.defects(name).tableau.in_balls
 
     def rows(self, system: System) -> Forms:
-        """The rows of a system."""
         with arithmetic(self.search.bits):
             return joined([self.defects(name).rows(x) for name, x in system.items() if x])
 
     def values(self, system: System) -> list[arb]:
-        """The centres of the rows of a system, which take less time than the rows."""
+        """The centres of the rows of a system, faster than the rows."""
         with arithmetic(self.search.bits):
             found: list[arb] = []
             for name, chosen in system.items():
@@ -148,7 +146,7 @@ class Place:
             return found
 
     def missed(self, name: str, order: int) -> list[Tree]:
-        """Trees of an order whose conditions this method does not meet, by most first; none where
+        """Trees of an order whose conditions this method misses, largest residual first; empty if
         it meets all.
         """
         key = name, order
@@ -182,8 +180,8 @@ class Place:
         return self._beyond_slack(name, members, share)
 
     def _bush_missed(self, name: str, order: int) -> Tree | None:
-        """A quadrature condition that no method of the box meets: one vertex with leaves of one
-        colour. Methods of high order seldom integrate better.
+        """A quadrature condition that no method of the box meets, one vertex with leaves of one
+        colour; None if there is none. Methods of high order seldom integrate better.
         """
         tableau = self.exact(name)
         for l in twin_roots(tableau):
@@ -208,23 +206,22 @@ class Place:
             return [*islice(beyond, MOST_ROWS)]
 
     def meets(self, name: str, tree: Tree) -> bool:
-        """Whether this method meets the condition of a tree."""
         with arithmetic(self.search.bits):
             return self.is_met(self._tree_row(name, tree), 0)
 
     def reach(self, name: str, tree: Tree) -> fmpq:
-        """How far the numbers of the box move the elementary weight of a tree at most."""
+        """The largest change of the elementary weight of a tree within the box."""
         with arithmetic(self.search.bits):
             row = self._tree_row(name, tree)
         return midpoint(arb(float(row.reach[0] + row.remainders[0]))) / tree.density
 
     def may_meet(self, name: str, tree: Tree) -> bool:
-        """Whether the radii explain that a tree is missed."""
+        """Whether the radii explain the residual of a tree."""
         with arithmetic(self.search.bits):
             return may_vanish(self._tree_row(name, tree), 0)
 
     def may_be_sum(self, name: str, parts: Sequence[str]) -> bool:
-        """Whether the radii let the weights of a tableau be the sums of those of others."""
+        """Whether within the radii the weights of a tableau may be the sums of those of others."""
         with arithmetic(self.search.bits):
             rows: list[Forms] = self.defects(name).tableau.b
             for part_name in parts:

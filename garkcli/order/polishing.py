@@ -1,11 +1,10 @@
-"""The method that a rounded one is taken to be, to as many digits as one wants.
+"""Computes the method that a rounded one is taken to be, to any number of digits.
 
-Of all methods of the box that meet the rows of the search it is the one nearest to the print: with
-the least sum of squares of the shifts x, each in units of its radius, and none beyond 1. Where F
-are the rows and J their slopes at x, the next x is the least one with F(x) + J·(x' − x) = 0. That
-gains the more digits a step the smaller the radii are; where the rows determine the method it is
-Newton's method. All of it is done in balls; slopes are differences over steps that are far below
-the last digit.
+Among the methods of the box that meet the rows of the search it is nearest to the print: the shifts
+x, in units of their radii and at most 1, have the least sum of squares. With rows F and slopes J at
+x, the next x is the least one with F(x) + J·(x' − x) = 0. Smaller radii gain more digits a step; if
+the rows determine the method it is Newton's method. The arithmetic is in balls; slopes are
+differences over steps far below the last digit.
 """
 
 from __future__ import annotations
@@ -27,19 +26,19 @@ if TYPE_CHECKING:
     from garkcli.order.recovering import Recovery
 
 SPARE_DIGITS = 12
-"""So many digits more are computed than are wanted."""
+"""Guard digits."""
 AT_AN_END = 1 - 1e-6
-"""What would pull a shift that is held at an end less far than this lets it go."""
+"""A shift that is held at an end is released if it would be below this."""
 MOST_STEPS = 60
-"""Steps that gain nothing end the search; so do so many, and one for each digit."""
+"""Most steps, plus one for each bit; steps without progress end the search earlier."""
 
 
 def polished(search: Recovery, digits: int) -> Place:
-    """The nearest method to the print that meets all that the settled one meets.
+    """The method nearest to the print that meets all rows of the settled one.
 
     Args:
-        search: it is settled.
-        digits: so many after the point of each of its numbers are right.
+        search: a settled search.
+        digits: correct digits after the point of each number.
 
     Raises:
         MethodError: rows are met to second order only, or the steps do not converge.
@@ -68,7 +67,7 @@ def polished(search: Recovery, digits: int) -> Place:
 
 
 def _finest(search: Recovery) -> int:
-    """Bits after the point up to which the smallest radius reaches."""
+    """Bits after the point of the smallest radius."""
     return max((int(t.q.bit_length() - t.p.bit_length()) + 1 for t in search.box.radii), default=0)
 
 
@@ -79,12 +78,12 @@ def _unknown() -> MethodError:
 
 
 class _Polishing:
-    """Steps to the nearest method that meets some rows.
+    """Iterates to the nearest method that meets some rows.
 
     Args:
-        search: with as many bits as the slopes need.
+        search: a search with enough bits for the slopes.
         system: the rows.
-        bits: to which shifts are wanted.
+        bits: the precision of the shifts.
     """
 
     def __init__(self, search: Recovery, system: System, bits: int) -> None:
@@ -100,7 +99,7 @@ class _Polishing:
         self.end = 1 + arb(2) ** -(bits // 2)
 
     def nearest(self, shifts: Sequence[fmpq]) -> Place:
-        """The nearest method to the print near some shifts."""
+        """The method nearest to the print, starting from some shifts."""
         x = [*shifts]
         slopes: arb_mat | None = None
         goal, before = arb(2) ** -self.bits, arb(2)
@@ -131,7 +130,6 @@ class _Polishing:
         return [x / scale for x, scale in zip(found, self.scales, strict=True)]
 
     def _slopes(self, x: Sequence[fmpq], values: Sequence[arb]) -> arb_mat:
-        """∂F_i/∂x_k by differences."""
         h = fmpq(1, 1 << self.bits)
         columns = []
         for k in range(len(x)):
@@ -145,7 +143,7 @@ class _Polishing:
         self, slopes: arb_mat, values: Sequence[arb], x: Sequence[fmpq]
     ) -> tuple[list[arb], bool]:
         """The least x' with F + J·(x' − x) = 0 and |x'_k| ≤ 1, and whether the rows leave others
-        free than those at an end. Those are let go where they do not pull outwards.
+        free than those at an end, which are released if they pull inwards.
         """
         count = len(x)
         rows = slopes.tolist()
@@ -180,7 +178,7 @@ class _Polishing:
         raise _unknown()
 
     def _checked(self, place: Place) -> Place:
-        """The method, where it meets all rows, those that others give included."""
+        """The method, if it meets all rows, including dependent ones."""
         small = arb(2) ** -(3 * self.bits // 4)
         if not place.is_inside or not all(abs(x) < small for x in self._values(place)):
             raise _unknown()
@@ -188,7 +186,7 @@ class _Polishing:
 
 
 def _independent(rows: Sequence[Sequence[arb]], grain: arb) -> list[int]:
-    """Rows that no combination of the others gives, by elimination with the largest rest first."""
+    """Independent rows, by elimination with the largest rest first."""
     rest = {i: arb_mat([list(row)]) for i, row in enumerate(rows) if row}
     chosen: list[int] = []
     while rest:

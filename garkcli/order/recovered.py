@@ -1,8 +1,7 @@
-"""Methods that were recovered before, as those of the catalogue: a search starts at them.
+"""Recovered methods of the catalogue, stored as starting points of a search.
 
-The file holds, for the printed numbers of a method, by how much each is off and which conditions
-the method meets because of that. Nothing in it is believed: a search holds the conditions against
-the numbers as it does with those that it finds.
+For the printed numbers of a method the file has the shift of each and the conditions that the
+method then meets. A search checks these conditions like its own.
 """
 
 from __future__ import annotations
@@ -34,9 +33,9 @@ class Recovered(Frozen):
     """A method of a box.
 
     Attributes:
-        shifts: by how much its numbers are off, in units of their radii.
-        shape: the simplifying conditions and the like that it meets.
-        system: the order conditions that made it, by the name of the tableau.
+        shifts: the shifts of its numbers, in units of their radii.
+        shape: the simplifying and similar conditions that it meets.
+        system: the order conditions that determined it, by the name of the tableau.
     """
 
     shifts: tuple[fmpq, ...]
@@ -45,24 +44,24 @@ class Recovered(Frozen):
 
 
 def key_of(box: Box) -> str:
-    """Which printed numbers with which radii."""
+    """A hash of the printed numbers and their radii."""
     text = "\n".join(f"{x} {t}" for x, t in zip(box.numbers, box.radii, strict=True))
     return hashlib.sha256(text.encode("utf-8")).hexdigest()[:16]
 
 
 def recovered_of(box: Box, known: Callable[[Tree], Tree]) -> Recovered | None:
-    """The method of a box that was recovered before; None where there is none.
+    """The stored method of a box; None if there is none.
 
     Args:
-        box: its printed numbers.
-        known: a tree with vertices of the kinds of the method.
+        box: the box.
+        known: a tree with the kinds of vertices of the method.
     """
     data = _all().get(key_of(box)) if box.numbers else None
     return _read(data, known) if data and "shifts" in data else None
 
 
 def as_data(shifts: Sequence[fmpq], shape: System, system: System) -> dict[str, Any]:
-    """What the file keeps of a method; its shifts have a power of 2 for denominator."""
+    """The stored form of a method; the denominators of its shifts are powers of 2."""
     bits = max((int(x.q).bit_length() - 1 for x in shifts), default=0)
     return {
         "bits": bits,
@@ -80,7 +79,7 @@ def _text(label: Label) -> str:
 
 
 def kept() -> dict[str, dict[str, Any]]:
-    """All methods of the file, by the keys of their boxes."""
+    """All stored methods, by the keys of their boxes."""
     if not FILE.exists():
         return {}
     methods: dict[str, dict[str, Any]] = json.loads(FILE.read_text(encoding="ascii"))

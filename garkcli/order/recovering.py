@@ -1,10 +1,10 @@
-"""One method within the rounding of a printed one, with as much as possible of what its digits say.
+"""Finds one method within the rounding of a printed one that meets as many conditions as its digits
+suggest.
 
 Conditions that hold within the radii of the printed numbers, one by one, need not hold together.
-So one method is sought that meets them, by Newton's method on affine rows, to hundreds of digits:
-first what gives a method its shape (B, C stage by stage, D, symplecticity, equal rows), then its
-order conditions. Where there is none, a combination of the rows that is zero nowhere in the box
-proves it.
+So Newton's method on affine rows searches for one that meets them, to hundreds of digits: first the
+conditions of its shape (B, C stage by stage, D, symplecticity, equal rows), then its order
+conditions. If there is none, a combination of the rows that is nonzero in the whole box proves it.
 """
 
 from __future__ import annotations
@@ -43,11 +43,11 @@ from garkcli.tableau.embedded import NOTHING, Further, Weights, from_colours, wi
 from garkcli.tableau.tableau import Tableau
 
 COARSE = 1e-6
-"""Slopes are renewed while radii, and what rows are missed by, are larger."""
+"""Slopes are renewed while radii and residuals are larger."""
 MOST_WEAK = 6
-"""The search for a weak stage order ends there."""
+"""Largest weak stage order that is sought."""
 MOST_RUNS = 40
-"""Runs of Newton's method until the search for more is given up."""
+"""Most runs of Newton's method."""
 MAX_STEPS = 25
 MAX_SHIFT = 50.0
 LOWEST_FLOOR = 1e-16
@@ -57,8 +57,8 @@ class Failure(Frozen, eq=False):
     """Why no method of the box meets some rows.
 
     Attributes:
-        is_proved: whether there is none; else none was found.
-        labels: the rows that exclude each other, those that weigh most first.
+        is_proved: whether it is proved that there is none.
+        labels: the rows that exclude each other, largest weight first.
     """
 
     is_proved: bool
@@ -66,7 +66,7 @@ class Failure(Frozen, eq=False):
 
     @property
     def trees(self) -> list[Tree]:
-        """The trees among them."""
+        """The trees of these rows."""
         return [label.tree for _, label in self.labels if label.tree is not None]
 
 
@@ -74,8 +74,8 @@ class Recovery:
     """The search for one method of a box.
 
     Args:
-        box: of the method, with colours for further weights.
-        further: these as they are printed.
+        box: the box of the method, with colours for further weights.
+        further: the further weights as printed.
     """
 
     def __init__(self, box: Box, further: Further = NOTHING) -> None:
@@ -105,7 +105,7 @@ class Recovery:
 
     @property
     def settled(self) -> Place:
-        """The method that the box is taken to be, with the orders of its own weights at least."""
+        """The method that the box is taken to mean, with the orders of its own weights at least."""
         if not self._is_settled:
             self._is_settled = True
             if not self._has_shape:
@@ -122,8 +122,8 @@ class Recovery:
 
     @property
     def kept(self) -> tuple[str, dict[str, Any]]:
-        """Which printed numbers these are, and what a later search of them starts with: nothing
-        where the rows of the method vanish to second order only.
+        """The key of the printed numbers, and the start of a later search: empty if the rows vanish
+        to second order only.
         """
         place, key = self.settled, key_of(self.box)
         if place.slack or place is self.origin:
@@ -136,7 +136,7 @@ class Recovery:
         return _both(self.shape, self.system)
 
     def largest_in(self, name: str) -> fmpq:
-        """The largest radius of the numbers that a tableau depends on; 0 for an exact one."""
+        """The largest radius of the numbers that a tableau depends on; 0 if it is exact."""
         made = self.origin.defects(name).tableau.made
         rows = [row for colour in made.colours for row in (colour.b, colour.c)]
         rows += [row for block in made.blocks.values() for row in block]
@@ -146,13 +146,13 @@ class Recovery:
         return max((self.box.radii[k] for k in found), default=fmpq(0))
 
     def finer(self, bits: int) -> Recovery:
-        """The same search with at least so many bits."""
+        """The search with at least so many bits."""
         other = copy(self)
         other.bits = max(self.bits, bits)
         return other
 
     def aside(self) -> Recovery:
-        """A search from here on that moves a method of its own and leaves this one."""
+        """A copy of the search that moves a method of its own."""
         other = copy(self)
         for name in ("_orders", "_places", "_reached", "_powers"):
             setattr(other, name, dict(getattr(self, name)))
@@ -160,8 +160,8 @@ class Recovery:
         return other
 
     def of_orders(self) -> Recovery:
-        """The search from its start for orders alone: the method may have another shape than the
-        digits speak for.
+        """A new search for orders alone: the method may have another shape than the digits
+        suggest.
         """
         other = Recovery(self.box, self.printed_further)
         other.targets = dict(self.targets)
@@ -170,21 +170,23 @@ class Recovery:
         return other
 
     def missed_at(self, place: Place) -> dict[str, list[Tree]]:
-        """The trees of all orders that were reached whose conditions a method misses, by the name
-        of the tableau.
+        """The trees of all orders reached whose conditions a method misses, by the name of the
+        tableau.
         """
         other = copy(self)
         other.place = place
         return other._missed(self._reached)
 
     def share(self, name: str, order: int) -> int:
-        """What γ(u)-fold elementary weights of an order should be: 1, or 0 where the weights are
-        those of another power of θ in dense output.
+        """The required γ(u)-fold elementary weights of an order: 1, or 0 if the weights belong to
+        another power of θ in dense output.
         """
         return int(self._powers.get(name, order) == order)
 
     def recover_dense(self, limit: int) -> tuple[int, Failure | None]:
-        """Move to a method whose dense output has the largest order; why it has no larger one."""
+        """Moves to a method whose dense output has the largest order; returns why it has no larger
+        one.
+        """
         dense = self.printed_further.dense
         assert dense is not None
         self._add_further()
@@ -203,7 +205,7 @@ class Recovery:
         return order == reached + 1 and failure is not None and failure.is_proved
 
     def _add_further(self) -> None:
-        """Add the tableaus with embedded weights, and with those of each power of θ, for b."""
+        """Adds the tableaus with embedded weights, and with those of each power of θ, as b."""
         if self.printed_further.embedded is not None:
             self.with_weights("embedded", _embedded)
         for power in range(1, len(self.printed_further.powers) + 1):
@@ -212,7 +214,7 @@ class Recovery:
             self.with_weights(name, partial(_power, power))
 
     def with_weights(self, name: str, weights: Callable[[Further], Weights]) -> None:
-        """Add the tableau with some of its further weights for b."""
+        """Adds the tableau with some of its further weights as b."""
         self.targets.setdefault(name, partial(self._with, weights))
 
     def _with(self, weights: Callable[[Further], Weights], whole: Tableau) -> Tableau:
@@ -220,9 +222,9 @@ class Recovery:
         return with_weights(own, weights(further))
 
     def note(self, name: str, order: int, missed: Tree) -> bool:
-        """Keep the order of a tableau whose digits meet all conditions up to there as they are
-        printed, and a tree of the next order that no method of the box meets; not where the method
-        that was found for other orders misses them, which is returned.
+        """Records the order of a tableau whose printed digits meet all conditions up to it, and a
+        tree of the next order that no method of the box meets. Returns False, without a record, if
+        the method found so far misses these conditions.
         """
         if self.place is not self.origin and name not in self._reached:
             with np.errstate(all="ignore"):
@@ -234,7 +236,7 @@ class Recovery:
         return True
 
     def order_of(self, name: str, limit: int) -> tuple[int, Failure | None, list[Tree]]:
-        """The order of a tableau, as ``recover_order`` has it; each is found once."""
+        """The order of a tableau as by ``recover_order``, computed once."""
         with np.errstate(all="ignore"):  # numbers beyond floats leave all open
             return self._order_of(name, limit)
 
@@ -258,7 +260,7 @@ class Recovery:
     # what gives a method its shape
 
     def _recover_shape_and_orders(self) -> None:
-        """The shape, with the orders that are known already."""
+        """Recovers the shape, with the orders that are known already."""
         if self._start_at_recovered():
             return
         self.recover_shape()
@@ -266,7 +268,7 @@ class Recovery:
             self.place, self.shape = self.origin, {}
 
     def _start_at_recovered(self) -> bool:
-        """Move to the method that a search found before, if it still has the shape it had."""
+        """Moves to the stored method of an earlier search, if it still has its shape."""
         found = recovered_of(self.box, self.origin.exact("method").known)
         if found is None:
             return False
@@ -279,7 +281,7 @@ class Recovery:
         return True
 
     def recover_shape(self) -> None:
-        """Move to a method with the simplifying conditions that the digits speak for."""
+        """Moves to a method with the simplifying conditions that the digits suggest."""
         chosen = candidates(self.origin)
         for _ in range(12):
             if not chosen:
@@ -295,7 +297,7 @@ class Recovery:
             chosen = less(self.origin, chosen)
 
     def _recover_weak(self) -> None:
-        """Move to a method of the weak stage order that the digits speak for."""
+        """Moves to a method with the weak stage order that the digits suggest."""
         found: Chosen = {}
         for k in range(1, MOST_WEAK + 1):
             fresh = {x: [0] for x in weak_rows(self.place, k)}
@@ -319,12 +321,12 @@ class Recovery:
     # orders
 
     def recover_order(self, name: str, limit: int) -> tuple[int, Failure | None, list[Tree]]:
-        """Move to a method of the largest order that some method of the box has with all that is
-        recovered before.
+        """Moves to a method of the largest order that is possible with all that was recovered
+        before.
 
         Returns:
-            the order, why the next one fails, and the trees that it misses; no reason where the
-            limit is reached.
+            the order, why the next one fails, and the trees that it misses; None and none at the
+            limit.
         """
         at_once, alone = self.explained(name, limit)
         if at_once > 1 and self._try({name: at_once}) is None and at_once == limit:
@@ -339,8 +341,8 @@ class Recovery:
         return limit, None, []
 
     def explained(self, name: str, limit: int) -> tuple[int, Tree | None]:
-        """The largest order up to which the radii explain each condition that is missed, and a tree
-        of the next one whose condition no method of the box meets.
+        """The largest order up to which the radii explain each residual, and a tree of the next one
+        whose condition no method of the box meets.
         """
         for order in range(1, limit + 1):
             for tree in self.place.missed(name, order):
@@ -349,7 +351,9 @@ class Recovery:
         return limit, None
 
     def _try(self, orders: Mapping[str, int]) -> Failure | None:
-        """Move to a method of some orders more; where there is none, why, and nothing moves."""
+        """Moves to a method with further orders; if there is none, nothing moves and the reason is
+        returned.
+        """
         before = self.place, self.shape, self.system
         failure = self._reach({**self._reached, **orders})
         if failure is None:
@@ -359,7 +363,9 @@ class Recovery:
         return failure
 
     def _reach(self, orders: Mapping[str, int]) -> Failure | None:
-        """Move to a method of some orders, by the name of the tableau; why there is none."""
+        """Moves to a method with some orders, by the name of the tableau; returns why there is
+        none.
+        """
         for _ in range(8):
             missed = self._missed(orders)
             if not missed:
@@ -378,7 +384,7 @@ class Recovery:
         return {name: trees for name, trees in found.items() if trees}
 
     def _meet(self, missed: Mapping[str, Sequence[Tree]]) -> Failure | None:
-        """Move to a method that meets the conditions of more trees; why there is none."""
+        """Moves to a method that meets the conditions of more trees; returns why there is none."""
         fresh: System = {
             name: {of_tree(u, self.share(name, u.order)): [0] for u in trees}
             for name, trees in missed.items()
@@ -399,8 +405,8 @@ class Recovery:
         return failure
 
     def independent(self, fresh: System, place: Place) -> System:
-        """Rows that no combination of those recovered before gives, nor of each other, to first
-        order around a method.
+        """Rows independent of those recovered before and of each other, to first order around a
+        method.
         """
         known = _both(self.shape, self.system)
         if not any(fresh.values()):
@@ -426,7 +432,7 @@ class Recovery:
             kept.setdefault(name, {})[label] = [0]
 
     def move(self, system: System) -> Failure | None:
-        """Move to a method that meets all rows of a system; why there is none."""
+        """Moves to a method that meets all rows of a system; returns why there is none."""
         rows = self.origin.rows(system)
         labels = [
             (name, label)
@@ -455,7 +461,7 @@ class Recovery:
         return None
 
     def _newton(self, system: System, place: Place) -> Place | None:
-        """A method of the box where all rows vanish; None where none is found. Equal digits move
+        """A method of the box at which all rows vanish; None if none is found. Equal digits move
         together first, as they do in most methods, which leaves fewer numbers.
         """
         self._runs += 1
@@ -476,7 +482,7 @@ class Recovery:
 
     @cached_property
     def _groups(self) -> list[list[int]]:
-        """Of each number its group: those of equal digits, and then each number alone."""
+        """Groups of numbers that move together: equal digits, and then each number alone."""
         first: dict[object, int] = {}
         printed = zip(self.box.numbers, self.box.radii, strict=True)
         tied = [
@@ -487,10 +493,9 @@ class Recovery:
         return [alone] if tied == alone else [tied, alone]
 
     def _iterate(self, system: System, place: Place, groups: Sequence[int]) -> Place | None:
-        """A method where all rows vanish, by Newton's method, or one of the box where they do to
-        second order; None where it finds none.
-
-        The first steps go to the method nearest to the print, as far as first order tells.
+        """A method at which all rows vanish, by Newton's method, or one of the box where they
+        vanish to second order; None if neither is found. The first steps go to the method nearest
+        to the print, to first order.
         """
         floor, cut = FLOOR, max(FLOOR, 30 * self.radius)
         best: arb | None = None
@@ -571,5 +576,4 @@ def _rounded(x: fmpq, bits: int) -> fmpq:
 
 
 def _binary_exponent(x: fmpq) -> int:
-    """The least e with x < 2^e, or one more."""
     return int(x.p.bit_length()) - int(x.q.bit_length()) + 1

@@ -1,9 +1,9 @@
-"""Something for all trees of an order at once, from the same for smaller orders: no tree is listed.
+"""Computes a value for all trees of an order from those of smaller orders, without listing trees.
 
 A tree is its root with a forest on it. A forest is its smallest branch beside the forest of the
 others, and a branch is a tree seen through a block A. So one value for all forests of an order, and
-one for all branches, follow from those of the orders below. What a value is depends on the
-question: members that span, with bounds around them or without, or a sum.
+one for all branches, follow from those of the orders below. The value depends on the question:
+spanning members, with or without bounds, or a sum.
 """
 
 from __future__ import annotations
@@ -27,12 +27,12 @@ Value = TypeVar("Value")
 
 
 class OrderByOrder(ABC, Generic[Value]):
-    """One value for the branches of each order, and one for the forests, of every stage space.
+    """One value for the branches and one for the forests of each order, in every stage space.
 
-    Each is made once, on demand; where the time is over on the way, the next call goes on there.
+    Each is computed once, on demand; after a timeout the next call continues.
 
     Args:
-        tableau: the tableau whose trees are meant.
+        tableau: the tableau.
         vertices: for each stage space the value of the empty forest, which makes a single vertex.
     """
 
@@ -44,7 +44,6 @@ class OrderByOrder(ABC, Generic[Value]):
         self._several: dict[tuple[int, int], Value] = {}
 
     def of_trees(self, l: int, order: int) -> Value:
-        """The value of all trees of an order with root colour l."""
         colour = self.tableau.colours[l]
         k, kind, rest = colour.space, colour.kind, order - colour.kind.weight
         if rest == 0 and kind.allows(0):
@@ -61,7 +60,6 @@ class OrderByOrder(ABC, Generic[Value]):
         return under_root(k, rest)
 
     def branches(self, k: int, order: int) -> Value:
-        """The value of all branches of an order that the stages of space k see."""
         if (k, order) not in self._branches:
             images = (
                 self._image(k, m, order, self.of_trees(m, order))
@@ -72,20 +70,20 @@ class OrderByOrder(ABC, Generic[Value]):
         return self._branches[k, order]
 
     def forests(self, k: int, order: int) -> Value:
-        """The value of all forests of an order of branches that the stages of space k see."""
+        """The value of all forests of an order, of branches that the stages of space k see."""
         if (k, order) not in self._forests:
             self._forests[k, order] = self._new_forests(k, order)
         return self._forests[k, order]
 
     def several(self, k: int, order: int) -> Value:
-        """The value of all forests of two branches at least."""
+        """The value of all forests of at least two branches."""
         if (k, order) not in self._several:
             self._several[k, order] = self._new_several(k, order)
         return self._several[k, order]
 
     def _splits(self, k: int, order: int) -> Iterator[tuple[Value, Value]]:
-        """The smallest branch, and the forest of the others, of all forests of two branches at
-        least.
+        """Pairs of the smallest branch and the forest of the others, for all forests of at least
+        two branches.
         """
         for j in range(1, order // 2 + 1):
             yield self.branches(k, j), self.forests(k, order - j)
@@ -93,12 +91,12 @@ class OrderByOrder(ABC, Generic[Value]):
     @abstractmethod
     def _image(self, k: int, m: int, order: int, trees: Value) -> Value:
         """The value of branches in space k, from that of the trees of an order with root colour m:
-        of order · A ψ, or order (order − 1) ⋯ A ψ where its vertices count more.
+        order · A ψ, or order (order − 1) ⋯ A ψ if its vertices count more.
         """
 
     @abstractmethod
     def _joined(self, k: int, parts: Iterable[Value]) -> Value:
-        """The value of everything in some parts, in space k."""
+        """The value of the union of some parts, in space k."""
 
     @abstractmethod
     def _new_forests(self, k: int, order: int) -> Value:
@@ -106,18 +104,17 @@ class OrderByOrder(ABC, Generic[Value]):
 
     @abstractmethod
     def _new_several(self, k: int, order: int) -> Value:
-        """The value of those with two branches at least."""
+        """The value of the forests of at least two branches."""
 
 
 class Forest(Frozen):
-    """A forest, and what it contributes to the stage vector of a tree.
+    """A forest, and its contribution to the stage vector of a tree.
 
     Attributes:
         vector: the product of the branches' contributions, times ``scale``.
         branches: the trees on the root.
-        scale: a common denominator; 1 where entries have inverses.
-        exact: what the exact solution has in place of the vector: 1, or 0 where it has no such
-            branches.
+        scale: a common denominator; 1 if entries have inverses.
+        exact: the counterpart in the exact solution: 1, or 0 if it has no such branches.
     """
 
     vector: Sequence[Any]
@@ -126,8 +123,8 @@ class Forest(Frozen):
     exact: int = 1
 
     def required(self, kind: Kind, order: int) -> fmpq:
-        """What the weights should make of the vector, for trees of an order with a root of a kind:
-        1/ρ where the vertex counts one order.
+        """The required product of weights and vector, for trees of an order with a root of a kind:
+        1/ρ if the vertex counts one order.
         """
         return fmpq(self.exact * kind.is_exact, kind.integrated(order))
 
@@ -136,7 +133,7 @@ Forests: TypeAlias = Sequence[Forest]
 
 
 class Spans(OrderByOrder[Forests]):
-    """Members that span what all branches, and all forests, contribute.
+    """Members that span the contributions of all branches and all forests.
 
     Args:
         tableau: the tableau.
@@ -157,7 +154,8 @@ class Spans(OrderByOrder[Forests]):
         self._scale = scale
 
     def members(self, order: int, roots: Mapping[int, int]) -> Iterator[tuple[int, Forest]]:
-        """Forests whose trees span those of all trees whose conditions an order asks for.
+        """Forests that span those of all trees with conditions of an order, with their root
+        colours.
 
         Args:
             order: the order.
@@ -185,7 +183,7 @@ class Spans(OrderByOrder[Forests]):
         return self._joined(k, self._products(k, order))
 
     def _products(self, k: int, order: int) -> Iterator[Forests]:
-        """The smallest branch times the forest of the others, a branch at a time."""
+        """Products of the smallest branch and the forest of the others, a batch for each branch."""
         for branches, rests in self._splits(k, order):
             for branch in branches:
                 batch = []
@@ -198,5 +196,5 @@ class Spans(OrderByOrder[Forests]):
                 yield batch
 
     def _product(self, k: int, u: Sequence[Any], v: Sequence[Any]) -> Sequence[Any]:
-        """What two branches contribute together, in space k."""
+        """The joint contribution of two branches, in space k."""
         return self.tableau.spaces[k].product(u, v)  # type: ignore[arg-type]

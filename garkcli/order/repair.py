@@ -1,4 +1,4 @@
-"""A single entry of a method, and another value that would mend what is missed."""
+"""A single entry of a method, and a new value that restores an order."""
 
 from __future__ import annotations
 
@@ -9,10 +9,8 @@ from garkcli.tableau.tableau import Tableau
 
 
 class Entry(Frozen):
-    """One entry of a method.
-
-    ``l, m`` are the block's colours, or ``m`` is None for the weights b^{l}; ``i, j`` the entry
-    (``j`` of the weights; then ``i`` is None). All count from 0.
+    """One entry of a method: the block's colours ``l, m``, or ``m`` None for the weights b^{l}; the
+    indices ``i, j``, or ``i`` None for weights. All count from 0.
     """
 
     l: int
@@ -22,10 +20,8 @@ class Entry(Frozen):
     old: Number
 
     def put(self, method: Tableau, value: Number) -> Tableau:
-        """The method with another value there.
-
-        Weights are changed together with those that are the same row: of colours with the same
-        stages.
+        """The method with another value there. Equal weights of colours with the same stages change
+        together.
         """
         if self.m is None or self.i is None:
             old = method.colours[self.l]
@@ -42,16 +38,14 @@ class Entry(Frozen):
 
 
 class Repair(Entry):
-    """An entry that restores the claimed order when it is changed alone.
-
-    ``is_embedded`` tells embedded weights from b.
+    """An entry that restores the claimed order when it alone is changed; ``is_embedded`` marks
+    embedded weights.
     """
 
     new: Number
     is_embedded: bool = False
 
     def carried_out(self, method: Tableau) -> Tableau:
-        """The method with this entry changed."""
         return self.put(method, self.new)
 
 

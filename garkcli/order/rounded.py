@@ -1,9 +1,8 @@
 """Tableaus whose coefficients are rounded, and their order.
 
-The numbers of a file may each be off by a radius of their own. What is true of a rounded method is
-what is true of one method that its numbers may be a rounding of (``order.recovering``): all
-verdicts are about that one. An order fails where no such method has it, which is proved; else it is
-undecided.
+Each number of a file may be off by a radius of its own. All verdicts on a rounded method are about
+one method within these radii (``order.recovering``). An order fails if it is proved that no such
+method has it; else it is undecided.
 """
 
 from __future__ import annotations
@@ -40,8 +39,8 @@ class Near(Frozen, eq=False):
     """A method that is known to many bits.
 
     Attributes:
-        near: so well as it is known, one coordinate a stage.
-        grain: what counts as zero of numbers that are made of its own.
+        near: its tableau to that precision, on point stages.
+        grain: numbers computed from its own count as zero below this size.
     """
 
     near: Tableau
@@ -49,13 +48,13 @@ class Near(Frozen, eq=False):
 
 
 class RoundedTableau(Frozen, eq=False):
-    """A tableau with the method that it is taken to be a rounding of.
+    """A rounded tableau, with the method that it is taken to mean.
 
     Attributes:
-        tableau: as it is printed.
+        tableau: the printed tableau.
         tolerance: the rounding of its coefficients, or of most.
-        search: for the method.
-        name: of the tableau among those that are made from the method.
+        search: the search for the method.
+        name: its name among the tableaus derived from the method.
     """
 
     tableau: Tableau
@@ -65,8 +64,8 @@ class RoundedTableau(Frozen, eq=False):
 
     @staticmethod
     def of(tableau: Tableau, tolerance: fmpq, box: Box, further: Further) -> RoundedTableau:
-        """All methods of a box. A construction may join stages whose printed numbers are equal, and
-        would not for all methods of the box: then each coefficient is a printed number.
+        """The rounded tableau of a box. If a construction joins stages with equal printed numbers,
+        but not for all methods of the box, each coefficient counts as a printed number.
         """
         search = Recovery(box, further)
         made = search.origin.defects("method").tableau.made, search.origin.exact("method")
@@ -76,30 +75,30 @@ class RoundedTableau(Frozen, eq=False):
 
     @staticmethod
     def within(tableau: Tableau, tolerance: fmpq, further: Further = NOTHING) -> RoundedTableau:
-        """Every coefficient that is not 0 off by ``tolerance`` at most."""
+        """A rounded tableau with every nonzero coefficient off by at most ``tolerance``."""
         return _around(tableau, further, tolerance, lambda _: tolerance)
 
     @staticmethod
     def printed(tableau: Tableau, units: Mapping[Number, fmpq]) -> RoundedTableau:
-        """Every coefficient off by what its last digits leave open.
+        """A rounded tableau with every coefficient off by the unit of its last digit.
 
         Args:
-            tableau: with a coordinate a stage.
-            units: by how much each value that is printed may be off; a value that is missing was
-                made of printed ones, and may be off by the largest unit.
+            tableau: a tableau of point stages.
+            units: the radius of each printed value; other values are made of printed ones and get
+                the largest.
         """
         largest = max(units.values(), default=fmpq(0))
         return _around(tableau, NOTHING, largest, lambda x: units.get(x, largest))
 
     @property
     def near(self) -> Tableau:
-        """The method that it is taken to be, to many bits."""
+        """The method that it is taken to mean, to many bits."""
         return self.search.settled.exact(self.name)
 
     @property
     def widest(self) -> fmpq | None:
-        """By how much an entry of b and A is off at most, be it printed or made of printed numbers;
-        None where a weight that it is divided by may be 0.
+        """The largest error of an entry of b and A, printed or computed; None if a divisor may be
+        0.
         """
         whole = self.search.origin.in_balls(self.name)
         rows = [colour.b for colour in whole.colours]
@@ -112,38 +111,35 @@ class RoundedTableau(Frozen, eq=False):
 
     @property
     def further(self) -> Further:
-        """Its embedded weights and its dense output."""
         return self.search.settled.further
 
     @property
     def grain(self) -> fmpq:
-        """Numbers that are made of those of ``near`` and are no larger count as zero."""
+        """The size below which numbers computed from ``near`` count as zero."""
         return self.search.settled.grain
 
     @property
     def off(self) -> fmpq:
-        """By how much a number of the method that was found so far is off at most."""
+        """The largest shift of a number of the method found so far."""
         search = self.search
         shifts = zip(search.place.shifts, search.box.radii, strict=True)
         return max((abs(x) * t for x, t in shifts), default=fmpq(0))
 
     @property
     def defects(self) -> Defects:
-        """The defects of all methods that it may be a rounding of: balls, which hold 0 where one of
-        them has none.
+        """The defects of all methods that it may mean: balls, which contain 0 if one of them has
+        none.
         """
         return BoxDefects(self.tableau, self.search.origin.in_balls(self.name), self.search.bits)
 
     def meets(self, tree: Tree) -> bool:
-        """Whether the method that it is taken to be meets the condition of a tree."""
         return self.search.settled.meets(self.name, tree)
 
     def allowed(self, tree: Tree) -> fmpq:
-        """How far rounding can move the elementary weight of a tree at most."""
         return self.search.origin.reach(self.name, tree)
 
     def explains(self, tree: Tree) -> bool:
-        """Whether some method that it may be a rounding of meets the condition of a tree."""
+        """Whether some method that it may mean satisfies the condition of a tree."""
         is_rounded = bool(self.search.box.numbers)
         return is_rounded and self.search.origin.may_meet(self.name, tree)
 
@@ -164,7 +160,7 @@ class RoundedTableau(Frozen, eq=False):
         return self.derive("pair", pair)
 
     def with_time(self) -> RoundedTableau | None:
-        """With time as its last colour, whose blocks are the nodes; None where it has no sense."""
+        """With time as its last colour, whose blocks are the nodes; None if it is not defined."""
         timed = with_time(self.tableau)
         if timed is None:
             return None
@@ -172,7 +168,7 @@ class RoundedTableau(Frozen, eq=False):
         return self.derive("with time", _with_time)
 
     def with_embedded(self) -> RoundedTableau | None:
-        """The same stages with the embedded weights; None where no rounded number is in either."""
+        """The method with the embedded weights as b; None if no rounded number is in it."""
         self.search.settled  # noqa: B018 -- it adds the tableau
         tolerance = self.search.largest_in("embedded")
         if not tolerance:
@@ -181,7 +177,7 @@ class RoundedTableau(Frozen, eq=False):
         return RoundedTableau(printed, tolerance, self.search, "embedded")
 
     def with_dense(self) -> RoundedTableau | None:
-        """The same with the rounding of dense output; None where no rounded number is in it."""
+        """The method with the rounding of dense output; None if no rounded number is in it."""
         powers = range(1, len(self.search.printed_further.powers) + 1)
         self.search.settled  # noqa: B018 -- it adds the tableaus
         tolerance = max(self.search.largest_in(f"power {power}") for power in powers)
@@ -192,19 +188,19 @@ class RoundedTableau(Frozen, eq=False):
         return replace(self, search=self.search.aside())
 
     def of_orders(self) -> RoundedTableau:
-        """The tableau for questions on orders alone, which take less time."""
+        """The tableau for questions about orders alone, which take less time."""
         return replace(self, search=self.search.of_orders())
 
     def one_by_one(self, limit: int) -> RoundedOrder:
-        """The order up to which the rounding explains each condition by itself, which takes less
-        time: one method need not meet all. There is a witness below the limit.
+        """The order up to which the rounding explains each condition by itself, which is faster:
+        one method need not meet all. Below the limit it has a witness.
         """
         order, tree = self.search.explained(self.name, limit)
         witness = None if tree is None else _witness(self, tree)
         return RoundedOrder(order, self.tolerance, witness, rounded=self)
 
     def derive(self, kind: str, make: Derive) -> RoundedTableau:
-        """What ``make`` makes of it, whose coefficients are of the same printed numbers."""
+        """The tableau that ``make`` makes of it, rounded by the same printed numbers."""
         name, search = f"{kind} of {self.name}", self.search
         derived = make(self.tableau)
         base = search.targets[self.name]
@@ -233,22 +229,21 @@ def _around(
 
 
 FEW_TREES = 50_000
-"""Up to so many trees the residuals of an order are bounded by listing them; beyond, by spans."""
+"""Up to so many trees the residuals of an order are bounded one by one; beyond, by spans."""
 FEW_WITNESSES = 2_000
-"""Up to so many trees the one that fails by most is sought, after one that fails."""
+"""Up to so many trees the witness is the one with the largest residual."""
 
 
 class RoundedOrder(Shown, FrozenBut):
-    """The outcome: one method within ``tolerance`` meets every condition up to ``order``.
+    """An order within ``tolerance``: one method there meets every condition up to ``order``.
 
     Attributes:
-        order: the largest such order, a lower bound where there is no witness.
+        order: the largest such order, a lower bound if there is no witness.
         tolerance: t > 0, the rounding of the coefficients.
         witness: a tree of the next order; no method within the tolerance meets its condition, or
-            not together with those of the others. Its value is exact, of the digits as printed.
-        undecided: why the next order is not decided; empty where it is, or where the search
-            stopped at its limit.
-        exact: up to which order the digits as printed meet all conditions exactly.
+            not together with the others. Its value is that of the printed digits.
+        undecided: why the next order is undecided; empty if it is decided, or the search stopped.
+        exact: the order up to which the printed digits meet all conditions exactly.
         rounded: the method.
     """
 
@@ -272,7 +267,7 @@ class RoundedOrder(Shown, FrozenBut):
 
     @cached_property
     def sizes(self) -> tuple[arb, ...]:
-        """For each order 1, 2, … a bound on all |residuals| of the digits as printed."""
+        """For each order 1, 2, … a bound on |residual| for the printed digits."""
         zeros = (arb(0),) * min(self.exact, self.order)
         if self.rounded is None or self.order <= self.exact:
             return zeros
@@ -290,7 +285,6 @@ class RoundedOrder(Shown, FrozenBut):
 
     @property
     def largest_residual(self) -> arb:
-        """A bound on all |residuals| up to ``order``."""
         bound = arb(0)
         for size in self.sizes:
             bound = bound.max(size)
@@ -302,12 +296,7 @@ def find_order_within(
     rounded: RoundedTableau, limit: int = DEFAULT_LIMIT, exact: Order | None = None
 ) -> RoundedOrder:
     """The largest r ≤ ``limit`` for which one method within the rounding meets all conditions of
-    order ≤ r, together with all that was asked of it before.
-
-    Args:
-        rounded: a tableau with its rounding; its coupling graph decides which trees count.
-        limit: the order at which to stop.
-        exact: what ``find_order`` gives for this tableau and limit, where that is known.
+    order ≤ r, together with all it was asked to meet before.
     """
     exact = exact or find_order(rounded.tableau, limit)
     limit = min(limit, rounded.tableau.exact_to or limit)
@@ -329,8 +318,8 @@ def find_order_within(
 def _most_telling(
     rounded: RoundedTableau, order: int, failure: Failure, missed: Sequence[Tree]
 ) -> Tree:
-    """A tree of an order that fails: one whose condition no method of the box meets; else the one
-    that weighs most in the proof that none meets all.
+    """A tree of a failing order: one whose condition no method of the box meets, or the one with
+    the largest weight in the proof that none meets all.
     """
     alone = next((u for u in missed if not rounded.explains(u)), None)
     if alone is not None:
@@ -344,8 +333,8 @@ def _witness(rounded: RoundedTableau, tree: Tree) -> Witness:
 
 
 def _worst(rounded: RoundedTableau, witness: Witness) -> Witness:
-    """The condition that fails by most of the order of one that fails; this one where they are
-    many.
+    """The condition with the largest residual in the order of a witness; the witness itself if
+    there are many.
     """
     order, tableau = witness.tree.order, rounded.tableau
     if not rounded.search.box.numbers or not tableau.is_listed:
@@ -358,7 +347,7 @@ def _worst(rounded: RoundedTableau, witness: Witness) -> Witness:
 
 
 def tree_missed(tableau: Tableau, order: int, share: int, grain: fmpq) -> Tree | None:
-    """The tree of an order whose elementary weight differs most from share/γ(u); None where none
+    """The tree of an order whose elementary weight differs most from share/γ(u); None if none
     differs by more than ``grain``.
     """
     bits = bits_for(grain)

@@ -1,4 +1,6 @@
-"""Conditions on rounded methods as rows: what has to vanish, as affine forms of what is printed."""
+"""Conditions on rounded methods as rows: affine forms of the printed numbers that have to
+vanish.
+"""
 
 from __future__ import annotations
 
@@ -15,18 +17,18 @@ from garkcli.tableau.box import FormTableau
 
 
 class Label(Frozen):
-    """Which conditions: those of one kind, of one block or colour, of one number.
+    """A group of conditions: one kind, block or colour, and number.
 
     Attributes:
         kind: B, C, D, symplectic, symmetric, palindrome, node, stiff, diagonal, damping, weak, or
             tree.
         l: a colour.
-        m: a colour that it sees, where the kind is of a block.
-        k: the number of a simplifying condition; what nodes are; the stage of ``symplectic``,
-            ``symmetric``, ``stiff`` and ``diagonal``; of ``damping`` the degree of the denominator;
-            of a tree the γ(u)-fold of what its elementary weight should be, 1 or 0.
-        tree: of an order condition.
-        path: the colours of a word b A ⋯ A, whose last stages are those of l.
+        m: a colour that it sees, for kinds of blocks.
+        k: the number of a simplifying condition; the value of nodes; the stage of ``symplectic``,
+            ``symmetric``, ``stiff`` and ``diagonal``; for ``damping`` the degree of the
+            denominator; for a tree its required weight times γ(u), 1 or 0.
+        tree: the tree of an order condition.
+        path: the colours of a word b A ⋯ A, the last with the stages of l.
     """
 
     kind: str
@@ -38,16 +40,17 @@ class Label(Frozen):
 
 
 def of_tree(tree: Tree, share: int = 1) -> Label:
-    """The condition b_lᵀ 𝒜^[u] = share/γ(u) of a tree."""
     return Label("tree", tree.root, k=share * tree.is_exact, tree=tree)
 
 
 Chosen: TypeAlias = "dict[Label, list[int]]"
-"""Rows of conditions by their places; of stages where a condition is of each."""
+"""The rows that are chosen of each label, by index."""
 
 
 class FormDefects:
-    """Left side minus right side of conditions on a tableau of forms; what they share is kept."""
+    """The conditions on a tableau of forms as left side minus right side; shared parts are
+    cached.
+    """
 
     def __init__(self, tableau: FormTableau) -> None:
         self.tableau = tableau
@@ -57,13 +60,12 @@ class FormDefects:
         self._words: dict[tuple[int, ...], Forms] = {}
 
     def of(self, label: Label) -> Forms:
-        """The defects of a label, one or a row of stages."""
+        """The defects of a label, one form or one for each stage."""
         if label not in self._known:
             self._known[label] = getattr(self, f"_{label.kind}")(label)
         return self._known[label]
 
     def rows(self, chosen: Chosen) -> Forms:
-        """The chosen defects, all in one row."""
         return joined([part(self.of(label), which) for label, which in chosen.items()])
 
     def _power(self, l: int, k: int) -> Forms:
@@ -95,8 +97,8 @@ class FormDefects:
         return forth.minus(b_i * b[x.m], fmpq(1)).minus(back, fmpq(-1))
 
     def _symmetric(self, x: Label) -> Forms:
-        """a_kj + a_{s+1−k, s+1−j} − b_j for row k of the block (l, m): what the adjoint method has,
-        its stages in reverse, is there already.
+        """a_kj + a_{s+1−k, s+1−j} − b_j for row k of the block (l, m): zero if the method with its
+        stages reversed is its adjoint.
         """
         block = self.tableau.block(x.l, x.m)
         last = reverse(block.row(len(self.tableau.b[x.l]) - 1 - x.k))
@@ -108,7 +110,7 @@ class FormDefects:
         return part(b.minus(reverse(b), fmpq(1)), range(len(b) // 2))
 
     def _node(self, x: Label) -> Forms:
-        """The nodes less k, which is 0 or 1."""
+        """The nodes minus k, which is 0 or 1."""
         return shifted(self.tableau.c[x.l], fmpq(x.k))
 
     def _stiff(self, x: Label) -> Forms:
@@ -116,13 +118,13 @@ class FormDefects:
         return self.tableau.block(x.l, x.m).row(x.k).minus(self.tableau.b[x.m], fmpq(1))
 
     def _diagonal(self, x: Label) -> Forms:
-        """a_ii^{l,l} less the first that is not zero, stage k."""
+        """a_ii^{l,l} minus the first nonzero one, at stage k."""
         block = self.tableau.block(x.l, x.l)
         entries = joined([part(block.row(i), [i]) for i in range(len(self.tableau.b[x.l]))])
         return entries.minus(repeated(entries, x.k, len(entries)), fmpq(1))
 
     def _weak(self, x: Label) -> Forms:
-        """B A ⋯ A (A^{l,m} c^(k−1) − c^k / k)."""
+        """The form b A ⋯ A (A^{l,m} c^(k−1) − c^k / k)."""
         return self.word(x.path).dot(self.of(Label("C", x.l, x.m, x.k)))
 
     def word(self, path: tuple[int, ...]) -> Forms:
@@ -137,7 +139,7 @@ class FormDefects:
 
     def _damping(self, x: Label) -> Forms:
         """The coefficients of z^k in the numerator of R of colour l alone, from the degree of the
-        denominator on: R(∞) = 0 where they vanish; none where all stages are explicit.
+        denominator on: R(∞) = 0 if they vanish. Empty if all stages are explicit.
         """
         denominator, series = self._fraction(x.l)
         if not x.k:
@@ -150,14 +152,13 @@ class FormDefects:
         )
 
     def degree(self, l: int) -> int:
-        """That of the denominator of R of colour l alone, whatever the numbers of the box are."""
+        """The degree of the denominator of R of colour l alone, for all numbers of the box."""
         denominator, _ = self._fraction(l)
         return max(k for k in range(len(denominator)) if not may_vanish(denominator, k))
 
     def _fraction(self, l: int) -> tuple[Forms, Forms]:
-        """The coefficients of det(I − zA), and of R as a power series, up to z^s.
-
-        The first by Newton's identities from the traces of powers of A; b A^(k−1) 𝟙 in the second.
+        """The coefficients of det(I − zA) up to z^s, by Newton's identities from traces of powers
+        of A, and those of R as a power series, with b A^(k−1) 𝟙.
         """
         block, stages = self.tableau.block(l, l), len(self.tableau.b[l])
         unit = part(self.tableau.one(l), [0])
@@ -196,31 +197,26 @@ class FormDefects:
 
 
 def joined(rows: Sequence[Forms]) -> Forms:
-    """Rows one after the other."""
     centres = [x for row in rows for x in row.centres]
     slopes = np.concatenate([row.slopes for row in rows])
     return Forms(centres, slopes, np.concatenate([row.remainders for row in rows]))
 
 
 def part(forms: Forms, which: Sequence[int]) -> Forms:
-    """Some forms of a row."""
     places = list(which)
     centres = [forms.centres[i] for i in places]
     return Forms(centres, forms.slopes[places], forms.remainders[places])
 
 
 def reverse(forms: Forms) -> Forms:
-    """The last form first."""
     return part(forms, range(len(forms) - 1, -1, -1))
 
 
 def repeated(forms: Forms, i: int, count: int) -> Forms:
-    """Form i, so many times."""
     return part(forms, [i] * count)
 
 
 def shifted(forms: Forms, number: fmpq) -> Forms:
-    """The forms less a number."""
     ball = arb(number)
     return Forms([x - ball for x in forms.centres], forms.slopes, forms.remainders)
 

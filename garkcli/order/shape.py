@@ -1,4 +1,4 @@
-"""The shape of a method: simplifying conditions and the like that its digits speak for."""
+"""The shape of a method: the simplifying and similar conditions that its digits suggest."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from garkcli.tableau.conjugate import are_opposite
 from garkcli.tableau.tableau import Edge, Tableau
 
 NATURAL = 1e-3
-"""A condition that rounding can miss by more says nothing: many hold by chance."""
+"""Conditions that rounding can change by more are ignored: many hold by chance."""
 NOISE = 1e-3
-"""Slopes of so many radii are what floats leave of zeros."""
+"""Slopes of so many radii are rounding errors of zeros."""
 WEIGHTS = {"B": 100.0, "stiff": 10.0}
-"""What a compromise keeps first: orders need B, and a last row that is b is seldom chance."""
+"""Weights in a compromise: orders need B, and a last row equal to b is seldom chance."""
 SYMMETRIC = ("symmetric", "palindrome")
 WHOLE = {"symplectic": ("symplectic",), **dict.fromkeys(SYMMETRIC, SYMMETRIC)}
-"""Conditions that say something only all together: with one of a kind go those of these kinds."""
+"""Kinds of conditions that only make sense together."""
 
 
 def candidates(origin: Place) -> Chosen:
-    """Conditions that hold within the radii one by one, and not by chance."""
+    """The conditions that hold within the radii one by one, and not by chance."""
     defects = origin.defects("method")
     made = defects.tableau.made
     edges = list(made.edges())
@@ -35,7 +35,7 @@ def candidates(origin: Place) -> Chosen:
     chosen: Chosen = {}
 
     def take(label: Label, alive: set[int]) -> set[int]:
-        """Which of the places alive still hold; those that say something are taken."""
+        """The places that still hold; those that are significant are chosen."""
         forms = defects.of(label)
         holds = [i for i in sorted(alive) if may_vanish(forms, i)]
         is_natural = label.kind in WHOLE or (label.kind in "BC" and label.k == 1)
@@ -91,7 +91,7 @@ def candidates(origin: Place) -> Chosen:
 
 
 def _equalities(origin: Place, edges: Sequence[Edge]) -> Iterator[Label]:
-    """Rows of numbers that may be equal: a stage that is the step, one diagonal."""
+    """Rows of numbers that may be equal: a stage equal to the step, a constant diagonal."""
     printed = origin.exact("method")
     for l, m in edges:
         for i in range(len(printed.block(l, m) or ())):
@@ -105,12 +105,12 @@ def _equalities(origin: Place, edges: Sequence[Edge]) -> Iterator[Label]:
 
 
 def _of_diagonal(label: Label, defects: FormDefects) -> range:
-    """Which places of an equality have to hold: of a diagonal those of implicit stages."""
+    """The places of an equality that have to hold: for a diagonal those of implicit stages."""
     return range(label.k if label.kind == "diagonal" else 0, len(defects.of(label)))
 
 
 def _symplectic(defects: FormDefects) -> list[Label]:
-    """Symplecticity, row by row; none where a block has no opposite."""
+    """Symplecticity, row by row; empty if a block has no opposite."""
     made = defects.tableau.made
     labels = []
     for l, m in made.edges():
@@ -124,7 +124,7 @@ def _symplectic(defects: FormDefects) -> list[Label]:
 
 
 def _symmetric(defects: FormDefects) -> list[Label]:
-    """That the method with its stages in reverse is its own adjoint, row by row."""
+    """Self-adjointness under reversal of the stages, row by row."""
     b = defects.tableau.b
     labels = [Label("palindrome", l) for l in range(len(b))]
     for l, m in defects.tableau.made.edges():
@@ -142,8 +142,8 @@ def _tall(tableau: Tableau, l: int) -> Iterator[Tree]:
 
 
 def less(origin: Place, chosen: Chosen) -> Chosen:
-    """The rows without those that the others exclude, as far as first order tells: the one
-    that a compromise of all misses by most, and what builds on it.
+    """The rows without those that the others exclude, to first order: the one with the largest
+    residual in a compromise, and those that build on it.
     """
     rows = origin.rows({"method": chosen})
     c, G, _ = scaled(rows)
@@ -174,9 +174,8 @@ def less(origin: Place, chosen: Chosen) -> Chosen:
 
 
 def weak_rows(place: Place, k: int) -> list[Label]:
-    """The conditions of weak stage order k for as many words b A ⋯ A of each last colour as
-    there are stages: more are combinations of these, for one colour by the theorem of Cayley
-    and Hamilton.
+    """The conditions of weak stage order k, for as many words b A ⋯ A of each last colour as there
+    are stages: longer ones are combinations, for one colour by Cayley-Hamilton.
     """
     made = place.defects("method").tableau.made
     edges = list(made.edges())

@@ -1,8 +1,8 @@
 """The simplifying conditions B, C, D of the paper, the order they guarantee, and symplecticity.
 
 Each is a statement about elements of stage spaces, so it is decided exactly without the nodes
-themselves: by how much it is missed is an element or a functional of a stage space, zero where the
-condition holds, or has balls as entries where coefficients are rounded.
+themselves: its defect is an element or a functional of a stage space, zero if the condition holds;
+its entries are balls if coefficients are rounded.
 """
 
 from __future__ import annotations
@@ -27,12 +27,8 @@ if TYPE_CHECKING:
 
 
 class Defects:
-    """Left side minus right side of the conditions on one tableau, with the powers of its nodes
-    kept.
-
-    Args:
-        tableau: as it is printed.
-        entries: what is computed with, its own entries or others in their place.
+    """The conditions on one tableau as left side minus right side; powers of its nodes are cached.
+    ``entries`` are computed with: the tableau's own, or others in their place.
     """
 
     def __init__(self, tableau: Tableau, entries: Tableau | None = None) -> None:
@@ -43,18 +39,16 @@ class Defects:
         self._powers = [[self.entries.space(l).one] for l in range(tableau.size)]
 
     def power(self, l: int, exponent: int) -> Vector:
-        """c^l to a power."""
         powers = self._powers[l]
         while len(powers) <= exponent:
             powers.append(self.entries.space(l).product(powers[-1], self.entries.colours[l].c))
         return powers[exponent]
 
     def precision(self) -> AbstractContextManager[object]:
-        """That of the arithmetic inside."""
+        """The precision of the arithmetic inside."""
         return nullcontext()
 
     def weights(self, l: int) -> Vector:
-        """b_l, a functional on the space of l."""
         return self.entries.colours[l].b
 
     def before(self, l: int, m: int, w: Vector) -> Vector:
@@ -64,7 +58,6 @@ class Defects:
         return found
 
     def vanish(self, defects: Iterable[Any]) -> bool:
-        """Whether they are all zero."""
         return not any(defects)
 
     def B(self, l: int, k: int) -> Vector:  # noqa: N802 -- the paper's letter
@@ -73,9 +66,7 @@ class Defects:
             return (dot(self.entries.colours[l].b, self.power(l, k - 1)) - fmpq(1, k),)
 
     def C(self, l: int, m: int, k: int) -> Vector:  # noqa: N802
-        """A^{l,m} c_m^(k−1) − c_l^k / k, eq. (C): an element of the space of l; with k = 1 eq.
-        (Aone).
-        """
+        """A^{l,m} c_m^(k−1) − c_l^k / k, eq. (C), in the space of l; with k = 1 eq. (Aone)."""
         with self.precision():
             (image,) = self._map(l, m).images([self.power(m, k - 1)])
             return _minus_part(image, self.power(l, k), k)
@@ -93,7 +84,7 @@ class Defects:
             return _minus_part(left, there.times(b_m, rest), k)
 
     def even(self, l: int, m: int, k: int) -> Vector:
-        """b_l(c_l^k A^{l,m} c_m^k) − 1/(2 (k + 1)²), what an even pair order 2k + 2 asks of a
+        """b_l(c_l^k A^{l,m} c_m^k) − 1/(2 (k + 1)²), which an even pair order 2k + 2 requires of a
         block.
         """
         with self.precision():
@@ -103,7 +94,7 @@ class Defects:
             return (dot(weighted, image) - fmpq(1, 2 * (k + 1) ** 2),)
 
     def of(self, letter: str, l: int, m: int, k: int) -> Vector:
-        """The defect of a condition by its letter; B is of one colour, l."""
+        """The defect of a condition by its letter; B belongs to the colour l."""
         found: Vector = self.B(l, k) if letter == "B" else getattr(self, letter)(l, m, k)
         return found
 
@@ -120,12 +111,12 @@ class Defects:
 
 
 class BoxDefects(Defects):
-    """The defects of many methods at once: balls, which hold 0 where one of them may have none.
+    """The defects of many methods at once: balls, which contain 0 if one of them has none.
 
     Args:
         tableau: one of them.
-        balls: all of them, one coordinate a stage.
-        bits: of the arithmetic.
+        balls: all of them, on point stages.
+        bits: the precision.
     """
 
     def __init__(self, tableau: Tableau, balls: Tableau, bits: int) -> None:
@@ -136,7 +127,6 @@ class BoxDefects(Defects):
         return ctx.workprec(self._bits)
 
     def vanish(self, defects: Iterable[Any]) -> bool:
-        """Whether all may be zero."""
         return all(x.is_finite() and x.contains(0) for x in map(arb, defects))
 
     def _made_ready(self, block: Matrix) -> EntrywiseMap:
@@ -144,12 +134,8 @@ class BoxDefects(Defects):
 
 
 class RoundedDefects(BoxDefects):
-    """The defects of the method that a tableau is taken to be a rounding of: balls, which hold 0
-    where it has none.
-
-    Args:
-        near: that method, one coordinate a stage.
-        grain: smaller numbers count as zero.
+    """The defects of the method that a tableau is taken to mean: balls, which contain 0 if it has
+    none.
     """
 
     def __init__(self, near: Tableau, grain: fmpq) -> None:
@@ -160,17 +146,16 @@ class RoundedDefects(BoxDefects):
 
 
 def _minus_part(u: Vector, v: Vector, k: int) -> Vector:
-    """The difference u − v/k."""
     return tuple(x - y / k for x, y in zip(u, v, strict=True))
 
 
 def is_symplectic(method: AnyTableau) -> bool:
-    """Whether b_i b_j = b_i a_ij + b_j a_ji between all colours that the symplectic form pairs:
-    exactly, or as far as rounding lets it be.
+    """Whether b_i b_j = b_i a_ij + b_j a_ji between all colours that the symplectic form pairs,
+    exactly or within rounding.
 
     For a GARK tableau: it is its own conjugate. For a partitioned one: its momentum blocks are the
-    conjugates of its position blocks, with the same weights where positions and momenta share
-    stages. No weight is divided by.
+    conjugates of its position blocks, with equal weights if positions and momenta share stages.
+    Nothing is divided by a weight.
     """
     defects = defects_of(method)
     with defects.precision():
@@ -178,7 +163,7 @@ def is_symplectic(method: AnyTableau) -> bool:
 
 
 def defects_of(method: AnyTableau) -> Defects:
-    """The defects of a tableau, of the one that it is taken to be where it is rounded.
+    """The defects of a tableau; if it is rounded, of the method that it is taken to mean.
 
     Raises:
         MethodError: it is no GARK method.
@@ -193,7 +178,7 @@ def defects_of(method: AnyTableau) -> Defects:
 
 
 Table: TypeAlias = "tuple[tuple[int | None, ...], ...]"
-"""A number for each block; None where the block does not exist."""
+"""A number for each block; None if the block does not exist."""
 
 
 class Simplifying(FrozenBut):
@@ -201,9 +186,9 @@ class Simplifying(FrozenBut):
 
     Attributes:
         B: r^{l} for each colour.
-        C: η^{l,m}; None where the block does not exist.
-        D: ζ^{l,m}; None where the block does not exist.
-        limit: where each search stopped: numbers that reached it may be larger.
+        C: η^{l,m}; None if the block does not exist.
+        D: ζ^{l,m}; None if the block does not exist.
+        limit: the limit of each search: numbers that reached it may be larger.
     """
 
     besides = frozenset({"limit"})
@@ -214,7 +199,7 @@ class Simplifying(FrozenBut):
     limit: int = DEFAULT_LIMIT
 
     def is_open(self, number: int) -> bool:
-        """Whether a number that is made of these may be larger, as one reached the limit."""
+        """Whether a number computed from these may be larger, as one of them reached the limit."""
         entries = (*self.B, *_existing(self.C), *_existing(self.D))
         return number >= self.limit and max(entries, default=0) >= self.limit
 
@@ -226,22 +211,20 @@ class Simplifying(FrozenBut):
 
     @property
     def stage_order(self) -> int:
-        """The largest q with B(q) and C(q)."""
         return min(self.r, self.eta)
 
     @property
     def r(self) -> int:
-        """Min r^{l}."""
         return min(self.B)
 
     @property
     def eta(self) -> int:
-        """η = min η^{l,m}, over the blocks that exist; r where there are none."""
+        """η = min η^{l,m} over the blocks that exist; r if there are none."""
         return min(_existing(self.C), default=self.r)
 
     @property
     def zeta(self) -> int:
-        """ζ = min ζ^{l,m}, over the blocks that exist; r where there are none."""
+        """ζ = min ζ^{l,m} over the blocks that exist; r if there are none."""
         return min(_existing(self.D), default=self.r)
 
     @property
@@ -264,7 +247,7 @@ class Simplifying(FrozenBut):
 
     @property
     def chi(self) -> int:
-        """χ = min (ζ^{l,m} + η^{m,n}) over pairs of blocks l ← m ← n; r where there are none."""
+        """χ = min (ζ^{l,m} + η^{m,n}) over pairs of blocks l ← m ← n; r if there are none."""
         sums: list[int] = []
         for row in self.D:
             for zeta, etas in zip(row, self.C, strict=True):
@@ -274,12 +257,11 @@ class Simplifying(FrozenBut):
 
     @property
     def sharp_bound(self) -> int:
-        """min{r, 2η+2, ξ+1, χ+2, η+ζ+3}, the project's own, proved in docs/sharper-bound.md."""
+        """min{r, 2η+2, ξ+1, χ+2, η+ζ+3}, proved in docs/sharper-bound.md."""
         return min(self.r, 2 * self.eta + 2, self.xi + 1, self.chi + 2, self.eta + self.zeta + 3)
 
 
 def _existing(table: Table) -> list[int]:
-    """The numbers of the blocks that exist, row by row."""
     return [number for row in table for number in row if number is not None]
 
 
@@ -287,15 +269,14 @@ def _existing(table: Table) -> list[int]:
 def simplifying(
     method: AnyTableau, limit: int = DEFAULT_LIMIT, letters: str = "BCD"
 ) -> Simplifying:
-    """B, C and D of a tableau; each search stops at ``limit``.
+    """B, C and D of a tableau, up to ``limit``.
 
-    Of a rounded tableau a condition is met where rounding explains every entry of its defect.
+    A rounded tableau meets a condition if rounding explains every entry of its defect.
 
     Args:
         method: the tableau.
-        limit: where the searches stop.
-        letters: which of the three are needed; the others are empty, and nothing is compared for
-            them.
+        limit: the limit of the searches.
+        letters: the conditions to compute; the others are empty.
     """
     defects = defects_of(method)
     tableau = defects.tableau
@@ -309,7 +290,7 @@ def simplifying(
         return next((k for k, vanishes in enumerate(vanishing) if not vanishes), limit)
 
     def of_blocks(letter: str, defect: Callable[..., Any], first: Sequence[int]) -> Table:
-        """For each block that exists, the rows of ``first`` once."""
+        """The table of a condition; colours that share a ``first`` are computed once."""
         if letter not in letters:
             return ()
         return tuple(
@@ -327,8 +308,7 @@ def simplifying(
 
 class _Alike(Frozen):
     """For each colour the first one with the same stages and nodes, and with the same weights too.
-
-    Their rows of conditions are the same: in an additive method of many colours all are.
+    Their conditions are equal; in an additive method all colours agree.
     """
 
     nodes: tuple[int, ...]
@@ -343,9 +323,7 @@ class _Alike(Frozen):
 
 
 def consistent_blocks(method: AnyTableau) -> dict[Edge, bool]:
-    """For each block that exists whether A^{l,m} 𝟙 = c^{l}, eq. (Aone), exactly or as far as
-    rounding lets it be.
-    """
+    """For each block whether A^{l,m} 𝟙 = c^{l}, eq. (Aone), exactly or within rounding."""
     defects = defects_of(method)
     alike = _Alike.of(defects.tableau)
     known: dict[Edge, bool] = {}

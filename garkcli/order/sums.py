@@ -1,4 +1,4 @@
-"""Sums that are not what they should be: of weights 1, of the rows of a block the nodes."""
+"""Wrong sums: weights that do not sum to 1, and rows of blocks that do not sum to the nodes."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from garkcli.tableau.tableau import Edge
 
 
 class WrongSum(Frozen):
-    """The sum of weights or of a row.
+    """A wrong sum of weights or of a row.
 
     ``l, m`` are the block's colours and ``i`` its row; of the weights b^{l} both ``m`` and ``i``
     are None. All count from 0.
 
     Attributes:
         total: the sum.
-        wanted: what it should be, 1 or the node.
+        wanted: the required sum, 1 or the node.
         is_embedded: whether the weights are embedded ones.
     """
 
@@ -32,13 +32,12 @@ class WrongSum(Frozen):
 
     @property
     def off(self) -> Number:
-        """By how much it is off."""
         return self.total - self.wanted
 
 
 def wrong_rows(defects: Defects, edges: Iterable[Edge]) -> Iterator[WrongSum]:
-    """The rows of some blocks that do not sum to their nodes, beyond what rounding explains; of
-    stages that are entries alone.
+    """The rows of some blocks that do not sum to their nodes beyond rounding; only of point
+    stages.
     """
     tableau = defects.tableau
     for l, m in edges:
@@ -52,8 +51,8 @@ def wrong_rows(defects: Defects, edges: Iterable[Edge]) -> Iterator[WrongSum]:
 
 
 def wrong_weights(defects: Defects, is_embedded: bool = False) -> Iterator[WrongSum]:
-    """The weights that do not sum to 1, in the same way; those of colours that share stages and
-    weights once.
+    """The weights that do not sum to 1 beyond rounding; equal weights of shared stages occur
+    once.
     """
     seen = []
     for l, colour in enumerate(defects.tableau.colours):

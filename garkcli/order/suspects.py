@@ -1,5 +1,5 @@
-"""The entry that does not fit the digits of the others: where one alone keeps a method from an
-order, the others being off by no more than their rounding.
+"""Finds the entry that does not fit the digits of the others: it alone keeps a method from an
+order, the others being off by rounding only.
 """
 
 from __future__ import annotations
@@ -34,35 +34,25 @@ if TYPE_CHECKING:
     from garkcli.order.place import System
 
 MOST_NUMBERS = 300
-"""Printed numbers of methods for which one is sought."""
+"""Most printed numbers of a method that is searched."""
 MOST_SUSPECTS = 8
-"""Candidates of first order, of which no more are tried."""
+"""Most candidates of first order that are tried."""
 LEAST = 1e-24
-"""Squared slopes of a number, beside those of all others, that are no rounding of zeros."""
+"""Smaller squared slopes of a number, relative to all others, are rounding errors of zero."""
 MAX_STEPS = 6
 SLOWEST = 0.8
-"""A number is given up when a step leaves more than this part of what is missed."""
+"""A number is given up if a step leaves more than this part of the residual."""
 STRAIGHT = 0.01
-"""The part of its radius by which a number may miss its value where slopes are not renewed."""
+"""The part of its radius by which a number may miss its value if slopes are not renewed."""
 NEARLY = 1e-9
-"""By how much a slope that is 1 may be off."""
+"""Tolerance of slopes that are 1."""
 LONGEST = 1e9
-"""A step of so many radii is the last: floats hold it to a small part of one."""
+"""A longer step, in radii, is the last: floats resolve it to a small part of a radius."""
 
 
 def suspects(rounded: RoundedTableau, order: int, limit: int = DEFAULT_LIMIT) -> dict[Repair, int]:
-    """The entries of which one alone, with another value, would leave a method of an order to the
-    others within their rounding; those that change least first. None changes by less than rounding
-    would.
-
-    Args:
-        rounded: the method, its conjugate, …, or the method with its embedded weights; its numbers
-            are coefficients.
-        order: that it would have at least; the method itself would keep its own order.
-        limit: where the search for its order stops.
-
-    Returns:
-        the order that each gives.
+    """The single entries whose change would give the method an order, the others staying within
+    their rounding; smallest change first, none below rounding. Returns the order that each gives.
     """
     search = rounded.search
     if len(search.box.numbers) > MOST_NUMBERS:
@@ -93,21 +83,21 @@ def suspects(rounded: RoundedTableau, order: int, limit: int = DEFAULT_LIMIT) ->
 
 
 def _is_rounding(rounded: RoundedTableau, order: int, missed: Sequence[Tree]) -> bool:
-    """Whether all conditions that a method misses of an order are missed by no more than rounding
-    would: more than one entry is off.
+    """Whether all conditions of an order that a method misses have residuals of the size of
+    rounding: then more than one entry is off.
     """
     sizes = (x.residual for x in conditions(rounded.tableau, missed))
     return bool(missed) and all(within(x, unnatural(order)) for x in sizes)
 
 
 class _Candidate(Frozen):
-    """A number without which first order lets all conditions be met.
+    """A number whose change lets all conditions be met to first order.
 
     Attributes:
-        number: which.
-        shift: what it would be off by, in units of its radius.
-        doubt: by how much more or less.
-        is_sure: whether first order meets them all together; else each alone.
+        number: its index.
+        shift: its error, in units of its radius.
+        doubt: the uncertainty of the error.
+        is_sure: whether all conditions are met together; else each alone.
     """
 
     number: int
@@ -121,8 +111,8 @@ _Rank: TypeAlias = tuple[bool, int]
 
 
 def _ranked(search: Recovery, name: str, order: int, limit: int) -> list[tuple[_Rank, _Candidate]]:
-    """The numbers of which one may be wrong: sure ones first, then those that could give most, then
-    those that change least.
+    """The numbers that may be wrong: sure ones first, then by the order they could give, then by
+    the size of the change.
     """
     best: dict[int, tuple[_Rank, _Candidate]] = {}
     among = None
@@ -143,7 +133,7 @@ def _ranked(search: Recovery, name: str, order: int, limit: int) -> list[tuple[_
 def _candidates(
     search: Recovery, name: str, order: int, among: Container[int] | None = None
 ) -> list[_Candidate]:
-    """The numbers of which one may be wrong for an order to hold."""
+    """The numbers one of which may be wrong if an order is to hold."""
     missed = [u for q in range(1, order + 1) for u in search.origin.missed(name, q)]
     system = search.independent({name: {of_tree(u): [0] for u in missed}}, search.origin)
     if not any(system.values()):
@@ -159,8 +149,8 @@ def _candidates(
 
 
 def _candidate(search: Recovery, system: System, rows: Forms, k: int) -> _Candidate | None:
-    """What number k would be off by, by Newton's method for it alone; the others stay within their
-    radii to first order.
+    """The error of number k alone, by Newton's method; the others stay within their radii to first
+    order. None if there is no solution.
     """
     shift, unit = fmpq(0), to_float(search.box.radii[k])
     before = np.inf
@@ -192,13 +182,13 @@ def _candidate(search: Recovery, system: System, rows: Forms, k: int) -> _Candid
 
 
 def without(rows: Floats, direction: Floats) -> Floats:
-    """The rows, or one column, less what lies in a direction of their space."""
+    """The rows, or one column, without their part in a direction."""
     rest: Floats = rows - np.multiply.outer(direction, direction @ rows) / (direction @ direction)
     return rest
 
 
 def _around(search: Recovery, candidate: _Candidate) -> Recovery | None:
-    """The search where one number is near another value."""
+    """The search with one number moved to another value."""
     k, box = candidate.number, search.box
     numbers, radii = list(box.numbers), list(box.radii)
     number = numbers[k]
@@ -214,8 +204,8 @@ def _around(search: Recovery, candidate: _Candidate) -> Recovery | None:
 
 
 def _in_few_digits(wide: Recovery, k: int, search: Recovery) -> fmpq:
-    """The value of number k in the method that was found, to the place of its rounding, or to the
-    last place that it was printed with where that is not far behind.
+    """The value of number k in the method found, to the place of its rounding, or to the last
+    printed place if that is not far behind.
     """
     printed, near = search.box.numbers[k], wide.box.numbers[k]
     assert isinstance(printed, fmpq)
@@ -229,8 +219,8 @@ def _in_few_digits(wide: Recovery, k: int, search: Recovery) -> fmpq:
 
 
 def _repair(search: Recovery, k: int, change: Number) -> Repair | None:
-    """The entry that is number k, with or without a sign, or else the only one with that among its
-    terms, and what it is with another value of the number; None where there is no such entry.
+    """The entry that is ± number k, or the only one with it among its terms, with its new value;
+    None if there is no such entry.
     """
     forms, printed = search.origin.defects("method").tableau.made, search.origin.exact("method")
     entries: list[tuple[Repair, Any]] = [
@@ -258,5 +248,4 @@ def _repair(search: Recovery, k: int, change: Number) -> Repair | None:
 
 
 def _paired(printed: Matrix | None, forms: Matrix | None) -> Iterator[tuple[Vector, Vector]]:
-    """Rows of a block as printed with those of forms."""
     return zip(printed or (), forms or (), strict=True)

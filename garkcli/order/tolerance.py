@@ -1,8 +1,6 @@
 """Whether exact numbers, vectors and functionals are within a tolerance of zero; never decided by
-floats.
-
-Elements of a stage space are measured by their values at the nodes, functionals and bilinear forms
-by their coefficients there: the entries that a printed tableau has.
+floats. Elements of a stage space are measured by their values at the nodes, functionals and
+bilinear forms by their coefficients there: the entries of a printed tableau.
 """
 
 from __future__ import annotations
@@ -14,18 +12,19 @@ from flint import arb, ctx, fmpq
 from garkcli.exact.field import Algebraic, Number
 
 TINY = fmpq(1, 10**6)
-"""No larger residual counts as rounding, at any order."""
+"""Largest residual that counts as rounding, at any order."""
 UNNATURAL = fmpq(1, 1000)
-"""Nor is one larger than this part of the smallest error that quadrature leaves at its order."""
+"""Largest residual that counts as rounding, as a part of the smallest quadrature error of its
+order.
+"""
 NOT_FOUND = "no method with it was found, and it is not proved that there is none"
-"""Why the next order of a rounded method is undecided."""
 
 
 def unnatural(order: int) -> fmpq:
-    """The size below which a residual of an order is too small to be that of a good exact method.
+    """The size below which a residual is too small for an exact method of that order.
 
-    A thousandth of the error of x^(n−1) in the best quadrature of s = ⌊n/2⌋ nodes, which is
-    (s!)⁴ / ((2s+1) ((2s)!)²), and 10⁻⁶ at most.
+    A thousandth of the error of x^(n−1) in the best quadrature of s = ⌊n/2⌋ nodes, (s!)⁴ / ((2s+1)
+    ((2s)!)²), and at most 10⁻⁶.
     """
     s = order // 2
     best = fmpq(factorial(s) ** 4, (2 * s + 1) * factorial(2 * s) ** 2)
@@ -33,7 +32,7 @@ def unnatural(order: int) -> fmpq:
 
 
 def rounded_up(size: arb) -> fmpq:
-    """A bound with two digits: at least ``size``, and less than a tenth more.
+    """A bound with two digits: at least ``size``, less than a tenth more.
 
     >>> rounded_up(arb("3.14159e-9"))
     1/312500000
@@ -75,7 +74,7 @@ def within(number: Number, tolerance: fmpq) -> bool:
 
 
 def are_alike(x: Number, y: Number, tolerance: fmpq) -> bool:
-    """Whether two coefficients may be one: each is off by t at most, and zeros are exact."""
+    """Whether two coefficients may be equal: each is off by at most t, and zeros are exact."""
     if x == y or not tolerance:
         return x == y
     return bool(x) and bool(y) and within(x - y, 2 * tolerance)

@@ -1,4 +1,4 @@
-"""The residuals of all trees of an order in balls."""
+"""The residuals of all trees of an order, in balls."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ if TYPE_CHECKING:
 
 
 class Sizes(Frozen, eq=False):
-    """How large the residuals of one order are.
+    """The size of the residuals of one order.
 
     Attributes:
-        bound: no |residual| of the order is larger.
-        reached: the largest |residual| that is known of a tree.
+        bound: an upper bound of |residual|.
+        reached: the largest |residual| of a tree.
     """
 
     bound: arb
@@ -34,19 +34,19 @@ class Sizes(Frozen, eq=False):
 
 
 class BallVectors(list[Row]):
-    """Stage vectors in balls, a row each."""
+    """Stage vectors in balls, one per row."""
 
     @cached_property
     def matrix(self) -> arb_mat:
-        """The rows as a matrix: many products use the same."""
+        """The rows as a matrix, which many products use."""
         return arb_mat(self)
 
 
 class TreeResiduals(StageVectors[BallVectors]):
     """The residuals b_lᵀ 𝒜^[u] − 1/γ(u) of every admissible tree in balls, order after order.
 
-    A row per tree; what orders share is kept. Trees share their branches, as in the tree table: u =
-    stem ∘ branch gives 𝒜^[u] = 𝒜^[stem] ⊙ A 𝒜^[branch], so
+    One row per tree; vectors are shared between orders. Trees share their branches, as in the tree
+    table: u = stem ∘ branch gives 𝒜^[u] = 𝒜^[stem] ⊙ A 𝒜^[branch], so
 
         b_lᵀ 𝒜^[u] = (b_l ⊙ 𝒜^[stem])ᵀ (A 𝒜^[branch]),
 
@@ -62,7 +62,6 @@ class TreeResiduals(StageVectors[BallVectors]):
         super().__init__(self._admissible, [colour.space for colour in tableau.colours])
 
     def sizes(self, order: int) -> Sizes:
-        """Bounds on all |residuals| of an order."""
         bound = reached = arb(0)
         for residual, _, _ in self.of_order(order):
             size = abs(residual)
@@ -72,12 +71,11 @@ class TreeResiduals(StageVectors[BallVectors]):
         return Sizes(bound.abs_upper(), reached)
 
     def table(self, order: int) -> TreeTable:
-        """The table whose ids ``of_order`` gives."""
         return TreeTable.of(self._admissible, order)
 
     def of_order(self, order: int, share: int = 1) -> list[tuple[arb, arb, int]]:
-        """The residual b_lᵀ 𝒜^[u] − share/γ(u), share/γ(u) and the id of each tree of an order, for
-        the roots that differ in more than their colour.
+        """The residual b_lᵀ 𝒜^[u] − share/γ(u), share/γ(u) and the id of each tree of an order,
+        once for twin roots.
         """
         with ctx.workprec(self.enclosure.bits):
             return list(self._residuals(self.table(order), order, share))
@@ -112,7 +110,7 @@ class TreeResiduals(StageVectors[BallVectors]):
                 yield values[i] - required[gamma], required[gamma], u
 
     def _values(self, table: TreeTable, segment: Segment) -> Row:
-        """b_lᵀ 𝒜^[u] for every stem with every branch; the longer list is outside."""
+        """b_lᵀ 𝒜^[u] for every stem with every branch, with the longer list outside."""
         b = self.enclosure.b[segment.root].entries()
         stems = self.stems(table, segment)
         if len(stems) < len(segment.branches):  # the weights and A go where they are fewer

@@ -1,4 +1,4 @@
-"""The stage vectors 𝒜^[u] of single trees, whatever the entries are."""
+"""The stage vectors 𝒜^[u] of single trees, for any kind of entries."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from garkcli.ntrees.tree import Tree
 from garkcli.tableau.tableau import Tableau
 
 _Place: TypeAlias = tuple[int, Tree]
-"""Who sees a branch, by its stage space, and the branch."""
+"""The stage space that sees a branch, and the branch."""
 
 _CURE = "gark conditions FILE lists the trees of a method"
 
 
 class TreeVectors:
-    """Stage vectors of single trees; what the blocks make of their branches is kept.
+    """Stage vectors of single trees; images of branches are cached.
 
     Args:
         tableau: of numbers, polynomials or balls.

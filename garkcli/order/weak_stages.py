@@ -1,4 +1,4 @@
-"""Weak stage order: up to which order what the stages miss never reaches the new value.
+"""Weak stage order: the order up to which defects of the stages do not reach the new value.
 
 D. I. Ketcheson, B. Seibold, D. Shirokoff, D. Zhou, *DIRK schemes with high weak stage order*, 2020,
 definition 2. For several colours it is derived in docs/stiff-problems.md.
@@ -17,13 +17,9 @@ from garkcli.order.simplifying import Defects, defects_of
 
 
 def weak_stage_order(method: AnyTableau | Defects, colours: Sequence[int], limit: int) -> int:
-    """The largest q, up to a limit, for which b^{l} A^{l,m} ⋯ A^{n,p} (A^{p,r} (c^{r})^(k−1) −
-    (c^{p})^k / k) = 0 for k = 1, …, q, every r and all products of blocks between some colours.
-
-    Args:
-        method: rounded or not, or by how much it misses conditions.
-        colours: between which products are taken: those that are stiff.
-        limit: where the search stops.
+    """The largest q ≤ ``limit`` for which b^{l} A^{l,m} ⋯ A^{n,p} (A^{p,r} (c^{r})^(k−1) −
+    (c^{p})^k / k) = 0 for k = 1, …, q, every r and all products of blocks between ``colours``, the
+    stiff ones.
     """
     defects = method if isinstance(method, Defects) else defects_of(method)
     edges = set(defects.tableau.edges())
@@ -65,7 +61,7 @@ class Echelon:
     """A linear span of vectors, grown by elimination.
 
     Args:
-        defects: what tells whether a number is zero.
+        defects: decides whether a number is zero.
     """
 
     def __init__(self, defects: Defects) -> None:
@@ -73,7 +69,7 @@ class Echelon:
         self._rows: list[tuple[int, Vector]] = []
 
     def grows(self, vector: Vector) -> bool:
-        """Take in a vector; whether it was no combination of those before."""
+        """Inserts a vector; returns whether it was independent of those before."""
         for pivot, row in self._rows:
             factor = vector[pivot]
             if factor != 0:
