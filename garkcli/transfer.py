@@ -1,9 +1,8 @@
 """Off-diagonal blocks made from the diagonal methods, section "Some techniques to construct the
 transfer matrices".
 
-All of it happens in stage spaces: a stage vector of m is lifted to the polynomial of degree < s_m
-it stands for, and reduced to the stages of l. Every function returns a block A^{l,m} of shape (s_l,
-s_m).
+A stage vector of m is lifted to its polynomial of degree < s_m and reduced to the stages of l.
+Every function returns a block A^{l,m} of shape (s_l, s_m).
 """
 
 from __future__ import annotations
@@ -25,11 +24,9 @@ from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Edge, Method
 
 LOG10_2 = fmpq(30103, 100000)
-"""Decimal digits of a bit."""
 MAX_WORK = 100_000_000
-"""Most bits in a block by interpolation, each entry as long as their common denominator.
-
-So many bits are decided on, with all simplifying conditions, in about a minute.
+"""Most bits in a block by interpolation, each entry as long as their common denominator; such a
+block is decided on in about a minute, with all simplifying conditions.
 """
 
 Rule: TypeAlias = Callable[[Method, Method], Matrix]
@@ -40,7 +37,7 @@ def collocation(l: Method, m: Method) -> Matrix:
 
     Raises:
         CoincidingNodes: two nodes of ``m`` are equal.
-        BlockTooLarge: the entries would be too long.
+        BlockTooLarge: the block would have more than ``MAX_WORK`` bits.
     """
     from garkcli.tableau.polynomial_space import antiderivative
 
@@ -56,7 +53,7 @@ def interpolation(l: Method, m: Method) -> Matrix:
 
     Raises:
         CoincidingNodes: two nodes of ``m`` are equal.
-        BlockTooLarge: the entries would be too long.
+        BlockTooLarge: the block would have more than ``MAX_WORK`` bits.
     """
     _refuse_large(l, m)
     columns = [l.space.of_polynomial(basis) for basis in m.space.basis_polynomials()]
@@ -64,7 +61,6 @@ def interpolation(l: Method, m: Method) -> Matrix:
 
 
 MAX_DEGREE = 100
-"""Largest degree of a Legendre transfer."""
 
 
 def legendre(l: Method, m: Method, degree: int | None = None) -> Matrix:
@@ -74,9 +70,9 @@ def legendre(l: Method, m: Method, degree: int | None = None) -> Matrix:
     A^{m,l} is then the symplectic conjugate. Nodes may coincide, and weights may be zero.
 
     Args:
-        l: whose stages see the other method.
+        l: the method whose stages see the other.
         m: the other method.
-        degree: K; by default that of the two methods.
+        degree: K; by default ``legendre_degree`` of the two methods.
     """
     if degree is None:
         degree = legendre_degree([gark([l], {}), gark([m], {})])
@@ -95,8 +91,8 @@ def legendre(l: Method, m: Method, degree: int | None = None) -> Matrix:
 
 
 def legendre_degree(methods: Iterable[AnyTableau]) -> int:
-    """K = ⌊p/2⌋, p the least order of the pairs of the diagonal ``methods`` that the criterion
-    bears out: of all transfers whose pair keeps the order p that one has the least error.
+    """K = ⌊p/2⌋, with p the least order that the criterion proves for the pairs of the diagonal
+    methods: among all transfers whose pair keeps the order p this one has the least error.
     """
     from garkcli.order.pair_order import pair_criterion  # few transfers ask for it
 
@@ -104,12 +100,12 @@ def legendre_degree(methods: Iterable[AnyTableau]) -> int:
 
 
 def legendre_rule(methods: Iterable[AnyTableau], degree: int | None) -> Rule:
-    """The rule ``legendre`` for blocks between ``methods``, of one degree."""
+    """The rule ``legendre`` for blocks between ``methods``, with one degree for all."""
     return partial(legendre, degree=legendre_degree(methods) if degree is None else degree)
 
 
 def _refuse_large(l: Method, m: Method) -> None:
-    """Refuse a block before gigabytes are spent on it, by an estimate of its size."""
+    """Refuses a block that would be too large, by an estimate of its size."""
     if not isinstance(m.space, PointSpace):
         return
     entries = l.stages * m.stages
@@ -130,7 +126,7 @@ def _refuse_large(l: Method, m: Method) -> None:
 def conjugate_rule(rule: Rule) -> Rule:
     """The rule whose block is Â^{l,m}, the conjugate of the block A^{m,l} that ``rule`` makes.
 
-    The new rule raises ``ZeroWeight`` where the conjugate would divide by zero.
+    The new rule raises ``ZeroWeight`` if the conjugate would divide by zero.
     """
 
     def conjugated(l: Method, m: Method) -> Matrix:
@@ -140,12 +136,12 @@ def conjugate_rule(rule: Rule) -> Rule:
 
 
 class _Entry(Frozen):
-    """A rule of the method file.
+    """A transfer rule of method files.
 
     Attributes:
-        rule: what makes a block; where both blocks of a pair are made, the first of them.
+        rule: makes a block, or the first of two for a pair.
         summary: one line for people.
-        makes_both: whether the opposite block is made with it, as its symplectic conjugate.
+        makes_both: whether the opposite block is its symplectic conjugate.
     """
 
     rule: Rule
@@ -180,27 +176,24 @@ _ENTRIES: Mapping[str, _Entry] = {
 RULES: Mapping[str, Rule] = {
     name: entry.rule for name, entry in _ENTRIES.items() if not entry.makes_both
 }
-"""The rules that make one block from two methods."""
+"""Rules that make one block from two methods."""
 
 PAIR_RULES: Mapping[str, Rule] = {
     name: entry.rule for name, entry in _ENTRIES.items() if entry.makes_both
 }
-"""The rules that make both blocks of a pair of colours, each with the rule for the first of
-them.
-"""
+"""Rules that make both blocks of a pair of colours, each with the rule for the first."""
 
 SUMMARIES: Mapping[str, str] = {name: entry.summary for name, entry in _ENTRIES.items()}
-"""One line a rule, for people."""
 
 
 def combination(terms: Sequence[tuple[Number, Rule]], l: Method, m: Method) -> Matrix:
-    """Σ τ_k A_k^{l,m} over the rules; consistent where the weights τ_k sum to 1, eq. (lincomb)."""
+    """Σ τ_k A_k^{l,m} over the rules; consistent if Σ τ_k = 1, eq. (lincomb)."""
     return reduce(add, [scale(weight, rule(l, m)) for weight, rule in terms])
 
 
 def build_on(methods: Sequence[Method], orders: Sequence[int], l: int, m: int) -> int:
-    """Which of two colours a ``symplectic-`` rule builds on: smaller order, fewer stages, lower
-    number.
+    """The colour that a ``symplectic-`` rule builds on: that of smaller order, of fewer stages, or
+    the first.
     """
 
     def size(k: int) -> tuple[int, int, int]:

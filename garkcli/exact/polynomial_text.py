@@ -21,6 +21,9 @@ LONG_COEFFICIENT = 24
 def integral(polynomials: Sequence[Polynomial]) -> list[Polynomial]:
     """Polynomials scaled by one positive number to coprime integer coefficients; unchanged if a
     coefficient is irrational.
+
+    >>> integral([Polynomial([2, fmpq(-11, 12)]), Polynomial([1, fmpq(1, 24)])])
+    [Polynomial([48, -22]), Polynomial([24, 1])]
     """
     scale = integral_scale(a for p in polynomials for a in p.coefficients)
     return [p * scale for p in polynomials]

@@ -92,7 +92,12 @@ def roots_in(expression: Expression) -> Iterator[Root | AlgebraicRoot]:
 
 
 def format_expression(expression: Expression, latex: bool = False) -> str:
-    """The expression as LaTeX, or as text that ``parse`` or ``parse_formula`` reads."""
+    """The expression as LaTeX, or as text that ``parse`` or ``parse_formula`` reads.
+
+    >>> from garkcli.exact.expression import parse
+    >>> format_expression(parse("1/2 - sqrt(3)/6"))
+    '1/2-(sqrt(3)/6)'
+    """
     writer = _Latex() if latex else PlainText()
     return writer.written(expression)
 

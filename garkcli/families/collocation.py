@@ -1,10 +1,10 @@
 """Gauss, Radau and Lobatto methods, from their node polynomials, over ℚ for any number of stages.
 
-Gauss methods have order 2s; Radau methods 2s − 1; Lobatto methods, whose nodes have 0 and 1 among
-them, 2s − 2. Hairer, Lubich & Wanner, *Geometric Numerical Integration*, II.1.3; Hairer & Wanner,
-*Solving Ordinary Differential Equations II*, IV.5; of Radau IB and IIB: G. Sun, *A simple way
-constructing symplectic Runge–Kutta methods*, J. Comput. Math. 18 (2000); Jay, "Lobatto methods",
-*Encyclopedia of Applied and Computational Mathematics* (2015).
+Gauss methods have order 2s; Radau methods 2s − 1; Lobatto methods, whose nodes include 0 and 1, 2s
+− 2. Hairer, Lubich & Wanner, *Geometric Numerical Integration*, II.1.3; Hairer & Wanner, *Solving
+Ordinary Differential Equations II*, IV.5; for Radau IB and IIB: G. Sun, *A simple way constructing
+symplectic Runge–Kutta methods*, J. Comput. Math. 18 (2000); Jay, "Lobatto methods", *Encyclopedia
+of Applied and Computational Mathematics* (2015).
 """
 
 from __future__ import annotations
@@ -31,7 +31,6 @@ def legendre(degree: int) -> fmpq_poly:
 
 
 def monic(poly: fmpq_poly) -> fmpq_poly:
-    """``poly`` with leading coefficient 1."""
     return poly / poly.leading_coefficient()
 
 
@@ -42,21 +41,21 @@ def interpolatory(modulus: fmpq_poly) -> tuple[PolynomialSpace, Vector]:
 
 
 def collocation_method(name: str, modulus: fmpq_poly) -> Method:
-    """The collocation method at the roots of ``modulus``: A f = ∫_0^x f, so that C(s) holds."""
+    """The collocation method at the roots of ``modulus``: A f = ∫_0^x f, so C(s) holds."""
     space, b = interpolatory(modulus)
     A = multiply(space.reductions(space.stages + 1), integration(space.stages))
     return Method(name, space, A, b)
 
 
 def conjugate_method(name: str, method: Method) -> Method:
-    """The method (Â, b, c); D(s) holds for it where C(s) holds for ``method``."""
+    """The method (Â, b, c); it satisfies D(s) if ``method`` satisfies C(s)."""
     space, b = method.space, method.b
     A = subtract(outer(space.one, b), space.adjoint(method.A, b, space, b))
     return Method(name, space, A, b)
 
 
 def average(name: str, one: Method, other: Method) -> Method:
-    """The method with the mean of both matrices; space and weights are those of ``one``."""
+    """The method with the mean of both matrices, and the space and weights of ``one``."""
     A = scale(fmpq(1, 2), add(one.A, other.A))
     return Method(name, one.space, A, one.b)
 
@@ -69,10 +68,8 @@ def lagrange_at(space: PolynomialSpace, node: int) -> Vector:
 
 
 def with_first_column(name: str, base: Method) -> Method:
-    """The method with a_{i1} = b_1 and C(s − 1), the first node being 0; ``base`` satisfies C(s −
-    1).
-
-    It differs from ``base`` by a multiple of the functional that takes the coefficient of x^(s−1).
+    """The method with a_{i1} = b_1 and C(s − 1), for a ``base`` with first node 0 and C(s − 1). It
+    differs from ``base`` by a multiple of the functional that takes the coefficient of x^(s−1).
     """
     space = base.space
     assert isinstance(space, PolynomialSpace)
@@ -174,17 +171,14 @@ DEGREE = Option(
 
 
 def hbvm(stages: int, options: Options) -> Recipe:
-    """Hamiltonian boundary value methods: the solution of a step is a polynomial of some degree
-    whose derivative is f along it, projected to the Legendre polynomials of lower degree; Gauss
-    quadrature takes the integrals.
+    """Hamiltonian boundary value methods: the solution of a step is a polynomial whose derivative
+    is f along it, projected to the Legendre polynomials of lower degree; Gauss quadrature takes the
+    integrals.
 
-    With exact integrals it is the average vector field method for the degree 1, and the
-    energy-preserving collocation of E. Hairer, *JNAIAM* 5 (2010) 73, for others. Up to order p the
-    integrands of its conditions have degrees below p times that degree: with half as many stages
-    the conditions are the same.
-
-    Raises:
-        UnknownFamily: there are fewer stages than the degree.
+    With exact integrals it is the average vector field method for degree 1, and otherwise the
+    energy-preserving collocation of E. Hairer, *JNAIAM* 5 (2010) 73. Up to order p the integrands
+    of its conditions have degrees below p times that degree, which half as many stages integrate
+    exactly. Raises ``UnknownFamily`` for fewer stages than the degree.
     """
     degree = cast("int", options["degree"])
     if degree > stages:

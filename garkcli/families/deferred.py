@@ -2,8 +2,8 @@
 methods for ordinary differential equations*, BIT 40 (2000).
 
 From y_0 at all nodes, each sweep goes from node to node by Euler's method for the error of the
-collocation equations; the first sweep is Euler's method itself. The step ends at the last node
-where that is 1, else by the quadrature of the nodes, which gains an order.
+collocation equations; the first sweep is Euler's method itself. The step ends at the last node if
+that is 1, else by quadrature over the nodes, which gains an order.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ SWEEPS = Option(
     shown="4",
 )
 MAX_SLOPES = 400
-"""So many slopes are made to count the stages; with more of them there are too many."""
+"""Most slopes that are made to count the stages."""
 SWEEP = Option(
     "sweep",
     "Whether sweeps of deferred corrections are explicit or implicit Euler's.",
@@ -60,10 +60,10 @@ _Slopes: TypeAlias = list[int]
 
 
 def corrections(points: int, options: Options) -> Recipe:
-    """So many sweeps over so many nodes.
+    """Sweeps over nodes, as ``options`` choose them.
 
     Raises:
-        UnknownFamily: there are no such nodes, or none with simple radicals.
+        UnknownFamily: there are no such nodes, or they have no simple radicals.
     """
     word = str(options["nodes"])
     sweeps = int(str(options["sweeps"]))
@@ -84,7 +84,6 @@ def corrections(points: int, options: Options) -> Recipe:
 
 
 def _nodes(word: str, points: int) -> tuple[Expression, ...]:
-    """The nodes in ascending order."""
     if word in {"equidistant", "lobatto"} and points < 2:
         cure = "it has 2 points or more"
         raise UnknownFamily(f"no {word} nodes with 1 point", cure, code="wrong-value")
@@ -105,7 +104,7 @@ class _Corrections:
 
     Args:
         nodes: in ascending order.
-        is_implicit: whether the sweeps are of the implicit Euler method.
+        is_implicit: whether the sweeps use the implicit Euler method.
     """
 
     def __init__(self, nodes: Vector, is_implicit: bool) -> None:
@@ -115,7 +114,6 @@ class _Corrections:
         self._integrals = _integrals(nodes)
 
     def method(self, name: str, sweeps: int) -> Method:
-        """The method after so many sweeps."""
         slopes = [self.stages.slope_at(START)] * len(self.nodes)
         value = START
         for _ in range(sweeps):
@@ -125,7 +123,7 @@ class _Corrections:
         return self.stages.method(name, value)
 
     def _swept(self, old: _Slopes) -> tuple[Weights, _Slopes]:
-        """The value at the last node after one more sweep, and the slopes at all."""
+        """The value at the last node after one more sweep, and the slopes at all nodes."""
         new: _Slopes = []
         value: Weights = START
         before: Number = ZERO
@@ -151,13 +149,13 @@ class _Corrections:
         return value, new
 
     def _integral(self, m: int, slopes: _Slopes) -> Weights:
-        """From 0 to node m, or to 1 where m is the number of nodes."""
+        """The integral from 0 to node m, or to 1 if m is the number of nodes."""
         pairs = zip(self._integrals[m], slopes, strict=True)
         return combined((weight, {slope: ONE}) for weight, slope in pairs)
 
 
 def _integrals(nodes: Sequence[Number]) -> tuple[Vector, ...]:
-    """∫ L_j from 0 to each node, and to 1: a row for each end."""
+    """∫ L_j from 0 to each node, and to 1: one row for each end."""
     polynomials = [antiderivative(basis) for basis in PointSpace(tuple(nodes)).basis_polynomials()]
     rows = []
     for end in (*nodes, ONE):

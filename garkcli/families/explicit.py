@@ -36,9 +36,9 @@ _ROWS: dict[str, tuple[str, str]] = {
     "kutta": ("1/2; -1 2", "1/6 2/3 1/6"),
     "rk4": ("1/2; 0 1/2; 0 0 1", "1/6 1/3 1/3 1/6"),
 }
-"""A below its diagonal from the second row on, rows between semicolons; and b."""
+"""The rows of A below its diagonal, from the second on, separated by semicolons; and b."""
 STAGES = {name: len(b.split()) for name, (_, b) in _ROWS.items()}
-"""How many stages each named method has."""
+"""The number of stages of each named method."""
 
 
 def _row(text: str) -> Vector:
@@ -58,14 +58,14 @@ def named(name: str) -> Method:
 
 
 def ssp2(s: int) -> Method:
-    """SSPRK(s, 2): a_{ij} = 1/(s − 1) below the diagonal, b_i = 1/s; it needs s ≥ 2."""
+    """SSPRK(s, 2): a_{ij} = 1/(s − 1) below the diagonal, b_i = 1/s; s ≥ 2."""
     a = fmpq(1, s - 1)
     rows = [(a,) * i for i in range(1, s)]
     return butcher(_lower(rows), (fmpq(1, s),) * s, name=f"SSPRK({s},2)")
 
 
 def _lower(rows: Sequence[Vector]) -> Matrix:
-    """The strictly lower triangular matrix with these rows below its first, which is zero."""
+    """The strictly lower triangular matrix with these rows after a zero row."""
     s = len(rows) + 1
     matrix: list[Vector] = [(ZERO,) * s]
     matrix.extend(row + (ZERO,) * (s - len(row)) for row in rows)
@@ -82,7 +82,7 @@ def ssp3(s: int, _: Options) -> Recipe:
     """SSPRK(n², 3).
 
     Raises:
-        UnknownFamily: s is no square.
+        UnknownFamily: s is not a square.
     """
     n = isqrt(s)
     if n * n != s:
@@ -92,7 +92,7 @@ def ssp3(s: int, _: Options) -> Recipe:
 
 
 def _ssp3(n: int) -> Method:
-    """Euler steps of length 1/(n² − n); in the middle the mean with an earlier value."""
+    """Euler steps of length 1/(n² − n); in the middle an average with an earlier value."""
     s = n * n
     length = fmpq(1, s - n)
     middle = n * (n + 1) // 2

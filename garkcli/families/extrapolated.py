@@ -1,9 +1,9 @@
 """Extrapolated Euler methods and the extrapolated midpoint rule, of any order.
 
-The basic method takes the step in n_1, n_2, … parts, and the polynomial in the powers of h that its
-error has is extrapolated to h = 0: W. Gragg, *On extrapolation algorithms for ordinary initial
-value problems*, SIAM J. Numer. Anal. 2 (1965); E. Hairer, S. P. Nørsett, G. Wanner, *Solving
-Ordinary Differential Equations I*, II.9. Parts that two of them share are computed once.
+The basic method takes the step in n_1, n_2, … parts, and its error, a polynomial in h, is
+extrapolated to h = 0: W. Gragg, *On extrapolation algorithms for ordinary initial value problems*,
+SIAM J. Numer. Anal. 2 (1965); E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential
+Equations I*, II.9. Shared parts are computed once.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from garkcli.families.stagelist import START, StageList, Weights, combined
 from garkcli.tableau.tableau import Method
 
 SEQUENCES = ("harmonic", "romberg", "bulirsch")
-"""How many parts the basic steps have: 1, 2, 3, 4, …; 1, 2, 4, 8, …; 1, 2, 3, 4, 6, 8, 12, …"""
+"""Numbers of parts: 1, 2, 3, 4, …; 1, 2, 4, 8, …; 1, 2, 3, 4, 6, 8, 12, …"""
 SEQUENCE = Option(
     "sequence",
     "The numbers of parts of the step that an extrapolated family combines.",
@@ -54,7 +54,7 @@ def extrapolation_weights(parts: Sequence[int], powers: Sequence[int]) -> tuple[
 
     Args:
         parts: n_j, all different.
-        powers: the powers of h that are taken out of the error, one fewer than parts.
+        powers: the powers of h that are eliminated from the error, one fewer than parts.
 
     >>> extrapolation_weights([1, 2], [1])
     (-1, 2)
@@ -103,7 +103,7 @@ def _extrapolated(name: str, steps: Steps, parts: Sequence[int], powers: Sequenc
 
 
 def _explicit(name: str, steps: Steps, parts: Sequence[int], powers: Sequence[int]) -> Recipe:
-    """The recipe with an explicit basic method: all sequences of parts begin with one stage."""
+    """The recipe for an explicit basic method; all sequences share their first stage."""
     return Recipe(1 + sum(parts) - len(parts), lambda _: _extrapolated(name, steps, parts, powers))
 
 

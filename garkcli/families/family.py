@@ -1,4 +1,4 @@
-"""What a family of diagonal methods is: how its members are chosen and made."""
+"""Families of diagonal methods, and how their members are chosen and made."""
 
 from __future__ import annotations
 
@@ -12,20 +12,20 @@ from garkcli.reference import Reference
 from garkcli.tableau.tableau import Method
 
 Given: TypeAlias = "str | int | Expression"
-"""What an option is set to: a word, a whole number or a coefficient."""
+"""The value of an option: a word, an integer or a coefficient."""
 Options: TypeAlias = Mapping[str, Given]
 
 
 class Option(Frozen):
-    """What a member is chosen by: its size, or more.
+    """An option that chooses a member of a family: its size, or another one.
 
     Attributes:
         name: its key in method files.
-        text: what it is, in a sentence.
-        words: the words it may be; none for a number.
-        smallest: of a whole number the least it may be; None for a coefficient.
-        default: the word that is meant where it is left out; empty where it has to be given.
-        shown: what is behind its key in an example; empty for the first that may.
+        text: its description, a sentence.
+        words: the allowed words; empty for a number.
+        smallest: the smallest integer allowed; None for a coefficient.
+        default: the default word; empty if the option is required.
+        shown: the value in an example; empty for the first allowed one.
     """
 
     name: str
@@ -37,7 +37,7 @@ class Option(Frozen):
 
     @property
     def example(self) -> str:
-        """What may be behind its key."""
+        """An example of a value."""
         if self.shown:
             return self.shown
         if self.words:
@@ -49,13 +49,12 @@ STAGES = Option("stages", "How many stages the member of the family has.", small
 
 
 class Recipe(Frozen):
-    """One member, not made yet.
+    """A member of a family that is not made yet.
 
     Attributes:
-        stages: how many it has.
-        make: the method, from the values of ``numbers`` in one exact domain.
-        numbers: what it takes besides rational numbers: coefficients that are given, irrational
-            nodes.
+        stages: their number.
+        make: makes the method from the values of ``numbers`` in one exact domain.
+        numbers: the irrational numbers that it needs: given coefficients, nodes.
     """
 
     stages: int
@@ -67,14 +66,14 @@ class Family(Frozen):
     """A family of diagonal methods.
 
     Attributes:
-        name: as in method files.
-        recipe: how the member of a size, with values for all options, is made.
-        smallest: the least size it has.
-        largest: the greatest one; equal to ``smallest`` for a single method.
-        order: its order in terms of the size, or s for stages, for people.
+        name: its name in method files.
+        recipe: makes the recipe of a member from its size and all options.
+        smallest: the smallest size.
+        largest: the largest size; equal to ``smallest`` for a single method.
+        order: its order in terms of the size, for people.
         summary: one line.
-        counted: what its size is.
-        options: what else a member is chosen by.
+        counted: the option that is its size.
+        options: the other options.
         reference: where it was published.
     """
 
@@ -90,12 +89,12 @@ class Family(Frozen):
 
     @property
     def size(self) -> str:
-        """The key in method files of what it is counted by."""
+        """The key of its size in method files."""
         return self.counted.name
 
     @property
     def is_single(self) -> bool:
-        """Whether it is one method, or one for given options."""
+        """Whether it has one method, up to options."""
         return self.smallest == self.largest
 
     @property
@@ -105,7 +104,6 @@ class Family(Frozen):
 
     @property
     def chosen(self) -> tuple[Option, ...]:
-        """What a member is chosen by."""
         return (self.counted, *self.options)
 
 
@@ -115,9 +113,8 @@ NONSTIFF = Reference(
     publisher="Springer",
     year="1993",
 )
-"""The book that has most of the explicit families."""
+"""The book with most of the explicit families."""
 MAX_STAGES = 200
-"""Most stages of a member."""
 
 
 def by_stages(make: Callable[[int], Method]) -> Callable[..., Recipe]:

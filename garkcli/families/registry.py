@@ -1,4 +1,4 @@
-"""The families of every file here, and their members."""
+"""All families, and their members."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from garkcli.tableau.tableau import Method
 
 NO_OPTIONS: Options = {}
 _FIRST = ("collocation", "explicit", "sdirk2", "extrapolated", "deferred")
-"""The files whose families are reported first, in the order of the documentation."""
+"""Modules whose families come first in the documentation."""
 
 
 def _families() -> Iterator[Family]:
-    """Those of every file here that has some."""
+    """The families of all modules here."""
     for name in sorted([file.name for file in pkgutil.iter_modules(families.__path__)], key=_place):
         if name != "registry":
             yield from getattr(import_module(f"garkcli.families.{name}"), "FAMILIES", ())
@@ -31,11 +31,10 @@ def _place(name: str) -> tuple[int, str]:
 
 
 FAMILIES: Mapping[str, Family] = {family.name: family for family in _families()}
-"""Every family by name."""
 BY_STAGES: Mapping[str, Family] = {
     name: family for name, family in FAMILIES.items() if family.keys == ("stages",)
 }
-"""Those whose members have a number of stages and no options."""
+"""The families whose members have a number of stages and no options."""
 
 
 OTHER_NAMES: Mapping[str, str] = {
@@ -66,7 +65,7 @@ OTHER_NAMES: Mapping[str, str] = {
     "average-vector-field": "hbvm with degree 1 and more stages",
     "energy-preserving-collocation": "hbvm with more stages than the degree",
 }
-"""What people call members of the families, and how the program does."""
+"""Other names of members, and the names used here."""
 
 
 _MEMBER = re.compile(r"(?P<family>.+?)[-:](?P<size>[0-9]{1,6})")
@@ -74,11 +73,11 @@ _MEMBER = re.compile(r"(?P<family>.+?)[-:](?P<size>[0-9]{1,6})")
 
 
 def member_named(text: str, is_known: bool = True) -> tuple[str, int | None] | None:
-    """The family and the size that a word names: ``gauss-2``, ``gauss:2``, or a single method.
+    """The family and size that a word names: ``gauss-2``, ``gauss:2``, or a single method.
 
     Args:
         text: the word.
-        is_known: whether there has to be such a family.
+        is_known: whether the family has to exist.
 
     >>> member_named("gauss-2"), member_named("lobatto-iiia:3"), member_named("rk4")
     (('gauss', 2), ('lobatto-iiia', 3), ('rk4', None))
@@ -93,13 +92,12 @@ def member_named(text: str, is_known: bool = True) -> tuple[str, int | None] | N
 
 
 def recipe_of(name: str, size: int | None = None, options: Options = NO_OPTIONS) -> Recipe:
-    """How the member of a family is made.
+    """The recipe of the member of a family.
 
     Args:
         name: a key of ``FAMILIES``.
-        size: what its family is counted by, such as stages; may be left out for a family of one
-            method.
-        options: what it is chosen by besides; those with a default may be left out.
+        size: its size, such as the number of stages; optional for a family of one method.
+        options: the other options; those with a default are optional.
 
     Raises:
         UnknownFamily: no such family, or no such member.
@@ -121,7 +119,7 @@ def recipe_of(name: str, size: int | None = None, options: Options = NO_OPTIONS)
 
 
 def _size_of(family: Family, size: int | None) -> int:
-    """The size of a member, which exists as far as the family's bounds say."""
+    """The size of a member, within the bounds of the family."""
     if size is None and family.is_single:
         return family.smallest
     if size is None:
@@ -169,9 +167,9 @@ def diagonal_method(name: str, stages: int | None = None, **options: object) -> 
 
     Args:
         name: a key of ``FAMILIES``, or a member such as ``gauss-2``.
-        stages: how many, or whatever else the family is counted by; may be left out for a family
-            of one method.
-        options: what the member is chosen by besides; coefficients as text or numbers.
+        stages: the number of stages, or the size the family has instead; optional for a family of
+            one method.
+        options: the other options; coefficients as text or numbers.
 
     Raises:
         UnknownFamily: no such family, or no such member.
@@ -197,10 +195,10 @@ def diagonal_method(name: str, stages: int | None = None, **options: object) -> 
 
 
 def _given(option: Option | None, value: object, key: str) -> Given:
-    """The value of an option as recipes take it.
+    """The value of an option in the form of recipes.
 
     Raises:
-        UnknownFamily: there is no such word or number.
+        UnknownFamily: the word or number is not allowed.
     """
     if option is None:
         return str(value)

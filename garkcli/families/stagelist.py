@@ -1,7 +1,7 @@
 """Runge–Kutta methods written down as they are computed: one stage value after the other.
 
 A value is a combination of the stages that there are, y_0 + h Σ w_i f(Y_i), as a mapping of stages
-to their weights. Equal values are one stage, and stages that the step does not use are left out.
+to their weights. Equal values share a stage, and unused stages are left out.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from garkcli.exact.matrix import Vector
 from garkcli.tableau.tableau import Method, butcher
 
 Weights: TypeAlias = Mapping[int, Number]
-"""How much of each stage is in a value; zeros are left out."""
+"""The weights of stages in a value, without zeros."""
 START: Weights = {}
 """The value at the beginning of the step."""
 
@@ -32,13 +32,13 @@ def combined(terms: Iterable[tuple[Number | int, Weights]]) -> Weights:
 
 
 class StageList:
-    """The stages of a method, written down in the order in which they are computed."""
+    """The stages of a method, in the order of their computation."""
 
     def __init__(self) -> None:
         self._rows: list[Weights] = []
 
     def slope_at(self, value: Weights) -> int:
-        """The stage f(Y) at an explicit value Y; the one there is, where Y was there before."""
+        """The stage f(Y) at an explicit value Y; equal values share a stage."""
         for i, row in enumerate(self._rows):
             if row == value:
                 return i
@@ -52,7 +52,7 @@ class StageList:
         return i
 
     def method(self, name: str, result: Weights) -> Method:
-        """The method whose step ends at the value ``result``; its nodes are the row sums."""
+        """The method whose step ends at ``result``; its nodes are the row sums."""
         seen: set[int] = set()
         pending = list(result)
         while pending:

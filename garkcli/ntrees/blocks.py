@@ -1,6 +1,4 @@
-"""The trees of one order in blocks of bounded size: for streaming, and for those with given colours
-only.
-"""
+"""Streams the trees of one order in blocks of bounded size, or only those with given colours."""
 
 from __future__ import annotations
 
@@ -19,14 +17,14 @@ if TYPE_CHECKING:
     from garkcli.ntrees.table import Column
 
 BLOCK_SIZE = 1 << 18
-"""Trees in a block unless asked for otherwise."""
+"""Default number of trees in a block."""
 
 MAX_USING = 62
-"""Colours that can be requested at once: a bit each."""
+"""Most colours that can be requested at once: one bit each."""
 
 
 class Block(Frozen):
-    """Some trees of one order, following each other in the table unless they were selected.
+    """Some trees of one order, consecutive in the table unless they were selected.
 
     ``columns`` hold the trees, whose parents' ids are those of ``lower``, the table of the orders
     below.
@@ -39,11 +37,9 @@ class Block(Frozen):
         return len(self.columns)
 
     def notation(self, colours: bool = True) -> list[str]:
-        """Bracket text of the trees."""
         return self.lower.texts(self.columns, colours)
 
     def trees(self) -> Iterator[Tree]:
-        """The trees, one after the other."""
         tree = self.lower.admissible.tree
         stems = self.columns.stem.tolist()
         branches = self.columns.branch.tolist()
@@ -64,9 +60,9 @@ def iter_blocks(
 ) -> Iterator[Block]:
     """All trees of one order, in the order of the table, in blocks of at most ``block_size`` trees.
 
-    Only the lower orders are held in memory. ``roots``: the root colours wanted, from 0, all by
-    default; ``edges`` and ``linear`` as in :class:`Admissible`. Raises :class:`TableTooLarge` when
-    the lower orders are too many, ``ValueError`` for a block size below 1.
+    Only the lower orders are held in memory. ``roots``: the root colours, from 0, all by default;
+    ``edges`` and ``linear`` as in :class:`Admissible`. Raises :class:`TableTooLarge` when the lower
+    orders are too many, ``ValueError`` for a block size below 1.
 
     >>> sum(len(block) for block in iter_blocks(2, 5))
     214
@@ -80,7 +76,7 @@ def blocks_of(
     block_size: int = BLOCK_SIZE,
     roots: Collection[int] | None = None,
 ) -> Iterator[Block]:
-    """The same of the trees that are meant by ``admissible``."""
+    """The trees of one order that ``admissible`` describes, in blocks."""
     if block_size < 1:
         raise ValueError(f"a block holds at least one tree, not {block_size}")
     wanted = [root for root in range(admissible.colours) if roots is None or root in roots]
@@ -107,12 +103,11 @@ def select(
     edges: Edges | None = None,
     linear: Collection[int] = (),
 ) -> Iterator[Block]:
-    """The trees of one order with a given root colour, or made of given colours; colours count from
-    0.
+    """The trees of one order with a given root colour, or with given colours; colours count from 0.
 
     ``only``: no vertex has another colour than these (the others are not generated); ``using``:
     each of these colours occurs. Blocks are never empty. Raises ``ValueError`` for a colour that
-    does not exist, and what :func:`iter_blocks` raises, both when the first block is requested.
+    does not exist, and the errors of :func:`iter_blocks`, when the first block is requested.
 
     >>> [u for block in select(2, 3, root=0, using=[1]) for u in block.notation()]
     ['[[]_1,[]_2]_1', '[[]_2,[]_2]_1', '[[[]_2]_1]_1', '[[[]_1]_2]_1', '[[[]_2]_2]_1']
@@ -152,7 +147,7 @@ def select(
 
 
 def _used(trees: Columns, bits: Column, known: Column) -> Column:
-    """A bit for each colour that occurs; ``known`` has those of the parents."""
+    """A bit for each colour that occurs; ``known`` has the bits of the parents."""
     is_vertex = trees.branch < 0
     return np.where(is_vertex, bits[trees.root], known[trees.stem] | known[trees.branch])
 

@@ -1,4 +1,4 @@
-"""How many N-trees there are: exact counts of any order, without generating a tree.
+"""Counts N-trees of any order exactly, without generating a tree.
 
 The trees of order n with root l are the forests of order n - 1 that may be on l, or n - w where a
 vertex counts w orders. Forests are counted from trees by the Euler transform: for a forest whose
@@ -6,7 +6,7 @@ trees have the counts t(1), t(2), …
 
     n f(n) = Σ_{k=1..n} c(k) f(n - k),      c(k) = Σ_{d | k} d t(d),      f(0) = 1.
 
-Of these f(n), t(n) are one branch, and the others are several.
+Of these f(n) forests, t(n) are one branch.
 
 The t(n) that c(n) needs is a sum of f(n - 1), so the convolution is one of sequences that are still
 growing. It is taken in blocks, of half the orders, a quarter, and so on, each a product of
@@ -32,9 +32,9 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Sequence
 
 SHORT = 48
-"""Orders in a block that is done one by one: products of polynomials this short gain nothing."""
+"""Blocks of so many orders are done one by one: products of shorter polynomials gain nothing."""
 Edges: TypeAlias = "Sequence[Sequence[bool]]"
-"""``edges[l][m]``: a vertex of colour l may carry a branch whose root has colour m; colours from
+"""``edges[l][m]``: whether a vertex of colour l may carry a branch with root colour m; colours from
 0.
 """
 
@@ -43,11 +43,11 @@ Colours: TypeAlias = tuple[int, ...]
 
 
 class Admissible(Frozen):
-    """Which N-trees are meant: the colours, the edges between them, and the kinds of vertices.
+    """A class of N-trees: the colours, the edges between them, and the kinds of vertices.
 
     ``branches[l]`` are the colours, in increasing order, that may be on a vertex of colour l, and
     ``kinds[l]`` says how many of them, and how many orders the vertex counts. A vertex of a linear
-    colour carries one branch at most: its vector field is linear in what it sees.
+    vector field carries at most one branch.
     """
 
     colours: int
@@ -58,7 +58,8 @@ class Admissible(Frozen):
     def of(
         cls, colours: int, edges: Edges | None = None, linear: Collection[int] = ()
     ) -> Admissible:
-        """The trees of colours of which some are linear, checked; no ``edges`` means every edge.
+        """The class of trees with some linear colours, checked; without ``edges`` every edge is
+        allowed.
 
         Raises ``TreeError`` when ``edges`` is not a colours × colours matrix or a colour does not
         exist.
@@ -89,16 +90,15 @@ class Admissible(Frozen):
             raise TreeError(message, "their order can be decided all the same", code="wrong-value")
 
     def is_linear(self, colour: int) -> bool:
-        """Whether a colour has a linear vector field: a vertex carries one branch at most."""
+        """Whether a colour has a linear vector field: a vertex carries at most one branch."""
         return self.kinds[colour] == LINEAR
 
     def tree(self, root: int, branches: Iterable[Tree] = ()) -> Tree:
-        """The tree with such a root."""
         return Tree(root, branches, self.kinds[root])
 
     @property
     def leaders(self) -> Colours:
-        """For each colour the first on which the same branches may be: the trees differ in their
+        """For each colour the first one that admits the same branches: their trees differ in their
         roots only.
         """
         first: dict[tuple[Colours, Kind], int] = {}
@@ -111,8 +111,8 @@ Counts: TypeAlias = tuple[int, ...]
 
 
 def counts_upto(admissible: Admissible, order: int) -> list[Counts]:
-    """``counts[n - 1][l]``: the number of admissible trees of order n with root colour l, n = 1, …,
-    order.
+    """``counts[n - 1][l]``: the number of admissible trees of order n ≤ ``order`` with root colour
+    l.
 
     >>> counts_upto(Admissible.of(2, [[False, True], [True, True]]), 3)
     [(1, 1), (1, 2), (3, 6)]
@@ -138,14 +138,13 @@ def count_by_root(
 
 
 def counts_of(admissible: Admissible, order: int) -> Counts:
-    """The number of admissible trees of one order for each root colour."""
     leaders = admissible.leaders
     growing = _grown(admissible, leaders, order)
     return tuple(int(growing[leader].trees(order)) for leader in leaders)
 
 
 def _grown(admissible: Admissible, leaders: Sequence[int], order: int) -> dict[int, _Growing]:
-    """For each leader the forests of order 0, …, order - 1 that may be on it."""
+    """For each leader the forests of order 0, …, order - 1 that it may carry."""
     if order < 1:
         message = f"the order of a tree is at least 1, not {order}"
         raise TreeError(message, "ask for order 1 or more")
@@ -185,7 +184,7 @@ class _Growing:
         self.sums = [fmpz(0)] * order
 
     def trees(self, n: int) -> fmpz:
-        """How many trees of order n have this root."""
+        """The number of trees of order n with this root."""
         rest = n - self.kind.weight
         arity = self.kind.arity
         if rest <= 0:
@@ -195,7 +194,7 @@ class _Growing:
         return self.f[rest] - self.t[rest] if self.has_several else fmpz(0)
 
     def see(self, n: int, growing: dict[int, _Growing]) -> None:
-        """Note the trees of order n, each a root on a smaller forest."""
+        """Records the trees of order n, each a root on a smaller forest."""
         t = fmpz(0)
         for leader, many in self.branches.items():
             t += many * growing[leader].trees(n)
@@ -205,7 +204,7 @@ class _Growing:
                 self.c[multiple] += n * t
 
     def grow(self, n: int, start: int) -> None:
-        """Count the forests of n vertices; what blocks before ``start`` give is known."""
+        """Counts the forests of n vertices; contributions of blocks before ``start`` are known."""
         if not self.has_several:
             self.f.append(self.t[n])
             return
@@ -222,7 +221,7 @@ class _Growing:
         f.append(total // n)
 
     def spread(self, end: int, block: int) -> None:
-        """Add to the sums of later orders what the blocks before ``end`` give to them.
+        """Adds the contributions of the blocks before ``end`` to the sums of later orders.
 
         ``end`` is the middle of one interval [start, stop) among those that halve [0, 2^k block).
         Every pair of orders i and j = n - i has one interval where max(i, j) lies in the first half

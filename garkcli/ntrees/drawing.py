@@ -22,7 +22,7 @@ PALETTE = (
     ("#f0e442", "#000000"),
     ("#444444", "#ffffff"),
 )
-"""A fill for each colour, told apart by every kind of colour vision, and the ink legible on it.
+"""Fills and the ink legible on them, distinguishable with every kind of colour vision.
 
 Source: Okabe and Ito, *Color Universal Design* (2008). From the ninth colour on the fills repeat;
 the numbers do not.
@@ -30,11 +30,11 @@ the numbers do not.
 
 DOT = "●"
 _WITH_ROOT = {"─": "┬", "┴": "┼", "╰": "├"}
-"""What the signs of a fork become where the root is below them."""
+"""The signs of a fork with the root below them."""
 
 
 class Vertex(NamedTuple):
-    """A vertex placed: ``x`` in leaf widths from the left, ``y`` the distance from the root."""
+    """A placed vertex: ``x`` in leaf widths from the left, ``y`` the distance from the root."""
 
     x: float
     y: int
@@ -46,11 +46,8 @@ Lines: TypeAlias = "Sequence[str]"
 
 
 def layout(tree: Tree) -> list[Vertex]:
-    """Place every vertex, the root first, parents before branches; ``parent`` is an index, -1 for
-    the root.
-
-    Leaves are one unit apart; a vertex with branches is in the middle of the first and the last of
-    them.
+    """Places every vertex, the root first, parents before branches; ``parent`` is an index, -1 for
+    the root. Leaves are one unit apart; a vertex is halfway between its first and last branches.
 
     >>> from garkcli.ntrees.tree import Tree
     >>> layout(Tree(0, [Tree(1), Tree(1)]))[0]
@@ -79,8 +76,8 @@ def layout(tree: Tree) -> list[Vertex]:
 
 
 def draw_text(tree: Tree, colours: bool = True, width: int = 80) -> list[str]:
-    r"""Lines of text, from top to bottom: a chain on one line, from its root on,
-    another tree upright, where that fits into ``width``; else lying on its side.
+    r"""Lines of text, from top to bottom: a chain on one line, another tree upright if it fits into
+    ``width``, else lying on its side.
 
     A vertex is a dot followed by its colour, from 1; ``colours=False`` leaves the number out.
 
@@ -101,7 +98,6 @@ def draw_text(tree: Tree, colours: bool = True, width: int = 80) -> list[str]:
 
 
 def text_width(lines: Lines) -> int:
-    """Characters in the longest of some lines."""
     return max(map(len, lines))
 
 
@@ -113,7 +109,7 @@ def _label(tree: Tree, colours: bool) -> str:
 
 
 def _chain(tree: Tree, colours: bool) -> list[str]:
-    """A tree without forks; nothing of others."""
+    """A tree without forks on one line; empty for other trees."""
     labels = [_label(tree, colours)]
     while tree.branches:
         if len(tree.branches) > 1:
@@ -124,7 +120,6 @@ def _chain(tree: Tree, colours: bool) -> list[str]:
 
 
 def _upright(tree: Tree, colours: bool) -> tuple[list[str], int]:
-    """The lines, and the column of the root's dot."""
     label = _label(tree, colours)
     if not tree.branches:
         return [label], 0
@@ -146,7 +141,7 @@ def _upright(tree: Tree, colours: bool) -> tuple[list[str], int]:
 
 
 def _fork(dots: Sequence[int], root: int) -> str:
-    """The line that joins branches, whose dots are at these columns, to the root below."""
+    """The line that joins branches at the columns ``dots`` to the root below."""
     first = dots[0]
     last = dots[-1]
     indent = " " * first
@@ -162,7 +157,7 @@ def _fork(dots: Sequence[int], root: int) -> str:
 
 
 def _lying(tree: Tree, colours: bool) -> list[str]:
-    """The root at the top left, one vertex a line: as wide as the tree is deep."""
+    """The root at the top left, one vertex per line: as wide as the tree is deep."""
     lines = [_label(tree, colours)]
     branches = written_order(tree)
     for k, u in enumerate(branches):
@@ -212,7 +207,7 @@ def tikz(tree: Tree, scale: float = 0.6, colours: bool = True) -> str:
 
 
 def _tikz_style(colour: int) -> str:
-    """How the node of a vertex with a number looks."""
+    """The style of a vertex with a number."""
     fill, ink = map(_tikz_colour, paint(colour))
     shape = "circle,draw,inner sep=0pt,minimum size=4mm"
     colours = f"fill={fill},text={ink}"
@@ -243,18 +238,16 @@ Pixels: TypeAlias = list[float]
 
 
 def draw_svg(tree: Tree) -> str:
-    """A picture of one tree, as notebooks show it; colours count from 1 there."""
+    """A picture of one tree, as notebooks show it; its colours count from 1."""
     return draw_svg_sheet([tree])
 
 
 def draw_svg_sheet(trees: Sequence[Tree], captions: Lines | None = None, columns: int = 0) -> str:
-    """An SVG document with the trees in rows of ``columns``, beneath each its caption, σ and γ.
+    """An SVG document with the trees in rows of ``columns``, each above its caption, σ and γ.
 
-    By default a row has six trees, or three where there are few, so that a phone shows them.
-
-    The dots carry the colours' numbers, from 1, and fills of ``PALETTE``; trees of colour 1 alone
-    have plain dots. ``captions``: a line of text for each tree. Raises ``ValueError`` when there
-    are not as many captions as trees.
+    By default a row has six trees, or three if there are few, so that a phone shows them. The dots
+    carry the colours' numbers, from 1, and fills of ``PALETTE``; if colour 1 is the only one they
+    are plain. ``captions``: a line of text for each tree; ``ValueError`` if their numbers differ.
     """
     count = len(trees)
     if captions is not None and len(captions) != count:
@@ -292,7 +285,6 @@ def draw_svg_sheet(trees: Sequence[Tree], captions: Lines | None = None, columns
 def _grid(
     placed: Sequence[Vertices], captions: Sequence[Lines], columns: int
 ) -> tuple[Pixels, Pixels]:
-    """The widths of the columns of a sheet and the heights of its rows, in pixels."""
     rows = -(-len(placed) // columns)
     widths = [0.0] * columns
     heights = [0.0] * rows
@@ -326,7 +318,7 @@ def _svg_tree(vertices: Vertices, middle: float, ground: float, has_colours: boo
 
 
 def _svg_dot(colour: int, x: float, y: float, has_number: bool) -> list[str]:
-    """A vertex, and perhaps the number of its colour on it."""
+    """A vertex, with the number of its colour if ``has_number``."""
     if not has_number:
         return [f'<circle {_pixels(cx=x, cy=y)} r="{RADIUS / 2:g}" fill="#333333"/>']
     fill, ink = paint(colour)

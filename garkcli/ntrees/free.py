@@ -1,7 +1,7 @@
-"""Free N-trees: what is left of a rooted tree when its root may move along the edges.
+"""Free N-trees: rooted trees whose root may move along the edges.
 
-Rooted trees stand for free trees here: a free tree is the set of its rootings, and it is listed and
-recognised by the rooting at its centroid, where no branch has more than half of the vertices.
+A free tree is the set of its rootings. It is represented by the rooting at its centroid, where no
+branch has more than half of the vertices.
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ from garkcli.ntrees.count import Admissible
 from garkcli.ntrees.tree import Tree
 
 Part: TypeAlias = Literal["y", "q", "p"]
-"""What a colour drives: all unknowns (a GARK method), positions or momenta (a symplectic pair)."""
+"""What a colour drives: all unknowns (GARK), or positions or momenta (symplectic pair)."""
 Nature: TypeAlias = tuple[int, Part]
-"""The term of a colour, and what it drives."""
+"""The term of a colour, and the part that it drives."""
 Forest: TypeAlias = tuple[Tree, ...]
 _Kind: TypeAlias = tuple[int, int]
 """The order and the colour of a branch."""
@@ -26,7 +26,7 @@ _PARTNER: dict[Part, Part] = {"y": "y", "q": "p", "p": "q"}
 
 
 class Structure(Frozen):
-    """The colours of a symplectic tableau and how a tree's root moves among them.
+    """The colours of a symplectic tableau, and how a tree's root moves among them.
 
     A vertex of the free tree is a term H^{l} of the split; a colour is a term together with what it
     drives. Below a vertex of term l hangs ``(m, "q")``, V^m, through A^{l,m} or ``(m, "p")``, F^m,
@@ -81,7 +81,7 @@ class Structure(Frozen):
 
     @cached_property
     def leaders(self) -> dict[int, int]:
-        """For each term the colour that its vertex has as a root: the first one."""
+        """For each term the first of its colours, which its vertex has as a root."""
         first: dict[int, int] = {}
         for colour, (term, _) in enumerate(self.colours):
             first.setdefault(term, colour)
@@ -93,7 +93,7 @@ class Structure(Frozen):
 
     @cached_property
     def admissible(self) -> Admissible:
-        """The rooted trees that have an order condition."""
+        """The rooted trees with an order condition."""
         everything = range(len(self.colours))
         edges: list[list[bool]] = []
         linear: list[int] = []
@@ -105,7 +105,7 @@ class Structure(Frozen):
         return Admissible.of(len(self.colours), edges, linear)
 
     def _turned(self, above: int, below: int) -> int | None:
-        """The colour of the upper vertex once the root has moved below it; None where there is no
+        """The colour of the upper vertex once the root has moved below it; None if there is no
         edge.
         """
         term, _ = self.colours[above]
@@ -113,14 +113,12 @@ class Structure(Frozen):
         return self._number.get((term, _PARTNER[part]))
 
     def is_forward(self, colour: int) -> bool:
-        """Whether an edge down to this colour points down: through A, not through the conjugate
-        Â.
-        """
+        """Whether an edge down to this colour goes through A, not through the conjugate Â."""
         _, part = self.colours[colour]
         return part != "p"
 
     def lead(self, tree: Tree) -> Tree:
-        """The same tree with the first of the colours that its root may have."""
+        """The tree with the first of the colours that its root may have."""
         term, _ = self.colours[tree.root]
         leader = self.leaders[term]
         if leader == tree.root:
@@ -150,7 +148,7 @@ class Structure(Frozen):
         return self.lead(Tree(branch.root, (*branch.branches, Tree(colour, others))))
 
     def rootings(self, tree: Tree) -> Iterator[Tree]:
-        """The rooting at every vertex, with repeats where vertices are alike."""
+        """The rootings at all vertices, with repeats if vertices are alike."""
         start = self.lead(tree)
         # each rooting with the branches that lead away from where the root came from
         waiting: list[tuple[Tree, Forest]] = [(start, tree.branches)]
@@ -192,7 +190,7 @@ class Structure(Frozen):
 
 
 def _twice_largest(tree: Tree) -> int:
-    """Twice the order of the largest branch: the order of the tree where both ends are centroids.
+    """Twice the order of the largest branch: that of the tree if both its ends are centroids.
 
     0 for a single vertex.
     """
@@ -202,8 +200,8 @@ def _twice_largest(tree: Tree) -> int:
 
 
 class Grower(Frozen):
-    """Lists the free trees of a structure by their centroids, each once; keeps trees of half the
-    order only.
+    """Lists the free trees of a structure by their centroids, each once; only trees of half the
+    order are kept.
     """
 
     structure: Structure
@@ -213,7 +211,7 @@ class Grower(Frozen):
         return {}
 
     def one_centroid(self, root: int, order: int) -> Iterator[Tree]:
-        """The free trees with one centroid, rooted there, in the order of trees."""
+        """The free trees with one centroid, rooted there, sorted."""
         is_linear = self.structure.admissible.is_linear(root)
         edges = 2 if is_linear else order
         total = order - 1
@@ -240,9 +238,7 @@ class Grower(Frozen):
                     yield Tree(root, (*u.branches, v))
 
     def planted(self, root: int, order: int) -> Forest:
-        """The rooted trees that may hang below a vertex, or be half of a tree, in the order of
-        trees.
-        """
+        """The rooted trees that may be a branch of a vertex, or half of a tree, sorted."""
         key = (order, root)
         if key not in self._planted:
             is_linear = self.structure.admissible.is_linear(root)
@@ -253,8 +249,8 @@ class Grower(Frozen):
         return self._planted[key]
 
     def _forests(self, root: int, total: int, largest: int, edges: int) -> Iterator[Forest]:
-        """The branches that a root may have: ``total`` vertices, ``largest`` and ``edges`` at
-        most.
+        """The branches that a root may have: ``total`` vertices, at most ``edges`` branches of at
+        most ``largest`` vertices.
         """
         colours = self.structure.admissible.branches[root]
         for outline in _outlines(total, (largest, max(colours, default=0)), colours, edges):

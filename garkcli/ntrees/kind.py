@@ -1,4 +1,4 @@
-"""Kinds of vertices: how many branches they have, how many orders they count, and whether the exact
+"""Kinds of vertices: their numbers of branches, the orders they count, and whether the exact
 solution has them.
 """
 
@@ -11,7 +11,7 @@ from typing import TypeAlias
 from garkcli.frozen import Frozen
 
 Arity: TypeAlias = "frozenset[int]"
-"""Numbers of branches; 2 stands for all from 2 on."""
+"""Numbers of branches; 2 means two or more."""
 SEVERAL = 2
 ANY: Arity = frozenset({0, 1, SEVERAL})
 _WORDS = {0: "no branch", 1: "one branch", SEVERAL: "several branches"}
@@ -21,10 +21,10 @@ class Kind(Frozen):
     """The kind of the vertices of a colour.
 
     Attributes:
-        arity: how many branches they may have.
-        weight: how many orders a vertex counts: as often the exact solution is integrated at it.
-        is_exact: whether the exact solution has such vertices. Otherwise the elementary weights of
-            trees with one should be 0.
+        arity: the possible numbers of branches.
+        weight: the orders that a vertex counts: so often the exact solution is integrated at it.
+        is_exact: whether the exact solution has such vertices; if not, elementary weights with one
+            should be 0.
         is_field: whether the colour is a vector field, and not an argument of one.
     """
 
@@ -34,12 +34,11 @@ class Kind(Frozen):
     is_field: bool = True
 
     def allows(self, branches: int) -> bool:
-        """Whether a vertex may have so many branches."""
         return min(branches, SEVERAL) in self.arity
 
     def integrated(self, order: int) -> int:
-        """ρ (ρ − 1) ⋯, a factor for each order of the weight: what a tree of order ρ with such a
-        root contributes to its density.
+        """ρ (ρ − 1) ⋯, with as many factors as the weight: the factor of a root in the density of a
+        tree of order ρ.
 
         >>> Kind().integrated(4), Kind(weight=2).integrated(4)
         (4, 12)
@@ -48,7 +47,7 @@ class Kind(Frozen):
 
     @property
     def of_linear_field(self) -> Kind:
-        """The kind where the vector field is linear.
+        """The kind for a linear vector field.
 
         >>> Kind().of_linear_field == LINEAR
         True
@@ -57,7 +56,7 @@ class Kind(Frozen):
 
     @cached_property
     def stems(self) -> Arity:
-        """The numbers of branches, 0 or 1, that no vertex has, and that are left of larger ones
+        """The numbers of branches, 0 or 1, that no vertex has but that remain of larger ones
         without their last branch.
         """
         below = {n for n in (0, 1) if max(self.arity, default=0) > n}
@@ -65,7 +64,7 @@ class Kind(Frozen):
 
     @property
     def branches(self) -> str:
-        """How many branches a vertex has, in words.
+        """The possible numbers of branches, in words.
 
         >>> LINEAR.branches, Kind(frozenset({0, 2})).branches
         ('no branch or one branch', 'no branch or several branches')
@@ -75,18 +74,18 @@ class Kind(Frozen):
 
 PLAIN = Kind()
 LINEAR = Kind(frozenset({0, 1}))
-"""Of a vector field that is linear."""
+"""A linear vector field."""
 LEAF = Kind(frozenset({0}))
-"""Of a constant one, as ṫ = 1 of time."""
+"""A constant vector field, such as ṫ = 1 of time."""
 ONE_BRANCH = Kind(frozenset({1}))
-"""Of the Jacobian of a vector field at the beginning of the step."""
+"""The Jacobian of a vector field at the beginning of the step."""
 ARGUMENT = Kind(is_field=False)
-"""The kind of a vector field of several arguments, one of which a branch is in."""
+"""One argument of a vector field with several arguments."""
 NOT_ONE = Kind(frozenset({0, SEVERAL}))
-"""The kind of a vector field beside its Jacobian."""
+"""A vector field beside its Jacobian."""
 MATRIX = Kind(frozenset({1}), is_exact=False)
-"""Of an arbitrary matrix."""
+"""An arbitrary matrix."""
 ERROR_OF_MATRIX = Kind(frozenset({1}), weight=2, is_exact=False)
-"""Of the E in a matrix f' + h E."""
+"""The E of a matrix f' + h E."""
 FIELDS = (PLAIN, LINEAR, LEAF)
-"""The kinds whose vertices are a vector field, as it is evaluated at stages."""
+"""The kinds of vector fields that stages evaluate."""

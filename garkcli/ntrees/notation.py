@@ -1,4 +1,4 @@
-"""Trees and their order conditions in text: bracket notation read and written, plain and LaTeX.
+"""Reads and writes trees in bracket notation, and their order conditions in text and LaTeX.
 
 A tree is its branches in brackets, then its root's colour: ``[[]_2,[]_2]_1``. Text counts colours
 from 1, code from 0; this module converts. Larger branches are written first, as the paper does in
@@ -17,28 +17,25 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
 MAX_LENGTH = 20_000
-"""Characters in the text of a tree."""
 MAX_VERTICES = 1000
-"""Vertices of a tree in text; σ and γ then stay below the 4300 digits that Python writes."""
+"""Vertices of a tree in text; σ and γ then have less than the 4300 digits that Python writes."""
 MAX_DEPTH = 150
-"""Vertices on a path from the root to a leaf; keeps every recursion over trees far from Python's
+"""Vertices on a path from the root to a leaf; keeps recursion over trees far from Python's
 limit.
 """
 MAX_COLOUR = 32_767
-"""The largest colour number in text: what the columns of the tree table can hold."""
+"""The largest colour in text: the columns of the tree table hold no larger one."""
 
 LETTERS = "lmnuvwxyzpqrst"
-"""Names for the vertices of a shape, in the paper's order; beyond them the same again with
-primes.
-"""
+"""Names of the vertices of a shape, in the paper's order; beyond them primes are added."""
 
 _BLANK = re.compile(r"\s*")
 _DIGITS = re.compile(r"[0-9]*")
 
 
 class NotationError(TreeError):
-    """A text that is not a tree: ``message`` what is wrong, ``help`` the cure, ``offset`` where
-    (from 0).
+    """A text that is not a tree: ``message``, the cure ``help``, and the ``offset`` of the fault,
+    from 0.
     """
 
     code = "no-such-tree"
@@ -52,15 +49,15 @@ class NotationError(TreeError):
 
 
 def parse_tree(text: str) -> Tree:
-    """Read a tree in bracket notation; blanks are free, and colours may be left out everywhere (all
-    1).
+    """Parses a tree in bracket notation; blanks are free, and colours may be omitted everywhere
+    (all 1).
 
     Args:
         text: the branches of a vertex in brackets, then its colour, counted from 1.
 
     Raises:
-        TreeError: it is no tree; its text says where, ``offset`` likewise, from 0. A tree has 1000
-            vertices at most, 150 of them on a path.
+        TreeError: no tree; the message and ``offset``, from 0, say where. A tree has at most 1000
+            vertices, at most 150 of them on a path.
 
     >>> parse_tree("[[]_2, []_2]_1")
     <Tree [[]_2,[]_2]_1>
@@ -74,7 +71,7 @@ def parse_tree(text: str) -> Tree:
 
 
 class _Reader:
-    """Reads one tree from left to right, with a stack of open brackets instead of recursion."""
+    """Parses one tree from left to right, with a stack of open brackets instead of recursion."""
 
     def __init__(self, text: str) -> None:
         self.text = text
@@ -130,7 +127,7 @@ class _Reader:
         self.position += 1
 
     def _colour(self) -> int:
-        """The colour after a closing bracket, from 0; 0 where colours are left out."""
+        """The colour after a closing bracket, from 0; 0 if colours are omitted."""
         start = self.position
         coloured = self._next() == "_"
         if self.coloured is None:
@@ -160,15 +157,15 @@ class _Reader:
 
 
 def written_order(tree: Tree) -> list[Tree]:
-    """The branches as they are written and drawn: larger ones first, else in the order of the
+    """The branches in the order of writing and drawing: larger ones first, else in the order of the
     tree.
     """
     return sorted(tree.branches, key=lambda u: -u.order)
 
 
 def format_tree(tree: Tree, colours: bool | Sequence[str] = True) -> str:
-    """Bracket notation, which ``parse_tree`` reads again; ``colours=False`` leaves the colours
-    out, and names stand for their numbers.
+    """Bracket notation, the inverse of ``parse_tree``; ``colours=False`` omits the colours, and
+    names replace their numbers.
 
     >>> format_tree(Tree(0, [Tree(1), Tree(0, [Tree(1)])]))
     '[[[]_2]_1,[]_2]_1'
@@ -182,8 +179,7 @@ def format_tree(tree: Tree, colours: bool | Sequence[str] = True) -> str:
 
 
 def format_latex(tree: Tree, colours: bool | Sequence[str] = True) -> str:
-    r"""The paper's notation: τ^{[l]} for a single vertex of colour l, [u_1, …, u_m]^{[l]} for the
-    rest.
+    r"""The paper's notation: τ^{[l]} for a single vertex of colour l, else [u_1, …, u_m]^{[l]}.
 
     >>> print(format_latex(Tree(0, [Tree(0), Tree(1)])))
     [\tau^{[1]},\tau^{[2]}]^{[1]}
@@ -197,7 +193,7 @@ def format_latex(tree: Tree, colours: bool | Sequence[str] = True) -> str:
 
 
 def _name(tree: Tree, colours: bool | Sequence[str]) -> str:
-    """The name of the colour of a root: its number from 1 where there is none."""
+    """The name of a root's colour, or its number from 1."""
     return str(tree.root + 1) if isinstance(colours, bool) else colours[tree.root]
 
 
@@ -218,8 +214,8 @@ def condition_text(tree: Tree, letters: Sequence[str] | None = None, colours: bo
     """The order condition b^T 𝒜^[u] = 1/γ(u) of a tree (the paper's eq. bA) in plain text.
 
     Without ``letters`` the colours are numbers, from 1. With them each vertex has a name of its
-    own, in the order of writing, the root first: the condition of a shape, for all colours l, m, n,
-    …; :func:`vertex_letters` gives the paper's. ``colours=False`` leaves them out.
+    own, in the order of writing, the root first: the condition of a shape; :func:`vertex_letters`
+    gives the paper's. ``colours=False`` omits them.
 
     >>> u = Tree(0, [Tree(1), Tree(0, [Tree(1)])])
     >>> condition_text(u)
@@ -236,8 +232,7 @@ def condition_text(tree: Tree, letters: Sequence[str] | None = None, colours: bo
 
 
 def condition_latex(tree: Tree, letters: Sequence[str] | None = None, colours: bool = True) -> str:
-    r"""The order condition of a tree in LaTeX, as in the paper's Table 1; ``letters`` and
-    ``colours`` as in the plain text.
+    r"""The order condition of a tree in LaTeX, as in the paper's Table 1.
 
     The vector of ones is the paper's ``\mathbbm{1}``, of package ``bbm``; ``\mathbb`` has no
     digits.
@@ -255,7 +250,6 @@ def condition_latex(tree: Tree, letters: Sequence[str] | None = None, colours: b
 
 
 def _latex_inverse(density: int) -> str:
-    """1/γ; a single digit needs no braces."""
     if density == 1:
         return "1"
     if density < 10:
@@ -264,8 +258,8 @@ def _latex_inverse(density: int) -> str:
 
 
 class _Formula:
-    """Writes 𝒜^[u] (the paper's eqs. Ataul and Au) with the given signs, naming vertices as it
-    meets them.
+    """Writes 𝒜^[u] (the paper's eqs. Ataul and Au) with the given signs, naming vertices in
+    order.
     """
 
     def __init__(self, block: str, one: str, times: str, letters: Sequence[str] | None) -> None:
@@ -277,7 +271,7 @@ class _Formula:
             self.names = iter(letters)
 
     def of(self, tree: Tree) -> tuple[str, str]:
-        """The name of the root, and 𝒜^[u]; raises ``ValueError`` when there are too few letters."""
+        """The name of the root, and 𝒜^[u]; raises ``ValueError`` if there are too few letters."""
         name = str(tree.root + 1)
         if self.names is not None:
             name = next(self.names, "")

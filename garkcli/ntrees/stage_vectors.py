@@ -1,5 +1,5 @@
-"""Stage vectors 𝒜^[u] of all trees of a table, whatever their entries are; the elementary weights
-b_l^T 𝒜^[u] in floating point.
+"""Stage vectors 𝒜^[u] of all trees of a table, for any kind of entries; elementary weights in
+floats.
 """
 
 from __future__ import annotations
@@ -20,18 +20,17 @@ if TYPE_CHECKING:
 
 Vectors = TypeVar("Vectors")
 CHUNK = 1 << 16
-"""Trees whose stage vectors are gathered at once: bounds the memory of the highest order."""
+"""Trees whose stage vectors are gathered at once; this bounds the memory of the highest order."""
 
 
 class StageVectors(ABC, Generic[Vectors]):
     """𝒜^[u] = 𝒜^[stem] ⊙ (A 𝒜^[branch]), one gathered product for each segment of a table.
 
-    Vectors are those of several trees, in the order of their ids. Tables of any order may be
-    requested: what they share is kept. Colours that share their stages and their branches share
-        vectors.
+    ``Vectors`` holds those of several trees, in the order of their ids. Tables of different orders
+    share vectors, and so do colours with the same stages and branches.
 
     Args:
-        admissible: which trees are meant.
+        admissible: the class of trees.
         rows: the stage space of each colour.
     """
 
@@ -44,7 +43,7 @@ class StageVectors(ABC, Generic[Vectors]):
         self._images: dict[tuple[int, int, int], Vectors] = {}
 
     def everything(self, table: TreeTable) -> Iterator[tuple[int, slice, Vectors]]:
-        """The root colour, the ids and the stage vectors of all trees, some at a time; those of the
+        """The root colour, the ids and the stage vectors of all trees, in pieces; those of the
         highest order are never held together.
         """
         highest = table.max_order
@@ -60,11 +59,11 @@ class StageVectors(ABC, Generic[Vectors]):
                     yield segment.root, here, vectors
 
     def of(self, table: TreeTable, order: int, l: int) -> Vectors:
-        """Those of the trees of an order with root colour l; there is one at least."""
+        """The stage vectors of the trees of an order with root colour l; there is at least one."""
         return self._some(table, order, l, is_bare=False)
 
     def _some(self, table: TreeTable, order: int, l: int, is_bare: bool) -> Vectors:
-        """Those of trees, or of bare stems."""
+        """The stage vectors of trees, or of bare stems."""
         key = order, self._natures[l], is_bare
         if key not in self._vectors:
             kind = table.admissible.kinds[l]
@@ -77,7 +76,7 @@ class StageVectors(ABC, Generic[Vectors]):
         return self._vectors[key]
 
     def branches(self, table: TreeTable, segment: Segment) -> Vectors:
-        """A 𝒜^[branch] of all branches that a segment chooses from."""
+        """A 𝒜^[branch] of all branches of a segment."""
         space, m = self.rows[segment.root], segment.branch_root
         key = space, segment.branch_order, m
         if key not in self._images:
@@ -85,7 +84,7 @@ class StageVectors(ABC, Generic[Vectors]):
         return self._images[key]
 
     def stems(self, table: TreeTable, segment: Segment) -> Vectors:
-        """𝒜^[stem] of all stems that a segment chooses from."""
+        """𝒜^[stem] of all stems of a segment."""
         order, root = segment.order - segment.branch_order, segment.root
         is_bare = segment.stems.start not in table.ids(order, root)
         return self._some(table, order, root, is_bare)
@@ -100,42 +99,40 @@ class StageVectors(ABC, Generic[Vectors]):
             yield here, self._product(space, left, right)
 
     def _part(self, vectors: Any, places: Column) -> Vectors:
-        """Those at some places, copied."""
+        """A copy of the vectors at some places."""
         part: Vectors = vectors[places]
         return part
 
     @abstractmethod
     def _vertex(self, l: int) -> Vectors:
-        """𝟙, of the single vertex of colour l."""
+        """𝟙, for the single vertex of colour l."""
 
     @abstractmethod
     def _image(self, space: int, m: int, vectors: Vectors) -> Vectors:
-        """A 𝒜^[u], A the block of a stage space and a colour."""
+        """A 𝒜^[u], with the block A of a stage space and a colour."""
 
     @abstractmethod
     def _product(self, space: int, stems: Vectors, branches: Vectors) -> Vectors:
-        """The products of two vectors each; both may be written over."""
+        """The products of two vectors each, in place if possible."""
 
     @abstractmethod
     def _joined(self, parts: list[Vectors]) -> Vectors:
-        """Some after the other."""
+        """The concatenation of some vectors."""
 
 
 Blocks: TypeAlias = "Mapping[tuple[int, int], Floats]"
-"""Matrices by stage space and colour."""
 
 
 def elementary_weights(
     table: TreeTable, rows: Sequence[int], blocks: Blocks, weights: Sequence[Floats]
 ) -> Floats:
-    """b_l^T 𝒜^[u] for every tree u of the table, in the order of its ids (the paper's eqs. Au and
-    bA).
+    """b_l^T 𝒜^[u] for every tree u of the table, in the order of its ids (the paper's eqs. Au, bA).
 
     ``rows[l]`` is the stage space of colour l (two colours may share one), ``weights[l]`` the
     vector b_l of shape (s,) with s the dimension of that space, and ``blocks[space, m]`` the matrix
     A of shape (s_space, s_rows[m]) that a vertex whose colour has that space applies to a branch of
-    colour m. The stage vectors of the highest order are never held together. Raises ``ValueError``
-    when a block that the table's trees need is missing or has the wrong shape.
+    colour m. Raises ``ValueError`` if a block that the trees need is missing or has the wrong
+    shape.
 
     >>> from garkcli.ntrees.table import TreeTable
     >>> midpoint = {(0, 0): np.array([[0.5]])}
@@ -175,7 +172,7 @@ def _check(
 
 
 class _FloatVectors(StageVectors["Floats"]):
-    """One row per tree."""
+    """Stage vectors in floats, one row per tree."""
 
     def __init__(
         self, table: TreeTable, rows: Sequence[int], blocks: Blocks, weights: Sequence[Floats]

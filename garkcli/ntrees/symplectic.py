@@ -54,7 +54,7 @@ from garkcli.ntrees.free import Grower, Structure
 from garkcli.ntrees.tree import Tree
 
 Kind: TypeAlias = Literal["pair", "self-conjugate", "semi-separable", "separable", "nystrom"]
-"""Symplectic methods with a name; :class:`Structure` has all of them."""
+"""Symplectic methods with a name; :class:`Structure` covers all of them."""
 
 KINDS: tuple[Kind, ...] = get_args(Kind)
 
@@ -69,7 +69,7 @@ def structure_of(kind: Kind, colours: int = 2) -> Structure:
     self-conjugate  y' = Σ f^{l}(y), GARK with Â = A               1…N
     semi-separable  H = H^{1}(q, p) + H^{2}(q)                     V¹, F¹, F²
     separable       H = H^{1}(p) + H^{2}(q)                        V¹, F²
-    nystrom         the same with H^{1} quadratic                  V¹, F²
+    nystrom         separable with H^{1} quadratic                  V¹, F²
     ==============  =============================================  =============================
 
     Args:
@@ -77,7 +77,7 @@ def structure_of(kind: Kind, colours: int = 2) -> Structure:
         colours: N, the number of terms; 2 for the last three.
 
     Raises:
-        ValueError: N below 1, or not 2 where it has to be.
+        ValueError: N below 1, or not 2 for the last three.
     """
     if kind == "pair":
         return Structure.pair(range(colours), range(colours))
@@ -91,7 +91,7 @@ def structure_of(kind: Kind, colours: int = 2) -> Structure:
 
 
 class ConditionClass(Frozen):
-    """Order conditions that are equivalent once those of lower order hold: a free tree.
+    """Order conditions that are equivalent given those of lower order: a free tree.
 
     Attributes:
         centred: the free tree, rooted at its centroid.
@@ -103,21 +103,20 @@ class ConditionClass(Frozen):
 
     @property
     def order(self) -> int:
-        """The number of vertices."""
         return self.centred.order
 
     @cached_property
     def representative(self) -> Tree:
-        """The tree whose condition stands for the class: the rooting at the centroid.
+        """The representative of the class: the rooting at the centroid.
 
-        Where a quadratic term does not admit that root, the first rooting that has a condition.
+        If a quadratic term does not admit that root, the first rooting with a condition.
         """
         return next(self._admissible_rootings())
 
     @cached_property
     def members(self) -> tuple[Tree, ...]:
-        """All rooted trees of the class, sorted: at every vertex, with every colour of the same
-        stages.
+        """All rooted trees of the class, sorted: the rootings at every vertex, with every colour of
+        the same stages.
         """
         twins: list[Tree] = []
         for rooting in set(self._admissible_rootings()):
@@ -125,7 +124,7 @@ class ConditionClass(Frozen):
         return tuple(sorted(twins, key=Tree.sort_key))
 
     def _admissible_rootings(self) -> Iterator[Tree]:
-        """The rootings that have a condition, with repeats where vertices are alike."""
+        """The rootings with a condition, with repeats if vertices are alike."""
         return filter(self.structure.is_admissible, self.structure.rootings(self.centred))
 
     @property
@@ -143,7 +142,7 @@ def independent_classes(structure: Structure, order: int) -> Iterator[ConditionC
     """The independent conditions of one order, each once, sorted by the trees rooted at the
     centroid.
 
-    Trees of at most half the order are kept in memory. Raises ``ValueError`` for an order below 1.
+    Trees of at most half the order are kept in memory. ``ValueError`` for an order below 1.
 
     >>> from garkcli.ntrees.notation import format_tree
     >>> [format_tree(c.representative) for c in independent_classes(Structure.pair([0], [0]), 3)]
@@ -159,7 +158,7 @@ def independent_classes(structure: Structure, order: int) -> Iterator[ConditionC
 
 
 def superfluous_classes(structure: Structure, order: int) -> Iterator[ConditionClass]:
-    """The free trees u∘u of one order, whose conditions hold once those of lower order do; none for
+    """The free trees u∘u of one order, whose conditions follow from those of lower order; none for
     a pair.
 
     >>> [c.representative for c in superfluous_classes(Structure.self_conjugate(1), 2)]
@@ -177,9 +176,9 @@ def superfluous_classes(structure: Structure, order: int) -> Iterator[ConditionC
 def count_classes(structure: Structure, order: int) -> int:
     """The number of independent conditions of one order, without generating a tree.
 
-    A free tree with as many classes of alike vertices as v has v − 1 classes of alike edges, or v
-    when an edge may be turned round: when it is superfluous. So the number is that of the trees
-    with a marked vertex less that of the trees with a marked edge (Otter's dissymmetry).
+    A free tree with v classes of alike vertices has v − 1 classes of alike edges, or v if an edge
+    may be turned round, that is, if it is superfluous. So the number is that of trees with a marked
+    vertex minus that of trees with a marked edge (Otter's dissymmetry).
 
     >>> [count_classes(Structure.pair([0], [0]), n) for n in range(1, 10)]
     [1, 1, 3, 8, 27, 91, 350, 1376, 5743]
@@ -208,9 +207,7 @@ def count_classes(structure: Structure, order: int) -> int:
 
 
 def _pairs(ones: list[int], others: list[int], total: int, same: bool) -> int:
-    """How many pairs of trees have ``total`` vertices together; ``same``: without regard to their
-    order.
-    """
+    """The number of pairs of trees with ``total`` vertices together; ``same``: unordered pairs."""
     ordered = 0
     for k in range(1, total):
         ordered += ones[k - 1] * others[total - k - 1]

@@ -4,8 +4,8 @@ smaller ones.
 Every tree with two vertices or more is uniquely u = stem ∘ branch: the branch is the last one of
 the root, the one with the largest id. For a given stem the admissible branches of one order and
 root colour are a contiguous range of ids, so that a whole order is made with ``repeat`` and
-``arange``. Where a vertex with no branch or one is no tree, but has trees with more, the table has
-it beside the trees, as a *bare stem*.
+``arange``. If a kind of vertex may have more branches but not none or one, the table also has the
+vertex with none or one, as a *bare stem*.
 
 >>> table = TreeTable.upto(1, 4)
 >>> table.notation(range(len(table)), colours=False)
@@ -37,13 +37,13 @@ if TYPE_CHECKING:
 Column: TypeAlias = "np.ndarray[tuple[int], np.dtype[Any]]"
 
 LAST_INT64_ORDER = 20
-"""γ ≤ n! and σ ≤ (n - 1)!, and 20! < 2⁶³ < 21!; beyond, the columns σ and γ hold Python
+"""γ ≤ n! and σ ≤ (n - 1)!, and 20! < 2⁶³ < 21!; for higher orders the columns σ and γ hold Python
 integers.
 """
 
 
 def exact_dtype(order: int) -> DTypeLike:
-    """The type of the columns σ and γ of trees up to an order: one that cannot overflow."""
+    """The type of the columns σ and γ of trees up to an order, without overflow."""
     return np.int64 if order <= LAST_INT64_ORDER else np.dtype(object)
 
 
@@ -51,9 +51,9 @@ class Columns(Frozen):
     """Trees as columns of equal length, one entry per tree.
 
     ``stem``, ``branch``: the ids of the two parents, -1 for a single vertex; ``root``: the root
-    colour, from 0; ``order``: ρ(u); ``multiplicity``: how often the last branch occurs at the root
-    (0 for a single vertex); ``sigma``: the symmetry σ(u); ``gamma``: the density γ(u). σ and γ are
-    exact: int64 up to order 20, Python integers beyond.
+    colour, from 0; ``order``: ρ(u); ``multiplicity``: the multiplicity of the last branch at the
+    root (0 for a single vertex); ``sigma``: the symmetry σ(u); ``gamma``: the density γ(u). σ and γ
+    are exact: int64 up to order 20, Python integers beyond.
     """
 
     stem: Column
@@ -88,7 +88,6 @@ class Columns(Frozen):
         return len(self.stem)
 
     def all(self) -> tuple[Column, ...]:
-        """The seven columns, in the order of the fields."""
         return tuple(getattr(self, name) for name in self.__struct_fields__)
 
     def part(self, which: slice | Column) -> Columns:
@@ -96,13 +95,13 @@ class Columns(Frozen):
         return Columns(*[column[which] for column in self.all()])
 
     def write(self, start: int, trees: Columns) -> None:
-        """Put trees at position ``start`` and following."""
+        """Writes trees at position ``start`` and following."""
         stop = start + len(trees)
         for column, values in zip(self.all(), trees.all(), strict=True):
             column[start:stop] = values
 
     def freeze(self) -> Columns:
-        """Make the columns read-only."""
+        """Makes the columns read-only."""
         for column in self.all():
             column.flags.writeable = False
         return self
@@ -111,8 +110,8 @@ class Columns(Frozen):
 class Segment(Frozen):
     """The trees of one order and root colour whose last branch has one order and root colour.
 
-    They follow each other in the table at ``ids``; ``stems`` and ``branches`` are the ranges of ids
-    that the parents come from.
+    They are consecutive in the table at ``ids``; ``stems`` and ``branches`` are the id ranges of
+    the parents.
     """
 
     order: int
@@ -125,10 +124,10 @@ class Segment(Frozen):
 
 
 class Growth:
-    """The trees of one segment to be, counted at once and made in pieces as large as asked for.
+    """The future trees of one segment, counted at once and made in pieces of any size.
 
-    ``lower``: the columns of all trees of lower order, at least; ``kind``: of the root; ``stems``,
-    ``branches``: the ids of the possible parents, of one order and root colour each.
+    ``lower``: the columns of at least all trees of lower order; ``kind``: the kind of the root;
+    ``stems``, ``branches``: the ids of the possible parents, each of one order and root colour.
     """
 
     def __init__(
@@ -149,7 +148,7 @@ class Growth:
         return int(self._end[-1])
 
     def make(self, start: int, stop: int) -> Columns:
-        """The trees at positions start, …, stop - 1 of the segment, with 0 ≤ start < stop ≤ len."""
+        """The trees at positions start, …, stop - 1 of the segment, 0 ≤ start < stop ≤ len."""
         lower = self.lower
         order = self.order
         length = stop - start
@@ -199,16 +198,16 @@ class Growth:
 
 
 Inside = tuple[str, int, int]
-"""The text between a root's brackets, the offset where its largest branches end, and their
+"""The text between a root's brackets, the offset at which its largest branches end, and their
 order.
 """
 _VERTEX: Inside = ("", 0, 0)
 
 
 class Texts:
-    """Makes text of trees and remembers the text of every tree that was a parent.
+    """Writes trees as text and caches the text of every parent.
 
-    ``columns`` are the trees of the table, ``colours`` whether colours are written.
+    ``columns`` are the trees of the table; ``colours``: whether to write colours.
     """
 
     def __init__(self, columns: Columns, colours: bool) -> None:
@@ -217,7 +216,7 @@ class Texts:
         self._insides: dict[int, Inside] = {}
 
     def of(self, trees: Columns) -> list[str]:
-        """The text of trees whose parents are in the table, as ``format_tree`` writes it."""
+        """The text of trees whose parents are in the table, as by ``format_tree``."""
         parents = np.concatenate([trees.stem, trees.branch])
         self._remember(parents[parents >= 0])
         insides = self._of_children(trees)
@@ -229,7 +228,7 @@ class Texts:
         return texts
 
     def _remember(self, ids: Column) -> None:
-        """Make the insides of these trees and of all their ancestors, the smaller first."""
+        """Writes the insides of these trees and of all their ancestors, smaller first."""
         columns = self.columns
         wanted = generation = np.unique(ids)
         while len(generation):
@@ -268,9 +267,9 @@ class Texts:
 
 
 def _inserted(stem: Inside, text: str, order: int) -> Inside:
-    """Put a branch where it is written: before all smaller ones, after those of its own order.
+    """Inserts a branch before all smaller ones and after those of its own order.
 
-    A last branch is never smaller than the others, so that there are these two cases only.
+    A last branch is never smaller than the others, so there are only two cases.
     """
     inside, end, largest = stem
     length = len(text)
@@ -284,13 +283,13 @@ def _inserted(stem: Inside, text: str, order: int) -> Inside:
 
 
 MAX_TREES = 40_000_000
-"""The largest table that is made, in trees: some 35 bytes each."""
+"""Most trees of a table: some 35 bytes each."""
 MOST_KEPT = 10_000
-"""Most branches of a table that are kept as :class:`Tree`."""
+"""Most branches that a table keeps as :class:`Tree`."""
 
 
 class TableTooLarge(UsageProblem):
-    """More trees were requested than are ever held in memory at once."""
+    """More trees were requested than fit into memory."""
 
     code = "too-many"
 
@@ -300,8 +299,8 @@ class TreeTable(Frozen):
     branch.
 
     A tree's id is its position. The ids of one order and root colour are contiguous: :meth:`ids`.
-    The order of ids is the order of :class:`Tree`. The bare stems of an order come after its trees.
-    The columns are read-only arrays; see :class:`Columns`.
+    Ids have the order of :class:`Tree`. The bare stems of an order follow its trees. The columns
+    are read-only arrays; see :class:`Columns`.
     """
 
     admissible: Admissible
@@ -318,23 +317,23 @@ class TreeTable(Frozen):
 
     @cached_property
     def _branches(self) -> dict[int, Tree]:
-        """Those that are branches of trees asked for, up to MOST_KEPT."""
+        """Branches of requested trees, up to MOST_KEPT."""
         return {}
 
     @classmethod
     def upto(
         cls, colours: int, order: int, edges: Edges | None = None, linear: Collection[int] = ()
     ) -> TreeTable:
-        """Generate the table; ``edges`` and ``linear`` as in :class:`Admissible`.
+        """The table of N-trees; ``edges`` and ``linear`` as in :class:`Admissible`.
 
-        Raises :class:`TableTooLarge` beyond ``MAX_TREES`` trees: :func:`iter_blocks` goes one order
-        further in bounded memory, and :mod:`garkcli.ntrees.count` counts any order.
+        Raises :class:`TableTooLarge` beyond ``MAX_TREES`` trees: :func:`iter_blocks` streams one
+        order more, and :mod:`garkcli.ntrees.count` counts any order.
         """
         return cls.of(Admissible.of(colours, edges, linear), order)
 
     @classmethod
     def of(cls, admissible: Admissible, order: int) -> TreeTable:
-        """Generate the table of the trees meant by ``admissible``."""
+        """The table of the trees that ``admissible`` describes."""
         places = Places.of(admissible, order)
         size = places.size
         if size > MAX_TREES:
@@ -356,7 +355,6 @@ class TreeTable(Frozen):
 
     @property
     def colours(self) -> int:
-        """The number N of colours."""
         return self.admissible.colours
 
     @cached_property
@@ -373,7 +371,7 @@ class TreeTable(Frozen):
 
     @cached_property
     def is_mixed(self) -> Column:
-        """For each tree whether vertices of several colours are in it."""
+        """For each tree whether it has vertices of several colours."""
         mixed: Column = np.zeros(len(self), dtype=bool)
         for order in range(2, self.max_order + 1):
             ids = np.flatnonzero((self.order == order) & (self.stem >= 0))
@@ -398,12 +396,12 @@ class TreeTable(Frozen):
 
     @property
     def order(self) -> Column:
-        """ρ(u), the number of vertices, each as often as its kind counts."""
+        """ρ(u), the sum of the weights of the vertices."""
         return self.columns.order
 
     @property
     def multiplicity(self) -> Column:
-        """How often the last branch occurs at the root."""
+        """The multiplicity of the last branch at the root."""
         return self.columns.multiplicity
 
     @property
@@ -417,11 +415,11 @@ class TreeTable(Frozen):
         return self.columns.gamma
 
     def ids(self, order: int, root: int | None = None) -> range:
-        """The ids of the trees of one order, all of them or those with one root colour (from 0)."""
+        """The ids of the trees of one order, with any root colour or one (from 0)."""
         return self.places.trees(order, root)
 
     def tree(self, tree_id: int) -> Tree:
-        """The tree with an id; raises ``IndexError`` when there is none."""
+        """The tree with an id; raises ``IndexError`` if there is none."""
         if not 0 <= tree_id < len(self):
             raise IndexError(f"no tree {tree_id} in a table of {len(self)} trees")
         stem = self.columns.stem
@@ -439,7 +437,7 @@ class TreeTable(Frozen):
         return self.admissible.tree(int(self.columns.root[u]), branches)
 
     def notation(self, ids: Iterable[int] | Column, colours: bool = True) -> list[str]:
-        """Bracket text of many trees, the same as ``format_tree``, built from the texts of their
+        """Bracket text of many trees, as by ``format_tree``, built from the texts of their
         parents.
         """
         which = ids
@@ -468,7 +466,7 @@ def _too_large(size: int, colours: int, order: int) -> TableTooLarge:
 
 
 class Places(Frozen):
-    """Where the trees of a table are: ids by order and root colour."""
+    """The ids of the trees of a table by order and root colour."""
 
     # [order - 1][root]: the first id of the trees, then of the bare stems; one more entry for the
     # end
@@ -476,7 +474,7 @@ class Places(Frozen):
 
     @classmethod
     def of(cls, admissible: Admissible, order: int) -> Places:
-        """Those of all trees up to an order."""
+        """The places of all trees up to an order."""
         starts: list[tuple[int, ...]] = []
         first = 0
         counts = counts_upto(admissible, order)
@@ -491,25 +489,24 @@ class Places(Frozen):
 
     @property
     def size(self) -> int:
-        """How many there are."""
+        """The number of trees."""
         return self.starts[-1][-1]
 
     def trees(self, order: int, root: int | None = None) -> range:
-        """The ids of the trees of one order, all of them or those with one root colour."""
+        """The ids of the trees of one order, with any root colour or one."""
         starts = self.starts[order - 1]
         if root is None:
             return range(starts[0], starts[len(starts) // 2])
         return range(starts[root], starts[root + 1])
 
     def bare(self, order: int, root: int) -> range:
-        """The ids of the bare stems."""
         starts = self.starts[order - 1]
         place = len(starts) // 2 + root
         return range(starts[place], starts[place + 1])
 
 
 def _count_bare(admissible: Admissible, counts: Sequence[Counts], order: int, root: int) -> int:
-    """How many bare stems of an order have a root."""
+    """The number of bare stems of an order with a root colour."""
     kind = admissible.kinds[root]
     rest = order - kind.weight
     if rest <= 0:
@@ -520,7 +517,7 @@ def _count_bare(admissible: Admissible, counts: Sequence[Counts], order: int, ro
 
 
 class _Root(Frozen):
-    """What becomes trees of one order and root colour; the lower orders are in the columns."""
+    """Makes the trees of one order and root colour; the lower orders are in the columns."""
 
     admissible: Admissible
     places: Places
@@ -529,11 +526,11 @@ class _Root(Frozen):
     root: int
 
     def growths(self, ids: range, arity: Arity) -> Iterator[tuple[Segment, Growth]]:
-        """The segments that are not empty, with what makes their trees.
+        """The nonempty segments, with what grows their trees.
 
         Args:
-            ids: of the trees, a single vertex aside.
-            arity: how many branches they have.
+            ids: the ids of the trees, without a single vertex.
+            arity: the numbers of branches.
         """
         kind = self.admissible.kinds[self.root]
         start = ids.start
@@ -554,7 +551,7 @@ class _Root(Frozen):
                     yield Segment(*made), growth
 
     def fill(self, ids: range, arity: Arity) -> Iterator[Segment]:
-        """Write the trees into the columns."""
+        """Writes the trees into the columns."""
         kind = self.admissible.kinds[self.root]
         if ids and self.order == kind.weight:
             self.lower.write(ids.start, Columns.vertex(self.root, kind))
@@ -566,6 +563,6 @@ class _Root(Frozen):
 def segments_of(
     admissible: Admissible, places: Places, order: int, lower: Columns, root: int
 ) -> Iterator[tuple[Segment, Growth]]:
-    """The segments of one order and root colour that are not empty, with what makes their trees."""
+    """The nonempty segments of one order and root colour, with what grows their trees."""
     of_root = _Root(admissible, places, lower, order, root)
     return of_root.growths(places.trees(order, root), admissible.kinds[root].arity)

@@ -15,17 +15,16 @@ if TYPE_CHECKING:
 
 
 class Tree(Shown):
-    """The N-tree ``[u_1, …, u_m]^[l]``: a root of colour ``l`` and the branches left when it is
-    removed.
+    """The N-tree ``[u_1, …, u_m]^[l]``: a root of colour ``l`` with its branches.
 
-    Trees compare equal whatever the order in which their branches were given.
+    Equality ignores the order of branches.
 
     Attributes:
         root: the colour l, counted from 0 as ``Tree(root, branches)`` takes it; ``colour`` is the
             same counted from 1.
         branches: the trees u_i, in one canonical order.
-        kind: what the root is like.
-        order: ρ(u), the number of vertices, each as often as its kind counts.
+        kind: the kind of the root.
+        order: ρ(u), the sum of the weights of the vertices.
 
     >>> cherry = Tree(0, [Tree(1), Tree(1)])
     >>> cherry.order, cherry.density, cherry.symmetry
@@ -47,7 +46,7 @@ class Tree(Shown):
         self.order: int = kind.weight + sum(u.order for u in ordered)
 
     def sort_key(self) -> tuple[object, ...]:
-        """A total order on trees, the one of the tree table's ids.
+        """A total order on trees, that of the tree table's ids.
 
         By order, then root colour, then the orders and root colours of the branches, the last
         branch first, then the branches themselves.
@@ -61,7 +60,9 @@ class Tree(Shown):
 
     @cached_property
     def density(self) -> int:
-        """γ(u) = ρ(u) γ(u_1) … γ(u_m); of a root of weight 2 it begins with ρ(u) (ρ(u) − 1)."""
+        """γ(u) = ρ(u) γ(u_1) … γ(u_m); for a root of weight 2 the first factor is ρ(u) (ρ(u) −
+        1).
+        """
         return self.kind.integrated(self.order) * prod([u.density for u in self.branches])
 
     @cached_property
@@ -71,17 +72,17 @@ class Tree(Shown):
 
     @cached_property
     def is_of_fields(self) -> bool:
-        """Whether every vertex is a vector field that stages evaluate, of whatever kind."""
+        """Whether every vertex is a vector field that stages evaluate."""
         return all(u.kind in FIELDS for u in self.vertices())
 
     @cached_property
     def symmetry(self) -> int:
-        """σ(u): the number of automorphisms that keep the root and every colour."""
+        """σ(u): the number of automorphisms that fix the root and every colour."""
         repeats = [len(list(alike)) for _, alike in groupby(self.branches)]
         return prod(map(factorial, repeats)) * prod([u.symmetry for u in self.branches])
 
     def vertices(self) -> Iterator[Tree]:
-        """Every vertex, as the subtree hanging from it, the root first."""
+        """Every vertex as the subtree above it, the root first."""
         yield self
         for u in self.branches:
             yield from u.vertices()
@@ -105,7 +106,7 @@ class Tree(Shown):
         return hash(self._key)
 
     def __str__(self) -> str:
-        """The bracket text, with colours from 1 as people count them."""
+        """The bracket text, with colours from 1."""
         text: str = answered(self, "text")
         return text
 

@@ -1,4 +1,4 @@
-"""Methods that use derivatives of f along the solution, as they are in a tableau."""
+"""Methods that use derivatives of f along the solution, and their tableaus."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ from garkcli.tableau.stages import Jets, PointSpace
 from garkcli.tableau.tableau import Colour, Tableau, butcher
 
 Weights = tuple[Vector, ...]
-"""A row over the stages for f, f' f, …"""
+"""Weights of f, f' f, …, each over the stages."""
 T = TypeVar("T", bound="AlongFlow")
 
 
 class AlongFlow(Frozen):
-    """The coefficients of such a method.
+    """The coefficients of a method with derivatives along the solution.
 
     Attributes:
-        A: a^1, a^2, …, of f, f' f, …; shape (s, s) each.
-        b: the weights of each of them.
-        c: where time is at each stage; None for the sums of the rows of a^1.
+        A: a^1, a^2, …, the matrices of f, f' f, …; shape (s, s) each.
+        b: their weights.
+        c: the nodes; None for the row sums of a^1.
     """
 
     A: tuple[Matrix, ...]
@@ -34,8 +34,8 @@ class AlongFlow(Frozen):
 
     @classmethod
     def of(cls: type[T], tableau: Tableau) -> T:
-        """The method of a tableau that one has: ``of(method.tableau(n)) == method``, but that its
-        nodes are given.
+        """The method of such a tableau: ``of(method.tableau(n)) == method``, with its nodes filled
+        in.
         """
         space = jets_of(tableau)
         firsts = range(0, space.stages, space.order)
@@ -46,12 +46,12 @@ class AlongFlow(Frozen):
 
     @property
     def nodes(self) -> Vector:
-        """The c that are given, or that the rows say."""
+        """The nodes, given or the row sums of a^1."""
         return _sums(self.A[0]) if self.c is None else self.c
 
     @property
     def additive(self) -> Tableau:
-        """A colour for each f_k, all at the same stages; its coefficients are those of h^k."""
+        """One colour for each f_k, all at the same stages; its coefficients are those of h^k."""
         pairs = enumerate(zip(self.A, self.b, strict=True))
         colours, blocks = [], {}
         for k, (A, b) in pairs:
@@ -61,7 +61,7 @@ class AlongFlow(Frozen):
 
     @property
     def on_test_equation(self) -> Tableau:
-        """The Runge–Kutta method with the same R(z), where f_k = λ^k y.
+        """The Runge–Kutta method with the same R(z), with f_k = λ^k y.
 
         Its stages are 1, then Y_i, and 1 + z^{k−1} Y_i = 1 + z ((1 + z^{k−2} Y_i) − 1).
         """
@@ -72,7 +72,7 @@ class AlongFlow(Frozen):
             return (-sum(later, start=ZERO), *weights[0], *later)
 
         def before(i: int, k: int) -> Vector:
-            """Of 1 + z^{k−1} Y_i."""
+            """The weights of 1 + z^{k−1} Y_i."""
             places = [(j, l) for l in range(1, n + 1) for j in range(s)]
             chosen = [ONE if place == (i, k - 1) else ZERO for place in places]
             return (-ONE if k > 2 else ZERO, *chosen)
@@ -90,12 +90,12 @@ def jets_of(tableau: Tableau) -> Jets:
 
 
 def flow_nodes(order: int) -> tuple[fmpq, ...]:
-    """Where the stages on the exact solution are, from its beginning on: 0, 1, −1, 2, …"""
+    """The nodes of stages on the exact solution, relative to its beginning: 0, 1, −1, 2, …"""
     return tuple(fmpq((n + 1) // 2 * (1 if n % 2 else -1)) for n in range(order))
 
 
 def weights_of(row: Vector, space: Jets) -> Weights:
-    """The weights of f, f' f, … that a row of such a tableau has."""
+    """The weights of f, f' f, … in a row of such a tableau."""
     nodes = flow_nodes(space.order)
     parts = [row[i : i + space.order] for i in range(0, len(row), space.order)]
     found = []

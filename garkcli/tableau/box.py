@@ -1,5 +1,5 @@
-"""The box of all methods that a rounded one may be: printed numbers with a radius each, and what
-is made of them.
+"""The box of all methods that a rounded one may mean: printed numbers with radii, and the tableau
+made from them.
 """
 
 from __future__ import annotations
@@ -20,21 +20,21 @@ from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Edge, Tableau
 
 Make: TypeAlias = Callable[[Sequence[Any]], Tableau]
-"""A tableau from other numbers than the printed ones: exact ones, or affine forms."""
+"""Makes a tableau from numbers in place of the printed ones: exact ones or affine forms."""
 
 
 FAMILY_BITS = 1000
-"""Bits to which the entries of families are enclosed, beside rounded methods."""
+"""Precision of the entries of families beside rounded methods."""
 
 
 class Box(Frozen, eq=False):
-    """All methods whose printed numbers are off by no more than their radii.
+    """All methods whose printed numbers are off by at most their radii.
 
     Attributes:
-        numbers: as they are printed.
-        radii: t_k > 0, by how much each may be off.
-        make: a method from such numbers; further weights are colours that no stage sees, as
-            ``embedded.as_colours`` has them.
+        numbers: the printed numbers.
+        radii: their radii t_k > 0.
+        make: makes the method of such numbers; further weights are colours that no stage sees, as
+            in ``embedded.as_colours``.
     """
 
     numbers: tuple[Number, ...]
@@ -42,14 +42,14 @@ class Box(Frozen, eq=False):
     make: Make
 
     def at(self, shifts: Sequence[fmpq]) -> Tableau:
-        """The method whose numbers are off by these shares of their radii; irrational ones are
-        balls of the bits of the context.
+        """The method whose numbers are shifted by these parts of their radii; irrational ones
+        become balls at the current precision.
         """
         moved = zip(self.numbers, self.radii, shifts, strict=True)
         return self.make([rational_or_ball(x) + t * shift for x, t, shift in moved])
 
     def around(self, shifts: Sequence[fmpq]) -> FormTableau:
-        """All methods within the radii of this one, as forms of the shares that are added."""
+        """All methods within the radii of this one, as forms in the further shifts."""
         moved = enumerate(zip(self.numbers, self.radii, shifts, strict=True))
         forms = [
             Affine(constant(x) + constant(t * shift), {k: to_float(t)})
@@ -59,10 +59,10 @@ class Box(Frozen, eq=False):
 
 
 class FormTableau:
-    """A tableau whose entries are forms of the same K printed numbers.
+    """A tableau whose entries are forms in the same K printed numbers.
 
     Args:
-        made: its entries are affine forms and exact numbers, one coordinate a stage.
+        made: a tableau of affine forms and exact numbers on point stages.
         numbers: K.
     """
 
@@ -75,25 +75,23 @@ class FormTableau:
 
     @property
     def in_balls(self) -> Tableau:
-        """Each entry as a ball around all its values."""
+        """The tableau with each entry as a ball around all its values."""
         return changed(self.made, lambda x: x.ball if isinstance(x, Affine) else constant(x))
 
     def block(self, l: int, m: int) -> FormMatrix:
-        """A^{l,m}, which exists."""
         return self.A[self.made.colours[l].space, m]
 
     def one(self, l: int) -> Forms:
-        """𝟙 in the space of colour l."""
         return Forms.of([fmpq(1)] * len(self.b[l]), self.numbers)
 
 
 def rational_or_ball(number: Any) -> Any:
-    """A number, enclosed to the bits of the context where it is irrational."""
+    """A number; a ball at the current precision if it is irrational."""
     return constant(number) if isinstance(number, Algebraic) else number
 
 
 def changed(tableau: Tableau, change: Callable[[Any], Any]) -> Tableau:
-    """A tableau of one coordinate a stage with another number in place of each."""
+    """A tableau of point stages with ``change`` applied to every number."""
 
     def row(numbers: Any) -> Any:
         return tuple(map(change, numbers))
@@ -105,8 +103,8 @@ def changed(tableau: Tableau, change: Callable[[Any], Any]) -> Tableau:
 
 
 def to_points(tableau: Tableau) -> Tableau:
-    """The tableau with one coordinate a stage; where nodes are those of a family, its entries are
-    enclosed to the bits of the context.
+    """The tableau on point stages; entries of families with irrational nodes become balls at the
+    current precision.
     """
     if all(isinstance(space, PointSpace) for space in tableau.spaces):
         return tableau
@@ -149,15 +147,15 @@ def _rows(matrix: arb_mat) -> Any:
 
 
 def plain_box(tableau: Tableau, radius_of: Callable[[Number], fmpq], colours: int) -> Box:
-    """The box of a method whose coefficients are what is printed.
+    """The box of a method whose coefficients are the printed numbers.
 
-    Nodes that are the row sums of a block are made of it; others are printed. Colours that share
-    stages and have the same nodes have them once. Families are exact.
+    Nodes that are the row sums of a block depend on it; others are printed. Equal nodes of colours
+    that share stages count once. Families are exact.
 
     Args:
         tableau: the method, with colours for further weights.
-        radius_of: by how much a coefficient that is not 0 may be off; 0 for one that is exact.
-        colours: those of the method itself.
+        radius_of: the radius of a nonzero coefficient; 0 if it is exact.
+        colours: the number of colours of the method itself.
     """
     sums = [_block_of_nodes(tableau, l) for l in range(colours)]
     nodes = [(x.space, tuple(x.c)) for x in tableau.colours[:colours]]
@@ -198,15 +196,14 @@ def _maker(
     sums: Sequence[int | None],
     first: Sequence[int],
 ) -> Make:
-    """What makes the method of other numbers.
+    """Returns the function that makes the method of other numbers.
 
     Args:
-        tableau: as it is printed.
+        tableau: the printed tableau.
         rows: its weights, the rows of its blocks, and nodes that are printed.
-        radii: of these, by how much each number may be off; 0 for exact ones.
-        sums: of each colour, the colour m whose A^{l,m} 𝟙 are its nodes; None where they are
-            printed.
-        first: of each colour, the first one with the same nodes on the same stages.
+        radii: the radius of each number in ``rows``; 0 for exact ones.
+        sums: for each colour l, the m with A^{l,m} 𝟙 as its nodes; None if they are printed.
+        first: for each colour, the first one with the same nodes on the same stages.
     """
     colours = len(sums)
 
@@ -240,7 +237,7 @@ def _maker(
 def _filled(
     rows: Sequence[Vector], radii: Sequence[Sequence[fmpq]], values: Iterator[Any]
 ) -> Iterator[tuple[Any, ...]]:
-    """The rows with values in place of the numbers that have a radius."""
+    """The rows with ``values`` in place of the numbers with a radius."""
     for row, off in zip(rows, radii, strict=True):
         yield tuple(
             next(values) if t else rational_or_ball(x) for x, t in zip(row, off, strict=True)
@@ -248,7 +245,7 @@ def _filled(
 
 
 def _block_of_nodes(tableau: Tableau, l: int) -> int | None:
-    """A colour m with A^{l,m} 𝟙 = c^{l}; None where there is none."""
+    """A colour m with A^{l,m} 𝟙 = c^{l}; None if there is none."""
     nodes = tuple(tableau.colours[l].c)
     for m in range(tableau.size):
         block = tableau.block(l, m)

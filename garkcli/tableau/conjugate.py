@@ -56,12 +56,12 @@ def conjugate_block(
 def conjugate(tableau: Tableau) -> Tableau:
     """The symplectic conjugate (Â^{l,m}, b, c); conjugated again it is ``tableau``.
 
-    For a partitioned tableau (A, Â) it is the partitioned tableau of the conjugates: the momentum
-    blocks come from the position blocks and the other way round.
+    For a partitioned tableau (A, Â) it is the partitioned tableau of the conjugates: momentum
+    blocks come from position blocks and vice versa.
 
     Raises:
         ZeroWeight: a conjugate would divide by zero.
-        MethodError: it is no GARK method.
+        MethodError: the tableau is no GARK method.
     """
     tableau.demand_fields("the symplectic conjugate")
     if tableau.is_partitioned:
@@ -81,7 +81,7 @@ def conjugate(tableau: Tableau) -> Tableau:
 
 
 def conjugate_of(tableau: Tableau, l: int, m: int) -> Matrix:
-    """Â^{l,m} of a tableau in which A^{m,l} exists."""
+    """Â^{l,m} of a tableau with a block A^{m,l}."""
     block = tableau.block(m, l)
     if block is None:
         raise KeyError((l, m))
@@ -98,12 +98,12 @@ def conjugate_of(tableau: Tableau, l: int, m: int) -> Matrix:
 
 
 def are_opposite(one: Colour, other: Colour) -> bool:
-    """Whether the symplectic form pairs what the two vector fields drive."""
+    """Whether the symplectic form pairs the parts that two vector fields drive."""
     return {one.part, other.part} in ({"q", "p"}, {"y"})
 
 
 def symplectic_defects(tableau: Tableau) -> Iterator[Number]:
-    """What is zero where a tableau is symplectic; 1 where a block has none on the other side."""
+    """Numbers that are all zero if a tableau is symplectic; 1 for a block without an opposite."""
     for l, one in enumerate(tableau.colours):
         for m, other in enumerate(tableau.colours):
             if one.space == other.space and {one.part, other.part} == {"q", "p"}:
@@ -118,7 +118,7 @@ def symplectic_defects(tableau: Tableau) -> Iterator[Number]:
 
 def symplectic_defect(tableau: Tableau, l: int, m: int) -> Matrix:
     """B^l A^{l,m} + (A^{m,l})ᵀ B^m − b_l b_mᵀ as a bilinear form on the spaces of l and m; both
-    blocks exist.
+    blocks must exist.
     """
     forth = tableau.block(l, m)
     back = tableau.block(m, l)

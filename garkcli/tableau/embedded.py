@@ -1,7 +1,7 @@
 """Further weights at the stages of a method: embedded ones, and polynomials of dense output.
 
-They belong to the same stages, so all that is true of stage vectors is true of them; a method with
-them in place of b is a tableau of its own, with the same blocks.
+They belong to the same stages and so share stage vectors; with them as b the method is a tableau of
+its own, with the same blocks.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
 Weights: TypeAlias = tuple[Vector, ...]
-"""A row of weights a colour, one number per stage."""
+"""For each colour its weights, one number per stage."""
 
 
 class DenseOutput(Frozen):
@@ -25,18 +25,18 @@ class DenseOutput(Frozen):
 
     Attributes:
         weights: ``weights[l][i]`` are the coefficients of θ, θ², … in b_i(θ) of colour l, all of
-            one length. There is no constant one: at θ = 0 the output is x.
+            one length. There is no constant coefficient: at θ = 0 the output is x.
     """
 
     weights: tuple[tuple[Vector, ...], ...]
 
     @property
     def degree(self) -> int:
-        """The largest power of θ that has a coefficient; the last ones may be zero."""
+        """The largest power of θ with a coefficient, which may be zero."""
         return len(self.weights[0][0])
 
     def coefficients(self, power: int) -> Weights:
-        """The coefficients of a power of θ, 1 at least: a row per colour."""
+        """The coefficients of a power ≥ 1 of θ, for each colour."""
 
         def rows(of_colour: Sequence[Vector]) -> Vector:
             return tuple(row[power - 1] for row in of_colour)
@@ -44,7 +44,7 @@ class DenseOutput(Frozen):
         return tuple(map(rows, self.weights))
 
     def at(self, theta: Number) -> Weights:
-        """The weights at one θ: a row per colour."""
+        """The weights at one θ, for each colour."""
 
         def rows(of_colour: Sequence[Vector]) -> Vector:
             return tuple(_value(row, theta) for row in of_colour)
@@ -53,34 +53,34 @@ class DenseOutput(Frozen):
 
 
 class Further(Frozen):
-    """Further weights of a method, each None where there are none.
+    """Further weights of a method, each None if there are none.
 
     Attributes:
-        embedded: a row per colour.
-        dense: of dense output.
+        embedded: the embedded weights of each colour.
+        dense: the weights of dense output.
     """
 
     embedded: Weights | None = None
     dense: DenseOutput | None = None
 
     def __bool__(self) -> bool:
-        """Whether there are any."""
+        """Whether there are any further weights."""
         return self.embedded is not None or self.dense is not None
 
     @property
     def powers(self) -> tuple[Weights, ...]:
-        """What is before θ, θ², … in dense output."""
+        """The coefficients of θ, θ², … in dense output."""
         if self.dense is None:
             return ()
         return tuple(self.dense.coefficients(power) for power in range(1, self.dense.degree + 1))
 
     @property
     def rows(self) -> tuple[Weights, ...]:
-        """All rows, the embedded ones first, then a power of θ after the other."""
+        """All rows of weights: the embedded ones, then the powers of θ."""
         return self.powers if self.embedded is None else (self.embedded, *self.powers)
 
     def changed(self, change: Callable[[Number], Number]) -> Further:
-        """Every number replaced by what ``change`` makes of it."""
+        """The weights with ``change`` applied to every number."""
 
         def row(numbers: Vector) -> Vector:
             return tuple(map(change, numbers))
@@ -108,7 +108,7 @@ def _value(coefficients: Vector, theta: Number) -> Number:
 
 
 def padded(rows: Sequence[Vector], degree: int) -> tuple[Vector, ...]:
-    """Polynomials of dense output with zeros up to a degree."""
+    """Polynomials of dense output padded with zeros to a degree."""
     longer = []
     for row in rows:
         zeros = [ZERO] * (degree - len(row))
@@ -120,8 +120,8 @@ def with_weights(tableau: Tableau, weights: Weights) -> Tableau:
     """The tableau with other weights at the same stages.
 
     Raises:
-        ShapeMismatch: not a row per colour, or not one weight per stage; or the stages are those
-            of a family in its algebra, where weights are no numbers per stage.
+        ShapeMismatch: not one row per colour, or not one weight per stage; or the stages are those
+            of a family in its algebra.
 
     >>> from flint import fmpq
     >>> from garkcli.order.certificate import find_order
@@ -142,9 +142,9 @@ def with_weights(tableau: Tableau, weights: Weights) -> Tableau:
 
 
 def as_colours(tableau: Tableau, further: Further) -> Tableau:
-    """The tableau with a colour more for each row of further weights, which no stage sees.
+    """The tableau with one more colour for each row of further weights, which no stage sees.
 
-    What becomes of stages, such as that equal ones are made one, then becomes of these rows too.
+    So operations on stages, such as merging equal ones, also apply to these rows.
     """
     if not further:
         return tableau
@@ -156,11 +156,11 @@ def as_colours(tableau: Tableau, further: Further) -> Tableau:
 
 
 def from_colours(tableau: Tableau, further: Further) -> tuple[Tableau, Further]:
-    """The tableau and the further weights again, from what was made of ``as_colours``.
+    """The inverse of ``as_colours``: the tableau and its further weights.
 
     Args:
-        tableau: with colours for them.
-        further: the weights as they were, for their kinds.
+        tableau: a tableau with colours for them.
+        further: the original weights, which tell the kinds.
     """
     if not further:
         return tableau, further

@@ -1,4 +1,4 @@
-"""The entries of a tableau in balls, which residuals are computed with."""
+"""The entries of a tableau in balls, for residuals."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ from garkcli.tableau.tableau import Edge, Tableau
 Row: TypeAlias = list[arb]
 Rows: TypeAlias = list[Row]
 MAX_DIGITS = 300
-"""Digits to which entries of polynomial stage spaces are enclosed at most; the exponents of floats
-end at 308.
+"""Most digits of enclosed entries of polynomial stage spaces; the exponents of floats end at
+308.
 """
 GUARD_OF_ENTRIES = 32
-"""Bits that entries are enclosed more finely than the arithmetic that uses them."""
+"""Guard bits of entries, relative to the arithmetic that uses them."""
 
 
 class Enclosure(Frozen):
-    """Balls around the entries of a tableau, one coordinate a stage whatever the stage spaces are.
+    """Balls around the entries of a tableau, on point stages.
 
     Attributes:
-        bits: the precision of the arithmetic meant for them.
+        bits: the precision of the arithmetic with them.
         stages: s of each stage space.
         A: the block of each pair (space, colour) as in ``Tableau.blocks``, shape (s_space,
             s_colour).
@@ -45,8 +45,8 @@ class Enclosure(Frozen):
 def enclose_tableau(tableau: Tableau, bits: int) -> Enclosure:
     """The entries to ``bits`` bits.
 
-    Where all coefficients are spelled out any number of bits is reached; the nodes of families are
-    known to ``MAX_DIGITS`` digits at most.
+    Spelled-out coefficients reach any precision; the nodes of families at most ``MAX_DIGITS``
+    digits.
     """
     digits = int((bits + GUARD_OF_ENTRIES) * DIGITS_OF_A_BIT)
     with ctx.workprec(bits + GUARD_OF_ENTRIES):
@@ -59,9 +59,7 @@ def enclose_tableau(tableau: Tableau, bits: int) -> Enclosure:
 
 
 def enclose_nodes(tableau: Tableau, bits: int) -> list[list[arb]]:
-    """The nodes to ``bits`` bits, a row per colour; those of families as ``enclose_tableau`` has
-    them.
-    """
+    """The nodes to ``bits`` bits, for each colour; those of families as in ``enclose_tableau``."""
     digits = int((bits + GUARD_OF_ENTRIES) * DIGITS_OF_A_BIT)
     with ctx.workprec(bits + GUARD_OF_ENTRIES):
         if all(isinstance(space, PointSpace) for space in tableau.spaces):
@@ -71,7 +69,7 @@ def enclose_nodes(tableau: Tableau, bits: int) -> list[list[arb]]:
 
 
 def _at_nodes(tableau: Tableau, digits: int) -> tuple[dict[Edge, arb_mat], list[arb_mat]]:
-    """A and b where stages of families are among them: coordinates become values at nodes."""
+    """A and b of tableaus with families: coordinates become values at nodes."""
     entries = numeric_entries(tableau, digits)
     # Colours that share a stage space have the same rows, so any of them will do.
     colour_of: dict[int, int] = {colour.space: l for l, colour in enumerate(tableau.colours)}
@@ -91,9 +89,7 @@ def _balls(rows: Sequence[Sequence[Number]], digits: int) -> arb_mat:
 
 
 def in_balls(tableau: Tableau, grain: fmpq, bits: int) -> Tableau:
-    """A tableau, one coordinate a stage, with balls of radius ``grain`` in place of its numbers
-    that are not zero.
-    """
+    """A tableau on point stages with balls of radius ``grain`` around its nonzero numbers."""
     radius = arb(0, arb(grain).abs_upper())
 
     digits = int(bits * DIGITS_OF_A_BIT)

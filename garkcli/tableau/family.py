@@ -26,11 +26,11 @@ class Radical(Frozen):
     """A root among the coefficients of a family: an unknown of its own.
 
     Attributes:
-        name: of the unknown.
-        relation: a polynomial that is zero at it.
-        is_even: whether it is an even root: of its zeros the one is meant that is not negative.
-        meant: the zero that is meant, where it is one of several real ones.
-        text, latex: the root as it is written.
+        name: the name of the unknown.
+        relation: a polynomial with this zero.
+        is_even: whether it is an even root, which means the nonnegative zero.
+        meant: which zero it is, if there are several real ones.
+        text, latex: the notation of the root.
     """
 
     name: str
@@ -42,27 +42,27 @@ class Radical(Frozen):
 
 
 OSCILLATING = ("p-stable", "i-stable")
-"""The kinds of stability that are about the harmonic oscillator."""
+"""Kinds of stability for the harmonic oscillator."""
 
 
 class Stability(Frozen):
-    """A kind of stability that is wanted.
+    """A required kind of stability.
 
     Attributes:
         kind: ``a-stable``, ``l-stable``, ``p-stable`` or ``i-stable``.
-        colour: of which diagonal method, counted from 0; None for the whole.
+        colour: of a diagonal method, counted from 0; None for the whole method.
     """
 
     kind: str
     colour: int | None = None
 
     def __str__(self) -> str:
-        """As people write it, such as A-stable."""
+        """The usual spelling, such as A-stable."""
         name = self.kind[0].upper() + self.kind[1:]
         return name if self.colour is None else f"{name} in colour {self.colour + 1}"
 
     def in_words(self, tableau: Tableau) -> str:
-        """The same, and which vector fields are meant where a method has several colours."""
+        """The text, with the vector fields that it is about if there are several colours."""
         if on_linear_problems(tableau).size == 1 or self.kind in OSCILLATING:
             return str(self)
         fields = "all colours with one λ" if self.colour is None else "the others with λ = 0"
@@ -73,23 +73,23 @@ class Family(Frozen, kw_only=True):
     """A family of methods.
 
     Attributes:
-        name: what people call it.
+        name: its name for people.
         tableau: its entries are rational numbers and ``Parametric`` ones.
         ring: the parameters, after them unknowns for radicals.
         parameters: the names of the free parameters.
-        ranges: for each the least and the greatest value it may have, None where there is none.
+        ranges: for each the least and the greatest value, None if unbounded.
         radicals: the roots among the coefficients.
-        relations: polynomials that are zero at every method that is wanted of it.
-        nonzero: polynomials that are zero at none.
-        positive: those that are positive at the solutions that are taken.
-        not_negative: those that are at least 0 there.
-        order: which is wanted of them, where the file says so.
-        stable: the kinds of stability of the accepted solutions.
-        claims_of_wanted: what files may claim of them by what is wanted, and its value.
-        unsettled: what is wanted of them and was not worked out in time, by its keys.
-        real: the keys of which ``relations`` have what real values satisfy, not complex ones.
+        relations: polynomials that vanish at every solution.
+        nonzero: polynomials that vanish at no solution.
+        positive: polynomials that are positive at accepted solutions.
+        not_negative: polynomials that are at least 0 there.
+        order: the required order, if the file has one.
+        stable: the required kinds of stability.
+        claims_of_wanted: claims that follow from the requirements, with their values.
+        unsettled: the keys of requirements that were not worked out in time.
+        real: the keys of requirements whose ``relations`` hold for real values only.
         further: its embedded weights and its dense output.
-        impossible: what is wanted and no value makes true, with the reason.
+        impossible: requirements that no value meets, with the reason.
     """
 
     name: str
@@ -120,21 +120,21 @@ class Family(Frozen, kw_only=True):
 
 
 NAME = "_node"
-"""What the names of unknowns begin with that are roots of nodes."""
+"""Prefix of the names of unknowns that are roots of nodes."""
 
 
 def ring_of(tableau: Tableau) -> Parameters:
-    """The ring of the coefficients of a family; one of them at least is no number."""
+    """The ring of the coefficients of a family, one of which at least is no number."""
     numbers: Iterable[object] = chain.from_iterable(tableau.rows)
     return next(x.ring for x in numbers if isinstance(x, Parametric))
 
 
 def family_in_points(tableau: Tableau, ring: Parameters) -> Tableau | None:
-    """The same family with one coordinate a stage; None where the nodes have no simple radicals.
+    """The family on point stages; None if the nodes have no simple radicals.
 
     Args:
-        tableau: of the family.
-        ring: its parameters, without roots.
+        tableau: the tableau of the family.
+        ring: the ring of its parameters, without roots.
     """
     nodes = nodes_in_radicals(tableau)
     if not nodes:
@@ -157,14 +157,14 @@ def family_in_points(tableau: Tableau, ring: Parameters) -> Tableau | None:
     radicals = [larger.parameter(name) for name in names]
 
     def function(x: object) -> Any:
-        """A coefficient of the family."""
+        """The coefficient in the larger ring."""
         if not isinstance(x, Parametric):
             return x
         parts = (p.project_to_context(larger.context) for p in (x.numerator, x.denominator))
         return Parametric(larger, *parts)
 
     def number(x: Number) -> Any:
-        """A number of the field of the nodes."""
+        """The number with its roots as unknowns."""
         return with_radicals(x, radicals)
 
     return at_points(tableau, nodes, domain, function, number)

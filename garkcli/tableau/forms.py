@@ -1,5 +1,5 @@
 """Every kind of method as one tableau: RK, GARK, ARK, PRK, the symplectic pair and its special
-cases; a tableau with time as a colour.
+cases, and time as a colour.
 """
 
 from __future__ import annotations
@@ -17,9 +17,8 @@ from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Colour, Edge, Method, Part, Tableau, butcher
 
 Blocks: TypeAlias = Mapping[Edge, Matrix]
-"""Blocks by stage space and colour, as in ``Tableau.blocks``."""
 Coefficients: TypeAlias = tuple[Matrix, Vector, Vector | None]
-"""(A, b, c); nodes that are None are the row sums of A."""
+"""(A, b, c); c None means the row sums of A."""
 _NewBlocks: TypeAlias = dict[Edge, Matrix]
 
 
@@ -40,10 +39,10 @@ def gark(methods: Sequence[Method], transfer: Blocks) -> Tableau:
 
 
 def one_field(tableau: Tableau, message: str, name: str = "") -> Method:
-    """The one colour of a method, in its own stage space.
+    """The single colour of a method, in its own stage space.
 
     Raises:
-        MethodError: it has several.
+        MethodError: the method has several colours.
     """
     block = tableau.block(0, 0)
     if tableau.size != 1 or block is None:
@@ -58,7 +57,7 @@ def spelled_out(
     linear: Iterable[int] = (),
 ) -> Tableau:
     """A GARK tableau block by block; missing nodes are the row sums of A^{l,l}, or of the first
-    block there.
+    block in the row.
     """
     linear = frozenset(linear)
     spaces = []
@@ -89,7 +88,7 @@ def _row_sums(l: int, row: Sequence[Matrix | None], stages: int) -> Vector:
 
 
 def additive(A: Sequence[Matrix], b: Sequence[Vector], c: Vector | None) -> Tableau:
-    """An additive method: one set of stages, a matrix and a row of weights a colour."""
+    """An additive method: one set of stages, with a matrix and weights for each colour."""
     nodes = c
     if nodes is None:
         nodes = _row_sums(0, A, len(A[0]))
@@ -110,7 +109,7 @@ def separable_prk(q: Coefficients, p: Coefficients) -> Tableau:
     rectangular.
 
     The rows of q.A are the positions at which forces are evaluated, so q.c are the nodes of the
-    force colour, and the rows of p.A, with nodes p.c, those of the velocity colour.
+    force colour; likewise p.A and p.c belong to the velocity colour.
     """
     A_q, b_q, c_q = q
     A_p, b_p, c_p = p
@@ -127,7 +126,7 @@ def separable_prk(q: Coefficients, p: Coefficients) -> Tableau:
 
 
 def with_linear(tableau: Tableau, names: Iterable[str]) -> Tableau:
-    """The same tableau where the vector fields of the colours called ``names`` are linear."""
+    """The tableau with linear vector fields for the colours called ``names``."""
     names = frozenset(names)
     colours = []
     for colour in tableau.colours:
@@ -142,8 +141,8 @@ def symplectic_pair(tableau: Tableau, velocities: Sequence[int], forces: Sequenc
     problem has.
 
     Colours V^l for l in ``velocities`` and F^l for l in ``forces``; V^l and F^l have the same
-    stages. An l in one of the two only is a Hamiltonian of p alone or of q alone, whose stages need
-    the other part only:
+    stages. An l in only one of the two is a Hamiltonian of p or of q alone, whose stages need only
+    the other part:
 
     ========================  =====================  ======================================
     velocities, forces        structure              blocks
@@ -155,7 +154,7 @@ def symplectic_pair(tableau: Tableau, velocities: Sequence[int], forces: Sequenc
 
     Raises:
         ZeroWeight: a conjugate that is needed would divide by zero.
-        MethodError: the tableau is partitioned already, or it is no GARK method.
+        MethodError: the tableau is already partitioned, or no GARK method.
     """
     tableau.demand_fields("the symplectic pair")
     if tableau.is_partitioned:
@@ -182,15 +181,14 @@ def symplectic_pair(tableau: Tableau, velocities: Sequence[int], forces: Sequenc
 
 
 def _driving(colour: Colour, letter: str, space: int, part: Part) -> Colour:
-    """The colour V^l or F^l of a pair, with stages in ``space``."""
     return replace(colour, name=letter + colour.name, space=space, part=part)
 
 
 def pair(tableau: Tableau) -> Tableau:
     """The symplectic pair (Q, P), eq. (varGARK): 2N colours V¹…Vᴺ, F¹…Fᴺ.
 
-    A tableau that is partitioned already keeps its position blocks, and its momentum blocks become
-    their conjugates.
+    A partitioned tableau keeps its position blocks, and its momentum blocks become their
+    conjugates.
 
     Raises:
         ZeroWeight: a conjugate would divide by zero.
@@ -208,8 +206,8 @@ def pair(tableau: Tableau) -> Tableau:
 
 
 def on_linear_problems(tableau: Tableau) -> Tableau:
-    """The GARK method with the same step on linear problems: itself, or with A = β = α + γ of a
-    Rosenbrock method, whose vertices with one branch are all that such problems have.
+    """The GARK method with the same step on linear problems: the tableau itself, or for a
+    Rosenbrock method A = β = α + γ, as these problems only have vertices with one branch.
     """
     kinds = {colour.kind for colour in tableau.colours}
     if kinds != {NOT_ONE, ONE_BRANCH}:
@@ -225,23 +223,20 @@ def on_linear_problems(tableau: Tableau) -> Tableau:
 
 
 TIME = "t"
-"""The name of the colour of time."""
 
 
 def with_time(tableau: Tableau) -> Tableau | None:
-    """The tableau with time as its last colour: of problems ẏ = f(t, y), with its nodes as printed.
+    """The tableau with time as its last colour: for problems ẏ = f(t, y), with its printed nodes.
 
     With ṫ = 1 the problem is autonomous. A method evaluates f at t + c_i h, so the block of time is
-    c, whatever the row sums of A are; its vector field is constant, so its vertices have no
-    branches. Where A^{l,m} 𝟙 = c^{l} for every block a vertex of time has
-    the same weight as any other leaf, and nothing changes.
+    c; its vector field is constant, so its vertices have no branches. If A^{l,m} 𝟙 = c^{l} for
+    every block, a vertex of time has the same weight as any other leaf, and nothing changes.
 
     Returns:
-        None where it has no meaning: a vector field that is linear has no time in it, and colours
-        that share stages need the same nodes.
+        None if it is not defined: a vector field is linear, or colours share stages but not nodes.
 
     Raises:
-        MethodError: it is no GARK method.
+        MethodError: the tableau is no GARK method.
 
     >>> from flint import fmpq
     >>> from garkcli.tableau.forms import gark
@@ -264,8 +259,8 @@ def beside_clock(tableau: Tableau, term: int) -> Tableau:
     """The tableau with time as its last colour, which stages see with their nodes.
 
     Args:
-        tableau: colours that share stages have the same nodes.
-        term: of ṫ = 1.
+        tableau: a tableau whose colours share nodes if they share stages.
+        term: the term of ṫ = 1.
     """
     time = tableau.size
     columns = {(x.space, time): tuple((c_i,) for c_i in x.c) for x in tableau.colours}

@@ -1,4 +1,4 @@
-"""A tableau with its name and its tolerance: what the Python interface hands out and takes."""
+"""A tableau with its name and tolerance: the method of the Python interface."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ K = TypeVar("K", int, tuple[int, int])
 
 
 class NoSuchColour(MethodError, KeyError):
-    """There is nothing of this colour."""
+    """The method has no such colour or pair of colours."""
 
     __str__ = MethodError.__str__
 
 
 class ByColour(Mapping[K, Any], Generic[K]):
-    """What a method has for each colour, or for each pair of them; colours count from 1.
+    """The parts of a method by colour, or by pair of colours; colours count from 1.
 
     >>> from garkcli.tableau.garkmethod import ByColour
     >>> rows = ByColour({1: (1,), 2: ("1/2", "1/2")})
@@ -47,7 +47,7 @@ class ByColour(Mapping[K, Any], Generic[K]):
         """The part of a colour, or of a pair (l, m) of colours.
 
         Raises:
-            NoSuchColour: there is none.
+            NoSuchColour: there is no such part.
         """
         try:
             return self._parts[key]
@@ -72,11 +72,11 @@ class ByColour(Mapping[K, Any], Generic[K]):
 
 
 Derivation: TypeAlias = Literal["", "conjugate", "pair"]
-"""What a method was made as from another one; empty for a method as it was given."""
+"""How a method was derived from another one; empty for a given method."""
 
 
 def derived_name(derivation: str, name: str) -> str:
-    """What the conjugate or the pair of the method called ``name`` is called.
+    """The name of the conjugate or pair of the method called ``name``.
 
     >>> derived_name("pair", "Heun 2(1)")
     'symplectic pair of Heun 2(1)'
@@ -85,34 +85,32 @@ def derived_name(derivation: str, name: str) -> str:
 
 
 def derivation_of(method: GarkMethod | None) -> Derivation:
-    """What a method was made as; empty where only its tableau is known."""
+    """How a method was derived; empty if only its tableau is known."""
     return "" if method is None else method.derivation
 
 
 def word_for(method: GarkMethod | None) -> str:
-    """What it is in a sentence: the method, the conjugate or the pair."""
+    """Its noun in a sentence: method, conjugate or pair."""
     return derivation_of(method) or "method"
 
 
 class GarkMethod(Shown, Frozen, kw_only=True):
-    """A GARK method of one colour or of several, with its entries as they are printed.
+    """A GARK method of one colour or several, with its printed entries.
 
     Entries are exact numbers, ``flint.fmpq`` or elements of a number field, whose ``str`` is the
-    text of a method file; where the nodes have no simple radicals they are enclosures,
-    ``flint.arb``.
+    text of a method file; if the nodes have no simple radicals they are enclosures, ``flint.arb``.
 
     Attributes:
-        tableau: what its order conditions are about.
-        name: what people call it.
-        tolerance: the rounding that A, b and c admit, the largest where there are several; None
-            where they are meant exactly.
+        tableau: the tableau of its order conditions.
+        name: its name for people.
+        tolerance: the largest rounding of A, b and c; None if they are exact.
         derivation: whether it was made as the conjugate or the pair of ``base``.
         base: the method it was made from.
-        embedded: further weights at the same stages, a row of exact numbers a colour; None where
-            there are none, as for a conjugate and a pair.
-        dense: weights that are polynomials; None likewise.
-        embedded_tolerance: the rounding that the embedded weights admit by themselves.
-        dense_tolerance: that of dense output.
+        embedded: embedded weights of each colour, exact numbers; None if there are none, as for a
+            conjugate and a pair.
+        dense: dense output, or None.
+        embedded_tolerance: the rounding of the embedded weights.
+        dense_tolerance: the rounding of dense output.
 
     >>> from garkcli import load
     >>> method = load("rk4")
@@ -132,15 +130,15 @@ class GarkMethod(Shown, Frozen, kw_only=True):
 
     @cached_property
     def entries(self) -> Entries:
-        """All entries together, those of embedded weights and dense output among them."""
+        """All entries together, with those of embedded weights and dense output."""
         from garkcli.tableau import pointwise  # loaded when entries are requested
 
         return pointwise.entries(self.tableau).beside(self.further)
 
     @property
     def A(self) -> Any:  # noqa: N802 -- the name it has everywhere
-        """The matrix, row by row, shape (s, s). Of several colours ``A[l, m]`` is a block, shape
-        (s_l, s_m), or None where colour l does not see colour m; colours count from 1.
+        """The matrix, row by row, shape (s, s). With several colours ``A[l, m]`` is a block, shape
+        (s_l, s_m), or None if colour l does not see colour m; colours count from 1.
         """
         blocks = self.entries.A
         if self.tableau.size == 1:
@@ -152,26 +150,26 @@ class GarkMethod(Shown, Frozen, kw_only=True):
 
     @property
     def b(self) -> Any:
-        """The weights, length s; of several colours ``b[l]`` has length s_l, colours from 1."""
+        """The weights, length s; with several colours ``b[l]`` has length s_l, colours from 1."""
         return self._by_colour(self.entries.b)
 
     @property
     def c(self) -> Any:
-        """The nodes, length s; of several colours ``c[l]`` has length s_l, colours from 1."""
+        """The nodes, length s; with several colours ``c[l]`` has length s_l, colours from 1."""
         return self._by_colour(self.entries.c)
 
     @property
     def order(self) -> int:
-        """The order, exactly or within the tolerance of the method, as ``find_order`` has it; where
-        that is a lower bound, the bound.
+        """The order, exactly or within the tolerance of the method, as by ``find_order``; or a
+        lower bound.
         """
         order: int = answered(self, "order").order
         return order
 
     @property
     def orders(self) -> dict[str, int | str]:
-        """The order of the method and those of its embedded weights, of its conjugate and of its
-        pair, as ``find_orders`` has them.
+        """The orders of the method, its embedded weights, its conjugate and its pair, as by
+        ``find_orders``.
         """
         orders: dict[str, int | str] = answered(self, "orders")
         return orders
@@ -198,26 +196,26 @@ class GarkMethod(Shown, Frozen, kw_only=True):
 
     @property
     def is_symplectic(self) -> bool:
-        """Whether the method is its own conjugate; of a partitioned one, whether its parts are each
-        other's. Within its tolerance where it has one.
+        """Whether the method is its own conjugate, or if partitioned, its parts are each other's;
+        within its tolerance if it has one.
         """
         is_so: bool = answered(self, "symplectic")
         return is_so
 
     def check(self) -> Any:
-        """All that ``gark check`` finds, as ``analyse`` has it."""
+        """The results of ``gark check``, as by ``analyse``."""
         return answered(self, "check")
 
     def stability(self) -> Any:
-        """All that ``gark stability`` finds, as ``find_stability`` has it."""
+        """The results of ``gark stability``, as by ``find_stability``."""
         return answered(self, "stability")
 
     def converge(self, problem: Any = None) -> Any:
-        """A convergence test, on a generic problem if none is named, as ``converge`` has it."""
+        """A convergence test, by default on a generic problem, as by ``converge``."""
         return answered(self, "converge", problem=problem)
 
     def plot(self, path: str | os.PathLike[str] | None = None) -> Any:
-        """The region of stability as a figure of matplotlib, saved at ``path`` where it is given;
+        """The stability region as a figure of matplotlib, saved at ``path`` if it is given;
         ``plot`` draws other results.
         """
         return answered(self, "plot", path=path)
@@ -229,18 +227,17 @@ class GarkMethod(Shown, Frozen, kw_only=True):
 
     @property
     def further(self) -> Further:
-        """The embedded weights and the dense output together."""
         return Further(self.embedded, self.dense)
 
     def _by_colour(self, rows: Sequence[Any]) -> Any:
-        """The row of the one colour, or the rows of all."""
+        """The row of the single colour, or the rows of all."""
         if self.tableau.size == 1:
             return rows[0]
         return ByColour(dict(enumerate(rows, start=1)))
 
     @property
     def stages(self) -> tuple[int, ...]:
-        """The number of stages s_l of each colour, in their order."""
+        """The number of stages s_l of each colour."""
         return tuple(self.tableau.space(l).stages for l in range(self.tableau.size))
 
     def __repr__(self) -> str:

@@ -1,4 +1,4 @@
-"""A tableau entry by entry, as it is printed: in radicals where the nodes have simple ones, else in
+"""A tableau entry by entry, as printed: in radicals if the nodes have simple ones, else in
 decimals.
 
 A block of a polynomial space has the entries A_{ij} = (A L_j)(c_i), L_j the Lagrange polynomials of
@@ -31,10 +31,10 @@ from garkcli.tableau.stages import PointSpace, StageSpace
 from garkcli.tableau.tableau import Edge, Method, Tableau
 
 Cell: TypeAlias = Number | arb
-"""An exact number, or an enclosure of one that is irrational."""
+"""An exact number, or an enclosure of an irrational one."""
 Row: TypeAlias = tuple[Cell, ...]
 Block: TypeAlias = tuple[Row, ...] | None
-"""The entries of a block; None where it does not exist."""
+"""The entries of a block; None if it does not exist."""
 
 
 class Entries(Frozen):
@@ -42,13 +42,13 @@ class Entries(Frozen):
 
     Attributes:
         c: the nodes, one row per colour.
-        A: ``A[l][m]`` is a matrix, or None where the block does not exist.
+        A: ``A[l][m]`` is a matrix, or None if the block does not exist.
         b: the weights, one row per colour.
-        is_exact: whether the entries are exact numbers; otherwise enclosures.
-        digits: the decimal digits that enclosures are good for.
+        is_exact: whether the entries are exact numbers, not enclosures.
+        digits: the correct decimal digits of enclosures.
         have_radicals: whether the nodes have simple radicals, so that exact entries exist.
-        embedded: the embedded weights, one row per colour; None where there are none.
-        dense: the coefficients of dense output, for each colour a row per stage; likewise.
+        embedded: the embedded weights, one row per colour; or None.
+        dense: the coefficients of dense output, for each colour a row per stage; or None.
     """
 
     c: tuple[Row, ...]
@@ -61,7 +61,7 @@ class Entries(Frozen):
     dense: tuple[tuple[Row, ...], ...] | None = None
 
     def changed(self, change: Callable[[Cell], Cell]) -> Entries:
-        """Every entry replaced by what ``change`` makes of it."""
+        """The entries with ``change`` applied to every number."""
 
         def row(cells: Row) -> Row:
             return tuple(map(change, cells))
@@ -81,12 +81,11 @@ class Entries(Frozen):
         return replace(self, c=c, A=tuple(A), b=b, embedded=embedded, dense=dense)
 
     def beside(self, further: Further) -> Entries:
-        """The entries with embedded weights and dense output."""
         dense = None if further.dense is None else further.dense.weights
         return replace(self, embedded=further.embedded, dense=dense)
 
     def in_decimals(self, digits: int) -> Entries:
-        """The entries as enclosures that are good for ``digits`` significant digits."""
+        """The entries as enclosures with ``digits`` correct digits."""
 
         def enclosed(cell: Cell) -> Cell:
             if isinstance(cell, arb):
@@ -98,9 +97,7 @@ class Entries(Frozen):
 
 @doing("entries")
 def entries(tableau: Tableau, digits: int = 17) -> Entries:
-    """All entries: exact where every colour's nodes are rational or quadratic, enclosures
-    otherwise.
-    """
+    """All entries: exact if all nodes are rational or quadratic, else enclosures."""
     exact = in_points(tableau)
     if exact is None:
         return numeric_entries(tableau, digits)
@@ -115,9 +112,7 @@ def entries(tableau: Tableau, digits: int = 17) -> Entries:
 
 
 def method_in_points(method: Method, nodes: Vector) -> Method:
-    """A family's method with one coordinate a stage, its nodes given as exact numbers in ascending
-    order.
-    """
+    """A family's method on point stages, with its nodes as exact numbers in ascending order."""
     space = PointSpace(nodes)
     V = space.reductions(space.stages)
     inverse = space.lifts()
@@ -126,9 +121,9 @@ def method_in_points(method: Method, nodes: Vector) -> Method:
 
 
 def in_points(tableau: Tableau) -> Tableau | None:
-    """The same tableau with one coordinate a stage; None where the nodes have no simple radicals.
+    """The tableau on point stages; None if the nodes have no simple radicals.
 
-    Nor have they, where together with the coefficients they generate too large a field.
+    Also None if nodes and coefficients together generate too large a field.
     """
     radical_nodes = nodes_in_radicals(tableau)
     if not radical_nodes:
@@ -144,9 +139,7 @@ def in_points(tableau: Tableau) -> Tableau | None:
 
 
 def nodes_in_radicals(tableau: Tableau) -> dict[int, tuple[Expression, ...]] | None:
-    """The nodes of the stage spaces that are stage algebras; None where they have no simple
-    radicals.
-    """
+    """The nodes of the polynomial stage spaces; None if they have no simple radicals."""
     nodes: dict[int, tuple[Expression, ...]] = {}
     for k, space in enumerate(tableau.spaces):
         if isinstance(space, PolynomialSpace):
@@ -160,7 +153,7 @@ def nodes_in_radicals(tableau: Tableau) -> dict[int, tuple[Expression, ...]] | N
 def _domain_with(
     tableau: Tableau, radical_nodes: Mapping[int, Sequence[Expression]]
 ) -> Domain | None:
-    """The domain of the coefficients and of these nodes; None where it is too large."""
+    """The domain of the coefficients and of these nodes; None if it is too large."""
     radicals: list[Expression] = []
     if tableau.field:
         radicals += [radical for radical, _ in tableau.field.radicals]
@@ -183,10 +176,10 @@ def at_points(
 
     Args:
         tableau: a family or a single method.
-        nodes: of the stage spaces that are stage algebras.
-        domain: of these nodes.
-        coefficient: what becomes of a coefficient.
-        number: what becomes of a number of the domain.
+        nodes: the nodes of the polynomial stage spaces.
+        domain: the domain of these nodes.
+        coefficient: maps a coefficient.
+        number: maps a number of the domain.
     """
     spaces: list[PointSpace] = []
     into: list[Matrix] = []
@@ -219,7 +212,7 @@ def _mapped(rows: Matrix, change: Callable[[Any], Any]) -> Matrix:
 
 @doing("entries")
 def numeric_entries(tableau: Tableau, digits: int = 17) -> Entries:
-    """All entries as enclosures narrower than 10^(−digits)."""
+    """All entries as enclosures of width below 10^(−digits)."""
     goal = int(digits * BITS_OF_A_DIGIT) + 8
     with ctx.workprec(goal + 64):
         while True:
@@ -234,7 +227,7 @@ def numeric_entries(tableau: Tableau, digits: int = 17) -> Entries:
 
 
 def _numeric(tableau: Tableau, digits: int) -> Entries | None:
-    """All entries at the current precision; None where it is too small for a Vandermonde matrix."""
+    """All entries at the current precision; None if it is too low for a Vandermonde matrix."""
     try:
         frames = [_numeric_frame(space) for space in tableau.spaces]
     except ZeroDivisionError:
@@ -262,7 +255,7 @@ def _numeric(tableau: Tableau, digits: int) -> Entries | None:
 
 
 def _numeric_frame(space: StageSpace) -> tuple[arb_mat, arb_mat]:
-    """The maps of coordinates to stage values and back."""
+    """The maps from coordinates to stage values and back."""
     if not isinstance(space, PolynomialSpace):
         unit = _to_arb(identity(space.stages))
         return unit, unit

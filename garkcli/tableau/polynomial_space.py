@@ -1,7 +1,7 @@
 """The stage space ℚ[x]/(M) of a family whose node polynomial M is rational, and integrals there.
 
-Its nodes are written down where they have simple radicals; elsewhere Vandermonde matrices in balls
-lead from coordinates to values at the nodes, and back.
+Nodes with simple radicals are written out; otherwise Vandermonde matrices in balls map coordinates
+to values at the nodes, and back.
 """
 
 from __future__ import annotations
@@ -33,9 +33,9 @@ from garkcli.reason import Formula, Reason
 from garkcli.tableau.stages import StageSpace, in_flint
 
 MAX_BITS_OF_ROW = 20_000
-"""Bits of all denominators of a row up to which elimination may multiply them with each other."""
+"""Largest size of the denominators of a row that elimination may multiply with each other."""
 MAX_MOMENTS = 8
-"""So many functionals of a stage space have their moments kept."""
+"""Most functionals of a stage space whose moments are cached."""
 
 
 class PolynomialSpace(StageSpace):
@@ -93,7 +93,7 @@ class PolynomialSpace(StageSpace):
         return tuple(moments[i : i + s] for i in range(s))
 
     def _moments(self, functional: Vector) -> Vector:
-        """The functional on 1, x, …, x^(2s−2); kept for weights, which are requested again."""
+        """The functional on 1, x, …, x^(2s−2), cached, as weights are requested again."""
         known = self._known_moments
         # compared, not hashed: flint hashes fractions by Python's, which takes longer
         for kept, moments in known:
@@ -150,7 +150,7 @@ class PolynomialSpace(StageSpace):
         return Reason("which are 0 at the nodes where {} = 0", Formula(str(nodes)))
 
     def _nodes_with_weight(self, weights: Vector) -> fmpq_poly:
-        """The monic polynomial g with the nodes of nonzero weight as its roots: b(x^i g) = 0 for
+        """The monic polynomial g whose roots are the nodes with nonzero weight: b(x^i g) = 0 for
         all i.
         """
         gram = self.gram(weights)
@@ -164,7 +164,7 @@ class PolynomialSpace(StageSpace):
 
 @lru_cache(maxsize=32)
 def _inverse_gram(space: PolynomialSpace, weights: Vector) -> Matrix:
-    """G⁻¹ of the weights: all blocks that lead to one colour are conjugated with the same."""
+    """G⁻¹ of the weights, which the conjugation of all blocks to one colour needs."""
     return solve(space.gram(weights), identity(space.stages))
 
 
@@ -208,7 +208,7 @@ def integration(degree: int) -> Matrix:
 
 
 def simple_nodes(space: PolynomialSpace) -> tuple[Expression, ...] | None:
-    """The nodes in ascending order, as expressions with at most a square root each; None if they
+    """The nodes in ascending order, as expressions with at most one square root each; None if they
     need more.
 
     >>> from garkcli.families.registry import diagonal_method
@@ -226,7 +226,7 @@ def simple_nodes(space: PolynomialSpace) -> tuple[Expression, ...] | None:
 
 
 def _roots(factor: fmpq_poly) -> list[Expression]:
-    """The roots of a linear factor, or of a quadratic one as m ± r√d with rational m, r and d."""
+    """The roots of a linear factor, or m ± r√d with rational m, r, d of a quadratic one."""
     if factor.degree() == 1:
         return [Literal(-factor[0] / factor[1])]
     constant, linear, leading = factor.coeffs()
@@ -242,18 +242,17 @@ _BITS_OF_A_STAGE = 16
 
 
 def powers_of_nodes(space: PolynomialSpace) -> arb_mat:
-    """The Vandermonde matrix of the nodes, a row for each in ascending order, at the current
+    """The Vandermonde matrix of the nodes, one row for each in ascending order, at the current
     precision.
     """
     return _powers_of_nodes(space, ctx.prec)
 
 
 def coordinates_at_nodes(space: PolynomialSpace) -> arb_mat:
-    """The inverse of the Vandermonde matrix: values at the nodes to coordinates, at the current
-    precision.
+    """The inverse of the Vandermonde matrix, from values at the nodes to coordinates.
 
     Raises:
-        ZeroDivisionError: the precision is too small.
+        ZeroDivisionError: the precision is too low.
     """
     inverse = _coordinates_at_nodes(space, ctx.prec)
     if inverse is None:

@@ -2,8 +2,8 @@
 
 Two models of the same thing. ``PointSpace`` is K^s with componentwise multiplication: one number
 per stage. ``PolynomialSpace`` is ℚ[x]/(M), M the node polynomial: for the Gauss, Radau and Lobatto
-families M is rational although the nodes are not, so nothing in it ever needs a root. Evaluation at
-the nodes identifies the two.
+families M is rational although the nodes are not, so no root is needed. Evaluation at the nodes
+identifies the two.
 
 A *vector* is a tuple of s coordinates, a *functional* a tuple of s coordinates in the dual basis, a
 block a matrix that acts on coordinates.
@@ -51,7 +51,7 @@ class StageSpace(Frozen):
     @property
     @abstractmethod
     def nodes(self) -> Vector:
-        """C as an element of the algebra."""
+        """The nodes as an element of the algebra."""
 
     @abstractmethod
     def product(self, u: Vector, v: Vector) -> Vector:
@@ -67,17 +67,17 @@ class StageSpace(Frozen):
 
     @abstractmethod
     def of_polynomial(self, coefficients: Sequence[Number]) -> Vector:
-        """The element that a polynomial is, its coefficients given from the lowest to the highest.
+        """The class of a polynomial with coefficients from the lowest to the highest.
 
         At points these are its values at the nodes.
         """
 
     @abstractmethod
     def basis_polynomials(self) -> Iterator[Vector]:
-        """The polynomial of degree < s that each basis vector stands for, lowest coefficient first.
+        """The polynomial of degree < s of each basis vector, lowest coefficient first.
 
-        At points these are the Lagrange polynomials of the nodes. One is made at a time: together
-        they can be far larger than what is made from them.
+        At points these are the Lagrange polynomials of the nodes. They are made one at a time:
+        together they can be far larger than the results.
 
         Raises:
             CoincidingNodes: two nodes are equal.
@@ -85,7 +85,7 @@ class StageSpace(Frozen):
 
     @abstractmethod
     def lifts(self) -> Matrix:
-        """Coordinates to the polynomial of degree < s they stand for, shape (s, s).
+        """Maps coordinates to the polynomial of degree < s, shape (s, s).
 
         The columns are the ``basis_polynomials``.
 
@@ -94,25 +94,22 @@ class StageSpace(Frozen):
         """
 
     def power(self, v: Vector, exponent: int) -> Vector:
-        """The power v ⊙ … ⊙ v."""
         result = self.one
         for _ in range(exponent):
             result = self.product(result, v)
         return result
 
     def gram(self, weights: Vector) -> Matrix:
-        """G with entries weights(e_i ⊙ e_j): the bilinear form that B^{l} is in the paper."""
+        """G with entries weights(e_i ⊙ e_j): the bilinear form of B^{l} in the paper."""
         return tuple(self.times(weights, e) for e in identity(self.stages))
 
     @abstractmethod
     def zero_weights(self, weights: Vector) -> Reason:
-        """Which of the weights are zero, in words; one of them is."""
+        """Says which of the weights are zero; at least one must be."""
 
     def form(self, weights: Vector, block: Matrix) -> Matrix:
-        """The bilinear form (f, g) ↦ weights(f ⊙ A g), with a row for each f, of a block A that
-        leads to here.
-
-        At points this is B A.
+        """The bilinear form (f, g) ↦ weights(f ⊙ A g), one row for each f, of a block A into this
+        space; B A for point stages.
         """
         return multiply(self.gram(weights), block)
 
@@ -141,16 +138,15 @@ class StageSpace(Frozen):
 
 
 def in_flint(coefficients: Sequence[Number]) -> fmpq_poly:
-    """The polynomial of rational ``coefficients``, lowest first, for python-flint."""
     return fmpq_poly(cast("list[fmpq]", list(coefficients)))
 
 
 MAX_BITS_COMPARED = 5_000_000
-"""Longest denominators that are compared with each other only to tell what they share."""
+"""Longer denominators are not compared with each other."""
 
 
 class PointSpace(StageSpace):
-    """K^s: one coordinate a stage, in the order of the file. ``points`` are the nodes."""
+    """K^s: one coordinate per stage, in the order of the file. ``points`` are the nodes."""
 
     points: Vector
 
@@ -182,11 +178,11 @@ class PointSpace(StageSpace):
         return tuple(_value(coefficients, c) for c in self.points)
 
     def interpolation_bits(self, enough: int) -> int:
-        """About how long the common denominator of the Lagrange polynomials of the nodes is.
+        """An estimate of the length of the common denominator of the Lagrange polynomials.
 
         Args:
-            enough: a bound that is not larger than this is returned as it is; otherwise it is
-                examined closer, at what the polynomials have in common.
+            enough: a simple bound is returned if it is at most this; else the common denominator is
+                computed.
 
         Returns:
             Bits, summed over the coordinates of irrational nodes.
@@ -237,16 +233,16 @@ class PointSpace(StageSpace):
 
 
 OF_OTHERS = "gark check, show, conditions, certificate, diff and report know such methods"
-"""The cure where a method that is no GARK method has no meaning."""
+"""The cure if a command is not defined for a method that is no GARK method."""
 
 
 class Flow(PointSpace):
-    """Stages of collocation that stand for the exact solution of problems between other stages.
+    """Collocation stages that represent the exact solution of problems between other stages.
 
     Attributes:
-        order: of the trees up to which conditions are those with the exact solution.
-        why: what the method does with such solutions, so that it is no GARK method.
-        cure: what does without.
+        order: the order of trees up to which conditions agree with the exact solution.
+        why: why such a method is no GARK method.
+        cure: a way without such stages.
     """
 
     order: int
@@ -256,11 +252,8 @@ class Flow(PointSpace):
 
 
 class Jets(Flow):
-    """Stages on the exact solution through each stage of the method, the first at its beginning;
-    ``order`` of them.
-
-    Attributes:
-        derivatives: how many f_k the method uses.
+    """Stages on the exact solution through each stage of the method, ``order`` of them, the first
+    at its beginning. ``derivatives``: the number of f_k that the method uses.
     """
 
     derivatives: int
@@ -270,16 +263,15 @@ class Jets(Flow):
 
 
 def _scaled_rows(factors: Vector, rows: Matrix) -> Matrix:
-    """The product of a diagonal matrix and another."""
     return tuple(tuple(factor * x for x in row) for factor, row in zip(factors, rows, strict=True))
 
 
 @lru_cache(maxsize=16)  # blocks both ways, and to many colours, ask again
 def _common_denominator(nodes: tuple[fmpq, ...]) -> fmpz:
-    """What the Lagrange polynomials of rational nodes are divided by, in common.
+    """The common divisor of the denominators of the Lagrange polynomials of rational nodes.
 
     L_i = ∏ (x − c_j) / ∏ (c_i − c_j) over j ≠ i: the least common multiple of the numerators of the
-    lower products. The denominators of the nodes themselves are left out.
+    lower products; the denominators of the nodes are ignored.
     """
     common = fmpz(1)
     for c in nodes:
@@ -318,7 +310,7 @@ def _rational_lagrange(nodes: Sequence[fmpq]) -> Iterator[Vector]:
 
 
 def _lagrange(nodes: Sequence[Number]) -> Iterator[Vector]:
-    """The same in any domain, dividing w by x − c_j with Horner's scheme."""
+    """The L_j over any domain, dividing w by x − c_j with Horner's scheme."""
     w: list[Number] = [ONE]
     for c in nodes:
         w = [a - c * b for a, b in zip([ZERO, *w], [*w, ZERO], strict=True)]

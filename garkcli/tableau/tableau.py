@@ -17,11 +17,9 @@ from garkcli.ntrees.tree import Tree
 from garkcli.tableau.stages import OF_OTHERS, Flow, Jets, PointSpace, StageSpace
 
 Part: TypeAlias = Literal["y", "q", "p"]
-"""The part of the unknowns that a colour's vector field drives: all of them, positions, or
-momenta.
-"""
+"""The part of the unknowns that a colour's vector field drives: all, positions or momenta."""
 Edge: TypeAlias = tuple[int, int]
-"""Who sees whom: two colours (l, m); or (k, m), where the stages of space k see colour m."""
+"""Two colours (l, m), l seeing m; or (k, m), the stages of space k seeing colour m."""
 
 
 class Colour(Frozen):
@@ -32,11 +30,11 @@ class Colour(Frozen):
         space: index of the stage space of its stages; colours may share one.
         b: its weights, a functional on that space.
         c: its nodes, an element of that space. They enter B, C, D and consistency only.
-        term: which term of the split, H^{l} or f^{l}, the vector field comes from, counted from 0.
-        part: what the vector field drives.
-        kind: what its vertices are like.
-        late: by how many orders more than it has a tree with such a root counts, of those whose
-            conditions an order asks for; None where none does, as the step has no such weights.
+        term: the index of the term H^{l} or f^{l} of the split, from 0.
+        part: the part that the vector field drives.
+        kind: the kind of its vertices.
+        late: the number of orders that a tree with such a root counts more than its own; None if
+            the step has no such weights, so no conditions.
     """
 
     name: str
@@ -50,14 +48,14 @@ class Colour(Frozen):
 
     @property
     def is_linear(self) -> bool:
-        """Whether the vector field is linear, so that a vertex has one branch at most."""
+        """Whether the vector field is linear, so a vertex has at most one branch."""
         return self.kind == LINEAR
 
 
 class Tableau(Frozen):
     """A GARK tableau as a directed graph of colours.
 
-    Colours and stage spaces are indices of ``colours`` and ``spaces`` here, from 0; those of
+    Colours and stage spaces are indices into ``colours`` and ``spaces``, from 0; those of
     ``GarkMethod.A`` count from 1.
 
     Attributes:
@@ -117,7 +115,7 @@ class Tableau(Frozen):
 
     @property
     def roots(self) -> dict[int, int]:
-        """The colours, from 0, whose trees have conditions, and how late these count."""
+        """The colours, from 0, whose trees have conditions, with their ``late``."""
         lates = ((l, colour.late) for l, colour in enumerate(self.colours))
         return {l: late for l, late in lates if late is not None}
 
@@ -126,7 +124,7 @@ class Tableau(Frozen):
         return self.spaces[self.colours[colour].space]
 
     def block(self, l: int, m: int) -> Matrix | None:
-        """A^{l,m}, l and m from 0, or None where the stages of colour l do not see colour m."""
+        """A^{l,m}, l and m from 0, or None if the stages of colour l do not see colour m."""
         return self.blocks.get((self.colours[l].space, m))
 
     def edges(self) -> Iterator[Edge]:
@@ -145,55 +143,52 @@ class Tableau(Frozen):
         self.__dict__.update(kept)
 
     def tree(self, l: int, branches: Iterable[Tree] = ()) -> Tree:
-        """The tree with a root of colour l, from 0."""
         return Tree(l, branches, self.colours[l].kind)
 
     def known(self, tree: Tree) -> Tree:
-        """A tree of any source, such as text, with vertices of the kinds of the colours."""
+        """A tree from any source, such as text, with the kinds of vertices of the colours."""
         if self.has_fields_alone:
             return tree
         return self.tree(tree.root, map(self.known, tree.branches))
 
     @cached_property
     def has_fields_alone(self) -> bool:
-        """Whether every colour is a vector field that the stages evaluate, of any kind: then the
-        method is a GARK method.
-        """
+        """Whether every colour is a vector field that the stages evaluate, as in a GARK method."""
         return all(colour.kind in FIELDS for colour in self.colours)
 
     @cached_property
     def is_listed(self) -> bool:
-        """Whether every vertex counts an order: trees with others are not listed."""
+        """Whether every vertex counts an order; other trees are not listed."""
         return all(colour.kind.weight for colour in self.colours)
 
     @cached_property
     def exact_to(self) -> int | None:
-        """The order of the trees up to which its conditions are those of a method that solves
-        problems exactly; None where it has no stages that stand for such solutions.
+        """The order of trees up to which conditions are those of a method with exact solutions;
+        None without stages that represent such solutions.
         """
         return min((x.order for x in self.spaces if isinstance(x, Flow)), default=None)
 
     @property
     def uses_derivatives(self) -> bool:
-        """Whether it is that of a method that uses derivatives of f along the solution."""
+        """Whether the method uses derivatives of f along the solution."""
         return any(isinstance(x, Jets) for x in self.spaces)
 
     @property
     def is_gark(self) -> bool:
-        """Whether all its commands have a meaning: its colours are fields, and no stage stands for
-        an exact solution.
+        """Whether all commands apply: its colours are fields, and no stage represents an exact
+        solution.
         """
         return self.has_fields_alone and self.exact_to is None
 
     def demand_fields(self, what: str, *, with_flow: bool = False) -> None:
-        """Refuse what is defined for GARK methods alone.
+        """Refuses an operation that is defined for GARK methods only.
 
         Args:
-            what: that is.
-            with_flow: whether it is also defined where stages stand for exact solutions.
+            what: the operation, in messages.
+            with_flow: whether it is also defined if stages represent exact solutions.
 
         Raises:
-            MethodError: the vertices of a colour are of another kind; or stages stand for exact
+            MethodError: the vertices of a colour are of another kind, or stages represent exact
                 solutions.
         """
         flow = next((x for x in self.spaces if isinstance(x, Flow)), None)
@@ -220,7 +215,6 @@ class Tableau(Frozen):
 
     @cached_property
     def has_parameters(self) -> bool:
-        """Whether a coefficient is a rational function of free parameters."""
         return any(isinstance(x, Parametric) for x in chain.from_iterable(self.rows))
 
     @property
@@ -234,13 +228,11 @@ class Tableau(Frozen):
 
     @property
     def entries(self) -> list[Number]:
-        """The coefficients of weights and blocks."""
         rows = [colour.b for colour in self.colours]
         return list(chain(*rows, *chain.from_iterable(self.blocks.values())))
 
     @property
     def degree(self) -> int:
-        """The dimension over ℚ of the domain of the coefficients."""
         return self.field.degree if self.field else 1
 
 
@@ -249,7 +241,7 @@ class Method(Frozen):
 
     Attributes:
         name: for people.
-        space: where its stage values live; its nodes are those that transfer rules interpolate at.
+        space: the space of its stage values, with the nodes at which transfer rules interpolate.
         A: a map of the space into itself, shape (s, s).
         b: the weights functional, length s.
     """
@@ -261,12 +253,10 @@ class Method(Frozen):
 
     @property
     def stages(self) -> int:
-        """The number of stages, s."""
         return self.space.stages
 
     @property
     def c(self) -> Vector:
-        """The nodes, as an element of the stage space."""
         return self.space.nodes
 
 
