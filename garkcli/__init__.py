@@ -65,8 +65,8 @@ NAMES = {
         "ExpressionError TreeError UsageProblem"
     },
 }
-"""Every public name, below what it is for, with the module that has it. ``__init__.pyi`` is made
-from it, for type checkers; a test compares.
+"""Every public name by topic and module. ``__init__.pyi`` is generated from it for type checkers; a
+test compares them.
 """
 HOMES = {
     name: home
@@ -103,7 +103,7 @@ ANSWERS = {
     "ModifiedRun.html=html BackwardAnalysis.html=html Convergence.html=html LongRun.html=html",
     "plots.calls": "GarkMethod.plot=plot_method",
 }
-"""What values of lower rooms show and answer: the question, and the function that answers it."""
+"""Questions that values of lower rooms pass upwards, and the functions that answer."""
 _ANSWERING = {
     question: (room, function)
     for room, answers in ANSWERS.items()
@@ -150,5 +150,5 @@ def __getattr__(name):
 
 
 def __dir__():
-    """What is meant for people: neither what this module imports nor the rooms."""
+    """The public names, without imports and rooms."""
     return sorted({*__all__, *(name for name in globals() if name.startswith("__"))})

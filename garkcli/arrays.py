@@ -1,4 +1,4 @@
-"""Names of arrays by what is in them: no file that only hands arrays on has to import numpy."""
+"""Types of arrays by content, so that files which only pass arrays on need not import numpy."""
 
 from __future__ import annotations
 

@@ -1,11 +1,11 @@
-"""How long work may take: a deadline holds for everything that is done inside it.
+"""Time limits: a deadline holds for all work inside it.
 
 Whoever limits work writes ``with within(seconds):`` around it. Loops that may take long call
 ``check_time``, which raises ``NotDecided`` once the time is over. A call of a library in C cannot
 be interrupted; ``garkcli.exact.apart`` does large ones in a process of their own.
 
-What one waits for is limited by the clock. A limit that holds without being asked for is one of
-processor time: a machine with much to do decides no less.
+Limits that users set are by the clock. Default limits are of processor time, so a busy machine
+decides no less.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from time import monotonic
 from garkcli.errors import NotDecided
 
 SECONDS = 10.0
-"""Processor time after which stability is not decided, where nobody says how much."""
+"""Default limit for stability, in processor seconds."""
 FOR_EVER = 1e9
 """Seconds after which no system waits any longer, about thirty years."""
 _moment: ContextVar[float | None] = ContextVar("moment", default=None)
@@ -32,7 +32,7 @@ _is_small: ContextVar[bool] = ContextVar("is_small", default=False)
 
 @contextmanager
 def within(seconds: float | None) -> Iterator[None]:
-    """Limit what is done inside; an earlier deadline around it stays. None sets no limit.
+    """Limits the work inside; an earlier deadline around it stays. None sets no limit.
 
     >>> with within(0):
     ...     check_time()
@@ -47,14 +47,14 @@ parameters values
 
 @contextmanager
 def until(moment: float | None) -> Iterator[None]:
-    """The same by the reading of ``time.monotonic`` at which it ends."""
+    """``within`` with the end as a reading of ``time.monotonic``."""
     with _earliest(_moment, moment):
         yield
 
 
 @contextmanager
 def spending(seconds: float | None) -> Iterator[None]:
-    """Limit the processor time of the work inside; None sets no new limit, outer ones stay."""
+    """Limits the processor time of the work inside; None sets no new limit, outer ones stay."""
     with _earliest(_spent, None if seconds is None else processor_time() + seconds):
         yield
 
@@ -70,13 +70,15 @@ def _earliest(limit: ContextVar[float | None], reading: float | None) -> Iterato
 
 
 def processor_time() -> float:
-    """Seconds that this process and those that it has waited for have worked."""
+    """Seconds that this process and its finished children have worked."""
     return sum(os.times()[:4])
 
 
 @contextmanager
 def only_small() -> Iterator[None]:
-    """Do only what is small inside: what would need a process of its own raises ``NotDecided``."""
+    """Does only small work inside: work that would need a process of its own raises
+    ``NotDecided``.
+    """
     token = _is_small.set(True)
     try:
         yield
@@ -85,24 +87,23 @@ def only_small() -> Iterator[None]:
 
 
 def forget() -> None:
-    """Set no limit from now on: in a process that another one ends."""
+    """Removes all limits, in a process that another one ends."""
     _moment.set(None)
     _spent.set(None)
 
 
 def is_only_small() -> bool:
-    """Whether only work that is small is done."""
     return _is_small.get()
 
 
 def clock_left() -> float | None:
-    """How much of the time of the clock is left, 0 where it is over; None where it has no limit."""
+    """The seconds of the clock that are left, at least 0; None without a limit."""
     moment = _moment.get()
     return None if moment is None else max(0.0, moment - monotonic())
 
 
 def work_left() -> float | None:
-    """How much processor time is left, 0 where it is over; None where it has no limit."""
+    """The processor seconds that are left, at least 0; None without a limit."""
     spent = _spent.get()
     return None if spent is None else max(0.0, spent - processor_time())
 
@@ -113,10 +114,6 @@ def seconds_left() -> float | None:
 
 
 def check_time() -> None:
-    """Give up where the time is over.
-
-    Raises:
-        NotDecided: it is.
-    """
+    """Raises ``NotDecided`` if the time is over."""
     if seconds_left() == 0:
         raise NotDecided(is_late=True)

@@ -1,4 +1,4 @@
-"""What is being done now, for whoever waits for it.
+"""The current work, for whoever waits for it.
 
 Work that may take long names itself: ``with doing("reference solution", steps) as work``, and says
 how far it is by ``work.reach(done)``. Without a listener that is all that happens; the one of the
@@ -18,33 +18,25 @@ T = TypeVar("T")
 
 
 class Listener(Protocol):
-    """Hears what begins, how far it is, and what ends; work may begin within other work."""
+    """Is told of work that begins, progresses and ends; work may begin within other work."""
 
-    def begin(self, work: Work) -> None:
-        """Take note of what is being done from now on."""
-        ...
+    def begin(self, work: Work) -> None: ...
 
-    def changed(self) -> None:
-        """Take note that something is further than before."""
-        ...
+    def changed(self) -> None: ...
 
-    def end(self, work: Work) -> None:
-        """Take note of what is done, or has failed."""
-        ...
+    def end(self, work: Work) -> None: ...
 
-    def hush(self) -> None:
-        """Nobody wants to hear any more."""
-        ...
+    def hush(self) -> None: ...
 
 
 class Work(Mutable, eq=False):
-    """One thing that is being done.
+    """A piece of work.
 
     Attributes:
-        what: in a few words.
-        total: how many parts it has; None where nobody knows.
-        listener: who hears, if anybody.
-        done: how many of the parts are done.
+        what: its name, a few words.
+        total: the number of its parts; None if unknown.
+        listener: the listener, if any.
+        done: the number of parts that are done.
     """
 
     what: str
@@ -53,13 +45,13 @@ class Work(Mutable, eq=False):
     done: int = 0
 
     def reach(self, done: int) -> None:
-        """So many parts are done."""
+        """Records that ``done`` parts are done."""
         self.done = done
         if self.listener is not None:
             self.listener.changed()
 
     def __str__(self) -> str:
-        """What is being done, and how much of it where there is more than one part."""
+        """The name of the work, and its progress if it has more than one part."""
         if self.total is not None and self.total > 1:
             return f"{self.what}, {self.done} of {self.total}"
         return f"{self.what}, {self.done}" if self.done else self.what
@@ -69,13 +61,12 @@ _listener: ContextVar[Listener | None] = ContextVar("listener", default=None)
 
 
 def listener() -> Listener | None:
-    """Who hears, if anybody."""
     return _listener.get()
 
 
 @contextmanager
 def telling(who: Listener | None) -> Iterator[None]:
-    """Tell ``who`` meanwhile, and nobody else; None for nobody at all."""
+    """Tells only ``who`` inside; None tells nobody."""
     token = _listener.set(who)
     try:
         yield
@@ -84,7 +75,7 @@ def telling(who: Listener | None) -> Iterator[None]:
 
 
 def hush() -> None:
-    """Tell nobody any more: a person types, reads the report, or wants to hear nothing."""
+    """Stops the listener: a person types or reads the report."""
     who = _listener.get()
     if who is not None:
         who.hush()
@@ -92,7 +83,7 @@ def hush() -> None:
 
 @contextmanager
 def doing(what: str, total: int | None = None) -> Iterator[Work]:
-    """Say what is being done.
+    """Names the work inside.
 
     >>> with doing("steps", 2) as work:
     ...     work.reach(1)
@@ -110,7 +101,7 @@ def doing(what: str, total: int | None = None) -> Iterator[Work]:
 
 
 def counting(what: str, items: Iterable[T], total: int | None = None) -> Iterator[T]:
-    """The same items, counted as they go by.
+    """The items, counted as they go by.
 
     >>> list(counting("trees", "ab", 2))
     ['a', 'b']

@@ -1,4 +1,4 @@
-"""How signals end a run: at once, or after it has cleaned up.
+"""Ends runs on signals: at once, or after cleaning up.
 
 Python hears of a signal between two of its own steps. A call in C, of python-flint say, may go on
 for minutes, so the system ends the run, and Python handles signals only where there is something to
@@ -19,7 +19,7 @@ from garkcli.frozen import Mutable
 from garkcli.leaving import leave
 
 ENDING = ("SIGINT", "SIGTERM", "SIGHUP")
-"""Sent by a person, by whoever ends jobs, and by a terminal that closes."""
+"""Signals from a person, from a job scheduler, and from a terminal that closes."""
 
 
 class Ended(BaseException):
@@ -34,8 +34,8 @@ class _Run(Mutable, eq=False):
     """A run of the command line.
 
     Attributes:
-        signals: those that end it.
-        undoing: how many things are begun that have to be undone.
+        signals: the signals that end it.
+        undoing: the number of things that have to be undone.
     """
 
     signals: list[int]
@@ -43,12 +43,12 @@ class _Run(Mutable, eq=False):
 
 
 _run: ContextVar[_Run | None] = ContextVar("run", default=None)
-"""None in other programs: their signals are their own."""
+"""The run whose signals are handled; None in other programs, which handle their own."""
 
 
 @contextmanager
 def at_once() -> Iterator[None]:
-    """Let signals end the process by themselves inside, but where ``undone`` is around.
+    """Lets signals end the process by themselves inside, except inside ``undone``.
 
     One that is ignored (``nohup``) or handled already stays so. Windows has an exit code of its own
     for a process that an interrupt ends, so that Python handles it there.

@@ -29,15 +29,15 @@ from typing import Any
 from garkcli.frozen import Frozen
 
 UNKNOWN = "fault"
-"""The code of an error that does not say of which kind it is."""
+"""The code of errors without a kind."""
 
 
 class GarkError(Exception):
-    """Base of all errors of the program; its text is both.
+    """Base of all errors of the program; its text is message and cure.
 
     Attributes:
         message: what is wrong, and where.
-        help: the cure; empty where there is none.
+        help: the cure, or empty.
         code: the kind of error, as ``gark explain`` knows it.
 
     >>> print(GarkError("no order is given", "write 4", code="missing-key"))
@@ -58,12 +58,11 @@ class GarkError(Exception):
         return f"{self.message}; {self.help}"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """An error reaches another process with all it knows, whatever it was made from."""
+        """Pickles an error with its attributes."""
         return _made_again, (type(self), self.args), self.__dict__
 
 
 def _made_again(kind: type[GarkError], args: tuple[Any, ...]) -> GarkError:
-    """An error without its attributes, which pickle sets."""
     return kind.__new__(kind, *args)
 
 
@@ -186,9 +185,9 @@ class Fault(Frozen):
 
     Attributes:
         message: what is wrong.
-        help: the cure; empty where there is none.
-        line: where, from 1; 0 where that is not known.
-        column: likewise.
+        help: the cure, or empty.
+        line: from 1; 0 if unknown.
+        column: from 1; 0 if unknown.
         code: the kind of fault, as ``gark explain`` knows it.
     """
 
@@ -200,15 +199,17 @@ class Fault(Frozen):
 
 
 MANY_WORDS = 50
-"""Of so many known words only those that begin like the misspelt one are compared with it."""
+"""Beyond so many known words a misspelt one is compared only with those of the same first
+letter.
+"""
 MOST_WORDS = 8 * MANY_WORDS
-"""Of those so many at most; the catalogue has hundreds of names of one first letter."""
+"""Most words of the same first letter; the catalogue has hundreds."""
 WORDS_SHOWN = 20
-"""Most known words that are listed where none is near."""
+"""Most known words that are listed if none is near."""
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:
-    """The cure for a misspelt word: the nearest known one, those it begins, or all of them.
+    """The cure for a misspelt word: the nearest known one, those it begins, or all known words.
 
     >>> did_you_mean("colocation", ["collocation", "interpolation"])
     "did you mean 'collocation'?"
@@ -269,7 +270,7 @@ def _that_begin_like(word: str, known: list[str]) -> list[str]:
 
 
 MOST_NEAR = 20
-"""Of these so many that share the most letters and pairs of letters with it."""
+"""Most words that are compared letter by letter: those that share the most letters and pairs."""
 MAX_WORD = 100
 """No known word is as long as this."""
 
@@ -282,13 +283,12 @@ def _pieces(word: str) -> frozenset[str]:
 
 
 def _letters(word: str) -> str:
-    """A word without what people forget: capitals, hyphens, blanks, underscores."""
+    """A word without capitals, hyphens, blanks and underscores."""
     return "".join(x for x in word.lower() if x not in "-_ ")
 
 
 def printable(text: str) -> str:
-    r"""A text from outside as it can be shown on one line: what a terminal would act on is written
-    out.
+    r"""A text from outside on one line, with control characters escaped.
 
     >>> print(printable("a\x1b[2Jb"))
     a\x1b[2Jb
@@ -347,7 +347,7 @@ class HasFreeParameters(MethodFileError):
     """A family of methods where one method is expected; nothing else is wrong with the file."""
 
     reading: Any = None
-    """What was read of the file: its family is made from that, where it is in this process."""
+    """The parsed file, from which its family is made; None after pickling."""
 
     def __reduce__(self) -> tuple[Any, ...]:
         *made, state = super().__reduce__()

@@ -1,6 +1,4 @@
-"""Files as this process meets them: read within limits, told apart from streams, and where they
-really are.
-"""
+"""Files: read within limits, distinguished from streams, resolved through links."""
 
 from __future__ import annotations
 
@@ -15,7 +13,7 @@ from contextvars import ContextVar
 from garkcli.doing import hush
 
 STDIN = "-"
-"""What stands for standard input."""
+"""The path of standard input."""
 _OWN_STREAM = r"/dev/(?:fd/)?(\d{1,9}|stdin|stdout|stderr)|/proc/self/fd/(\d{1,9})"
 _NAMED = {"stdin": 0, "stdout": 1, "stderr": 2}
 _inputs: ContextVar[set[tuple[int, int]] | None] = ContextVar("inputs", default=None)
@@ -29,7 +27,7 @@ class NotAFile(OSError):
 
 
 def own_stream(path: str) -> int | None:
-    """The descriptor of this process that a path means, as the shell hands them over; or None.
+    """The descriptor of this process that a path means, such as ``/dev/fd/63``; or None.
 
     >>> own_stream("/dev/fd/63"), own_stream("/dev/stdin"), own_stream("m.yaml")
     (63, 0, None)
@@ -48,13 +46,12 @@ def is_stream(path: str) -> bool:
 
 
 def read_bytes(path: str, most: int) -> bytes:
-    """What a file holds, or a stream of this process; of more than ``most`` bytes one more.
+    """The content of a file or stream of this process, at most ``most`` bytes and one more.
 
-    What is no regular file else is not opened: it may never end, or never begin. Nor is one waited
-    for that calls itself a file.
+    Devices and pipes other than its own streams are not opened, as they may never end or begin.
 
     Raises:
-        NotAFile: it is none.
+        NotAFile: it is not a regular file.
         OSError: it cannot be read, or standard input is closed.
         ValueError: no file has such a name.
     """
@@ -69,10 +66,10 @@ def read_bytes(path: str, most: int) -> bytes:
 
 
 def begin_of(path: str, most: int) -> bytes:
-    """The first bytes of a file or a stream of this process, which does not become an input.
+    """The first bytes of a file or stream of this process, without noting it as an input.
 
     Raises:
-        NotAFile: it is neither.
+        NotAFile: it is neither of them.
         OSError: it cannot be read.
         ValueError: no file has such a name.
     """
@@ -97,7 +94,7 @@ def begin_of(path: str, most: int) -> bytes:
 
 _BINARY = getattr(os, "O_BINARY", 0)
 _AT_ONCE = getattr(os, "O_NONBLOCK", 0)
-"""A file that has nothing to give yet says so; without the flag there are no such files."""
+"""A file without data yet fails at once; systems without the flag have no such files."""
 _BLOCK = 2**20
 
 
@@ -112,7 +109,7 @@ def _read(descriptor: int, most: int) -> bytes:
 
 @contextmanager
 def noting_inputs() -> Iterator[None]:
-    """Remember meanwhile which files are inputs, so that none is written over."""
+    """Notes files that are read inside, so that none is overwritten."""
     before = _inputs.set(set())
     try:
         yield
@@ -121,7 +118,7 @@ def noting_inputs() -> Iterator[None]:
 
 
 def note_input(path: str) -> None:
-    """Remember a file that is read, or that will be."""
+    """Notes a file that is read, or will be."""
     known = _inputs.get()
     if known is None:
         return
@@ -132,7 +129,7 @@ def note_input(path: str) -> None:
 
 
 def is_input(status: os.stat_result) -> bool:
-    """Whether a file is one of those remembered, by whatever name."""
+    """Whether a file is a noted input, by any name."""
     known = _inputs.get()
     return known is not None and (status.st_dev, status.st_ino) in known
 

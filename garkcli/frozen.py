@@ -1,4 +1,4 @@
-"""What the values of gark are made of: named fields, by which they are compared and shown.
+"""Base classes of values: named fields, by which they are compared and shown.
 
 msgspec makes these classes in C. A dataclass compiles the code of its methods when it is imported,
 which takes thirty times as long; a command starts with a hundred such classes.
@@ -15,7 +15,6 @@ __all__ = ["Frozen", "FrozenBut", "Mutable", "field", "fields", "force_setattr",
 
 
 def fields(value: Struct | type[Struct]) -> tuple[str, ...]:
-    """The names of its fields."""
     return value.__struct_fields__
 
 

@@ -13,8 +13,7 @@ Edges: TypeAlias = Mapping[T, Iterable[T]]
 
 
 def components(after: Edges[T]) -> list[list[T]]:
-    """The strongly connected components of a graph, each before those that can be reached from it
-    (Kosaraju).
+    """The strongly connected components of a graph, each before those reachable from it (Kosaraju).
 
     >>> components({1: [2], 2: [3, 1], 3: []})
     [[1, 2], [3]]
@@ -39,8 +38,8 @@ def components(after: Edges[T]) -> list[list[T]]:
 
 
 def solving_order(needs: Edges[T], places: Mapping[T, int]) -> list[T]:
-    """Every vertex after those that it needs, and beside those that need it too; among what nothing
-    holds up any more the first place comes first, those of one place as they are given.
+    """Every vertex after those that it needs; strongly connected ones stay together. Among vertices
+    that are ready the smallest place comes first, equal ones in the given order.
 
     >>> needs = {"a": ["c"], "b": [], "c": ["d"], "d": ["c"]}
     >>> solving_order(needs, {vertex: number for number, vertex in enumerate(needs)})
@@ -68,8 +67,8 @@ def solving_order(needs: Edges[T], places: Mapping[T, int]) -> list[T]:
 
 
 def _visit(root: T, after: Edges[T], seen: set[T], finish: Callable[[T], None]) -> None:
-    """Depth first from ``root``, without recursion; ``finish`` is called with each vertex after its
-    successors.
+    """Visits depth first from ``root``, without recursion; ``finish`` is called with each vertex
+    after its successors.
     """
     if root in seen:
         return

@@ -1,4 +1,4 @@
-"""How the command ends where it is interrupted before it has begun, or after it is done.
+"""Ends the command if it is interrupted before it starts or after it is done.
 
 The first module that the command imports: it imports only what is part of the interpreter, because
 ``signal`` takes milliseconds to make enumerations.
@@ -9,13 +9,13 @@ import os
 
 
 def leave(number: int, _frame: object) -> None:
-    """End at once, without a word: there is nothing to be cleaned up."""
+    """Ends the process at once, silently: nothing has to be cleaned up."""
     os._exit(128 + number)
 
 
 def leave_at_once() -> None:
-    """Let an interrupt end the process without a word, not with a traceback of imports, until the
-    command runs; one that is ignored stays so.
+    """Lets an interrupt end the process silently, without a traceback of imports, until the command
+    runs; an ignored one stays ignored.
 
     Windows has an exit code of its own for a process that an interrupt ends.
     """

@@ -29,13 +29,13 @@ TOP: Place = (0, 0)
 """The place of items that are about a whole file."""
 SUFFIX = ".gark.yaml"
 READABLE = "readable"
-"""The item of a file that makes no claim, or cannot be read."""
+"""The item of a file without claims, or that cannot be read."""
 EVERY_VALUE = "every-value"
 """The item of a file with free parameters: all of its claims, on every value of them."""
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """The options and the settings, each told by ``pytest --help``."""
+    """The options and settings, each with its help."""
     group = parser.getgroup("gark", "method files of gark")
     group.addoption(
         "--gark",
@@ -62,7 +62,6 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> GarkFile | None:
-    """A method file that is requested."""
     if not file_path.name.endswith(SUFFIX) or not _is_wanted(file_path, parent):
         return None
     return GarkFile.from_parent(parent, path=file_path)
@@ -83,7 +82,6 @@ def _is_wanted(path: Path, parent: pytest.Collector) -> bool:
 
 
 def _shown(path: Path, config: pytest.Config) -> str:
-    """The path from the root of the project, where it is below it."""
     try:
         return path.relative_to(config.rootpath).as_posix()
     except ValueError:
@@ -91,10 +89,10 @@ def _shown(path: Path, config: pytest.Config) -> str:
 
 
 class GarkFile(pytest.File):
-    """One method file; it is judged once, when the first of its items runs."""
+    """One method file, checked once, when the first of its items runs."""
 
     def collect(self) -> Iterator[GarkItem]:
-        """An item for each claim; one for the file where it makes none."""
+        """One item for each claim, or one for the file without claims."""
         is_first = True
         for name, place in self._claims():
             yield GarkItem.from_parent(self, name=name, place=place, is_first=is_first)
@@ -116,7 +114,7 @@ class GarkFile(pytest.File):
 
     @cached_property
     def outcome(self) -> Outcome:
-        """What ``gark check`` finds."""
+        """The outcome of ``gark check``."""
         from garkcli.check.check_file import check_file
         from garkcli.frozen import replace
 
@@ -131,7 +129,7 @@ def _place(claim: ClaimText) -> Place:
 
 
 class ClaimFails(Exception):
-    """What is wrong with a file, for people."""
+    """A claim of a file fails; its text is the explanation."""
 
 
 class GarkItem(pytest.Item):
@@ -143,10 +141,9 @@ class GarkItem(pytest.Item):
         self.is_first = is_first
 
     def runtest(self) -> None:
-        """Hold the claim against the truth; skip it if it is undecided.
+        """Checks the claim; skips it if it is undecided.
 
-        Raises:
-            ClaimFails: it does not hold, or the file cannot be read.
+        Raises ``ClaimFails`` if it fails, or the file cannot be read.
         """
         from garkcli.check.findings import findings
 
@@ -172,7 +169,7 @@ class GarkItem(pytest.Item):
         )
 
     def _text(self, finding: Finding, outcome: Outcome) -> str:
-        """A finding with the line it is about, and the cure."""
+        """A finding with its line and the cure."""
         from garkcli.errors import excerpt, printable
 
         place = printable(_shown(self.path, self.config))
@@ -185,7 +182,7 @@ class GarkItem(pytest.Item):
         return "\n".join(lines)
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
-        """The findings alone; a fault of gark itself with its traceback."""
+        """The findings only; a fault of gark itself with its traceback."""
         if isinstance(excinfo.value, ClaimFails):
             return str(excinfo.value)
         return super().repr_failure(excinfo, style)

@@ -1,4 +1,4 @@
-"""Why something is so: a sentence with values in it, which every output words in its signs."""
+"""Reasons: sentences with values, which every output words in its own notation."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from garkcli.frozen import Frozen
 
 
 class Value(Protocol):
-    """What a reason has in it: it is worded by the dialect of an output, ``str`` is its text."""
+    """A value in a reason, worded by the dialect of an output; ``str`` is its text."""
 
     def words(self, dialect: Any, /) -> str:
         """The value in the signs of a dialect."""
@@ -37,12 +37,11 @@ class Place(Frozen):
         return self.letter + colours + indices
 
     def words(self, dialect: Any) -> str:
-        """The place in the signs of a dialect."""
         return str(dialect.place(self))
 
 
 class Formula(Frozen):
-    """An expression as method files write it, or with its LaTeX where it is none."""
+    """An expression in the notation of method files, or a text with LaTeX."""
 
     text: str
     latex: str = ""
@@ -51,13 +50,12 @@ class Formula(Frozen):
         return self.text
 
     def words(self, dialect: Any) -> str:
-        """The expression in the signs of a dialect."""
         latex = self.latex
         return str(dialect.expression(self.text, (lambda: latex) if latex else None))
 
 
 class Code(Frozen):
-    """What is quoted, such as a tree."""
+    """A quoted text, such as a tree."""
 
     text: str
 
@@ -65,16 +63,15 @@ class Code(Frozen):
         return self.text
 
     def words(self, dialect: Any) -> str:
-        """The text as code in the signs of a dialect."""
         return str(dialect.code(self.text))
 
 
 class Reason:
-    """Why something is so; it is false where there is nothing to say.
+    """A reason; false if empty.
 
     Attributes:
         template: the sentence, with ``{}`` for each value.
-        values: words, or what a dialect words.
+        values: words, or values that a dialect words.
 
     >>> print(Reason("{} is {}", Place("b", (), (0,)), Formula("-1/4")))
     b[1] is -1/4
@@ -85,13 +82,12 @@ class Reason:
         self.values = values
 
     def told(self, prose: Callable[[str], str], words: Callable[[Value | str], str]) -> str:
-        """The sentence: what is between the values by one function, these by another."""
+        """The sentence with ``prose`` applied to its text and ``words`` to its values."""
         first, *rest = self.template.split("{}")
         pairs = zip(self.values, rest, strict=True)
         return prose(first) + "".join(words(value) + prose(text) for value, text in pairs)
 
     def words(self, dialect: Any) -> str:
-        """The sentence in the signs of a dialect, as a part of another one."""
         return str(dialect.reason(self))
 
     def __str__(self) -> str:
@@ -116,5 +112,4 @@ NO_REASON = Reason()
 
 
 def joined(separator: str, values: Sequence[Value]) -> Reason:
-    """Values one after the other."""
     return Reason(separator.join(["{}"] * len(values)), *values)

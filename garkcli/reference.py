@@ -1,4 +1,4 @@
-"""A publication, as method files and bibliographies have it."""
+"""Publications, as in method files and bibliographies."""
 
 from __future__ import annotations
 
@@ -7,33 +7,32 @@ from typing import TypeAlias
 from garkcli.frozen import Frozen
 
 ARXIV = "https://arxiv.org/abs/"
-"""Where preprints are."""
 WORKS = ("article", "book", "chapter", "report", "software", "thesis", "web")
-"""What ``type`` says of a publication."""
+"""The types of publications."""
 
 
 class Reference(Frozen, kw_only=True):
-    """A publication, in the words of the method file.
+    """A publication, with the fields of method files.
 
     Attributes:
         authors: each as printed, such as ``J. C. Butcher``.
-        title: of the work.
+        title: the title of the work.
         year: four digits, perhaps with a letter.
-        type: one of ``WORKS``; empty where the other fields tell.
-        journal: in which it appeared.
-        volume: of the journal or of the series.
-        number: the issue, or that of a report.
-        pages: from and to.
+        type: one of ``WORKS``; empty if the other fields determine it.
+        journal: its journal.
+        volume: the volume of the journal or series.
+        number: the number of the issue or report.
+        pages: first and last page.
         book: the title of the book of a chapter, or of proceedings.
-        editors: of that book.
+        editors: the editors of that book.
         edition: such as ``2``.
-        publisher: of a book.
-        institution: of a report or a thesis.
+        publisher: the publisher of a book.
+        institution: the institution of a report or thesis.
         where: the place in the work, such as ``table 2``.
         doi: without the address before it.
         url: an address of its own.
-        note: anything else that a reader of the reference needs.
-        coefficients: where the digits of the file come from.
+        note: anything else that readers need.
+        coefficients: the source of the digits of the file.
     """
 
     authors: tuple[str, ...] = ()
@@ -68,7 +67,7 @@ class Reference(Frozen, kw_only=True):
         return ", ".join(part for part in parts if part)
 
     def _issue(self) -> str:
-        """The journal with volume, number and year, or who printed it."""
+        """The journal with volume, number and year, or the publisher."""
         home = self.journal or self.publisher or self.institution
         number = f"({self.number})" if self.number and self.volume else ""
         volume = f"{self.volume}{number}" or self.number
@@ -79,7 +78,7 @@ class Reference(Frozen, kw_only=True):
 
 
 Work: TypeAlias = "tuple[str, Reference | None]"
-"""A publication in one line, with its fields where it has them."""
+"""A publication in one line, with its fields if known."""
 
 ZANNA = Reference(
     authors=("A. Zanna",),

@@ -1,4 +1,4 @@
-"""Functions that go to another process: there they are made again from what they were made of."""
+"""Functions that can be pickled: another process rebuilds them from their arguments."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ T = TypeVar("T")
 
 
 class Remade(Generic[T]):
-    """A function with what makes it, which another process is sent in its place.
+    """A function that is pickled as the call that makes it.
 
     Args:
-        function: which may be of this process alone, as a closure is.
-        make: a function of a module, for which ``make(*arguments)`` is such a function.
-        arguments: what can be sent.
+        function: a function that need not be picklable, such as a closure.
+        make: a module-level function with ``make(*arguments)`` equal to ``function``.
+        arguments: picklable arguments.
 
     >>> import pickle
     >>> from operator import itemgetter

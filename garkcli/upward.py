@@ -1,8 +1,7 @@
-"""What values show and answer by the rooms above theirs.
+"""Lets values of low rooms call higher rooms.
 
 ``method.order`` is an attribute of data at the bottom, the search for orders lies above it. No room
-names one above: the package hands down what answers, once, when it is imported; its table is
-``ANSWERS`` in ``garkcli/__init__.py``.
+names one above it: on import the package installs the table ``ANSWERS`` of ``garkcli/__init__.py``.
 """
 
 from __future__ import annotations
@@ -18,17 +17,14 @@ _handed_down: list[Answering] = []
 
 
 def hand_down(answering: Answering) -> None:
-    """Let values of all rooms answer by this from now on.
-
-    Args:
-        answering: from the names of a class and of a question to what answers; None where nothing
-            does.
+    """Installs the function that finds answers from the names of a class and a question; it returns
+    None if there is none.
     """
     _handed_down[:] = [answering]
 
 
 def answered(value: object, question: str, **options: Any) -> Any:
-    """What is answered of a value, with some options; None where nothing is.
+    """The answer to a question about a value, with options; None if there is none.
 
     >>> from garkcli.ntrees.tree import Tree
     >>> answered(Tree(0, [Tree(0)]), "text")
@@ -43,7 +39,7 @@ def answered(value: object, question: str, **options: Any) -> Any:
 
 
 class Shown:
-    """A value that notebooks show, as HTML, as LaTeX or as a picture."""
+    """A value that notebooks show as HTML, LaTeX or a picture."""
 
     __slots__ = ()
 

@@ -239,7 +239,7 @@ class Algebraic:
         return value
 
     def _sympy_(self) -> Any:
-        """The same number for SymPy, which calls this."""
+        """SymPy calls this to convert the number."""
         return answered(self, "sympy")
 
     def __bool__(self) -> bool:

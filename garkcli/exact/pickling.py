@@ -62,7 +62,7 @@ PARTS: Mapping[type, Callable[[Any], Made]] = {
     fmpq_mpoly: _in_several,
     fmpz_mpoly: _in_several,
 }
-"""How to rebuild each type of python-flint that occurs in results."""
+"""The constructor and arguments of each type of python-flint that occurs in results."""
 
 
 def register() -> None:

@@ -16,7 +16,7 @@ from garkcli.ntrees.count import Admissible
 from garkcli.ntrees.tree import Tree
 
 Part: TypeAlias = Literal["y", "q", "p"]
-"""What a colour drives: all unknowns (GARK), or positions or momenta (symplectic pair)."""
+"""The part that a colour drives: all unknowns (GARK), or positions or momenta (symplectic pair)."""
 Nature: TypeAlias = tuple[int, Part]
 """The term of a colour, and the part that it drives."""
 Forest: TypeAlias = tuple[Tree, ...]

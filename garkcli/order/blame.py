@@ -229,7 +229,7 @@ def blame_of(
             in_none.append(block)
         elif uses == len(used):
             in_every.append(block)
-    # the candidate whose conditions fail most often; None where several do alike
+    # the candidate whose conditions fail most often; None if several are equal
     share: dict[Edge, float] = {}
     for block in in_every:
         with_block = [x for x in of_order if block in _blocks_in(tableau, x.tree)]

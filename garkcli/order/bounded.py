@@ -134,7 +134,7 @@ def bounded_least_squares(G: Floats, c: Floats) -> Floats:
     *Bounded-variable least-squares*, 1995).
     """
     count = G.shape[1]
-    if len(G) > count:  # the same sums of squares, but for a constant
+    if len(G) > count:  # sums of squares up to a constant
         q, G = np.linalg.qr(G)
         c = q.T @ c
     x: Floats = np.clip(np.linalg.lstsq(G, -c, rcond=1e-12)[0], -1, 1)

@@ -124,7 +124,7 @@ NAME = "_node"
 
 
 def ring_of(tableau: Tableau) -> Parameters:
-    """The ring of the coefficients of a family, one of which at least is no number."""
+    """The ring of the coefficients of a family with parameters."""
     numbers: Iterable[object] = chain.from_iterable(tableau.rows)
     return next(x.ring for x in numbers if isinstance(x, Parametric))
 

@@ -72,7 +72,7 @@ class ByColour(Mapping[K, Any], Generic[K]):
 
 
 Derivation: TypeAlias = Literal["", "conjugate", "pair"]
-"""How a method was derived from another one; empty for a given method."""
+"""The derivation of a method from another one; empty for a given method."""
 
 
 def derived_name(derivation: str, name: str) -> str:
@@ -85,7 +85,7 @@ def derived_name(derivation: str, name: str) -> str:
 
 
 def derivation_of(method: GarkMethod | None) -> Derivation:
-    """How a method was derived; empty if only its tableau is known."""
+    """The derivation of a method; empty if only its tableau is known."""
     return "" if method is None else method.derivation
 
 
