@@ -1,1 +1,1 @@
-"""What a tableau is like: explicit or implicit, symmetric, stiffly accurate, reducible."""
+"""Properties of a tableau: explicit or implicit, symmetric, stiffly accurate, reducible."""

@@ -1,11 +1,11 @@
-"""Which stages of families are solved together, decided without their nodes.
+"""Decides which stages of families are solved together, without their nodes.
 
 With M the node polynomial of the columns and c_j a node, a_ij M'(c_j) is the value of
 A(M/(x − c_j)) at c_i: an integer over a prime p that divides no denominator. Modulo a prime ideal
 above p, c_j is a root r of M modulo p. So if the polynomial A(M/(x − r)) has no common divisor with
 the row nodes modulo p, no entry of the column j is zero; and the same for the row of j. A stage
-that all others see, and that sees all others, makes one system of all. Stages with a row of zeros,
-or that none sees, are found by common divisors over ℚ, and belong to no system.
+that sees all others and is seen by all makes one system of all. Stages with a zero row or column
+are found by common divisors over ℚ, and belong to no system.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from garkcli.tableau.tableau import Tableau
 
 Blocks: TypeAlias = dict[tuple[int, int], Matrix]
 PRIMES = (2147483647, 2147483629, 2147483587, 2147483579, 2147483563, 2147483549)
-"""Primes that are tried; most have a root of a node polynomial, and few hide an entry."""
+"""Primes to try; most have a root of a node polynomial, and few hide an entry."""
 
 
 class _Space(Frozen):
@@ -35,8 +35,8 @@ class _Space(Frozen):
 
     Attributes:
         M: the node polynomial.
-        left: the monic polynomial of the nodes that may be in a system.
-        kept: these stages, counted from 0 in the order of their nodes.
+        left: the monic polynomial of the nodes without a zero row or column.
+        kept: the indices of these stages, from 0 in the order of their nodes.
     """
 
     M: fmpq_poly
@@ -45,8 +45,8 @@ class _Space(Frozen):
 
 
 def shape_of_families(tableau: Tableau, colours: Sequence[int]) -> Shape | None:
-    """The shape of the given colours of a method, where all their stages but those that see nothing
-    or are not seen are solved together; None where that is not proved so.
+    """The shape of some colours if all stages without a zero row or column are solved together;
+    None if that is not proved.
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.tableau.forms import gark
@@ -71,7 +71,7 @@ def shape_of_families(tableau: Tableau, colours: Sequence[int]) -> Shape | None:
 
 
 def _rational_blocks(tableau: Tableau, colours: Sequence[int]) -> Blocks | None:
-    """The blocks between some colours; None where one does not exist or is irrational."""
+    """The blocks between some colours; None if one is missing or irrational."""
     indices = sorted({tableau.colours[l].space for l in colours})
     found: Blocks = {}
     for place in product(indices, colours):
@@ -83,7 +83,7 @@ def _rational_blocks(tableau: Tableau, colours: Sequence[int]) -> Blocks | None:
 
 
 def _spaces(tableau: Tableau, blocks: Blocks) -> dict[int, _Space] | None:
-    """The stage spaces; None where one is of no family, or irrational nodes are left out."""
+    """The stage spaces; None if one is no family, or irrational nodes are left out."""
     spaces = {}
     for k in dict.fromkeys(k for k, _ in blocks):
         space = tableau.spaces[k]
@@ -97,8 +97,8 @@ def _spaces(tableau: Tableau, blocks: Blocks) -> dict[int, _Space] | None:
 
 
 def _space(tableau: Tableau, k: int, blocks: Blocks, M: fmpq_poly) -> _Space | None:
-    """The stages of a space without those that see nothing, or that none sees; None where such a
-    node is irrational.
+    """The stages of a space without those that see nothing or are not seen; None if such a node is
+    irrational.
     """
     sees_nothing, is_unseen = M, M
     for (seer, m), block in blocks.items():
@@ -128,7 +128,7 @@ def _poly(coefficients: Iterable[Number]) -> fmpq_poly:
 
 
 def _has_centre(spaces: dict[int, _Space], blocks: Blocks, owners: dict[int, int], p: int) -> bool:
-    """Whether, modulo p, a stage is seen to see all others and to be seen by them."""
+    """Whether, modulo p, some stage sees all others and is seen by them."""
     try:
         left = {k: modulo(space.left, p) for k, space in spaces.items()}
         centre, r = _root(left, p)
@@ -159,7 +159,7 @@ def _has_centre(spaces: dict[int, _Space], blocks: Blocks, owners: dict[int, int
 
 
 def _root(left: dict[int, nmod_poly], p: int) -> tuple[int | None, int]:
-    """A stage space and a root modulo p of the polynomial of its nodes; None for none."""
+    """A stage space and a root modulo p of its remaining node polynomial; None if there is none."""
     for k, q in left.items():
         for root, _ in q.roots():
             return k, int(root) % p
@@ -167,7 +167,6 @@ def _root(left: dict[int, nmod_poly], p: int) -> tuple[int | None, int]:
 
 
 def _residues(numbers: Iterable[Number], p: int) -> list[int]:
-    """Rational numbers modulo p."""
     found = []
     for x in numbers:
         assert isinstance(x, fmpq)
@@ -179,7 +178,7 @@ def _residues(numbers: Iterable[Number], p: int) -> list[int]:
 
 
 def _at(rows: Sequence[Sequence[int]], r: int, p: int) -> list[int]:
-    """Σ r^i row_i: what the stage at r sees of 1, x, …"""
+    """Σ r^i row_i: the image of 1, x, … at the stage of the node r."""
     total = [0] * len(rows[0])
     power = 1
     for row in rows:

@@ -1,4 +1,4 @@
-"""What every claim of a method file means, on orders and on properties."""
+"""The definitions of all claims of method files, on orders and properties."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from garkcli.properties.registry import KEYS, find
 
 
 class Definition(Frozen):
-    """What a claim means.
+    """The definition of a claim.
 
     Attributes:
         key: the name of the claim, also in ``gark check --explain``.
         text: the definition, in whole sentences.
-        source: where it comes from.
-        kind: what it is claimed with.
-        meaning: for which methods it has a meaning; empty for all.
+        source: the reference.
+        kind: the kind of its value.
+        meaning: the methods for which it is defined; empty for all.
     """
 
     key: str
@@ -30,7 +30,7 @@ class Definition(Frozen):
 
     @property
     def values(self) -> str:
-        """How the claim is written."""
+        """The notation of its values."""
         return _VALUES[self.kind]
 
 
@@ -273,7 +273,7 @@ _ORDERS = (
 
 
 ORDERS = {found.key: found for found in _ORDERS}
-"""The claims that are no properties, by their keys."""
+"""The claims that are not properties, by key."""
 
 
 def _of_property(found: Property) -> Definition:
@@ -281,12 +281,12 @@ def _of_property(found: Property) -> Definition:
 
 
 def every_definition() -> list[Definition]:
-    """What every claim means, in the order of the documentation."""
+    """All definitions, in the order of the documentation."""
     return [*ORDERS.values(), *(_of_property(find(key)) for key in KEYS)]
 
 
 def definition(key: str) -> Definition:
-    """What a claim means.
+    """The definition of a claim.
 
     Raises:
         UsageProblem: there is no such claim.

@@ -1,4 +1,4 @@
-"""Entries and rows of families at irrational nodes; loaded where a method has such stages."""
+"""Entries and rows of families at irrational nodes; imported only for such methods."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from garkcli.tableau.tableau import Tableau
 
 
 def is_nonzero_at(tableau: Tableau, place: tuple[int, int], i: int, j: int) -> bool | None:
-    """Whether an entry between stages of families is not zero, where one node is rational.
+    """Whether an entry between stages of families is nonzero; None unless one node is rational.
 
     With M the node polynomial of the columns, L_j is a multiple of M/(x − x_j); the entry is the
     value of A L_j at x_i. For a rational x_i that is a polynomial in x_j.
@@ -44,13 +44,12 @@ def is_nonzero_at(tableau: Tableau, place: tuple[int, int], i: int, j: int) -> b
 
 @lru_cache(maxsize=32)
 def nodes_of(space: PolynomialSpace) -> list[RealRoot]:
-    """The nodes in ascending order."""
     return [node for node, _ in real_roots(Polynomial.from_flint(space.modulus))]
 
 
 def divided(M: fmpq_poly, values: Sequence[Number]) -> Polynomial:
-    """A functional, given by its values on x^i, applied to (M(x) − M(y))/(x − y) in x, as a
-    polynomial in y: x^n turns into Σ x^i y^(n−1−i).
+    """The polynomial in y that a functional, given by its values on x^i, makes of (M(x) − M(y))/(x
+    − y): x^n becomes Σ x^i y^(n−1−i).
     """
     s = M.degree()
     product = Polynomial(values[::-1]) * Polynomial.from_flint(M)
@@ -58,7 +57,7 @@ def divided(M: fmpq_poly, values: Sequence[Number]) -> Polynomial:
 
 
 def is_family_stage(tableau: Tableau, k: int, i: int, wanted: Sequence[Vector]) -> bool:
-    """Whether stage i of a family, nodes ascending, has the rows wanted, one per colour."""
+    """Whether stage i of a family, nodes ascending, has the rows ``wanted``, one per colour."""
     space = tableau.spaces[k]
     assert isinstance(space, PolynomialSpace)
     common = common_nodes(tableau, k, wanted)
@@ -71,11 +70,11 @@ def is_family_stage(tableau: Tableau, k: int, i: int, wanted: Sequence[Vector]) 
 
 
 def common_nodes(tableau: Tableau, k: int, wanted: Sequence[Vector]) -> Polynomial:
-    """The polynomial whose roots are the nodes of a family at which a stage has the rows wanted.
+    """The polynomial whose roots are the nodes of a family at which a stage has the rows
+    ``wanted``.
 
-    In the stage algebra ℚ[x]/(M) the rows at a node ξ are the functionals f ↦ (A f)(ξ). They are
-    those wanted where all polynomials A e − wanted(e)·𝟙 vanish, e in a basis: at the roots of their
-    common divisor with M.
+    In the stage algebra ℚ[x]/(M) the rows at a node ξ are the functionals f ↦ (A f)(ξ). They equal
+    ``wanted`` at the common roots of M and all A e − wanted(e)·𝟙, e in a basis.
     """
     space = tableau.spaces[k]
     assert isinstance(space, PolynomialSpace)

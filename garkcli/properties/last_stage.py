@@ -1,4 +1,4 @@
-"""Stiffly accurate methods, and those whose last stage is the first of the next step."""
+"""Stiffly accurate and FSAL methods."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from garkcli.tableau.tableau import Tableau
 
 
 class FirstSameAsLast(Frozen):
-    """Why a method is not FSAL: the first reason that is found.
+    """The first reason why a method is not FSAL, if any.
 
     Attributes:
-        not_first: a stage space whose first stage is not the old value; None for none.
-        not_last: one whose last stage is not the new value; None for none.
+        not_first: a stage space whose first stage is not the old value, or None.
+        not_last: a stage space whose last stage is not the new value, or None.
     """
 
     not_first: int | None = None
@@ -27,15 +27,14 @@ class FirstSameAsLast(Frozen):
 
     @property
     def holds(self) -> bool:
-        """Whether the last evaluation of a step is the first of the next."""
         return self.not_first is None and self.not_last is None
 
 
 def is_stiffly_accurate(tableau: Tableau, tolerance: fmpq = ZERO) -> bool:
     """Whether a stage value is the new value: a_ij^{k,m} = b_j^{m} for all m and one stage i.
 
-    For a GARK method that is meant globally (A. Sandu, M. Günther 2015): one stage of one method
-    sees all vector fields with their weights.
+    For a GARK method globally (A. Sandu, M. Günther 2015): one stage of one method sees all vector
+    fields with their weights.
 
     Args:
         tableau: the method.
@@ -61,7 +60,8 @@ def is_stiffly_accurate(tableau: Tableau, tolerance: fmpq = ZERO) -> bool:
 def first_same_as_last(tableau: Tableau, tolerance: fmpq = ZERO) -> FirstSameAsLast:
     """Whether the first stage is the old value and the last one the new value: FSAL.
 
-    Then the last evaluation of a step is the first of the next. It is asked of every stage space.
+    Then the last evaluation of a step is the first of the next. This has to hold in every stage
+    space.
     """
     spaces = range(len(tableau.spaces))
     old, new = old_value(tableau), new_value(tableau)
@@ -88,10 +88,9 @@ def old_value(tableau: Tableau) -> list[Vector]:
 def missed_entries(
     tableau: Tableau, k: int, i: int, wanted: Sequence[Vector], tolerance: fmpq = ZERO
 ) -> list[tuple[int, int]]:
-    """Where stage i of a space of points differs from the rows wanted, as (colour, stage).
+    """The entries (colour, stage) of stage i of a point space that differ from ``wanted``.
 
-    A difference of two rounded coefficients may be twice their rounding. What a space does not see
-    it sees with zeros.
+    Rounded coefficients may differ by twice their rounding; missing blocks count as zeros.
     """
     missed = []
     for m, row in enumerate(wanted):
@@ -104,14 +103,13 @@ def missed_entries(
 
 
 def _is_close(a: Number, b: Number, allowed: fmpq) -> bool:
-    """Whether two coefficients are equal."""
     return a == b or (bool(allowed) and within(a - b, allowed))
 
 
 def _is_stage(
     tableau: Tableau, k: int, i: int, wanted: Sequence[Vector], tolerance: fmpq = ZERO
 ) -> bool:
-    """Whether stage i of a space, in the order of its nodes, has the rows wanted."""
+    """Whether stage i of a space, in the order of its nodes, has the rows ``wanted``."""
     space = tableau.spaces[k]
     if not isinstance(space, PolynomialSpace):
         return not missed_entries(tableau, k, i, wanted, tolerance)

@@ -1,4 +1,4 @@
-"""What sentences about a method call its stages and entries, counted from 1."""
+"""Names of stages and entries in sentences, counted from 1."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _SHORT = 24
 
 
 def number_words(number: Number) -> Formula | str:
-    """A number as it is, or its first digits."""
+    """A number, or its first digits if it is long."""
     text = shortest(number)
     if len(text) > _SHORT:
         return f"about {to_decimal(number, 6)}"
@@ -26,7 +26,7 @@ def number_words(number: Number) -> Formula | str:
 
 
 def entry(tableau: Tableau, space: int, m: int, i: int, j: int) -> Place:
-    """An entry of a block, ``a[2,1]``; of several colours ``a{q,p}[2,1]``.
+    """An entry of a block, ``a[2,1]``; with several colours ``a{q,p}[2,1]``.
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.tableau.forms import gark
@@ -38,25 +38,25 @@ def entry(tableau: Tableau, space: int, m: int, i: int, j: int) -> Place:
 
 
 def place(letter: str, tableau: Tableau, colours: Sequence[int], *indices: int) -> Place:
-    """An entry of a block or a row; its colours are named where there are several.
+    """An entry of a block or row, with its colours if there are several.
 
     Args:
         letter: a, b, c or A.
         tableau: the method.
-        colours: of the block or row, counted from 0.
-        indices: of the entry, counted from 0; none for the whole.
+        colours: the colours of the block or row, from 0.
+        indices: the indices of the entry, from 0; none for the whole.
     """
     names = [tableau.colours[l].name for l in colours] if tableau.size > 1 else []
     return Place(letter, tuple(names), indices)
 
 
 def entry_is(place: Place, number: Number) -> Reason:
-    """What an entry is, ``b[1] is -1/4``."""
+    """A sentence such as ``b[1] is -1/4``."""
     return Reason("{} is {}", place, number_words(number))
 
 
 def stages_name(tableau: Tableau, vertices: Iterable[Vertex]) -> str:
-    """Stages by colour.
+    """Names stages by colour.
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.tableau.forms import gark
@@ -77,7 +77,7 @@ def stages_name(tableau: Tableau, vertices: Iterable[Vertex]) -> str:
 
 
 def _ranges(numbers: Sequence[int]) -> str:
-    """Ascending numbers with runs drawn together.
+    """Ascending numbers, with runs contracted.
 
     >>> _ranges([1, 2, 3, 5, 7, 8])
     '1-3, 5, 7-8'

@@ -1,8 +1,8 @@
-"""Which entries of a tableau are zero, and what follows for the order of its stages.
+"""The zeros of a tableau, and the order of computation that they allow.
 
-A stage value Y_i of a stage space depends on Y_j where a block has a_ij ≠ 0. The strongly connected
+A stage value Y_i depends on Y_j if a block has a_ij ≠ 0. The strongly connected
 components of that graph are solved one after the other: a single vertex without a loop is explicit,
-one with a loop is implicit in itself, a larger one is a system of stages that are solved together.
+one with a loop is implicit in itself, a larger one is a system of stages solved together.
 """
 
 from __future__ import annotations
@@ -28,18 +28,18 @@ Vertex: TypeAlias = tuple[int, int]
 """A stage value: the index of its stage space, and of its stage."""
 
 DIGITS = 30
-"""Digits of enclosures, where nodes have no simple radicals."""
+"""Digits of enclosures if nodes have no simple radicals."""
 
 
 class StageGraph(Frozen):
-    """Which stage values look at which.
+    """The dependencies between stage values.
 
     Attributes:
-        successors: for each stage value those that it depends on.
-        is_certain: whether all zeros are proved; entries that may be zero are no edges, and make it
-            false.
-        loops: for each stage value that depends on itself directly the entries ≠ 0 by which it
-            does, one per colour; None for one that is not known exactly.
+        successors: for each stage value those it depends on.
+        is_certain: whether all zeros are proved; an entry that may be zero is no edge and makes
+            this false.
+        loops: for each stage value that depends on itself directly, the nonzero entries, one per
+            colour; None for one that is not known exactly.
     """
 
     successors: Mapping[Vertex, frozenset[Vertex]]
@@ -48,16 +48,15 @@ class StageGraph(Frozen):
 
     @property
     def systems(self) -> list[list[Vertex]]:
-        """The strongly connected components, those first that others need."""
+        """The strongly connected components in the order of computation."""
         return components(self.successors)[::-1]
 
     def is_loop(self, vertex: Vertex) -> bool:
-        """Whether a stage value depends on itself directly."""
         return vertex in self.successors[vertex]
 
 
 def spaces_that_matter(tableau: Tableau) -> set[int]:
-    """The stage spaces with weights, and those that stages of these see: no step depends on the
+    """The stage spaces with weights, and those that their stages see; no step depends on the
     others.
     """
     matters: set[int] = set()
@@ -76,14 +75,14 @@ def spaces_that_matter(tableau: Tableau) -> set[int]:
 def stage_graph(
     tableau: Tableau, colours: Iterable[int] | None = None, tolerance: fmpq = ZERO
 ) -> StageGraph:
-    """The graph of all stages, or that of some colours alone.
+    """The graph of all stages, or of some colours only.
 
-    Of all it leaves out those of stage spaces that no step depends on, unless all are such.
+    Stage spaces that no step depends on are left out, unless all are such.
 
     Args:
         tableau: the method.
-        colours: only the vector fields of these are there; None for all.
-        tolerance: the rounding of its coefficients; those that are 0 in the file are 0.
+        colours: the vector fields to keep; None for all.
+        tolerance: the rounding of its nonzero coefficients.
     """
     chosen = list(range(tableau.size) if colours is None else colours)
     matters = spaces_that_matter(tableau) or set(range(len(tableau.spaces)))
@@ -122,7 +121,7 @@ def stage_graph(
 
 
 def is_nonzero(entry: Cell, tolerance: fmpq = ZERO) -> bool | None:
-    """Whether an entry is not zero; None where an enclosure or its rounding cannot tell."""
+    """Whether an entry is nonzero; None if an enclosure or rounding leaves it open."""
     if isinstance(entry, arb):
         return None if entry.contains(0) else True
     number: Number = entry
@@ -135,16 +134,15 @@ Kind = Literal["explicit", "diagonally implicit", "fully implicit"]
 
 
 class Shape(Frozen):
-    """In which order stages are computed, and what is solved for.
+    """The order in which stages are computed: one by one or in systems.
 
     Attributes:
-        kind: the kind of the stages; None where zeros are not decided.
-        implicit_stages: how many stage values are solved for; None where zeros are not decided.
-        systems: the stages that are solved together, two or more, as (space, stage) from 0.
-        gamma: γ, where all entries a_ii^{l,l} ≠ 0 by which stages depend on themselves are γ; None
-            otherwise.
-        singly: ``SDIRK`` where all stages are implicit with the same γ, ``ESDIRK`` where the first
-            one of each stage space is explicit and all others are; empty otherwise.
+        kind: the kind; None if zeros are undecided.
+        implicit_stages: the number of implicit stage values; None if zeros are undecided.
+        systems: groups of at least two stages that are solved together, as (space, stage) from 0.
+        gamma: the common value of all a_ii^{l,l} ≠ 0; None if they differ.
+        singly: ``SDIRK`` if all stages are implicit with the same γ, ``ESDIRK`` if the first one of
+            each stage space is explicit and all others are implicit; else empty.
     """
 
     kind: Kind | None
@@ -162,7 +160,6 @@ class Shape(Frozen):
 
 
 def shape_of(graph: StageGraph, tolerance: fmpq = ZERO) -> Shape:
-    """The shape of the stages of a graph."""
     together = [tuple(sorted(found)) for found in graph.systems if len(found) > 1]
     alone = [found[0] for found in graph.systems if len(found) == 1 and graph.is_loop(found[0])]
     implicit = sum(map(len, together)) + len(alone) if graph.is_certain else None
@@ -188,8 +185,8 @@ def _singly(graph: StageGraph, implicit: Sequence[Vertex]) -> Literal["SDIRK", "
 
 
 def _shown(number: Number, grain: fmpq) -> Number:
-    """An entry of a rounded method to some digits more than are printed, of which the grain has two
-    for each; one of few digits, which is exact, as it is.
+    """An entry of a rounded method to some more digits than are printed; the grain has two for
+    each. A short rational number is exact and unchanged.
     """
     digits = max(20, 3 + int((int(grain.q.bit_length()) - 80) * 0.15))
     if isinstance(number, fmpq) and number.q < 10**digits:
@@ -198,8 +195,8 @@ def _shown(number: Number, grain: fmpq) -> Number:
 
 
 def _gamma(graph: StageGraph, alone: Sequence[Vertex], tolerance: fmpq) -> Number | None:
-    """The number by which every implicit stage depends on itself; the first one where they are
-    equal within what rounding of two coefficients explains.
+    """The common diagonal entry of the implicit stages, up to rounding of two coefficients; None if
+    they differ.
     """
     found = [entry for vertex in alone for entry in graph.loops[vertex]]
     first = found[0]

@@ -1,4 +1,4 @@
-"""What a property is: its name in method files, its definition, and how it is decided."""
+"""Properties: name in method files, definition, and decision."""
 
 from __future__ import annotations
 
@@ -16,17 +16,16 @@ if TYPE_CHECKING:
     from garkcli.properties.subject import Subject
 
 Kind: TypeAlias = Literal["truth", "count", "number"]
-"""What a property is: true or false, a whole number, or a real number that may be infinite."""
+"""The kinds of values: true or false, an integer, or a real number that may be infinite."""
 KINDS: dict[Kind, str] = {
     "truth": "`true` or `false`",
     "count": 'a whole number, or `">= n"`',
     "number": "an exact number such as `2*sqrt(2)`, a decimal that it is rounded to,"
     ' `infinity`, or `">= x"`',
 }
-"""How a claim on each kind is written."""
+"""The notation of claims of each kind."""
 _DIGITS = 12
 _LONG = 60
-"""Longer polynomials are not shown."""
 
 
 class Size(Frozen):
@@ -39,7 +38,7 @@ class Size(Frozen):
     root: RealRoot | None
 
     def __float__(self) -> float:
-        """A float next to it; nothing is decided with it."""
+        """A float close to it, for display only."""
         return inf if self.root is None else float(self.root)
 
     def __repr__(self) -> str:
@@ -64,12 +63,12 @@ class Size(Frozen):
         return f"{decimal}, a root of {polynomial}"
 
     def words(self, dialect: Any) -> str:
-        """The number in the signs of a dialect."""
+        """The number in the notation of a dialect."""
         return size_reason(str(self)).words(dialect)
 
 
 def size_reason(text: str) -> Reason:
-    """The text of a ``Size``, its formulas told from its words."""
+    """The text of a ``Size`` with its formulas marked."""
     number, sign, polynomial = text.partition(", a root of ")
     if sign:
         return Reason(f"{number}{sign}{{}}", Formula(polynomial))
@@ -80,13 +79,13 @@ Value: TypeAlias = "bool | int | Size"
 
 
 class Verdict(Frozen):
-    """What was found.
+    """The verdict on a property.
 
     Attributes:
-        value: of the kind of the property; None where it has no meaning or is not decided.
-        reason: the entry, the pole or the polynomial that decides; why there is no value.
-        is_undecided: whether it has a meaning, but is not decided.
-        is_at_least: whether a whole number may be larger.
+        value: of the kind of the property; None if it is not defined or undecided.
+        reason: the entry, pole or polynomial that decides; or why there is no value.
+        is_undecided: whether it is defined but undecided.
+        is_at_least: whether an integer value may be larger.
     """
 
     value: Value | None
@@ -104,38 +103,36 @@ class Verdict(Frozen):
 
     @classmethod
     def meaningless(cls, why: Reason) -> Verdict:
-        """The property has no meaning for the method."""
+        """A property that is not defined for the method."""
         return cls(None, why)
 
     @classmethod
     def undecided(cls, why: str) -> Verdict:
-        """It has a meaning, and is undecided."""
+        """A property that is defined but undecided."""
         return cls(None, Reason(why), is_undecided=True)
 
     @classmethod
     def unless(cls, obstacle: Reason) -> Verdict:
-        """True, or false with what is in its way."""
+        """True, or false because of an obstacle."""
         return cls(not obstacle, obstacle)
 
     @property
     def why(self) -> str:
-        """The reason as text."""
         return str(self.reason)
 
 
 class NoProperties(Frozen):
-    """A method for which no property has a meaning.
+    """A method for which no property is defined.
 
     Attributes:
-        rounding: by how much its printed coefficients may be off.
-        why: what the properties are of.
+        rounding: the rounding of its printed coefficients.
+        why: why they are not defined.
     """
 
     rounding: fmpq
     why: Reason
 
     def verdict(self, _: str) -> Verdict:
-        """What is true of a property."""
         return Verdict.meaningless(self.why)
 
 
@@ -145,12 +142,11 @@ class Property(Frozen):
     Attributes:
         key: its name in ``expect``.
         text: its definition, in whole sentences.
-        source: where the definition comes from.
-        kind: what its values are.
-        decide: from a method to a verdict.
-        meaning: for which methods it has a meaning; empty for all.
-        is_cheap: whether every ``gark check`` decides it; the others are decided where they are
-            claimed or asked for.
+        source: the reference of the definition.
+        kind: the kind of its values.
+        decide: decides it for a method.
+        meaning: the methods for which it is defined; empty for all.
+        is_cheap: whether every ``gark check`` decides it; the others only if claimed or requested.
     """
 
     key: str
@@ -163,18 +159,19 @@ class Property(Frozen):
 
     @property
     def field(self) -> str:
-        """Its name in JSON."""
         return self.key.replace("-", "_")
 
 
 SEES_ALL = "methods whose stages all see all vector fields"
-"""For which methods some properties have a meaning."""
+"""The methods for which some properties are defined."""
 
 
 def claimed(
     source: str, kind: Kind = "truth", meaning: str = "", is_cheap: bool = True
 ) -> Callable[[Callable[[Subject], Verdict]], Property]:
-    """The property that a function decides: its name is the key, its docstring the definition."""
+    """Makes a property from the function that decides it: name and docstring are key and
+    definition.
+    """
 
     def made(decide: Callable[[Subject], Verdict]) -> Property:
         key, text = decide.__name__.replace("_", "-"), " ".join((decide.__doc__ or "").split())

@@ -1,8 +1,8 @@
-"""Reducible methods: stages that do not matter, and stages that are equal.
+"""Reducible methods: unused stages, and equal stages.
 
-A stage that no weight and no other stage that matters looks at can be left out (G. Dahlquist, R.
-Jeltsch). Stages that are equal for every problem can be one (W. Hundsdorfer, M. Spijker): they are
-found by refining a partition until equal stages see equal sums of weights in each class.
+A stage on which no weight and no used stage depends can be left out (G. Dahlquist, R. Jeltsch).
+Stages that are equal for every problem can be merged (W. Hundsdorfer, M. Spijker): a partition is
+refined until equal stages have equal sums of weights over each class.
 """
 
 from __future__ import annotations
@@ -24,14 +24,14 @@ from garkcli.tableau.tableau import Tableau
 
 
 def reduced(tableau: Tableau, tolerance: fmpq = ZERO) -> Tableau | None:
-    """The smallest method that does the same; the same object where there is nothing to leave out.
+    """The smallest method with the same step; the same object if nothing can be left out.
 
-    None where the nodes have no simple radicals. A stage space of which nothing is left keeps one
-    stage, a zero with weight zero.
+    None if the nodes have no simple radicals. An empty stage space keeps one stage, with zero row
+    and weight.
 
     Args:
         tableau: the method.
-        tolerance: what counts as zero of its numbers; 0 for exact ones.
+        tolerance: the size up to which its numbers count as zero; 0 for exact ones.
 
     >>> from garkcli.methodfile.load import loads
     >>> twice = loads("methods: [{A: [[0, 0], [0, 0]], b: [1/2, 1/2]}]").tableau
@@ -52,7 +52,7 @@ def reduced(tableau: Tableau, tolerance: fmpq = ZERO) -> Tableau | None:
 
 
 def at_points(tableau: Tableau) -> Tableau | None:
-    """The same method with one coordinate a stage; None where nodes have no simple radicals."""
+    """The method on point stages; None if nodes have no simple radicals."""
     if all(isinstance(space, PointSpace) for space in tableau.spaces):
         return tableau
     # nodes of families are radicals
@@ -71,7 +71,7 @@ def _once(tableau: Tableau, tolerance: fmpq) -> Tableau:
 
 
 def _with_idle_stages_zero(tableau: Tableau) -> Tableau:
-    """The method with a zero row and a zero node where no step depends on a stage space."""
+    """The method with zero rows and nodes in stage spaces that no step depends on."""
     idle = set(range(len(tableau.spaces))) - spaces_that_matter(tableau)
     if not idle:
         return tableau
@@ -88,19 +88,18 @@ def _with_idle_stages_zero(tableau: Tableau) -> Tableau:
 
 
 def sizes(tableau: Tableau) -> list[int]:
-    """The number of stages of each stage space."""
     return [space.stages for space in tableau.spaces]
 
 
 def is_plainly_irreducible(tableau: Tableau, tolerance: fmpq = ZERO) -> bool:
     """Whether every stage has a weight, and all stages of a space have different row sums.
 
-    Then every stage matters and no two are equal. The stages of a family have different row sums
-    where a block keeps its nodes apart: A𝟙 = c.
+    Then every stage is used and no two are equal. The stages of a family have different row sums if
+    A𝟙 = c.
 
     Args:
         tableau: the method.
-        tolerance: the rounding of its coefficients, which must not be able to change the answer.
+        tolerance: the rounding of its coefficients; True has to hold for all of it.
     """
     return all(
         _has_weights(tableau, k, tolerance) and _tells_apart(tableau, k, tolerance)
@@ -109,7 +108,7 @@ def is_plainly_irreducible(tableau: Tableau, tolerance: fmpq = ZERO) -> bool:
 
 
 def _has_weights(tableau: Tableau, k: int, tolerance: fmpq) -> bool:
-    """Whether each stage of a space has a weight that is not zero, for some colour."""
+    """Whether each stage of a space has a nonzero weight, for some colour."""
     space = tableau.spaces[k]
     rows = [colour.b for colour in tableau.colours if colour.space == k]
     if isinstance(space, PointSpace):
@@ -136,7 +135,7 @@ def _tells_apart(tableau: Tableau, k: int, tolerance: fmpq) -> bool:
 
 
 def stages_that_matter(tableau: Tableau, tolerance: fmpq = ZERO) -> set[Vertex]:
-    """The stages that have an influence on the step, by entries larger than a tolerance."""
+    """The stages that influence the step, by entries larger than a tolerance."""
     reached: set[Vertex] = set()
     for colour in tableau.colours:
         reached |= _with_entries(colour.space, colour.b, tolerance)
@@ -154,12 +153,12 @@ def stages_that_matter(tableau: Tableau, tolerance: fmpq = ZERO) -> set[Vertex]:
 
 
 def _with_entries(space: int, row: Vector, tolerance: fmpq) -> set[Vertex]:
-    """The stages of a space whose entries in a row are not zero."""
+    """The stages of a space with nonzero entries in a row."""
     return {(space, j) for j, entry in enumerate(row) if is_nonzero(entry, tolerance)}
 
 
 def _without(tableau: Tableau, kept: Sequence[Sequence[int]]) -> Tableau:
-    """The tableau with the given stages alone."""
+    """The tableau with some stages only."""
     spaces = []
     for space, stages in zip(tableau.spaces, kept, strict=True):
         spaces.append(PointSpace(_chosen(space.nodes, stages)))
@@ -179,11 +178,8 @@ def _chosen(row: Vector, stages: Sequence[int]) -> Vector:
 
 
 def merged(tableau: Tableau, tolerance: fmpq = ZERO) -> Tableau:
-    """The tableau with one stage for each class of equal ones; their weights are added.
-
-    Args:
-        tableau: over point spaces.
-        tolerance: of equal numbers.
+    """The tableau with one stage for each class of equal ones, with the sum of their weights;
+    numbers within ``tolerance`` are equal.
     """
     classes = equal_stages(tableau, tolerance)
     firsts = [[members[0] for members in of_space] for of_space in classes]
@@ -206,8 +202,8 @@ def smallest(tableau: Tableau, further: Further = NOTHING) -> tuple[Tableau, Fur
     """The smallest method with further weights: a stage that any row of weights needs stays.
 
     Returns:
-        The same tableau object where there is nothing to leave out; None where stages are at
-        irrational nodes and more than row sums would have to be compared.
+        the same tableau object if nothing can be left out; None if stages at irrational nodes would
+        have to be compared.
 
     >>> from garkcli.methodfile.load import loads
     >>> method = loads("{A: [[0, 0], [1, 0]], b: [1, 0], embedded: [1/2, 1/2]}")

@@ -19,7 +19,7 @@ _FILES = (
     ("stability", "ssp-coefficient real-stability imaginary-stability"),
 )
 KEYS = {key: file for file, keys in _FILES for key in keys.split()}
-"""Every property, in the order of the documentation, with its file in ``claimed``."""
+"""Every property with its module in ``claimed``, in the order of the documentation."""
 OF_TEST_EQUATION = frozenset(
     {"a-stable", "l-stable", "p-stable", "i-stable", "real-stability", "imaginary-stability"}
 )
@@ -28,10 +28,7 @@ OF_TEST_EQUATION = frozenset(
 
 @cache
 def find(key: str) -> Property:
-    """The property of a claim; its file is loaded when it is requested.
-
-    Args:
-        key: one of ``KEYS``.
+    """The property with a key, imported on demand.
 
     >>> find("a-stable").field
     'a_stable'
@@ -42,5 +39,4 @@ def find(key: str) -> Property:
 
 
 def every_property() -> list[Property]:
-    """All of them."""
     return [find(key) for key in KEYS]

@@ -1,4 +1,4 @@
-"""A method as its properties are decided: what several of them need is found once."""
+"""A method whose properties are decided; shared results are cached."""
 
 from __future__ import annotations
 
@@ -30,27 +30,26 @@ if TYPE_CHECKING:
     from garkcli.stability.within import StabilityWithin
 
 MISSING_BLOCKS = Reason("some stages do not see every vector field")
-"""Why what is about all vector fields together has no meaning where blocks are missing."""
+"""Why properties of all vector fields together are not defined if blocks are missing."""
 
 
 MAY_HOLD = "the method that the file is taken to mean has it not, another within t may"
-"""Why what the digits do not exclude is not refuted."""
+"""Why a property that the digits do not exclude is not refuted."""
 
 
 class Subject(Frozen):
-    """A method with what is known of it.
+    """A method with its known results.
 
     Attributes:
         tableau: the method.
-        order: its order, or a lower bound of that.
+        order: its order, or a lower bound.
         simplifying: its B, C and D.
-        limit: where the search for these stopped.
-        tolerance: smaller numbers count as zero, as the method is known so well; 0 where it is
-            exact.
+        limit: the limit of the search for these.
+        tolerance: smaller numbers count as zero; 0 for an exact method.
         further: its embedded weights and its dense output.
-        rounding: by how much the printed coefficients may be off.
-        printed: the method as it is printed, where it is rounded, with what its coefficients are
-            off at most for ``tolerance``.
+        rounding: the rounding of the printed coefficients.
+        printed: for a rounded method the printed one, with the largest error of its coefficients as
+            ``tolerance``.
     """
 
     tableau: Tableau
@@ -66,7 +65,7 @@ class Subject(Frozen):
     def read(
         method: AnyTableau, order: int, simplifying: Simplifying, limit: int, further: Further
     ) -> Subject:
-        """The subject of a method; of a rounded one the method that it is taken to be."""
+        """The subject of a method; if it is rounded, of the method that it is taken to mean."""
         if isinstance(method, Tableau):
             return Subject(method, order, simplifying, limit, ZERO, further)
         grain, t = method.grain, method.tolerance
@@ -78,7 +77,7 @@ class Subject(Frozen):
 
     @cached_property
     def defects(self) -> Defects:
-        """By how much it misses conditions."""
+        """The defects of its conditions."""
         return (
             RoundedDefects(self.tableau, self.tolerance)
             if self.tolerance
@@ -86,7 +85,7 @@ class Subject(Frozen):
         )
 
     def verdict(self, key: str) -> Verdict:
-        """What is true of a property; each is decided once, or is not in the time for all."""
+        """The verdict on a property, decided once; undecided if the time is over."""
         if key not in self._verdicts:
             with doing(key.replace("-", " ")):
                 self._verdicts[key] = self._decided(key)
@@ -125,13 +124,11 @@ class Subject(Frozen):
 
     @cached_property
     def is_complete(self) -> bool:
-        """Whether every stage sees every vector field."""
         colours, spaces = (range(self.tableau.size), range(len(self.tableau.spaces)))
         return all((k, m) in self.tableau.blocks for k in spaces for m in colours)
 
     @cached_property
     def graph(self) -> StageGraph:
-        """Which stage values depend on which."""
         return stage_graph(self.points or self.tableau, None, self.tolerance)
 
     @cached_property
@@ -140,7 +137,7 @@ class Subject(Frozen):
         return self._of_families(range(self.tableau.size)) or shape_of(self.graph, self.tolerance)
 
     def _of_families(self, colours: Sequence[int]) -> Shape | None:
-        """The shape of some colours where no node is needed for it."""
+        """The shape of some colours if it needs no nodes."""
         if self.tolerance or any(isinstance(x, PointSpace) for x in self.tableau.spaces):
             return None
         from garkcli.properties.algebra_shape import shape_of_families
@@ -149,7 +146,7 @@ class Subject(Frozen):
 
     @cached_property
     def shapes(self) -> tuple[Shape | None, ...]:
-        """The shapes of the diagonal methods, one per colour; None where a colour does not see
+        """The shapes of the diagonal methods, one per colour; None if a colour does not see
         itself.
         """
         if self.tableau.size == 1:
@@ -163,40 +160,37 @@ class Subject(Frozen):
         return tuple(found)
 
     def _of_points(self, l: int) -> Shape:
-        """The shape of a colour by its entries."""
         graph = stage_graph(self.points or self.tableau, [l], self.tolerance)
         return shape_of(graph, self.tolerance)
 
     @cached_property
     def points(self) -> Tableau | None:
-        """The method with one coordinate a stage; None where nodes have no simple radicals."""
+        """The method on point stages; None if nodes have no simple radicals."""
         return at_points(self.tableau)
 
     @cached_property
     def reduced(self) -> Tableau | None:
-        """The smallest method of the same step; None where nodes have no simple radicals."""
+        """The smallest method with the same step; None if nodes have no simple radicals."""
         return reduced(self.tableau, self.tolerance)
 
     @cached_property
     def symmetry(self) -> Symmetry:
-        """Whether it is its own adjoint."""
         return symmetry(self.tableau, self.tolerance)
 
     @property
     def is_linear(self) -> bool:
-        """Whether there is an R(z) with all vector fields equal: no block is missing."""
+        """Whether R(z) with all vector fields equal is defined: no block is missing."""
         return self.is_complete and not self.tableau.is_partitioned
 
     @cached_property
     def linear(self) -> StabilityFunction:
-        """R(z) with all vector fields equal."""
         from garkcli.stability.linear import stability_function
 
         return stability_function(self.tableau)
 
     @cached_property
     def intervals(self) -> StabilityWithin:
-        """What is known of the intervals of a method known to many bits."""
+        """Bounds on the stability intervals of a rounded method."""
         from garkcli.stability.within import stability_within
 
         shares = [ONE] * self.tableau.size
@@ -204,7 +198,7 @@ class Subject(Frozen):
 
     @cached_property
     def linear_within(self) -> tuple[bool | None, bool | None]:
-        """Whether a method known to many bits is A-stable, L-stable; None: not decided."""
+        """Whether a rounded method is A-stable and L-stable; None: undecided."""
         from garkcli.stability.within import stiff_stability_within
 
         shares = [ONE] * self.tableau.size

@@ -5,9 +5,9 @@ The adjoint, the inverse of the step with −h, has the blocks 𝟙 b_mᵀ − A
 symmetric when a renumbering of the stages of each space, the same for all blocks, turns one into
 the other. In the stage algebra of a family it is the reflection x → 1 − x of the nodes.
 
-A stage can only become one that sees of the adjoint what it sees of the method: stages are divided
-by what they see until no class divides any more, as in the refinement of colours of graphs by B.
-Weisfeiler and A. Lehman. In a method that is not reducible every stage then has one image at most.
+A stage can only map to one whose sums in the adjoint equal its own: stages are divided by these
+sums until no class divides any more, as in the colour refinement of B. Weisfeiler and A. Lehman. In
+an irreducible method every stage then has at most one image.
 """
 
 from __future__ import annotations
@@ -31,20 +31,19 @@ from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Edge, Tableau
 
 MOST_TRIALS = 2000
-"""Images of stages that are tried in vain before the search ends."""
+"""Images of stages that are tried before the search is given up."""
 
 _Images: TypeAlias = dict[Vertex, list[int]]
-"""For each stage those of its space that it may become."""
+"""For each stage its possible images, stages of its space."""
 
 
 class Symmetry(Frozen):
-    """Whether a method is its own adjoint.
+    """The result of the search for self-adjointness.
 
     Attributes:
-        holds: None where too many renumberings would have to be tried, or where rounding leaves it
-            open.
-        images: for each stage space the stage that each of its stages becomes, None for x → 1 − x
-            in a stage algebra; empty where it does not hold.
+        holds: None if there are too many renumberings, or rounding leaves it open.
+        images: for each stage space the image of each stage, None for x → 1 − x in a stage algebra;
+            empty if it does not hold.
     """
 
     holds: bool | None
@@ -56,8 +55,8 @@ def symmetry(tableau: Tableau, tolerance: fmpq = ZERO) -> Symmetry:
 
     Args:
         tableau: the method.
-        tolerance: the rounding of its coefficients: an equation between three of them may be off by
-            three times that.
+        tolerance: the rounding of its coefficients; an equation between three of them has three
+            times that.
 
     >>> from garkcli.methodfile.load import loads
     >>> symmetry(loads("{A: [[0, 0], [1/2, 1/2]], b: [1/2, 1/2]}").tableau)
@@ -90,7 +89,7 @@ def _in_order(images: Mapping[int, int]) -> tuple[int, ...]:
 
 
 def _reflection(space: PolynomialSpace) -> Matrix | None:
-    """X → 1 − x on ℚ[x]/(M), where M has nodes that lie symmetric to 1/2."""
+    """X → 1 − x on ℚ[x]/(M); None unless the nodes are symmetric about 1/2."""
     reflected = space.modulus(fmpq_poly([1, -1]))
     if reflected * reflected[space.stages] != space.modulus:
         return None
@@ -103,7 +102,7 @@ def _reflection(space: PolynomialSpace) -> Matrix | None:
 
 
 def _by_sums(tableau: Tableau, tolerance: fmpq) -> _Images:
-    """The stages that a stage may become, by row sums within a tolerance.
+    """The possible images of stages, by row sums within a tolerance.
 
     The row sums of a stage and of its image add up to the sum of the weights: each entry and its
     image to a weight within three times the tolerance.
@@ -127,19 +126,19 @@ def _by_sums(tableau: Tableau, tolerance: fmpq) -> _Images:
 
 
 class _Class(Frozen):
-    """Stages of a space, and those that they may become."""
+    """Stages of a space, and their possible images."""
 
     stages: list[int]
     images: list[int]
 
 
 _Classes: TypeAlias = dict[int, list[_Class]]
-"""Those of each space at points."""
+"""The classes of each point space."""
 
 
 def _by_sight(tableau: Tableau) -> _Images | None:
-    """The stages that a stage may become, by the sums of what it sees of each class; None where a
-    class has more stages than images.
+    """The possible images of stages, by their sums over each class; None if a class has more stages
+    than images.
     """
     classes: _Classes = {}
     for k, space in enumerate(tableau.spaces):
@@ -157,7 +156,7 @@ def _by_sight(tableau: Tableau) -> _Images | None:
 
 
 def _divided(tableau: Tableau, k: int, classes: _Classes) -> list[_Class]:
-    """The classes of a space, divided by what its stages see."""
+    """The classes of a space, divided by the sums of their stages."""
     finer = []
     for whole in classes[k]:
         if len(whole.stages) == 1:
@@ -174,7 +173,7 @@ def _divided(tableau: Tableau, k: int, classes: _Classes) -> list[_Class]:
 
 
 def _place(sight: Vector, found: list[tuple[Vector, _Class]]) -> _Class:
-    """The class of a sight, a new one where it is the first."""
+    """The class with these sums, added if it is new."""
     for seen, part in found:
         if seen == sight:
             return part
@@ -183,7 +182,7 @@ def _place(sight: Vector, found: list[tuple[Vector, _Class]]) -> _Class:
 
 
 def _sight(tableau: Tableau, stage: Vertex, classes: _Classes) -> Vector:
-    """The weights of a stage, and the sum of its entries over each class."""
+    """The weights of a stage, and the sums of its entries over each class."""
     k, i = stage
     seen = _own_weights(tableau, stage)
     for m, colour in enumerate(tableau.colours):
@@ -193,7 +192,7 @@ def _sight(tableau: Tableau, stage: Vertex, classes: _Classes) -> Vector:
 
 
 def _sight_in_adjoint(tableau: Tableau, stage: Vertex, classes: _Classes) -> Vector:
-    """The same in the adjoint, over the images of each class."""
+    """The sums of a stage in the adjoint, over the images of each class."""
     k, j = stage
     seen = _own_weights(tableau, stage)
     for m, colour in enumerate(tableau.colours):
@@ -211,11 +210,12 @@ def _own_weights(tableau: Tableau, stage: Vertex) -> Vector:
 
 
 class _TooManyError(Exception):
-    """More than ``MOST_TRIALS`` images were tried in vain."""
+    """More than ``MOST_TRIALS`` images were tried."""
 
 
 class _Search:
-    """The involution of stages that turns a method into its adjoint, the most certain stages first.
+    """Searches the involution of stages that turns a method into its adjoint, most constrained
+    stages first.
 
     Args:
         tableau: the method.
@@ -233,7 +233,7 @@ class _Search:
         self._turned = {edge: self._turn(edge) for edge in tableau.blocks}
 
     def _turn(self, edge: Edge) -> Matrix:
-        """S A S_m, with the reflections of stage algebras alone."""
+        """S A S_m with the reflections of stage algebras only."""
         k, m = edge
         block = self._tableau.blocks[edge]
         onto, before = (
@@ -260,10 +260,10 @@ class _Search:
         return True
 
     def renumbering(self, possible: _Images) -> dict[int, dict[int, int]] | None:
-        """The image of each stage at a point, space by space; None where there is none.
+        """The image of each point stage, space by space; None if there is none.
 
         Raises:
-            _TooManyError: too many would have to be tried.
+            _TooManyError: too many images were tried.
         """
         waiting = sorted(possible, key=lambda x: (len(possible[x]), x))
         path: list[tuple[Vertex, Iterator[int]]] = []
@@ -285,7 +285,7 @@ class _Search:
                 self._images[k].pop(self._images[k].pop(i), None)
 
     def _is_placed(self, stage: Vertex, images: Iterator[int], possible: _Images) -> bool:
-        """Whether a stage and the next of its images that fits are placed."""
+        """Whether a stage and the next of its possible images were placed."""
         k, i = stage
         of_space = self._images[k]
         for j in images:
@@ -299,9 +299,7 @@ class _Search:
         return False
 
     def _has_image(self, k: int, i: int, j: int) -> bool:
-        """Whether the weights of two stages are equal, and what they see and show of algebras fits
-        together.
-        """
+        """Whether the weights of two stages are equal, and their couplings with algebras fit."""
         tableau = self._tableau
         for colour in tableau.colours:
             if colour.space == k and not self._are_close(
@@ -322,7 +320,7 @@ class _Search:
         return True
 
     def _sees(self, k: int, i: int, j: int) -> bool:
-        """Whether a stage and its image see what was placed as a method and its adjoint do."""
+        """Whether a stage and its image see the placed stages as a method and its adjoint do."""
         for m, colour in enumerate(self._tableau.colours):
             if (k, m) in self._tableau.blocks:
                 row, image, b = (
@@ -336,7 +334,7 @@ class _Search:
         return True
 
     def _is_seen(self, k: int, i: int, j: int) -> bool:
-        """The same of what sees the stage."""
+        """Whether placed stages see a stage and its image as a method and its adjoint do."""
         for (x_space, m), block in self._tableau.blocks.items():
             colour = self._tableau.colours[m]
             if colour.space == k:
@@ -347,6 +345,5 @@ class _Search:
         return True
 
     def _are_close(self, row: Vector, other: Vector, times: int) -> bool:
-        """Whether entries are equal within a multiple of the tolerance."""
         allowed = times * self._tolerance
         return all(within(x - y, allowed) for x, y in zip(row, other, strict=True))

@@ -1,1 +1,1 @@
-"""The properties that files may claim: their definitions, and how they are decided."""
+"""The properties that files may claim: definitions and decisions."""

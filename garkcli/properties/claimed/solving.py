@@ -1,4 +1,4 @@
-"""What is solved for in a step: explicit, diagonally implicit and other methods."""
+"""Implicitness: explicit, diagonally implicit and other methods."""
 
 from __future__ import annotations
 
@@ -12,11 +12,10 @@ from garkcli.properties.subject import Subject
 from garkcli.reason import NO_REASON, Reason
 
 UNDECIDED = "an entry may be zero"
-"""Why the order of the stages is undecided."""
 
 
 def what_is_solved_for(subject: Subject) -> Reason:
-    """The stages that depend on themselves; empty where there are none."""
+    """Names the stages that depend on themselves; empty if there are none."""
     together = what_is_solved_together(subject)
     if together:
         return together
@@ -28,7 +27,7 @@ def what_is_solved_for(subject: Subject) -> Reason:
 
 
 def what_is_solved_together(subject: Subject) -> Reason:
-    """The largest system of stages; empty where each is solved for by itself."""
+    """Names the largest system of stages; empty if each is solved by itself."""
     systems = subject.shape.systems
     if not systems:
         return NO_REASON
@@ -37,7 +36,7 @@ def what_is_solved_together(subject: Subject) -> Reason:
 
 
 def what_is_not_singly(subject: Subject) -> Reason:
-    """Why there is no common coefficient γ; empty where there is one."""
+    """Why there is no common coefficient γ; empty if there is one."""
     shape = subject.shape
     if shape.kind != "diagonally implicit":
         return what_is_solved_together(subject) or Reason(f"it is {shape.kind}")
@@ -49,7 +48,7 @@ def what_is_not_singly(subject: Subject) -> Reason:
 
 
 def decide_singly(subject: Subject, wanted: Literal["SDIRK", "ESDIRK"]) -> Verdict:
-    """Whether all implicit stages have one γ, and which stages are explicit."""
+    """Whether all implicit stages share one γ, and the required stages are explicit."""
     shape = subject.shape
     if shape.kind is None:
         return Verdict.undecided(UNDECIDED)
@@ -67,8 +66,8 @@ def decide_singly(subject: Subject, wanted: Literal["SDIRK", "ESDIRK"]) -> Verdi
 
 @claimed("E. Hairer, S. P. Nørsett, G. Wanner, Solving ODEs I, section II.1")
 def explicit(subject: Subject) -> Verdict:
-    """No stage value depends on itself, neither directly nor through others: all stages of all
-    methods can be put in an order in which each follows from those before.
+    """No stage value depends on itself, directly or through others: all stages of all methods can
+    be computed one after the other.
     """
     if subject.shape.kind is None:
         return Verdict.undecided(UNDECIDED)
@@ -78,7 +77,7 @@ def explicit(subject: Subject) -> Verdict:
 @claimed("R. Alexander, SIAM J. Numer. Anal. 14 (1977)")
 def diagonally_implicit(subject: Subject) -> Verdict:
     """At least one stage value depends on itself, and no two depend on each other: implicit stages
-    are solved for one after the other. Explicit methods are not called so.
+    are solved one after the other. Explicit methods are not called diagonally implicit.
     """
     kind = subject.shape.kind
     if kind is None:
@@ -99,7 +98,7 @@ def sdirk(subject: Subject) -> Verdict:
 @claimed("C. A. Kennedy, M. H. Carpenter, NASA/TM-2016-219173")
 def esdirk(subject: Subject) -> Verdict:
     """The first stage value is the old value; every other one depends on itself directly, all with
-    the same coefficient γ, and no two depend on each other. For several methods this is meant of
+    the same coefficient γ, and no two depend on each other. With several methods this holds for
     each. The claim `gamma` says which γ it is.
     """
     return decide_singly(subject, "ESDIRK")
@@ -126,8 +125,7 @@ def gamma(subject: Subject) -> Verdict:
 @claimed("E. Hairer, G. Wanner, Solving ODEs II, section IV.5")
 def fully_implicit(subject: Subject) -> Verdict:
     """At least two stage values, of one method or of several, depend on each other and are solved
-    for together: the graph of who sees whom has a strongly connected component of more than one
-    stage.
+    together: the graph of who sees whom has a strongly connected component of more than one stage.
     """
     kind = subject.shape.kind
     if kind is None:

@@ -1,4 +1,4 @@
-"""Kinds of stability, and how far they reach."""
+"""Stability: its kinds, and the sizes of stability intervals."""
 
 from __future__ import annotations
 
@@ -38,14 +38,14 @@ _LONG = 60
 
 
 def decide_within(found: bool | None) -> Verdict:
-    """A verdict on a method that is known to many bits."""
+    """A verdict on a rounded method from what its digits decide."""
     if found is None:
         return Verdict.undecided("a polynomial is too near to zero where it has a sign")
     return Verdict(found)
 
 
 def obstacle_to_a_stability(R: StabilityFunction) -> Reason:
-    """Where |R| > 1 in the left half plane; empty for an A-stable method."""
+    """Why |R| > 1 somewhere in the left half plane; empty for an A-stable method."""
     P, Q = R.numerator, R.denominator
     if P.degree > Q.degree:
         return Reason("R(z) is not bounded: its numerator has the larger degree")
@@ -66,7 +66,7 @@ def obstacle_to_a_stability(R: StabilityFunction) -> Reason:
 
 
 def _left_pole(Q: Polynomial) -> str:
-    """The root of Q with the smallest real part, to some digits; of several the first above ℝ."""
+    """The root of Q with the smallest real part, in digits; of several the first above ℝ."""
     before = ctx.prec
     try:
         # roots of higher multiplicity cannot be enclosed
@@ -83,7 +83,7 @@ def _left_pole(Q: Polynomial) -> str:
 
 
 def _roots(Q: Polynomial) -> list[acb]:
-    """Enclosures of the roots, which are simple: with more bits until they are separate."""
+    """Enclosures of the simple roots, with more bits until they are separate."""
     bits = _BITS
     while True:
         ctx.prec = bits
@@ -98,7 +98,7 @@ def _roots(Q: Polynomial) -> list[acb]:
 
 
 def first_gap(intervals: Sequence[Interval]) -> Interval | None:
-    """The first part of [0, ∞) that a set of intervals leaves out; None where there is none."""
+    """The first part of [0, ∞) that a set of intervals omits; None if there is none."""
     end, is_left_out = RealRoot.rational(ZERO), True
     for found in intervals:
         if found.start is not None and (end < found.start or not found.has_start):
@@ -110,7 +110,6 @@ def first_gap(intervals: Sequence[Interval]) -> Interval | None:
 
 
 def inequality(gap: Interval, variable: str) -> Reason:
-    """A gap as an inequality."""
     if gap.is_point:
         return Reason(f"{variable} = {{}}", _number(gap.start))
     low = Reason(f"{{}} {'≤' if gap.has_start else '<'} {variable}", _number(gap.start))
@@ -132,7 +131,7 @@ def _number(root: RealRoot | None) -> Formula | str:
 )
 def a_stable(subject: Subject) -> Verdict:
     """|R(z)| ≤ 1 for all z with Re z ≤ 0, where R is the stability function, y_1 = R(hλ) y_0 for ẏ
-    = λy with all vector fields equal. Decided by the poles of R and the polynomial E = |Q(iy)|² −
+    = λy with all vector fields equal. Decided from the poles of R and the polynomial E = |Q(iy)|² −
     |P(iy)|² for R = P/Q.
     """
     if not subject.is_linear:
@@ -162,10 +161,10 @@ def l_stable(subject: Subject) -> Verdict:
     is_cheap=False,
 )
 def p_stable(subject: Subject) -> Verdict:
-    """On the harmonic oscillator q̈ = −ω²q no numerical solution grows or decays, whatever the step
-    size: the step matrix M(hω) has the determinant 1, and its powers are bounded; for a
-    Runge–Kutta method |R(iy)| = 1 for all y. With several terms the kinetic energy is the first,
-    the potential one is divided equally among the others.
+    """On the harmonic oscillator q̈ = −ω²q no numerical solution grows or decays, for any step
+    size: the step matrix M(hω) has the determinant 1, and its powers are bounded; for a Runge–Kutta
+    method |R(iy)| = 1 for all y. With several terms the kinetic energy is the first, the potential
+    one is divided equally among the others.
     """
     found = _on_oscillator(subject)
     if isinstance(found, Verdict):
@@ -194,7 +193,7 @@ def i_stable(subject: Subject) -> Verdict:
 
 
 def _on_oscillator(subject: Subject) -> OscillatorStability | Verdict:
-    """What is found on the oscillator; a verdict where nothing is."""
+    """The analysis on the oscillator, or a verdict if there is none."""
     from garkcli.errors import UsageProblem
     from garkcli.problems.oscillator import Oscillator, terms_of
     from garkcli.stability.oscillator import oscillator_stability
@@ -226,8 +225,8 @@ def _growing(found: OscillatorStability) -> Verdict:
 def ssp_coefficient(subject: Subject) -> Verdict:
     """The radius of absolute monotonicity: the largest r for which, with K = (A 0; bᵀ 0), no entry
     of (I + rK)⁻¹ K and (I + rK)⁻¹ 𝟙 is negative. Up to r times the step size with which explicit
-    Euler keeps a convex bound, the method keeps it (strong stability preserving). For several
-    colours the same r for each.
+    Euler keeps a convex bound, the method keeps it (strong stability preserving). With several
+    colours, r is the same for each.
     """
     from garkcli.stability.ssp import ssp_coefficient
 
@@ -246,7 +245,7 @@ def ssp_coefficient(subject: Subject) -> Verdict:
 
 
 def _between(found: Bounds, is_squared: bool = False) -> Verdict:
-    """A number that is known between bounds, to so many digits as they share."""
+    """A number known between bounds, with the digits that these share."""
     if found.low is None:
         return Verdict(Size(None))
     if found.high is None:
@@ -260,7 +259,9 @@ def _between(found: Bounds, is_squared: bool = False) -> Verdict:
 
 
 def _negative(tableau: Tableau, tolerance: fmpq) -> Reason:
-    """The first negative coefficient, with which there is no absolute monotonicity."""
+    """The first negative coefficient, which excludes absolute monotonicity; empty if there is
+    none.
+    """
     for (k, m), block in tableau.blocks.items():
         for i, row in enumerate(block):
             for j, a in enumerate(row):
@@ -280,7 +281,7 @@ def _negative(tableau: Tableau, tolerance: fmpq) -> Reason:
     is_cheap=False,
 )
 def real_stability(subject: Subject) -> Verdict:
-    """The length of the real stability interval: the largest x for which |R(z)| ≤ 1 on [−x, 0]."""
+    """The length of the real stability interval: the largest x with |R(z)| ≤ 1 on [−x, 0]."""
     from garkcli.stability.linear import real_set
 
     if not subject.is_linear:
@@ -297,7 +298,7 @@ def real_stability(subject: Subject) -> Verdict:
     is_cheap=False,
 )
 def imaginary_stability(subject: Subject) -> Verdict:
-    """The length of the imaginary stability interval: the largest y for which |R(z)| ≤ 1 on [−iy,
+    """The length of the imaginary stability interval: the largest y with |R(z)| ≤ 1 on [−iy,
     iy].
     """
     from garkcli.stability.linear import imaginary_set

@@ -1,4 +1,4 @@
-"""What the stages and the weights of a method are like."""
+"""Properties of stages and weights."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ from garkcli.tableau.tableau import Tableau
 
 
 def obstacle(tableau: Tableau) -> Reason:
-    """Why a method is not algebraically stable; empty where it is. All its blocks exist."""
+    """Why a method with all blocks is not algebraically stable; empty if it is."""
     weights = _negative_weight(tableau)
     if weights:
         return weights
@@ -43,8 +43,8 @@ def obstacle(tableau: Tableau) -> Reason:
 
 
 def _negative_weight(tableau: Tableau, tolerance: fmpq = ZERO) -> Reason:
-    """The first weight that is negative for all methods within the tolerance; empty where there
-    is none.
+    """The first weight that is negative for all methods within the tolerance; empty if there is
+    none.
     """
     for m, colour in enumerate(tableau.colours):
         if not isinstance(tableau.space(m), PointSpace):
@@ -56,8 +56,8 @@ def _negative_weight(tableau: Tableau, tolerance: fmpq = ZERO) -> Reason:
 
 
 def obstacle_within(tableau: Tableau, tolerance: fmpq) -> Reason | None:
-    """The same for all methods within a tolerance: empty where none has an obstacle, None where
-    that is not decided.
+    """``obstacle`` for all methods within a tolerance: empty if none has an obstacle, None if
+    undecided.
     """
     if not all(isinstance(space, PointSpace) for space in tableau.spaces):
         return None
@@ -88,7 +88,7 @@ def stiffly_accurate(subject: Subject) -> Verdict:
 
 
 def _missed(tableau: Tableau) -> Reason:
-    """Where the last stage differs from the weights."""
+    """The first entry in which the last stage differs from the weights."""
     space = tableau.spaces[-1]
     if not isinstance(space, PointSpace):
         return Reason("at no node the stage has the weights as its rows")
@@ -124,8 +124,8 @@ def fsal(subject: Subject) -> Verdict:
 def symmetric(subject: Subject) -> Verdict:
     """The method is its own adjoint, the inverse of the step with −h: renumbering the stages of
     each method, the same for all blocks, turns A^{l,m} into 𝟙 (b^{m})ᵀ − A^{l,m} and keeps the
-    weights. In the stage algebra of a family the renumbering is x → 1 − x. Of a reducible method
-    it is asked of the smaller one that does the same.
+    weights. In the stage algebra of a family the renumbering is x → 1 − x. A reducible method is
+    symmetric if the reduced one is.
     """
     holds = subject.symmetry.holds
     if holds:
@@ -137,11 +137,11 @@ def symmetric(subject: Subject) -> Verdict:
 
 
 def _reduced_verdict(subject: Subject, holds: bool | None) -> Verdict:
-    """Where no renumbering does: stages that do nothing, and equal ones, may be in its way.
+    """The verdict on a method without a symmetric renumbering: it may be reducible.
 
     Args:
         subject: the method.
-        holds: what is known of it as it is: False, or None.
+        holds: the verdict on the unreduced method: False, or None if undecided.
     """
     tableau = subject.tableau
     if not is_plainly_irreducible(tableau, subject.tolerance):
@@ -159,10 +159,10 @@ def _reduced_verdict(subject: Subject, holds: bool | None) -> Verdict:
 
 
 def _with_idle_stages_in_the_middle(tableau: Tableau) -> Tableau:
-    """The same method where a last stage that does nothing has the row b_m/2.
+    """The method with the row b_m/2 in a last stage that does nothing.
 
-    A stage space of which nothing is left keeps one stage, whose row no step depends on. With this
-    row it is its own image in the adjoint method.
+    An empty stage space keeps one stage, whose row no step depends on. With this row it is its own
+    image in the adjoint method.
     """
     half = fmpq(1, 2)
     blocks = dict(tableau.blocks)
@@ -179,10 +179,10 @@ def _with_idle_stages_in_the_middle(tableau: Tableau) -> Tableau:
     "BIT 21 (1981)"
 )
 def reducible(subject: Subject) -> Verdict:
-    """Fewer stages do the same: the same step, the same embedded weights and dense output. A stage
-    that no weight and no stage that matters looks at can be left out (DJ-reducible), such as the
-    last one of an FSAL method without embedded weights. Stages that are equal on every problem can
-    be one. `gark convert --to reduced` writes the smaller method.
+    """Fewer stages give the same step, embedded weights and dense output. A stage on which no
+    weight and no used stage depends can be left out (DJ-reducible), such as the last one of an FSAL
+    method without embedded weights. Stages that are equal on every problem can be merged. `gark
+    convert --to reduced` writes the smaller method.
     """
     tableau, further = subject.tableau, subject.further
     whole = as_colours(tableau, further)
@@ -212,15 +212,15 @@ def _names(further: Further) -> str:
 @claimed("E. Hairer, G. Wanner, Solving ODEs II, section IV.15", kind="count")
 def stage_order(subject: Subject) -> Verdict:
     """The largest q for which B^{l}(q) and C^{l,m}(q) hold for all l and m whose block exists:
-    quadrature and stage values of the same order q. Of one colour l: for that l and all m. The
-    nodes are those that the file gives.
+    quadrature and stage values of the same order q. For one colour l: for that l and all m. The
+    nodes are those of the file.
     """
     found = subject.simplifying.stage_orders
     return Verdict(min(found), _by_colour(subject, found), is_at_least=min(found) >= subject.limit)
 
 
 def _by_colour(subject: Subject, found: Sequence[int]) -> Reason:
-    """A number for each colour; empty where there is one."""
+    """The number of each colour; empty for a single colour."""
     if len(found) == 1:
         return NO_REASON
     names = [colour.name for colour in subject.tableau.colours]
@@ -238,11 +238,11 @@ def _by_colour(subject: Subject, found: Sequence[int]) -> Reason:
 )
 def weak_stage_order(subject: Subject) -> Verdict:
     """The largest q for which b^{l} A^{l,m} ⋯ A^{n,p} (A^{p,r} (c^{r})^(k−1) − (c^{p})^k / k) = 0
-    for k = 1, …, q and all products of blocks that exist, also of none: what the stages miss up to
-    order q never reaches the new value. Stiff linear problems with terms that depend on time lose
-    no order up to q. For one method that is bᵀ A^j (A c^(k−1) − c^k / k) = 0 for all j. Of one
-    colour l: with products of A^{l,l} alone, where f^{l} is stiff and the other terms are functions
-    of time.
+    for k = 1, …, q and all products of existing blocks, also the empty one: the errors of the
+    stages up to order q never reach the new value. Stiff linear problems with terms that depend on
+    time lose no order up to q. For one method: bᵀ A^j (A c^(k−1) − c^k / k) = 0 for all j.
+    For one colour l: with products of A^{l,l} only, if f^{l} is stiff and the other terms are
+    functions of time.
     """
     colours = range(subject.tableau.size)
     least = weak_order(subject.defects, colours, subject.limit)
@@ -275,7 +275,7 @@ def nodes_in_unit_interval(subject: Subject) -> Verdict:
 
 @claimed("E. Hairer, G. Wanner, Solving ODEs II, section IV.12")
 def positive_weights(subject: Subject) -> Verdict:
-    """All weights b_i^{l} are larger than 0. In the stage algebra of a family the quadratic
+    """All weights b_i^{l} are positive. In the stage algebra of a family the quadratic
     form f ↦ b^{l}(f²) is positive definite.
     """
     tableau, tolerance = subject.tableau, subject.tolerance
@@ -302,7 +302,7 @@ def positive_weights(subject: Subject) -> Verdict:
 )
 def algebraically_stable(subject: Subject) -> Verdict:
     """No weight is negative, and the matrix M with the blocks B^{l} A^{l,m} + (A^{m,l})ᵀ B^{m} −
-    b^{l} (b^{m})ᵀ is positive semidefinite. Then differences of solutions never grow where every
+    b^{l} (b^{m})ᵀ is positive semidefinite. Then differences of solutions never grow if every
     vector field is contractive (B-stability).
     """
     if not subject.is_complete:
