@@ -1,1 +1,1 @@
-"""What a method does to linear and contractive problems, decided exactly."""
+"""Stability on linear and contractive problems, decided exactly."""

@@ -1,6 +1,6 @@
 """Algebraic stability: whether differences of solutions of contractive problems never grow.
 
-A Runge–Kutta method is algebraically stable, hence B-stable, when its weights are not negative and
+A Runge–Kutta method is algebraically stable, hence B-stable, if its weights are not negative and
 the matrix M = B A + Aᵀ B − b bᵀ is positive semidefinite (K. Burrage, J. C. Butcher 1979). For a
 GARK method M consists of the blocks B^l A^{l,m} + (A^{m,l})ᵀ B^m − b^l (b^m)ᵀ (A. Sandu,
 M. Günther 2015, section 4). Both conditions are about quadratic forms, which may be written in any
@@ -25,7 +25,7 @@ from garkcli.tableau.tableau import Tableau
 
 
 class AlgebraicStability(Frozen):
-    """What decides it.
+    """The two conditions of algebraic stability.
 
     Attributes:
         weights_are_positive: whether no weight is negative.
@@ -37,15 +37,14 @@ class AlgebraicStability(Frozen):
 
     @property
     def holds(self) -> bool:
-        """Whether the method is algebraically stable."""
         return self.weights_are_positive and self.form_is_positive
 
 
 def algebraic_stability(tableau: Tableau) -> AlgebraicStability | None:
-    """Whether a method is algebraically stable; None where a block is missing.
+    """Whether a method is algebraically stable; None if a block is missing.
 
-    A missing block is no block of zeros: the problem has no such coupling, and so no contractivity
-    of its own to be inherited.
+    A missing block is not a zero block: the problem has no such coupling, so there is no
+    contractivity to inherit.
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.tableau.forms import gark
@@ -64,7 +63,7 @@ def algebraic_stability(tableau: Tableau) -> AlgebraicStability | None:
 
 
 def contractivity(tableau: Tableau) -> Matrix:
-    """The matrix M, in the bases of the stage spaces; all blocks exist."""
+    """The matrix M in the bases of the stage spaces; all blocks must exist."""
     colours = range(tableau.size)
     rows: list[Vector] = []
     for l in colours:
@@ -79,16 +78,12 @@ def is_positive_semidefinite(form: Matrix) -> bool:
 
 
 def negative_pivot(form: Matrix) -> Number | None:
-    """What symmetric elimination of a matrix meets that speaks against a positive form; None where
-    nothing does.
+    """The diagonal entry at which symmetric elimination shows a matrix to be indefinite, or None.
 
-    A zero on the diagonal must have a zero row; a positive pivot is eliminated.
-
-    Args:
-        form: a symmetric matrix.
+    A zero pivot needs a zero row; a positive pivot is eliminated.
 
     Returns:
-        A number on the diagonal that is negative, or 0 with a row that is not zero.
+        a negative diagonal entry, or 0 with a nonzero row.
     """
     rows: list[list[Number]] = [list(row) for row in form]
     remaining = list(range(len(rows)))
@@ -108,7 +103,7 @@ def negative_pivot(form: Matrix) -> Number | None:
 
 
 def _eliminate(rows: list[list[Any]], pivot: int, remaining: list[int]) -> None:
-    """Take multiples of the row of the pivot from the others, among the remaining columns."""
+    """Subtracts multiples of the pivot row from the others, among the remaining columns."""
     remaining.remove(pivot)
     pivot_row = rows[pivot]
     for i in remaining:
@@ -120,19 +115,19 @@ def _eliminate(rows: list[list[Any]], pivot: int, remaining: list[int]) -> None:
 
 
 def snapped(ball: arb) -> arb:
-    """The ball, or 0 where it may be 0: a number that is not 0 is larger than the balls."""
+    """0 for a ball that contains 0: a nonzero number is larger than the balls."""
     return arb(0) if ball.contains(0) else ball
 
 
 def algebraic_within(tableau: Tableau, tolerance: fmpq) -> bool | None:
-    """Whether a method that is known to many bits is algebraically stable; None if not decided.
+    """Whether a method known to many bits is algebraically stable; None if undecided.
 
-    Symmetric elimination in balls, those with 0 in them being 0. A pivot that is positive is
-    eliminated; a diagonal entry that is negative decides, and so does a minor of two rows that is.
+    Symmetric elimination in balls, where a ball with 0 counts as 0. Positive pivots are eliminated;
+    a negative diagonal entry or 2×2 minor decides.
 
     Args:
-        tableau: the method, one coordinate a stage; all blocks are there.
-        tolerance: what counts as zero.
+        tableau: the method on point stages, with all blocks.
+        tolerance: the size up to which numbers count as zero.
     """
     with ctx.workprec(bits_for(tolerance)):
         weights = [x for colour in tableau.colours for x in rounded_balls(colour.b, tolerance)]
@@ -142,14 +137,14 @@ def algebraic_within(tableau: Tableau, tolerance: fmpq) -> bool | None:
 
 
 def rounded_balls(row: Vector, tolerance: fmpq) -> list[arb]:
-    """Coefficients with their rounding; zeros are structure."""
+    """Coefficients with their rounding; zeros are exact."""
     rounding = arb(0, arb(tolerance).upper())
     digits = digits_here()
     return [to_ball(x, digits) + rounding if x else arb(0) for x in row]
 
 
 def form_within(tableau: Tableau, tolerance: fmpq) -> list[list[arb]]:
-    """M = B A + Aᵀ B − b bᵀ over all colours and stages, of all methods within a tolerance.
+    """M = B A + Aᵀ B − b bᵀ over all colours and stages, for all methods within a tolerance.
 
     The precision is that of the caller.
     """

@@ -1,13 +1,11 @@
-"""Polynomials whose coefficients are balls: signs, roots, common factors, and where they begin to
-be negative.
+"""Polynomials with balls as coefficients, lowest first: signs, roots, common factors, first
+negative point.
 
-Each question is answered for all polynomials in the balls at once, or with None: it is not
-decided. Coefficients come from the lowest.
+Each question is answered for all polynomials in the balls at once, or with None: undecided.
 
-The place where one begins to be negative is known between bounds. Pieces of the line are taken from
-the left. A piece on which the enclosure of the polynomial is
-positive is passed; others are halved, until they are short. Behind the last one that was passed a
-point is sought where the polynomial is negative for all numbers in the balls.
+The first negative point is bracketed. Pieces of the line are taken from the left. A piece with a
+positive enclosure of the polynomial is passed; others are halved until they are short. Beyond the
+last passed piece a point is sought where the polynomial is negative for all numbers in the balls.
 """
 
 from __future__ import annotations
@@ -25,7 +23,7 @@ MOST_PIECES_OF_UNIT = 4000
 
 
 def both(first: bool | None, second: bool | None) -> bool | None:
-    """Whether both hold, where one that fails decides."""
+    """Whether both hold; one that fails decides."""
     if first is False or second is False:
         return False
     if first and second:
@@ -34,17 +32,14 @@ def both(first: bool | None, second: bool | None) -> bool | None:
 
 
 def mirrored(coefficients: Iterable[arb]) -> list[arb]:
-    """p(−z)."""
     return [-a if k % 2 else a for k, a in enumerate(coefficients)]
 
 
 def difference(a: Sequence[arb], b: Sequence[arb]) -> list[arb]:
-    """The coefficients of a − b, as many as the longer one has."""
     return [x - y for x, y in zip_longest(a, b, fillvalue=arb(0))]
 
 
 def _padded(p: Sequence[arb], size: int) -> list[arb]:
-    """So many coefficients, zeros at the end."""
     return [*p, *[arb(0)] * (size - len(p))]
 
 
@@ -56,7 +51,8 @@ def is_positive(coefficients: Sequence[arb]) -> bool | None:
 
 
 def _is_positive_on_unit_interval(coefficients: Sequence[arb]) -> bool | None:
-    """Whether it is positive on [0, 1]: True, False where a value is negative, None undecided.
+    """Whether a polynomial is positive on [0, 1]: True, False with a negative value, None
+    undecided.
 
     Pieces are halved until the enclosure of the polynomial on each has a sign.
     """
@@ -78,7 +74,7 @@ def _is_positive_on_unit_interval(coefficients: Sequence[arb]) -> bool | None:
 
 
 def poles_are_right(Q: Sequence[arb]) -> bool | None:
-    """Whether all roots of Q have positive real parts, by Routh's scheme of Q(−z)."""
+    """Whether all roots of Q have positive real parts, by Routh's scheme for Q(−z)."""
     rest = mirrored(Q)[::-1]
     while rest and rest[0].is_zero():
         rest.pop(0)
@@ -99,9 +95,9 @@ def poles_are_right(Q: Sequence[arb]) -> bool | None:
 
 
 def are_coprime(P: list[arb], Q: list[arb]) -> bool:
-    """Whether P and Q have no common root for any of the numbers in the balls.
+    """Whether P and Q have no common root for any numbers in the balls.
 
-    That is what a resultant without zero says: the determinant of the Sylvester matrix.
+    Proved by a nonzero resultant, the determinant of the Sylvester matrix.
     """
     degree_p = len(P) - 1
     degree_q = len(Q) - 1
@@ -115,21 +111,21 @@ def are_coprime(P: list[arb], Q: list[arb]) -> bool:
 
 
 FINEST = 80
-"""A piece is halved at most so often."""
+"""Most halvings of a piece."""
 FARTHEST = 20
-"""Pieces reach to 2 to this power; beyond it nothing is decided."""
+"""Pieces reach to this power of 2; beyond it nothing is decided."""
 MOST_PIECES = 6000
-"""Pieces that are tried at most."""
+"""Most pieces that are tried."""
 MOST_TRIES = 60
-"""Points that are tried at most behind the last piece, each twice as far from it."""
+"""Most points that are tried beyond the last piece, each twice as far from it."""
 
 
 class Bounds(Frozen):
-    """A number known between bounds.
+    """A number between bounds.
 
     Attributes:
-        low: no more than it, for all methods within the tolerance; None for ∞.
-        high: no less; None for ∞, or where no such bound is known.
+        low: a lower bound for all methods within the tolerance; None for ∞.
+        high: an upper bound; None for ∞ or if none is known.
     """
 
     low: fmpq | None
@@ -137,17 +133,16 @@ class Bounds(Frozen):
 
 
 UNLIMITED = Bounds(None, None)
-"""Never negative."""
+"""The polynomial is never negative."""
 OPEN = Bounds(ZERO, None)
-"""Nothing is known."""
 
 
 def first_failure(coefficients: Sequence[arb], upto: fmpq | None = None) -> Bounds:
-    """The x ≥ 0 from which on a polynomial is negative, between bounds.
+    """Brackets the x ≥ 0 from which on a polynomial is negative.
 
     Args:
-        coefficients: the lowest first; exact zeros are structure.
-        upto: beyond it nothing is asked: a polynomial that is positive so far is unlimited.
+        coefficients: lowest first; exact zeros stay zero.
+        upto: a polynomial that is positive up to here counts as unlimited.
 
     >>> found = first_failure([arb(4), arb(0), arb(-1)])
     >>> bool(found.low <= 2 <= found.high and found.high - found.low < fmpq(1, 10**9))
@@ -173,13 +168,15 @@ def first_failure(coefficients: Sequence[arb], upto: fmpq | None = None) -> Boun
 
 
 def _is_positive_everywhere(coefficients: Sequence[arb]) -> bool:
-    """Whether it is positive on [0, 1], and reversed on [0, 1]; False if that is not seen."""
+    """Whether a polynomial is seen to be positive on [0, 1], and reversed on [0, 1]."""
     both_ways = (arb_poly(list(coefficients)), arb_poly(list(coefficients[::-1])))
     return all(_passed(p, ONE) == 1 for p in both_ways)
 
 
 def _passed(p: arb_poly, upto: fmpq | None = None) -> fmpq:
-    """How far from 0 the polynomial is seen to be positive; beyond ``upto`` nobody looks."""
+    """The end of the interval from 0 on which the polynomial is seen to be positive, at most
+    ``upto``.
+    """
     ends = [fmpq(0), *(fmpq(2) ** k for k in range(FARTHEST))]
     pieces = [(low, high, 0) for low, high in pairwise(ends)][::-1]
     tried = 0
@@ -199,7 +196,7 @@ def _passed(p: arb_poly, upto: fmpq | None = None) -> fmpq:
 
 
 def _bounded_behind(p: arb_poly, low: fmpq) -> Bounds:
-    """The nearest point found behind ``low`` at which the polynomial is negative."""
+    """Bounds from the nearest point found beyond ``low`` at which the polynomial is negative."""
     distance = fmpq(1, 2**FINEST)
     for _ in range(MOST_TRIES):
         high = low + distance
@@ -210,7 +207,7 @@ def _bounded_behind(p: arb_poly, low: fmpq) -> Bounds:
 
 
 def least(bounds: Sequence[Bounds]) -> Bounds:
-    """The least of several numbers, between bounds."""
+    """Bounds on the smallest of several numbers."""
     lows = [one.low for one in bounds if one.low is not None]
     highs = [one.high for one in bounds if one.high is not None]
     if not lows:

@@ -1,14 +1,14 @@
-"""Implicit-explicit pairs: for which z_E all z_I of the left half plane are damped.
+"""Implicit-explicit pairs: the z_E for which all z_I of the left half plane are damped.
 
-For a fixed z_E = a + ib, |R(z_E, z_I)| ≤ 1 holds for all Re z_I ≤ 0 when all poles of z_I ↦
+For a fixed z_E = a + ib, |R(z_E, z_I)| ≤ 1 holds for all Re z_I ≤ 0 if all poles of z_I ↦
 R(z_E, z_I) lie in the right half plane and |R(z_E, iy)| ≤ 1 for all real y, by the maximum
 principle. With R = P/Q the latter says
 
     E(a, b, y) = |Q(z_E, iy)|² − |P(z_E, iy)|² ≥ 0   for all real y,
 
-E a polynomial with exact coefficients. A single z_E is decided by Sturm's chain in balls, and
-exactly where balls do not tell. On the real axis E is even in y, and the end of the interval of
-z_E from 0 on is a root of a discriminant: an algebraic number.
+E a polynomial with exact coefficients. A single z_E is decided by Sturm's chain in balls, or
+exactly if the balls are too wide. On the real axis E is even in y, and the interval of z_E from 0
+ends at a root of a discriminant: an algebraic number.
 """
 
 from __future__ import annotations
@@ -36,7 +36,9 @@ from garkcli.tableau.tableau import Tableau
 
 
 def ball_roots_are_right(u: Sequence[arb], v: Sequence[arb]) -> bool | None:
-    """Whether Q(iy) = u + iv has all its roots to the right, by Hermite and Biehler."""
+    """Whether Q(iy) = u + iv has all its roots to the right, by Hermite-Biehler; None if
+    undecided.
+    """
     degree = max(len(u), len(v)) - 1
     real, imaginary = _turned(u, v, degree, arb(0))
     index = cauchy_index(real, imaginary)
@@ -46,7 +48,7 @@ def ball_roots_are_right(u: Sequence[arb], v: Sequence[arb]) -> bool | None:
 
 
 def exact_roots_are_right(u: Polynomial, v: Polynomial) -> bool:
-    """The same exactly."""
+    """Whether Q(iy) = u + iv has all its roots to the right, exactly."""
     degree = max(u.degree, v.degree)
     if degree < 1:
         return True
@@ -61,7 +63,7 @@ def exact_roots_are_right(u: Polynomial, v: Polynomial) -> bool:
 def _turned(
     u: Sequence[Any], v: Sequence[Any], degree: int, zero: Any
 ) -> tuple[list[Any], list[Any]]:
-    """U + iv times the conjugate of its leading coefficient, so that u alone has the degree."""
+    """U + iv times the conjugate of its leading coefficient, so only u has the full degree."""
     count = degree + 1
     u = [*u, *[zero] * (count - len(u))]
     v = [*v, *[zero] * (count - len(v))]
@@ -74,14 +76,14 @@ def _turned(
 
 
 BITS = 192
-"""Precision of the balls; where it is not enough, a point is decided exactly."""
+"""Precision of the balls; if it is not enough, a point is decided exactly."""
 
 
 class Ray(Frozen):
     """The z_E on half of an axis, from 0 on, for which all z_I are damped.
 
     Attributes:
-        end: the largest of them, in −z_E or in |Im z_E|; None for ∞.
+        end: the end, in −z_E or in |Im z_E|; None for ∞.
     """
 
     end: RealRoot | None
@@ -92,7 +94,7 @@ class ImexPair(Frozen):
 
     Attributes:
         explicit: the index of the explicit colour.
-        implicit: that of the other one.
+        implicit: the index of the implicit colour.
         R: R(z_1, z_2).
     """
 
@@ -115,12 +117,11 @@ class ImexPair(Frozen):
 
     @cached_property
     def has_fixed_poles(self) -> bool:
-        """Whether the poles in z_I do not depend on z_E."""
         return not any(exponents[self.explicit] for exponents, _ in self.R.denominator.terms)
 
     @cached_property
     def fixed_poles_are_right(self) -> bool:
-        """Whether they lie to the right, where they do not depend on z_E."""
+        """Whether the poles lie to the right, if they do not depend on z_E."""
         _, Q = self.R.with_fixed(self.explicit, ZERO)
         return poles_are_right(Q)
 
@@ -132,13 +133,11 @@ class ImexPair(Frozen):
     def is_damped(self, a: fmpq, b: fmpq) -> bool:
         """Whether |R(a + ib, z_I)| ≤ 1 for all z_I in the closed left half plane, decided.
 
-        A root of Q(z_E, ·) in that half plane counts as a pole, also if P vanishes there for this
-        one z_E.
+        A root of Q(z_E, ·) in that half plane counts as a pole, even if P vanishes there.
         """
         return self._poles_are_right(a, b) and self._is_bounded(a, b)
 
     def _is_bounded(self, a: fmpq, b: fmpq) -> bool:
-        """Whether E(a, b, ·) ≥ 0."""
         with ctx.workprec(BITS):
             E = _values(self._enclosed.E, a, b)
             roots = root_count(E) if len(E) > 1 else None
@@ -159,22 +158,22 @@ class ImexPair(Frozen):
         return exact_roots_are_right(_at(real, a, b), _at(imaginary, a, b))
 
     def real_ray(self) -> Ray | None:
-        """The z_E ≤ 0 from 0 on with all z_I damped; None where that is not decided."""
+        """The z_E ≤ 0 from 0 on with all z_I damped; None if undecided."""
         # R has real coefficients: E is even in y, and a polynomial in y²
         by_y = [_on_axis(p, axis=0) for p in self.margin.by_last()]
         return self._ray(by_y[::2], is_in_squares=True)
 
     def imaginary_ray(self) -> Ray | None:
-        """The same for z_E = ib, b ≥ 0; b < 0 is its mirror image."""
+        """The z_E = ib, b ≥ 0, from 0 on with all z_I damped; b < 0 is its mirror image."""
         by_y = [_on_axis(p, axis=1) for p in self.margin.by_last()]
         return self._ray(by_y, is_in_squares=False)
 
     def _ray(self, E: Sequence[Polynomial], is_in_squares: bool) -> Ray | None:
-        """The largest x so that all numbers from 0 to x are damped.
+        """The largest x such that all numbers from 0 to x are damped; None if undecided.
 
         Args:
             E: the coefficients of E by powers of y, or of y², as polynomials in x.
-            is_in_squares: whether they are of y², and x is −z_E; else x is |z_E| on the imaginary
+            is_in_squares: whether powers are of y² and x is −z_E; else x is |z_E| on the imaginary
                 axis.
         """
         zero = RealRoot.rational(ZERO)
@@ -200,11 +199,11 @@ class ImexPair(Frozen):
 
 
 def imex_pair(tableau: Tableau, R: Fraction | None) -> ImexPair | None:
-    """The explicit and the implicit colour of a method of two; None for other methods.
+    """The explicit and the implicit colour of a method with two; None for other methods.
 
     Args:
         tableau: the method.
-        R: its stability function; None where it is too large.
+        R: its stability function; None if it is too large.
     """
     if tableau.size != 2 or R is None:
         return None
@@ -217,7 +216,7 @@ def imex_pair(tableau: Tableau, R: Fraction | None) -> ImexPair | None:
 
 
 def _is_explicit(tableau: Tableau, l: int) -> bool:
-    """Whether the stages of a colour can be taken one after the other."""
+    """Whether the stages of a colour can be computed one after the other."""
     block = tableau.block(l, l)
     assert block is not None
     neighbours = {}
@@ -230,7 +229,9 @@ def _is_explicit(tableau: Tableau, l: int) -> bool:
 
 
 def _critical(E: Sequence[Polynomial]) -> list[Polynomial] | None:
-    """Where the roots of E in y can change; None where that would take too long."""
+    """Polynomials with the points where the roots of E in y can change; None if that takes too
+    long.
+    """
     degree = len(E) - 1
     if degree < 1:
         return []
@@ -276,7 +277,7 @@ def _split(p: Multivariate, explicit: int) -> tuple[Multivariate, Multivariate]:
 
 
 _Terms: TypeAlias = list[tuple[int, int, arb]]
-"""The terms of a polynomial in (a, b): both exponents and the coefficient in a ball."""
+"""Terms of a polynomial in (a, b): both exponents and the coefficient as a ball."""
 
 
 class _Enclosed(Frozen):
@@ -308,6 +309,6 @@ def _values(by_y: Sequence[_Terms], a: fmpq, b: fmpq) -> list[arb]:
 
 
 def _at(p: Multivariate, a: fmpq, b: fmpq) -> Polynomial:
-    """A polynomial in (a, b, y) as one in y."""
+    """A polynomial in (a, b, y) as one in y, for numbers (a, b)."""
     point = (a, b)
     return Polynomial([coefficient(point) for coefficient in p.by_last()])

@@ -5,11 +5,11 @@ the denominator det(I − W(z)); for blocks that are not shared this is
 
     R(z) = det(I − A Z + 𝟙 bᵀ Z) / det(I − A Z),    Z = diag(z_1 I, …, z_N I)
 
-(A. Sandu, M. Günther 2015, section 3). Both are polynomials of a total degree that is at most the
-number of stages, and so are interpolated from the lines through the origin.
+(A. Sandu, M. Günther 2015, section 3). Both are polynomials whose total degree is at most the
+number of stages, interpolated from lines through the origin.
 
-A common factor of both is one on every line; so lowest terms are proved by one line on which there
-is none, and where the degree of the denominator is not less than that of the whole.
+A common factor of both is one on every line, so lowest terms are proved by one line without a
+common factor on which the denominator keeps its full degree.
 """
 
 from __future__ import annotations
@@ -28,9 +28,9 @@ from garkcli.stepping.linear import stage_system
 from garkcli.tableau.tableau import Tableau
 
 MOST_LINES = 400
-"""Lines that are examined: 26 stages of three colours, or 11 of four."""
+"""Most lines: 26 stages of three colours, or 11 of four."""
 OFFSETS = (1, 3, 7, 13, 29)
-"""Where lattices of directions begin that are tried for common factors."""
+"""Offsets of the lattices of directions that are tried for common factors."""
 
 
 class Fraction(Frozen):
@@ -39,7 +39,7 @@ class Fraction(Frozen):
     Attributes:
         numerator: P.
         denominator: Q.
-        is_reduced: whether it is proved that P and Q have no common factor.
+        is_reduced: whether P and Q are proved to have no common factor.
     """
 
     numerator: Multivariate
@@ -52,7 +52,6 @@ class Fraction(Frozen):
 
 
 def _fixed(p: Multivariate, index: int, value: Number) -> Polynomial:
-    """A polynomial in two variables, one of them fixed."""
     coefficients: list[Number] = []
     for exponents, a in p.terms:
         power = exponents[1 - index]
@@ -62,7 +61,7 @@ def _fixed(p: Multivariate, index: int, value: Number) -> Polynomial:
 
 
 def lines_needed(tableau: Tableau) -> int:
-    """How many lines determine the numerator and the denominator."""
+    """The number of lines that determine numerator and denominator."""
     tableau.demand_fields("the stability function")
     axes = tableau.size - 1
     stages = sum(space.stages for space in tableau.spaces)
@@ -70,10 +69,10 @@ def lines_needed(tableau: Tableau) -> int:
 
 
 def stability_fraction(tableau: Tableau) -> Fraction | None:
-    """R(z_1, …, z_N); None where it has too many stages and colours for ``MOST_LINES``.
+    """R(z_1, …, z_N); None if it needs more than ``MOST_LINES`` lines.
 
     Args:
-        tableau: the method; every stage that is used sees every colour.
+        tableau: the method; every used stage sees every colour.
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.tableau.forms import gark
@@ -111,16 +110,15 @@ def stability_fraction(tableau: Tableau) -> Fraction | None:
 
 
 def _direction(point: Sequence[int], offset: int) -> list[Number]:
-    """(1, o + i_2, …, o + i_N)."""
     return [ONE, *(fmpq(offset + i) for i in point)]
 
 
 def _cancelled(P: Multivariate, Q: Multivariate, offset: int) -> Fraction | None:
-    """P/Q in lowest terms from the quotients on lines; None where a line is special.
+    """P/Q in lowest terms from the quotients on lines; None if a line is special.
 
-    Lines with the fraction in lowest terms have denominators of one degree but for special ones.
-    The interpolated fraction is multiplied out: it is right, or it is not taken. It has the least
-    degree that a denominator can have, for that is no less than on a line.
+    Except on special lines the denominators in lowest terms have one degree. The interpolated
+    fraction is multiplied out, so it is right or rejected. Its denominator has the least possible
+    degree, which is not less than on a line.
     """
     axes = Q.variables - 1
     over = {}

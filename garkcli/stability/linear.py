@@ -1,12 +1,12 @@
-"""The linear test equation ẏ = Σ_l λ_l y: the stability function and what follows from it.
+"""The linear test equation ẏ = Σ_l λ_l y: the stability function and its consequences.
 
-A method is A-stable when |R(z)| ≤ 1 for Re z ≤ 0. By the maximum principle that means two things
+A method is A-stable if |R(z)| ≤ 1 for Re z ≤ 0. By the maximum principle that means two things
 (E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, section IV.3): all poles lie in
 the right half plane, and |R(iy)| ≤ 1 on the imaginary axis, where with R = P/Q
 
     E(y) = |Q(iy)|² − |P(iy)|² ≥ 0   for all real y.
 
-Both are decided from signs of polynomials at exact numbers; no grid is laid anywhere.
+Both are decided from signs of polynomials at exact numbers, without a grid.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ Complex: TypeAlias = tuple[Number, Number]
 
 
 class StepFunction(Frozen):
-    """M(z) as one denominator and a numerator an entry, without a common factor.
+    """M(z) as one denominator and a numerator for each entry, without a common factor.
 
     Attributes:
         denominator: D, with D(0) = 1.
@@ -49,10 +49,10 @@ def step_function(system: StageSystem) -> StepFunction:
 
 
 def unreduced(system: StageSystem) -> StepFunction:
-    """M(z) with the denominator det(I − zW), whatever could be cancelled.
+    """M(z) with the denominator det(I − zW), not in lowest terms.
 
-    By Cramer's rule the numerators have at most its degree bound, the number of unknowns, so that
-    finitely many terms of the power series of M determine them.
+    By Cramer's rule the degrees of the numerators are at most the number of unknowns, so finitely
+    many terms of the power series of M determine them.
     """
     n = len(system.W)
     d = len(system.B)
@@ -83,7 +83,6 @@ def _series(system: StageSystem, column: Vector, terms: int) -> list[list[Number
 
 
 def reduced(step: StepFunction) -> StepFunction:
-    """The same in lowest terms."""
     common = step.denominator
     for row in step.numerators:
         for p in row:
@@ -113,7 +112,7 @@ class StabilityFunction(Shown, Frozen):
     denominator: Polynomial
 
     def at_infinity(self) -> Number | None:
-        """R(∞); None where R is unbounded."""
+        """R(∞); None if R is unbounded."""
         if self.numerator.degree > self.denominator.degree:
             return None
         return self.numerator[self.denominator.degree] / self.denominator.leading
@@ -130,7 +129,6 @@ class StabilityFunction(Shown, Frozen):
 
 
 def _value(p: Polynomial, z: Complex) -> Complex:
-    """A polynomial at a point, by Horner's rule."""
     x, y = z
     real: Number = ZERO
     imaginary: Number = ZERO
@@ -145,8 +143,8 @@ def stability_function(
     """R(z) for λ_l = w_l λ, z = hλ.
 
     Args:
-        tableau: the method; every stage that is used sees every colour with w_l ≠ 0.
-        shares: the w_l, one per colour; None for 1 each, the problem with all parts equal.
+        tableau: the method; every used stage sees every colour with w_l ≠ 0.
+        shares: the w_l, one per colour; None for 1 each.
     """
     weights = [ONE] * tableau.size if shares is None else list(shares)
     step = step_function(stage_system(tableau, [((w,),) for w in weights]))
@@ -202,13 +200,12 @@ def real_set(R: StabilityFunction) -> tuple[Interval, ...]:
 
 
 def is_i_stable(R: StabilityFunction) -> bool:
-    """Whether |R(iy)| ≤ 1 for all real y."""
     return is_half_line(imaginary_set(R))
 
 
 @lru_cache(maxsize=16)
 def poles_are_right(Q: Polynomial) -> bool:
-    """Whether all roots of Q have a positive real part, by the theorem of Hermite and Biehler.
+    """Whether all roots of Q have a positive real part, by the Hermite-Biehler theorem.
 
     With Q(iy) = u(y) + i v(y), the argument of Q(iy) turns by −π deg Q along the real line exactly
     when all roots lie to the right. That turning is a Cauchy index, read off a Sturm chain of u, v.
@@ -235,7 +232,7 @@ def exact_cauchy_index(f: Polynomial, g: Polynomial) -> int:
 
 
 def _variations(chain: Sequence[Polynomial], at_plus: bool) -> int:
-    """Changes of sign along the chain at ∞ or −∞."""
+    """Sign changes along the chain at ∞ or −∞."""
     signs = []
     for p in chain:
         leading = sign(p.leading)
@@ -245,10 +242,8 @@ def _variations(chain: Sequence[Polynomial], at_plus: bool) -> int:
 
 
 def is_a_stable(R: StabilityFunction) -> bool:
-    """Whether |R(z)| ≤ 1 for all z with Re z ≤ 0, decided exactly."""
     return poles_are_right(R.denominator) and is_i_stable(R)
 
 
 def is_l_stable(R: StabilityFunction) -> bool:
-    """Whether R is A-stable and R(∞) = 0."""
     return R.numerator.degree < R.denominator.degree and is_a_stable(R)

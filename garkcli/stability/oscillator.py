@@ -1,12 +1,12 @@
-"""The harmonic oscillator: the step matrix, its trace, and for which step sizes it is stable.
+"""The harmonic oscillator: the step matrix, its trace, and the stable step sizes.
 
 In the variables (ωq, p) one step is y₁ = M(z) y₀ with z = hω and M rational in z. Its determinant
-and its trace are even in z, rational functions of x = z². The eigenvalues are bounded by 1 where
+and its trace are even in z, rational functions of x = z². The eigenvalues are bounded by 1 if
 
     1 − det M ≥ 0,    1 + det M − tr M ≥ 0,    1 + det M + tr M ≥ 0;
 
-for det M = 1 the two last ones say 4D² − N² ≥ 0 with tr M = N/D. Where an eigenvalue ±1 is double,
-powers of M stay bounded only if M = ±I.
+for det M = 1 the last two mean 4D² − N² ≥ 0 with tr M = N/D. If an eigenvalue ±1 is double, powers
+of M stay bounded only for M = ±I.
 """
 
 from __future__ import annotations
@@ -42,7 +42,6 @@ class Ratio(Frozen):
 
     @classmethod
     def of(cls, numerator: Polynomial, denominator: Polynomial) -> Ratio:
-        """The quotient in lowest terms."""
         common = gcd(numerator, denominator)
         over = numerator // common
         under = denominator // common
@@ -51,21 +50,20 @@ class Ratio(Frozen):
 
     @property
     def is_one(self) -> bool:
-        """Whether it is 1 everywhere."""
         return self.numerator == self.denominator
 
 
 class PhaseError(Frozen):
     """The phase lag z − θ with z = hω and cos θ = tr M / (2 √det M): constant · z^(order+1) + ….
 
-    It is positive where the numerical solution turns by less than the exact one, and lags. Of a
-    Runge–Kutta method θ is arg R(iz).
+    It is positive if the numerical solution turns by less than the exact one. For a Runge–Kutta
+    method θ is arg R(iz).
 
     Source: van der Houwen and Sommeijer, SIAM J. Numer. Anal. 24 (1987), 595–617.
 
     Attributes:
-        order: the phase-lag order; None where the frequency is exact.
-        constant: its constant, 0 where the frequency is exact; None at order 0, where it may be
+        order: the phase-lag order; None if the frequency is exact.
+        constant: its constant, 0 if the frequency is exact; None at order 0, where it may be
             irrational.
     """
 
@@ -74,15 +72,15 @@ class PhaseError(Frozen):
 
 
 class OscillatorStability(Frozen):
-    """A method on the oscillator.
+    """The stability of a method on the oscillator.
 
     Attributes:
         step: M(z), in the variables (ωq, p).
         trace: tr M as a function of x = z².
         determinant: det M as a function of x.
-        discriminant: 4D² − N² for tr M = N/D, in x; decides where det M = 1.
+        discriminant: 4D² − N² for tr M = N/D, in x; decides if det M = 1.
         stable: the x ≥ 0 for which all powers of M are bounded, as intervals.
-        phase: the error of the frequency.
+        phase: the phase lag.
     """
 
     step: StepFunction
@@ -94,7 +92,7 @@ class OscillatorStability(Frozen):
 
     @property
     def is_i_stable(self) -> bool:
-        """Whether no step size is unstable."""
+        """Whether every step size is stable."""
         return is_half_line(self.stable)
 
     @property
@@ -108,7 +106,7 @@ class OscillatorStability(Frozen):
     def conserved(self) -> tuple[Polynomial, Polynomial, Polynomial] | None:
         """The quadratic form α (ωq)² + β ωqp + γ p² that every step conserves, as (α, β, γ) in z.
 
-        For det M = 1 it is y ↦ det(y, My), up to a factor; None for other methods.
+        For det M = 1 it is y ↦ det(y, My), up to a factor; else None.
         """
         if not self.determinant.is_one:
             return None
@@ -128,14 +126,14 @@ class OscillatorStability(Frozen):
 
 
 def oscillator_stability(tableau: Tableau, problem: Oscillator) -> OscillatorStability:
-    """What a method does to q̈ = −ω²q for every step size.
+    """The stability of a method on q̈ = −ω²q for every step size.
 
     Args:
         tableau: the method.
-        problem: the split of the oscillator; its frequency is of no consequence.
+        problem: the split of the oscillator; its frequency is ignored.
 
     Raises:
-        UsageProblem: the split is not one that the structure of the tableau is for.
+        UsageProblem: the split does not suit the structure of the tableau.
     """
     unit = Oscillator(ONE, problem.shares)
     check_structure(tableau, unit)
@@ -143,7 +141,7 @@ def oscillator_stability(tableau: Tableau, problem: Oscillator) -> OscillatorSta
 
 
 def usual_oscillator(tableau: Tableau) -> OscillatorStability | None:
-    """The method on the oscillator in its usual split; None where it has none."""
+    """The method on the oscillator in its usual split; None if there is none."""
     try:
         return oscillator_stability(tableau, Oscillator.default(terms_of(tableau), ONE))
     except UsageProblem:
@@ -151,7 +149,7 @@ def usual_oscillator(tableau: Tableau) -> OscillatorStability | None:
 
 
 def analysed(tableau: Tableau, fields: Sequence[Matrix]) -> OscillatorStability:
-    """The same for given fields y ↦ L^m y with L^m = (0, k_m; −v_m, 0) in (ωq, p)."""
+    """The stability for fields y ↦ L^m y with L^m = (0, k_m; −v_m, 0) in (ωq, p)."""
     step = step_function(stage_system(tableau, fields))
     (a, b), (c, d) = step.numerators
     poles = _even(step.denominator)
@@ -173,8 +171,8 @@ def analysed(tableau: Tableau, fields: Sequence[Matrix]) -> OscillatorStability:
 def _even(p: Polynomial) -> Polynomial:
     """A polynomial in z with even powers only, in x = z².
 
-    The fields exchange ωq and p, so that reflecting ωq is the same as taking −z: traces and
-    determinants do not change.
+    The fields exchange ωq and p, so reflecting ωq replaces z by −z and keeps traces and
+    determinants.
     """
     assert not any(p.coefficients[1::2])
     return Polynomial(p.coefficients[::2])
@@ -189,10 +187,10 @@ def stable_set(
         trace: tr M.
         determinant: det M.
         off_diagonal: two polynomials with the roots of the entries off the diagonal. With a double
-            eigenvalue ±1 and det M = 1 the diagonal of M ∓ I is (e, −e) with e² = −bc: M = ±I where
+            eigenvalue ±1 and det M = 1 the diagonal of M ∓ I is (e, −e) with e² = −bc: M = ±I if
             both are zero.
         poles: the denominator of M in lowest terms. An entry off the diagonal can have a pole where
-            the trace and the determinant have none: there is no step there.
+            trace and determinant have none; there is no step there.
     """
     N, D = trace.numerator, trace.denominator
     P, Q = determinant.numerator, determinant.denominator
@@ -221,7 +219,7 @@ def phase_error(trace: Ratio, determinant: Ratio) -> PhaseError:
     """The leading term of the phase lag z − θ, by power series in x.
 
     With cos θ = tr M / (2 √det M), cos² θ − cos² z = 2 sin z cos z (z − θ) + …, and the left-hand
-    side is a series with exact coefficients: no root is taken.
+    side is a series with exact coefficients, without roots.
     """
     N, D = trace.numerator, trace.denominator
     P, Q = determinant.numerator, determinant.denominator

@@ -23,22 +23,18 @@ from garkcli.frozen import Frozen
 from garkcli.stability.linear import StabilityFunction, is_a_stable
 
 MOST_POINTS = 400
-"""Values of a resultant that are computed at most: enough for ten stages."""
+"""Most values of a resultant: enough for ten stages."""
 
 
 def critical_polynomials(
     member: Callable[[fmpq], Polynomial], points: Sequence[fmpq]
 ) -> list[Polynomial]:
-    """The leading coefficient of p_x and what decides about its double roots, as polynomials in x:
-    real roots of p_x appear or disappear only where two roots meet or one passes through infinity.
-    Between two roots of these one x decides for all.
+    """Polynomials in x between whose roots one x decides for all: real roots of p_x appear or
+    disappear only if two roots meet or one passes through infinity.
 
-    That is the first subresultant of p_x and its derivative that is not zero for all x: where it is
-    not zero p_x has a fixed number of distinct roots (G. E. Collins 1975).
-
-    Args:
-        member: p_x for a rational x, not all constant.
-        points: more of them than the degree of the discriminant in x.
+    They are the leading coefficient of p_x and the first subresultant of p_x and its derivative
+    that is not zero for all x: where that is nonzero p_x has a fixed number of distinct roots (G.
+    E. Collins 1975). ``points`` are more rational x than the degree of the discriminant.
     """
     members = [member(x) for x in points]
     degree = max(p.degree for p in members)
@@ -51,10 +47,10 @@ def critical_polynomials(
 
 
 def _with_derivative(p: Polynomial, degree: int, k: int) -> Number:
-    """The subresultant of index k of p and p′, for p taken as of ``degree``.
+    """The subresultant of index k of p and p′, for p of nominal ``degree``.
 
-    It is 0 where its leading coefficient is zero. That keeps the values those of one polynomial in
-    x, of which the leading coefficient is a factor.
+    It is 0 if the leading coefficient is: then the values belong to one polynomial in x, with the
+    leading coefficient as a factor.
     """
     if p.degree < degree:
         return ZERO
@@ -64,9 +60,10 @@ def _with_derivative(p: Polynomial, degree: int, k: int) -> Number:
 def roots_between(
     polynomials: Sequence[Polynomial], low: RealRoot, high: RealRoot | None
 ) -> list[RealRoot]:
-    """Numbers between two others, ascending, with all their roots among them; None for ∞.
+    """Numbers between two others, ascending, that include all roots of polynomials there; None for
+    ∞.
 
-    Over a number field they are the roots of the norms: one too many only makes one cell more.
+    Over a number field they are the roots of the norms; further numbers do no harm.
     """
     norms = (Polynomial.from_flint(p.norm()) for p in polynomials if p)
     return [x for x in roots_of(norms) if low < x and (high is None or x < high)]
@@ -76,16 +73,16 @@ class Sector(Frozen):
     """The largest sector |arg(−z)| ≤ α in which |R| ≤ 1.
 
     Attributes:
-        cosine: cos α; None where there is no sector, not even the negative real axis.
+        cosine: cos α; None if |R| > 1 somewhere on the negative real axis.
     """
 
     cosine: RealRoot | None
 
 
 def largest_sector(R: StabilityFunction) -> Sector | None:
-    """The angle α of A(α)-stability; None where the resultant would be too large.
+    """The angle α of A(α)-stability; None if the resultant would be too large.
 
-    A(0) is the negative real axis alone.
+    A(0) is the negative real axis.
     """
     if is_a_stable(R):
         return Sector(RealRoot.rational(ZERO))
@@ -103,7 +100,7 @@ def largest_sector(R: StabilityFunction) -> Sector | None:
 
 
 def _critical_cosines(R: StabilityFunction) -> list[RealRoot] | None:
-    """The cosines in (0, 1) at which |R| ≤ 1 on the ray may begin or end to hold, ascending."""
+    """The cosines in (0, 1) at which |R| ≤ 1 on the ray may change, ascending."""
     stages = max(R.numerator.degree, R.denominator.degree)
     # E/r has this degree in r, and coefficients of degree ``stages`` in c; its discriminant is a
     # determinant of 2 · highest − 1 rows of them
@@ -117,7 +114,6 @@ def _critical_cosines(R: StabilityFunction) -> list[RealRoot] | None:
 
 
 def _on_ray(R: StabilityFunction, c: Number) -> Polynomial:
-    """E/r on the ray with cos φ = c."""
     over = _squared_on_ray(R.numerator, c)
     under = _squared_on_ray(R.denominator, c)
     E = under - over
@@ -125,7 +121,6 @@ def _on_ray(R: StabilityFunction, c: Number) -> Polynomial:
 
 
 def _squared_on_ray(p: Polynomial, c: Number) -> Polynomial:
-    """|p(−r e^{iφ})|² as a polynomial in r."""
     # t_0(c), T_1(c), …: the cosines of the multiples of φ
     cosines: list[Number] = [ONE, c]
     for _ in range(p.degree):
@@ -143,7 +138,6 @@ def _squared_on_ray(p: Polynomial, c: Number) -> Polynomial:
 
 
 def _is_bounded_at(R: StabilityFunction, c: fmpq) -> bool:
-    """Whether |R| ≤ 1 on the whole ray with cos φ = c, decided exactly."""
     ray = _on_ray(R, c)  # not zero: |R| = 1 on a ray with rational cos φ > 0 alone means R = 1
     if sign(ray.leading) < 0:
         return False

@@ -1,6 +1,6 @@
 """The plane of two frequencies in floats, for pictures: |tr M|/2 on a grid.
 
-Nothing is decided here; ``two_frequencies`` does that for one slow frequency.
+``two_frequencies`` decides stability exactly for one slow frequency.
 """
 
 from __future__ import annotations
@@ -43,15 +43,14 @@ def springs_plane(
 ) -> SpringsPlane:
     """The half trace on a grid.
 
-    W is linear in a and x, W = W_0 + a W_a + x W_x, and so are its three parts found from three
-    strengths.
+    W = W_0 + a W_a + x W_x, with the three parts from three evaluations.
 
     Args:
         tableau: the method.
-        split: which term has which spring.
+        split: the springs of the terms.
         slow_end: the largest hω of the slow spring.
         fast_end: the largest hω of the fast spring.
-        points: a side of the grid.
+        points: points on a side of the grid.
     """
     zero, one = fmpq(0), fmpq(1)
     W, B, E = _floats(tableau, split, zero, zero)
@@ -81,11 +80,11 @@ def springs_plane(
 def plane_with_ends_of(
     tableau: Tableau, split: SplitSprings, stable: Sequence[Interval], slow: fmpq
 ) -> SpringsPlane:
-    """The plane as far as something happens for the slow frequency that was decided.
+    """The plane around the intervals that were decided.
 
     Args:
         tableau: the method.
-        split: which term has which spring.
+        split: the springs of the terms.
         stable: the stable (hω)² of the fast spring.
         slow: the largest (hω)² of the slow one that was decided.
     """
@@ -102,7 +101,6 @@ def plane_with_ends_of(
 def _floats(
     tableau: Tableau, split: SplitSprings, a: fmpq, x: fmpq
 ) -> tuple[Floats, Floats, Floats]:
-    """W, B and E of the stage system for one strength of each spring."""
     fields = [split.matrix(colour, a, x) for colour in tableau.colours]
     one = fmpq(1)
     pattern = [split.matrix(colour, one, one) for colour in tableau.colours]

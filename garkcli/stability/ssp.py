@@ -5,12 +5,11 @@ With K = (A 0; bᵀ 0), it is the largest r for which I + rK is regular and
     (I + rK)⁻¹ K ≥ 0,    (I + rK)⁻¹ 𝟙 ≥ 0
 
 entry by entry (J. F. B. M. Kraaijevanger 1991). With a K_l for each colour, a point (r_1, …, r_N)
-belongs to the region of absolute monotonicity of an additive method when, with I + Σ r_l K_l in
-place of I + rK, the second condition holds and the first one for each K_l in place of K, also for
-those with r_l = 0 (I. Higueras 2006). With a point all smaller ones belong to it, so along a line
-through the origin one number tells. All entries are rational in r with the one denominator
-det(I + rA), which is 1 at r = 0; so each condition fails first at a root of its numerator, or at
-once.
+belongs to the region of absolute monotonicity of an additive method if, with I + Σ r_l K_l for I +
+rK, the second condition holds, and the first one for each K_l in place of K, also with r_l = 0 (I.
+Higueras 2006). The region contains all smaller points, so one number describes it on a line through
+the origin. All entries are rational in r with denominator det(I + rA), which is 1 at r = 0; so each
+condition fails first at a root of its numerator, or at once.
 """
 
 from __future__ import annotations
@@ -30,18 +29,18 @@ class SspCoefficient(Frozen):
     """The radius of absolute monotonicity.
 
     Attributes:
-        value: the radius; None where it is infinite.
+        value: the radius; None if infinite.
     """
 
     value: RealRoot | None
 
 
 class AdditiveRadius(Frozen):
-    """Where a line through the origin leaves the region of absolute monotonicity.
+    """The end of the region of absolute monotonicity on a line through the origin.
 
     Attributes:
-        ratios: the direction (q_1, …, q_N), numbers that are not negative.
-        radius: the largest r with (r q_1, …, r q_N) in the region; None where it is not decided.
+        ratios: the direction (q_1, …, q_N), q_l ≥ 0.
+        radius: the largest r with (r q_1, …, r q_N) in the region; None if undecided.
     """
 
     ratios: tuple[Number, ...]
@@ -51,12 +50,12 @@ class AdditiveRadius(Frozen):
 def ssp_coefficient(
     tableau: Tableau, shares: Sequence[Number] | None = None
 ) -> SspCoefficient | None:
-    """The SSP coefficient; None where the stages have no simple nodes or a block is missing.
+    """The SSP coefficient; None if the stages have no simple nodes or a block is missing.
 
     Args:
         tableau: the method.
-        shares: r_l / r for each colour; None for 1 each. Colours with 0 have the vector field 0:
-            neither they nor the stages at which they alone are evaluated count.
+        shares: r_l / r for each colour; None for 1 each. Colours with 0 have a zero vector field:
+            they and their own stages are ignored.
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.tableau.forms import gark
@@ -69,19 +68,19 @@ def ssp_coefficient(
 
 
 def additive_radius(tableau: Tableau, ratios: Sequence[Number]) -> AdditiveRadius:
-    """How far the region of absolute monotonicity reaches in one direction.
+    """The end of the region of absolute monotonicity in one direction.
 
     Args:
         tableau: the method.
-        ratios: the direction, one number per colour; colours with 0 have a vector field
-            all the same, for which no step size is admitted by itself.
+        ratios: the direction, one number per colour; a colour with 0 keeps its vector field,
+            without a step size of its own.
     """
     return AdditiveRadius(tuple(ratios), _radius(tableau, ratios))
 
 
 def driven_part(tableau: Tableau, shares: Sequence[Number]) -> tuple[Tableau, list[Number]]:
-    """The method for the vector fields whose shares are not 0, with these: other colours are left
-    out, and stages at which no remaining colour is evaluated.
+    """The method for the vector fields with nonzero shares, and these shares; other colours and
+    their own stages are left out.
     """
     driven = [l for l, share in enumerate(shares) if share]
     spaces = sorted({tableau.colours[l].space for l in driven})
@@ -98,7 +97,6 @@ def driven_part(tableau: Tableau, shares: Sequence[Number]) -> tuple[Tableau, li
 
 
 def _radius(tableau: Tableau, ratios: Sequence[Number]) -> SspCoefficient | None:
-    """The largest r in a direction."""
     exact = in_points(tableau)
     if exact is None or len(list(exact.edges())) < exact.size**2:
         return None
@@ -114,7 +112,7 @@ def _radius(tableau: Tableau, ratios: Sequence[Number]) -> SspCoefficient | None
 def stacked(tableau: Tableau, ratios: Sequence[Number]) -> tuple[Matrix, list[Matrix]]:
     """Σ ratio_l K_l and the K_l, on all stages of all spaces and the new value after them.
 
-    K_l has the columns of colour l only; stages that colours share are one row.
+    K_l has the columns of colour l only; shared stages are one row.
     """
     starts = []
     size = 0
@@ -141,7 +139,6 @@ def stacked(tableau: Tableau, ratios: Sequence[Number]) -> tuple[Matrix, list[Ma
 
 
 def _square(size: int) -> list[list[Number]]:
-    """A matrix of zeros."""
     return [[ZERO] * size for _ in range(size)]
 
 
@@ -150,11 +147,8 @@ def _frozen(rows: list[list[Number]]) -> Matrix:
 
 
 def conditions_at(tableau: Tableau) -> list[Polynomial]:
-    """All polynomials in r that decide, with equal fields for all colours, also those that are
-    zero: as many for each tableau of the same size.
-
-    Args:
-        tableau: all of its stage spaces have nodes, no block is missing.
+    """All polynomials in r that decide, with equal fields for all colours, including zero ones:
+    their number depends on the size only. The tableau has nodes and all blocks.
     """
     return list(_conditions(*stacked(tableau, [ONE] * tableau.size), with_zeros=True))
 
@@ -193,7 +187,7 @@ def _entries(
 
 
 def _first_failure(p: Polynomial) -> RealRoot | None:
-    """The r ≥ 0 from which p is negative: 0, a root where it changes sign, or None for never."""
+    """The r ≥ 0 from which p is negative: 0, a root where its sign changes, or None."""
     if not p:
         return None
     signs = [sign(a) for a in p.coefficients if a]

@@ -1,7 +1,7 @@
-"""Everything about the stability of one method, as one value: what ``gark stability`` reports.
+"""All results on the stability of one method, as ``gark stability`` reports them.
 
-In number fields of a high degree some of it may take for ever. What the time is not enough for is
-undecided, the rest is not; what takes longest comes last.
+Number fields of high degree may take for ever. Results that exceed the time limit are undecided;
+the slowest ones come last.
 """
 
 from __future__ import annotations
@@ -43,19 +43,20 @@ if TYPE_CHECKING:
 
 
 class Colours(Frozen):
-    """What several colours do together.
+    """The joint stability of several colours.
 
     Attributes:
-        names: of the colours.
-        R: R(z_1, …, z_N); None where it is too large, or late.
-        lines: the lines that determine it.
-        radii: points on the boundary of the region of absolute monotonicity; empty where late,
-            or for linear problems alone.
-        pair: the method as an implicit-explicit pair; None where it is none, or R is late.
-        explicit_alone: R of the explicit colour alone, of the first one where there is no pair.
-        real: the z_E ≤ 0 with every z_I damped; None where there is no pair, or not decided.
-        imaginary: the same for z_E on the imaginary axis.
-        late: the attributes for which the time was not enough.
+        names: the names of the colours.
+        R: R(z_1, …, z_N); None if too large, or late.
+        lines: the number of lines that determine it.
+        radii: points on the boundary of the region of absolute monotonicity; empty if late, or for
+            linear problems only.
+        pair: the method as an implicit-explicit pair; None if it is none, or R is late.
+        explicit_alone: R of the explicit colour by itself, or of the first colour if there is no
+            pair.
+        real: the z_E ≤ 0 with every z_I damped; None without a pair, or undecided.
+        imaginary: the z_E on the imaginary axis with every z_I damped.
+        late: the attributes that exceeded the time limit.
     """
 
     names: tuple[str, ...]
@@ -70,16 +71,15 @@ class Colours(Frozen):
 
     @property
     def size(self) -> int:
-        """How many colours there are."""
         return len(self.names)
 
 
 def several_colours(tableau: Tableau, ratios: Sequence[fmpq] = ()) -> Colours:
-    """What is decided about a method whose colours all see one another.
+    """The joint stability of colours that all see one another.
 
     Args:
-        tableau: the method, of two colours at least.
-        ratios: r_2/r_1 for which the additive radius is wanted beside the usual ones.
+        tableau: the method, of at least two colours.
+        ratios: further r_2/r_1 for the additive radius.
     """
     late: set[str] = set()
     size = tableau.size
@@ -108,7 +108,7 @@ def several_colours(tableau: Tableau, ratios: Sequence[fmpq] = ()) -> Colours:
 
 
 def _in_time(late: set[str], name: str, work: Callable[[], Any]) -> Any:
-    """What work returns; None where the time is not enough for it, with its name among the late."""
+    """The result of ``work``; None, with its name added to ``late``, if the time is over."""
     try:
         return work()
     except NotDecided:
@@ -121,14 +121,14 @@ def _unit(size: int, l: int) -> list[Number]:
 
 
 def _word(word: str, is_so: bool | None) -> str:
-    """A property, with what is known of it."""
+    """A property with its truth value, in words."""
     if is_so is None:
         return f"{word} not decided"
     return word if is_so else f"not {word}"
 
 
 class AtPoint(Frozen):
-    """R at one point.
+    """The value of R at a point.
 
     Attributes:
         z: the point.
@@ -140,7 +140,6 @@ class AtPoint(Frozen):
 
     @property
     def squared(self) -> Number | None:
-        """|R(z)|²."""
         if self.value is None:
             return None
         real, imaginary = self.value
@@ -148,25 +147,24 @@ class AtPoint(Frozen):
 
 
 class LinearStability(Frozen):
-    """What a stability function R(z) tells; None where rounded coefficients leave it open, or the
-    time is not enough.
+    """The results from a stability function R(z); None if rounding or the time limit leaves one
+    open.
 
     Attributes:
-        name: which colours are driven: ``all``, or the name of one with the others at 0;
-            ``embedded`` for all with the embedded weights.
+        name: the driven colours: ``all``, or the name of one with the others at 0; ``embedded`` for
+            all with the embedded weights.
         R: the stability function.
         e_polynomial: |Q(iy)|² − |P(iy)|² as a polynomial in y².
         a_stable: |R(z)| ≤ 1 in the left half plane.
         l_stable: a_stable with R(∞) = 0.
-        sector: the sector of A(α)-stability; None where it is not decided.
+        sector: the sector of A(α)-stability; None if undecided.
         real: the x ≥ 0 with |R(−x)| ≤ 1.
         imaginary: the x = y² ≥ 0 with |R(iy)| ≤ 1.
-        within: what is known of rounded coefficients; None for exact ones.
-        ssp: the SSP coefficient, the vector fields of the others being 0; None where it is not
-            decided.
-        late: the attributes for which the time was not enough.
-        is_linear_alone: whether the method is one of these on linear problems alone, as a
-            Rosenbrock method is; there is no SSP coefficient then.
+        within: the results for rounded coefficients; None for exact ones.
+        ssp: the SSP coefficient, the vector fields of the others being 0; None if undecided.
+        late: the attributes that exceeded the time limit.
+        is_linear_alone: whether R describes the method on linear problems only, as for a Rosenbrock
+            method; then there is no SSP coefficient.
         points: R at given points.
     """
 
@@ -185,12 +183,11 @@ class LinearStability(Frozen):
     points: tuple[AtPoint, ...] = ()
 
     def at(self, points: Sequence[Complex]) -> LinearStability:
-        """The result with R at some points added."""
         return replace(self, points=tuple(AtPoint(z, self.R.at(z)) for z in points))
 
     @property
     def words(self) -> str:
-        """What it is, in short."""
+        """Its stability in short."""
         words = _word("A-stable", self.a_stable)
         return f"{words}, {_word('L-stable', self.l_stable)}" if self.a_stable else words
 
@@ -204,17 +201,17 @@ class Stability(Shown, Frozen):
     Attributes:
         tableau: the method.
         linear: R for all colours together, then for each colour alone where there are several;
-            empty where colours drive positions or momenta only, or do not see one another.
-        oscillator: the method on the harmonic oscillator; None where it has no split for it.
-        algebraic: algebraic stability; None where it has no meaning.
-        tolerance: the rounding within which it holds; None where it holds exactly.
+            empty if colours drive positions or momenta only, or do not see one another.
+        oscillator: the method on the harmonic oscillator; None if it has no split.
+        algebraic: algebraic stability; None if it is not defined.
+        tolerance: the rounding within which it holds; None for exact methods.
         colours: the colours, each with a z of its own; None for one colour or rounded ones.
-        algebraic_within: that of the method that a rounded one is taken to be; None where that
-            is not decided.
-        late: the attributes for which the time was not enough; they are None.
-        is_linear_alone: whether it is that of linear problems alone.
-        embedded: R̂ for all colours together, with the embedded weights in place of b; None where
-            there are none, or ``linear`` is empty.
+        algebraic_within: algebraic stability of the method that a rounded one is taken to mean;
+            None if undecided.
+        late: the attributes that exceeded the time limit; they are None.
+        is_linear_alone: whether it is about linear problems only.
+        embedded: R̂ for all colours together, with the embedded weights; None without them, or if
+            ``linear`` is empty.
     """
 
     tableau: Tableau
@@ -229,13 +226,12 @@ class Stability(Shown, Frozen):
     embedded: LinearStability | None = None
 
     def at(self, points: Sequence[Complex]) -> Stability:
-        """The result with R at some points added."""
         linear = tuple(x.at(points) for x in self.linear)
         return replace(self, linear=linear, embedded=self.embedded and self.embedded.at(points))
 
     @property
     def of_linear_problems(self) -> Stability:
-        """The same without what is about nonlinear problems."""
+        """The result without statements about nonlinear problems."""
         linear = tuple(replace(x, ssp=None, is_linear_alone=True) for x in self.linear)
         colours = self.colours
         if colours is not None:
@@ -262,16 +258,16 @@ def stability(
     seconds: float | None = SECONDS,
     embedded: Tableau | None = None,
 ) -> Stability:
-    """Decide everything that ``gark stability`` reports.
+    """All results of ``gark stability``.
 
     Args:
-        tableau: the method, with coefficients that are meant exactly.
+        tableau: the exact method.
         ratios: r_2/r_1 of further additive SSP radii of methods of two colours.
-        seconds: of processor time, after which the rest stays undecided; None for no limit.
-        embedded: the method with its embedded weights for b; None where it has none.
+        seconds: processor seconds, after which the rest stays undecided; None for no limit.
+        embedded: the method with its embedded weights as b, or None.
 
     Raises:
-        NotDecided: the time is not enough for R.
+        NotDecided: R exceeds the time limit.
 
     >>> from garkcli.families.registry import diagonal_method
     >>> from garkcli.tableau.forms import gark
@@ -302,7 +298,6 @@ def stability(
 
 
 def _embedded(tableau: Tableau) -> LinearStability:
-    """Linear stability with the embedded weights."""
     shares: list[Number] = [ONE] * tableau.size
     return _with_sector(linear_stability(tableau, "embedded", shares, is_linear_alone=True))
 
@@ -311,13 +306,12 @@ def _embedded(tableau: Tableau) -> LinearStability:
 def stability_of_rounded(
     tableau: Tableau, tolerance: fmpq, embedded: AnyTableau | None = None
 ) -> Stability:
-    """Stability of the method that a rounded one is taken to be, where it is decided.
+    """The stability of the method that a rounded one is taken to mean, as far as decided.
 
     Args:
         tableau: the method.
         tolerance: the rounding of its coefficients.
-        embedded: the method with its embedded weights for b, which may be exact; None where it has
-            none.
+        embedded: the method with its embedded weights as b, possibly exact, or None.
     """
     method = meant(tableau, tolerance)
     assert not isinstance(method, Tableau)
@@ -341,7 +335,7 @@ def stability_of_rounded(
 
 
 def _of_rounded(method: RoundedTableau, name: str, shares: Sequence[Number]) -> LinearStability:
-    """The decisions on a rounded method in one direction of (λ_1, …, λ_N)."""
+    """The stability of a rounded method in one direction of (λ_1, …, λ_N)."""
     decided = stability_within(method.near, shares, method.grain)
     if not (decided.a_stable and decided.l_stable):
         decided = _unless_another(decided, method, shares)
@@ -363,7 +357,9 @@ def _of_rounded(method: RoundedTableau, name: str, shares: Sequence[Number]) -> 
 def _unless_another(
     found: StabilityWithin, method: RoundedTableau, shares: Sequence[Number]
 ) -> StabilityWithin:
-    """A verdict of no stability, undecided where another method within the rounding may have it."""
+    """The result, with instability undecided if another method within the rounding may be
+    stable.
+    """
     widest = method.widest
     if widest is None:
         return replace(found, a_stable=found.a_stable or None, l_stable=found.l_stable or None)
@@ -387,7 +383,7 @@ def directions(tableau: Tableau) -> list[tuple[str, list[Number]]]:
 def linear_stability(
     tableau: Tableau, name: str, shares: Sequence[Number], is_linear_alone: bool = False
 ) -> LinearStability:
-    """Linear stability in one direction of (λ_1, …, λ_N), but for the sector."""
+    """Linear stability in one direction of (λ_1, …, λ_N), without the sector."""
     R = stability_function(tableau, shares)
     late: set[str] = set()
     a_stable = _in_time(late, "a_stable", lambda: is_a_stable(R))

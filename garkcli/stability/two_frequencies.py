@@ -1,9 +1,8 @@
 """An oscillator with a slow and a fast spring, driven by different colours.
 
-q̈ = −(ω_s² + ω_f²) q. With a = (hω_s)² given and x = (hω_f)² the step matrix is rational in x;
-where the two colours do not fit together it has resonances, intervals of x in which |tr M| > 2. A
-determinant is a polynomial in x of degree at most the number of unknown stage values, so it is
-interpolated.
+q̈ = −(ω_s² + ω_f²) q. For fixed a = (hω_s)² the step matrix is rational in x = (hω_f)²; poorly
+coupled colours have resonances, intervals of x in which |tr M| > 2. A determinant is a polynomial
+in x of degree at most the number of unknown stage values, so it is interpolated.
 """
 
 from __future__ import annotations
@@ -30,7 +29,7 @@ from garkcli.tableau.tableau import Colour, Tableau
 
 
 class SplitSprings(Frozen):
-    """Which term has which spring.
+    """The split of the two springs over the terms.
 
     Attributes:
         kinetic: the share of the kinetic energy of each term.
@@ -77,15 +76,10 @@ class TwoFrequencies(Frozen):
 
 
 def springs(tableau: Tableau, fast: int) -> SplitSprings:
-    """The fast spring to one term, the slow one to the others that may have potential energy. All
+    """The fast spring for one term, the slow one for the other terms with potential energy; all
     kinetic energy is in the first term.
 
-    Args:
-        tableau: the method.
-        fast: the term of the fast spring, counted from 0.
-
-    Raises:
-        UsageProblem: the method has one term only, or none is left for the slow spring.
+    Raises ``UsageProblem`` if the method has only one term, or none is left for the slow spring.
     """
     terms = terms_of(tableau)
     if terms < 2:
@@ -115,7 +109,7 @@ def two_frequencies(tableau: Tableau, split: SplitSprings, slow: fmpq) -> TwoFre
     """The exact intervals of the fast frequency for one slow one.
 
     Raises:
-        UsageProblem: the split is not one that the structure of the tableau is for.
+        UsageProblem: the split does not suit the structure of the tableau.
     """
     check_structure(tableau, _like_an_oscillator(split))
     M = _reduced(line_of_determinants(tableau, split, slow))
@@ -134,14 +128,14 @@ def unknowns_of(tableau: Tableau, split: SplitSprings) -> int:
     """The number of equations of the stages.
 
     Raises:
-        UsageProblem: the split is not one that the structure of the tableau is for.
+        UsageProblem: the split does not suit the structure of the tableau.
     """
     check_structure(tableau, _like_an_oscillator(split))
     return len(_system(tableau, split, ZERO, ZERO).W)
 
 
 def line_of_determinants(tableau: Tableau, split: SplitSprings, slow: fmpq) -> list[Polynomial]:
-    """det(I − W) and, times it, the entries of M, as polynomials in x for one slow frequency."""
+    """D = det(I − W) and the entries of D · M, as polynomials in x for one slow frequency."""
     unknowns = len(_system(tableau, split, slow, ZERO).W)
     points = [fmpq(k) for k in range(unknowns + 1)]
     rows = [_determinants(_system(tableau, split, slow, x)) for x in points]
@@ -149,12 +143,12 @@ def line_of_determinants(tableau: Tableau, split: SplitSprings, slow: fmpq) -> l
 
 
 def plane_of_determinants(tableau: Tableau, split: SplitSprings) -> tuple[Multivariate, ...]:
-    """det(I − W) and, times it, the entries of M, as polynomials in (a, x).
+    """D = det(I − W) and the entries of D · M, as polynomials in (a, x).
 
-    W is linear in (a, x), so that its determinants have at most its size as total degree.
+    W is linear in (a, x), so the total degree of determinants is at most its size.
 
     Raises:
-        UsageProblem: the split is not one that the structure of the tableau is for.
+        UsageProblem: the split does not suit the structure of the tableau.
     """
     check_structure(tableau, _like_an_oscillator(split))
     degree = len(_system(tableau, split, ZERO, ZERO).W)
@@ -167,15 +161,15 @@ def plane_of_determinants(tableau: Tableau, split: SplitSprings) -> tuple[Multiv
 
 
 def stable_where(determinants: Sequence[Polynomial]) -> tuple[Interval, ...]:
-    """The x ≥ 0 with all powers of M bounded, from det(I − W) and the entries of M times it."""
+    """The x ≥ 0 with all powers of M bounded, from D = det(I − W) and the entries of D · M."""
     return stable_set(*_reduced(determinants))
 
 
 def _reduced(
     polynomials: Sequence[Polynomial],
 ) -> tuple[Ratio, Ratio, tuple[Polynomial, Polynomial], Polynomial]:
-    """What ``stable_set`` decides by, from det(I − W) and the entries of M times that: without
-    their common factor, whose roots are no poles of M.
+    """The arguments of ``stable_set`` from D = det(I − W) and the entries of D · M, without their
+    common factor, whose roots are no poles of M.
     """
     common = polynomials[0]
     for p in polynomials:
@@ -185,7 +179,7 @@ def _reduced(
 
 
 def _like_an_oscillator(split: SplitSprings) -> Oscillator:
-    """A split with the same terms in play, for the check of the structure."""
+    """An oscillator with the same terms in use, to check the structure."""
     terms = zip(split.kinetic, split.slow, split.fast, strict=True)
     return Oscillator(ONE, tuple((kinetic, (slow + fast) / 2) for kinetic, slow, fast in terms))
 
@@ -198,7 +192,7 @@ def _system(tableau: Tableau, split: SplitSprings, slow: fmpq, x: fmpq) -> Stage
 
 
 def _determinants(system: StageSystem) -> Sequence[Number]:
-    """det(I − W) and, times it, the entries of M = I + B (I − W)⁻¹ E."""
+    """D = det(I − W) and the entries of D · M, M = I + B (I − W)⁻¹ E."""
     D = _determinant(system.W)
     entries: list[Number] = []
     for i, weights in enumerate(system.B):
@@ -213,12 +207,11 @@ def _determinants(system: StageSystem) -> Sequence[Number]:
 
 
 def _determinant(W: Matrix) -> Number:
-    """det(I − W)."""
     return reciprocal_characteristic(W)(ONE)
 
 
 MOST_DEGREE = 4
-"""Single algebraic x of a larger degree are undecided."""
+"""Single algebraic x of larger degree are undecided."""
 WITNESSES = 8
 """Parts of [A, B] whose ends are tried first: an unstable one decides."""
 
@@ -229,10 +222,10 @@ class SlowInterval(Frozen):
     Attributes:
         low: the least a.
         high: the greatest a.
-        stable: the x ≥ 0 with all powers of M bounded for every a of them. Where one of
-            ``open_points`` is an end, it is left out; where it is inside, it is taken in.
-        open_points: single x for which it is not decided whether for some a an eigenvalue ±1 is
-            double, or M has a pole.
+        stable: the x ≥ 0 with all powers of M bounded for every a. ``open_points`` are excluded at
+            ends and included inside.
+        open_points: undecided single x: for some a an eigenvalue ±1 may be double, or M may have a
+            pole.
     """
 
     low: fmpq
@@ -242,9 +235,9 @@ class SlowInterval(Frozen):
 
     @property
     def is_stable_for_all(self) -> bool | None:
-        """Whether no fast frequency is unstable; None where single points are open.
+        """Whether every fast frequency is stable; None if single points are open.
 
-        Without any frequency, at a = x = 0, a free particle moves away: that is left out.
+        The free particle at a = x = 0 is ignored.
         """
         if len(self.stable) != 1:
             return False
@@ -269,8 +262,8 @@ def slow_interval(tableau: Tableau, split: SplitSprings, low: fmpq, high: fmpq) 
     """The fast frequencies that are stable for all slow ones of [low, high].
 
     Raises:
-        UsageProblem: the coefficients are irrational, or the split is not one that the structure of
-            the tableau is for.
+        UsageProblem: the coefficients are irrational, or the split does not suit the structure of
+            the tableau.
     """
     plane = plane_of_determinants(tableau, split)
     if not all(isinstance(a, fmpq) for p in plane for _, a in p.terms):
@@ -312,7 +305,7 @@ def slow_interval(tableau: Tableau, split: SplitSprings, low: fmpq, high: fmpq) 
 def eigenvalue_conditions(
     D: fmpq_mpoly, a: fmpq_mpoly, b: fmpq_mpoly, c: fmpq_mpoly, d: fmpq_mpoly
 ) -> list[fmpq_mpoly]:
-    """1 − det M and 1 + det M ∓ tr M, times D², of M = (a, b; c, d)/D: none is negative where all
+    """D² (1 − det M) and D² (1 + det M ∓ tr M) for M = (a, b; c, d)/D: none is negative if all
     powers of M are bounded.
     """
     whole = D * D
@@ -323,18 +316,16 @@ def eigenvalue_conditions(
 
 
 def _with_slow(p: Multivariate, a: Number) -> Polynomial:
-    """A polynomial in (a, x) as one in x."""
     return Polynomial([coefficient((a,)) for coefficient in p.by_last()])
 
 
 def _with_fast(p: Multivariate, x: Number) -> Polynomial:
-    """A polynomial in (a, x) as one in a."""
     exchanged: dict[Exponents, Number] = {(k, j): c for (j, k), c in p.terms}
     return _with_slow(Multivariate.of(2, exchanged), x)
 
 
 def _trimmed(interval: Interval, undecided: Sequence[RealRoot]) -> Interval:
-    """An interval without those of its ends that are not decided."""
+    """An interval without its undecided ends."""
     start, end = interval.start, interval.end
     has_start = interval.has_start and start not in undecided
     has_end = interval.has_end and end not in undecided

@@ -1,8 +1,8 @@
-"""Stability of rounded methods: of the one that a method is taken to be, known to many bits.
+"""Stability of rounded methods: of the method that is meant, known to many bits.
 
 Coefficients of polynomials are balls. A ball with zero in it counts as zero: so narrow a ball
-holds it only where the coefficient vanishes. What follows for all numbers in the other balls
-is decided; the rest is not.
+contains it only if the coefficient vanishes. Statements that hold for all numbers in the other
+balls are decided; the rest is not.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class BallFraction(Frozen):
     """R = P/Q of a rounded method, coefficients from the lowest.
 
     Attributes:
-        P: the numerator, one coefficient more than there are unknown stage values.
+        P: the numerator, with one coefficient more than unknown stage values.
         Q: the denominator det(I − zW); no longer than P.
     """
 
@@ -53,9 +53,9 @@ def fraction_within(tableau: Tableau, shares: Sequence[Number], tolerance: fmpq)
     """P and Q of a method with rounded coefficients.
 
     Args:
-        tableau: the method, one coordinate a stage.
+        tableau: the method on point stages.
         shares: w_l with λ_l = w_l λ, one per colour.
-        tolerance: how well a coefficient that is not zero is known.
+        tolerance: the rounding of nonzero coefficients.
     """
     system = stage_system(tableau, [((w,),) for w in shares])
     # how many coefficients each entry of the system is the sum of, each counted |w_l| times
@@ -81,7 +81,7 @@ def _ones(row: Vector) -> Vector:
 
 
 def _widened(row: Vector, counts: Vector, tolerance: fmpq) -> list[arb]:
-    """Sums of ``counts`` coefficients with their rounding; what is a sum of none is zero."""
+    """Sums of ``counts`` coefficients with their rounding; an empty sum is exactly zero."""
     digits, sums = digits_here(), []
     for x, count in zip(row, counts, strict=True):
         radius = to_ball(count, digits) * arb(tolerance)
@@ -90,7 +90,7 @@ def _widened(row: Vector, counts: Vector, tolerance: fmpq) -> list[arb]:
 
 
 def _reciprocal(pattern: Matrix, W: arb_mat) -> arb_poly:
-    """det(I − zW), component by component of the graph of the entries that are not zero."""
+    """det(I − zW), by components of the graph of the nonzero entries."""
     edges = {i: [j for j, x in enumerate(row) if x] for i, row in enumerate(pattern)}
     product = arb_poly([1])
     for component in components(edges):
@@ -118,13 +118,13 @@ def _series(W: list[list[arb]], b: list[arb], initial: list[arb]) -> list[arb]:
 
 
 def ssp_within(tableau: Tableau, shares: Sequence[Number], tolerance: fmpq) -> Bounds:
-    """The first failure of any condition of ``garkcli.stability.ssp``, between bounds.
+    """Brackets the first failure of any condition of ``garkcli.stability.ssp``.
 
     Args:
-        tableau: the method, one coordinate a stage.
+        tableau: the method on point stages.
         shares: r_l / r for each colour; those with 0 have the vector field 0, as for
             ``ssp_coefficient``.
-        tolerance: how well a coefficient that is not zero is known.
+        tolerance: the rounding of nonzero coefficients.
     """
     pattern, parts = stacked(*driven_part(tableau, shares))
     n = len(pattern)
@@ -147,7 +147,6 @@ def ssp_within(tableau: Tableau, shares: Sequence[Number], tolerance: fmpq) -> B
 
 
 def _numerators(denominator: arb_poly, matrix: arb_mat, vector: list[arb]) -> list[list[arb]]:
-    """The numerators of (I + rK)⁻¹ v, polynomials in r."""
     n = len(vector)
     state = arb_mat([[x] for x in vector])
     series: list[list[arb]] = [[] for _ in range(n)]
@@ -160,7 +159,7 @@ def _numerators(denominator: arb_poly, matrix: arb_mat, vector: list[arb]) -> li
 
 
 class StabilityWithin(Frozen):
-    """Stability of a rounded method; None where that is not decided.
+    """Stability of a rounded method; None for undecided.
 
     Attributes:
         a_stable: A-stability.
@@ -180,12 +179,12 @@ class StabilityWithin(Frozen):
 def stability_within(
     tableau: Tableau, shares: Sequence[Number], tolerance: fmpq
 ) -> StabilityWithin:
-    """What is decided of R and of the SSP coefficient of a method with rounded coefficients.
+    """The decided results on R and the SSP coefficient of a rounded method.
 
     Args:
-        tableau: the method, one coordinate a stage.
+        tableau: the method on point stages.
         shares: w_l with λ_l = w_l λ, one per colour.
-        tolerance: how well a coefficient that is not zero is known.
+        tolerance: the rounding of nonzero coefficients.
     """
     with ctx.workprec(bits_for(tolerance)):
         R = fraction_within(tableau, shares, tolerance)
@@ -203,7 +202,9 @@ def stability_within(
 def stiff_stability_within(
     tableau: Tableau, shares: Sequence[Number], tolerance: fmpq
 ) -> tuple[bool | None, bool | None]:
-    """Whether a method is A-stable and whether it is L-stable; see ``stability_within``."""
+    """Whether a method is A-stable and whether it is L-stable; arguments of
+    ``stability_within``.
+    """
     with ctx.workprec(bits_for(tolerance)):
         R = fraction_within(tableau, shares, tolerance)
         a_stable = both(_is_bounded(_margin(R)), _poles_are_right(R))
@@ -211,12 +212,10 @@ def stiff_stability_within(
 
 
 def _margin(R: BallFraction) -> list[arb]:
-    """The coefficients of E in y²."""
     return [*map(snapped, difference(squared_on_axis(R.Q), squared_on_axis(R.P)))]
 
 
 def _is_bounded(E: Sequence[arb]) -> bool | None:
-    """Whether |R(iy)| ≤ 1 for all real y."""
     rest = list(E)
     while rest and rest[-1].is_zero():
         rest.pop()
