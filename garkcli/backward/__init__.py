@@ -1,1 +1,3 @@
-"""Backward error analysis: what a method solves exactly (docs/modified-equation.md)."""
+"""Backward error analysis: the equation that a method solves exactly
+(docs/modified-equation.md).
+"""

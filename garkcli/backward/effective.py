@@ -1,17 +1,16 @@
 """Effective order: the order of a method up to a change of coordinates.
 
-Φ has effective order q if there is a B-series β, a change of coordinates near the identity, for
-which β Φ β⁻¹ has order q. In terms of vector fields: e^{ad χ} b is that of the problem up to order
-q. The change is sought order by order. Where the transported field has the residual r at order
-n = k + 1, the part of order k of χ has to satisfy
+Φ has effective order q if β Φ β⁻¹ has order q for some B-series β, a change of coordinates near the
+identity. For vector fields: e^{ad χ} b is that of the problem up to order q. The change is found
+order by order. If the transported field has the residual r at order n = k + 1, the part of order k
+of χ has to satisfy
 
     [χ_k, δ] = −r,          δ(u) = 1 for single vertices, 0 for all other trees,
 
-a linear system with integer coefficients. δ commutes with multiples of itself alone, if free fields
-of this structure do: then solutions are unique, but for χ_1 = c δ. This is the change of time by
-c h along the exact flow, which changes no effective order. So where no solution exists, and each
-homogeneous system before had no other solution than these, there is no change at all, and the
-effective order is proved.
+a linear system with integer coefficients. If δ commutes only with its multiples, as free fields of
+the structure do, solutions are unique up to χ_1 = c δ, a shift of time by c h along the exact flow,
+which keeps the effective order. So if there is no solution, and the homogeneous systems before had
+only these, there is no such change, and the effective order is proved.
 
 Source: J. C. Butcher, *The effective order of Runge–Kutta methods*, LNM 109 (1969) 133; Butcher and
 Sanz-Serna, *The number of conditions for a Runge–Kutta method to have effective order p*, Appl.
@@ -32,9 +31,9 @@ from garkcli.exact.span import leading_columns
 from garkcli.frozen import Frozen
 
 MAX_ENTRIES = 5_000_000
-"""The largest linear system that is examined, rows times columns."""
+"""Most entries of a linear system that is examined."""
 MAX_SOLVED = 1_000_000
-"""The largest that is solved; of larger ones it is decided whether there is a solution."""
+"""Most entries of a system that is solved; for larger ones only solvability is decided."""
 
 
 class EffectiveOrder(Frozen):
@@ -42,8 +41,8 @@ class EffectiveOrder(Frozen):
 
     Attributes:
         order: the largest found.
-        is_proved: whether no change of coordinates gives a higher one. Otherwise the order is a
-            lower bound.
+        is_proved: whether it is proved that no change of coordinates gives more; otherwise a lower
+            bound.
     """
 
     order: int
@@ -51,7 +50,7 @@ class EffectiveOrder(Frozen):
 
 
 def effective_order(equation: ModifiedEquation) -> EffectiveOrder:
-    """The effective order, as far as the trees of ``equation`` tell and systems are not too large.
+    """The effective order, as far as the trees of ``equation`` and the limits on systems allow.
 
     >>> from garkcli import loads
     >>> from garkcli.backward.modified import modified_equation
@@ -106,8 +105,8 @@ def effective_order(equation: ModifiedEquation) -> EffectiveOrder:
 def _bracket_with_delta(
     forest: Forest, order: int, sides: Sequence[Sequence[fmpq]] = ()
 ) -> fmpz_mat:
-    """χ ↦ [χ, δ] from trees of an order to those of the next, and then right-hand sides, each
-    multiplied by its common denominator.
+    """The matrix of χ ↦ [χ, δ] from trees of an order to those of the next, and right-hand sides,
+    each multiplied by its common denominator.
     """
     rows = forest.of_order(order + 1)
     columns = forest.of_order(order)
@@ -128,7 +127,7 @@ def _bracket_with_delta(
 def _solve(
     matrix: fmpz_mat, sides: Sequence[Sequence[fmpq]], field: NumberField | None
 ) -> list[Number]:
-    """One solution of a linear system that has one, its right-hand side given by coordinates."""
+    """A solution of a solvable linear system whose right-hand side is given by coordinates."""
     columns = matrix.ncols()
     extended = []
     for i, row in enumerate(matrix.tolist()):

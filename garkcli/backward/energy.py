@@ -1,9 +1,9 @@
 """The energy error of a symplectic method, measured in its modified Hamiltonian.
 
-H̃ = H + h^k H_k + …, cut off after some power of h, changes along the numerical solution by
-h^m (H_m(y) − H_m(y_0)) + …, where h^m is the next power in it, up to times that grow exponentially
-with 1/h. Hence its error is of order m while that of H is of the order of the method. Both are
-measured over step sizes.
+H̃ = H + h^k H_k + …, truncated after some power of h, changes along the numerical solution by h^m
+(H_m(y) − H_m(y_0)) + …, with the next power h^m, up to times that grow exponentially with 1/h. So
+its error has order m, while that of H has the order of the method. Both are measured over step
+sizes.
 
 Source: Hairer, Lubich and Wanner, *Geometric Numerical Integration*, 2nd ed. (2006), theorem
 IX.8.1.
@@ -37,10 +37,10 @@ if TYPE_CHECKING:
 
 
 ROWS = 5
-"""Step sizes; more, up to ``MAX_ROWS``, while the slopes have not settled."""
+"""Number of step sizes; up to ``MAX_ROWS`` if the slopes have not settled."""
 MAX_ROWS = 7
 MAX_STEPS = 20_000
-"""Most steps of a row."""
+"""Most steps of one row."""
 _DIGITS = 30  # of the first look
 _MOST_DIGITS = 200
 _SPARE = 15  # digits of the smallest error
@@ -48,14 +48,14 @@ _LOST = 4  # digits that steps and formulas lose, besides those of their number
 
 
 class Meter(Mutable):
-    """Steps, and measures every truncation of the modified Hamiltonian at once.
+    """Steps and measures all truncations of the modified Hamiltonian.
 
     Attributes:
         bound: the method on the problem.
-        formulas: H, and what multiplies the powers.
-        powers: of h, 0 first.
+        formulas: H and the coefficients of the powers.
+        powers: the powers of h, 0 first.
         t_end: the final time.
-        digits: of the steps.
+        digits: the digits of the steps.
     """
 
     bound: Binding
@@ -65,7 +65,9 @@ class Meter(Mutable):
     digits: int = _DIGITS
 
     def choose_digits(self, first: int, order: int) -> None:
-        """So many that the smallest error, which falls with h^order, is far above rounding."""
+        """Sets the digits such that the smallest error, which falls with h^order, is far above
+        rounding.
+        """
         while True:
             smallest = self.errors(first)[-1]
             is_seen = not smallest.contains(0)
@@ -96,7 +98,7 @@ class Meter(Mutable):
 
     def errors(self, count: int) -> list[arb]:
         """The root mean square over time, by the trapezoidal rule, of H̃(y_n) − H̃(y_0) for each
-        truncation, in so many steps.
+        truncation, with ``count`` steps.
         """
         integrator = self.bound.at(self.digits)
         h = self.t_end / count
@@ -126,7 +128,7 @@ class Meter(Mutable):
 
 
 def are_above_noise(rows: Sequence[Row]) -> bool:
-    """Whether no error is one that rounding may have made."""
+    """Whether every error is larger than rounding."""
     return not any(row.error.contains(0) for row in rows)
 
 
@@ -137,7 +139,7 @@ def slopes_have_settled(rows: Sequence[Row]) -> bool:
 
 
 def _places(x: arb) -> int:
-    """How many zeros a small positive number has behind the point, about.
+    """The approximate number of zeros after the point of a small positive number.
 
     >>> _places(arb("1e-30"))
     30
@@ -155,13 +157,13 @@ class ModifiedEnergy(Frozen):
     """The error of the modified Hamiltonian up to some power of h.
 
     Attributes:
-        power: up to which its terms are taken; 0 is H itself.
-        exact_order: the next power in it.
-        is_lower_bound: whether that power is the first one that was not looked at.
+        power: the power of its last term; 0 is H itself.
+        exact_order: the next power.
+        is_lower_bound: whether that power is the first that was not examined.
         rows: step sizes and the root mean squares of H̃(y_n) − H̃(y_0) over time.
-        observed_order: extrapolated from the last rows; None where errors are below round-off.
-        uncertainty: how much the last row has changed it; None where there is no order.
-        has_settled: whether the slopes have, as in a convergence test.
+        observed_order: extrapolated from the last rows; None if errors are below round-off.
+        uncertainty: how much the last row has changed it; None without an order.
+        has_settled: whether the slopes have settled, as in a convergence test.
     """
 
     power: int
@@ -174,8 +176,8 @@ class ModifiedEnergy(Frozen):
 
     @property
     def verdict(self) -> Verdict:
-        """Of observed and exact order. Undecided where slopes have not settled, or where the error
-        is smaller than it has to be, as by an orbit on which H_m is constant.
+        """The comparison of observed and exact order. Undecided if slopes have not settled, or the
+        error is smaller than necessary, as on an orbit with constant H_m.
         """
         if self.observed_order is None or not self.has_settled:
             return "undecided"
@@ -192,12 +194,12 @@ class ModifiedRun(Shown, Frozen):
     """Energy errors in H and in its modifications.
 
     Attributes:
-        problem: in as many terms as the method is for.
+        problem: in as many terms as the method has.
         t_end: the final time.
-        max_order: of the trees in the modified Hamiltonian.
-        digits: of the steps.
-        energies: by ascending powers of h, that of H first.
-        method: what stepped, where it is known by more than its tableau.
+        max_order: the order of the trees in the modified Hamiltonian.
+        digits: the digits of the steps.
+        energies: by ascending powers of h, H first.
+        method: the method, if more than its tableau is known.
     """
 
     problem: Hamiltonian
@@ -224,14 +226,14 @@ def modified_run(
     t_end: fmpq | None = None,
     longest: fmpq | None = None,
 ) -> ModifiedRun:
-    """Measure the energy error of ``tableau`` on ``problem`` in its modified Hamiltonian.
+    """Measures the error of ``tableau`` on ``problem`` in its modified Hamiltonian.
 
     Args:
-        tableau: symplectic by its coefficients, which are exact.
-        problem: in as many terms as the tableau is for, or in one that has a natural split.
-        max_order: of the trees: powers of h up to one less.
+        tableau: an exact symplectic method.
+        problem: in as many terms as the tableau has, or in one with a natural split.
+        max_order: the order of the largest trees; powers of h up to one less.
         t_end: the problem's own by default.
-        longest: the largest step size is at most so long.
+        longest: a bound on the largest step size.
 
     Raises:
         UsageProblem: the method is not symplectic or not consistent, there are too many trees or
@@ -275,7 +277,7 @@ def modified_run(
 
 
 def _changing(formula: ModifiedFormula) -> tuple[list[int], list[Any]]:
-    """The powers of h with formulas that are no constants, H first."""
+    """The powers of h whose formulas are not constant, H first."""
     powers, formulas = [], []
     for term in formula.terms:
         (expression,) = term.formulas
@@ -286,7 +288,7 @@ def _changing(formula: ModifiedFormula) -> tuple[list[int], list[Any]]:
 
 
 def _next_power(tableau: Tableau, formula: ModifiedFormula) -> tuple[int, bool]:
-    """The power of h that follows, and whether nothing is known but that it is not less."""
+    """The next power of h, and whether it is only a lower bound."""
     for order in range(formula.max_order + 1, formula.max_order + _BEYOND + 1):
         try:
             longer = modified_formula(tableau, formula.problem, order)

@@ -38,11 +38,11 @@ FormulaVector: TypeAlias = tuple[Formula, ...]
 
 
 class Differentials:
-    """F(u) and H(u) of a problem that is split as the colours of a tableau say.
+    """F(u) and H(u) of a problem split by the colours of a tableau.
 
     Args:
-        tableau: the colours; their terms are numbers of ``energies``.
-        problem: whose unknowns they are.
+        tableau: the colours; their terms are indices into ``energies``.
+        problem: the problem with the unknowns.
         energies: H^{l}, sympy expressions.
     """
 
@@ -55,7 +55,7 @@ class Differentials:
         self._fields: dict[Tree, FormulaVector] = {}
 
     def field(self, tree: Tree) -> FormulaVector:
-        """F(u), with f^{l} = J⁻¹∇H^{l} or the half of it that the colour drives."""
+        """F(u), with f^{l} = J⁻¹∇H^{l} or the half that the colour drives."""
         if tree not in self._fields:
             self._fields[tree] = self._field(tree)
         return self._fields[tree]
@@ -78,8 +78,8 @@ class Differentials:
         return self._along(term, (), [self.field(u) for u in tree.branches])
 
     def _along(self, term: int, taken: tuple[int, ...], along: Sequence[FormulaVector]) -> Formula:
-        """A derivative of H^{l} that was taken by some unknowns, further along vectors which are
-        not differentiated.
+        """A derivative of H^{l} by some unknowns, taken further along vectors that are not
+        differentiated.
         """
         value = self._derivative(term, tuple(sorted(taken)))
         if value == 0 or not along:
@@ -92,7 +92,7 @@ class Differentials:
         return total
 
     def _derivative(self, term: int, by: tuple[int, ...]) -> Formula:
-        """∂^k H^{l} by the unknowns of these numbers, ascending."""
+        """∂^k H^{l} by the unknowns with these indices, ascending."""
         key = term, by
         if key not in self._derivatives:
             if by:
@@ -107,14 +107,14 @@ class Differentials:
 
 
 class VisibleTrees(Frozen):
-    """A tableau whose trees are those that a problem sees, at least.
+    """A tableau with few trees, among them all that a problem sees.
 
     Attributes:
-        tableau: the tableau. Colours of one term have become those of two where H^{l} = T(p) +
-            U(q): derivatives of H^{l} by momenta alone are those of T.
-        energies: H^{l} of its terms, sympy expressions; where one has become two, each of them has
-            the whole.
-        structure: of the Hamiltonians of its colours; None where roots cannot move.
+        tableau: the tableau. If H^{l} = T(p) + U(q), its colours belong to two terms: derivatives
+            of H^{l} by momenta only are those of T.
+        energies: H^{l} of its terms, sympy expressions; both parts of a divided term have all of
+            it.
+        structure: the structure of the Hamiltonians of its colours; None if roots cannot move.
     """
 
     tableau: Tableau
@@ -123,7 +123,7 @@ class VisibleTrees(Frozen):
 
 
 def visible(bound: Binding) -> VisibleTrees:
-    """What a problem sees of a method: the fewest trees for which roots can move still."""
+    """The fewest trees that contain those seen by a problem and whose roots can still move."""
     energies = tuple(bound.problem.terms)
     roots = range(bound.tableau.size)
     is_consistent = all(elementary_weight(bound.tableau, Tree(l)) == 1 for l in roots)
@@ -164,16 +164,15 @@ def _with_linear_fields(bound: Binding) -> Tableau:
 
 
 MAX_OPERATIONS = 20_000
-"""The longest formula that is multiplied out, in operations as it is put together."""
+"""Most operations of a formula that is expanded."""
 MAX_SUMMANDS = 100_000
-"""The most summands of a formula that is multiplied out, before like ones are collected."""
+"""Most summands of a formula that is expanded, before like ones are collected."""
 
 
 class PowerTerm(Frozen):
-    """What multiplies a power of h.
+    """The coefficient of a power of h.
 
     Attributes:
-        power: of h.
         formulas: one for a Hamiltonian, 2d for an equation.
     """
 
@@ -185,9 +184,9 @@ class ModifiedFormula(Shown, Frozen):
     """The modified Hamiltonian or the right-hand side of the modified equation.
 
     Attributes:
-        problem: in as many terms as the method is for.
-        of: which of the two.
-        max_order: of the trees: powers of h up to one less.
+        problem: in as many terms as the method has.
+        of: Hamiltonian or equation.
+        max_order: the order of the largest trees; powers of h up to one less.
         terms: by ascending powers, without those whose trees all vanish.
         is_consistent: whether the term without h is the problem itself.
     """
@@ -199,7 +198,7 @@ class ModifiedFormula(Shown, Frozen):
     is_consistent: bool
 
     def expanded(self) -> ModifiedFormula:
-        """The same multiplied out, with like summands collected, without powers that vanish.
+        """The formula expanded, with like summands collected and vanishing powers dropped.
 
         Raises:
             UsageProblem: a formula is too long.
@@ -221,12 +220,12 @@ def modified_formula(tableau: Tableau, problem: Hamiltonian, max_order: int) -> 
     """The modified Hamiltonian of a symplectic method, the modified equation of any other.
 
     Args:
-        tableau: that steps; its coefficients are exact.
-        problem: in as many terms as the tableau is for, or in one that has a natural split.
-        max_order: of the trees.
+        tableau: an exact method.
+        problem: in as many terms as the tableau has, or in one with a natural split.
+        max_order: the order of the largest trees.
 
     Raises:
-        UsageProblem: the problem is not of the form of the structure, or there are too many trees.
+        UsageProblem: the problem does not suit the structure, or there are too many trees.
 
     >>> from garkcli import hamiltonian, load
     >>> verlet = load("methods/stoermer-verlet.gark.yaml").tableau
@@ -281,11 +280,7 @@ def _of_hamiltonian(
 
 
 def _expanded(formula: Formula, power: int) -> Formula:
-    """A formula multiplied out.
-
-    Raises:
-        UsageProblem: it is too long.
-    """
+    """A formula expanded; ``UsageProblem`` if it is too long."""
     import sympy
 
     expression = sympy.Integer(0) + formula
@@ -301,7 +296,7 @@ def _expanded(formula: Formula, power: int) -> Formula:
 
 
 def _summands(expression: Formula) -> int:
-    """A bound of the number of summands when a formula is multiplied out."""
+    """A bound on the number of summands of the expanded formula."""
     if expression.is_Add:
         return sum(map(_summands, expression.args))
     if expression.is_Mul:
@@ -316,7 +311,7 @@ def in_sympy(number: Number) -> Any:
     """An exact number as a sympy expression.
 
     Raises:
-        UsageProblem: it has no radicals.
+        UsageProblem: it is not in radicals.
     """
     import sympy
 
@@ -339,7 +334,6 @@ def _rational(number: fmpq) -> Any:
 
 
 def _radical(radical: Expression) -> Any:
-    """A radical of a file in sympy."""
     from garkcli.exact.nodes import AlgebraicRoot
     from garkcli.exact.rewriting import roots_in
     from garkcli.problems.translate import Translator

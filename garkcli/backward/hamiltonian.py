@@ -26,8 +26,6 @@ from garkcli.tableau.tableau import Tableau
 
 
 class FreeTree(ConditionClass):
-    """A free tree, by its rooting at the centroid."""
-
     @property
     def has_hamiltonian(self) -> bool:
         """Whether its elementary Hamiltonian is not always zero."""
@@ -37,7 +35,7 @@ class FreeTree(ConditionClass):
     def rootings(self) -> tuple[tuple[Tree, int], ...]:
         """The rootings with a vector field, each once with its sign, the representative first.
 
-        The root has the first of its colours. Of u∘u each rooting has both signs; one is given.
+        The root has the first of its colours. The rootings of u∘u have both signs; one is given.
         """
         signs: dict[Tree, int] = {self.representative: 1}
         for tree, sign in self._from_representative():
@@ -73,9 +71,9 @@ def free_trees(structure: Structure, order: int) -> Iterator[FreeTree]:
 
 
 def hamiltonian_structure(tableau: Tableau) -> Structure | None:
-    """The structure of the Hamiltonian problems that a tableau is for, H = Σ H^{l}.
+    """The structure of the Hamiltonian problems H = Σ H^{l} of a tableau.
 
-    None where there is none: the root of some tree that the tableau sees cannot move.
+    None if the root of some tree that the tableau sees cannot move.
     """
     tableau = with_joined_terms(tableau)
     natures = [(x.term, x.part) for x in tableau.colours]
@@ -111,7 +109,7 @@ class HamiltonianTerm(Frozen):
 
     @property
     def factor(self) -> Number:
-        """b(u)/|Aut T|, what multiplies H(u)."""
+        """b(u)/|Aut T|, the coefficient of H(u)."""
         return self.coefficient / self.tree.symmetry
 
 
@@ -121,8 +119,8 @@ def defect(equation: ModifiedEquation, tree: FreeTree, zero: fmpq = ZERO) -> boo
     Args:
         equation: the coefficients.
         tree: the free tree.
-        zero: up to which size a difference counts as none, where they are those of a method that is
-            known to many bits; they are rational then.
+        zero: the size up to which a difference counts as zero, for rational coefficients of a
+            rounded method.
     """
     expected = equation[tree.representative]
     if not tree.has_hamiltonian and not is_zero(expected, zero):
@@ -135,16 +133,16 @@ def defect(equation: ModifiedEquation, tree: FreeTree, zero: fmpq = ZERO) -> boo
 
 
 def is_zero(x: Number, zero: fmpq) -> bool:
-    """Whether a number is 0, or no larger than what counts as 0 of a rational number."""
+    """Whether a number is 0, or a rational number of size at most ``zero``."""
     return not x or (zero > 0 and isinstance(x, fmpq) and abs(x) <= zero)
 
 
 def symplectic_order(equation: ModifiedEquation, structure: Structure, zero: fmpq = ZERO) -> int:
-    """The order of symplecticity, up to that of the largest trees.
+    """The order of symplecticity, at most that of the largest trees.
 
-    It is the largest q for which steps satisfy MᵀJM = J + O(h^(q+1)) on all Hamiltonian problems:
-    for which the first q terms of the modified equation have a Hamiltonian. With elementary weights
-    it is a(u∘v) + a(v∘u) = a(u) a(v) for ρ(u) + ρ(v) ≤ q.
+    It is the largest q with MᵀJM = J + O(h^(q+1)) on all Hamiltonian problems: the first q terms of
+    the modified equation have a Hamiltonian. With elementary weights: a(u∘v) + a(v∘u) = a(u) a(v)
+    for ρ(u) + ρ(v) ≤ q.
 
     Source: A. Aubry, P. Chartier, *Pseudo-symplectic Runge–Kutta methods*, BIT 38 (1998) 439.
     """
@@ -157,7 +155,7 @@ def symplectic_order(equation: ModifiedEquation, structure: Structure, zero: fmp
 def modified_hamiltonian(
     equation: ModifiedEquation, structure: Structure, zero: fmpq = ZERO
 ) -> Iterator[HamiltonianTerm]:
-    """The terms of the modified Hamiltonian that are not zero, up to the order of symplecticity."""
+    """The nonzero terms of the modified Hamiltonian, up to the order of symplecticity."""
     for n in range(1, symplectic_order(equation, structure, zero) + 1):
         for tree in free_trees(structure, n):
             coefficient = equation[tree.representative]
@@ -166,11 +164,11 @@ def modified_hamiltonian(
 
 
 def energy_order(equation: ModifiedEquation, structure: Structure, zero: fmpq = ZERO) -> int:
-    """The order to which steps conserve H = Σ H^{l}, up to that of the largest trees.
+    """The order to which steps conserve H = Σ H^{l}, at most that of the largest trees.
 
     It is the largest r with H(y₁) = H(y₀) + O(h^(r+1)) for all Hamiltonian problems. The modified
-    field changes H by Σ_u h^(ρ(u)−1)/σ(u) b(u) H([u]), where [u] is u hung below a vertex of any
-    term; rootings at the leaves of one free tree are the same function but for the sign.
+    field changes H by Σ_u h^(ρ(u)−1)/σ(u) b(u) H([u]), where [u] is u below a vertex of any term;
+    rootings at the leaves of one free tree agree up to sign.
 
     Source: E. Celledoni, R. I. McLachlan, B. Owren, G. R. W. Quispel, *Energy-preserving
     integrators and the structure of B-series*, Found. Comput. Math. 10 (2010) 673.
@@ -183,7 +181,7 @@ def energy_order(equation: ModifiedEquation, structure: Structure, zero: fmpq = 
 
 
 def _change(equation: ModifiedEquation, tree: FreeTree) -> Number:
-    """What multiplies the elementary Hamiltonian of ``tree`` in the change of H."""
+    """The coefficient of the elementary Hamiltonian of ``tree`` in the change of H."""
     total: Number = ZERO
     for rooting, sign in tree.rootings:
         if len(rooting.branches) == 1:

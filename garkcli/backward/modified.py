@@ -4,8 +4,8 @@ A method with elementary weights a(u) = b_lᵀ 𝒜^[u] is, as a power series in
 
     ẏ = Σ_u h^(ρ(u)−1)/σ(u) b(u) F(u)(y) = f(y) + h f₂(y) + h² f₃(y) + …
 
-with b(u) = 1 for single vertices where the method is consistent, and b(u) = 0 for 2 ≤ ρ(u) ≤ p
-exactly where it has order p.
+with b(u) = 1 for single vertices if the method is consistent, and b(u) = 0 for 2 ≤ ρ(u) ≤ p if and
+only if it has order p.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ class ModifiedEquation(Frozen):
     Attributes:
         tableau: the method.
         forest: the trees that it sees.
-        coefficients: b(u), by the numbers of the trees.
+        coefficients: b(u), by the indices of the trees.
     """
 
     tableau: Tableau
@@ -35,14 +35,13 @@ class ModifiedEquation(Frozen):
 
     @property
     def max_order(self) -> int:
-        """The order of the largest trees."""
         return self.forest.max_order
 
     def __getitem__(self, tree: Tree) -> Number:
         """b(u); 0 for a tree that the method does not see.
 
         Raises:
-            KeyError: it has more vertices than the trees that were requested.
+            KeyError: the tree is larger than ``max_order``.
         """
         if tree.order > self.max_order:
             raise KeyError(tree)
@@ -50,13 +49,13 @@ class ModifiedEquation(Frozen):
         return ZERO if number is None else self.coefficients[number]
 
     def terms(self, order: int) -> Iterator[tuple[Tree, Number]]:
-        """The trees of one order with the coefficients that are not zero."""
+        """The trees of one order with nonzero coefficients."""
         for number in self.forest.of_order(order):
             if self.coefficients[number]:
                 yield self.forest.trees[number], self.coefficients[number]
 
     def residuals(self, order: int) -> Iterator[tuple[Tree, Number]]:
-        """Where the modified equation of this order differs from the equation, and by how much."""
+        """The trees of this order at which the modified equation differs, with the differences."""
         if order > 1:
             yield from self.terms(order)
             return
@@ -67,7 +66,7 @@ class ModifiedEquation(Frozen):
 
     @cached_property
     def order(self) -> int:
-        """The order of the method; ``max_order`` where it is that or more."""
+        """The order of the method, at most ``max_order``."""
         for n in range(1, self.max_order + 1):
             if any(True for _ in self.residuals(n)):
                 return n - 1
@@ -82,7 +81,7 @@ def modified_equation(tableau: Tableau, order: int) -> ModifiedEquation:
 
     Raises:
         UsageProblem: there are too many trees.
-        MethodError: it is no GARK method.
+        MethodError: the tableau is no GARK method.
 
     >>> from garkcli import loads
     >>> midpoint = loads("methods: [{family: gauss, stages: 1}]").tableau

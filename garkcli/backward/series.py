@@ -5,12 +5,12 @@ the field B(b, y) is B(c ◁ b, y) with
 
     (c ◁ b)(u) = Σ c(u∖v) b(v),
 
-a sum over the edges of u, v what hangs below the edge. So the flow of B(b, y) over the time 1 is
+a sum over the edges of u, with v the part below the edge. So the flow of B(b, y) over the time 1 is
 B(a, y) with
 
     a(u) = Σ_{j ≥ 1} 1/j! (…((b ◁ b) ◁ b) … ◁ b)(u)         j factors,
 
-which is solved for b tree by tree: terms with j ≥ 2 have trees of lower order alone.
+which is solved for b tree by tree: terms with j ≥ 2 only have trees of lower order.
 
 Source: Hairer, Lubich and Wanner, *Geometric Numerical Integration*, 2nd ed. (2006), lemma IX.9.1
 and theorem IX.9.2, there in one colour.
@@ -33,12 +33,12 @@ from garkcli.order.conditions import coupling_graph
 from garkcli.tableau.tableau import Tableau
 
 MAX_TREES = 40_000
-"""The most trees that are held at once, all orders together."""
+"""Most trees of all orders together."""
 
 
 class Cut(Frozen):
-    """An edge of a tree: what stays on the root, what hangs below the edge, and how many edges of
-    the tree are alike.
+    """An edge of a tree: the part with the root, the part below the edge, and the number of edges
+    that are alike.
     """
 
     rest: int
@@ -50,9 +50,9 @@ class Forest(Frozen):
     """The admissible trees of a coupling graph up to an order, in the order of :class:`Tree`.
 
     Attributes:
-        admissible: which trees are meant.
-        max_order: ρ of the largest of them.
-        trees: all of them; a tree's number is its position.
+        admissible: the class of trees.
+        max_order: the order of the largest trees.
+        trees: all trees; the index of a tree is its number.
         cuts: for each tree its edges.
 
     >>> forest = Forest.of(Admissible.of(1), 4)
@@ -72,10 +72,10 @@ class Forest(Frozen):
 
     @classmethod
     def of(cls, admissible: Admissible, order: int) -> Forest:
-        """Generate the trees.
+        """Generates the trees.
 
         Raises:
-            UsageProblem: there are more than ``MAX_TREES`` of them.
+            UsageProblem: there are more than ``MAX_TREES`` trees.
         """
         from garkcli.ntrees.table import TreeTable  # numpy is paid for here
 
@@ -104,19 +104,18 @@ class Forest(Frozen):
 
     @classmethod
     def seen_by(cls, tableau: Tableau, order: int) -> Forest:
-        """The trees that have an order condition for ``tableau``.
+        """The trees with an order condition for ``tableau``.
 
         Raises:
-            UsageProblem: there are too many of them.
+            UsageProblem: there are too many trees.
         """
         return cls.of(coupling_graph(tableau), order)
 
     def of_order(self, order: int) -> range:
-        """The numbers of the trees with ``order`` vertices."""
         return range(self._starts[order - 1], self._starts[order])
 
     def number(self, tree: Tree) -> int | None:
-        """The number of a tree; None where it is not admissible or too large."""
+        """The number of a tree; None if it is not admissible or too large."""
         below = []
         for branch in tree.branches:
             number = self.number(branch)
@@ -127,7 +126,6 @@ class Forest(Frozen):
         return self._numbers.get((tree.root, tuple(below)))
 
     def order(self, number: int) -> int:
-        """ρ of the tree of this number."""
         return self.trees[number].order
 
     def branches(self) -> Iterator[tuple[int, tuple[int, ...]]]:
@@ -144,7 +142,7 @@ class _Cutter(Mutable):
     known: list[tuple[Cut, ...]] = field(default_factory=list)
 
     def cuts_of(self, number: int) -> tuple[Cut, ...]:
-        """The edges of a tree; those of all trees before it have been found."""
+        """The edges of a tree; those of all smaller numbers are known."""
         root, below = self.roots[number], self.branches[number]
         found: Counter[tuple[int, int]] = Counter()
         for branch, alike in Counter(below).items():
@@ -172,7 +170,7 @@ def possible_order(tableau: Tableau, order: int) -> int:
 
 
 def _check_size(admissible: Admissible, order: int) -> None:
-    """Refuse a number of trees that would take too long."""
+    """Refuses an order with too many trees."""
     too_many = _first_beyond_limit(admissible, order)
     if too_many is None:
         return
@@ -182,7 +180,7 @@ def _check_size(admissible: Admissible, order: int) -> None:
 
 
 def _first_beyond_limit(admissible: Admissible, order: int) -> tuple[int, int] | None:
-    """The first order with too many trees up to it, and how many; None where all are few enough."""
+    """The first order with too many trees up to it, and their number; None if there is none."""
     total = 0
     for n, counts in enumerate(counts_upto(admissible, order), start=1):
         total += sum(counts)
@@ -212,7 +210,7 @@ def elementary_weights(tableau: Tableau, forest: Forest) -> list[Number]:
 
 
 def logarithm(forest: Forest, a: Coefficients) -> list[Number]:
-    """The b with B(a, y) the flow of B(b, y): the modified vector field of a method, times h.
+    """The b with B(a, y) the flow of B(b, y): h times the modified vector field.
 
     >>> from flint import fmpq
     >>> from garkcli.ntrees.count import Admissible
@@ -231,7 +229,7 @@ def logarithm(forest: Forest, a: Coefficients) -> list[Number]:
 class _Powers:
     """The products b, b ◁ b, (b ◁ b) ◁ b, … tree by tree.
 
-    ``products[u][j]`` is the one of j + 1 factors at the tree u.
+    ``products[u][j]`` is the product of j + 1 factors at the tree u.
     """
 
     def __init__(self, forest: Forest) -> None:
@@ -240,7 +238,7 @@ class _Powers:
         self.products: list[list[Number]] = []
 
     def sum_of_higher(self, number: int) -> Number:
-        """Σ_{j ≥ 2} 1/j! of the products with j factors; keeps them."""
+        """Σ_{j ≥ 2} 1/j! of the products with j factors, which are stored."""
         order = self.forest.order(number)
         products: list[Number] = [ZERO] * order
         for cut in self.forest.cuts[number]:
@@ -257,7 +255,7 @@ class _Powers:
         return total
 
     def add(self, number: int, coefficient: Number) -> None:
-        """Tell b(u) of the tree whose higher products have just been summed."""
+        """Sets b(u) of the tree whose higher products have just been summed."""
         self.products[number][0] = coefficient
         self.field.append(coefficient)
 
@@ -282,17 +280,10 @@ def bracket(forest: Forest, c: Coefficients, b: Coefficients) -> list[Number]:
 
 
 def transported(forest: Forest, b: Coefficients, c: Coefficients, lowest: int) -> list[Number]:
-    """e^{ad c} b: the field B(b, y) in the coordinates z = χ(y), χ the flow of B(c, y) over the
-    time 1.
+    """e^{ad c} b: the field B(b, y) in the coordinates z = χ(y), χ the flow of B(c, y) over time 1.
 
-    For small c the new field is f(z) − f'(z) g + g' f = f + [g, f], with f that of b,
-    g that of c.
-
-    Args:
-        forest: the trees.
-        b: the field.
-        c: the field of the change of coordinates.
-        lowest: the least order of a tree at which c is not zero; at least 1.
+    For small c it is f(z) − f'(z) g + g' f = f + [g, f], with f of b and g of c. ``lowest`` is the
+    least order of a tree with c ≠ 0, at least 1.
     """
     result = list(b)
     nested: list[Number] = list(b)

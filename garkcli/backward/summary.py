@@ -1,4 +1,4 @@
-"""Everything that backward error analysis says of one method, as one value."""
+"""All results of backward error analysis of one method."""
 
 from __future__ import annotations
 
@@ -31,15 +31,15 @@ if TYPE_CHECKING:
 
 
 EXTRA = 3
-"""Digits of coefficients of rounded methods beyond those that are printed."""
+"""Digits of coefficients of rounded methods beyond the printed ones."""
 
 
 class Reached(Frozen):
-    """An order that was found.
+    """An order of a modified equation.
 
     Attributes:
         order: the order.
-        is_lower_bound: whether nothing is known of the next one.
+        is_lower_bound: whether the next one is unknown.
     """
 
     order: int
@@ -47,17 +47,17 @@ class Reached(Frozen):
 
 
 class BackwardAnalysis(Shown, Frozen):
-    """The modified equation of a method and the orders that it tells.
+    """The modified equation of a method and the orders that follow from it.
 
     Attributes:
         equation: the coefficients.
-        order: of the method.
-        structure: of the Hamiltonian problems that it is for, or None.
-        is_symplectic: whether it is by its coefficients; within the tolerance where it has one.
+        order: the order of the method.
+        structure: the structure of its Hamiltonian problems, or None.
+        is_symplectic: whether the coefficients are symplectic, exactly or within the tolerance.
         symplectic: the order of symplecticity; None without a structure.
-        energy: the order to which steps conserve energy; None as there.
+        energy: the order to which steps conserve energy; None without a structure.
         effective: the order up to a change of coordinates.
-        hamiltonian: the terms of the modified Hamiltonian; None where there is none.
+        hamiltonian: the terms of the modified Hamiltonian; None if there is none.
         tolerance: the rounding of the coefficients. With one the three orders are lower bounds.
     """
 
@@ -81,10 +81,10 @@ class BackwardAnalysis(Shown, Frozen):
 def backward_analysis(
     tableau: Tableau, max_order: int, tolerance: fmpq | None = None
 ) -> BackwardAnalysis:
-    """Decide what trees of up to ``max_order`` vertices tell of ``tableau``.
+    """The backward analysis of ``tableau`` with trees of up to ``max_order`` vertices.
 
-    With a ``tolerance`` they are those of the method that the digits are taken to be a rounding of,
-    to some digits more than are printed; other methods within it may have larger orders.
+    With a ``tolerance`` it is that of the method that the digits are taken to mean; other methods
+    within it may have larger orders.
 
     Raises:
         UsageProblem: there are too many trees.
@@ -123,7 +123,7 @@ def backward_analysis(
 def _of_rounded(
     rounded: AnyTableau, max_order: int, structure: Structure | None
 ) -> BackwardAnalysis:
-    """Backward analysis of the method that a rounded one is taken to be."""
+    """Backward analysis of the method that a rounded one is taken to mean."""
     assert not isinstance(rounded, Tableau)
     found = order_of(rounded, max_order)
     order = Reached(found.order, found.is_lower_bound)
