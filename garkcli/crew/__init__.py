@@ -1,1 +1,1 @@
-"""Who does a list of things: this process, several side by side, or a cluster."""
+"""Runs a list of tasks: in this process, in several, or on a cluster."""

@@ -1,6 +1,6 @@
-"""Workers of a Dask cluster: what a lost worker had is done again by others.
+"""Workers of a Dask cluster; the work of a lost worker is done again by others.
 
-Outcomes go to the process that asked, each item's once, however often the cluster did it.
+Each item has one outcome, however often the cluster did it.
 """
 
 from __future__ import annotations
@@ -20,24 +20,24 @@ from garkcli.exact.pickling import register
 from garkcli.version import __version__
 
 WINDOW = 400
-"""Items that the cluster has at a time."""
+"""Most items that the cluster has at a time."""
 TIMEOUT = 20
 """Seconds to wait for a scheduler."""
 _ONE_AT_A_TIME = Lock()
-"""Of a worker with several threads: the precision of python-flint is one for all of them."""
+"""For workers with several threads, which share the precision of python-flint."""
 
 
 class Cluster(Generic[Item, Outcome]):
-    """The workers of a Dask scheduler, for as long as it is entered.
+    """The workers of a Dask scheduler, as a context manager.
 
     Args:
-        work: from an item to its outcome; both travel to and from the workers.
+        work: computes the outcome of an item; both are pickled.
         scheduler: its address, such as ``tcp://host:8786``.
-        crashed: the outcome of an item that ended several workers, and how.
+        crashed: makes the outcome of an item that ended several workers, from how they ended.
 
     Raises:
-        UsageProblem: Dask is not installed, nobody answers there, or workers have no garkcli or
-            another version of it.
+        UsageProblem: Dask is not installed, the scheduler does not answer, or a worker has no
+            garkcli of this version.
         WorkerLost: the scheduler is gone.
     """
 
@@ -83,11 +83,11 @@ class Cluster(Generic[Item, Outcome]):
 
     @property
     def size(self) -> int:
-        """How many workers there are now, and at least one: workers may come later."""
+        """The number of workers, at least one, as workers may come later."""
         return max(1, len(self._client.nthreads()))
 
     def as_they_come(self, items: Sequence[Item]) -> Iterator[tuple[int, Outcome]]:
-        """Every outcome with the number of its item, as soon as it is there."""
+        """Yields each outcome with the index of its item as soon as it is there."""
         from dask.distributed import as_completed
 
         running: dict[str, int] = {}
@@ -109,7 +109,7 @@ class Cluster(Generic[Item, Outcome]):
                 pool.add(submit(following))
 
     def _outcome(self, future: Any, item: Item) -> Outcome:
-        """What came of an item."""
+        """The outcome of a future."""
         from dask.distributed import KilledWorker
 
         if future.status not in {"finished", "error"}:
@@ -132,7 +132,7 @@ class Cluster(Generic[Item, Outcome]):
 
 
 def _in_time(pool: Any) -> Iterator[Any]:
-    """What is done, until the time is over."""
+    """The futures of a pool; ``NotDecided`` when the time is over."""
     try:
         yield from pool
     except TimeoutError:
@@ -141,7 +141,7 @@ def _in_time(pool: Any) -> Iterator[Any]:
 
 @contextmanager
 def _without_logs() -> Iterator[None]:
-    """What becomes of a lost connection is said here, in a line; Dask would log tracebacks too."""
+    """Silences Dask's tracebacks: lost connections are reported in one line."""
     handlers = logging.getLogger("distributed").handlers
     levels = [handler.level for handler in handlers]
     for handler in handlers:
@@ -154,7 +154,7 @@ def _without_logs() -> Iterator[None]:
 
 
 def _done(version: str, work: Callable[[Item], Outcome], item: Item) -> tuple[str, Outcome | None]:
-    """What a worker does: its version, and the outcome where that is the one asked for."""
+    """Runs in a worker: its version, and the outcome if the versions agree."""
     if version != __version__:
         return __version__, None
     register()

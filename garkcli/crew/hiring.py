@@ -1,4 +1,4 @@
-"""The one place where it is chosen who does the work; whoever does, the outcomes are the same."""
+"""Chooses who does the work; the outcomes do not depend on it."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ def hired(
     scheduler: str = "",
     limit: Limit[Item, Outcome] | None = None,
 ) -> Iterator[Workers[Item, Outcome]]:
-    """Workers for as long as there is work; none is left behind.
+    """Workers as a context manager; none is left behind.
 
     Args:
-        work: from an item to its outcome; both, and ``work``, travel between processes.
-        crashed: the outcome of an item that ended its worker, and how.
-        jobs: processes of this machine.
-        scheduler: the address of a Dask scheduler, to work there instead.
-        limit: how long an item may take a worker of this machine; there is one, then.
+        work: computes the outcome of an item; all three are pickled.
+        crashed: makes the outcome of an item that ended its worker, from how it ended.
+        jobs: the number of processes.
+        scheduler: the address of a Dask scheduler to use instead.
+        limit: the time limit of an item; with one there is at least one worker process.
 
     Raises:
-        UsageProblem: there is no cluster.
+        UsageProblem: the cluster cannot be used.
     """
     if scheduler:
         from garkcli.crew.cluster import Cluster

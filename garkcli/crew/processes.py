@@ -1,4 +1,4 @@
-"""Processes that work side by side and go on without a lost one."""
+"""Worker processes that run side by side; a lost one is replaced."""
 
 from __future__ import annotations
 
@@ -24,21 +24,21 @@ if TYPE_CHECKING:  # slow to import, and of no use to work that is not shared
     from multiprocessing.process import BaseProcess
 
 MOST_WORKERS = 60
-"""Windows waits for 63 things at a time, a few of which are its own."""
+"""Windows waits for at most 63 things at a time, some of which are its own."""
 PATIENCE = 10
-"""So many times the processor time that an item may take has it by the clock."""
+"""The limit by the clock, as a multiple of that of processor time."""
 BATCH = 8
-"""Items that a worker has at hand: it should not wait while another's outcome is read."""
+"""Items that a worker has at hand, so that it need not wait for the next."""
 
 
 class _Worker(Generic[Item, Outcome]):
     """A process that does the items it is sent, one after the other.
 
     Attributes:
-        items: their numbers, first the one that it is at.
-        due: the reading of ``time.monotonic`` at which it may be late with that one.
-        last: that at which it is, however little it has worked.
-        most: its processor time at which it is late too.
+        items: the indices of its items, the current one first.
+        due: the reading of ``time.monotonic`` at which it may be late.
+        last: the reading at which it is late in any case.
+        most: the processor time at which it is late too.
     """
 
     def __init__(
@@ -61,44 +61,44 @@ class _Worker(Generic[Item, Outcome]):
         self._is_own, self._other = is_own, other
 
     def begin(self) -> None:
-        """Start the process."""
         with without_program() if self._is_own else nullcontext():
             begin(self.process)
         self._other.close()
 
     def send(self, number: int, item: Item) -> None:
-        """One more item; a worker that has died is found out when it does not answer."""
+        """Sends one more item; a dead worker is noticed when it does not answer."""
         self.items.append(number)
         with suppress(OSError):
             self.connection.send(item)
 
     def limit(self, seconds: float) -> None:
-        """The time of the item that it is at begins."""
+        """Starts the time limit of the current item."""
         now = monotonic()
         self.due, self.last = now + seconds, now + PATIENCE * seconds
         self.most = _worked(self.process) + seconds
 
     def is_late(self) -> bool:
-        """Whether its time is over; else it has as much more as it has not worked, at least."""
+        """Whether the time of the item is over; extends the limit by the processor time that is
+        left.
+        """
         now = monotonic()
         if self.due <= now < self.last:
             self.due = min(now + max(0.0, self.most - _worked(self.process)), self.last)
         return self.due <= now
 
     def end(self) -> None:
-        """End the process, whatever it is at."""
         self.connection.close()
         end(self.process)
 
 
 class Crew(Generic[Item, Outcome]):
-    """Processes side by side, which go on without a lost one, and the work left for them.
+    """Worker processes, of which a lost one is replaced, and the work left for them.
 
     Args:
-        work: from an item to its outcome; both travel between processes.
-        size: how many workers at most; as many begin as there is work for.
-        crashed: the outcome of an item that ended its worker, and how.
-        limit: how long an item may take; the work is gark's own, then, none of the program's.
+        work: computes the outcome of an item; both are pickled.
+        size: the largest number of workers; no more than items are started.
+        crashed: makes the outcome of an item that ended its worker, from how it ended.
+        limit: the time limit of an item; only for work of gark itself, not of the calling program.
     """
 
     def __init__(
@@ -136,12 +136,12 @@ class Crew(Generic[Item, Outcome]):
             worker.end()
 
     def as_they_come(self, items: Sequence[Item]) -> Iterator[tuple[int, Outcome]]:
-        """Every outcome with the number of its item, as soon as it is there.
+        """Yields each outcome with the index of its item as soon as it is there.
 
-        More items may follow once all of these are done.
+        More items may follow when all of these are done.
 
         Raises:
-            NotDecided: the time around it is over.
+            NotDecided: the time limit has passed.
         """
         from multiprocessing.connection import wait
 
@@ -175,7 +175,7 @@ class Crew(Generic[Item, Outcome]):
                 yield number, outcome
 
     def _hire(self) -> None:
-        """As many workers as there is work for."""
+        """Starts workers while there are fewer than needed."""
         while len(self.workers) < self.size and self.waiting:
             others = [worker.connection for worker in self.workers]
             is_own = self.limit is not None
@@ -185,7 +185,7 @@ class Crew(Generic[Item, Outcome]):
             self._supply(worker)
 
     def _supply(self, worker: _Worker[Item, Outcome]) -> None:
-        """Items ahead of what a worker is at, fewer when there are few for all."""
+        """Sends items ahead to a worker, fewer if there are few for all."""
         most = max(1, min(BATCH, len(self.waiting) // self.size))
         while self.waiting and len(worker.items) < most:
             number = self.waiting.popleft()
@@ -194,14 +194,14 @@ class Crew(Generic[Item, Outcome]):
                 self._begin(worker)
 
     def _begin(self, worker: _Worker[Item, Outcome]) -> None:
-        """The time of the item that a worker is at begins, at the earliest that this process knows:
-        an outcome that is there when it looks is never late.
+        """Starts the time limit of a worker's current item when this process knows of it, so an
+        outcome that is already there is never late.
         """
         if self.limit is not None and worker.items:
             worker.limit(self.limit.seconds(self.items[worker.items[0]]))
 
     def _seconds_left(self) -> float | None:
-        """Until the time is over, or a worker is late; None for no limit."""
+        """Seconds until the time limit, or until a worker is late; None for no limit."""
         left = seconds_left()
         if self.limit is None:
             return left
@@ -209,10 +209,10 @@ class Crew(Generic[Item, Outcome]):
         return until_due if left is None else min(left, until_due)
 
     def _end_late(self) -> Iterator[tuple[int, Outcome]]:
-        """Workers that are late are ended, the others go on.
+        """Ends workers that are late; the others go on.
 
         Raises:
-            NotDecided: the time around all of it is over.
+            NotDecided: the time limit has passed.
         """
         check_time()
         for worker in [x for x in self.workers if x.items and x.is_late()]:
@@ -221,7 +221,9 @@ class Crew(Generic[Item, Outcome]):
     def _bury(
         self, worker: _Worker[Item, Outcome], is_late: bool = False
     ) -> Iterator[tuple[int, Outcome]]:
-        """A worker that died or is late: the item it was at is to blame, the others go back."""
+        """Removes a dead or late worker: its current item is blamed, the others go back to the
+        queue.
+        """
         worker.end()
         self.workers.remove(worker)
         items = list(worker.items)
@@ -236,7 +238,7 @@ class Crew(Generic[Item, Outcome]):
 
 
 def _worked(process: BaseProcess) -> float:
-    """The processor time of another process, where the system says it; else that of the clock."""
+    """The processor time of another process if the system tells it, else the clock."""
     if sys.platform == "linux" and process.pid is not None:
         with suppress(OSError):
             return time.clock_gettime((~process.pid << 3) | 2)  # as clock_getcpuclockid(3) has it
@@ -244,7 +246,7 @@ def _worked(process: BaseProcess) -> float:
 
 
 def _cause(code: int | None) -> str:
-    """What ended a process.
+    """Describes how a process ended.
 
     >>> _cause(-9), _cause(3)
     ('by SIGKILL, as the system does where memory is short', 'with exit code 3')
@@ -263,9 +265,8 @@ def _cause(code: int | None) -> str:
 def _serve(
     connection: Connection, work: Callable[[Item], Outcome], not_its_own: Sequence[Connection]
 ) -> None:
-    """What a worker does; it ends when nobody sends any more.
-
-    An interrupt is for the process that has the terminal, which ends the workers.
+    """The loop of a worker; it ends when the connection closes. An interrupt is left to the process
+    with the terminal, which ends the workers.
     """
     without_handlers()
     register()

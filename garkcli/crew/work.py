@@ -1,4 +1,4 @@
-"""The work, and who does it."""
+"""The work, and the workers."""
 
 from __future__ import annotations
 
@@ -15,17 +15,18 @@ Made = TypeVar("Made", covariant=True)
 
 
 class WorkerLost(UsageProblem):
-    """A process or machine that worked was ended from outside."""
+    """A worker process or machine was ended from outside."""
 
     code = "worker-lost"
 
 
 class Limit(Frozen, Generic[Item, Outcome]):
-    """How long an item may take a process of its own, which is ended in the middle of a call in C.
+    """The time limit of an item; its process is ended in the middle of a call in C.
 
     Attributes:
-        seconds: of an item, of processor time where the system says that of another process.
-        late: the outcome of an item that took longer.
+        seconds: the limit of an item, in processor time if the system tells that of another
+            process.
+        late: makes the outcome of an item that took longer.
     """
 
     seconds: Callable[[Item], float]
@@ -33,21 +34,21 @@ class Limit(Frozen, Generic[Item, Outcome]):
 
 
 class Workers(Protocol[Given, Made]):
-    """Who does the work: this process, several, or a cluster.
+    """Workers: this process, several, or a cluster.
 
     Attributes:
-        size: how many items they do at a time.
+        size: the number of items done at a time.
     """
 
     @property
     def size(self) -> int: ...
 
     def as_they_come(self, items: Sequence[Given]) -> Iterator[tuple[int, Made]]:
-        """Every outcome with the number of its item, as soon as it is there."""
+        """Yields each outcome with the index of its item as soon as it is there."""
 
 
 def in_order(workers: Workers[Item, Outcome], items: Sequence[Item]) -> Iterator[Outcome]:
-    """Every outcome, in the order of the items."""
+    """Yields the outcomes in the order of the items."""
     ready: dict[int, Outcome] = {}
     following = 0
     for number, outcome in workers.as_they_come(items):
@@ -58,11 +59,7 @@ def in_order(workers: Workers[Item, Outcome], items: Sequence[Item]) -> Iterator
 
 
 class Alone(Generic[Item, Outcome]):
-    """The work done in this process, one thing after the other.
-
-    Args:
-        work: from an item to its outcome.
-    """
+    """Does the work in this process, one item after the other."""
 
     size = 1
 
@@ -70,5 +67,4 @@ class Alone(Generic[Item, Outcome]):
         self.work = work
 
     def as_they_come(self, items: Sequence[Item]) -> Iterator[tuple[int, Outcome]]:
-        """Every outcome with the number of its item."""
         return enumerate(map(self.work, items))
