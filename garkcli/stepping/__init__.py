@@ -1,1 +1,1 @@
-"""One step of a method on a problem: its stages in order, written out as straight-line code."""
+"""Steps of a method on a problem, as straight-line code."""

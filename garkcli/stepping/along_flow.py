@@ -1,7 +1,7 @@
-"""The step of a method that uses derivatives of f along the solution: an additive method whose
-vector fields are these derivatives, each with its power of h.
+"""The step of a method that uses derivatives of f along the solution: an additive method with these
+derivatives as vector fields, each with its power of h.
 
-f_1 = f and f_{k+1} = f_k' f, with ∂f_k/∂t where f depends on t, are derived as expressions.
+f_1 = f and f_{k+1} = f_k' f, with ∂f_k/∂t if f depends on t, are derived as expressions.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ from garkcli.tableau.tableau import Tableau
 
 
 class Stepped(Frozen, eq=False):
-    """What steps.
+    """The additive method that takes the steps.
 
     Attributes:
-        tableau: with a colour for each derivative, and for time.
-        fields: of these colours.
-        powers: of h that the coefficients of each colour have.
+        tableau: one colour for each derivative, and one for time.
+        fields: the fields of these colours.
+        powers: the power of h in the coefficients of each colour.
     """
 
     tableau: Tableau
@@ -35,8 +35,8 @@ class Stepped(Frozen, eq=False):
 
     @property
     def graph(self) -> DependencyGraph:
-        """What has to be computed: no derivative that nothing takes. Texts of coefficients are
-        equal only where the powers of h are, too.
+        """The dependencies without unused derivatives. Texts of coefficients are equal only if the
+        powers of h are equal, too.
         """
         graph = dependency_graph(self.tableau, self.fields)
         taken = {x for evaluations in graph.sums.values() for x in evaluations}
@@ -54,7 +54,7 @@ class Stepped(Frozen, eq=False):
 
 
 def along_flow(tableau: Tableau, problem: Problem) -> Stepped:
-    """The step of a method that uses derivatives, on a problem in one term."""
+    """The step of a method that uses derivatives, on a problem with one term."""
     method = AlongFlow.of(tableau)
     made, count = method.additive, len(method.A)
     groups = problem.layout.groups

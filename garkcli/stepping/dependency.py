@@ -1,10 +1,9 @@
-"""In which order the stages of a method can be computed, and which of them are implicit.
+"""The order of computation of stages, and which of them are implicit.
 
 A directed graph has one vertex for each stage value (positions or momenta of one stage) that some
-vector field looks at, and one for each evaluation of a field. Its strongly connected components are
-computed one after the other; in a component that is not a single vertex, stage values are declared
-unknown until what is left has no cycle. Newton's method solves for the unknowns only: the
-rectangular method has one.
+vector field uses, and one for each evaluation of a field. Its strongly connected components are
+computed one after the other; in a component of several vertices, stage values become unknowns until
+the rest has no cycle. Newton's method solves for the unknowns only: the rectangular method has one.
 """
 
 from __future__ import annotations
@@ -21,13 +20,13 @@ from garkcli.tableau.pointwise import Entries, numeric_entries
 from garkcli.tableau.tableau import Tableau
 
 DIGITS = 60
-"""Numbers of a tableau that agree to so many digits are equal."""
+"""Coefficients that agree to so many digits are equal."""
 T = TypeVar("T", bound=Hashable)
 
 
 class Stage(Frozen):
-    """One group of numbers of stage ``index`` of the stage space ``space``: positions, momenta, all
-    unknowns, or its time.
+    """A group of components of stage ``index`` of the stage space ``space``: positions, momenta,
+    all unknowns, or time.
     """
 
     space: int
@@ -44,15 +43,14 @@ class FieldEvaluation(Frozen):
 
 
 Vertex: TypeAlias = Stage | FieldEvaluation
-"""A vertex of the graph."""
 
 
 class StageBlock(Frozen):
     """Vertices that are computed together.
 
     Attributes:
-        unknowns: the stage values to solve for; empty when the block is explicit.
-        order: the other vertices, each after those it needs.
+        unknowns: the stage values to solve for; empty for an explicit block.
+        order: the other vertices in the order of computation.
     """
 
     unknowns: tuple[Stage, ...]
@@ -60,14 +58,14 @@ class StageBlock(Frozen):
 
 
 class DependencyGraph(Frozen):
-    """What a method computes on a problem.
+    """The computations of a method on a problem.
 
     Attributes:
         evaluations: every evaluation of a vector field.
-        arguments: the stage values that each evaluation looks at, positions before momenta.
-        sums: the evaluations that each stage value is a combination of.
-        coefficients: their coefficients, and for no stage the weights; equal numbers have the same
-            text.
+        arguments: the stage values that each evaluation uses, positions before momenta.
+        sums: the evaluations in each stage value.
+        coefficients: their coefficients, and with stage None the weights; equal numbers have equal
+            texts.
     """
 
     evaluations: tuple[FieldEvaluation, ...]
@@ -76,7 +74,7 @@ class DependencyGraph(Frozen):
     coefficients: Mapping[tuple[Stage | None, FieldEvaluation], str]
 
     def blocks(self) -> tuple[StageBlock, ...]:
-        """The components in the order in which they can be computed."""
+        """The components in the order of computation."""
         after = self._successors()
         found = []
         for component in components(after):
@@ -92,7 +90,7 @@ class DependencyGraph(Frozen):
         return tuple(found)
 
     def _successors(self) -> dict[Vertex, list[Vertex]]:
-        """What needs each vertex."""
+        """For each vertex those that need it."""
         after: dict[Vertex, list[Vertex]] = {stage: [] for stage in self.sums}
         after |= {evaluation: [] for evaluation in self.evaluations}
         for evaluation, stages in self.arguments.items():
@@ -126,7 +124,7 @@ class DependencyGraph(Frozen):
                 cut.add(max(component, key=ways.__getitem__))
 
     def _predecessors(self, stages: Sequence[Stage]) -> dict[Stage, set[Stage]]:
-        """Which of ``stages`` the evaluations look at that each of them sums."""
+        """For each of ``stages`` those among them that its evaluations use."""
         inside = set(stages)
         before: dict[Stage, set[Stage]] = {}
         for stage in stages:
@@ -138,9 +136,7 @@ class DependencyGraph(Frozen):
 
 
 def dependency_graph(tableau: Tableau, fields: Fields) -> DependencyGraph:
-    """What has to be computed; coefficients are zero or equal when they are to ``DIGITS``
-    digits.
-    """
+    """The computations of a tableau; coefficients count as zero or equal to ``DIGITS`` digits."""
     entries = numeric_entries(tableau, DIGITS + 5)
     arguments: dict[FieldEvaluation, tuple[Stage, ...]] = {}
     for (m, group), field in fields.items():
@@ -169,8 +165,8 @@ def dependency_graph(tableau: Tableau, fields: Fields) -> DependencyGraph:
 
 
 def entry(tableau: Tableau, entries: Entries, stage: Stage | None, value: FieldEvaluation) -> Any:
-    """The coefficient of ``value`` in a stage, an enclosure, or 0 where it is not seen; for no
-    stage its weight.
+    """The coefficient of an evaluation in a stage, an enclosure, or 0 if it is not seen; its weight
+    for stage None.
     """
     if stage is None:
         return entries.b[value.colour][value.index]

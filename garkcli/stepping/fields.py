@@ -1,4 +1,4 @@
-"""The vector fields of a method's colours on a problem, and which trees these can see."""
+"""The vector fields of a method's colours on a problem, and the trees that they see."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ from garkcli.tableau.tableau import Colour, Part, Tableau
 
 
 def split_into(problem: Problem, terms: int) -> Problem:
-    """``problem`` with as many terms.
+    """``problem`` in as many terms.
 
-    One term is the sum. A Hamiltonian of one term is split in the natural way: the summands with
-    momenta make the first term, those of the positions alone the others, in equal shares.
+    One term is the sum. A Hamiltonian with one term is split naturally: summands with momenta are
+    the first term, those with positions only are shared equally by the others.
 
     Raises:
         UsageProblem: there is no natural split.
@@ -46,7 +46,7 @@ def split_into(problem: Problem, terms: int) -> Problem:
 
 
 def _natural(problem: Hamiltonian, terms: int) -> tuple[Any, ...] | None:
-    """T and shares of V, for H = T(q, p) + V(q); None where there is only one of them."""
+    """T and shares of V, for H = T(q, p) + V(q); None if one of them is missing."""
     import sympy
 
     momenta = set(symbols(problem.variables, "p"))
@@ -63,16 +63,16 @@ def _natural(problem: Hamiltonian, terms: int) -> tuple[Any, ...] | None:
 
 
 Fields: TypeAlias = Mapping[tuple[int, Group], VectorField]
-"""The vector fields that are not zero, by colour and by what they drive."""
+"""The nonzero vector fields, by colour and driven group."""
 
 
 def driven(colour: Colour) -> tuple[Group, ...]:
-    """What a colour drives in a Hamiltonian problem."""
+    """The groups that a colour drives in a Hamiltonian problem."""
     return GROUPS if colour.part == "y" else (colour.part,)
 
 
 def with_joined_terms(tableau: Tableau) -> Tableau:
-    """A partitioned method for an unsplit problem q̇ = V(q, p), ṗ = F(q, p) with both in one
+    """A partitioned method for an unsplit problem q̇ = V(q, p), ṗ = F(q, p), with both in one
     term.
     """
     has_one_space = tableau.size == 2 and len(tableau.spaces) == 1
@@ -83,10 +83,10 @@ def with_joined_terms(tableau: Tableau) -> Tableau:
 
 
 def stepped_terms(tableau: Tableau, problem: Problem) -> Tableau:
-    """The tableau with the terms that it steps ``problem`` in.
+    """The tableau with the terms in which it steps ``problem``.
 
     Raises:
-        UsageProblem: it drives positions and momenta, and the problem has none.
+        UsageProblem: it drives positions and momenta, which the problem does not have.
     """
     if isinstance(problem, Hamiltonian):
         return with_joined_terms(tableau)
@@ -98,11 +98,11 @@ def stepped_terms(tableau: Tableau, problem: Problem) -> Tableau:
 
 
 def with_clock(tableau: Tableau, problem: Problem) -> Tableau:
-    """The tableau with time as its last colour where the problem has time in it: stages are at t_0
-    + h c^{l}, with the nodes as the tableau has them.
+    """The tableau with time as its last colour if the problem depends on time: stages are at t_0 +
+    h c^{l}.
 
     Raises:
-        UsageProblem: it has no one node for each stage.
+        UsageProblem: its stages have no unique nodes.
     """
     if isinstance(problem, Hamiltonian) or not problem.has_time:
         return tableau
@@ -123,7 +123,7 @@ def fields_of(tableau: Tableau, problem: Problem) -> Fields:
     """The vector fields of the colours.
 
     Raises:
-        UsageProblem: the problem is not of the form that the structure of the method is for.
+        UsageProblem: the problem does not suit the structure of the method.
     """
     if isinstance(problem, Hamiltonian):
         fields = _hamiltonian_fields(tableau, problem)
@@ -134,7 +134,7 @@ def fields_of(tableau: Tableau, problem: Problem) -> Fields:
 
 
 def _right_hand_sides(tableau: Tableau, problem: RightHandSide) -> Fields:
-    """f^{l} of each colour l; ṫ = 1 is that of the last one where there is time."""
+    """f^{l} of each colour l, and ṫ = 1 of the last one if the problem depends on time."""
     fields: dict[tuple[int, Group], VectorField] = {}
     for m, colour in enumerate(tableau.colours):
         if problem.has_time and m == tableau.size - 1:
@@ -176,7 +176,9 @@ def _no_colour(problem: Hamiltonian, term: int, group: Group) -> UsageProblem:
 
 
 def _check_edges(tableau: Tableau, fields: Fields) -> None:
-    """Refuse fields that are not as the method takes them to be."""
+    """Refuses fields that are not linear where the method assumes it, or that need a missing
+    block.
+    """
     for (l, driven_group), field in fields.items():
         colour = tableau.colours[l]
         name = colour.name
@@ -201,11 +203,10 @@ def _check_edges(tableau: Tableau, fields: Fields) -> None:
 
 @doing("what the problem sees")
 def visible_tableau(tableau: Tableau, fields: Fields) -> Tableau:
-    """The tableau whose trees are those that the problem can see: its order is the one to be
-    observed.
+    """The tableau whose trees are those that the problem sees: it has the observed order.
 
-    Each field has a colour and stages of its own, zero fields have none, and no stage sees what its
-    field does not depend on.
+    Each nonzero field has a colour and stages of its own, and no stage sees what its field does not
+    depend on.
     """
     colours, spaces = [], []
     for k, ((m, group), field) in enumerate(fields.items()):
@@ -224,7 +225,7 @@ def visible_tableau(tableau: Tableau, fields: Fields) -> Tableau:
 
 
 def visible_trees(fields: Fields) -> str:
-    """In one line, which trees a problem with these fields can see."""
+    """The trees that a problem with these fields sees, in one line."""
     if all(field.is_linear for field in fields.values()):
         return "a linear problem sees only the unbranched trees"
     if _is_linear_but_for_time(fields):
@@ -248,9 +249,7 @@ def visible_trees(fields: Fields) -> str:
 
 
 def _is_linear_but_for_time(fields: Fields) -> bool:
-    """Whether right-hand sides with time in them are linear in the unknowns, with constant
-    coefficients.
-    """
+    """Whether right-hand sides with time are linear in the unknowns, with constant coefficients."""
     for (_, group), field in fields.items():
         if group not in ("y", TIME):
             return False
@@ -260,7 +259,7 @@ def _is_linear_but_for_time(fields: Fields) -> bool:
 
 
 def _branching(fields: Fields) -> str:
-    """How many branches a vertex can have, where that is bounded."""
+    """Words on the largest number of branches of a vertex; empty if unbounded."""
     degrees = []
     for field in fields.values():
         degree = field.degree

@@ -1,6 +1,4 @@
-"""A method on a problem, ready to step: its coefficients in the numbers asked for, and its
-program.
-"""
+"""A method bound to a problem, ready to step: coefficients to the requested digits, and program."""
 
 from __future__ import annotations
 
@@ -38,7 +36,7 @@ FLOAT_PRECISION = 2.0**-52
 Real: TypeAlias = Any
 """A float, or the midpoint of a ball with the digits of the integrator."""
 Recorder: TypeAlias = Callable[[list[Real]], None]
-"""Is given the unknowns after a step: (q, p), shape (2d,), or y, shape (d,)."""
+"""Called with the unknowns after a step: (q, p), shape (2d,), or y, shape (d,)."""
 StepProgram: TypeAlias = Callable[
     [list[Real], list[Real], int, int, Recorder | None], tuple[list[Real], list[int], int]
 ]
@@ -46,8 +44,8 @@ StepProgram: TypeAlias = Callable[
 
 
 class NotSolved(Exception):
-    """The step of this number has not been solved: the last correction of Newton's method, or no
-    number.
+    """Newton's method did not converge in step ``number``; ``residual`` is its last correction, or
+    no number.
     """
 
     def __init__(self, number: int, residual: float) -> None:
@@ -60,11 +58,11 @@ class Integrator(Frozen):
 
     Attributes:
         problem: the split problem.
-        digits: of all numbers; up to ``FLOAT_DIGITS`` they are floats.
-        program: what a step does.
-        coefficients: enclosures of the coefficients that the program asks for, in its order.
-        run: the program, made.
-        powers: of h that each of them has; none where all have the first.
+        digits: the digits of all numbers; up to ``FLOAT_DIGITS`` they are floats.
+        program: the program of a step.
+        coefficients: enclosures of the coefficients of the program, in its order.
+        run: the compiled program.
+        powers: the power of h of each coefficient; empty if all are 1.
     """
 
     problem: Problem
@@ -76,12 +74,11 @@ class Integrator(Frozen):
 
     @property
     def bits(self) -> int:
-        """The precision that balls are computed with."""
+        """The precision of balls."""
         return _bits(self.digits)
 
     @property
     def is_for_balls(self) -> bool:
-        """Whether numbers are balls."""
         return self.digits > FLOAT_DIGITS
 
     def number(self, x: Any) -> Real:
@@ -100,13 +97,13 @@ class Integrator(Frozen):
 
 
 class Binding(Frozen, eq=False):
-    """A method on a problem, before it is said with how many digits it steps.
+    """A method on a problem, without a number of digits.
 
     Attributes:
-        tableau: with the terms that the problem has.
-        problem: in as many terms as the tableau is for.
-        fields: the vector fields of the colours; steps of a method that uses derivatives evaluate
-            these as well.
+        tableau: with the terms of the problem.
+        problem: in as many terms as the tableau has.
+        fields: the vector fields of the colours; steps of a method with derivatives evaluate these
+            as well.
     """
 
     tableau: Tableau
@@ -115,7 +112,7 @@ class Binding(Frozen, eq=False):
 
     @doing("program of a step")
     def at(self, digits: int = FLOAT_DIGITS) -> Integrator:
-        """The steps with numbers of ``digits`` digits; floats up to ``FLOAT_DIGITS``."""
+        """The integrator with ``digits`` digits; floats up to ``FLOAT_DIGITS``."""
         digits = max(digits, FLOAT_DIGITS)
         method = LinearlyImplicit.of(self.tableau)
         if method is not None:
@@ -147,7 +144,7 @@ class Binding(Frozen, eq=False):
         return Integrator(self.problem, digits, program, coefficients, run, powers)
 
     def _linear(self, method: LinearlyImplicit, digits: int) -> Integrator:
-        """The steps of a Rosenbrock method."""
+        """The integrator of a Rosenbrock method."""
         program = program_of(method, self.problem.layout)
         with _precision(digits):
             run = steps_of(program, self.problem, digits > FLOAT_DIGITS, NotSolved)
@@ -156,7 +153,6 @@ class Binding(Frozen, eq=False):
 
     @cached_property
     def graph(self) -> DependencyGraph:
-        """What has to be computed in a step."""
         along = self._along_flow
         if along is None:
             return dependency_graph(self.tableau, self.fields)
@@ -164,7 +160,7 @@ class Binding(Frozen, eq=False):
 
     @cached_property
     def _along_flow(self) -> Stepped | None:
-        """What steps in the place of a method that uses derivatives."""
+        """The additive method that takes the steps, for a method with derivatives."""
         if not self.tableau.uses_derivatives:
             return None
         from garkcli.stepping.along_flow import along_flow  # few methods need it
@@ -191,14 +187,14 @@ class Binding(Frozen, eq=False):
 
 @doing("method for the problem")
 def bind(tableau: Tableau, problem: Problem) -> Binding:
-    """Make ``tableau`` and ``problem`` for each other, to step with any number of digits.
+    """Binds ``tableau`` to ``problem``, to step with any number of digits.
 
     Args:
-        tableau: of any structure.
-        problem: in as many terms as the tableau is for, or in one that has a natural split.
+        tableau: a method of any structure.
+        problem: in as many terms as the tableau has, or in one with a natural split.
 
     Raises:
-        UsageProblem: the problem is not of the form that the structure is for.
+        UsageProblem: the problem does not suit the structure.
 
     >>> from garkcli import hamiltonian, integrate, loads
     >>> rk4 = loads("methods: [{family: rk4}]").tableau
@@ -237,7 +233,7 @@ def _corrections(inverse: Floats, residuals: list[float]) -> list[float]:
 
 
 def _corrections_of_balls(inverse: Floats, residuals: list[arb]) -> list[arb]:
-    """The same for balls of any size: they are scaled into the range of floats, and back."""
+    """Corrections for balls of any size, scaled into the range of floats and back."""
     middles = [arb(r).mid() for r in residuals]
     scale = max(map(abs, middles))
     if scale == 0 or not scale.is_finite():
@@ -268,13 +264,12 @@ class StepFailed(GarkError):
 
 
 class Work(Frozen):
-    """What a run of steps has cost.
+    """The cost of a run of steps.
 
     Attributes:
-        evaluations: of vector fields, each one V^{l} or F^{l} at one stage, those of Newton's
-            method included.
-        iterations: of Newton's method, over all implicit blocks.
-        jacobians: of an implicit block, each with its factorisation.
+        evaluations: evaluations of V^{l} or F^{l} at one stage, including those of Newton's method.
+        iterations: Newton iterations over all implicit blocks.
+        jacobians: Jacobians of implicit blocks, each with a factorisation.
     """
 
     evaluations: int
@@ -291,8 +286,7 @@ def trajectory(
 ) -> Iterator[list[Real]]:
     """(q, p) at the start and after each ``every`` of ``count`` steps of size ``h``, shape (2d,).
 
-    The last one is after ``count`` steps, whatever remains. The start is ``initial``, or that of
-    the problem.
+    The last one is after ``count`` steps. The start is ``initial``, or that of the problem.
 
     Raises:
         StepFailed: the stage equations of a step were not solved.
@@ -324,13 +318,13 @@ def integrate(
 
 
 class Stepper(Mutable):
-    """A trajectory at one time, to be advanced.
+    """A trajectory that can be advanced.
 
     Attributes:
-        integrator: what steps.
+        integrator: the method on the problem.
         h: the step size.
         initial: (q, p) at the start, shape (2d,), or None for the problem's.
-        done: how many steps have been done.
+        done: the number of steps so far.
     """
 
     integrator: Integrator
@@ -358,7 +352,7 @@ class Stepper(Mutable):
 
     @property
     def work(self) -> Work:
-        """What all steps so far have cost."""
+        """The cost of all steps so far."""
         program = self.integrator.program
         repeated = sum(n * k for n, k in zip(self._iterations, program.repeated, strict=True))
         return Work(
@@ -366,7 +360,7 @@ class Stepper(Mutable):
         )
 
     def advance(self, count: int, record: Recorder | None = None) -> None:
-        """``count`` steps; ``record`` hears of each.
+        """Takes ``count`` steps; ``record`` is called after each.
 
         Raises:
             StepFailed: the stage equations of a step were not solved.
@@ -382,7 +376,7 @@ class Stepper(Mutable):
         self.done += count
 
     def _run(self, count: int, record: Recorder | None) -> tuple[list[Real], list[int], int]:
-        """What the program of the steps gives, with balls at their precision."""
+        """Runs the program of the steps, with balls at their precision."""
         integrator = self.integrator
         first = self.done + 1
         if not integrator.is_for_balls:

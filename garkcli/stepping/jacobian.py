@@ -1,4 +1,4 @@
-"""The lines of the Jacobian of an implicit block, by the chain rule along its explicit part."""
+"""Writes the Jacobian of an implicit block, by the chain rule along its explicit part."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 _Entry: TypeAlias = tuple[int, int, int]
-"""Row, column and place of the number w of one entry of a matrix W of weights."""
+"""Row and column of an entry of a matrix of weights, and the index of its number w."""
 
 
 class _Layer(Frozen):
@@ -30,14 +30,14 @@ class ChainRule:
     """The derivative of the image of the unknowns of a block.
 
     Args:
-        block: with its unknowns.
-        graph: that it is a part of.
+        block: the block.
+        graph: the graph with the block.
         dimension: d; there are n = d · (unknown stage values) unknowns.
-        weights: at which place the number w = h a of a stage and an evaluation is.
+        weights: the index of the number w = h a of a stage and an evaluation.
 
     Attributes:
-        evaluations: those of the block, in their order.
-        arguments: the pairs of an evaluation and a stage value whose derivatives it needs, in this
+        evaluations: the evaluations of the block, in order.
+        arguments: the pairs of evaluation and stage value whose derivatives it needs, in this
             order.
     """
 
@@ -69,7 +69,7 @@ class ChainRule:
         self._image = self._entries(self.unknowns)
 
     def _entries(self, stages: Sequence[Stage]) -> list[_Entry]:
-        """The entries of the matrix W of the sums of w f that ``stages`` are."""
+        """The entries of the matrix W with ``stages`` as sums of w f."""
         found = []
         for row, stage in enumerate(stages):
             for evaluation in self._graph.sums[stage]:
@@ -82,7 +82,8 @@ class ChainRule:
         """(I − J)⁻¹, shape (n, n).
 
         Args:
-            derivatives: of the fields by their ``arguments``, a matrix (d, d) each, row by row.
+            derivatives: the derivatives of the fields by their ``arguments``, a matrix (d, d) each,
+                row by row.
             weights: all numbers w.
         """
         import numpy as np
@@ -110,7 +111,7 @@ class ChainRule:
 
 
 def _sorted_out(vertices: Iterable[Vertex]) -> tuple[list[Stage], list[FieldEvaluation]]:
-    """Stage values, and field evaluations, each in their order."""
+    """Separates stage values and field evaluations, in order."""
     stages: list[Stage] = []
     evaluations: list[FieldEvaluation] = []
     for vertex in vertices:
@@ -134,17 +135,17 @@ def _combined(count: int, entries: Sequence[_Entry], w: Floats, of_fields: Float
 Slope: TypeAlias = dict[int, str]
 """The derivative of one number by the unknowns that it depends on, as texts."""
 _Slopes: TypeAlias = dict[tuple[Stage | FieldEvaluation, int], Slope]
-"""Those of components of stage values and of evaluations."""
+"""The slopes of components of stage values and evaluations."""
 
 
 class JacobianWriter:
-    """Writes derivatives.
+    """Writes the lines of derivatives.
 
     Args:
-        stages: has written the stages, and writes the lines.
+        stages: the writer of the stages.
 
     Attributes:
-        chains: the Jacobians with too many unknowns to be written out, by the places of their
+        chains: the Jacobians with too many unknowns to be written out, by the indices of their
             blocks.
     """
 
@@ -155,7 +156,7 @@ class JacobianWriter:
         self._prefix = "v" if stages.is_for_balls else ""
 
     def by_chain_rule(self, block: StageBlock, index: int) -> None:
-        """Write (I − J)⁻¹ as a call of ``ChainRule``, from the derivatives of the fields."""
+        """Writes (I − J)⁻¹ as a call of ``ChainRule``, from the derivatives of the fields."""
         stages = self._stages
         # all weights first: their places are what the chain rule knows them by
         chain = ChainRule(block, stages.graph, stages.d, self._places_of_weights())
@@ -170,7 +171,7 @@ class JacobianWriter:
         stages.lines.write(f"inverse = {call}")
 
     def _places_of_weights(self) -> dict[tuple[Stage, FieldEvaluation], int]:
-        """Where among the numbers w that of each stage value and evaluation is."""
+        """The index of the number w of each stage value and evaluation."""
         stages = self._stages
         places = {}
         for stage, evaluations in stages.graph.sums.items():
@@ -191,9 +192,7 @@ class JacobianWriter:
         return entries
 
     def written_out(self, block: StageBlock) -> list[Slope]:
-        """The derivative of the image of the unknowns, row by row, from lines that are written
-        here.
-        """
+        """Writes the derivative of the image of the unknowns and returns its rows."""
         d = self._stages.d
         slopes: _Slopes = {}
         column = 0
@@ -269,7 +268,7 @@ class JacobianWriter:
         return rows
 
     def _named(self, row: Slope, prefix: str) -> Slope:
-        """The same with composite texts given names."""
+        """The slope with names for composite texts."""
         made = {}
         for column, text in row.items():
             is_short = text.isidentifier() or text.replace(".", "").isdigit()
@@ -300,7 +299,6 @@ def _product(x: str, y: str) -> str:
 
 
 def identity_minus(J: Sequence[Slope]) -> list[list[str]]:
-    """I − J, all n² entries."""
     rows = []
     for i, slope in enumerate(J):
         row = ["0.0"] * len(J)

@@ -4,7 +4,7 @@ With the vector field y ↦ L^m y of colour m, L^m ∈ K^{d×d}, the stage value
 
     Y^k = 𝟙 ⊗ y₀ + h Σ_m (A^{k,m} ⊗ L^m) Y^{space(m)},    y₁ = y₀ + h Σ_m (b_m ⊗ L^m) Y^{space(m)}.
 
-Keeping of each Y^k only the components X that some vector field looks at, these are
+With only the components X of each Y^k that some vector field uses, these are
 
     X = E y₀ + h W X,    y₁ = y₀ + h B X,    hence    y₁ = (I + h B (I − hW)⁻¹ E) y₀.
 
@@ -35,10 +35,10 @@ _Rows: TypeAlias = list[list[Number]]
 
 
 class StageSystem(Frozen):
-    """W, E and B of this module's heading, over the domain K of the coefficients.
+    """W, E and B of the module's docstring, over the domain K of the coefficients.
 
     Attributes:
-        W: shape (n, n), n the number of unknown stage values that are used.
+        W: shape (n, n), n the number of unknown stage values in use.
         E: shape (n, d).
         B: shape (d, n).
     """
@@ -49,8 +49,8 @@ class StageSystem(Frozen):
 
 
 class _Term(Frozen):
-    """What the field of a colour does: component ``driven`` of y gets ``factor`` times component
-    ``seen``.
+    """An entry of the field of a colour: ``factor`` times component ``seen`` is added to component
+    ``driven``.
     """
 
     colour: int
@@ -67,11 +67,11 @@ def stage_system(
     Args:
         tableau: the method.
         fields: L^m for each colour m, all of one shape (d, d).
-        pattern: matrices that are zero only where the L^m are zero for all parameters of a problem,
-            so that the unknowns are the same for all; None for the L^m themselves.
+        pattern: matrices that are nonzero where some parameters of the problem make L^m nonzero, so
+            that the unknowns agree for all; None for the L^m themselves.
 
     Raises:
-        MethodError: it is no GARK method.
+        MethodError: the tableau is no GARK method.
     """
     tableau.demand_fields("a step on a linear problem")
     d = len(fields[0])
@@ -98,7 +98,7 @@ def stage_system(
 
 
 def _terms(fields: Sequence[Matrix], pattern: Sequence[Matrix]) -> Iterator[_Term]:
-    """The entries of all L^m that are not zero in the pattern."""
+    """The entries of all L^m that are nonzero in the pattern."""
     for m, (L, kept) in enumerate(zip(fields, pattern, strict=True)):
         for i, row in enumerate(kept):
             for j, is_kept in enumerate(row):
@@ -109,8 +109,8 @@ def _terms(fields: Sequence[Matrix], pattern: Sequence[Matrix]) -> Iterator[_Ter
 def _first_unknowns(
     tableau: Tableau, terms: Sequence[_Term]
 ) -> tuple[dict[tuple[int, int], int], int]:
-    """The number of the first unknown of each (stage space, component of y) that some field looks
-    at, and how many unknowns there are.
+    """The first unknown of each (stage space, component of y) in use, and the number of
+    unknowns.
     """
     first: dict[tuple[int, int], int] = {}
     n = 0
@@ -131,7 +131,6 @@ def _frozen(rows: _Rows) -> Matrix:
 
 
 def _add(matrix: _Rows, row: int, column: int, factor: Number, block: Matrix) -> None:
-    """Add a multiple of a block whose upper left corner is at (row, column)."""
     for i, entries in enumerate(block, start=row):
         for j, x in enumerate(entries, start=column):
             matrix[i][j] = matrix[i][j] + factor * x
@@ -142,7 +141,7 @@ MAX_STEPS = 10**15
 
 
 class LinearStep(Frozen):
-    """A tableau on an oscillator: W, E and B of its stage system, over ℚ.
+    """A tableau on an oscillator, with the stage system W, E, B over ℚ.
 
     Attributes:
         problem: the oscillator and its split.
@@ -162,7 +161,7 @@ class LinearStep(Frozen):
         """R(h), exact, shape (2, 2).
 
         Raises:
-            UsageProblem: the stage equations have no unique solution for this h.
+            UsageProblem: the stage equations are singular for this h.
         """
         n = self.W.nrows()
         unit = fmpq_mat(n, n)
@@ -187,7 +186,7 @@ class LinearStep(Frozen):
             X = self.W * X
 
     def _numbers(self, flat: fmpq_mat) -> Matrix:
-        """Coordinates over ℚ, shape (2d, 2), back to numbers."""
+        """Maps coordinates over ℚ, shape (2d, 2), back to numbers."""
         if self.field is None:
             return tuple(tuple(row) for row in flat.tolist())
         d = self.field.degree
@@ -204,7 +203,7 @@ def linear_step(tableau: Tableau, problem: Oscillator) -> LinearStep:
     """The step of ``tableau`` on ``problem``.
 
     Raises:
-        UsageProblem: the split is not one that the structure of the tableau is for.
+        UsageProblem: the split does not suit the structure of the tableau.
     """
     check_structure(tableau, problem)
     system = stage_system(tableau, [problem.matrix(colour) for colour in tableau.colours])
@@ -252,19 +251,16 @@ def enclosure(matrix: Matrix, bits: int) -> arb_mat:
 
 
 def conserves_energy(R: Matrix, omega: fmpq) -> bool:
-    """Whether Rᵀ G R = G with G = diag(ω², 1): ½(p² + ω²q²) is the same after the step, decided
-    exactly.
-    """
+    """Whether Rᵀ G R = G with G = diag(ω², 1), that is, a step keeps ½(p² + ω²q²); exact."""
     G: Matrix = ((omega * omega, ZERO), (ZERO, ONE))
     form = multiply(transpose(R), multiply(G, R))
     return not any(x for row in subtract(form, G) for x in row)
 
 
 def deviations(step: LinearStep) -> Iterator[arb]:
-    """How far the coefficients of h, h², … in R(h) are from those of exp(hL), without end.
+    """The distances of the coefficients of h, h², … in R(h) from those of exp(hL), without end.
 
-    Each is the largest of its four entries, in units in which ω = 1; it is zero if and only if all
-    are.
+    Each is the largest of four entries, in units with ω = 1; it is zero if and only if all are.
     """
     omega = step.problem.omega
     L: Matrix = ((ZERO, ONE), (-omega * omega, ZERO))
@@ -283,17 +279,15 @@ def deviations(step: LinearStep) -> Iterator[arb]:
 
 
 def visible_order(step: LinearStep, tolerance: fmpq | None = None) -> int:
-    """The largest r with R(h) = exp(hL) + O(h^{r+1}), decided exactly: the order that this problem
-    can see.
+    """The largest r with R(h) = exp(hL) + O(h^{r+1}): the order that this problem sees, exactly.
 
-    A linear problem sees only the unbranched trees, and of these only those along which the split
-    is not zero. The search ends, because an entry of R is rational in h and cos ωh is not.
+    A linear problem sees only unbranched trees along which the split is nonzero. The search ends
+    because R is rational in h and cos ωh is not.
 
     Args:
         step: the method on the problem.
-        tolerance: the largest of the ``deviations`` that counts as rounding; none by default. The
-            search ends where the coefficients 1/r! of exp(hL) themselves are no larger: from there
-            on every step agrees with it.
+        tolerance: the largest of the ``deviations`` that counts as rounding; 0 by default. The
+            search ends when the coefficients 1/r! of exp(hL) are as small.
     """
     limit = fmpq(0) if tolerance is None else tolerance
     coefficient = ONE
@@ -308,7 +302,7 @@ def whole_steps(t_end: fmpq, h: fmpq) -> int:
     """The number of steps n = t_end / h.
 
     Raises:
-        UsageProblem: it is not a positive whole number, or more than ``MAX_STEPS``.
+        UsageProblem: it is not a positive integer, or more than ``MAX_STEPS``.
     """
     if h <= 0 or t_end <= 0:
         message = f"step {h} and end time {t_end} are not both positive"

@@ -4,9 +4,8 @@
     y_1 = y + h Σ_i b_i k_i,
 
 with J = ∂f/∂y at the beginning of the step, of the whole problem: positions and momenta of a
-Hamiltonian one together. In its place a step takes what a tableau is for: of f' + h E the
-derivatives at t − h, y − h f, as those of the step before; of an arbitrary matrix the diagonal of
-J, without ∂f/∂t.
+Hamiltonian one together. A tableau for f' + h E takes the derivatives at t − h, y − h f instead,
+like those of the step before; one for an arbitrary matrix takes the diagonal of J, without ∂f/∂t.
 """
 
 from __future__ import annotations
@@ -30,13 +29,13 @@ from garkcli.tableau.tableau import Tableau, butcher
 Numbers: TypeAlias = "list[Any]"
 Fields: TypeAlias = "Callable[..., Numbers]"
 Taken: TypeAlias = Literal["exact", "old", "diagonal"]
-"""Which matrix a step takes for the Jacobian."""
+"""The matrix that a step uses for the Jacobian."""
 _TAKEN: dict[tuple[Kind, ...], Taken] = {
     (NOT_ONE, ONE_BRANCH): "exact",
     (NOT_ONE, ONE_BRANCH, ERROR_OF_MATRIX): "old",
     (PLAIN, MATRIX): "diagonal",
 }
-"""By the kinds of the vertices of one vector field."""
+"""The matrix by the kinds of vertices of one vector field."""
 
 
 class LinearlyImplicit(Frozen):
@@ -46,9 +45,9 @@ class LinearlyImplicit(Frozen):
         alpha: shape (s, s), zero on and above the diagonal.
         gamma: shape (s, s), zero above the diagonal.
         b: the weights.
-        c: where f is evaluated.
+        c: the nodes of f.
         d: the weights of ∂f/∂t.
-        taken: for the Jacobian.
+        taken: the matrix used for the Jacobian.
     """
 
     alpha: Matrix
@@ -60,10 +59,11 @@ class LinearlyImplicit(Frozen):
 
     @staticmethod
     def of(tableau: Tableau) -> LinearlyImplicit | None:
-        """The method of a tableau, time as its last colour or not; None for one of another kind.
+        """The method of a tableau, with time as its last colour or without; None for another kind
+        of method.
 
         Raises:
-            MethodError: it has several colours, or a stage needs a later one.
+            MethodError: the method has several colours, or a stage needs a later one.
         """
         kinds = tuple(x.kind for x in tableau.colours if x.kind != LEAF)
         taken = _TAKEN.get(tuple(dict.fromkeys(kinds)))
@@ -101,12 +101,12 @@ class LinearlyImplicit(Frozen):
 
 
 class LinearProgram(Frozen):
-    """What steps of such a method are made of, as ``Program`` is for others.
+    """The counterpart of ``Program`` for such a method.
 
     Attributes:
-        method: it.
-        size: of a state: its numbers, that of time last, and what each lost in its last digits.
-        evaluations: of vector fields in a step.
+        method: the method.
+        size: the length of a state: its numbers, time last, and their compensations.
+        evaluations: evaluations of vector fields in a step.
     """
 
     method: LinearlyImplicit
@@ -116,7 +116,6 @@ class LinearProgram(Frozen):
 
 
 def program_of(method: LinearlyImplicit, layout: Layout) -> LinearProgram:
-    """The program of a method on states with this layout."""
     groups = len([group for group in layout.groups if group != TIME])
     return LinearProgram(method, 2 * layout.total, groups * len(method.b))
 
@@ -124,14 +123,8 @@ def program_of(method: LinearlyImplicit, layout: Layout) -> LinearProgram:
 def steps_of(
     program: LinearProgram, problem: Problem, is_for_balls: bool, failed: Callable[..., Exception]
 ) -> Any:
-    """The function that steps, as ``Program.source`` describes it, with numbers of the precision in
-    force.
-
-    Args:
-        program: of the method on the problem.
-        problem: in one term.
-        is_for_balls: whether numbers are balls.
-        failed: the exception of a step that fails, from its number and a residual.
+    """The function that takes steps, as in ``Program.source``, with numbers of the current
+    precision; ``failed`` makes its exception from the number of the step and a residual.
     """
     layout = problem.layout
     value, exact = _field(problem, is_for_balls)
@@ -192,11 +185,13 @@ def _diagonal(_value: Fields, slopes: Callable[..., Any]) -> Callable[..., Any]:
 
 
 _TAKES = {"exact": _exactly, "old": _at_the_step_before, "diagonal": _diagonal}
-"""From the vector field and its derivatives to the matrix and ∂f/∂t of a step."""
+"""Makes the function for the matrix and ∂f/∂t of a step, from the vector field and its
+derivatives.
+"""
 
 
 class _Weights:
-    """The products of h and the coefficients, by what they belong to."""
+    """The products of h and the coefficients, grouped by coefficient."""
 
     def __init__(self, w: Sequence[Any], stages: int) -> None:
         left = iter(w)
@@ -212,7 +207,6 @@ class _Weights:
 def _increment(
     w: _Weights, y: Numbers, n: int, value: Fields, slopes: Callable[..., Any]
 ) -> Numbers:
-    """The increment of the unknowns of one step."""
     start = y[:n]
     time = y[n:]
     jacobian, by_time = slopes(y, w.h)
@@ -241,7 +235,6 @@ def _increment(
 
 
 def _sum(start: Any, weights: Sequence[Any], k: Sequence[Numbers], r: int) -> Any:
-    """Start + Σ_j w_j k_j, component r."""
     for weight, slope in zip(weights, k, strict=False):
         if weight:
             start = start + weight * slope[r]
@@ -249,7 +242,6 @@ def _sum(start: Any, weights: Sequence[Any], k: Sequence[Numbers], r: int) -> An
 
 
 def _solved(matrix: list[Numbers], right: Numbers) -> Numbers:
-    """The solution of a linear system, by elimination with pivots."""
     n = len(right)
     rows = [[*row, x] for row, x in zip(matrix, right, strict=True)]
     for k in range(n):

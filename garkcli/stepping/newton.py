@@ -20,13 +20,13 @@ from garkcli.stepping.jacobian import JacobianWriter, Slope, identity_minus
 from garkcli.stepping.stagewriter import StageWriter, names
 
 MAX_ITERATIONS = 50
-"""Newton iterations in floats before a step is given up; numbers with more digits may take one more
-for each digit, since a Jacobian of floats is worth at least one in each.
+"""Newton iterations in floats before a step is given up; more digits allow one more for each digit,
+as a Jacobian in floats gains at least one in each.
 """
 _WRITTEN = 24
-"""Up to so many unknowns the Jacobian is written out."""
+"""Most unknowns for which the Jacobian is written out."""
 _DIRECT = 2
-"""Up to so many unknowns floats solve by formulas, with a new Jacobian in every iteration."""
+"""Most unknowns that floats solve by formulas, with a new Jacobian in every iteration."""
 
 # Parts of the size of the unknowns. A float is good to 1.1e-16 of itself.
 # a correction whose square is below round-off: 1e-18
@@ -46,11 +46,11 @@ _STALLED_UNITS = 1e4
 
 
 class NewtonWriter:
-    """Writes Newton's method.
+    """Writes the lines of Newton's method.
 
     Args:
-        stages: writes the stages and the lines.
-        jacobians: writes derivatives.
+        stages: the writer of the stages.
+        jacobians: the writer of derivatives.
 
     Attributes:
         frozen: the names of the fields at y_0.
@@ -64,7 +64,7 @@ class NewtonWriter:
         self._is_for_balls = stages.is_for_balls
 
     def solve(self, block: StageBlock, index: int) -> None:
-        """Write Newton's method for the unknowns of ``block``, implicit block number ``index``."""
+        """Writes Newton's method for the unknowns of ``block``, the implicit block ``index``."""
         write = self._lines.write
         d = self._stages.d
         unknowns = [f"z{self._stages.component(x, i)}" for x in block.unknowns for i in range(d)]
@@ -102,7 +102,7 @@ class NewtonWriter:
         write(f"n{index} += iteration + 1")
 
     def _place(self, stage: Stage) -> None:
-        """An unknown stage value, from what is solved for."""
+        """Writes an unknown stage value from the solved unknowns."""
         stages = self._stages
         found = []
         for i in range(stages.d):
@@ -112,7 +112,9 @@ class NewtonWriter:
         stages.stages[stage] = found
 
     def _start(self, block: StageBlock) -> None:
-        """The fields frozen at y_0, and what that missed in the last step, extrapolated."""
+        """Writes the start: the fields frozen at y_0 plus the extrapolated correction of the last
+        step.
+        """
         stages = self._stages
         for stage in block.unknowns:
             for evaluation in stages.graph.sums[stage]:
@@ -158,7 +160,7 @@ class NewtonWriter:
                 k += 1
 
     def _directly(self, J: Sequence[Slope]) -> None:
-        """Corrections by Cramer's rule for (I − J) c = r."""
+        """Writes corrections by Cramer's rule for (I − J) c = r."""
         write = self._lines.write
         M = identity_minus(J)
         write("jacobians += 1")
@@ -172,8 +174,8 @@ class NewtonWriter:
         write("c0, c1 = (d*r0 - b*r1)/t, (a*r1 - c*r0)/t")
 
     def _by_inverse(self, block: StageBlock, n: int, index: int) -> None:
-        """Corrections by the inverse of I − J, a matrix of floats, which is kept as long as it
-        serves.
+        """Writes corrections by the inverse of I − J, a matrix of floats that is kept as long as it
+        converges fast.
         """
         self._lines.write("if stale:")
         with self._lines.nested():
@@ -189,9 +191,7 @@ class NewtonWriter:
         self._lines.write(f"{corrections}, = corrections(inverse, [{residuals}])")
 
     def _ending(self, is_direct: bool) -> None:
-        """Whether the next correction would be below round-off, and whether the Jacobian still
-        serves.
-        """
+        """Writes the tests for convergence and for renewing the Jacobian."""
         write = self._lines.write
         write("if not size < inf:")
         write(" raise NotSolved(number, float(size))")

@@ -1,10 +1,10 @@
-"""The step of a method on a problem as a program: straight-line Python, one for floats and one for
+"""The step of a method on a problem as straight-line Python, one program for floats and one for
 balls.
 
 The writer follows the blocks of ``garkcli.stepping.dependency`` in order. With the numbers w = h a
-and h b given, each stage value is y_0 plus the sum of w times field values, eq. (spgqrk) written
-out without its zeros: see ``garkcli.stepping.stagewriter``. The unknowns of an implicit block are
-found by Newton's method, see ``garkcli.stepping.newton``. The text has names of ours only: see
+and h b given, each stage value is y_0 plus the sum of w times field values, eq. (spgqrk) without
+its zeros: see ``garkcli.stepping.stagewriter``. Newton's method finds the unknowns of an implicit
+block, see ``garkcli.stepping.newton``. All names in the text are our own: see
 ``garkcli.problems.straightline``.
 """
 
@@ -29,19 +29,18 @@ class Program(Frozen):
     """A step as text.
 
     Attributes:
-        source: of ``run(state, w, first, count, record)``. A state is the list of its
-            numbers, that of time last, what they have lost in their last digits, and what the
-            starts of Newton's method missed in the last step and how that changed; the result is
-            the new state, the number of iterations of each implicit block, and the number of
-            Jacobians. ``record``, unless it is None, is
-            called with the numbers without time after each step.
-        coefficients: of which stage and value the coefficient a is that each w is h times; of no
-            stage for b.
-        codes: all that the text was made of.
-        size: of a state.
-        evaluations: of vector fields outside of Newton's method in one step.
+        source: the text of ``run(state, w, first, count, record)``. A state is the list of the
+            numbers, time last, their compensations, and the errors of the starts of Newton's method
+            in the last step with their changes; the result is the new state, the number of
+            iterations of each implicit block, and the number of Jacobians. ``record``, unless None,
+            is called with the numbers without time after each step.
+        coefficients: the stage and evaluation of the coefficient a in each w = h a; no stage for b.
+        codes: the codes in the text.
+        size: the length of a state.
+        evaluations: field evaluations outside of Newton's method in one step.
         implicit: the blocks that are solved by Newton's method, in order.
-        chains: the Jacobians of those with too many unknowns to be written out, by their places.
+        chains: the Jacobians with too many unknowns to be written out, by the indices of their
+            blocks.
     """
 
     source: str
@@ -62,12 +61,12 @@ class Program(Frozen):
 
 
 def write(graph: DependencyGraph, fields: Fields, layout: Layout, is_for_balls: bool) -> Program:
-    """The program of one step of the method with this ``graph`` on states with this ``layout``."""
+    """The program of one step of the method with ``graph`` on states with ``layout``."""
     return _ProgramWriter(graph, fields, layout, is_for_balls).program()
 
 
 class _ProgramWriter:
-    """Writes all of a step, with the help of those who write its parts."""
+    """Writes a whole step, using the writers of its parts."""
 
     def __init__(
         self, graph: DependencyGraph, fields: Fields, layout: Layout, is_for_balls: bool
@@ -85,7 +84,6 @@ class _ProgramWriter:
         self.unknowns = [stage for block in self.blocks for stage in block.unknowns]
 
     def program(self) -> Program:
-        """Write everything."""
         self._write_step()
         text = "\n".join(self._around(self.body.texts)) + "\n"
         # the numbers and what they lost; of each unknown what was missed, and how that changed
@@ -139,7 +137,6 @@ class _ProgramWriter:
         return lines.texts
 
     def _write_step(self) -> None:
-        """One step."""
         write = self.body.write
         for block in self.blocks:
             if block.unknowns:
@@ -166,7 +163,7 @@ class _ProgramWriter:
         write(f" record([{state}])")
 
     def _write_increments(self) -> None:
-        """The increments d = y_1 − y_0, group after group."""
+        """Writes the increments d = y_1 − y_0, group by group."""
         changes: list[str] = []
         for group in self.layout.groups:
             driving = [x for x in self.graph.evaluations if x.group == group]
@@ -175,7 +172,7 @@ class _ProgramWriter:
             self.body.write(f"d{i} = {change or '0.0'}")
 
     def _add(self, i: int) -> None:
-        """One component of y_1: compensated in floats."""
+        """Writes one component of y_1, compensated in floats."""
         write = self.body.write
         if self.is_for_balls:
             write(f"y{i} = (y{i} + d{i}).mid()")

@@ -1,4 +1,4 @@
-"""The lines of a step: stage values and evaluations of fields, each with a name of its own."""
+"""Writes the lines of a step: named stage values and field evaluations."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class Lines:
     """Lines of a program.
 
     Args:
-        indent: what the first of them begin with.
+        indent: the indentation of the first line.
 
     Attributes:
         texts: the lines written so far.
@@ -28,20 +28,19 @@ class Lines:
         self._indent = indent
 
     def write(self, line: str) -> None:
-        """Add one line."""
         self.texts.append(self._indent + line)
 
     @contextmanager
     def nested(self) -> Iterator[None]:
-        """What is written in this context belongs to the line before."""
+        """Lines written in this context are nested below the line before."""
         self._indent += " "
         yield
         self._indent = self._indent[:-1]
 
 
 class Sum(Frozen):
-    """A sum of w f that a stage has: the w of each evaluation, and a text a component, empty where
-    it is zero.
+    """A sum of w f in a stage: the w of each evaluation, and a text for each component, empty if
+    zero.
     """
 
     terms: dict[FieldEvaluation, str]
@@ -49,22 +48,22 @@ class Sum(Frozen):
 
 
 class StageWriter:
-    """Writes stage values and evaluations, and remembers the names of what they compute.
+    """Writes stage values and evaluations, and keeps the names of their results.
 
     Args:
-        graph: of the method on the problem.
+        graph: the graph of the method on the problem.
         fields: its vector fields.
-        layout: of a state.
+        layout: the layout of a state.
         is_for_balls: whether the numbers are balls.
-        lines: where they are written.
+        lines: receives the lines.
 
     Attributes:
         weights: the names of the numbers w, by the texts of their coefficients.
-        first: where each of them occurs first.
-        codes: all that was written of fields.
-        values: the names of what each evaluation gave.
+        first: the first occurrence of each.
+        codes: the code of fields in the text.
+        values: the names of the results of each evaluation.
         stages: the names of the numbers of each stage value.
-        number: of each vertex, for names.
+        number: the number of each vertex, for names.
     """
 
     def __init__(
@@ -88,7 +87,7 @@ class StageWriter:
         self._known_sums: list[Sum] = []
 
     def explicit(self, block: StageBlock) -> None:
-        """All vertices of ``block`` but its unknowns."""
+        """Writes all vertices of ``block`` except its unknowns."""
         for vertex in block.order:
             if isinstance(vertex, FieldEvaluation):
                 self._evaluate(vertex)
@@ -102,7 +101,7 @@ class StageWriter:
         self.values[evaluation] = self.emit(code, self.arguments(evaluation), prefix)
 
     def _place(self, stage: Stage) -> None:
-        """The stage value itself, y_0 and the sum."""
+        """Writes a stage value, the sum of y_0 and increments."""
         total = self.total(stage, self.graph.sums[stage], stage.group)
         found = []
         for i, text in enumerate(total.texts):
@@ -117,7 +116,7 @@ class StageWriter:
         self._known_sums.append(total)
 
     def arguments(self, evaluation: FieldEvaluation) -> list[str]:
-        """The names of the numbers that a field is evaluated at."""
+        """The names of the arguments of an evaluation."""
         found: list[str] = []
         for stage in self.graph.arguments[evaluation]:
             found += self.stages[stage]
@@ -126,11 +125,8 @@ class StageWriter:
     def total(
         self, stage: Stage | None, evaluations: Sequence[FieldEvaluation], group: Group
     ) -> Sum:
-        """The sums of w f over ``evaluations``, which drive ``group``; from a sum that is known,
-        where that has at least two of the terms.
-
-        In a composition of short steps each stage goes on from the one before, and so costs no more
-        than that.
+        """The sum of w f over ``evaluations``, which drive ``group``; built on a known sum that has
+        at least two of its terms, so each stage of a composition extends the one before.
         """
         terms: dict[FieldEvaluation, str] = {}
         for evaluation in evaluations:
@@ -149,9 +145,7 @@ class StageWriter:
         return Sum(terms, texts)
 
     def _largest_part(self, terms: dict[FieldEvaluation, str], size: int) -> Sum:
-        """The known sum with the most of these terms and no others; an empty one where none has
-        two.
-        """
+        """The known sum with the most of these terms and no others; empty if none has two."""
         largest = Sum({}, [""] * size)
         for known in self._known_sums:
             is_part = len(known.terms) > 1 and known.terms.items() <= terms.items()
@@ -160,7 +154,7 @@ class StageWriter:
         return largest
 
     def weight(self, stage: Stage | None, evaluation: FieldEvaluation) -> str:
-        """The name of w = h a, or of h b for no stage; equal numbers have one name."""
+        """The name of w = h a, or of h b for stage None; equal numbers share a name."""
         text = self.graph.coefficients[stage, evaluation]
         if text not in self.weights:
             self.weights[text] = f"w{len(self.first)}"
@@ -168,14 +162,14 @@ class StageWriter:
         return self.weights[text]
 
     def code(self, expressions: Vector, evaluation: FieldEvaluation, is_for_balls: bool) -> Code:
-        """The code of expressions in what the field of an evaluation depends on."""
+        """The code of expressions in the arguments of an evaluation."""
         arguments = self.fields[evaluation.colour, evaluation.group].arguments
         made = code_of(expressions, arguments, is_for_balls)
         self.codes.append(made)
         return made
 
     def emit(self, code: Code, arguments: Sequence[str], prefix: str) -> list[str]:
-        """Write ``code`` for these arguments; the names of its results."""
+        """Writes ``code`` for these arguments and returns the names of its results."""
         lines, results = code.lines(arguments, prefix)
         for line in lines:
             self.lines.write(line)
@@ -186,10 +180,9 @@ class StageWriter:
         return f"y{self.layout.start(group) + i}"
 
     def component(self, stage: Stage, i: int) -> str:
-        """What the names of component i of a stage value end in."""
+        """The suffix of the names of component i of a stage value."""
         return f"{self.number[stage]}_{i}"
 
 
 def names(letter: str, count: int) -> list[str]:
-    """The names of ``count`` numbers."""
     return [f"{letter}{i}" for i in range(count)]
