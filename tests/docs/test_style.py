@@ -7,8 +7,10 @@ import itertools
 import re
 import tomllib
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
+import pytest
 from click.testing import CliRunner
 
 from garkcli.cli.main import gark
@@ -22,6 +24,7 @@ STYLE = ROOT / "docs" / "contributing" / "style.md"
 PACKAGE = ROOT / "garkcli"
 DATA = PACKAGE / "glossary" / "data"
 TEMPLATES = PACKAGE / "webpage" / "templates"
+EXPORTS = PACKAGE / "bridges" / "templates"
 _BE = r"(?:is|are|was|were|be|been)"
 REFUSED = {
     "is told": rf"\b{_BE} told\b",
@@ -46,7 +49,26 @@ REFUSED = {
         r" an? (?:colour|stage|power|block|tree|method|row)\b"
     ),
 }
-"""What no text says, by the name in the table of the style page."""
+"""Patterns that no text has, by their names in the tables of the style page."""
+OPENINGS = re.compile(
+    r"(?:what|that|the same|those|of|which|how|who|whose|by (?:how much|what|which)|so many|where)\b",
+    re.IGNORECASE,
+)
+"""First words of a docstring or comment that leave its subject to be guessed."""
+INSIDE = re.compile(
+    r"\b(?:none (?:too |also )?where|where there (?:is|are) none|that is none|that are none"
+    r"|one coordinate a stage|but for\b)",
+    re.IGNORECASE,
+)
+"""Phrases that docstrings and comments do without."""
+NOT_CLEAN = {
+    *("api", "bridges", "catalogue", "check", "cli", "comparison", "constructions"),
+    *("convergence", "conversion", "design", "glossary", "longtime", "methodfile", "page"),
+    *("plots", "problems", "recognise", "report", "sources", "sweep", "tell", "webpage"),
+}
+"""Rooms, and files beside them, whose docstrings and comments are still to be rewritten."""
+DOCSTRING = re.compile(r'^ *r?"""(.*?)"""', re.MULTILINE | re.DOTALL)
+COMMENT = re.compile(r"^(?:.*?  | *)# (?!noqa|type:)(.+)$", re.MULTILINE)
 
 
 def texts() -> Iterator[tuple[str, str]]:
@@ -126,6 +148,61 @@ def refused(text: str) -> list[str]:
     ]
 
 
+def puzzles(source: str) -> Iterator[str]:
+    """Docstrings and comments whose subject has to be guessed, or with a refused phrase."""
+    for pattern in (DOCSTRING, COMMENT):
+        for match in pattern.finditer(source):
+            text = plain(match[1])
+            phrase = OPENINGS.match(text) if pattern is DOCSTRING else None
+            phrase = phrase or INSIDE.search(text)
+            if phrase:
+                yield f"…{text[max(0, phrase.start() - 20) : phrase.end() + 40]}…"
+
+
+def room_of(path: Path) -> str:
+    """The room of a file, or its name beside the rooms."""
+    return path.relative_to(PACKAGE).parts[0].removesuffix(".py")
+
+
+@pytest.fixture(scope="module")
+def offences() -> dict[str, list[str]]:
+    """The puzzling texts of each room, with their files."""
+    found: dict[str, list[str]] = {}
+    for path in sorted(PACKAGE.rglob("*.py")):
+        texts_of_file = puzzles(path.read_text(encoding="utf-8"))
+        found.setdefault(room_of(path), []).extend(f"{path.name}: {x}" for x in texts_of_file)
+    return found
+
+
+def test_docstrings_say_what_they_are_about(offences: dict[str, list[str]]) -> None:
+    """In every room that was rewritten; see the second table of the style page."""
+    assert [x for room, texts in offences.items() if room not in NOT_CLEAN for x in texts] == []
+
+
+def test_the_list_of_rooms_shrinks(offences: dict[str, list[str]]) -> None:
+    """A room without puzzling texts is taken off the list, and guarded from then on."""
+    assert sorted(room for room in NOT_CLEAN if not offences.get(room)) == []
+
+
+def test_data_and_templates_have_a_subject() -> None:
+    """Sentences of the glossary, and comments of templates, begin with one."""
+    data = (x for p in DATA.glob("*.toml") for x in strings(tomllib.loads(p.read_text("utf-8"))))
+    assert [x[:60] for x in data if INSIDE.search(plain(x))] == []
+    notes = (
+        (path.name, note)
+        for path in (*TEMPLATES.iterdir(), *EXPORTS.iterdir())
+        for note in re.findall(r"\{#-?(.*?)-?#\}", path.read_text("utf-8"), re.DOTALL)
+    )
+    assert [x for x in notes if OPENINGS.match(plain(x[1])) or INSIDE.search(plain(x[1]))] == []
+
+
+def test_puzzles_are_found() -> None:
+    """In docstrings of every kind and in comments; a question in code is none of them."""
+    source = '''"""What it is."""\nx = 1  # a root that is none\n"""The factor."""\n'''
+    assert list(puzzles(source)) == ["…What it is.…", "…a root that is none…"]
+    assert [x for before, _ in second_table() for x in puzzles(f'"""{before}"""')] != []
+
+
 def test_no_text_has_a_pattern_that_is_refused() -> None:
     """Say it in the active voice, with a concrete subject: the style page has pairs."""
     assert [f"{where}: {x}" for where, text in texts() for x in refused(text)] == []
@@ -136,8 +213,22 @@ PAIRS = re.compile(r"^\| (?!not |---)(.+?) \| (.+?) \|$", re.MULTILINE)
 
 def pairs() -> list[tuple[str, str]]:
     """The sentences of the style page: before, after."""
-    table = STYLE.read_text(encoding="utf-8").partition("## English")[2]
-    return PAIRS.findall(table)
+    text = STYLE.read_text(encoding="utf-8").partition("## English")[2]
+    return PAIRS.findall(text.partition("## Docstrings")[0])
+
+
+def second_table() -> list[tuple[str, str]]:
+    """The docstrings, comments and names of the style page: before, after."""
+    return PAIRS.findall(STYLE.read_text(encoding="utf-8").partition("## Docstrings")[2])
+
+
+def test_the_second_table_teaches_its_patterns() -> None:
+    """Thirty pairs; no recommendation is refused, and most of what it discourages is."""
+    table = second_table()
+    assert len(table) >= 30
+    assert [after for _, after in table if OPENINGS.match(after) or INSIDE.search(after)] == []
+    discouraged = [x for x, _ in table if OPENINGS.match(x) or INSIDE.search(x)]
+    assert len(discouraged) >= 2 * len(table) // 3
 
 
 def test_the_page_has_pairs_and_they_teach_the_patterns() -> None:
