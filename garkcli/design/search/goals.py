@@ -18,7 +18,9 @@ from garkcli.design.minimise.objectives import (
     refuse_one_colour,
     refuse_partitioned,
 )
-from garkcli.design.search.rational import RationalFunction, as_float, with_gradients
+from garkcli.design.search.one_point import Functions
+from garkcli.design.search.one_point import Matrix as Entries
+from garkcli.design.search.rational import RationalFunction
 from garkcli.design.search.residuals import Residuals
 from garkcli.errors import UsageProblem
 from garkcli.exact.field import ONE
@@ -130,7 +132,7 @@ def goal_of(
     assert isinstance(objective, Objective)
     quotient = objective.formula(tableau, order, ring)
     whole = RationalFunction(ring.quotient(quotient.numerator, quotient.denominator), ring)
-    return Smooth(lambda x: _alone(whole, x))
+    return Smooth(_alone(whole, len(ring.names)))
 
 
 def meant(name: str, tableau: Tableau) -> Objective | Level:
@@ -139,9 +141,14 @@ def meant(name: str, tableau: Tableau) -> Objective | Level:
     return objective.meant(tableau) if isinstance(objective, Either) else objective
 
 
-def _alone(function: RationalFunction, x: Array) -> tuple[float, Array]:
-    values, gradients = with_gradients([function], x[:, None])
-    return float(values[0, 0]), gradients[0, :, 0]
+def _alone(function: RationalFunction, unknowns: int) -> Callable[[Array], tuple[float, Array]]:
+    functions = Functions([function], unknowns)
+
+    def at(x: Array) -> tuple[float, Array]:
+        values, gradients = functions.at(x)
+        return float(values[0]), gradients[0]
+
+    return at
 
 
 def squared_error(trees: Trees, is_coupling: bool) -> Smooth:
@@ -171,30 +178,9 @@ def squared_error(trees: Trees, is_coupling: bool) -> Smooth:
     return Smooth(at)
 
 
-class _Matrix:
+def _matrix(rows: Matrix, ring: Parameters) -> Entries:
     """A matrix of rational functions, at points."""
-
-    def __init__(self, rows: Matrix, ring: Parameters) -> None:
-        self.shape = len(rows), len(rows[0]) if rows else 0
-        self.unknowns = len(ring.names)
-        self.entries = [
-            (i, j, function)
-            for i, row in enumerate(rows)
-            for j, x in enumerate(row)
-            if not (function := RationalFunction(x, ring)).is_zero
-        ]
-
-    def at(self, x: Array) -> tuple[Array, Array]:
-        """Shape (rows, columns), and the derivatives, (unknowns, rows, columns)."""
-        import numpy as np
-
-        value, slopes = np.zeros(self.shape), np.zeros((self.unknowns, *self.shape))
-        for i, j, function in self.entries:
-            slope = function.at(x[:, None], as_float)
-            value[i, j] = np.broadcast_to(slope.value, 1)[0]
-            for unknown, derivative in slope.derivatives:
-                slopes[unknown, i, j] = np.broadcast_to(derivative, 1)[0]
-        return value, slopes
+    return Entries([[RationalFunction(x, ring) for x in row] for row in rows], len(ring.names))
 
 
 class _Contractive:
@@ -211,7 +197,7 @@ class _Contractive:
             cure = "spell the tableau out, stage by stage"
             raise UsageProblem(message, cure, code="no-radicals")
         _, parts = stacked(tableau, [ONE] * tableau.size)
-        self.parts = [_Matrix(part, ring) for part in parts]
+        self.parts = [_matrix(part, ring) for part in parts]
         # entries of M K_l that are zero for all methods decide nothing
         reach = np.linalg.matrix_power(
             np.eye(len(parts[0])) + sum(map(_pattern, parts)), len(parts[0])
@@ -223,15 +209,15 @@ class _Contractive:
 
         x, r = point[:-1], point[-1]
         found = [part.at(x) for part in self.parts]
-        K = np.sum([k for k, _ in found], axis=0)
-        dK = np.sum([d for _, d in found], axis=0)
+        total = np.sum(found, axis=0)
+        K, dK = total[0], total[1:]
         M = np.linalg.inv(np.eye(len(K)) + r * K)
         dM = np.concatenate([-r * (M @ dK @ M), (-M @ K @ M)[None]])
         values, slopes = [M.sum(1)], [dM.sum(2)]
-        for (k, d), (rows, columns) in zip(found, self.used, strict=True):
-            slope = dM @ k
-            slope[:-1] += M @ d
-            values.append((M @ k)[rows, columns])
+        for k, (rows, columns) in zip(found, self.used, strict=True):
+            slope = dM @ k[0]
+            slope[:-1] += M @ k[1:]
+            values.append((M @ k[0])[rows, columns])
             slopes.append(slope[:, rows, columns])
         return np.concatenate(values), np.concatenate(slopes, axis=1).transpose()
 
@@ -248,8 +234,8 @@ class _Step:
 
     def __init__(self, tableau: Tableau, ring: Parameters, fields: Sequence[Matrix]) -> None:
         system = stage_system(tableau, fields)
-        self.W, self.B = _Matrix(system.W, ring), _Matrix(system.B, ring)
-        self.E = _Matrix(system.E, ring)
+        self.W, self.B = _matrix(system.W, ring), _matrix(system.B, ring)
+        self.E = _matrix(system.E, ring)
 
     def at(self, x: Array, z: Array) -> tuple[Array, Array, Array]:
         """M, its derivatives by the unknowns, and by z.
@@ -260,7 +246,8 @@ class _Step:
         """
         import numpy as np
 
-        (W, dW), (B, dB), (E, dE) = self.W.at(x), self.B.at(x), self.E.at(x)
+        every = self.W.at(x), self.B.at(x), self.E.at(x)
+        (W, B, E), (dW, dB, dE) = [m[0] for m in every], [m[1:] for m in every]
         z = z[:, None, None]
         inverse = np.linalg.inv(np.eye(len(W)) - z * W)
         right, left = inverse @ E, B @ inverse

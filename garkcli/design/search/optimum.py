@@ -14,6 +14,7 @@ from garkcli.design.member import not_negative
 from garkcli.design.minimise.objective import Level, Objective
 from garkcli.design.search.goals import AStable, Goal, Reach, Trees, goal_of, kept
 from garkcli.design.search.least_squares import least_squares
+from garkcli.design.search.one_point import Functions
 from garkcli.design.search.points import Fixed, Fixings, rank
 from garkcli.design.search.rational import (
     RationalFunction,
@@ -117,8 +118,12 @@ class Program:
         trees, last = len(wide.table), wide.table.ids(order + 1)
         self._own = np.r_[0 : last.start, trees : len(wide)]
         self.goal: Goal = goal_of(objective, conditions.tableau, order, ring, self._trees)
-        self.positive = polynomial_functions(family.positive, ring)
-        self.not_negative = polynomial_functions(not_negative(family), ring)
+        positive = polynomial_functions(family.positive, ring)
+        self._signs = Functions(
+            [*positive, *polynomial_functions(not_negative(family), ring)], len(ring.names)
+        )
+        self._margin = np.zeros(self._signs.shape[0])
+        self._margin[: len(positive)] = MARGIN
         self.bounds = [
             tuple(
                 default if end is None else as_float(end)
@@ -150,11 +155,8 @@ class Program:
         """The inequalities without the level, values and derivatives."""
         import numpy as np
 
-        values, derivatives = [], []
-        for functions, margin in ((self.positive, MARGIN), (self.not_negative, 0.0)):
-            found, slopes = with_gradients(functions, x[:, None])
-            values.append(found[:, 0] - margin)
-            derivatives.append(slopes[:, :, 0])
+        found, slopes = self._signs.at(x)
+        values, derivatives = [found - self._margin], [slopes]
         for stable in self.stable:
             found, slopes = stable.at(x)
             values.append(found)

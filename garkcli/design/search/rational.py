@@ -41,13 +41,13 @@ def in_decimals(ball: arb, count: int) -> int:
     return int((midpoint(ball) * 10**count + fmpq(1, 2)).floor())
 
 
-class _Polynomial(Frozen):
+class Polynomial(Frozen):
     """Terms: a coefficient and the unknowns that it is multiplied with, as often as it takes."""
 
     terms: tuple[tuple[fmpq, tuple[int, ...]], ...]
 
     @classmethod
-    def of(cls, polynomial: fmpq_mpoly) -> _Polynomial:
+    def of(cls, polynomial: fmpq_mpoly) -> Polynomial:
         terms = []
         for exponents, a in sorted(polynomial.to_dict().items()):
             factors: list[int] = []
@@ -89,26 +89,26 @@ class RationalFunction:
     def __init__(self, number: object, ring: Parameters) -> None:
         p, q = fraction(number, ring)
         self.is_zero = not p
-        self._numerator = _Polynomial.of(p)
-        self._denominator = None if q.is_one() else _Polynomial.of(q)
-        self._derivatives = []
+        self.numerator = Polynomial.of(p)
+        self.denominator = None if q.is_one() else Polynomial.of(q)
+        self.derivatives: list[tuple[int, tuple[Polynomial, Polynomial]]] = []
         for unknown in range(len(ring.names)):
             of_p, of_q = p.derivative(unknown), q.derivative(unknown)
             if of_p or of_q:
-                self._derivatives.append((unknown, (_Polynomial.of(of_p), _Polynomial.of(of_q))))
+                self.derivatives.append((unknown, (Polynomial.of(of_p), Polynomial.of(of_q))))
 
     def at(self, points: Array, constant: Constant) -> Slope:
         """The value and the gradient at points, shape (unknowns, points)."""
-        value = self._numerator.at(points, constant)
-        if self._denominator is None:
+        value = self.numerator.at(points, constant)
+        if self.denominator is None:
             derivatives = [
-                (unknown, p.at(points, constant)) for unknown, (p, _) in self._derivatives
+                (unknown, p.at(points, constant)) for unknown, (p, _) in self.derivatives
             ]
             return Slope(value, tuple(derivatives))
-        q = self._denominator.at(points, constant)
+        q = self.denominator.at(points, constant)
         value = value / q
         derivatives = []
-        for unknown, (of_p, of_q) in self._derivatives:
+        for unknown, (of_p, of_q) in self.derivatives:
             change = of_p.at(points, constant) - value * of_q.at(points, constant)
             derivatives.append((unknown, change / q))
         return Slope(value, tuple(derivatives))

@@ -22,7 +22,7 @@ from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from garkcli.design.search.rational import Array
 
@@ -84,15 +84,14 @@ class Residuals:
         )
         return table.gamma.astype(float) / integrated, table.is_exact / integrated
 
-    def at_one(self, point: Array) -> tuple[Array, Array]:
+    @cached_property
+    def at_one(self) -> Callable[[Array], tuple[Array, Array]]:
         """Values, shape (conditions,), and derivatives, (conditions, unknowns), at one point in
-        floats, faster: by products of matrices, whose last bits depend on the machine.
-
-        Args:
-            point: shape (unknowns,).
+        floats, shape (unknowns,), faster.
         """
-        values, gradients = _Products(self, point[:, None]).run()
-        return values[:, 0], gradients[:, :, 0]
+        from garkcli.design.search.one_point import Recorded
+
+        return Recorded(self).at
 
 
 class Generators(rational.System):
@@ -261,44 +260,3 @@ class _Evaluation(StageVectors[_Vectors]):
             required = self.constant(fmpq(int(table.is_exact[number]), integrated))
             values[k] = scale * values[k] - required
             gradients[k] *= scale
-
-
-class _Products(_Evaluation):
-    """An evaluation at one point, a block a matrix."""
-
-    def __init__(self, system: Residuals, points: Array) -> None:
-        super().__init__(system, points)
-        self._matrices = {key: self._matrix(block) for key, block in self.blocks.items()}
-        self._rows = [self._matrix([row]) for row in self.weights]
-
-    def _matrix(self, rows: Sequence[Sequence[Any]]) -> tuple[Array, Array]:
-        """Shape (columns, rows), and the derivatives, (unknowns, columns, rows)."""
-        value = self.np.zeros((len(rows[0]), len(rows)))
-        slopes = self.np.zeros((self.system.unknowns, *value.shape))
-        for i, row in enumerate(rows):
-            for j, slope in enumerate(row):
-                if isinstance(slope, rational.Slope):
-                    value[j, i] = self.np.ravel(slope.value)[0]
-                    for unknown, derivative in slope.derivatives:
-                        slopes[unknown, j, i] = self.np.ravel(derivative)[0]
-        return value, slopes
-
-    def _image(self, space: int, m: int, vectors: _Vectors) -> _Vectors:
-        check_time()
-        values, derivatives = self._applied(self._matrices[space, m], vectors)
-        return _Vectors(values[:, :, None], derivatives.transpose(0, 2, 1)[..., None])
-
-    def _applied(self, matrix: tuple[Array, Array], vectors: _Vectors) -> tuple[Array, Array]:
-        """Products, shape (trees, rows), and derivatives, (trees, unknowns, rows)."""
-        A, slopes = matrix
-        values = vectors.values[:, :, 0]
-        derivatives = vectors.derivatives[..., 0].transpose(0, 2, 1) @ A
-        # (unknowns, trees, rows)
-        derivatives += (values @ slopes).transpose(1, 0, 2)
-        return values @ A, derivatives
-
-    def _close(self, root: int, ids: slice, vectors: _Vectors) -> None:
-        values, derivatives = self._applied(self._rows[root], vectors)
-        scale, required = self.system.floats
-        self.values[ids] = scale[ids, None] * values - required[ids, None]
-        self.gradients[ids] = scale[ids, None, None] * derivatives
