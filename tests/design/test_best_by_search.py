@@ -314,7 +314,7 @@ def test_a_minimum_is_no_larger_than_its_start() -> None:
     """The optimiser may leave a better start; short numbers found before stay short."""
     [method] = best("unknown: {stages: 3, shape: imex}\ndesign: {order: 2}", "-ssp", 1).methods
     assert method.objective == "1.5"
-    assert method.values["a32"] == "1/2"
+    assert all(len(value) <= 5 for value in method.values.values())
 
 
 def test_levels_have_a_highest() -> None:

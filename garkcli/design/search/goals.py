@@ -35,10 +35,8 @@ from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
+    from garkcli.design.search.chart import Gradient
     from garkcli.design.search.rational import Array
-
-    Gradient: TypeAlias = tuple[Array, Array]
-    """Values, shape (m,), and derivatives by the unknowns, shape (m, unknowns)."""
 
 T = TypeVar("T")
 SAMPLES = 40
@@ -82,9 +80,11 @@ class Smooth(Frozen):
 
     Attributes:
         at: its value and its gradient, shape (unknowns,), at a point, shape (unknowns,).
+        parts: if it is a sum of squares, what is squared, with derivatives.
     """
 
     at: Callable[[Array], tuple[float, Array]]
+    parts: Callable[[Array], Gradient] | None = None
 
 
 class Reach(Frozen):
@@ -175,7 +175,11 @@ def squared_error(trees: Trees, is_coupling: bool) -> Smooth:
         e = scale * values[ids]
         return float(e @ e), 2.0 * (scale * e) @ gradients[ids]
 
-    return Smooth(at)
+    def parts(x: Array) -> Gradient:
+        values, gradients = trees.at(x)
+        return scale * values[ids], scale[:, None] * gradients[ids]
+
+    return Smooth(at, parts)
 
 
 def _matrix(rows: Matrix, ring: Parameters) -> Entries:

@@ -4,7 +4,8 @@ order conditions, with an objective and inequalities; then short numbers that co
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 from flint import fmpq
@@ -12,7 +13,8 @@ from flint import fmpq
 from garkcli.deadline import check_time
 from garkcli.design.member import not_negative
 from garkcli.design.minimise.objective import Level, Objective
-from garkcli.design.search.goals import AStable, Goal, Reach, Trees, goal_of, kept
+from garkcli.design.search.descent import Look, Task, descended
+from garkcli.design.search.goals import AStable, Goal, Reach, Smooth, Trees, goal_of, kept
 from garkcli.design.search.least_squares import least_squares
 from garkcli.design.search.one_point import Functions
 from garkcli.design.search.points import Fixed, Fixings, rank
@@ -28,19 +30,9 @@ from garkcli.frozen import Frozen
 from garkcli.tableau.family import Family
 
 if TYPE_CHECKING:
-    from garkcli.design.search.goals import Gradient
+    from garkcli.design.search.chart import Equations, Gradient
     from garkcli.design.search.rational import Array
 
-STEPS = 100
-"""Steps of the optimiser before it begins anew, where it is."""
-ROUNDS = 4
-"""How often it begins."""
-GAIN = 1e-4
-"""The part of the objective that a round has to gain, or it is the last."""
-ACCURACY = 1e-12
-"""The change of the objective at which the optimiser ends."""
-TINY = 1e-20
-"""A smaller objective is none."""
 ROUNDING = 1e-17
 """A smaller sum of squares may be zero."""
 LARGEST = 20.0
@@ -53,6 +45,11 @@ HIGHEST = 1e4
 """A level is no higher."""
 FIRST_LEVEL = 0.5
 """The level at which the optimiser starts is no lower: at 0 nothing depends on the unknowns."""
+LEAST_LEVEL = 1e-3
+"""A level below is none."""
+BISECTIONS = 36
+LOW_LEVEL = 0.01
+"""A level that methods have from which the optimiser starts."""
 CLOSE = 1e-12
 """Residuals of a method in floats."""
 SLACK = 1e-7
@@ -124,32 +121,28 @@ class Program:
         )
         self._margin = np.zeros(self._signs.shape[0])
         self._margin[: len(positive)] = MARGIN
-        self.bounds = [
-            tuple(
-                default if end is None else as_float(end)
-                for end, default in zip(
-                    family.ranges.get(name, (None, None)), (-LARGEST, LARGEST), strict=True
-                )
-            )
-            for name in ring.names
-        ]
         self.stable = [
             AStable(family.on_linear_problems, wanted.colour, order)
             for wanted in family.stable
             if wanted.kind in ("a-stable", "l-stable")
         ]
 
-    def equations(self, x: Array, fixed: Sequence[Fixed] = ()) -> Gradient:
+    def equations(self, fixed: Sequence[Fixed] = ()) -> Equations:
         """The conditions, and those of given values, at one point."""
         import numpy as np
 
-        values, slopes = self._trees.at(x)
-        found, of_found = with_gradients([one.function for one in fixed], x[:, None])
+        functions = Functions([one.function for one in fixed], self.conditions.unknowns)
         given = np.array([as_float(one.value) for one in fixed])
-        return (
-            np.concatenate([values[self._own], found[:, 0] - given]),
-            np.concatenate([slopes[self._own], of_found[:, :, 0]]),
-        )
+
+        def at(x: Array) -> Gradient:
+            values, slopes = self._trees.at(x)
+            values, slopes = values[self._own], slopes[self._own]
+            if not fixed:
+                return values, slopes
+            found, of_found = functions.at(x)
+            return np.concatenate([values, found - given]), np.concatenate([slopes, of_found])
+
+        return at
 
     def signs(self, x: Array) -> Gradient:
         """The inequalities without the level, values and derivatives."""
@@ -164,7 +157,7 @@ class Program:
         return np.concatenate(values), np.concatenate(derivatives)
 
     def improved(self, start: Sequence[float], fixed: Sequence[Fixed] = ()) -> Optimum | None:
-        """The best method near a solution; None where the optimiser leaves the set.
+        """The best method near a solution; None where no method is near that is as it is wanted.
 
         Args:
             start: values of the unknowns, a solution of the conditions.
@@ -174,56 +167,29 @@ class Program:
 
         with np.errstate(all="ignore"):
             best = self.evaluated(np.array(start), fixed)
-            for _ in range(ROUNDS):
-                found = self._round(np.array(start), fixed)
-                if found is None:
-                    break
-                before, start = best, found.point
-                # a round may end where the objective is larger than at its start
-                if best is None or found.is_less(best):
-                    best = found
-                if before is not None and not found.is_less(before, GAIN):
-                    break
-        return best
+            if best is None or (not best.value and isinstance(self.goal, Reach)):
+                near = descended(_Missing(self), self.equations(fixed), np.array(start))
+                best = self.evaluated(near, fixed) or best
+            if best is None:
+                return None
+            found = descended(self._task, self.equations(fixed), np.array(best.point))
+            return self.evaluated(found, fixed) or best
 
-    def _round(self, x: Array, fixed: Sequence[Fixed]) -> Optimum | None:
-        """One run of the optimiser."""
+    @cached_property
+    def _task(self) -> Task:
+        goal = self.goal
+        return _Greatest(self, goal) if isinstance(goal, Reach) else _Least(self, goal)
+
+    def within(self, x: Array) -> Gradient:
+        """The signs, and that unknowns are not too large."""
         import numpy as np
-        from scipy.optimize import minimize
 
-        n = len(x)
-        has_level = isinstance(self.goal, Reach)
-        equations = kept(lambda z: self.equations(z[:n], fixed))
-        rows = list(rank(equations(x)[1]).rows)
-        # errors are small numbers, which the optimiser would take for a minimum
-        scale = 1.0 if has_level else 1 / max(self._value(x), TINY)
-        objective = kept(lambda z: self._objective(z, scale))
-        inequalities = kept(lambda z: self._inequalities(z, n))
-
-        def equal(z: Array) -> Gradient:
-            check_time()
-            values, slopes = equations(z)
-            return values[rows], _padded(slopes[rows], len(z))
-
-        guess = np.append(x, max(self.level(x), FIRST_LEVEL)) if has_level else x
-        constraints = [
-            {"type": kind, "fun": lambda z, f=f: f(z)[0], "jac": lambda z, f=f: f(z)[1]}
-            for kind, f in (("eq", equal), ("ineq", inequalities))
-            if len(f(guess)[0])
-        ]
-        try:
-            found = minimize(
-                lambda z: objective(z)[0],
-                guess,
-                jac=lambda z: objective(z)[1],
-                bounds=[*self.bounds, (0.0, HIGHEST)] if has_level else self.bounds,
-                constraints=constraints,
-                method="SLSQP",
-                options={"maxiter": STEPS, "ftol": ACCURACY},
-            )
-        except (ValueError, np.linalg.LinAlgError):  # numbers that are none
-            return None
-        return self.evaluated(np.asarray(found.x)[:n], fixed)
+        values, slopes = self.signs(x)
+        one = np.eye(len(x))
+        return (
+            np.concatenate([values, LARGEST - x, LARGEST + x]),
+            np.concatenate([slopes, -one, one]),
+        )
 
     def evaluated(self, x: Array, fixed: Sequence[Fixed] = ()) -> Optimum | None:
         """A point led back to the methods, with its objective; None where it is none of them."""
@@ -232,7 +198,7 @@ class Program:
         system = Fixings(self.conditions, fixed)
         if not np.all(np.isfinite(x)):
             return None
-        if np.max(np.abs(self.equations(x, fixed)[0]), initial=0.0) > CLOSE:
+        if np.max(np.abs(self.equations(fixed)(x)[0]), initial=0.0) > CLOSE:
             minima = least_squares(system.at, x[:, None], 40, CLOSE)
             if not minima.succeeded[0]:
                 return None
@@ -248,8 +214,12 @@ class Program:
             return -self.level(x)
         return self.goal.at(x)[0]
 
-    def level(self, x: Array) -> float:
+    @cached_property
+    def level(self) -> Callable[[Array], float]:
         """The largest y, up to bisection, up to which the inequalities of the level hold."""
+        return kept(self._level)
+
+    def _level(self, x: Array) -> float:
         import numpy as np
 
         assert isinstance(self.goal, Reach)
@@ -261,38 +231,19 @@ class Program:
                 return False
             return bool(np.min(values) >= -FEASIBLE)
 
-        low, high = 0.0, 1e-3
+        low, high = 0.0, FIRST_LEVEL
+        while high > LEAST_LEVEL and not holds(high):
+            high /= 8
         while holds(high):
             if high >= HIGHEST:
                 return HIGHEST
             low, high = high, min(1.25 * high, HIGHEST)
         if not low:
             return 0.0
-        for _ in range(45):
+        for _ in range(BISECTIONS):
             middle = (low + high) / 2
             low, high = (middle, high) if holds(middle) else (low, middle)
         return low
-
-    def _objective(self, z: Array, scale: float) -> tuple[float, Array]:
-        import numpy as np
-
-        if not isinstance(self.goal, Reach):
-            value, gradient = self.goal.at(z)
-            return scale * value, scale * gradient
-        gradient = np.zeros(len(z))
-        gradient[-1] = -1.0
-        return -float(z[-1]), gradient
-
-    def _inequalities(self, z: Array, n: int) -> Gradient:
-        import numpy as np
-
-        values, slopes = self.signs(z[:n])
-        slopes = _padded(slopes, len(z))
-        if isinstance(self.goal, Reach):
-            of_level, slopes_of_level = self.goal.at(z)
-            values = np.concatenate([values, of_level])
-            slopes = np.concatenate([slopes, slopes_of_level])
-        return values, slopes
 
     def shortened(
         self, best: Optimum, wanted: Sequence[RationalFunction]
@@ -331,7 +282,7 @@ class Program:
     def _rank(self, fixed: Sequence[Fixed], at: Optimum) -> int:
         import numpy as np
 
-        _, jacobian = self.equations(np.array(at.point), fixed)
+        _, jacobian = self.equations(fixed)(np.array(at.point))
         return len(rank(jacobian))
 
     def _moved(self, present: Optimum, fixed: Sequence[Fixed]) -> Optimum | None:
@@ -343,6 +294,102 @@ class Program:
         if not minima.succeeded[0]:
             return None
         return self.improved([float(x) for x in minima.points[:, 0]], fixed)
+
+
+class _Missing(Task):
+    """How far solutions are from what is wanted: the least y such that all signs are −y at least,
+    those of a low level among them.
+    """
+
+    has_level = True
+    enough = FEASIBLE / 2
+
+    def __init__(self, program: Program) -> None:
+        self._program = program
+
+    def _signs(self, x: Array) -> Gradient:
+        import numpy as np
+
+        values, slopes = self._program.within(x)
+        goal = self._program.goal
+        if isinstance(goal, Smooth):
+            return values, slopes
+        more, of_more = goal.at(np.append(x, LOW_LEVEL))
+        return np.concatenate([values, more]), np.concatenate([slopes, of_more[:, :-1]])
+
+    def value(self, x: Array) -> float:
+        """The least y."""
+        return _missing(self._signs(x)[0])
+
+    def at(self, z: Array) -> Look:
+        """The task at a point."""
+        import numpy as np
+
+        values, slopes = self._signs(z[:-1])
+        gradient = np.append(np.zeros(len(z) - 1), 1.0)
+        slopes = np.concatenate([slopes, np.ones((len(slopes), 1))], 1)
+        return Look(float(z[-1]), gradient, values + z[-1], slopes, _missing(values))
+
+
+def _missing(signs: Array) -> float:
+    import numpy as np
+
+    return max(0.0, -float(np.min(signs, initial=0.0)))
+
+
+class _Least(Task):
+    """A smooth objective."""
+
+    def __init__(self, program: Program, goal: Smooth) -> None:
+        self._program = program
+        self._goal = goal
+
+    def value(self, x: Array) -> float:
+        """The objective."""
+        return self._goal.at(x)[0]
+
+    def parts(self, x: Array) -> Gradient | None:
+        """If it is a sum of squares, what is squared."""
+        return None if self._goal.parts is None else self._goal.parts(x)
+
+    def at(self, z: Array) -> Look:
+        """The task at a point."""
+        value, gradient = self._goal.at(z)
+        signs, of_signs = self._program.within(z)
+        found = value if _missing(signs) <= FEASIBLE else float("inf")
+        return Look(value, gradient, signs, of_signs, found)
+
+
+class _Greatest(Task):
+    """A level."""
+
+    has_level = True
+    enough = -HIGHEST
+
+    def __init__(self, program: Program, goal: Reach) -> None:
+        self._program = program
+        self._goal = goal
+
+    def value(self, x: Array) -> float:
+        """Minus the level."""
+        return -self._program.level(x)
+
+    def guess(self, x: Array) -> float:
+        """A level to start at."""
+        return max(self._program.level(x), FIRST_LEVEL)
+
+    def at(self, z: Array) -> Look:
+        """The task at a point."""
+        import numpy as np
+
+        signs, of_signs = self._program.within(z[:-1])
+        more, of_more = self._goal.at(z)
+        signs = np.concatenate([signs, more])
+        of_signs = np.concatenate([_padded(of_signs, len(z)), of_more])
+        gradient = np.append(np.zeros(len(z) - 1), -1.0)
+        y = float(z[-1])
+        found = -y if _missing(signs) <= FEASIBLE else float("inf")
+        return Look(-y, gradient, signs, of_signs, found)
 
 
 def _near(present: float) -> Iterator[fmpq]:

@@ -1,0 +1,185 @@
+"""SciPy's sequential quadratic programming (D. Kraft, 1988) on the solutions of equations, in their
+local coordinates: every point that it looks at solves them.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from garkcli.deadline import check_time
+from garkcli.design.search.chart import Chart, OutsideError
+from garkcli.frozen import Frozen
+
+if TYPE_CHECKING:
+    from garkcli.design.search.chart import Equations, Gradient
+    from garkcli.design.search.rational import Array
+
+STEPS = 30
+"""Steps of the optimiser before it begins anew, in coordinates where it is."""
+ROUNDS = 20
+"""How often it begins at most."""
+REACH = 1.0
+"""How far it goes in each coordinate."""
+LEAST_REACH = 1e-4
+"""It ends where Newton's method finds no solutions so near."""
+GAIN = 1e-4
+"""The part of the value that a round has to gain, or it is the last."""
+ACCURACY = 1e-12
+"""The change of the value at which a round ends."""
+TINY = 1e-20
+"""A smaller value is none."""
+STRETCH = 1e-8
+"""Second derivatives that are smaller than this part of the largest count as this."""
+
+
+class Look(Frozen):
+    """A task at a point z: the unknowns, and the level as the last one where there is one.
+
+    Attributes:
+        value: what is to be small.
+        gradient: its derivatives.
+        signs: what must not be negative.
+        of_signs: the derivatives of that.
+        found: the value of the unknowns alone; infinite if something is negative.
+    """
+
+    value: float
+    gradient: Array
+    signs: Array
+    of_signs: Array
+    found: float
+
+
+class Task(ABC):
+    """Something to be made small, on the solutions and under inequalities.
+
+    Attributes:
+        has_level: whether there is one more variable, not negative.
+        enough: nothing smaller is wanted.
+    """
+
+    has_level = False
+    enough = -np.inf
+
+    @abstractmethod
+    def at(self, z: Array) -> Look:
+        """The task at a point."""
+
+    @abstractmethod
+    def value(self, x: Array) -> float:
+        """What is to be small, of unknowns that are as they are wanted."""
+
+    def guess(self, x: Array) -> float:
+        """A level to start at."""
+        return self.value(x)
+
+    def parts(self, _x: Array) -> Gradient | None:
+        """If the value is a sum of squares, what is squared."""
+        return None
+
+
+def descended(task: Task, equations: Equations, x: Array) -> Array:
+    """The best solution that is found.
+
+    Args:
+        task: what is to be small.
+        equations: that are zero.
+        x: a solution.
+    """
+    reach, value = REACH, task.value(x)
+    for _ in range(ROUNDS):
+        if value <= task.enough:
+            break
+        end, is_outside = _round(task, Chart(equations, x), x, reach)
+        now = task.value(end)
+        is_little = value - now <= GAIN * abs(value)
+        if now < value:
+            x, value = end, now
+        if is_little and not is_outside:
+            break
+        reach = reach / 4 if is_outside else min(2 * reach, REACH)
+        if reach < LEAST_REACH:
+            break
+    return x
+
+
+class _EnoughError(Exception):
+    """Nothing smaller is wanted."""
+
+
+def _round(task: Task, chart: Chart, start: Array, reach: float) -> tuple[Array, bool]:
+    """The best point of one run; whether that ended where the chart does."""
+    from scipy.optimize import minimize
+
+    if not chart.dimension:
+        return start, False
+    # errors are small numbers, which the optimiser would take for a minimum
+    scale = 1.0 if task.has_level else 1 / max(abs(task.value(start)), TINY)
+    size = np.full(chart.dimension, reach)
+    if (parts := task.parts(start)) is not None:
+        # the Hessian of a sum of squares, without second derivatives, becomes the identity
+        slopes = parts[1] @ chart.tangent
+        squares, basis = np.linalg.eigh(2 * scale * slopes.transpose() @ slopes)
+        stretch = np.sqrt(np.maximum(squares, STRETCH * squares[-1] + TINY))
+        chart.scale(basis / stretch)
+        size = reach * stretch
+    best, least = start, np.inf
+    known: dict[bytes, Look] = {}
+
+    def at(z: Array) -> Look:
+        nonlocal best, least
+        key = z.tobytes()
+        if key not in known:
+            check_time()
+            known.clear()
+            known[key], x = _in_chart(task, chart, z, scale)
+            if known[key].found < least:
+                best, least = x, known[key].found
+            if least <= task.enough:
+                raise _EnoughError
+        return known[key]
+
+    bounds: list[tuple[float, float | None]] = list(zip(-size, size, strict=True))
+    guess = np.zeros(len(size))
+    if task.has_level:
+        bounds.append((0.0, None))
+        guess = np.append(guess, task.guess(start))
+    try:
+        minimize(
+            lambda z: at(z).value,
+            guess,
+            jac=lambda z: at(z).gradient,
+            bounds=bounds,
+            constraints={
+                "type": "ineq",
+                "fun": lambda z: at(z).signs,
+                "jac": lambda z: at(z).of_signs,
+            },
+            method="SLSQP",
+            options={"maxiter": STEPS, "ftol": ACCURACY},
+        )
+    except _EnoughError:
+        pass
+    except (OutsideError, ValueError, np.linalg.LinAlgError):  # numbers that are none
+        return best, True
+    return best, False
+
+
+def _in_chart(task: Task, chart: Chart, z: Array, scale: float) -> tuple[Look, Array]:
+    """The task at coordinates, and the level where there is one; and the unknowns there."""
+    d = chart.dimension
+    x, tangent = chart.at(z[:d])
+    more = len(z) - d
+    whole = np.zeros((len(z), len(x) + more))
+    whole[:d, : len(x)], whole[d:, len(x) :] = tangent.transpose(), np.eye(more)
+    look = task.at(np.append(x, z[d:]))
+    return Look(
+        scale * look.value,
+        scale * whole @ look.gradient,
+        look.signs,
+        look.of_signs @ whole.transpose(),
+        look.found,
+    ), x
