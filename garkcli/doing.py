@@ -18,7 +18,7 @@ T = TypeVar("T")
 
 
 class Listener(Protocol):
-    """Is told of work that begins, progresses and ends; work may begin within other work."""
+    """Receives the beginning, progress and end of work; work may begin within other work."""
 
     def begin(self, work: Work) -> None: ...
 

@@ -173,6 +173,7 @@ class PowerTerm(Frozen):
     """The coefficient of a power of h.
 
     Attributes:
+        power: of h.
         formulas: one for a Hamiltonian, 2d for an equation.
     """
 

@@ -54,9 +54,7 @@ class Span:
         return len(self) == self.dimension
 
     def insert(self, vectors: Sequence[Sequence[fmpq]]) -> list[int]:
-        """Inserts ``vectors`` from left to right and returns the indices of those that enlarged the
-        span.
-        """
+        """Inserts ``vectors`` from left to right; returns the indices where the span grew."""
         check_time()
         if not vectors or self.is_full:
             return []

@@ -321,8 +321,7 @@ class Recovery:
     # orders
 
     def recover_order(self, name: str, limit: int) -> tuple[int, Failure | None, list[Tree]]:
-        """Moves to a method of the largest order that is possible with all that was recovered
-        before.
+        """Moves to a method of the largest order that the earlier results leave possible.
 
         Returns:
             the order, why the next one fails, and the trees that it misses; None and none at the

@@ -20,29 +20,29 @@ if TYPE_CHECKING:
 STEPS = 30
 """Steps of the optimiser before it begins anew, in coordinates where it is."""
 ROUNDS = 20
-"""How often it begins at most."""
+"""Most rounds."""
 REACH = 1.0
-"""How far it goes in each coordinate."""
+"""The bound of each coordinate in a round."""
 LEAST_REACH = 1e-4
-"""It ends where Newton's method finds no solutions so near."""
+"""The search ends if Newton's method finds no solutions as near as this."""
 GAIN = 1e-4
 """The part of the value that a round has to gain, or it is the last."""
 ACCURACY = 1e-12
 """The change of the value at which a round ends."""
 TINY = 1e-20
-"""A smaller value is none."""
+"""A smaller value counts as 0."""
 STRETCH = 1e-8
 """Second derivatives that are smaller than this part of the largest count as this."""
 
 
 class Look(Frozen):
-    """A task at a point z: the unknowns, and the level as the last one where there is one.
+    """A task at a point z: the unknowns, and the level as the last one if it has a level.
 
     Attributes:
-        value: what is to be small.
+        value: the function to minimise.
         gradient: its derivatives.
-        signs: what must not be negative.
-        of_signs: the derivatives of that.
+        signs: the inequalities, at least 0.
+        of_signs: their derivatives.
         found: the value of the unknowns alone; infinite if something is negative.
     """
 
@@ -70,23 +70,23 @@ class Task(ABC):
 
     @abstractmethod
     def value(self, x: Array) -> float:
-        """What is to be small, of unknowns that are as they are wanted."""
+        """The function to minimise, at unknowns that meet all wants."""
 
     def guess(self, x: Array) -> float:
         """A level to start at."""
         return self.value(x)
 
     def parts(self, _x: Array) -> Gradient | None:
-        """If the value is a sum of squares, what is squared."""
+        """The squared terms, if the value is a sum of squares."""
         return None
 
 
 def descended(task: Task, equations: Equations, x: Array) -> Array:
-    """The best solution that is found.
+    """The best solution found from x.
 
     Args:
-        task: what is to be small.
-        equations: that are zero.
+        task: the function to minimise and its inequalities.
+        equations: of the solutions.
         x: a solution.
     """
     reach, value = REACH, task.value(x)
