@@ -163,6 +163,19 @@ def test_successes_are_within_their_range(ends: str, is_success: bool) -> None:
     assert [point for _, [point] in found] == pytest.approx([0.5] * len(found))
 
 
+def test_starts_spread_over_their_range() -> None:
+    """Without one over [0, 1], every fourth over [-2, 2]."""
+    text = "parameters: {t: {free: true, range: [3, 4]}, u: free}\nA: [[t]]\nb: [u]\n"
+    starts = np.array(list(Search(loads_family(text), 2).starts(0, 40)))
+    (t, u), wide = starts.transpose(), starts[3::4, 1]
+    assert 3 <= min(t) < 3.1
+    assert 3.9 < max(t) <= 4
+    assert 0 <= min(np.delete(u, slice(3, None, 4))) < 0.1
+    assert 0.9 < max(np.delete(u, slice(3, None, 4))) <= 1
+    assert -2 <= min(wide) < -1
+    assert 1 < max(wide) <= 2
+
+
 def test_what_happens_to_a_start_does_not_depend_on_the_others() -> None:
     """To the last bit: one at a time, all at once, in another order."""
     search = Search(loads_family(explicit(4)), 4)

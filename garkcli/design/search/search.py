@@ -173,12 +173,17 @@ class Search:
         """Random values of the unknowns: within their ranges; without one between 0 and 1, of
         every fourth start between −2 and 2.
         """
+        ends = {
+            name: (as_float(least), as_float(greatest))
+            for name, (least, greatest) in self.family.ranges.items()
+            if least is not None and greatest is not None  # a range has both
+        }
         draw = Draw(seed)
         for number in range(count):
             usual = WIDE if number % 4 == 3 else USUAL
             start = []
             for name in self.family.ring.names:
-                low, high = _ends(self.family.ranges.get(name), usual)
+                low, high = ends.get(name, usual)
                 # a word has 64 bits, a float 53
                 start.append(low + (high - low) * ((draw.word() >> 11) / 2**53))
             yield start
@@ -408,17 +413,3 @@ def _damped(family: Family) -> Family:
 def _worth(find: Find) -> tuple[bool, int]:
     """Smaller for better finds: stable ones, then by the degree of their field."""
     return not find.is_stable, 0 if find.found is None else find.found.solution.degree
-
-
-def _ends(
-    given: tuple[fmpq | None, fmpq | None] | None, usual: tuple[float, float]
-) -> tuple[float, float]:
-    """From where to where an unknown starts; beyond a single end of its range as far as usual."""
-    least, greatest = given or (None, None)
-    width = usual[1] - usual[0]
-    if least is not None:
-        low = as_float(least)
-        return low, low + width if greatest is None else as_float(greatest)
-    if greatest is not None:
-        return as_float(greatest) - width, as_float(greatest)
-    return usual
