@@ -78,7 +78,7 @@ def _best(group: Group, arrays: Sequence[Given], used: set[int]) -> Iterator[Rea
     arrays = arrays[:MOST_ARRAYS]
     if sum(x.fractions for x in arrays) < FEWEST_FRACTIONS:
         return
-    rk, tried = rk_readings(arrays)
+    rk, tried = rk_readings(arrays, group.unknown)
     others, more = other_readings(arrays)
     cost = math.log2(max(1, tried + more)) - WORDS * group.speaks
 

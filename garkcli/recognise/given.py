@@ -106,6 +106,7 @@ class Group(Frozen, eq=False):
         arrays: in it.
         orders: whole numbers that are called orders, by the records that they are in.
         speaks: whether words around it speak of methods.
+        unknown: the names of arrays in it with entries that are not known.
     """
 
     scope: tuple[int, int | None]
@@ -114,6 +115,7 @@ class Group(Frozen, eq=False):
     arrays: Sequence[Given]
     orders: Sequence[tuple[str, int]] = ()
     speaks: bool = False
+    unknown: Sequence[str] = ()
 
 
 def bits_of(value: fmpq) -> float:

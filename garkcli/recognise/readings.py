@@ -94,9 +94,14 @@ class Reading(Frozen, eq=False):
         return self.bits > (ENOUGH_WITH_NAMES if has_names else ENOUGH)
 
 
-def rk_readings(arrays: Sequence[Given]) -> tuple[list[Reading], int]:
-    """The ways in which arrays are Runge–Kutta methods, and how many were tried."""
-    search = _Search(arrays)
+def rk_readings(arrays: Sequence[Given], unknown: Iterable[str] = ()) -> tuple[list[Reading], int]:
+    """The ways in which arrays are Runge–Kutta methods, and how many were tried.
+
+    Args:
+        arrays: in the scope.
+        unknown: the names of others in it with entries that are not known.
+    """
+    search = _Search(arrays, any(map(WEIGHTS.search, unknown)))
     found: list[Reading] = []
     for each in arrays:
         if search.tried < MOST_TRIED:
@@ -107,7 +112,8 @@ def rk_readings(arrays: Sequence[Given]) -> tuple[list[Reading], int]:
 class _Search:
     """The search among the arrays of a group."""
 
-    def __init__(self, arrays: Sequence[Given]) -> None:
+    def __init__(self, arrays: Sequence[Given], has_unknown_weights: bool) -> None:
+        self._has_unknown_weights = has_unknown_weights
         self._vectors = [x for each in arrays for x in vectors_of(each)]
         self._sums = [x for each in arrays for x in sums_of(each)]
         self.tried = 0
@@ -172,6 +178,7 @@ class _Search:
                     found.append(replace(b, is_off=True))
         last = Vector(of, parts.A[-1], is_last_row=True)
         is_one = abs(last.total - 1) < 1e-6 and not self._has_others(of, last)
+        is_one = is_one and not self._has_unknown_weights
         return [*found, *([last] if is_one else [])]
 
     def _has_others(self, of: Given, last: Vector) -> bool:
@@ -334,7 +341,13 @@ def with_beside(reading: Reading, group: Iterable[Given]) -> Reading:
     assert b is not None
     sums, unit = A[..., VALUE].sum(1), unit_of(A, b)
     rows, used, idle = dict(reading.rows), reading.used, []
-    vectors = (x for given in group for x in vectors_of(given) if given not in reading.used)
+    vectors = (
+        x
+        for given in group
+        for x in vectors_of(given)
+        # weights and embedded ones may be columns of one array
+        if given not in reading.used or (given is reading.weights and given.is_matrix)
+    )
     for each in (x for of in vectors for x in fitted(of, len(b))):
         if each.is_behind_zero or each.is_behind_first:
             continue

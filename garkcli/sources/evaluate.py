@@ -16,7 +16,7 @@ from garkcli.frozen import replace
 from garkcli.sources import ir
 from garkcli.sources.allowance import Allowance
 from garkcli.sources.found import MAX_STAGES
-from garkcli.sources.known import CONSTANTS, CONVERSIONS, Call, conversion, result
+from garkcli.sources.known import CONSTANTS, CONVERSIONS, Call, conversion, in_words, result
 from garkcli.sources.signatures import SIGNATURES, other_kind
 from garkcli.sources.values import (
     FILL,
@@ -528,7 +528,7 @@ class Evaluator:
             return CONSTANTS[plain]
         if plain in CONVERSIONS:
             return Type(plain)
-        return self.unknown(f"the name {name}")
+        return in_words(plain) or self.unknown(f"the name {name}")
 
     def _listed(self, items: Sequence[ir.Expr], space: Space) -> Value:
         return self.array(self._kept(self.value(x, space)) for x in items)

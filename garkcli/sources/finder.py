@@ -24,7 +24,7 @@ from garkcli.sources.couplings import FORM as COUPLING
 from garkcli.sources.evaluate import Space, shown
 from garkcli.sources.found import FoundTable, troubled
 from garkcli.sources.harvest import Harvester
-from garkcli.sources.linear_stages import roles_by_sums, roles_of_kpp
+from garkcli.sources.linear_stages import roles_by_sums, roles_of_arguments, roles_of_kpp
 from garkcli.sources.naming import ROLES, role_of, roles_of_parts
 from garkcli.sources.overlooked import overlooked, sized
 from garkcli.sources.rklab import blocks_in
@@ -36,6 +36,7 @@ from garkcli.sources.signatures import (
     PARTS,
     PRINTED,
     SIGNATURES,
+    Signature,
     other_kind,
 )
 from garkcli.sources.steps import NoStep, step_of
@@ -83,6 +84,7 @@ _MADE = frozenset({"", _TABLE, "ARKodeSPRKTable_Alloc", *_COUPLINGS})
 
 NUMBERED = "A and b have numbers: methods of their own, or parts of one"
 ANEW = "A is assigned anew without b, or b without A"
+STEP = "the coefficients are those of a step that is written out"
 UNRECOGNISED = "numbers with the names of coefficients whose roles are not recognised"
 
 
@@ -287,6 +289,12 @@ class TableFinder(Harvester):
         kind = other_kind(record.kind) if is_named else ""
         is_entry = scope.kind == "entry" and (kind or record.kind in {_TABLE, *_COUPLINGS})
         line = scope.line if is_entry else record.line
+        if kind == "Rosenbrock" and not record.args:
+            of_arguments, form = roles_of_arguments(fields)
+            if form:
+                place, told = self._place(name, line, is_sure=True), dict(of_arguments)
+                self._meant.append(Meant(place, told, Signature([], form), record.kind))
+                return
         if kind:
             values = [*record.args, *fields.values()]
             is_use = any(map(_is_given, values))
@@ -444,14 +452,13 @@ class TableFinder(Harvester):
 
     def _of_step(self, scope: ir.Scope, space: Space) -> bool:
         """The method of a function that is a step; whether another one looks like a step."""
-        if scope.kind != "function":
+        if scope.kind not in {"function", "module"}:
             return False
         try:
-            roles = step_of(scope.body, space, self)
+            roles = step_of(scope.body, space, self, scope.kind == "function")
         except NoStep as error:
             return error.looks_like
-        note = "the coefficients are those of a step that is written out"
-        place = self._place(scope.title, scope.line, notes=(note,))
+        place = self._place(scope.title, scope.line, notes=(STEP,))
         self._meant.append(Meant(place, roles, maker="a step"))
         return False
 

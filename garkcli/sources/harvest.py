@@ -129,7 +129,10 @@ class Harvester(Evaluator):
         words = " ".join(names)
         place = self._handle(space), around
         speaks = bool(METHODS.search(words))
-        self.groups.append(Group(place, scope.line, scope.title, arrays, found.orders, speaks))
+        unknown = [name for name, x in space.items() if isinstance(x, Array) and _is_lost(x)]
+        self.groups.append(
+            Group(place, scope.line, scope.title, arrays, found.orders, speaks, unknown)
+        )
 
     def _handle(self, space: Space) -> int:
         """A number for a scope that no other one gets, also when it is gone."""
@@ -348,15 +351,17 @@ def _in_records(arrays: Sequence[Given]) -> list[Given]:
     """
     parts = {x.name: found for x in arrays if (found := _LETTER.fullmatch(x.name))}
     heads: dict[str, set[str]] = defaultdict(set)
+    spelled: dict[str, str] = {}
     for found in parts.values():
         heads[found["behind"].lower()].add(found["letter"].lower())
+        spelled.setdefault(found["behind"].lower(), found["behind"])
     records = {tail for tail, of in heads.items() if "a" in of and of & {"b", "w"}}
 
     def placed(x: Given) -> Given:
         found = parts.get(x.name)
         if found is None or found["behind"].lower() not in records:
             return x
-        return replace(x, name=f"{found['behind']}.{found['letter']}")
+        return replace(x, name=f"{spelled[found['behind'].lower()]}.{found['letter']}")
 
     return [placed(x) for x in arrays]
 
@@ -373,6 +378,12 @@ def _flatter(value: Value) -> Value:
 def _is_moderate(x: Number) -> bool:
     """Whether it may be a coefficient: no comparison with infinities fails."""
     return math.isfinite(x.near) and abs(x.near) < LARGEST
+
+
+def _is_lost(value: Array) -> bool:
+    """Whether a row of numbers was written, and one of them is not known."""
+    items = value.items
+    return len(items) > 1 and any(isinstance(x, Unknown) and not _is_empty(x) for x in items)
 
 
 def _is_empty(value: Value) -> bool:

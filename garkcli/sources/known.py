@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, TypeAlias
@@ -80,9 +81,6 @@ CONSTANTS: Mapping[str, Value] = {
     **dict.fromkeys(("NULL", "nullptr", "nothing", "None", "missing", "PETSC_NULLPTR"), NULL),
     **{name: Word("true") for name in ("true", "True", "SUNTRUE", "PETSC_TRUE")},
     **{name: Word("false") for name in ("false", "False", "SUNFALSE", "PETSC_FALSE")},
-    "ZERO": ZERO,
-    "ONE": real(ONE),
-    "TWO": real(integer(2)),
     **{
         f"{name}{n}": root(integer(n), 2, 0)
         for n in (2, 3, 5, 6, 7, 10, 15, 21)
@@ -92,6 +90,64 @@ CONSTANTS: Mapping[str, Value] = {
     "#": Number(None, math.nan, written=Scalar("x")),
 }
 """Names that mean the same everywhere; ``#`` is the variable of a polynomial."""
+_CARDINALS = [
+    "zero",
+    "one",
+    "two",
+    "three",
+    "four",
+    "five",
+    "six",
+    "seven",
+    "eight",
+    "nine",
+    "ten",
+    "eleven",
+    "twelve",
+]
+_PARTS = [
+    "half",
+    "third",
+    "fourth",
+    "fifth",
+    "sixth",
+    "seventh",
+    "eighth",
+    "ninth",
+    "tenth",
+    "eleventh",
+    "twelfth",
+]
+_COUNTS = {word: n for n, word in enumerate(_CARDINALS)}
+_DIVISORS = {word: n for n, word in enumerate(_PARTS, start=2)} | {
+    "quarter": 4,
+    "halve": 2,
+    "fifteenth": 15,
+    "sixteenth": 16,
+    "eighteenth": 18,
+    "twentieth": 20,
+    "twentyfourth": 24,
+}
+_IN_WORDS = re.compile(
+    rf"(?P<count>{'|'.join(sorted(_CARDINALS, key=len, reverse=True))})?_?"
+    rf"(?:(?P<part>{'|'.join(sorted(_DIVISORS, key=len, reverse=True))})s?)?",
+    re.IGNORECASE,
+)
+
+
+def in_words(name: str) -> Value | None:
+    """The number that a name says, which nothing else tells; None for other names.
+
+    >>> in_words("ONE_SIXTH").value, in_words("twothirds").value, in_words("thirds_of")
+    (1/6, 2/3, None)
+    """
+    found = _IN_WORDS.fullmatch(name)
+    if found is None or not (found["count"] or found["part"]):
+        return None
+    count = _COUNTS.get((found["count"] or "one").lower(), 1)
+    return real(exact(fmpq(count, _DIVISORS.get((found["part"] or "").lower(), 1))))
+
+
 MOST_PARTS, CLOSE = 120, 1e-14
 """The largest denominator of a part of a turn whose cosine is known; the error of a float."""
 CALLS: dict[str, Known] = {}

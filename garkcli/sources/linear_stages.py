@@ -123,6 +123,39 @@ def roles_by_sums(values: Mapping[str, Value]) -> Mapping[str, Value] | None:
     return None
 
 
+_NAMED = {
+    **dict.fromkeys(("a", "A", "alpha"), "A"),
+    **dict.fromkeys(("C", "c_matrix", "c_coeffs"), "C"),
+    **dict.fromkeys(("b", "m", "B", "M"), "b"),
+    **dict.fromkeys(("gamma", "γ", "Gamma"), "gamma"),
+    **dict.fromkeys(("c", "nodes"), "c"),
+    **dict.fromkeys(("d", "gamma_stages", "gammas", "gamma_i", "gamma_sums"), "d"),
+    **dict.fromkeys(("e", "E", "error"), "error"),
+    **dict.fromkeys(("b_hat", "bhat", "b_low", "embedded", "btilde"), "embedded"),
+    "order": "order",
+}
+"""The names of arguments of calls that make Rosenbrock methods."""
+
+
+def roles_of_arguments(fields: Mapping[str, Value]) -> tuple[Mapping[str, Value], str]:
+    """The roles of what a call is given by names, and the form of the method: as programs store
+    it, with one γ, or as papers print it; nothing where a matrix is missing or not known.
+    """
+    roles: dict[str, Value] = {}
+    for name, value in fields.items():
+        if name in _NAMED:
+            roles.setdefault(_NAMED[name], value)
+    is_stored = is_matrix(roles.get("C")) and isinstance(roles.get("gamma"), Number)
+    given = [roles.get(x) for x in ("A", "b", "C" if is_stored else "gamma")]
+    is_known = all(isinstance(x, Array) and first_unknown(x) is None for x in given)
+    if not is_known or not (is_stored or is_matrix(roles.get("gamma"))):
+        return {}, ""
+    b, low = roles["b"], roles.get("embedded")
+    if is_stored and isinstance(b, Array) and isinstance(low, Array) and "error" not in roles:
+        roles |= {"error": _difference(b, low)} if len(b.items) == len(low.items) else {}
+    return roles, "transformed" if is_stored else "rosenbrock"
+
+
 def _difference(x: Array, y: Array) -> Array:
     return Array([computed("-", a, b, 0) for a, b in zip(x.items, y.items, strict=True)])
 

@@ -137,7 +137,7 @@ class Lowering:
             case "loop":
                 yield self.loop(node)
             case "giving":
-                yield ir.Return(self.expr(inside[0] if inside else None), line)
+                yield ir.Return(self.returned(inside[0] if inside else None), line)
             case "branch":
                 yield self.branch(inside, line)
             case "switch":
@@ -148,6 +148,10 @@ class Lowering:
                 yield from self.assignment(node, part(node, "left"), part(node, "right"))
             case _:
                 yield from self.own(node, inside, line)
+
+    def returned(self, node: Node | None) -> ir.Expr:
+        """The value of a function."""
+        return self.expr(node)
 
     def own(self, node: Node, inside: list[Node], line: int) -> Iterator[ir.Statement]:
         """What a statement of the language is lowered to."""

@@ -61,10 +61,11 @@ METHODS = re.compile(
 )
 """Words for methods."""
 MAX_NAME = 200
-_PART = re.compile(
-    r"(?P<word>butcher|matrix|weights|nodes|[abcw]|b_?hat|b_?embed)"
-    r"_?(?P<part>exp?|explicit|imp?|implicit)(?:_tableau)?",
-    re.IGNORECASE,
+_WORD = r"(?P<word>butcher|matrix|weights|nodes|[abcw]|b_?hat|b_?embed)"
+_WHICH = r"(?P<part>e(?:x(?:p|pl|plicit)?)?|i(?:m(?:p|pl|plicit)?)?)"
+_PARTS = (
+    re.compile(rf"{_WORD}_?{_WHICH}(?:_tableau)?", re.IGNORECASE),
+    re.compile(rf"{_WHICH}_{_WORD}", re.IGNORECASE),
 )
 _ANY_PART = {"matrix": "A", "weights": "b", "nodes": "c", "order": "order"}
 """Names beside those of one part."""
@@ -101,7 +102,7 @@ def role_of_part(name: str) -> str:
     >>> role_of_part("a_exp"), role_of_part("bhatim"), role_of_part("exp")
     ('A1', 'embedded2', '')
     """
-    found = _PART.fullmatch(name)
+    found = next(filter(None, (x.fullmatch(name) for x in _PARTS)), None)
     if found is None:
         return ""
     word = found["word"].lower()
@@ -116,6 +117,6 @@ def roles_of_parts(values: Mapping[str, Value]) -> Mapping[str, str]:
         found |= {name: role for name, role in _ANY_PART.items() if name in values}
     elif "b" not in values and near(*items_of(values.get("c"))[-1:]) == 1:
         found = {name: role for name, role in _PAIR.items() if name in values}
-    matrices = [values[name] for name, role in found.items() if role[0] == "A"]
-    are_two = len(matrices) > 1 and all(map(is_matrix, matrices))
+    matrices = {role: values[name] for name, role in found.items() if role[0] == "A"}
+    are_two = len(matrices) > 1 and all(map(is_matrix, matrices.values()))
     return found if are_two else {}

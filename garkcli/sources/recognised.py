@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, TypeAlias
 from garkcli.constructions.registers import FORMS as REGISTERS
 from garkcli.frozen import replace
 from garkcli.sources.assembling import Meant, NoTable, table_of
-from garkcli.sources.finder import TableFinder
+from garkcli.sources.finder import STEP, TableFinder
 from garkcli.sources.found import FoundTable, Row, Rows
 from garkcli.sources.shaping import ZERO, changed, is_zero
 from garkcli.sources.signatures import DRIFT_FIRST, NAMED, OTHER_KINDS, Signature
@@ -63,6 +63,7 @@ def with_readings(finder: TableFinder, tables: Sequence[FoundTable]) -> list[Fou
     rivals: dict[int, list[FoundTable]] = {}
     linked: dict[int, float] = {}
     settled: set[int] = set()
+    steps = {x.line for x in tables if x.is_read and STEP in x.notes}
     for reading in readings_of(finder.groups):
         numbers = source.numbers(reading)
         about = [i for i, x in enumerate(told) if _is_about(numbers, x)]
@@ -71,6 +72,10 @@ def with_readings(finder: TableFinder, tables: Sequence[FoundTable]) -> list[Fou
         linked |= {i: max(bits, linked.get(i, 0.0)) for i in read}
         explained = [i for i in read if not reading.idle and _explains(reading, numbers, told[i])]
         is_new = reading.is_enough and not read and not any(tables[i].is_misshapen for i in about)
+        # single numbers of a step are what the step makes of them
+        group = reading.group
+        is_of_step = group is not None and group.line in steps
+        is_new = is_new and not (is_of_step and all(x.is_made for x in reading.used))
         # arrays of several tables together are none
         is_new = is_new and 2 * len(numbers & everywhere) <= len(numbers)
         made = source.table(reading) if is_new or explained else None

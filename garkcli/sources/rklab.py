@@ -67,9 +67,9 @@ def _block_roles(value: Array, name: str) -> Mapping[str, Value] | None:
     is_ordered = name == "b" and is_named and off < TINY and stages > 1 and has_fractions
     # whole numbers alone may be anything
     is_block = is_ordered or (off < FAR and agreeing >= stages / (1 + has_fractions))
-    is_plain = off < NEAR and agreeing >= max(2, stages - 1)
-    # the weights alone may be wrong where the rows are those of an explicit method
     is_explicit = not any(x for i, row in enumerate(near[:stages]) for x in row[i + 1 :])
+    is_plain = off < NEAR and agreeing >= max(2, stages - is_explicit)
+    # the weights alone may be wrong where the rows are those of an explicit method
     is_plain |= off < FAR and is_explicit and agreeing == stages > 2
     is_plain &= has_fractions
     if not (is_block if is_named else is_plain and any(row[0] for row in near[:stages])):

@@ -55,6 +55,8 @@ def whole_families(made: Mapping[str, Value]) -> dict[str, Value]:
         rows = [list(items_of(row)) for row in value.items]
         own = {x.removeprefix(head): y for x, y in made.items() if x.rpartition("::")[0] == owner}
         weights, nodes = _BESIDE[letter]
+        if letter == "A":
+            weights, nodes = (x if x in own else x.upper() for x in (weights, nodes))
         if weights not in own and {"w", "d"} <= set(own):
             weights, nodes = "w", "d"
         b, c = (own.pop(x, None) for x in (weights, nodes))

@@ -13,7 +13,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import islice
 from typing import TypeGuard
 
-from garkcli.frozen import Frozen
+from garkcli.frozen import Frozen, replace
 from garkcli.sources import ir
 from garkcli.sources.evaluate import Evaluator, OutOfSteps, Space, names_of, shown
 from garkcli.sources.found import MAX_STAGES
@@ -30,6 +30,7 @@ from garkcli.sources.values import (
     Value,
     computed,
     is_zero,
+    items_of,
     near,
 )
 
@@ -63,22 +64,43 @@ class _Slope(Frozen):
     args: tuple[Terms | None, ...]
 
 
-def step_of(body: ir.Body, space: Space, like: Evaluator) -> Roles:
-    """A, b, c and the error of the step that a function is: the same by every way through it.
+def step_of(body: ir.Body, space: Space, like: Evaluator, is_function: bool = True) -> Roles:
+    """A, b, c and the error of the step that a function is, or that a loop in it takes again and
+    again.
 
     Args:
         body: of the function.
         space: the names around it.
         like: what evaluates its language.
+        is_function: whether all of it may be a step, and not only what is in loops.
 
     Raises:
         NoStep: it is none.
+    """
+    try:
+        if not is_function:
+            raise NoStep
+        return _by_every_way(body, space, like)
+    except NoStep as error:
+        of_loops = list(_in_loops(body, space, like))
+        if len({shown(Record("", x)) for x in of_loops}) != 1:
+            raise NoStep(error.looks_like or bool(of_loops)) from None
+        return of_loops[0]
+
+
+def _by_every_way(
+    body: ir.Body, space: Space, like: Evaluator, counters: Sequence[str] = ()
+) -> Roles:
+    """The step that some statements are: the same by every way through them.
+
+    Raises:
+        NoStep: they are none.
     """
     found: dict[object, Roles] = {}
     is_lost = False
     for way in reversed(_ways(body)):
         try:
-            roles = Follower(like, way).roles(Space(space))
+            roles = Follower(like, way, counters).roles(Space(space))
         except NoStep as error:
             if error.looks_like:
                 raise
@@ -88,6 +110,39 @@ def step_of(body: ir.Body, space: Space, like: Evaluator) -> Roles:
     if is_lost or len(found) != 1:
         raise NoStep(looks_like=bool(found))
     return found.popitem()[1]
+
+
+def _in_loops(
+    body: ir.Body, space: Space, like: Evaluator, counters: Sequence[str] = ()
+) -> Iterator[Roles]:
+    """The steps of several stages that loops over time take."""
+    for statement in body:
+        arms = statement.arms if isinstance(statement, ir.Branch) else ()
+        for arm in arms:
+            yield from _in_loops(arm, space, like, counters)
+        if not isinstance(statement, ir.Loop):
+            continue
+        names = (*counters, *_counted(statement))
+        try:
+            roles = _by_every_way(statement.body, space, like, names)
+        except NoStep:
+            yield from _in_loops(statement.body, space, like, names)
+        else:
+            if len(items_of(roles["b"])) > 1:
+                yield roles
+
+
+def _counted(loop: ir.Loop) -> Iterator[str]:
+    """The names that count the turns of a loop."""
+    if loop.name:
+        yield loop.name
+    for x in loop.body:
+        # n += 1; n = n + 1
+        match x:
+            case ir.Assign(ir.Name(name), ir.Literal("1"), sign="+"):
+                yield name
+            case ir.Assign(ir.Name(name), ir.Binary("+", ir.Name(old), ir.Literal("1"))):
+                yield from [name] if name == old else []
 
 
 def _ways(body: ir.Body) -> list[list[ir.Statement]]:
@@ -208,6 +263,8 @@ class Follower(Evaluator):
                         # slopes may have changed
                         self.spoil(x, space, "changed elsewhere", self.line)
                 self._store(target, self._slope(callee, values), space, self.line)
+            case ir.Call(ir.Name(name) | ir.Field(name=name)) if name.lower() in _TELLING:
+                pass
             case _:
                 self._lose([ir.Do(call, self.line)], space)
 
@@ -287,7 +344,19 @@ class Follower(Evaluator):
             isinstance(x, ir.Name) and x.name in names for x in expr.at
         ):
             expr = expr.of
-        return expr
+        return self._at_a_time(expr) if self._counters else expr
+
+    def _at_a_time(self, expr: ir.Expr) -> ir.Expr:
+        """What an array has at a time: ``x[n]``, ``x(:, n)`` and ``x[n - 1]`` are values of their
+        own.
+        """
+        if not isinstance(expr, ir.Index) or not isinstance(expr.of, ir.Name):
+            return expr
+        at = [x for x in expr.at if x != ir.Range()]
+        steps = [_steps_from(x, self._counters) for x in at]
+        if len(steps) != 1 or steps[0] is None:
+            return expr
+        return ir.Name(expr.of.name + (f"@{steps[0]}" if steps[0] else ""))
 
     def _called(self, call: ir.Call, space: Space) -> Value:
         if call.named:
@@ -318,6 +387,8 @@ class Follower(Evaluator):
         """An operation, on polynomials term by term."""
         sign = sign.removeprefix(".")
         left, right = _terms(x), _terms(y)
+        if sign == "-" and (name := _difference(left, right)):
+            return Form({(name,): ONE})
         if not isinstance(x, Form) and not isinstance(y, Form):
             return super().combined(sign, x, y)
         if left is None or right is None or len(left) * len(right) > MAX_TERMS:
@@ -360,7 +431,37 @@ class Follower(Evaluator):
                 return self._of([x for x in self._slopes if x.callee == callee])
             except NoStep:
                 continue
-        raise NoStep(self.looks_like)
+        try:
+            return self._of_system([[x for x in self._slopes if x.callee == y] for y in callees])
+        except NoStep:
+            raise NoStep(self.looks_like) from None
+
+    def _of_system(self, each: Sequence[Sequence[_Slope]]) -> Roles:
+        """The same where several functions make the slopes of several values, ``x' = f(x, v)`` and
+        ``v' = g(x, v)``: the coefficients of all are the same.
+        """
+        known = [x.args for slopes in each for x in slopes]
+        if self._is_lost or len(each) < 2 or len({(len(x), len(x[0].args)) for x in each}) > 1:
+            raise NoStep
+        columns = [[args[i] or {} for args in known] for i in range(len(known[0]))]
+        own: list[int] = []
+        for slopes in each:
+            names = {x.name for x in slopes}
+            own += [i for i, forms in enumerate(columns) if names & _symbols(forms)]
+        if len({*own}) != len(own) or len(own) != len(each):
+            raise NoStep
+        found: dict[object, Roles] = {}
+        for slopes, at in zip(each, own, strict=True):
+            others = {*own} - {at}
+            alone = [
+                replace(x, args=tuple(y for i, y in enumerate(x.args) if i not in others))
+                for x in slopes
+            ]
+            roles = self._of(alone, is_system=True)
+            found[shown(Record("", roles))] = roles
+        if len(found) != 1:
+            raise NoStep
+        return found.popitem()[1]
 
     @property
     def looks_like(self) -> bool:
@@ -379,8 +480,8 @@ class Follower(Evaluator):
             if len(at) == 2
         )
 
-    def _of(self, slopes: Sequence[_Slope]) -> Roles:
-        """The same where these are the evaluations of f."""
+    def _of(self, slopes: Sequence[_Slope], is_system: bool = False) -> Roles:
+        """The same where these are the evaluations of f, or of one of several such functions."""
         names = [x.name for x in slopes]
         width = len(slopes[0].args)
         if any(len(x.args) != width for x in slopes):
@@ -399,7 +500,7 @@ class Follower(Evaluator):
         step = _step(form, set(names))
         others = {x.name for x in self._slopes} - set(names)
         forms = [_terms(x) or {} for x in self._space.values()]
-        if others and (len(names) == 1 or others & _besides(forms, step)):
+        if others and not is_system and (len(names) == 1 or others & _besides(forms, step)):
             # values of another function take part in the step
             raise NoStep
         nodes = _nodes(columns, step)
@@ -453,6 +554,29 @@ class Follower(Evaluator):
     def _ends(self, name: str, start: str) -> bool:
         form = _terms(self._space.get(name))
         return form is not None and (start,) in form and len(form) > 1
+
+
+def _steps_from(at: ir.Expr, counters: Sequence[str]) -> int | None:
+    """How many steps an index is from a counter; None for other indices."""
+    match at:
+        case ir.Name(name) if name in counters:
+            return 0
+        case ir.Binary("+" | "-" as sign, ir.Name(name), ir.Literal(text)) if name in counters:
+            return int(f"{sign}{text}") if text.isdigit() else None
+        case ir.Binary("+", ir.Literal(text), ir.Name(name)) if name in counters:
+            return int(text) if text.isdigit() else None
+    return None
+
+
+def _difference(x: Terms | None, y: Terms | None) -> str:
+    """The name of the step between two times of an array, ``t[n + 1] - t[n]``; empty for others."""
+    names = [next(iter(z))[0] for z in (x, y) if z and len(z) == 1 and len(next(iter(z))) == 1]
+    heads = [name.partition("@") for name in names]
+    if len(heads) != 2 or heads[0][0] != heads[1][0]:
+        return ""
+    is_next = int(heads[0][2] or 0) - int(heads[1][2] or 0) == 1
+    are_plain = all(z and _is_one(next(iter(z.values()))) for z in (x, y))
+    return f"step@{heads[0][0]}" if is_next and are_plain else ""
 
 
 def _terms(value: Value | None) -> Terms | None:
@@ -572,6 +696,11 @@ def _name(callee: ir.Expr) -> str:
     return callee.name.lower() if isinstance(callee, ir.Name | ir.Field) else ""
 
 
+_TELLING = {
+    *("print", "println", "printf", "fprintf", "disp", "append", "push", "push_back", "add"),
+    *("push!", "emplace_back", "write", "writeln"),
+}
+"""Functions that keep or print what they are given, and do not change it."""
 _COPIES = {"memcpy", "dbl_memcpy", "copyto!"}
 """Functions that give their first argument the value of their second one."""
 _SUMS = {

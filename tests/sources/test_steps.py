@@ -257,17 +257,52 @@ def test_vectors_with_indices_from_0_in_fortran() -> None:
     assert (table.b, table.c) == ((("0", "1"),), (("0", "1/2"),))
 
 
-@pytest.mark.parametrize("index", [("", ""), ("[n]", "[n+1]")])
+@pytest.mark.parametrize(
+    "index", [("", ""), ("[n]", "[n+1]"), ("[n-1]", "[n]"), ("[:, n]", "[:, n+1]")]
+)
 @pytest.mark.parametrize("loop", ["for n in range(N)", "while go()"])
-def test_steps_one_after_the_other_are_told(index: tuple[str, str], loop: str) -> None:
-    """A loop with a step in it, of numbers or of arrays with a value per step; not one of Euler."""
+def test_steps_in_loops_over_time(index: tuple[str, str], loop: str) -> None:
+    """A loop that takes steps, with a value or with an array of them; not that of Euler."""
     here, after = index if loop.startswith("for") else ("", "")
     text = f"def run(f, t, y, h, N):\n    {loop}:\n        k = f(t{here}, y{here})\n"
-    end = f"        y{after} = y{here} + h*k\n    return y\n"
+    end = f"        y{after} = y{here} + h*k\n        print(y)\n    return y\n"
     second = f"        k = f(t{here} + h/2, y{here} + h/2*k)\n"
     (found,) = python.find(text + second + end, "x")
-    assert (found.name, found.trouble) == ("run", "a step that is not followed")
+    assert (found.name, found.b, found.c) == ("run", (("0", "1"),), (("0", "1/2"),))
     assert python.find(text + end, "x") == []
+    third = "        k = g(k)\n"
+    (other,) = python.find(text + second + third + second + end, "x")
+    assert other.trouble == "a step that is not followed"
+
+
+def test_steps_between_times_of_an_array() -> None:
+    """``h = t[n + 1] - t[n]``, counted by hand, outside of functions; another index is no step."""
+    text = """
+n = 0
+while n < N:
+    h = t[n + {}] - t[n]
+    k = f(t[n], y[n])
+    y[n + 1] = y[n] + h*f(t[n] + h/2, y[n] + h/2*k)
+    n += 1
+"""
+    (found,) = python.find(text.format(1), "x")
+    assert (found.b, found.c) == ((("0", "1"),), (("0", "1/2"),))
+    assert not any(x.b for x in python.find(text.format("m"), "x"))
+
+
+@pytest.mark.parametrize("last", ["l", "m"])
+def test_steps_of_systems(last: str) -> None:
+    """Several functions with the slopes of several values; the coefficients are those of all."""
+    text = f"""
+def step(f, g, t, x, v, h):
+    k = f(t, x, v)
+    l = g(t, x, v)
+    m = f(t + h, x + h*k, v + h*l)
+    n = g(t + h, x + h*k, v + h*{last})
+    return x + h/2*(k + m), v + h/2*(l + n)
+"""
+    found = [(x.b, x.c) for x in python.find(text, "x") if x.b]
+    assert found == ([((("1/2", "1/2"),), (("0", "1"),))] if last == "l" else [])
 
 
 @pytest.mark.parametrize("both", ["add(k, l, y)", "add(1.0, k, 1.0, l, y)"])

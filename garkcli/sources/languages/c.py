@@ -36,6 +36,7 @@ _NAMES = frozenset(
     }
 )
 _WHOLE_TYPES = re.compile(r"\b(?:int|long|short|unsigned|size_t|auto|bool|PetscInt|u?int\d+_t)\b")
+MAX_TITLE = 40
 _NUMBER = re.compile(r"(?P<digits>[0-9']*\.?[0-9']*(?:[eE][-+]?[0-9]+)?)(?P<suffix>[a-zA-Z_]\w*)?")
 _LIST = re.compile(r"\bvector\s*<")
 _DECLARED = frozenset({"array_declarator", "identifier", "field_identifier"})
@@ -78,7 +79,17 @@ class CLowering(Lowering):
         self._data = _without_open_comment(_DEVICE.sub(lambda x: b" " * len(x[0]), self._data))
         self._types_in_use: dict[str, bool] = {}
         self._reals: set[str] = set()  # parameters that are real numbers
+        self._gives: Node | None = None  # what the function around gives
         self._code = b""  # without comments and texts, where it is wanted
+
+    def statement(self, node: Node) -> Iterator[ir.Statement]:
+        """A statement; braces behind a macro, ``DEFINE(3, 2) {…}``, are a scope of their own."""
+        made = _macro_before(node)
+        if made is None:
+            yield from super().statement(node)
+        else:
+            title = re.sub(r"\s+", " ", self.text(made))[:MAX_TITLE]
+            yield ir.Scope("entry", title, self.block(self.children(node)), line_of(node))
 
     def own(self, node: Node, inside: list[Node], line: int) -> Iterator[ir.Statement]:
         match node.type:
@@ -184,10 +195,22 @@ class CLowering(Lowering):
         given = (x for x in self.children(part(head, "parameters")) if part(x, "declarator"))
         made = self.block(x for x in self.children(node) if x.type == "field_initializer_list")
         body = part(node, "body")
+        around, self._gives = self._gives, part(node, "type")
         made += self.block([body]) if body and self.may_hold_a_table(node) else ()
+        self._gives = around
         parameters = tuple(self._declared(x)[0] for x in given)
         name, types = self._declared(declarator)[0], self._types(node)
-        return ir.Scope("function", name, made, line_of(node), parameters, types)
+        # a method without arguments is a property
+        is_property = node.parent and node.parent.type == "field_declaration_list"
+        gives = name if is_property and not parameters and self._gives_a_value(node) else ""
+        return ir.Scope("function", name, made, line_of(node), parameters, types, gives=gives)
+
+    def _gives_a_value(self, node: Node) -> bool:
+        return self.text(part(node, "type")) not in {"", "void"}
+
+    def returned(self, node: Node | None) -> ir.Expr:
+        """The value of a function; ``return {c, A, b};`` makes the structure that it gives."""
+        return self._with_fields(self.expr(node), self._gives, line_of(node) if node else 0)
 
     def _types(self, node: Node) -> frozenset[str]:
         """The types that a template is given."""
@@ -401,6 +424,20 @@ class CLowering(Lowering):
         digits = found["digits"].replace("'", "")
         is_whole = digits.isdigit() and (found["suffix"] or "").lower() not in {"f", "q"}
         return ir.Literal(digits, is_whole)
+
+
+def _macro_before(node: Node) -> Node | None:
+    """The call of a macro of which braces outside of functions are the body; None for others."""
+    if node.type != "compound_statement" or node.parent is None:
+        return None
+    before = node.prev_named_sibling
+    is_outside = node.parent.type in {"translation_unit", "declaration_list"}
+    if not is_outside or before is None or before.type != "expression_statement":
+        return None
+    call = next(iter(before.named_children), None)
+    name = part(call, "function")
+    is_macro = name is not None and name.text is not None and name.text.isupper()
+    return call if is_macro else None
 
 
 def _without_open_comment(data: bytes) -> bytes:

@@ -44,7 +44,13 @@ class MatlabLowering(Lowering):
                 given = [x.named_children for x in inside if x.type == "function_arguments"]
                 parameters = tuple(self.text(x) for each in given for x in each)
                 name, body = self.text(part(node, "name")), self.block(inside[-1:])
-                yield ir.Scope("function", name, body, line, parameters)
+                gives = self._given(node) if len(parameters) == 1 else ""
+                if gives:
+                    # get.A(this) of a class gives the property A
+                    body += (ir.Return(ir.Name(gives), line),)
+                yield ir.Scope(
+                    "function", name, body, line, parameters, gives=name if gives else ""
+                )
             case "class_definition":
                 name, body = self.text(part(node, "name") or inside[0]), self.block(inside[1:])
                 yield ir.Scope("class", name, body, line)
@@ -56,6 +62,13 @@ class MatlabLowering(Lowering):
                 yield self.loop(node, self.text(counter), self.expr(over))
             case "function_call" | "field_expression":
                 yield ir.Do(self.expr(node), line)
+
+    def _given(self, node: Node) -> str:
+        """The only value that a method of a class gives; empty for other functions."""
+        is_method = node.parent is not None and node.parent.type == "methods"
+        given = next((x for x in node.named_children if x.type == "function_output"), None)
+        names = [self.text(x) for x in self.children(given) if self.is_a("name", x)]
+        return names[0] if is_method and len(names) == 1 else ""
 
     def way(self, condition: list[Node], inside: list[Node]) -> ir.Body:
         """A branch on a text is named by it."""

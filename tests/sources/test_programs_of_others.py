@@ -1,0 +1,162 @@
+"""Tables as programs of several kinds have them: the method that each is, and what keeps it unread."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+
+from garkcli.bridges.audit import audit
+from garkcli.sources.found import FoundTable
+from garkcli.sources.languages import c, fortran, matlab, python
+
+RETURNED = """
+struct Tableau2 { std::vector<double> c; Eigen::MatrixXd a; std::vector<double> b; };
+Tableau2 tableau(const int order) {
+  if (order == 2) {
+    return { {0.0, 0.5}, (Eigen::MatrixXd(2, 2) << 0.0, 0.0, 0.5, 0.0).finished(), {0.0, 1.0} };
+  } else {
+    return { {0.0, 0.5, 1.0},
+      (Eigen::MatrixXd(3, 3) << 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, -1.0, 2.0, 0.0).finished(),
+      {1.0/6.0, 2.0/3.0, 1.0/6.0} };
+  }
+}
+"""
+METHODS = """
+struct Heun : RungeKutta {
+  std::vector<std::vector<double>> getA() const override { return {{0, 0}, {1, 0}}; }
+  std::vector<double> b() const override { return {1./2, 1./2}; }
+  std::vector<double> c() const override { return {0, 1}; }
+};
+"""
+MACROS = """
+#define DEFINE(s, p) Coefficients<s, p>::Coefficients()
+DEFINE(2, 2)
+{
+  order = 2;
+  a += 0.0, 0.0, 1.0, 0.0;
+  b += 0.5, 0.5;
+  c += 0.0, 1.0;
+}
+DEFINE(3, 3)
+{
+  a += 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, -1.0, 2.0, 0.0;
+  b += 1.0/6.0, 2.0/3.0, 1.0/6.0;
+}
+"""
+CAPITALS = """
+#define C2 0.5
+#define A21 0.5
+#define A32 0.5
+#define A43 1.0
+#define B1 1.0/6.0
+#define B2 1.0/3.0
+#define B3 1.0/3.0
+#define B4 1.0/6.0
+#define C3 0.5
+"""
+WORDS = """
+real, parameter :: A(2,2) = reshape((/ zero, twothirds, zero, zero /), (/2, 2/))
+real, parameter :: b(2) = (/ QUARTER, THREE_FOURTHS /)
+real, parameter :: c(2) = (/ zero, two_thirds /)
+"""
+GETTERS = """
+classdef ARS < IMEX
+  properties
+    gamma = 1 - 1/sqrt(2)
+  end
+  methods
+    function Ai = get.Ai(this)
+      g = this.gamma;
+      Ai = [0 0 0; 0 g 0; 0 1-g g];
+    end
+    function Ae = get.Ae(this)
+      g = this.gamma;
+      d = 1 - 1/(2*g);
+      Ae = [0 0 0; g 0 0; d 1-d 0];
+    end
+    function bi = get.bi(this)
+      bi = [0 1-this.gamma this.gamma];
+    end
+    function be = get.be(this)
+      g = this.gamma;
+      d = 1 - 1/(2*g);
+      be = [d 1-d 0];
+    end
+  end
+end
+"""
+ROSENBROCK = """
+def ros2():
+    g = 1 + 1/sqrt(2)
+    return RosenbrockTableau(
+        a=((0, 0), (1/g, 0)), C=((0, 0), (-2/g, 0)), b=(3/(2*g), 1/(2*g)), b_hat=(1/g, 0),
+        c=(0, 1), gamma=g, order=2, gamma_stages=(g, -g))
+"""
+PAPER = """
+t = RosenbrockTableau(A=((0, 0), (1, 0)), gamma=((1, 0), (-2, 1)), b=(1/2, 1/2), order=2)
+"""
+Find = Callable[[str, str], list[FoundTable]]
+
+
+@pytest.mark.parametrize(
+    ("find", "text", "orders"),
+    [
+        (c.find, RETURNED, [2, 3]),
+        (c.find, METHODS, [2]),
+        (c.find, MACROS, [2, 3]),
+        (c.find, CAPITALS, [4]),
+        (fortran.find, WORDS, [2]),
+        (matlab.find, GETTERS, [2]),
+        (python.find, ROSENBROCK, [2]),
+        (python.find, PAPER, [2]),
+    ],
+)
+def test_the_order_of_each_table(find: Find, text: str, orders: list[int]) -> None:
+    found = [x for x in map(audit, find(text, "x")) if x is not None]
+    assert [x.order and x.order.order for x in found] == orders
+    assert not any(x.has_errors for x in found)
+
+
+def test_parts_with_letters_are_one_method() -> None:
+    """Ai and Ae: halves of a method, each of which would be a method, too."""
+    (found,) = matlab.find(GETTERS, "x")
+    assert (len(found.b), found.name) == (2, "ARS")
+
+
+def test_embedded_weights_of_rosenbrock_by_names() -> None:
+    (found,) = map(audit, python.find(ROSENBROCK, "x"))
+    assert found is not None
+    assert found.embedded_order is not None
+    assert found.embedded_order.order == 1
+
+
+@pytest.mark.parametrize(("third", "count"), [("1/3", 1), ("w", 0)])
+def test_unknown_weights_are_not_the_last_row(third: str, count: int) -> None:
+    """Rows 2 to 4 of RK4: the last one has the sum 1, and is no weights beside unknown ones."""
+    text = "A = [[1/2, 0, 0], [0, 1/2, 0], [0, 0, 1]]\nc = [0, 1/2, 1/2, 1]\n"
+    found = python.find(text + f"b = [1/6, 1/3, {third}, 1/6]\n", "rk4.py")
+    assert [len(x.b[0]) for x in found if x.b] == [4] * count
+
+
+def test_columns_of_an_array_are_weights_and_embedded_ones() -> None:
+    text = """
+subroutine bs
+  real :: a_bs(3), b_bs(3,3), c_bs(4,2)
+  a_bs(1) = 0.5; a_bs(2) = 0.75; a_bs(3) = 1.0
+  b_bs = 0.0
+  b_bs(1,1) = 0.5; b_bs(2,2) = 0.75; b_bs(1,3) = 2.0/9.0; b_bs(2,3) = 1.0/3.0; b_bs(3,3) = 4.0/9.0
+  c_bs(1,1) = 2.0/9.0; c_bs(2,1) = 1.0/3.0; c_bs(3,1) = 4.0/9.0; c_bs(4,1) = 0.0
+  c_bs(1,2) = 7.0/24.0; c_bs(2,2) = 0.25; c_bs(3,2) = 1.0/3.0; c_bs(4,2) = 0.125
+end subroutine
+"""
+    (found,) = (x for x in fortran.find(text, "x") if x.b)
+    assert found.b == (("2/9", "1/3", "4/9", "0"),)
+    assert found.embedded == (("7/24", "1/4", "1/3", "1/8"),)
+    assert found.c == (("0", "1/2", "3/4", "1"),)
+
+
+def test_a_projection_is_no_block_with_a_misprint() -> None:
+    """Half of (1, 0, 1, 0) and (0, 1, 0, 1): weights with the sum 1, and two of three rows fit."""
+    text = "J40 = [[1/2, 0, 1/2, 0], [0, 1/2, 0, 1/2], [1/2, 0, 1/2, 0], [0, 1/2, 0, 1/2]]"
+    assert not any(x.b for x in python.find(text, "x"))
