@@ -349,6 +349,8 @@ def _orders(roles: Roles) -> tuple[int | None, int | None]:
     and embedded weights that are rows of one matrix.
     """
     order, embedded = roles.get("order"), roles.get("embedded_order")
+    if order is None and whole(roles.get("order1")) == whole(roles.get("order2")):
+        order = roles.get("order1")
     if isinstance(order, Array) and len(order.items) in (1, 2):
         order, embedded = (*order.items, embedded)[:2]
     if order is None and embedded is None and _with_both_rows(roles) is not roles:

@@ -292,8 +292,8 @@ class TableFinder(Harvester):
         if kind == "Rosenbrock" and not record.args:
             of_arguments, form = roles_of_arguments(fields)
             if form:
-                place, told = self._place(name, line, is_sure=True), dict(of_arguments)
-                self._meant.append(Meant(place, told, Signature([], form), record.kind))
+                place, made = self._place(name, line, is_sure=True), Signature([], form)
+                self._meant.append(Meant(place, dict(of_arguments), made, record.kind))
                 return
         if kind:
             values = [*record.args, *fields.values()]
@@ -382,7 +382,8 @@ class TableFinder(Harvester):
         orders = {x: fields[x] for x in _ORDERS if x in fields and not is_table}
         for stem, group in self._groups(values, lines, scope, beside).items():
             roles = _with_grid(group.roles)
-            if known and not (is_complete(roles) and shown(roles.get("A", NULL)) not in known):
+            matrices = {shown(roles[x]) for x in ("A", "A1", "A2") if x in roles}
+            if known and not (is_complete(roles) and matrices.isdisjoint(known)):
                 continue
             if not is_complete(roles):
                 b = group.roles.get("b 1")
@@ -419,6 +420,8 @@ class TableFinder(Harvester):
         has roles that names alone do not tell.
         """
         parts = {x: (_PARTS, role) for x, role in roles_of_parts(values).items()}
+        # behind a branch zeros may get numbers
+        is_arm = scope is not self._scopes[-1]
         groups: dict[str, _Group] = defaultdict(_Group)
         for name, value in values.items():
             owner, _, plain = name.rpartition("::")
@@ -429,6 +432,8 @@ class TableFinder(Harvester):
             elif told is not None and _fits(told[1], value):
                 # RK6Solver::a belongs to its class
                 stem, role = told[0] or owner, told[1]
+                if is_arm and role in {"c", "c1", "c2"} and not is_written(value):
+                    continue
             else:
                 is_made = isinstance(value, Unknown) or (isinstance(value, Record) and value.kind)
                 is_array = is_made and not _OBJECT.match(described(value))
@@ -515,7 +520,7 @@ def _is_given(value: Value) -> bool:
 
 def _fits(role: str, value: Value) -> bool:
     """Whether a value may be what its name says."""
-    if role in {"order", "embedded_order", "stages"}:
+    if role in {"order", "order1", "order2", "embedded_order", "stages"}:
         return isinstance(value, Number)
     if role in {"title", "fsal"}:
         return isinstance(value, Word)

@@ -90,34 +90,14 @@ CONSTANTS: Mapping[str, Value] = {
     "#": Number(None, math.nan, written=Scalar("x")),
 }
 """Names that mean the same everywhere; ``#`` is the variable of a polynomial."""
-_CARDINALS = [
-    "zero",
-    "one",
-    "two",
-    "three",
-    "four",
-    "five",
-    "six",
-    "seven",
-    "eight",
-    "nine",
-    "ten",
-    "eleven",
-    "twelve",
-]
-_PARTS = [
-    "half",
-    "third",
-    "fourth",
-    "fifth",
-    "sixth",
-    "seventh",
-    "eighth",
-    "ninth",
-    "tenth",
-    "eleventh",
-    "twelfth",
-]
+_CARDINALS = (
+    *("zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"),
+    *("eleven", "twelve"),
+)
+_PARTS = (
+    *("half", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth"),
+    *("eleventh", "twelfth"),
+)
 _COUNTS = {word: n for n, word in enumerate(_CARDINALS)}
 _DIVISORS = {word: n for n, word in enumerate(_PARTS, start=2)} | {
     "quarter": 4,

@@ -61,7 +61,7 @@ METHODS = re.compile(
 )
 """Words for methods."""
 MAX_NAME = 200
-_WORD = r"(?P<word>butcher|matrix|weights|nodes|[abcw]|b_?hat|b_?embed)"
+_WORD = r"(?P<word>butcher|matrix|weights|nodes|[abcw]|b_?hat|b_?embed|order)"
 _WHICH = r"(?P<part>e(?:x(?:p|pl|plicit)?)?|i(?:m(?:p|pl|plicit)?)?)"
 _PARTS = (
     re.compile(rf"{_WORD}_?{_WHICH}(?:_tableau)?", re.IGNORECASE),
