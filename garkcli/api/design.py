@@ -15,8 +15,8 @@ from garkcli.design.design import CLAIMS, Design
 from garkcli.design.member import TABLEAUS, Whose
 from garkcli.design.minimise import minimise as minimising
 from garkcli.design.minimise.objective import Level
-from garkcli.design.minimise.objectives import OBJECTIVES
 from garkcli.design.minimise.result import Minimum
+from garkcli.design.minimise.sums import refuse
 from garkcli.design.search import run as searching
 from garkcli.design.search.run import TOLERANCE, Method, Result
 from garkcli.design.stability_kinds import TwoSprings
@@ -136,7 +136,8 @@ def minimise(design: Design | AnyFamily, objective: str, seconds: float | None =
             of a method without free parameters, whose value is the answer.
         objective: the quantity to be small: error, error-coupling or coefficients; or large, with a
             minus sign: -ssp, -stability-interval, -real-interval, -imaginary-interval,
-            -oscillator-interval.
+            -oscillator-interval; a search alone minimises A, B, C, D, E, embedded-A, largest,
+            largest-error, infinity, embedded-infinity and sums such as '2*A - ssp/10'.
         seconds: after which it is given up; None for never.
 
     Raises:
@@ -150,23 +151,11 @@ def minimise(design: Design | AnyFamily, objective: str, seconds: float | None =
     >>> found, str(found.value.exact), found.candidates
     (<Minimum of error>, '1/36', 1)
     """
-    known = _objective(objective)
+    refuse(objective)  # before any work
     if not isinstance(design, Design):
         read = exact_family_of(design, "minimise", is_free=False)
         design = designing.find_parameters(read, seconds=seconds)
-    return minimising.minimise(design, known, seconds)
-
-
-def _objective(name: str) -> str:
-    """The name of an objective.
-
-    Raises:
-        UsageProblem: there is none.
-    """
-    if name not in OBJECTIVES:
-        message = f"no objective {name!r}"
-        raise UsageProblem(message, did_you_mean(name, OBJECTIVES), code="unknown-word")
-    return name
+    return minimising.minimise(design, objective, seconds)
 
 
 def search_methods(
@@ -211,7 +200,7 @@ def search_methods(
         whole(most, "most", 1),
         whose,
         seconds,
-        None if objective is None else _objective(objective),
+        objective,
     )
 
 

@@ -55,6 +55,7 @@ def design(given: Given, output: Output) -> int:
     Exit code: 1 no value has the order or stability asked for, 3 a search found nothing, which
     proves nothing.
     """
+    from garkcli.design.minimise.sums import refuse
     from garkcli.methodfile.family import load_family
 
     seconds = SECONDS if given.seconds is None and given.search is None else given.seconds
@@ -64,6 +65,8 @@ def design(given: Given, output: Output) -> int:
     if given.folder is not None and not is_free:
         message = "--minimise finds one method, --output-dir writes several"
         raise UsageProblem(message, "--emit FILE writes the one", code="options-clash")
+    if given.minimise is not None:
+        refuse(given.minimise, is_search=given.search is not None)  # before any work
     family = load_family(given.file, given.settings, given.moment, is_free)
     is_of_springs = given.slow is not None
     _refuse_rounded(family, given)

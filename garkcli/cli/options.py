@@ -85,11 +85,7 @@ KINDS: dict[str, dict[str, Any]] = {
     "report": {"shell_complete": completed("report.schemas:REPORTS")},
 }
 """What values of options are, by the words of the table."""
-WORDS = {
-    "forms": "cli.options:forms",
-    "kinds": "ntrees.symplectic:KINDS",
-    "objectives": "design.minimise.objectives:OBJECTIVES",
-}
+WORDS = {"forms": "cli.options:forms", "kinds": "ntrees.symplectic:KINDS"}
 """Where the words are that an option takes one of."""
 
 

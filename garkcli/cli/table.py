@@ -228,7 +228,7 @@ design --digits N 1..1000 default=12 | Digits of numbers without simple radicals
     | Seconds after which the rest stays undecided, or a search ends; {SECONDS:.0f} by default, of
       a search none.
 --emit FILE written holds=yaml | Write the first method into a file, with its claim.
---minimise WHAT words=objectives = minimise.objective
+--minimise WHAT = minimise.objective
 --p-stable value=p-stable name=stability = stable_values.wanted
     | The exact set of values of the parameters for which the method is P-stable.
 --i-stable value=i-stable name=stability = stable_values.wanted | The same for I-stability.

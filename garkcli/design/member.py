@@ -23,7 +23,7 @@ from garkcli.frozen import replace
 from garkcli.stability.linear import is_a_stable, is_l_stable, stability_function
 from garkcli.stability.oscillator import usual_oscillator
 from garkcli.tableau.conjugate import conjugate
-from garkcli.tableau.embedded import DenseOutput
+from garkcli.tableau.embedded import DenseOutput, Further
 from garkcli.tableau.family import OSCILLATING, Family, Stability
 from garkcli.tableau.forms import pair
 from garkcli.tableau.stages import PointSpace, StageSpace
@@ -62,6 +62,11 @@ def dense_member(dense: DenseOutput, ring: Parameters, values: Mapping[str, Numb
     """Dense output with every parameter replaced by its value, as ``member`` does."""
     at = _At([values[name] for name in ring.names])
     return DenseOutput(tuple(map(at.matrix, dense.weights)))
+
+
+def further_member(further: Further, ring: Parameters, values: Mapping[str, Number]) -> Further:
+    """Further weights with every parameter replaced by its value, as ``member`` does."""
+    return further.changed(_At([values[name] for name in ring.names]).number)
 
 
 def value_of(polynomial: fmpq_mpoly, ring: Parameters, values: Mapping[str, Number]) -> Number:

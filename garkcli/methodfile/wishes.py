@@ -137,6 +137,11 @@ class Wishes(Frozen):
     ranges: Mapping[str, Free] = NO_RANGES
     entries: tuple[Entry, ...] = ()
 
+    def count(self, key: str) -> int | None:
+        """The whole number that is wanted; None where none is."""
+        values = [wish.value for wish in self.wishes if wish.want.key == key]
+        return next((x for x in values if isinstance(x, int)), None)
+
 
 def read_wishes(at: Any, node: Node) -> Wishes:
     """What a file wants; its unknowns are known already.

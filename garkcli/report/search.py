@@ -10,7 +10,7 @@ from flint import ctx
 
 from garkcli.design.member import Whose
 from garkcli.design.minimise.objective import Level as LevelObjective
-from garkcli.design.minimise.objective import Objective
+from garkcli.design.minimise.objective import Single, Sum
 from garkcli.design.search.run import Ending, Method, Result
 from garkcli.design.search.run import decimals as decimals_of
 from garkcli.design.search.search import Proof, Search
@@ -139,9 +139,9 @@ def method_rows(report: SearchReport, d: Plain) -> list[tuple[str, str]]:
     return rows
 
 
-def _of(objective: Objective | LevelObjective) -> str:
+def _of(objective: Single | Sum) -> str:
     """The name of an objective without the sign that says that it is to be large."""
-    return objective.key.removeprefix("-")
+    return objective.key if isinstance(objective, Sum) else objective.key.removeprefix("-")
 
 
 def _objective_rows(report: SearchReport, d: Plain) -> list[tuple[str, str]]:

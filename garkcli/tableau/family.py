@@ -90,6 +90,7 @@ class Family(Frozen, kw_only=True):
         real: the keys of requirements whose ``relations`` hold for real values only.
         further: its embedded weights and its dense output.
         impossible: requirements that no value meets, with the reason.
+        embedded_order: the required order of the embedded weights, if the file has one.
     """
 
     name: str
@@ -109,6 +110,7 @@ class Family(Frozen, kw_only=True):
     real: tuple[str, ...] = ()
     further: Further = NOTHING
     impossible: tuple[str, ...] = ()
+    embedded_order: int | None = None
 
     @property
     def on_linear_problems(self) -> Self:

@@ -13,14 +13,18 @@ import numpy as np
 import pytest
 from flint import fmpq
 
-from garkcli import loads_family, minimise, search_methods
-from garkcli.design.member import member
-from garkcli.design.minimise.objective import Level, Objective
-from garkcli.design.search.goals import Reach, Smooth, meant
-from garkcli.design.search.optimum import HIGHEST, Program
+from garkcli import load, loads_family, minimise, search_methods
+from garkcli.design.member import further_member, member
+from garkcli.design.minimise.measures import MEASURES
+from garkcli.design.minimise.objective import Level, Measure, Objective, Subject, Sum
+from garkcli.design.minimise.sums import objective_of
+from garkcli.design.search.goals import meant
+from garkcli.design.search.optimum import Program
 from garkcli.design.search.search import Search
+from garkcli.design.search.tasks import HIGHEST, Least
 from garkcli.errors import UsageProblem
 from garkcli.methodfile.family import FamilyFile
+from garkcli.order.constants import error_constants
 from garkcli.problems.draw import Draw
 from garkcli.report.search import _shown
 from garkcli.tell.dialect import Plain
@@ -55,6 +59,63 @@ def floats(point: list[fmpq]) -> Any:
     return np.array([int(x.p) / int(x.q) for x in point])
 
 
+PAIR = """
+unknown: {stages: 4, shape: explicit, embedded: true}
+design: {order: 3, embedded-order: 2}
+"""
+IMPLICIT_PAIR = """
+unknown: {stages: 3, shape: sdirk, embedded: true}
+design: {order: 2, embedded-order: 1}
+"""
+IMEX_PAIR = """
+unknown: {stages: 3, shape: imex, embedded: true}
+design: {order: 2, embedded-order: 1}
+"""
+
+
+@pytest.mark.parametrize("text", [PAIR, IMPLICIT_PAIR, IMEX_PAIR])
+@pytest.mark.parametrize("measure", MEASURES, ids=lambda x: x.key)
+def test_measures_in_floats_are_the_exact_ones(text: str, measure: Measure) -> None:
+    """In floats by trees, exactly by spans and conditions; gradients by differences."""
+    if measure.key.endswith("infinity") and text != IMPLICIT_PAIR:
+        with pytest.raises(UsageProblem, match="R\\(∞\\) is"):
+            program(text, measure.key)
+        return
+    search, made = program(text, measure.key)
+    ring, family = search.family.ring, search.family
+    for point in points(search, 2):
+        values = dict(zip(ring.names, point, strict=True))
+        further = further_member(family.further, ring, values)
+        tableau = member(search.tableau, ring, values)
+        exact = measure.squared(Subject(tableau, search.order, further, family.embedded_order))
+        x = floats(point)
+        assert made.total.value(x) ** 2 == pytest.approx(int(exact.p) / int(exact.q), rel=1e-9)
+        task = Least(made.total, x)
+        z = np.append(x, task.guess(x))
+        look = task.at(z)
+        assert look.value == pytest.approx(made.total.value(x))
+        assert_gradient(lambda z, task=task: task.at(z).value, z, look.gradient)
+        for k in range(len(look.signs)):
+            assert_gradient(lambda z, task=task, k=k: task.at(z).signs[k], z, look.of_signs[k])
+
+
+@pytest.mark.parametrize("key", ["A", "embedded-A", "E"])
+def test_constants_of_a_published_pair(key: str) -> None:
+    """Of Bogacki and Shampine's pair they are norms that ``gark check`` and ``gark list`` tell."""
+    family = loads_family(
+        "unknown: {stages: 4, shape: [explicit, stiffly-accurate], embedded: true}\n"
+        "design: {order: 3, embedded-order: 2, fix: {c2: 1/2, c3: 3/4, bh1: 7/24, bh4: 1/8}}"
+    )
+    [method] = search_methods(family, 3, 3, objective=key).methods
+    told = json.loads(gark("check", "bogacki-shampine-3", "-v", "--format", "json").out)
+    constants = error_constants(load("bogacki-shampine-3").tableau, 4)
+    assert constants is not None
+    own = constants.all.two
+    estimate = told["files"][0]["error_estimate"]["leading_term"]["all"]["two_norm"]
+    wanted = {"A": own, "embedded-A": estimate, "E": own / estimate}[key]
+    assert float(method.objective or "") == pytest.approx(wanted, rel=1e-10)
+
+
 @pytest.mark.parametrize("text", [EXPLICIT3, IMEX, SPLITTING, SDIRK, ROSENBROCK])
 @pytest.mark.parametrize("objective", ["error", "error-coupling", "coefficients"])
 def test_smooth_objectives_are_the_exact_ones(text: str, objective: str) -> None:
@@ -69,16 +130,16 @@ def test_smooth_objectives_are_the_exact_ones(text: str, objective: str) -> None
         return
     search, made = program(text, objective)
     exact = meant(objective, search.tableau)
-    assert isinstance(made.goal, Smooth)
+    [(_, goal)] = made.total.smooth
     assert isinstance(exact, Objective)
     for point in points(search, 3):
         values = dict(zip(search.family.ring.names, point, strict=True))
         tableau = member(search.tableau, search.family.ring, values)
         quotient = exact.formula(tableau, search.order, None)
         wanted = quotient.numerator / quotient.denominator
-        value, gradient = made.goal.at(floats(point))
+        value, gradient = goal.at(floats(point))
         assert value == pytest.approx(int(wanted.p) / int(wanted.q), rel=1e-10)
-        assert_gradient(lambda x: made.goal.at(x)[0], floats(point), gradient)
+        assert_gradient(lambda x, goal=goal: goal.at(x)[0], floats(point), gradient)
 
 
 def assert_gradient(function: Any, x: Any, gradient: Any) -> None:
@@ -119,7 +180,7 @@ def test_levels_hold_up_to_the_exact_one(text: str, objective: str) -> None:
     """
     search, made = program(text, objective)
     exact = meant(objective, search.tableau)
-    assert isinstance(made.goal, Reach)
+    [(_, goal)] = made.total.levels
     assert isinstance(exact, Level)
     names = search.family.ring.names
     point = [fmpq(1, 2)] if len(names) == 1 else SSP33_POINT
@@ -128,12 +189,12 @@ def test_levels_hold_up_to_the_exact_one(text: str, objective: str) -> None:
     assert found is not None
     level = float(found.ball(64))
     x = floats(point)
-    below, slopes = made.goal.at(np.append(x, 0.99 * level))
-    above, _ = made.goal.at(np.append(x, 1.02 * level))
+    below, slopes = goal.at(np.append(x, 0.99 * level))
+    above, _ = goal.at(np.append(x, 1.02 * level))
     assert min(below) >= -1e-12
     assert min(above) < 0
     for k in range(len(below)):
-        assert_gradient(lambda z, k=k: made.goal.at(z)[0][k], np.append(x, 0.99 * level), slopes[k])
+        assert_gradient(lambda z, k=k: goal.at(z)[0][k], np.append(x, 0.99 * level), slopes[k])
 
 
 SSP33_POINT = [fmpq(1), fmpq(1, 2), fmpq(1, 4), fmpq(1, 6), fmpq(1, 6), fmpq(2, 3)]
@@ -259,6 +320,88 @@ def test_objectives_without_meaning_are_refused() -> None:
         search_methods(family, 2, 3, objective="-real-interval")
     with pytest.raises(UsageProblem, match="no objective"):
         search_methods(family, 2, 3, objective="speed")
+
+
+def test_sums_are_their_terms() -> None:
+    """The objective of the method is the sum of its terms, one by one; levels count negative."""
+    text = "unknown: {stages: 3, shape: explicit}\ndesign: {order: 2}"
+    [both] = best(text, "error + largest/100 - ssp/50", 6).methods
+    family = loads_family(text)
+    exact = {name: fmpq(*map(int, value.split("/"))) for name, value in both.values.items()}
+    tableau = member(family.tableau, family.ring, exact)
+    total = 0.0
+    for name, weight in {"error": 1, "largest": 0.01, "-ssp": -0.02}.items():
+        one = objective_of(name)
+        if isinstance(one, Objective):
+            quotient = one.formula(tableau, 2, None)
+            total += weight * float(quotient.numerator / quotient.denominator)
+        elif isinstance(one, Measure):
+            total += weight * float(one.squared(Subject(tableau, 2))) ** 0.5
+        elif isinstance(one, Level):
+            total += weight * float(one.value(tableau).ball(64))  # type: ignore[union-attr]
+    assert float(both.objective) == pytest.approx(total, rel=1e-10)
+
+
+def test_sums_are_exact_where_their_terms_are() -> None:
+    """Of two weights the minimum is between those of the terms, and attained."""
+    family = loads_family("parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [1 - 1/(2*t), 1/(2*t)]")
+    exact = minimise(family, "100*error + coefficients")
+    [method] = search_methods(family, 2, 6, objective="100*error + coefficients").methods
+    assert exact.value is not None
+    assert float(method.objective or "") == pytest.approx(float(exact.value.ball(64)))
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("A*B", "a sum of names"),
+        ("A/B", "a sum of names"),
+        ("1 + A", "numbers alone"),
+        ("0*A", "numbers alone"),
+        ("A - A", "numbers alone"),
+        ("sqrt(A)", "a sum of names"),
+        ("A +", "the text ends"),
+        ("2*speed", "no objective 'speed'"),
+        ("ssp", "is made large"),
+        ("A - largest", "is made small"),
+        ("A - stability-interval", "one of two intervals"),
+        ("", "no number here"),
+    ],
+)
+def test_sums_that_are_none_are_refused(text: str, says: str) -> None:
+    """With words and a cure, before any work."""
+    with pytest.raises(UsageProblem, match=says) as raised:
+        objective_of(text)
+    assert raised.value.help
+
+
+def test_sums_are_read_as_people_write_them() -> None:
+    """Hyphens within names are no signs; numbers may be on either side."""
+    found = objective_of("error-coupling/2 + 3*(largest + 2*D) - 1/10*imaginary-interval")
+    assert isinstance(found, Sum)
+    assert {x.key: str(w) for w, x in found.terms} == {
+        "error-coupling": "1/2",
+        "largest": "3",
+        "D": "6",
+        "-imaginary-interval": "-1/10",
+    }
+
+
+def test_a_search_alone_minimises_sizes(tmp_path: Path) -> None:
+    """Without --search the command says so before any work."""
+    file = tmp_path / "ssp.yaml"
+    file.write_text(SSP43, encoding="utf-8")
+    result = gark("design", str(file), "--minimise", "error + largest")
+    assert result.code == 2
+    assert "largest is minimised by a search alone" in result.err
+    assert "--search N" in result.err
+
+
+def test_the_least_largest_coefficient() -> None:
+    """Three stages of order 2 with entries up to m: 1/2 = Σ b c ≤ m m + m 2m."""
+    text = "unknown: {stages: 3, shape: explicit}\ndesign: {order: 2}"
+    [method] = best(text, "largest", 8).methods
+    assert float(method.objective) == pytest.approx((1 / 6) ** 0.5, rel=2e-7)
 
 
 def test_numbers_that_nobody_reads_are_shown_in_decimals() -> None:

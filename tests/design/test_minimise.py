@@ -760,7 +760,7 @@ def test_what_is_refused(tmp_path: Path) -> None:
         ("error-coupling", "has one colour"),
         ("error --output-dir .", "--output-dir writes several"),
         ("error --a-stable", "gives a set of values"),
-        ("colour", "'colour' is not one of"),
+        ("colour", "no objective 'colour'"),
     ):
         run = gark(*asked.split(), *options.split(), cwd=tmp_path)
         assert (run.code, said in run.err) == (2, True)

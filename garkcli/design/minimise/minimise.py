@@ -15,10 +15,11 @@ from garkcli.deadline import seconds_left, until, within
 from garkcli.design.design import Design, Step
 from garkcli.design.minimise.comparison import Comparison
 from garkcli.design.minimise.highest import Highest
-from garkcli.design.minimise.objective import Either, Level, Objective
+from garkcli.design.minimise.objective import Either, Level
 from garkcli.design.minimise.objectives import OBJECTIVES
 from garkcli.design.minimise.result import Minimum
 from garkcli.design.minimise.smallest import Smallest
+from garkcli.design.minimise.sums import Wanted, exactly, objective_of
 from garkcli.design.parts import Part
 from garkcli.errors import NotDecided, UsageProblem
 from garkcli.frozen import replace
@@ -43,26 +44,25 @@ def step_to_minimise(design: Design) -> Step:
     raise UsageProblem(message, cure, code="not-found")
 
 
-def minimise(
-    design: Design, objective: str | Objective | Level | Either, seconds: float | None = None
-) -> Minimum:
+def minimise(design: Design, objective: str | Wanted, seconds: float | None = None) -> Minimum:
     """The methods of the highest order with the least value of an objective.
 
     Args:
         design: of a family.
-        objective: the number to make small, or its name: one of ``OBJECTIVES``.
+        objective: the number to make small, or what a file or a command calls it.
         seconds: after which it is given up; None for never.
 
     Raises:
-        UsageProblem: the objective, or stability that is wanted, has no meaning for the methods, or
-            nothing was decided.
+        UsageProblem: the objective, or stability that is wanted, has no meaning for the methods, a
+            search alone minimises it, or nothing was decided.
         NotDecided: a Gröbner basis or a trial takes too long.
     """
     step = step_to_minimise(design)
     if isinstance(objective, str):
-        objective = OBJECTIVES[objective]
+        objective = objective_of(objective)
     if isinstance(objective, Either):
         objective = objective.meant(design.tableau)
+    objective = exactly(objective)
     comparison: Comparison
     of_whom, among = design, step
     if step.of_stable is not None:

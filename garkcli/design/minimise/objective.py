@@ -8,10 +8,12 @@ from typing import TypeAlias
 from flint import fmpq, fmpq_mpoly
 
 from garkcli.design.minimise.squared_error import Quotient
+from garkcli.errors import UsageProblem
 from garkcli.exact.fibre import Holds
 from garkcli.exact.parametric import Parameters
 from garkcli.exact.roots import RealRoot, square_root
 from garkcli.frozen import Frozen
+from garkcli.tableau.embedded import NOTHING, Further, with_weights
 from garkcli.tableau.tableau import Tableau
 
 Formula: TypeAlias = Callable[[Tableau, int, "Parameters | None"], Quotient]
@@ -85,6 +87,70 @@ class Level(Frozen):
     def shown(self, y: Size) -> Size:
         """What people mean by a level."""
         return square_root(y) if self.is_square and y is not None else y
+
+
+class Subject(Frozen):
+    """Methods with their embedded weights and orders.
+
+    Attributes:
+        tableau: of the methods.
+        order: of them.
+        further: their embedded weights.
+        embedded_order: the order that the embedded weights are to have; None where none is wanted.
+    """
+
+    tableau: Tableau
+    order: int
+    further: Further = NOTHING
+    embedded_order: int | None = None
+
+    @property
+    def embedded(self) -> tuple[Tableau, int]:
+        """The methods with the embedded weights in place of b, and their order.
+
+        Raises:
+            UsageProblem: they have none, or no order is wanted of them.
+        """
+        if self.further.embedded is None or self.embedded_order is None:
+            message = "the objective is about embedded weights with an order: the file wants none"
+            cure = "write embedded: true under unknown, and embedded-order: 3 under design"
+            raise UsageProblem(message, cure, code="wanted-without-meaning")
+        return with_weights(self.tableau, self.further.embedded), self.embedded_order
+
+
+class Measure(Frozen):
+    """A number that only a search minimises.
+
+    Attributes:
+        key: its name.
+        summary: what it is, in words.
+        squared: its square of one method with rational coefficients.
+    """
+
+    key: str
+    summary: str
+    squared: Callable[[Subject], fmpq]
+
+
+Single: TypeAlias = Objective | Level | Measure
+"""The meaning of one name."""
+
+
+class Sum(Frozen):
+    """Several of them, with weights.
+
+    Attributes:
+        key: as people write it.
+        terms: each with its weight, which is negative for levels, positive for others.
+    """
+
+    key: str
+    terms: tuple[tuple[fmpq, Single], ...]
+
+    @property
+    def summary(self) -> str:
+        """The terms in words."""
+        return "; ".join(f"{x.key.removeprefix('-')}: {x.summary}" for _, x in self.terms)
 
 
 class Either(Frozen):

@@ -8,7 +8,8 @@ from typing import Any
 
 from flint import fmpq, fmpq_mat, fmpq_mpoly
 
-from garkcli.design.minimise.objective import Either, Level, Objective, Signs, Size
+from garkcli.design.minimise.measures import MEASURES
+from garkcli.design.minimise.objective import Either, Level, Measure, Objective, Signs, Size
 from garkcli.design.minimise.squared_error import Quotient, squared_coupling_error, squared_error
 from garkcli.design.stability_kinds import oscillator_curves, squared_modulus
 from garkcli.design.step_plane import over_line, step_plane
@@ -223,7 +224,7 @@ REAL_INTERVAL = Level(
 )
 """E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, section IV.2."""
 
-OBJECTIVES: dict[str, Objective | Level | Either] = {
+OBJECTIVES: dict[str, Objective | Level | Measure | Either] = {
     objective.key: objective
     for objective in (
         # E. Hairer, S. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, II.3
@@ -260,6 +261,7 @@ OBJECTIVES: dict[str, Objective | Level | Either] = {
             claim="imaginary-stability",
         ),
         OSCILLATOR_INTERVAL,
+        *MEASURES,
     )
 }
 """Every one of them by its key, in the order of the documentation."""

@@ -36,7 +36,7 @@ STRETCH = 1e-8
 
 
 class Look(Frozen):
-    """A task at a point z: the unknowns, and the level as the last one if it has a level.
+    """A task at a point.
 
     Attributes:
         value: the function to minimise.
@@ -54,31 +54,35 @@ class Look(Frozen):
 
 
 class Task(ABC):
-    """Something to be made small, on the solutions and under inequalities.
+    """A function to minimise on the solutions, under inequalities.
 
     Attributes:
-        has_level: whether there is one more variable, not negative.
-        enough: nothing smaller is wanted.
+        levels: the number of further variables, all at least 0.
+        enough: a value at which the optimiser may stop.
     """
 
-    has_level = False
+    levels = 0
     enough = -np.inf
 
     @abstractmethod
     def at(self, z: Array) -> Look:
-        """The task at a point."""
+        """The task at a point: the unknowns, then the further variables."""
 
     @abstractmethod
     def value(self, x: Array) -> float:
         """The function to minimise, at unknowns that meet all wants."""
 
-    def guess(self, x: Array) -> float:
-        """A level to start at."""
-        return self.value(x)
+    def guess(self, x: Array) -> Array:  # noqa: ARG002
+        """The first values of the further variables."""
+        return np.zeros(self.levels)
 
-    def parts(self, _x: Array) -> Gradient | None:
+    def parts(self, x: Array) -> Gradient | None:  # noqa: ARG002
         """The squared terms, if the value is a sum of squares."""
         return None
+
+    def scale(self, x: Array) -> float:
+        """A factor of the value: the optimiser takes small numbers for a minimum."""
+        return 1 / max(abs(self.value(x)), TINY)
 
 
 def descended(task: Task, equations: Equations, x: Array) -> Array:
@@ -116,8 +120,7 @@ def _round(task: Task, chart: Chart, start: Array, reach: float) -> tuple[Array,
 
     if not chart.dimension:
         return start, False
-    # errors are small numbers, which the optimiser would take for a minimum
-    scale = 1.0 if task.has_level else 1 / max(abs(task.value(start)), TINY)
+    scale = task.scale(start)
     size = np.full(chart.dimension, reach)
     if (parts := task.parts(start)) is not None:
         # the Hessian of a sum of squares, without second derivatives, becomes the identity
@@ -142,15 +145,11 @@ def _round(task: Task, chart: Chart, start: Array, reach: float) -> tuple[Array,
                 raise _EnoughError
         return known[key]
 
-    bounds: list[tuple[float, float | None]] = list(zip(-size, size, strict=True))
-    guess = np.zeros(len(size))
-    if task.has_level:
-        bounds.append((0.0, None))
-        guess = np.append(guess, task.guess(start))
+    bounds = [*zip(-size, size, strict=True), *[(0.0, None)] * task.levels]
     try:
         minimize(
             lambda z: at(z).value,
-            guess,
+            np.append(np.zeros(len(size)), task.guess(start)),
             jac=lambda z: at(z).gradient,
             bounds=bounds,
             constraints={
@@ -169,7 +168,7 @@ def _round(task: Task, chart: Chart, start: Array, reach: float) -> tuple[Array,
 
 
 def _in_chart(task: Task, chart: Chart, z: Array, scale: float) -> tuple[Look, Array]:
-    """The task at coordinates, and the level where there is one; and the unknowns there."""
+    """The task at coordinates, with its further variables; and the unknowns there."""
     d = chart.dimension
     x, tangent = chart.at(z[:d])
     more = len(z) - d

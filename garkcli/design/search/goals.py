@@ -6,26 +6,23 @@ g(x, y) ≥ 0 hold, which is made as large as possible as a further unknown.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 from flint import fmpq
 
-from garkcli.design.minimise.objective import Either, Level, Objective
-from garkcli.design.minimise.objectives import (
-    OBJECTIVES,
-    oscillator_of,
-    refuse_one_colour,
-    refuse_partitioned,
-)
+from garkcli.design.minimise.measures import at_infinity, coefficients_of, numbers_of
+from garkcli.design.minimise.objective import Either, Level, Objective, Single, Subject, Sum
+from garkcli.design.minimise.objectives import oscillator_of, refuse_one_colour, refuse_partitioned
+from garkcli.design.minimise.sums import Wanted, objective_of
 from garkcli.design.search.one_point import Functions
 from garkcli.design.search.one_point import Matrix as Entries
-from garkcli.design.search.rational import RationalFunction
+from garkcli.design.search.rational import RationalFunction, as_float
 from garkcli.design.search.residuals import Residuals
 from garkcli.errors import UsageProblem
 from garkcli.exact.field import ONE
 from garkcli.exact.matrix import Matrix
-from garkcli.exact.parametric import Parameters
+from garkcli.exact.parametric import Parameters, Parametric
 from garkcli.frozen import Frozen
 from garkcli.stability.ssp import stacked
 from garkcli.stepping.linear import stage_system
@@ -43,6 +40,8 @@ SAMPLES = 40
 """Points of an interval at which a stability function is held against 1."""
 HEAVIEST = 1e5
 """The largest weight of a point near 0: rounding must not look like an inequality that fails."""
+TINY = 1e-20
+"""A norm that is smaller counts as this."""
 FAR = 1.5
 """Points of the imaginary axis, for A-stability, are y = (1/t - 1)^FAR with t between 0 and 1."""
 
@@ -97,47 +96,104 @@ class Reach(Frozen):
     at: Callable[[Array], Gradient]
 
 
-Goal: TypeAlias = Smooth | Reach
+class Bound(Frozen):
+    """Functions of which the largest size is to be made small.
+
+    Attributes:
+        at: the functions at a point.
+    """
+
+    at: Callable[[Array], Gradient]
 
 
-def goal_of(
-    objective: Objective | Level, tableau: Tableau, order: int, ring: Parameters, trees: Trees
-) -> Goal:
-    """The objective in floats.
+Goal: TypeAlias = Smooth | Reach | Bound
+
+
+class Setting:
+    """Methods, with their errors in floats.
 
     Args:
-        objective: one of ``OBJECTIVES``.
-        tableau: of the methods.
-        order: of the methods.
+        subject: the methods.
         ring: the unknowns.
-        trees: the conditions up to the next order.
+        trees: the conditions of the methods up to the next order.
+    """
+
+    def __init__(self, subject: Subject, ring: Parameters, trees: Trees) -> None:
+        self.subject = subject
+        self.tableau = subject.tableau
+        self.order = subject.order
+        self.ring = ring
+        self.trees = trees
+        self._further: dict[tuple[bool, int], Trees] = {(False, subject.order + 1): trees}
+
+    def errors(self, above: int, is_embedded: bool = False, is_coupling: bool = False) -> Errors:
+        """e(u) of all trees of an order.
+
+        Args:
+            above: the order, counted from that of the embedded weights, or of the methods if it is
+                1 and theirs.
+            is_embedded: whether the errors are those of the embedded weights.
+            is_coupling: whether trees of one colour are left out.
+        """
+        tableau, order = self.tableau, self.order
+        if is_embedded or above > 1:
+            embedded, order = self.subject.embedded
+            tableau = embedded if is_embedded else tableau
+        key = is_embedded, order + above
+        if key not in self._further:
+            self._further[key] = Trees(Residuals(tableau, self.ring, order + above))
+        return errors_of(self._further[key], order + above, is_coupling)
+
+    def functions(self, numbers: Iterable[object]) -> Functions:
+        """Numbers that depend on the unknowns, each once."""
+        distinct = {x for x in numbers if isinstance(x, Parametric)}
+        found = [RationalFunction(x, self.ring) for x in distinct]
+        return Functions(found, len(self.ring.names))
+
+    def sizes(self, numbers: Iterable[object]) -> Bound:
+        """The largest of some numbers in size; those that do not depend on the unknowns count as
+        one.
+        """
+        import numpy as np
+
+        every = list(numbers)
+        functions = self.functions(every)
+        sizes = [abs(as_float(x)) for x in every if isinstance(x, fmpq)]
+        largest = np.array([max(sizes, default=0.0)])
+
+        def at(x: Array) -> Gradient:
+            values, slopes = functions.at(x)
+            return np.append(values, largest), np.concatenate([slopes, np.zeros((1, len(x)))])
+
+        return Bound(at)
+
+
+def goal_of(objective: Single, setting: Setting) -> Goal:
+    """An objective in floats.
 
     Raises:
         UsageProblem: it has no meaning for the methods.
     """
-    match objective.key:
-        case "error":
-            return squared_error(trees, is_coupling=False)
-        case "error-coupling":
-            refuse_one_colour(tableau)
-            return squared_error(trees, is_coupling=True)
-        case "-ssp":
-            return Reach(_Contractive(tableau, ring).at)
-        case "-real-interval":
-            return Reach(_Bounded.on_line(tableau, ring, -1.0, order).at)
-        case "-imaginary-interval":
-            return Reach(_Bounded.on_line(tableau, ring, 1.0j, order).at)
-        case "-oscillator-interval":
-            return Reach(_Oscillating(tableau, ring, order).at)
+    if objective.key in GOALS:
+        return GOALS[objective.key](setting)
     assert isinstance(objective, Objective)
-    quotient = objective.formula(tableau, order, ring)
-    whole = RationalFunction(ring.quotient(quotient.numerator, quotient.denominator), ring)
-    return Smooth(_alone(whole, len(ring.names)))
+    quotient = objective.formula(setting.tableau, setting.order, setting.ring)
+    number = setting.ring.quotient(quotient.numerator, quotient.denominator)
+    whole = RationalFunction(number, setting.ring)
+    return Smooth(_alone(whole, len(setting.ring.names)))
 
 
-def meant(name: str, tableau: Tableau) -> Objective | Level:
-    """The objective of a name, for a tableau."""
-    objective = OBJECTIVES[name]
+def terms_of(wanted: Wanted, tableau: Tableau) -> list[tuple[fmpq, Single]]:
+    """The terms of a sum, or a single objective alone; weights of levels are negative."""
+    if isinstance(wanted, Sum):
+        return list(wanted.terms)
+    one = wanted.meant(tableau) if isinstance(wanted, Either) else wanted
+    return [(fmpq(-1 if isinstance(one, Level) else 1), one)]
+
+
+def meant(name: str, tableau: Tableau) -> Single | Sum:
+    """The objective of a name or a sum, for a tableau."""
+    objective = objective_of(name)
     return objective.meant(tableau) if isinstance(objective, Either) else objective
 
 
@@ -151,35 +207,120 @@ def _alone(function: RationalFunction, unknowns: int) -> Callable[[Array], tuple
     return at
 
 
-def squared_error(trees: Trees, is_coupling: bool) -> Smooth:
-    """Σ e(u)² over the trees of the highest order, e(u) = (b·𝒜[u] − 1/γ(u)) / σ(u).
+Errors: TypeAlias = "Callable[[Array], Gradient]"
+"""e(u) = (b·𝒜[u] − 1/γ(u)) / σ(u) of some trees, with derivatives."""
+
+
+def errors_of(trees: Trees, order: int, is_coupling: bool = False) -> Errors:
+    """Those of the trees of an order.
 
     Args:
-        trees: the conditions up to that order.
+        trees: the conditions up to that order, or further.
+        order: of the trees.
         is_coupling: whether trees of one colour are left out.
     """
     import numpy as np
 
     table = trees.table
-    ids = [u for u in table.ids(table.max_order) if table.is_mixed[u] or not is_coupling]
+    ids = [u for u in table.ids(order) if table.is_mixed[u] or not is_coupling]
     scale = np.array(
         [
-            table.admissible.kinds[int(table.root[u])].integrated(table.max_order)
+            table.admissible.kinds[int(table.root[u])].integrated(order)
             / (int(table.gamma[u]) * int(table.sigma[u]))
             for u in ids
         ]
     )
 
-    def at(x: Array) -> tuple[float, Array]:
-        values, gradients = trees.at(x)
-        e = scale * values[ids]
-        return float(e @ e), 2.0 * (scale * e) @ gradients[ids]
-
-    def parts(x: Array) -> Gradient:
+    def at(x: Array) -> Gradient:
         values, gradients = trees.at(x)
         return scale * values[ids], scale[:, None] * gradients[ids]
 
+    return at
+
+
+def squared(parts: Errors) -> Smooth:
+    """A sum of squares."""
+
+    def at(x: Array) -> tuple[float, Array]:
+        e, slopes = parts(x)
+        return float(e @ e), 2.0 * e @ slopes
+
     return Smooth(at, parts)
+
+
+def quotient_of_norms(above: Errors, below: Errors | None = None) -> Smooth:
+    """The 2-norm of some errors over that of others."""
+    import numpy as np
+
+    def parts(x: Array) -> Gradient:
+        e, slopes = above(x)
+        size = 1.0 if below is None else max(float(np.linalg.norm(below(x)[0])), TINY)
+        return e / size, slopes / size
+
+    def at(x: Array) -> tuple[float, Array]:
+        e, slopes = parts(x)
+        value = max(float(np.linalg.norm(e)), TINY)
+        gradient = e @ slopes / value
+        if below is not None:
+            d, of_d = below(x)
+            gradient = gradient - value * (d @ of_d) / max(float(d @ d), TINY**2)
+        return value, gradient
+
+    return Smooth(at, parts)
+
+
+def difference(one: Errors, other: Errors) -> Errors:
+    """The errors of two methods, one minus the other."""
+
+    def at(x: Array) -> Gradient:
+        (e, of_e), (d, of_d) = one(x), other(x)
+        return e - d, of_e - of_d
+
+    return at
+
+
+def _coupling(setting: Setting) -> Goal:
+    refuse_one_colour(setting.tableau)
+    return squared(setting.errors(1, is_coupling=True))
+
+
+def _at_infinity(setting: Setting, tableau: Tableau, key: str) -> Goal:
+    above, below = at_infinity(tableau, key)
+    return setting.sizes([above / below])
+
+
+def _interval(direction: complex) -> Callable[[Setting], Goal]:
+    return lambda setting: Reach(
+        _Bounded.on_line(setting.tableau, setting.ring, direction, setting.order).at
+    )
+
+
+def _pair(setting: Setting, top: str) -> Goal:
+    """B, C or E: ‖ê‖, ‖ê − e‖ or ‖e‖ two orders above the embedded weights, over ‖ê‖ one above."""
+    own, embedded = setting.errors(2), setting.errors(2, is_embedded=True)
+    above = {"B": embedded, "C": difference(embedded, own), "E": own}[top]
+    return quotient_of_norms(above, setting.errors(1, is_embedded=True))
+
+
+GOALS: dict[str, Callable[[Setting], Goal]] = {
+    "error": lambda x: squared(x.errors(1)),
+    "error-coupling": _coupling,
+    "-ssp": lambda x: Reach(_Contractive(x.tableau, x.ring).at),
+    "-real-interval": _interval(-1.0),
+    "-imaginary-interval": _interval(1.0j),
+    "-oscillator-interval": lambda x: Reach(_Oscillating(x.tableau, x.ring, x.order).at),
+    "A": lambda x: quotient_of_norms(x.errors(1)),
+    "largest-error": lambda x: Bound(x.errors(1)),
+    "embedded-A": lambda x: quotient_of_norms(x.errors(1, is_embedded=True)),
+    "B": lambda x: _pair(x, "B"),
+    "C": lambda x: _pair(x, "C"),
+    "D": lambda x: x.sizes(numbers_of(x.subject)),
+    "E": lambda x: _pair(x, "E"),
+    "largest": lambda x: x.sizes(coefficients_of(x.tableau)),
+    "infinity": lambda x: _at_infinity(x, x.tableau, "infinity"),
+    "embedded-infinity": lambda x: _at_infinity(x, x.subject.embedded[0], "embedded-infinity"),
+}
+"""How objectives are computed in floats; of others the formula is."""
 
 
 def _matrix(rows: Matrix, ring: Parameters) -> Entries:

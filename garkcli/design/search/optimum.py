@@ -4,17 +4,16 @@ order conditions, with an objective and inequalities; then short numbers that co
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from functools import cached_property
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from flint import fmpq
 
 from garkcli.deadline import check_time
 from garkcli.design.member import not_negative
-from garkcli.design.minimise.objective import Level, Objective
-from garkcli.design.search.descent import Look, Task, descended
-from garkcli.design.search.goals import AStable, Goal, Reach, Smooth, Trees, goal_of, kept
+from garkcli.design.minimise.objective import Measure, Single, Subject, Sum
+from garkcli.design.search.descent import descended
+from garkcli.design.search.goals import AStable, Setting, Trees, goal_of, terms_of
 from garkcli.design.search.least_squares import least_squares
 from garkcli.design.search.one_point import Functions
 from garkcli.design.search.points import Fixed, Fixings, rank
@@ -25,6 +24,7 @@ from garkcli.design.search.rational import (
     with_gradients,
 )
 from garkcli.design.search.residuals import Residuals
+from garkcli.design.search.tasks import FEASIBLE, Least, Missing, Total
 from garkcli.errors import UsageProblem
 from garkcli.frozen import Frozen
 from garkcli.tableau.family import Family
@@ -37,19 +37,8 @@ ROUNDING = 1e-17
 """A smaller sum of squares may be zero."""
 LARGEST = 20.0
 """Unknowns are no larger."""
-FEASIBLE = 1e-9
-"""Inequalities hold up to this, in floats."""
 MARGIN = 1e-6
 """Positive functions are at least so large."""
-HIGHEST = 1e4
-"""A level is no higher."""
-FIRST_LEVEL = 0.5
-"""The level at which the optimiser starts is no lower: at 0 nothing depends on the unknowns."""
-LEAST_LEVEL = 1e-3
-"""A level below is none."""
-BISECTIONS = 36
-LOW_LEVEL = 0.01
-"""A level that methods have from which the optimiser starts."""
 CLOSE = 1e-12
 """Residuals of a method in floats."""
 SLACK = 1e-7
@@ -75,11 +64,6 @@ class Optimum(Frozen):
         """The objective to seven digits: what is the same up to rounding is the same."""
         return float(f"{self.value:.6e}")
 
-    @property
-    def is_none(self) -> bool:
-        """Whether the objective, a sum of squares, is zero up to rounding."""
-        return 0 <= self.value < ROUNDING
-
     def is_less(self, other: Optimum, part: float = 0.0) -> bool:
         """Whether the objective is less than at another one by more than a part of it."""
         return self.value < other.value - part * abs(other.value)
@@ -97,7 +81,7 @@ class Program:
         UsageProblem: SciPy is not there, or the objective has no meaning for the methods.
     """
 
-    def __init__(self, family: Family, conditions: Residuals, objective: Objective | Level) -> None:
+    def __init__(self, family: Family, conditions: Residuals, objective: Single | Sum) -> None:
         import numpy as np
 
         try:
@@ -114,7 +98,12 @@ class Program:
         self._trees = Trees(wide)
         trees, last = len(wide.table), wide.table.ids(order + 1)
         self._own = np.r_[0 : last.start, trees : len(wide)]
-        self.goal: Goal = goal_of(objective, conditions.tableau, order, ring, self._trees)
+        subject = Subject(conditions.tableau, order, family.further, family.embedded_order)
+        setting = Setting(subject, ring, self._trees)
+        terms = terms_of(objective, conditions.tableau)
+        self.total = Total([(as_float(w), goal_of(x, setting)) for w, x in terms], self.within)
+        # measures are no squares
+        self._rounding = ROUNDING**0.5 if isinstance(objective, Measure) else ROUNDING
         positive = polynomial_functions(family.positive, ring)
         self._signs = Functions(
             [*positive, *polynomial_functions(not_negative(family), ring)], len(ring.names)
@@ -166,19 +155,16 @@ class Program:
         import numpy as np
 
         with np.errstate(all="ignore"):
-            best = self.evaluated(np.array(start), fixed)
-            if best is None or (not best.value and isinstance(self.goal, Reach)):
-                near = descended(_Missing(self), self.equations(fixed), np.array(start))
+            x, equations = np.array(start), self.equations(fixed)
+            best = self.evaluated(x, fixed)
+            if best is None or not self.total.has_levels(x):
+                near = descended(Missing(self.total), equations, x)
                 best = self.evaluated(near, fixed) or best
             if best is None:
                 return None
-            found = descended(self._task, self.equations(fixed), np.array(best.point))
+            x = np.array(best.point)
+            found = descended(Least(self.total, x), equations, x)
             return self.evaluated(found, fixed) or best
-
-    @cached_property
-    def _task(self) -> Task:
-        goal = self.goal
-        return _Greatest(self, goal) if isinstance(goal, Reach) else _Least(self, goal)
 
     def within(self, x: Array) -> Gradient:
         """The signs, and that unknowns are not too large."""
@@ -206,44 +192,16 @@ class Program:
         values, _ = self.signs(x)
         if np.min(values, initial=0.0) < -FEASIBLE:
             return None
-        value = self._value(x)
+        value = self.total.value(x)
         return Optimum(value, tuple(map(float, x))) if np.isfinite(value) else None
 
-    def _value(self, x: Array) -> float:
-        if isinstance(self.goal, Reach):
-            return -self.level(x)
-        return self.goal.at(x)[0]
+    def level(self, place: int, x: Array) -> float:
+        """The level at a place among the objectives of a sum."""
+        return self.total.at_places[place].of(x)
 
-    @cached_property
-    def level(self) -> Callable[[Array], float]:
-        """The largest y, up to bisection, up to which the inequalities of the level hold."""
-        return kept(self._level)
-
-    def _level(self, x: Array) -> float:
-        import numpy as np
-
-        assert isinstance(self.goal, Reach)
-
-        def holds(y: float) -> bool:
-            try:
-                values, _ = self.goal.at(np.append(x, y))
-            except np.linalg.LinAlgError:
-                return False
-            return bool(np.min(values) >= -FEASIBLE)
-
-        low, high = 0.0, FIRST_LEVEL
-        while high > LEAST_LEVEL and not holds(high):
-            high /= 8
-        while holds(high):
-            if high >= HIGHEST:
-                return HIGHEST
-            low, high = high, min(1.25 * high, HIGHEST)
-        if not low:
-            return 0.0
-        for _ in range(BISECTIONS):
-            middle = (low + high) / 2
-            low, high = (middle, high) if holds(middle) else (low, middle)
-        return low
+    def is_none(self, optimum: Optimum) -> bool:
+        """Whether the objective is zero up to rounding."""
+        return 0 <= optimum.value < self._rounding
 
     def shortened(
         self, best: Optimum, wanted: Sequence[RationalFunction]
@@ -258,7 +216,7 @@ class Program:
 
         fixed: list[Fixed] = []
         present = best
-        most = ROUNDING if best.is_none else best.value + SLACK * abs(best.value)
+        most = self._rounding if self.is_none(best) else best.value + SLACK * abs(best.value)
         known = self._rank(fixed, present)
         for function in wanted:
             if known == len(best.point):
@@ -274,7 +232,7 @@ class Program:
                     continue
                 if self._rank(more, moved) > known:
                     fixed, present, known = more, moved, self._rank(more, moved)
-                    if not best.is_none:
+                    if not self.is_none(best):
                         most = min(most, moved.value + SLACK * abs(moved.value))
                     break
         return Fixings(self.conditions, fixed), present
@@ -296,102 +254,6 @@ class Program:
         return self.improved([float(x) for x in minima.points[:, 0]], fixed)
 
 
-class _Missing(Task):
-    """How far solutions are from what is wanted: the least y such that all signs are −y at least,
-    those of a low level among them.
-    """
-
-    has_level = True
-    enough = FEASIBLE / 2
-
-    def __init__(self, program: Program) -> None:
-        self._program = program
-
-    def _signs(self, x: Array) -> Gradient:
-        import numpy as np
-
-        values, slopes = self._program.within(x)
-        goal = self._program.goal
-        if isinstance(goal, Smooth):
-            return values, slopes
-        more, of_more = goal.at(np.append(x, LOW_LEVEL))
-        return np.concatenate([values, more]), np.concatenate([slopes, of_more[:, :-1]])
-
-    def value(self, x: Array) -> float:
-        """The least y."""
-        return _missing(self._signs(x)[0])
-
-    def at(self, z: Array) -> Look:
-        """The task at a point."""
-        import numpy as np
-
-        values, slopes = self._signs(z[:-1])
-        gradient = np.append(np.zeros(len(z) - 1), 1.0)
-        slopes = np.concatenate([slopes, np.ones((len(slopes), 1))], 1)
-        return Look(float(z[-1]), gradient, values + z[-1], slopes, _missing(values))
-
-
-def _missing(signs: Array) -> float:
-    import numpy as np
-
-    return max(0.0, -float(np.min(signs, initial=0.0)))
-
-
-class _Least(Task):
-    """A smooth objective."""
-
-    def __init__(self, program: Program, goal: Smooth) -> None:
-        self._program = program
-        self._goal = goal
-
-    def value(self, x: Array) -> float:
-        """The objective."""
-        return self._goal.at(x)[0]
-
-    def parts(self, x: Array) -> Gradient | None:
-        """If it is a sum of squares, what is squared."""
-        return None if self._goal.parts is None else self._goal.parts(x)
-
-    def at(self, z: Array) -> Look:
-        """The task at a point."""
-        value, gradient = self._goal.at(z)
-        signs, of_signs = self._program.within(z)
-        found = value if _missing(signs) <= FEASIBLE else float("inf")
-        return Look(value, gradient, signs, of_signs, found)
-
-
-class _Greatest(Task):
-    """A level."""
-
-    has_level = True
-    enough = -HIGHEST
-
-    def __init__(self, program: Program, goal: Reach) -> None:
-        self._program = program
-        self._goal = goal
-
-    def value(self, x: Array) -> float:
-        """Minus the level."""
-        return -self._program.level(x)
-
-    def guess(self, x: Array) -> float:
-        """A level to start at."""
-        return max(self._program.level(x), FIRST_LEVEL)
-
-    def at(self, z: Array) -> Look:
-        """The task at a point."""
-        import numpy as np
-
-        signs, of_signs = self._program.within(z[:-1])
-        more, of_more = self._goal.at(z)
-        signs = np.concatenate([signs, more])
-        of_signs = np.concatenate([_padded(of_signs, len(z)), of_more])
-        gradient = np.append(np.zeros(len(z) - 1), -1.0)
-        y = float(z[-1])
-        found = -y if _missing(signs) <= FEASIBLE else float("inf")
-        return Look(-y, gradient, signs, of_signs, found)
-
-
 def _near(present: float) -> Iterator[fmpq]:
     """Numbers near one, the shorter first; each once."""
     known = set()
@@ -400,10 +262,3 @@ def _near(present: float) -> Iterator[fmpq]:
         if abs(as_float(value) - present) < 0.02 and value not in known:
             known.add(value)
             yield value
-
-
-def _padded(slopes: Array, size: int) -> Array:
-    """Derivatives by further unknowns, which are zero."""
-    import numpy as np
-
-    return np.pad(slopes, ((0, 0), (0, size - slopes.shape[1])))

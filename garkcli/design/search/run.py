@@ -17,7 +17,7 @@ from garkcli.crew.work import Alone, Workers, in_order
 from garkcli.deadline import within
 from garkcli.design.choices import DIGITS, values_text
 from garkcli.design.member import Whose
-from garkcli.design.minimise.objective import Level, Objective
+from garkcli.design.minimise.objective import Level, Single, Sum
 from garkcli.design.search.optimum import Optimum
 from garkcli.design.search.points import small_bits
 from garkcli.design.search.rational import in_decimals
@@ -135,7 +135,7 @@ class Result(Mutable):
     order: int = 0
     whose: Whose = "method"
     seed: int = 0
-    objective: Objective | Level | None = None
+    objective: Single | Sum | None = None
 
     @property
     def is_interrupted(self) -> bool:
@@ -263,8 +263,7 @@ def search_methods(
         most: the most methods to look for; other successes are counted.
         whose: order is meant: of the method, its symplectic conjugate or its pair.
         seconds: after which the search ends with what was found; None for never.
-        objective: that is minimised from each start, one of ``OBJECTIVES`` by its name; None for
-            none.
+        objective: that is minimised from each start, a name or a sum of names; None for none.
 
     Raises:
         ZeroWeight: a weight is zero for every value, and there is no conjugate.

@@ -13,6 +13,7 @@ from garkcli.design.design import Found, order_of
 from garkcli.design.member import (
     TABLEAUS,
     Whose,
+    further_member,
     is_admissible,
     is_as_stable,
     member,
@@ -20,8 +21,8 @@ from garkcli.design.member import (
     not_negative,
     value_of,
 )
-from garkcli.design.minimise.objective import Level
-from garkcli.design.search.goals import meant
+from garkcli.design.minimise.objective import Level, Measure, Single, Subject, Sum
+from garkcli.design.search.goals import meant, terms_of
 from garkcli.design.search.least_squares import least_squares
 from garkcli.design.search.optimum import Optimum, Program
 from garkcli.design.search.points import Fixings, is_proved, polished
@@ -40,11 +41,10 @@ from garkcli.design.want import Asked, numerators
 from garkcli.errors import NotDecided
 from garkcli.exact.field import ZERO, Number
 from garkcli.exact.polynomial_text import root_decimal
-from garkcli.exact.roots import RealRoot
+from garkcli.exact.roots import RealRoot, square_root
 from garkcli.frozen import Frozen, replace
 from garkcli.problems.draw import Draw
 from garkcli.tableau.family import Family
-from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
     from garkcli.design.search.rational import Array
@@ -98,6 +98,8 @@ Proof: TypeAlias = Literal["exact", "exists", "numerical"]
 """What is known of a find: its exact order; that there is one; that residuals are small."""
 BITS = 1024
 """Bits to which solutions are polished."""
+ERRORS = ("error", "A")
+"""Objectives that are zero where a method has one order more."""
 SHORT = 12
 """Digits of an objective."""
 FEW_DIGITS = 6
@@ -143,7 +145,7 @@ class Search:
         family: of methods.
         order: that is wanted.
         whose: of the method, its symplectic conjugate or its pair.
-        objective: that is minimised, one of ``OBJECTIVES`` by its name; None for none.
+        objective: that is minimised, a name or a sum of names; None for none.
 
     Raises:
         ZeroWeight: there is no conjugate.
@@ -228,7 +230,8 @@ class Search:
             start: the number of the start that led to it.
             optimum: a method in floats.
         """
-        if self.objective is not None and self.objective.key == "error" and optimum.is_none:
+        is_error = self.objective is not None and self.objective.key in ERRORS
+        if is_error and self.program.is_none(optimum):
             # the errors are the conditions of one order more
             higher = Search(self.family, self.order + 1, self.whose).find(
                 start, list(optimum.point)
@@ -251,39 +254,56 @@ class Search:
         that in floats, to fewer digits and no higher than ``HIGHEST``: the next digits of the
         numbers would decide it.
         """
+        assert self.objective is not None
+        if self.objective.key in ERRORS and find.order > self.order:
+            return "0"
+        terms = [
+            (w, self._size(one, find, k))
+            for k, (w, one) in enumerate(terms_of(self.objective, self.tableau))
+        ]
+        if not isinstance(self.objective, Sum):
+            [(_, size)] = terms
+            if isinstance(size, RealRoot):
+                return root_decimal(size, SHORT)
+            return "infinity" if size is None else f"{size:.{FEW_DIGITS}g}"
+        if any(size is None for _, size in terms):
+            return "-infinity"
+        digits = FEW_DIGITS if any(isinstance(size, float) for _, size in terms) else SHORT
+        with ctx.workprec(FEW_BITS):
+            total = sum((arb(w) * _ball(size) for w, size in terms if size is not None), arb(0))
+        return f"{float(total):.{digits}g}"
+
+    def _size(self, one: Single, find: Find, place: int) -> RealRoot | float | None:
+        """One of the objectives, the one at a place, of a method; None for infinity."""
         import numpy as np
 
-        assert self.objective is not None
-        if self.objective.key == "error" and find.order > self.order:
-            return "0"
-        names = self.family.ring.names
-        if isinstance(self.objective, Level) and find.found is not None:
+        names, ring = self.family.ring.names, self.family.ring
+        if isinstance(one, Level) and find.found is not None:
             solution = find.found.solution
             with suppress(NotDecided):
-                method = method_at(self.tableau, self.family.ring, solution, solution.real[0])
+                method = method_at(self.tableau, ring, solution, solution.real[0])
                 if method is not None:
-                    return self._told(self.objective, method)
+                    return one.shown(one.value(method))
         values: dict[str, Number] = {}
         digits = find.digits
         if find.found is not None:
             values = dict(find.found.solution.values)
             digits = _digits_of(find.found.solution)
         is_rational = all(isinstance(values.get(name), fmpq) for name in names)
-        if isinstance(self.objective, Level) and not is_rational:
-            level = self.program.level(np.array([float(digits[name].mid()) for name in names]))
-            return f"{level:.{FEW_DIGITS}g}"
+        if isinstance(one, Level) and not is_rational:
+            return self.program.level(place, np.array([float(digits[x].mid()) for x in names]))
         if not is_rational:
             with ctx.workprec(BITS):
                 values = {x: fmpq(in_decimals(digits[x], DECIMALS), 10**DECIMALS) for x in names}
-        tableau = member(self.tableau, self.family.ring, values)
-        if isinstance(self.objective, Level):
-            return self._told(self.objective, tableau)
-        quotient = self.objective.formula(tableau, self.order, None)
-        return root_decimal(RealRoot.rational(quotient.numerator / quotient.denominator), SHORT)
-
-    def _told(self, level: Level, tableau: Tableau) -> str:
-        y = level.shown(level.value(tableau))
-        return "infinity" if y is None else root_decimal(y, SHORT)
+        tableau = member(self.tableau, ring, values)
+        if isinstance(one, Level):
+            return one.shown(one.value(tableau))
+        if isinstance(one, Measure):
+            further = further_member(self.family.further, ring, values)
+            subject = Subject(tableau, self.order, further, self.family.embedded_order)
+            return square_root(RealRoot.rational(one.squared(subject)))
+        quotient = one.formula(tableau, self.order, None)
+        return RealRoot.rational(quotient.numerator / quotient.denominator)
 
     def find(self, start: int, point: list[float]) -> Find | None:
         """What can be proved of a solution in floats; None where it is no solution after all.
@@ -382,6 +402,10 @@ class Search:
             return None
         stable = is_as_stable(self.family, self.whose, solution, guess.root)
         return Find(start, "exact", order.order, Found(solution, order, (0,)), {}, bool(stable))
+
+
+def _ball(number: RealRoot | float) -> arb:
+    return arb(number) if isinstance(number, float) else number.ball(FEW_BITS)
 
 
 def _digits_of(solution: Solution) -> Mapping[str, arb]:
