@@ -1,1 +1,1 @@
-"""Errors over step sizes, and the order they show."""
+"""Convergence tests: errors over step sizes, and the order that they show."""

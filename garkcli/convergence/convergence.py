@@ -41,18 +41,12 @@ from garkcli.tableau.tableau import Tableau
 
 
 def seeing_problem(tableaux: Sequence[Tableau], seed: int = 1) -> str:
-    """The name of the problem that sees the most trees and is of the form that the structures of
-    all methods are for; of most of them where there is none for all.
+    """The name of the problem that sees the most trees and suits the structures of all methods; if
+    there is none, of most of them.
 
-    It is Hamiltonian unless no method steps a Hamiltonian one: that is so where a colour is linear
-    and drives all unknowns. Then it is the one of right-hand sides, linear for these colours.
-
-    Args:
-        tableaux: of the methods, at least one.
-        seed: of the random coefficients.
-
-    Raises:
-        UsageProblem: it is for none of them.
+    It is Hamiltonian unless no method steps a Hamiltonian one, as when a linear colour drives all
+    unknowns. Then it is the one of right-hand sides, linear for these colours. Raises
+    ``UsageProblem`` if no problem suits any of them.
 
     >>> from garkcli import loads
     >>> seeing_problem([loads("methods: [{family: rk4}]").tableau])
@@ -76,8 +70,8 @@ def seeing_problem(tableaux: Sequence[Tableau], seed: int = 1) -> str:
 def in_common(name: str, tableaux: Sequence[Tableau], seed: int) -> list[Problem]:
     """The problem called ``name`` for each method, with one sum for all of them.
 
-    Its coefficients depend on the number of terms: all methods get that of the method with the
-    most, with terms added up where they have fewer.
+    Its coefficients depend on the number of terms: all methods get the problem of the method with
+    the most, with terms added up for fewer.
     """
     terms = [terms_of(with_joined_terms(tableau)) for tableau in tableaux]
     most = max(terms)
@@ -112,24 +106,24 @@ def converge(
     is_timed: bool = False,
     order: int | None = None,
 ) -> Convergence:
-    """Test the convergence of ``tableau`` on ``problem``.
+    """Tests the convergence of ``tableau`` on ``problem``.
 
     Args:
-        tableau: of any structure.
-        problem: in as many terms as the tableau is for, or in one that has a natural split. The
-            oscillator is solved by the exact step map. By default the problem with random
-            coefficients that sees every tree of the structure.
+        tableau: a method of any structure.
+        problem: in as many terms as the tableau has, or in one with a natural split. The oscillator
+            is solved by the exact step map. By default the problem with random coefficients that
+            sees every tree of the structure.
         t_end: the problem's own by default, 4/ω for the oscillator.
         steps: step sizes that divide ``t_end``; by default the ladder of
             ``garkcli.convergence.ladder``.
-        tolerance: of rounded coefficients; slopes may then end on a plateau.
+        tolerance: the rounding of the coefficients; slopes may then end on a plateau.
         is_timed: whether to measure the time of the steps in floats as well.
-        order: of the tableau, where it is known by more than its coefficients, as that of the pair
-            of rounded ones.
+        order: the order, if more than the coefficients is known, as for the pair of a rounded
+            method.
 
     Raises:
-        UsageProblem: the problem is not of the form of the structure, a step does not divide
-            ``t_end``, or the stage equations of a given step have no unique solution.
+        UsageProblem: the problem does not suit the structure, a step does not divide ``t_end``, or
+            the stage equations of a given step are singular.
         StepFailed: Newton's method fails for a given step size, or for all of the default ladder.
 
     >>> from garkcli import hamiltonian, loads
@@ -175,8 +169,8 @@ def converge(
 
 
 def _rows(solver: Solver, steps: Sequence[fmpq] | None, is_timed: bool) -> tuple[list[Row], int]:
-    """The errors over the given steps or those of the ladder, and how many rows of these end on a
-    plateau.
+    """The errors over the given steps or those of the ladder, and the number of rows at the end on
+    a plateau.
     """
     if steps is None:
         return ladder.default_rows(solver, is_timed)
@@ -188,7 +182,7 @@ def _rows(solver: Solver, steps: Sequence[fmpq] | None, is_timed: bool) -> tuple
 def _stiffness(
     solver: Solver, tableau: Tableau, rows: Sequence[Row], tolerance: fmpq | None
 ) -> Stiffness | None:
-    """Where the steps of all rows are far too large for the problem."""
+    """The stiffness, if the steps of all rows are far too large for the problem; else None."""
     resolution = solver.resolution(rows[-1].h)
     if resolution < ladder.STIFF:
         return None
@@ -202,12 +196,12 @@ def _stiffness(
 
 
 def usual_time(problem: Oscillator | Problem) -> fmpq:
-    """The final time of a test where none is given."""
+    """The default final time of a test."""
     return 4 / problem.omega if isinstance(problem, Oscillator) else problem.t_end
 
 
 def most_steps(problem: Oscillator | Problem) -> int:
-    """Of one row."""
+    """The most steps of a row."""
     if isinstance(problem, Oscillator):
         return MAX_STEPS
     from garkcli.convergence import stepped_solver
@@ -216,7 +210,7 @@ def most_steps(problem: Oscillator | Problem) -> int:
 
 
 def check_steps(problem: Oscillator | Problem, t_end: fmpq, steps: Sequence[fmpq]) -> None:
-    """Whether step sizes can be taken, before any work is done.
+    """Checks the step sizes before any work is done.
 
     Raises:
         UsageProblem: a step does not divide the time, or there are too many of them.
@@ -230,7 +224,9 @@ def check_steps(problem: Oscillator | Problem, t_end: fmpq, steps: Sequence[fmpq
 
 
 def order_of(tableau: Tableau, tolerance: fmpq | None) -> int:
-    """By the certificate, up to ``MAX_ORDER``; within the tolerance of rounded coefficients."""
+    """The order by the certificate, up to ``MAX_ORDER``, within the tolerance of rounded
+    coefficients.
+    """
     return deciding.order_of(meant(tableau, tolerance), MAX_ORDER).order
 
 
@@ -254,7 +250,7 @@ def _solver(
 
 
 def _given_rows(solver: Solver, steps: Sequence[fmpq]) -> list[Row]:
-    """The errors of some step sizes; of one alone where it has none."""
+    """The errors of some step sizes; only one row if it has no error."""
     rows: list[Row] = []
     for h in sorted(set(steps), reverse=True):
         row = solver.row(h, rows[-1] if rows else None)
@@ -267,8 +263,8 @@ def _given_rows(solver: Solver, steps: Sequence[fmpq]) -> list[Row]:
 def _over_short_times(solver: Solver, usual: fmpq) -> tuple[fmpq, float | None]:
     """A short time, and the order over it: the first that is a whole number.
 
-    Where only the visible order can be, shorter times follow while it is larger: a condition that
-    is missed by little shows only where the powers of the step are smaller still.
+    If only the visible order is possible, shorter times follow while it is larger: a nearly
+    satisfied condition shows only at smaller steps.
     """
     short, order = usual, None
     for decades in solver.decades:

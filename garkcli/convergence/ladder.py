@@ -1,10 +1,8 @@
-"""Which step sizes a convergence test takes: a ladder of halvings that begins and ends where the
-errors say.
+"""The step sizes of a convergence test: halvings between ends that the errors determine.
 
-It begins where the error is a small part of the solution and slopes come near to what they will be,
-and ends when slopes and extrapolated orders have settled. Both are read from the errors alone,
-never from the predicted order: a ladder that ends where it finds what it expects would prove
-nothing.
+It begins where the error is a small part of the solution and slopes approach their limit, and ends
+when slopes and extrapolated orders have settled. Both are read from the errors, never from the
+predicted order: a ladder that stops at the expected result would prove nothing.
 """
 
 from __future__ import annotations
@@ -21,15 +19,15 @@ from garkcli.stepping.integrator import StepFailed
 from garkcli.stepping.linear import whole_steps
 
 ROWS = 5
-"""Step sizes of the default ladder; more only while the slopes still move."""
+"""Step sizes of the default ladder; more only while the slopes still change."""
 MAX_ROWS = 10
 """Most step sizes of the default ladder."""
 MAX_COARSE = 20_000
-"""Steps from which on the default ladder takes a large error for what there is to see."""
+"""With more steps than this the default ladder accepts a large error."""
 LARGEST = 1 / 32
-"""The part of the solution that an error of the default ladder is at most."""
+"""Largest error of the default ladder, as a part of the solution."""
 STIFF = 30
-"""h ‖∂f/∂y‖ from which on steps do not resolve a problem."""
+"""Steps with a larger h ‖∂f/∂y‖ do not resolve a problem."""
 # how far, in parts of the order, the first slope of a ladder may be off
 _NEAR = 0.125
 # changes between two slopes, and between two extrapolated orders, at which they have settled
@@ -43,18 +41,19 @@ _ABOVE = 300
 
 
 def default_rows(solver: Solver, is_timed: bool) -> tuple[list[Row], int]:
-    """The rows of the default ladder, and how many at its end show the rounding of coefficients.
+    """The rows of the default ladder, and the number of last rows that show the rounding of
+    coefficients.
 
-    Step sizes that are too large for Newton's method, and poles of a step map, are left out. A
-    single row with the error 0 is all there is where the method makes no error.
+    Step sizes that are too large for Newton's method, and poles of a step map, are left out. If the
+    method makes no error, there is a single row with the error 0.
 
     Args:
         solver: the method on the problem.
-        is_timed: whether costs are compared: then the ladder keeps its coarse steps, because large
-            errors are requested as well.
+        is_timed: whether costs are compared: then the ladder keeps its coarse steps, as large
+            errors are needed too.
 
     Raises:
-        StepFailed: Newton's method fails where steps are not coarse.
+        StepFailed: Newton's method fails for steps that are not coarse.
     """
     rows: list[Row] = []
     is_small: list[bool] = []
@@ -85,13 +84,13 @@ def default_rows(solver: Solver, is_timed: bool) -> tuple[list[Row], int]:
 
 
 def is_part(row: Row, size: arb) -> bool:
-    """Whether the error is a small part of the solution; ``size`` counts its start and its end."""
+    """Whether the error is a small part of the solution; ``size`` includes its start and end."""
     return bool(row.error < size * LARGEST / 2)
 
 
 def halvings(t_end: fmpq, unit: fmpq, longest: fmpq) -> Iterator[fmpq]:
-    """t_end/n with n doubled without end. The first step is no longer than ``longest``, nor than a
-    unit of time where that is shorter and cannot be doubled; all methods have the same.
+    """t_end/n with n doubled without end. The first step is at most ``longest``, and at most a unit
+    of time if that is shorter and cannot be doubled; it is the same for all methods.
 
     Raises:
         UsageProblem: the time is not positive.
@@ -121,7 +120,7 @@ def is_complete(rows: Sequence[Row], is_small: Sequence[bool]) -> bool:
 
 
 def _first_small(is_small: Sequence[bool]) -> int:
-    """Where the errors begin to stay small."""
+    """The index from which on the errors stay small."""
     start = len(is_small)
     while start > 0 and is_small[start - 1]:
         start -= 1
@@ -129,7 +128,7 @@ def _first_small(is_small: Sequence[bool]) -> int:
 
 
 def _start(rows: Sequence[Row], is_small: Sequence[bool]) -> int:
-    """The first row of those with small errors and slopes near the last extrapolated order."""
+    """The first row from which on errors are small and slopes near the last extrapolated order."""
     observed = observed_order(rows)
     start = _first_small(is_small)
     if observed is None:
@@ -143,9 +142,7 @@ def _start(rows: Sequence[Row], is_small: Sequence[bool]) -> int:
 
 def has_settled(rows: Sequence[Row]) -> bool:
     """Whether slope and extrapolated order agree and one of them is steady, or the latter is very
-    steady.
-
-    The order of a method is a whole number, so something else has not settled yet.
+    steady. The order of a method is an integer, so otherwise something has not settled yet.
     """
     before, last = rows[-2].slope, rows[-1].slope
     estimated = observed_order(rows[:-1])
@@ -166,11 +163,10 @@ def has_settled(rows: Sequence[Row]) -> bool:
 def trimmed(
     rows: Sequence[Row], is_small: Sequence[bool], plateau: int = 0, may_be_off: bool = False
 ) -> list[Row]:
-    """The rows without those at the start that are too coarse to belong; ``ROWS`` of them stay at
-    least.
+    """The rows without the first ones that are too coarse; at least ``ROWS`` of them stay.
 
-    The last ``plateau`` rows stay, and have no say. With ``may_be_off`` rows with small errors
-    belong, whatever their slopes.
+    The last ``plateau`` rows stay and are ignored. With ``may_be_off`` rows with small errors stay,
+    whatever their slopes.
     """
     end = len(rows) - plateau
     start = _first_small(is_small[:end]) if may_be_off else _start(rows[:end], is_small[:end])
@@ -181,23 +177,23 @@ def trimmed(
 
 
 def unspoilt_order(solver: Solver, h: fmpq) -> int:
-    """The order below which slopes at steps of size ``h`` are taken to be those of rounding: that
-    of a stiff problem is reduced as well, but seldom below 1.
+    """The order below which slopes at steps of size ``h`` are ascribed to rounding; for a stiff
+    problem, whose order is reduced, at most 1.
     """
     order = solver.visible.order
     return min(order, 1) if solver.resolution(h) >= STIFF else order
 
 
 def plateau(rows: Sequence[Row], order: int, rounding: arb) -> int:
-    """How many rows at the end are no longer of ``order`` because of rounded coefficients.
+    """The number of rows at the end that show rounded coefficients instead of ``order``.
 
-    They begin with the first flat one whose error may be that of the rounding; rows before it whose
-    error is not far above that of the flat ones are spoilt too.
+    They begin with the first flat row whose error may come from rounding; rows before it with an
+    error not far above it count too.
 
     Args:
         rows: from the largest step down.
-        order: that slopes have before.
-        rounding: about the error that the rounding of the coefficients makes; 0 for exact ones.
+        order: the order before.
+        rounding: the approximate error from the rounding of the coefficients; 0 for exact ones.
     """
     limit = rounding * _ABOVE
     flat = 0  # the first flat row

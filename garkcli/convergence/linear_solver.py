@@ -1,4 +1,4 @@
-"""The oscillator, solved by the exact step map of a method.
+"""Solves the oscillator by the exact step map of a method.
 
 R(h) is known exactly and its powers are enclosed in balls with as many bits as the error needs, so
 a slope is never a slope of rounding errors.
@@ -38,12 +38,12 @@ from garkcli.tableau.tableau import Tableau
 ERROR_BITS = 40
 """Correct bits of every error."""
 ENERGY_BITS = 20
-"""Correct bits of every energy error that is not zero."""
+"""Correct bits of every nonzero energy error."""
 LINEAR_ONLY = (
     "a linear problem sees only the unbranched trees: "
     "it can show an order too high, never one too low"
 )
-"""What every report of this test has to say."""
+"""The remark of every report of this test."""
 _FIRST_BITS = 128
 # balls are as exact as the smallest errors need
 _DECADES = (6, 12, 24, 48, 96, 192, 384)
@@ -52,16 +52,15 @@ _AGREEING = 8
 
 
 class LinearSolver(Mutable):
-    """A method on the oscillator from q(0) = 1, p(0) = ω/2; see ``Solver``.
+    """A method on the oscillator with q(0) = 1, p(0) = ω/2; see ``Solver``.
 
     Attributes:
         tableau: the method.
-        step: the same with its exact step map.
-        t_end: when errors are taken.
-        visible: what the problem sees.
-        spoilt: how much of R(h) the rounding of the coefficients is, at the step 1/ω: the sum of
-            the deviations that a tolerance makes none of.
-        integrators: the method with so many digits, to measure what steps cost.
+        step: the exact step map.
+        t_end: the time of the errors.
+        visible: the trees that the problem sees.
+        spoilt: the part of R(1/ω) that comes from the rounding of the coefficients.
+        integrators: the method by number of digits, to measure costs.
     """
 
     tableau: Tableau
@@ -75,7 +74,6 @@ class LinearSolver(Mutable):
 
     @property
     def problem(self) -> Oscillator:
-        """The oscillator and its split."""
         return self.step.problem
 
     @property
@@ -89,11 +87,11 @@ class LinearSolver(Mutable):
         return self.unit / 2
 
     def is_too_short(self, h: fmpq) -> bool:  # noqa: ARG002 -- none is
-        """Never: its frequency is its unit of time."""
+        """Never: the unit of time of the oscillator is its period."""
         return False
 
     def resolution(self, h: fmpq) -> float:  # noqa: ARG002 -- of all steps
-        """0: it is no right-hand side."""
+        """0: it is not a right-hand side."""
         return 0.0
 
     def row(self, h: fmpq, before: Row | None) -> Row:
@@ -111,28 +109,28 @@ class LinearSolver(Mutable):
         return Row(h, error, slope_between(before, h, error), energy_error)
 
     def size(self) -> arb:
-        """|q| + |p/ω| at the start and at the end."""
+        """|q| + |p/ω| at the start plus that at the end."""
         omega = self.problem.omega
         q, p = _solution(omega, self.t_end)
         return arb(fmpq(3, 2)) + abs(q) + abs(p / omega)
 
     def rests(self) -> bool:
-        """Never at a rational time: sines and cosines are not rational there."""
+        """Never at a rational time, where sines and cosines are irrational."""
         return False
 
     def rounding(self) -> arb:
-        """About the error that the rounding of the coefficients makes."""
+        """The approximate error from the rounding of the coefficients."""
         time = arb(self.t_end / self.unit)
         return self.size() * self.spoilt * max(arb(1), time)
 
     def over(self, t_end: fmpq) -> LinearSolver:
-        """The same up to another time."""
+        """The solver up to another time."""
         return replace(self, t_end=t_end)
 
     def timed(self, row: Row) -> Row:
-        """The row with the cost of its steps, in floats where these reach its error.
+        """The row with the cost of its steps, in floats if these reach its error.
 
-        Rows whose errors are below what ``MAX_DIGITS`` digits can show have no cost.
+        Rows with errors below ``MAX_DIGITS`` digits have no cost.
 
         Raises:
             StepFailed: the stage equations of a step were not solved.
@@ -177,12 +175,12 @@ def linear_solver(
     Args:
         tableau: the method.
         problem: the oscillator and its split.
-        t_end: when errors are taken.
-        tolerance: of rounded coefficients.
-        predicted: the order of the method; the visible order is no smaller.
+        t_end: the time of the errors.
+        tolerance: the rounding of the coefficients.
+        predicted: the order of the method, a lower bound of the visible order.
 
     Raises:
-        UsageProblem: the split is not one that the structure of the tableau is for.
+        UsageProblem: the split does not suit the structure of the tableau.
     """
     implicit = LinearlyImplicit.of(tableau)
     if implicit is not None and implicit.taken != "exact":
@@ -204,7 +202,7 @@ def linear_solver(
 
 
 def _solution(omega: fmpq, t: fmpq) -> tuple[arb, arb]:
-    """(q, p) at the time t, from q(0) = 1 and p(0) = ω/2, with the precision in force."""
+    """(q, p) at time t, from q(0) = 1 and p(0) = ω/2, at the current precision."""
     sine, cosine = arb(omega * t).sin_cos()
     q = cosine + sine / 2
     p = (cosine / 2 - sine) * omega
@@ -215,8 +213,8 @@ def _errors(R: Matrix, n: int, omega: fmpq, t_end: fmpq) -> tuple[arb, arb]:
     """Error and energy error of y_n = Rⁿ y₀.
 
     The loop ends because the error is not zero: R and y₀ are algebraic, cos ωt and sin ωt are not
-    (Lindemann). The energy error can be zero by coincidence, so four times the bits have to do;
-    then it is a ball about 0.
+    (Lindemann). The energy error can be zero, so four times the bits suffice; then it is a ball
+    about 0.
     """
     bits, enough = _FIRST_BITS, 0
     is_conserved = conserves_energy(R, omega)
@@ -246,7 +244,7 @@ def _errors_of(power: arb_mat, omega: fmpq, t: fmpq) -> tuple[arb, arb]:
 
 
 def hamiltonian_of(oscillator: Oscillator, t_end: fmpq) -> Hamiltonian:
-    """The oscillator as a problem to be stepped, from q(0) = 1, p(0) = ω/2."""
+    """The oscillator as a Hamiltonian problem with q(0) = 1, p(0) = ω/2."""
     (q,) = symbols(("q",), "q")
     (p,) = symbols(("q",), "p")
     omega = rational(oscillator.omega)

@@ -1,5 +1,5 @@
-"""Solutions that errors are measured against: known ones, or those of Gauss and Radau IIA methods
-with as many digits and steps as are requested.
+"""Reference solutions: known ones, or those of Gauss and Radau IIA methods with the requested
+digits.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from garkcli.problems.righthandside import (
 from garkcli.stepping.integrator import Integrator, StepFailed, Stepper, bind
 
 MAX_TRIED = 10_000
-"""Steps from which on a step that fails is the fault of the problem."""
+"""With more steps than this a failed step is the fault of the problem."""
 MAX_STEPS = 1_000_000
 """Most steps of a reference solution."""
 _PIECES = 200  # of a run, after each of which it is said how far it is
@@ -43,7 +43,7 @@ _APART = 8  # times as many steps, between which it is seen how fast the error f
 
 
 def run(made: Integrator, h: fmpq, count: int, what: str) -> Stepper:
-    """The state after ``count`` steps of size ``h``; ``what`` it is done for.
+    """The state after ``count`` steps of size ``h``; ``what`` names the work.
 
     Raises:
         StepFailed: the stage equations of a step were not solved.
@@ -58,15 +58,14 @@ def run(made: Integrator, h: fmpq, count: int, what: str) -> Stepper:
 
 
 class Reference(Mutable):
-    """The solution of a problem at one time, in the most digits that were requested so far.
+    """The solution of a problem at one time, with the most digits requested so far.
 
     Attributes:
         problem: in one term.
         t_end: the time.
-        digits: the error is below 10^(−digits) times the ``magnitude`` of the solution; 0 before
-            anything was requested.
+        digits: the error is below 10^(−digits) times the ``magnitude`` of the solution; 0 at first.
         y: (q, p) at ``t_end``, shape (2d,).
-        steps: that were enough for it.
+        steps: the steps that it took.
     """
 
     problem: Problem
@@ -79,9 +78,8 @@ class Reference(Mutable):
         """(q, p) at ``t_end`` with an error below 10^(−digits) times the ``magnitude`` of the
         solution.
 
-        Raises:
-            UsageProblem: the problem has no solution up to there, or one too close to a
-                singularity, or one that depends on its start so much that round-off drowns it.
+        Raises ``UsageProblem`` if the problem has no solution up to there, or it comes too close to
+        a singularity, or is so sensitive that round-off drowns it.
         """
         if digits > self.digits and self._is_known(digits):
             self.y = _exact(self.problem, self.t_end, digits)
@@ -96,7 +94,7 @@ class Reference(Mutable):
         return self.y
 
     def _is_known(self, digits: int) -> bool:
-        """Whether the exact solution is at hand, and starts where the problem does to so many
+        """Whether the exact solution is known, and starts at the problem's start to so many
         digits.
         """
         if isinstance(self.problem, Hamiltonian) or self.problem.exact is None:
@@ -112,7 +110,7 @@ def _exact(problem: Problem, t_end: fmpq, digits: int) -> tuple[arb, ...]:
 
 
 def reference(problem: Problem, t_end: fmpq) -> Reference:
-    """The solution of ``problem`` at ``t_end``: the same one for all ways to split the problem."""
+    """The solution of ``problem`` at ``t_end``, shared by all its splits."""
     return _kept(replace(problem.unsplit(), name="", invariants=()), t_end)
 
 
@@ -122,11 +120,11 @@ def _kept(problem: Problem, t_end: fmpq) -> Reference:
 
 
 def _solved(problem: Problem, t_end: fmpq, digits: int, steps: int) -> tuple[tuple[arb, ...], int]:
-    """The solution by more and more steps of one method, from ``steps`` on, until the last change
-    says that the error is small; and how many steps these were.
+    """The solution by more and more steps, from ``steps`` on, until the last change is small
+    enough, and the number of these steps.
 
     Raises:
-        UsageProblem: none is found; see ``Reference.to``.
+        UsageProblem: see ``Reference.to``.
     """
     runs = _Runs(problem, t_end, digits)
     fewer, before = 0, None
@@ -165,13 +163,13 @@ def _solved(problem: Problem, t_end: fmpq, digits: int, steps: int) -> tuple[tup
 
 
 class _Change(Frozen):
-    """What more steps change.
+    """The change of a solution by more steps.
 
     Attributes:
-        is_small: whether the error that is left is as small as it has to be.
-        is_far: whether it is so large that the runs have nothing to do with each other.
-        factor: how many times more steps are likely to be enough.
-        decades: by how many powers of ten it is larger than the error may be.
+        is_small: whether the remaining error is small enough.
+        is_far: whether the runs are unrelated.
+        factor: the factor of steps that is likely to suffice.
+        decades: the powers of ten by which it exceeds the allowed error.
     """
 
     is_small: bool
@@ -181,11 +179,8 @@ class _Change(Frozen):
 
 
 def _needed(changes: Sequence[tuple[int, _Change]]) -> float:
-    """How many decades of steps the error needs if it goes on to fall as it has fallen, whatever
-    the order of the method says; 0 where nobody can tell.
-
-    Args:
-        changes: what more steps have changed, with the fewer ones, in ascending order.
+    """The decades of steps that the error needs if it goes on falling as it has fallen; 0 if
+    unknown. ``changes`` are pairs of the smaller number of steps and the change, ascending.
     """
     steps, last = changes[-1]
     earlier = [x for x in changes if _APART * x[0] <= steps and not x[1].is_far]
@@ -199,8 +194,8 @@ def _needed(changes: Sequence[tuple[int, _Change]]) -> float:
 class _Runs:
     """A problem solved with different numbers of steps by one method.
 
-    Hamiltonian problems are solved by Gauss methods. Others may be stiff: there those of Radau IIA
-    are, which damp what is off the smooth solution.
+    Hamiltonian problems are solved by Gauss methods, others by Radau IIA methods, as they may be
+    stiff.
     """
 
     def __init__(self, problem: Problem, t_end: fmpq, digits: int) -> None:
@@ -222,10 +217,10 @@ class _Runs:
         self.integrator = bind(method, problem).at(digits + spare)
 
     def end(self, steps: int) -> list[Any] | None:
-        """The state at the final time; None where a step fails and shorter ones may not.
+        """The state at the final time; None if a step fails and shorter ones may succeed.
 
         Raises:
-            UsageProblem: these are more steps than are taken, or shorter ones would fail too.
+            UsageProblem: there are too many steps, or shorter ones would fail too.
         """
         if steps > MAX_STEPS:
             raise UsageProblem(
@@ -244,13 +239,12 @@ class _Runs:
             return None
 
     def change(self, before: Sequence[Any], fewer: int, y: Sequence[Any], steps: int) -> _Change:
-        """What ``steps`` steps, which end at ``y``, change of ``fewer`` ones, which end at
-        ``before``.
+        """The change from ``fewer`` steps, which end at ``before``, to ``steps`` steps, which end
+        at ``y``.
 
         From n to m > n steps an error falls by (n/m)^2s when h is small enough, and by more than
         (n/m)^s long before. The change bounds the larger of the two errors, so the smaller one is
-        taken to be (n/m)^s of it; but no less than ``_CREDIT``, because round-off does not fall,
-        whatever the problem makes of it.
+        taken to be (n/m)^s of it, but at least ``_CREDIT``, because round-off does not fall.
         """
         s = self.stages
         with ctx.workprec(self.integrator.bits):
@@ -270,7 +264,7 @@ class _Runs:
 
 
 def _no_solution(t_end: fmpq, failure: StepFailed) -> UsageProblem:
-    """What is said where even short steps fail."""
+    """The error if even short steps fail."""
     start = to_float((failure.number - 1) * failure.h)
     end = to_float(failure.number * failure.h)
     return UsageProblem(
@@ -282,7 +276,7 @@ def _no_solution(t_end: fmpq, failure: StepFailed) -> UsageProblem:
 
 
 def magnitude(y: Sequence[Any], problem: Problem) -> arb:
-    """How large the numbers of a solution are that starts as ``problem`` does and ends at ``y``."""
+    """Σ |y_i| of a solution at its start, that of ``problem``, plus that at its end ``y``."""
     total = arb(0)
     for x in (*y, *problem.initial):
         total += abs(arb(x))
@@ -290,11 +284,11 @@ def magnitude(y: Sequence[Any], problem: Problem) -> arb:
 
 
 _PART = 64
-"""The solution is followed for this part of the time of the problem."""
+"""The solution is computed for this part of the time of the problem."""
 _DIGITS = 24
-"""Of the solution."""
+"""Digits of the solution."""
 _LEAST = 1e-12
-"""The smallest part of a change by each coordinate alone that is a change in all, not an error of
+"""The smallest change relative to those by each coordinate that counts as one, not as an error of
 the solution.
 """
 _BITS = 4 * _DIGITS
@@ -303,11 +297,11 @@ _BITS = 4 * _DIGITS
 @doing("invariants along the solution")
 def changing(problem: Problem) -> tuple[tuple[str, float, fmpq], ...]:
     """The invariants of ``problem`` that its solution does not keep: name, change, and the time
-    that it is over.
+    after which it is measured.
 
-    The change of an invariant I has to be below the errors of the solution; it is compared with
-    Σ |∂I/∂y_i (y_i(t) − y_i(0))|, what the changes of the coordinates would make of I if they did
-    not cancel. Nothing is said where there is no solution, or where I has no value on it.
+    The change of an invariant I has to be below the errors of the solution; it is compared with Σ
+    |∂I/∂y_i (y_i(t) − y_i(0))|, the change without cancellation. Empty if there is no solution, or
+    I has no value on it.
     """
     if not problem.invariants:
         return ()
@@ -326,7 +320,7 @@ def changing(problem: Problem) -> tuple[tuple[str, float, fmpq], ...]:
 
 
 def _change(made: Any, names: Sequence[Any], problem: Problem, end: Sequence[arb]) -> float:
-    """Of one invariant; 0 where it is no more than the errors of the solution."""
+    """The change of one invariant; 0 if it is within the errors of the solution."""
     with ctx.workprec(_BITS):
         start = [arb(x) for x in problem.initial]
         at_start = dict(zip(names, start, strict=True))

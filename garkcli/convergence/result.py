@@ -1,4 +1,4 @@
-"""What a convergence test finds: a row a step size, the order they show, and a verdict."""
+"""The result of a convergence test: a row for each step size, the observed order, and a verdict."""
 
 from __future__ import annotations
 
@@ -17,29 +17,27 @@ if TYPE_CHECKING:
     from garkcli.tableau.garkmethod import GarkMethod
 
 Verdict: TypeAlias = Literal["agree", "disagree", "undecided", "reduced"]
-"""Of observed and visible order; undecided where there is no order to be seen, reduced where steps
-that do not resolve a stiff problem show a smaller one.
+"""The comparison of observed and visible order: undecided if no order is observed, reduced if
+unresolved steps of a stiff problem show a smaller one.
 """
 MAX_ORDER = 120
-"""Where the certificate stops to look for a higher order."""
+"""Largest order that the certificate looks for."""
 CLOSE = 0.05
-"""How near the observed order is to the order it agrees with."""
+"""The tolerance of the observed order."""
 _FITTED = 4  # rows that the order is extrapolated from
 _CROSSING = 0.25  # how far an order is extrapolated from stiff slopes
 _BITS = 256  # of the extrapolation: far more than any error has
 
 
 class Cost(Frozen):
-    """What the steps of one row have cost.
+    """The cost of the steps of one row.
 
     Attributes:
-        steps: how many.
-        evaluations: of vector fields: each is one V^{l} or F^{l} at one stage; those of Newton's
-            method included.
-        iterations: of Newton's method, over all steps and implicit blocks.
-        jacobians: of an implicit block, each with its factorisation.
-        seconds: of processor time, in floats; None where floats do not reach the error, and numbers
-            with more digits were used.
+        steps: their number.
+        evaluations: evaluations of V^{l} or F^{l} at one stage, including those of Newton's method.
+        iterations: Newton iterations, over all steps and implicit blocks.
+        jacobians: Jacobians of implicit blocks, each with a factorisation.
+        seconds: processor time in floats; None if more digits were needed.
     """
 
     steps: int
@@ -52,18 +50,18 @@ class Cost(Frozen):
 class Row(Frozen):
     """One step size.
 
-    Errors are balls. Their radius is what the digits of the computation leave open, so a ball that
-    contains 0 is below round-off, and 0 itself is proved. They reach below the range of floats.
+    Errors are balls with the uncertainty of the computation as radius: one that contains 0 is below
+    round-off, and 0 itself is proved. They reach below the range of floats.
 
     Attributes:
         h: the step size.
         error: the distance from the exact solution at t_end: ‖(Δq, Δp)‖₂, and ‖(Δq, Δp/ω)‖₂ on the
-            oscillator. Its ball holds 0 only where it is 0: the method makes no error.
+            oscillator. Its ball contains 0 only if the method makes no error.
         slope: of log error over log h, between the row before and this one; None in the first row.
-        energy_error: |H(t_end) − H(0)|; None where the problem has no energy.
+        energy_error: |H(t_end) − H(0)|; None if the problem has no energy.
         invariant_errors: |I(t_end) − I(0)| for each invariant of the problem besides H.
-        digits: that the row was computed with, 15 for floats; None where nothing was rounded.
-        cost: of the steps; None where they were not taken one by one.
+        digits: the digits of the computation, 15 for floats; None if nothing was rounded.
+        cost: the cost of the steps; None if they were not taken one by one.
     """
 
     h: fmpq
@@ -80,13 +78,13 @@ class Row(Frozen):
 
 
 class Visible(Frozen):
-    """The trees of a method that a problem can see.
+    """The trees of a method that a problem sees.
 
     Attributes:
-        order: of the method by these trees alone.
-        is_sharp: whether an order above it cannot be observed. A problem may hide more trees than
-            its form tells, or let their errors cancel.
-        trees: which ones they are, in one line.
+        order: the order of the method by these trees only.
+        is_sharp: whether no higher order can be observed. A problem may hide more trees than its
+            form suggests, or let errors cancel.
+        trees: the trees in words, one line.
     """
 
     order: int
@@ -95,13 +93,13 @@ class Visible(Frozen):
 
 
 class Stiffness(Frozen):
-    """What tells a stiff run, whose steps do not resolve the fastest part of the problem.
+    """The stiffness of a run whose steps do not resolve the fastest part of the problem.
 
     Attributes:
         resolution: h ‖∂f/∂y‖ of the smallest step, far above 1.
         stage_order: the largest q for which B(q) and C(q) hold; None for a Rosenbrock method.
-        weak_stage_order: up to which order what the stages miss never reaches the new value; None
-            where the search for it stopped.
+        weak_stage_order: the order up to which errors of the stages do not reach the new value;
+            None if the search stopped.
         is_stable: whether the error of the smallest step is a small part of the solution.
     """
 
@@ -117,25 +115,23 @@ class Convergence(Shown, Frozen):
     Attributes:
         problem: the problem and its split.
         t_end: the time at which errors are taken.
-        rows: from the largest step to the smallest. A single one with the error 0 where the method
-            makes no error on the problem.
-        plateau: how many of the last rows show the rounding of the coefficients; they are not
+        rows: from the largest step to the smallest; a single one with the error 0 if the method
+            makes no error.
+        plateau: the number of last rows that show the rounding of the coefficients, which are not
             fitted.
         observed_order: extrapolated from the last rows before the plateau to h = 0; None for a
             single row.
-        predicted_order: of the tableau for every problem, by the certificate.
-        visible: what the problem can see; its order is at least the predicted one.
-        short_time: the time of the observation with tiny steps; None where there was no need for
-            it, and for rounded coefficients, whose errors are then all rounding.
-        short_order: the order observed then.
-        has_settled: whether the slopes before the plateau have.
-        are_given: whether the caller chose the step sizes: then these have to show the
-            order.
-        stiff: where no step size resolves the problem.
-        is_at_rest: whether there are no errors because nothing moves: the solution ends where it
-            starts.
-        method: what stepped, where it is known by more than its tableau.
-        jacobian: what a Rosenbrock method took for the Jacobian.
+        predicted_order: the order for every problem, by the certificate.
+        visible: the trees that the problem sees; their order is at least the predicted one.
+        short_time: the time of the observation with tiny steps; None if it was not needed, and for
+            rounded coefficients.
+        short_order: the order observed over it.
+        has_settled: whether the slopes before the plateau have settled.
+        are_given: whether the caller chose the step sizes, which then have to show the order.
+        stiff: the stiffness if no step size resolves the problem.
+        is_at_rest: whether there are no errors because the solution ends where it starts.
+        method: the method, if more than its tableau is known.
+        jacobian: the matrix that a Rosenbrock method used for the Jacobian.
     """
 
     problem: Oscillator | Problem
@@ -156,12 +152,12 @@ class Convergence(Shown, Frozen):
 
     @property
     def visible_order(self) -> int:
-        """The order by the trees that the problem can see."""
+        """The order by the trees that the problem sees."""
         return self.visible.order
 
     @property
     def hides_failure(self) -> bool:
-        """Whether the trees at which the method fails are none that the problem sees."""
+        """Whether the problem does not see the trees at which the method fails."""
         return self.visible.order > self.predicted_order
 
     @property
@@ -171,20 +167,19 @@ class Convergence(Shown, Frozen):
 
     @property
     def exit_code(self) -> int:
-        """Of ``gark converge``: 0 the order that is to be seen is seen, or the problem is too stiff
-        for it, 1 another one is, 3 none is.
+        """The exit code of ``gark converge``: 0 if the visible order is observed or the problem is
+        too stiff for it, 1 if another one is observed, 3 if none is.
         """
         return {"agree": 0, "reduced": 0, "disagree": 1, "undecided": 3}[self.verdict]
 
     @property
     def verdict(self) -> Verdict:
-        """Whether the order is the visible one, or at least that where the problem may hide some
-        trees.
+        """Whether the observed order is the visible one, or at least it if the problem may hide
+        some trees.
 
-        Undecided where there is no order to be seen, also because there are no errors, or because
-        they grow as steps shrink, or where the rounding of the coefficients comes before the slopes
-        have settled. Reduced where the steps are too large for a stiff problem to show it, unless
-        tiny ones show another one.
+        Undecided if no order is observed: there are no errors, they grow as steps shrink, or the
+        rounding of the coefficients comes before the slopes have settled. Reduced if the steps are
+        too large for a stiff problem, unless tiny ones show another order.
         """
         if self.observed_order is None:
             return "undecided"
@@ -216,7 +211,6 @@ class Convergence(Shown, Frozen):
 
     @property
     def agrees(self) -> bool:
-        """Whether the verdict is that they agree."""
         return self.verdict == "agree"
 
     def __repr__(self) -> str:
@@ -227,7 +221,7 @@ class Convergence(Shown, Frozen):
 
 
 def curve(result: Convergence, against: str) -> Iterator[tuple[float | fmpq, arb]]:
-    """The points (x, error) over h, evaluations or seconds, where both are known and positive."""
+    """The points (x, error) over h, evaluations or seconds, if both are known and positive."""
     for row in result.rows:
         x = row.h if against == "h" else getattr(row.cost, against, None)
         if x is not None and row.error > 0:
@@ -235,8 +229,8 @@ def curve(result: Convergence, against: str) -> Iterator[tuple[float | fmpq, arb
 
 
 def absolute(x: arb) -> arb:
-    """|x|; a ball that holds 0 becomes one about 0, whose radius does not depend on where the
-    middle came out.
+    """|x|; a ball that contains 0 becomes one about 0 whose radius does not depend on its
+    centre.
     """
     if not x.contains(0):
         return abs(x)
@@ -244,7 +238,7 @@ def absolute(x: arb) -> arb:
 
 
 def slope_between(before: Row | None, h: fmpq, error: arb) -> float | None:
-    """The slope of log error over log h from a row to the next; None without a row or an error."""
+    """The slope of log error over log h between two rows; None without a row or an error."""
     if before is None or error.contains(0):
         return None
     rise = (before.error / error).log()
@@ -252,11 +246,11 @@ def slope_between(before: Row | None, h: fmpq, error: arb) -> float | None:
 
 
 def stiff_order(rows: Sequence[Row]) -> float | None:
-    """The order that slopes of a stiff problem show: extrapolated as well, but never far beyond the
-    last slope.
+    """The order that slopes of a stiff problem show: extrapolated, but not far beyond the last
+    slope.
 
-    Errors of two kinds change places there, h^p and a smaller multiple of a lower power, and
-    where they do slopes fall so fast that the extrapolation goes on below both.
+    Two errors compete, h^p and a smaller multiple of a lower power; where they change places slopes
+    fall so fast that the extrapolation would end below both.
     """
     order, last = observed_order(rows), rows[-1].slope
     if order is None or last is None or abs(order - last) <= _CROSSING:
@@ -267,8 +261,8 @@ def stiff_order(rows: Sequence[Row]) -> float | None:
 def observed_order(rows: Sequence[Row]) -> float | None:
     """The order p in log error = log C + p log h + a h + b h² through the last four rows.
 
-    The slopes alone approach p as fast as h → 0; with the first two terms of the expansion of the
-    error taken along they do as h³. Fewer rows have fewer terms; one row has no order.
+    The slopes converge to p like h; with the first two terms of the expansion of the error the
+    estimate converges like h³. Fewer rows have fewer terms; one row has no order.
     """
     last = rows[-_FITTED:]
     if len(last) < 2:

@@ -1,4 +1,4 @@
-"""What a convergence test asks of a method on a problem: the error of any step size."""
+"""The interface of solvers for a convergence test: errors for any step size."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class NoUniqueStep(UsageProblem):
-    """The stage equations of a linear problem have no unique solution at one step size."""
+    """The stage equations of a linear problem are singular at one step size."""
 
 
 Solver: TypeAlias = "LinearSolver | SteppedSolver"
@@ -37,27 +37,26 @@ Solver: TypeAlias = "LinearSolver | SteppedSolver"
 - ``over``: the same up to another time.
 """
 ENOUGH = 0.1
-"""Seconds of processor time after which a run is not repeated."""
+"""Processor seconds after which a run is not repeated."""
 MAX_RUNS = 20
-"""Most runs of which the fastest counts."""
+"""Most repetitions of a run, of which the fastest counts."""
 MAX_DIGITS = 1000
-"""Most digits of a step; a smaller error counts as none."""
+"""Most digits of a step; a smaller error counts as zero."""
 REACHED = 0.1
-"""The part of an error that the round-off of floats may be for them to have reached it."""
+"""The largest part of an error that round-off of floats may be."""
 
 
 def cost_of(state: Stepper, seconds: float | None = None) -> Cost:
-    """What the steps of ``state`` so far have cost."""
+    """The cost of the steps of ``state`` so far."""
     work = state.work
     return Cost(state.done, work.evaluations, work.iterations, work.jacobians, seconds)
 
 
 def work_of(integrator: Integrator, h: fmpq, count: int) -> tuple[list[Any], Cost]:
     """(q, p) after ``count`` steps of size ``h``, shape (2d,), and their cost with the time of the
-    fastest run; the mean time where the clock ticks too seldom for single runs.
+    fastest run, or the mean time if the clock is too coarse.
 
-    Raises:
-        StepFailed: the stage equations of a step were not solved.
+    Raises ``StepFailed`` if the stage equations of a step were not solved.
     """
     times: list[float] = []
     begin = process_time()

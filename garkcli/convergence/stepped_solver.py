@@ -1,7 +1,7 @@
-"""A Hamiltonian problem, solved step by step with as many digits as the errors need.
+"""Solves a problem step by step, with as many digits as the errors need.
 
-Rows are computed in floats where they do, with more digits where the error would fall below
-round-off. The reference solution has more.
+Rows are computed in floats, or with more digits if the error would fall below round-off. The
+reference solution has more digits.
 """
 
 from __future__ import annotations
@@ -28,9 +28,7 @@ from garkcli.stepping.linear import whole_steps
 MAX_STEPS = 1_000_000
 """Most steps of one row."""
 GROWTH = 16
-"""How much larger round-off may become on its way. On the built-in problems it was once, at
-most.
-"""
+"""The largest growth of round-off. On the built-in problems it was at most 1."""
 _ENOUGH = 30  # digits whose round-off alone proves enough where every condition holds
 _MANY = 120  # digits that do not agree by chance
 _OF_AN_ORDER = 8  # digits an order, below which a long step of such a method has its error
@@ -45,14 +43,14 @@ _DECADES = (6, 12, 18)
 
 
 class SteppedSolver(Mutable):
-    """A method on a Hamiltonian problem, and what is kept between step sizes; see ``Solver``.
+    """A method on a problem, with results shared between step sizes; see ``Solver``.
 
     Attributes:
         bound: the method on the problem.
-        t_end: when errors are taken.
-        visible: what the problem sees; its order tells how many digits to begin with.
-        tolerance: of rounded coefficients; None for exact ones.
-        integrators: the method with so many digits.
+        t_end: the time of the errors.
+        visible: the trees that the problem sees; their order determines the first number of digits.
+        tolerance: the rounding of the coefficients; None for exact ones.
+        integrators: the method by number of digits.
     """
 
     bound: Binding
@@ -66,45 +64,43 @@ class SteppedSolver(Mutable):
 
     @property
     def problem(self) -> Problem:
-        """What is solved."""
         return self.bound.problem
 
     @property
     def most_steps(self) -> int:
-        """Of one row."""
+        """The most steps of a row."""
         return MAX_STEPS
 
     @property
     def unit(self) -> fmpq:
-        """Problems come in units of their own."""
+        """1: problems come in units of their own."""
         return fmpq(1)
 
     @property
     def longest(self) -> fmpq:
-        """Eight units: problems may move slowly."""
+        """8: solutions may move slowly."""
         return fmpq(8)
 
     def is_too_short(self, h: fmpq) -> bool:
-        """Whether h² ‖∂f/∂y‖ is below ``_STIFF``, where a ladder above is long enough.
+        """Whether h² ‖∂f/∂y‖ is below ``_STIFF`` although a longer ladder is stiff.
 
         There |R(h λ)| of a method with |R(∞)| = 1 is so far from 1 that it damps its errors, and
-        slopes are those of neither regime.
+        slopes belong to neither regime.
         """
         last = self.t_end / 2 ** (ROWS - 1)
         is_stiff = self._slope * arb(last) ** 2 > _STIFF
         return bool(is_stiff and self._slope * arb(h) ** 2 < _STIFF)
 
     def resolution(self, h: fmpq) -> float:
-        """H ‖∂f/∂y‖."""
         return float(self._slope * arb(h))
 
     @property
     def decades(self) -> tuple[int, ...]:
-        """Of the short times: shorter ones where the order has to be the visible one."""
+        """The exponents of short times, larger if the observed order has to be the visible one."""
         return _GENERIC_DECADES if self.visible.is_sharp else _DECADES
 
     def over(self, t_end: fmpq) -> SteppedSolver:
-        """The same up to another time."""
+        """The solver up to another time."""
         return replace(self, t_end=t_end)
 
     def size(self) -> arb:
@@ -112,18 +108,17 @@ class SteppedSolver(Mutable):
         return magnitude(self.reference.to(self._digits_of_reference(FLOAT_DIGITS)), self.problem)
 
     def rests(self) -> bool:
-        """Whether no number at the end differs from that at the start."""
+        """Whether the end equals the start up to round-off."""
         end = self.reference.to(self._digits_of_reference(FLOAT_DIGITS))
         least = self.size() * FLOAT_PRECISION
         pairs = zip(end, self.problem.initial, strict=True)
         return not any(abs(now - arb(then)) > least for now, then in pairs)
 
     def row(self, h: fmpq, before: Row | None) -> Row:
-        """The errors of steps of size ``h``, with digits enough for them, with a slope from the row
-        ``before``. The error is 0 where digits enough do not show any.
+        """The errors of steps of size ``h``, with enough digits, and a slope from the row
+        ``before``; 0 if enough digits show no error.
 
-        Raises:
-            StepFailed: the stage equations of a step were not solved.
+        Raises ``StepFailed`` if the stage equations of a step were not solved.
         """
         steps = whole_steps(self.t_end, h)
         digits = self._digits(h, before)
@@ -142,25 +137,24 @@ class SteppedSolver(Mutable):
         return Row(h, error, slope, energy, tuple(others), digits, cost_of(state))
 
     def rounding(self) -> arb:
-        """About the error that coefficients rounded to the tolerance make."""
+        """The approximate error from coefficients rounded to the tolerance."""
         if self.tolerance is None:
             return arb(0)
         return self.size() * arb(self.tolerance) * max(arb(1), arb(self.t_end))
 
     def timed(self, row: Row) -> Row:
-        """The row with the cost of its steps in floats, where these reach its error to a tenth."""
+        """The row with the cost of its steps in floats, if these reach its error to a tenth."""
         y, cost = work_of(self._integrator(FLOAT_DIGITS), row.h, whole_steps(self.t_end, row.h))
         if abs(self._distance(y, FLOAT_DIGITS) - row.error) < REACHED * row.error:
             return replace(row, cost=cost)
         return row
 
     def _shows_no_error(self, error: arb, digits: int) -> bool:
-        """Whether an error within round-off counts as none.
+        """Whether an error within round-off counts as zero.
 
-        All of many digits are the same only where nothing moves, or where the method is exact: the
-        error of a long step of order p is far above 10^(−8 p). Where no tree that the problem
-        sees fails up to the highest order that is sought, as those of a constant force, the
-        error is round-off whatever the digits.
+        Many digits agree only if nothing moves or the method is exact: the error of a long step of
+        order p is far above 10^(−8 p). If no visible tree fails up to the highest order, as for a
+        constant force, the error is round-off for any digits.
         """
         if digits == MAX_DIGITS:
             return True
@@ -169,7 +163,7 @@ class SteppedSolver(Mutable):
         return digits >= _MANY and (error.is_zero() or digits >= _OF_AN_ORDER * self.visible.order)
 
     def _distance(self, y: Sequence[Any], digits: int) -> arb:
-        """‖(Δq, Δp)‖₂ of ``y`` from the reference solution, the middle of its ball."""
+        """‖(Δq, Δp)‖₂ of ``y`` from the reference solution, the centre of its ball."""
         exact = self.reference.to(self._digits_of_reference(digits))
         with ctx.workprec(self._integrator(digits).bits + _GUARD):
             total = arb(0)
@@ -178,10 +172,10 @@ class SteppedSolver(Mutable):
             return total.sqrt().mid()
 
     def _round_off(self, digits: int, h: fmpq) -> arb:
-        """What the digits leave open of a state at ``t_end``.
+        """The uncertainty of a state at ``t_end`` from round-off.
 
-        Steps sum with compensation, so that their number does not count; the increments are
-        rounded, and they add up to the way that the solution goes. The flow makes more of it.
+        Steps are summed with compensation, so their number does not count; the rounded increments
+        add up to the length of the solution's path, and the flow amplifies them.
         """
         precision = arb(FLOAT_PRECISION) if digits <= FLOAT_DIGITS else arb(10) ** -digits
         time = max(arb(1), arb(self.t_end))
@@ -197,14 +191,14 @@ class SteppedSolver(Mutable):
         return steepness(self.problem)
 
     def _amplified(self, h: fmpq) -> arb:
-        """What a step makes of the round-off of its stages: increments h f of stiff right-hand
+        """The amplification of round-off of stages by a step: increments h f of stiff right-hand
         sides are h ‖∂f/∂y‖ times as wrong.
         """
         return max(arb(1), self._slope * arb(h))
 
     def _digits_of_reference(self, digits: int) -> int:
-        """Enough for the row, and beyond floats for the next ones as well: rows of high order end
-        there.
+        """Digits for the row, and beyond floats for the following ones as well, since rows of high
+        order soon need them.
         """
         if digits <= FLOAT_DIGITS and self.visible.order >= _HIGH:
             digits = _NEXT_DIGITS
@@ -213,7 +207,7 @@ class SteppedSolver(Mutable):
         return digits + _SPARE + ceil(_AHEAD * self.visible.order * log10(2))
 
     def _digits(self, h: fmpq, before: Row | None) -> int:
-        """Digits for the error that the row before and the order let expect."""
+        """The digits for the error expected from the row before and the order."""
         if before is None:
             return FLOAT_DIGITS
         part = before.error.mid() / self.size()
@@ -233,8 +227,8 @@ class SteppedSolver(Mutable):
     def _invariant_errors(
         self, y: Sequence[Any], digits: int, h: fmpq
     ) -> tuple[arb | None, list[arb]]:
-        """|I(y) − I(y_0)| of the energy, where there is one, and of the other invariants, for all
-        states that round-off leaves possible.
+        """|I(y) − I(y_0)| of the energy, if there is one, and of the other invariants, for all
+        states within round-off.
         """
         if not conserved_names(self.problem):
             return None, []
@@ -252,5 +246,5 @@ class SteppedSolver(Mutable):
 
 
 def _with_radius(x: arb, radius: arb) -> arb:
-    """The ball about the middle of ``x``; 0 stays what it is."""
+    """The ball about the centre of ``x``; 0 stays 0."""
     return x if x.is_zero() else arb(x.mid(), radius.abs_upper())
