@@ -1,12 +1,11 @@
-"""The energy error over a long time, far above its own rounding errors.
+"""The energy error of the oscillator over a long time, far above its own rounding errors.
 
 In the variables z = (ωq, p) the energy is H = ½|z|². With n = iK + j the error is summed as
 
     H(z_n) − H(z_0) = [H(z_{iK}) − H(z_0)] + z_{iK}ᵀ Q_j z_{iK},      Q_j = ½ ((R^j)ᵀ R^j − I).
 
 Both parts are of the size of the error itself. The K forms Q_j and the block starts z_{iK} are
-computed in balls, the outer sum of N = K² terms in floats: it loses a few units of its own last
-digit, whatever the method's error.
+computed in balls, the outer sum of N = K² terms in floats: it loses a few units of its last digit.
 """
 
 from __future__ import annotations
@@ -42,23 +41,23 @@ if TYPE_CHECKING:
 
 
 ROUNDING = 2.0**-42
-"""Of a slope in all, of the largest error: floats are summed."""
+"""The rounding of a slope, relative to the largest error, as floats are summed."""
 _CHUNK = 65536  # steps that a fit looks at at a time
 
 
 class Line(Frozen):
-    """A drift fitted to energy errors, per step, and how good it is."""
+    """A fitted drift of energy errors, per step, with its uncertainty."""
 
     slope: float
     uncertainty: float
 
 
 def drift_of(errors: Floats, angle: float | None) -> Line:
-    """The slope of the errors, in the whole run, and how far it is from those in its halves.
+    """The slope of the errors in the whole run, and its distance from those in the halves.
 
     Args:
-        errors: of steps 0, 1, …
-        angle: 2θ, by which the oscillation turns in a step; None where there is none.
+        errors: the errors of steps 0, 1, …
+        angle: 2θ, the angle of the oscillation per step; None without one.
     """
     import numpy as np
 
@@ -104,12 +103,12 @@ _FLOOR = 1000  # energy errors below 2^-1000 count as zero: floats end there
 
 
 class _Errors(Frozen):
-    """The energy errors of a run, up to where they blow up.
+    """The energy errors of a run, until they blow up.
 
     Attributes:
-        values: H(z_n) − H(z_0), of n = 0 on.
-        is_exact: whether they are zero, by the step map.
-        blew_up: whether they are fewer than there are steps.
+        values: H(z_n) − H(z_0), from n = 0 on.
+        is_exact: whether the step map conserves energy.
+        blew_up: whether the run ended early.
     """
 
     values: Floats
@@ -126,17 +125,16 @@ def oscillator_run(
     points: int = SERIES,
     tolerance: fmpq | None = None,
 ) -> LongRun:
-    """The energy of ``problem`` under ``tableau`` to the time ``t_end``, judged by the step map,
-    exactly. It starts from q = 1, p = ω/2, with the energy 5ω²/8.
+    """The energy of ``problem`` under ``tableau`` to the time ``t_end``, judged by the exact step
+    map. It starts from q = 1, p = ω/2, with the energy 5ω²/8.
 
     The drift is d in the least-squares fit H(t) − H(0) ≈ e + d t + a cos 2θn + b sin 2θn, with
-    e^{±iθ} the directions of the eigenvalues of R(h); without a, b where these are real or turn too
-    slowly to be distinguished from a line. Its uncertainty is how far it is in the halves of the
-    run from that in all of it. Where the error is bounded for all time, both are zero.
+    e^{±iθ} the directions of the eigenvalues of R(h); without a, b if these are real or turn too
+    slowly to be distinguished from a line. Its uncertainty is its distance from the drifts in the
+    halves of the run. Both are zero if the error is bounded for all time.
 
-    Raises:
-        UsageProblem: the split does not fit the structure, the step does not divide the time, there
-            are more than ``MAX_STEPS`` of them, or the stage equations have no unique solution.
+    Raises ``UsageProblem`` if the split does not fit the structure, the step does not divide the
+    time, there are more than ``MAX_STEPS`` steps, or the stage equations are singular.
     """
     import numpy as np
 
@@ -168,8 +166,8 @@ def _history(
     kept: Integers,
     h: float,
 ) -> InvariantHistory:
-    """What becomes of the energy; ``excused`` is what rounded coefficients can cause in all, and
-    ``kept`` has the numbers of the errors that are kept.
+    """The history of the energy; ``excused`` is the error that rounded coefficients can cause, and
+    ``kept`` has the indices of the errors that are kept.
     """
     import numpy as np
 
@@ -200,7 +198,7 @@ def _history(
 
 
 def _errors(R: Matrix, omega: fmpq, energy: float, count: int) -> _Errors:
-    """The energy errors of ``count`` steps, without those that are no part of a run."""
+    """The energy errors of ``count`` steps, fewer after a blow-up."""
     import numpy as np
 
     is_exact = conserves_energy(R, omega)
@@ -218,8 +216,8 @@ def _errors(R: Matrix, omega: fmpq, energy: float, count: int) -> _Errors:
 def _verdict(
     errors: _Errors, energy: float, fate: Stability, line: Line, excused: float
 ) -> Verdict:
-    """What the step map and the errors say. A drift that is seen, and less its uncertainty is no
-    more than the ``excused`` that rounded coefficients can cause, is undecided.
+    """The verdict from the step map and the errors. A visible drift is undecided if without its
+    uncertainty it is at most ``excused``, the error that rounded coefficients can cause.
 
     A step multiplies areas, and the mean of the energy over the phases to first order, by det R: no
     line fits an energy that decays to nothing, but det R − 1 shows it.
@@ -238,15 +236,15 @@ def _verdict(
 
 
 def _shape(verdict: Verdict, line: Line) -> Shape:
-    """Of a drift: a line where its slope can be distinguished from 0."""
+    """The shape of a drift: a line if its slope can be distinguished from 0."""
     if verdict not in ("drifts", "undecided"):
         return "none"
     return "line" if abs(line.slope) > line.uncertainty else "curve"
 
 
 def _powers(omega: fmpq, energy: float, time: float) -> tuple[float, float]:
-    """What ``garkcli.longtime.rounding.Exchange`` finds along the exact solution: q̇p̈ and ṗq̈ are
-    −ω²p² and ω⁴q², whose sizes sum to 2ω²H, and q̇ṗ = −d/dt ½ω²q² has a mean of at most H/t.
+    """The values of ``garkcli.longtime.rounding.Exchange`` along the exact solution: q̇p̈ and ṗq̈
+    are −ω²p² and ω⁴q², whose sizes sum to 2ω²H, and q̇ṗ = −d/dt ½ω²q² has a mean of at most H/t.
     """
     first = energy / max(time, 1e-300)
     second = 2 * to_float(omega) ** 2 * energy
@@ -262,7 +260,7 @@ def _scaled(R: Matrix, omega: fmpq, bits: int) -> arb_mat:
 
 
 def _energy_errors(R: Matrix, omega: fmpq, count: int) -> Floats:
-    """H(z_n) − H(z_0) for n = 0 … count; shorter, or not finite at the end, when it blows up."""
+    """H(z_n) − H(z_0) for n = 0 … count; shorter, or not finite at the end, after a blow-up."""
     # some 2 √N products of matrices in a row, which may lose about half a bit each
     bits = 128 + isqrt(count)
     while (errors := _at_precision(R, omega, count, bits)) is None:
@@ -271,7 +269,7 @@ def _energy_errors(R: Matrix, omega: fmpq, count: int) -> Floats:
 
 
 def _at_precision(R: Matrix, omega: fmpq, count: int, bits: int) -> Floats | None:
-    """The same with balls of ``bits`` bits; None where these are too few."""
+    """The energy errors with balls of ``bits`` bits; None if these are too few."""
     with ctx.workprec(bits):
         forms, block = _forms(_scaled(R, omega, bits), isqrt(count) + 1)
         blocks = -(-(count + 1) // len(forms))  # rounded up
@@ -297,8 +295,8 @@ def _in_floats(balls: list[arb]) -> Floats:
 
 
 def _forms(step: arb_mat, length: int) -> tuple[list[tuple[arb, arb, arb]], arb_mat]:
-    """Q_j as coefficients of z₁², z₁z₂, z₂² for j < length, and R^length; fewer when they grow out
-    of floats.
+    """Q_j as coefficients of z₁², z₁z₂, z₂² for j < length, and R^length; fewer if they exceed
+    floats.
     """
     power = step**0
     forms: list[tuple[arb, arb, arb]] = []
@@ -315,7 +313,7 @@ def _forms(step: arb_mat, length: int) -> tuple[list[tuple[arb, arb, arb]], arb_
 
 
 def _starts(block: arb_mat, omega: arb, count: int) -> tuple[list[tuple[arb, arb]], list[arb]]:
-    """The block starts z_{iK} and their energy errors; fewer when the energy blows up."""
+    """The block starts z_{iK} and their energy errors; fewer after a blow-up."""
     z = arb_mat([[omega], [omega / 2]])
     energy = 5 * omega**2 / 8
     starts, errors = [], []
@@ -338,7 +336,7 @@ def _are_sharp(balls: list[arb]) -> bool:
 
 
 def _angle(R: Matrix, omega: fmpq) -> float | None:
-    """2θ in [0, 2π), twice the argument of the eigenvalues of R; None when they are real."""
+    """2θ in [0, 2π), twice the argument of the eigenvalues of R; None if they are real."""
     import numpy as np
 
     a, b, c, d = map(float, _scaled(R, omega, 128).entries())

@@ -1,4 +1,4 @@
-"""What becomes of conserved quantities over a long time: the results, of all problems."""
+"""Results on conserved quantities over a long time, for all problems."""
 
 from __future__ import annotations
 
@@ -23,18 +23,16 @@ if TYPE_CHECKING:
 
 
 Fate: TypeAlias = Literal["elliptic", "unstable", "contractive", "marginal"]
-"""Orbits stay on ellipses; leave all bounds; go to zero; stay bounded, but neither of the
-former.
-"""
+"""Orbits stay on ellipses; are unbounded; go to zero; stay bounded otherwise."""
 
 
 class Stability(Frozen):
-    """The step map of a linear problem, iterated for ever.
+    """The long-time behaviour of the step map of a linear problem.
 
     Attributes:
         determinant: det R; RᵀJR = J if and only if it is 1.
         trace: tr R.
-        fate: of almost all orbits.
+        fate: the fate of almost all orbits.
     """
 
     determinant: Number
@@ -48,7 +46,7 @@ class Stability(Frozen):
 
 
 def stability(R: Matrix) -> Stability:
-    """Decide what becomes of the orbits of ``R``, shape (2, 2).
+    """Decides the fate of the orbits of ``R``, shape (2, 2).
 
     >>> from flint import fmpq
     >>> stability(((fmpq(3, 5), fmpq(4, 5)), (fmpq(-4, 5), fmpq(3, 5)))).fate
@@ -79,7 +77,7 @@ def _fate(R: Matrix, determinant: Number, trace: Number) -> Fate:
 
 
 def _sign(x: Number) -> int:
-    """The sign, exactly: a ball that is not zero has one."""
+    """The sign, exact because a nonzero ball has one."""
     if not x:
         return 0
     return 1 if to_ball(x) > 0 else -1
@@ -88,13 +86,13 @@ def _sign(x: Number) -> int:
 MAX_STEPS = 10_000_000
 """Most steps of a run."""
 SERIES = 2000
-"""Most points of the series kept for a plot."""
+"""Most points of a series kept for plots."""
 BLOW_UP = 1e30
-"""How many times the energy the energy error may become before a run ends as unstable."""
+"""A run ends as unstable when the energy error is so many times the energy."""
 
 Verdict: TypeAlias = Literal["exact", "round-off", "bounded", "drifts", "unstable", "undecided"]
-"""Conserved exactly; no error above round-off; no drift to be reported; a drift; blown up or
-escaped; left open, for the reason that a ``Doubt`` is.
+"""Conserved exactly; no error above round-off; no drift; a drift; blown up or escaped; undecided
+because of a ``Doubt``.
 """
 WORDS: dict[str, tuple[str, str]] = {
     "exact": ("good", "conserved"),
@@ -104,42 +102,41 @@ WORDS: dict[str, tuple[str, str]] = {
     "undecided": ("note", "undecided"),
     "drifts": ("bad", "DRIFTS"),
 }
-"""What news a verdict is, and its word."""
+"""The severity of a verdict, and its word."""
 Doubt: TypeAlias = Literal[
     "steps", "turns", "rest", "value", "round-off", "modulation", "level", "symplectic", "rounding"
 ]
-"""Why a verdict is undecided: there are too few steps; coordinates hardly turn back; nothing moves;
-the quantity has no value at some step; rounding may be as large as the quantity; a slow modulation
-may be the slope; a single move to another level; a rise or fall throughout, which for a symplectic
+"""Why a verdict is undecided: too few steps; coordinates hardly turn back; nothing moves; the
+quantity has no value at some step; rounding may be as large as the quantity; a slow modulation may
+be the slope; a single move to another level; a rise or fall throughout, which for a symplectic
 method is usually a slow oscillation; a drift that the rounding of the coefficients may cause.
 """
 State: TypeAlias = tuple[fmpq, tuple[Any, ...]]
-"""A time, and (q, p) then, shape (2d,)."""
+"""A time, and (q, p) at it, shape (2d,)."""
 
 
 class InvariantHistory(Frozen):
     """A conserved quantity I over a long time.
 
     Attributes:
-        name: "energy", or what the problem calls the invariant.
+        name: "energy", or the problem's name of the invariant.
         initial: I(0).
         max_error: max |I(t_n) − I(0)|, over all steps.
-        drift: the slope of I(t) − I(0), per unit of time, see ``garkcli.longtime.trend``; None in a
-            run that has blown up or has too few steps.
-        uncertainty: of ``drift``; None as there.
+        drift: the slope of I(t) − I(0), per unit of time, see ``garkcli.longtime.trend``; None
+            after a blow-up or with too few steps.
+        uncertainty: of ``drift``, or None.
         amplitude: half the range of I(t) − I(0) − drift·t.
-        round_off: what the errors are good to, at the end of the run; a power of ten.
+        round_off: the uncertainty of the errors at the end of the run, a power of ten.
         coefficients: the error that the rounding of the coefficients can cause, to the end of the
             run, see ``garkcli.longtime.rounding``; 0 for a method without a tolerance.
-        verdict: what has become of I.
-        shape: of the trend.
+        verdict: the verdict on I.
+        shape: the shape of the trend.
         errors: I(t) − I(0), with its sign, at the times of the run.
-        longer: a time that would decide what is undecided; None where there is no such time within
-            ``MAX_STEPS``, or nothing undecided.
-        doubt: why it is undecided; None where it is decided.
-        no_value_at: the first time at which I has no value, or one beyond 1e150; None where it has
-            one throughout.
-            Errors are nan from there on.
+        longer: a time that would decide; None if it is decided, or there is no such time within
+            ``MAX_STEPS``.
+        doubt: why it is undecided, or None.
+        no_value_at: the first time at which I has no value, or one beyond 1e150, or None; errors
+            are nan from there on.
     """
 
     name: str
@@ -167,19 +164,17 @@ class LongRun(Shown, Frozen):
     Attributes:
         problem: the problem and its split.
         step: h.
-        t_end: the time asked for.
-        steps: how many steps were done; fewer than t_end/h only in a run that has blown up.
-        digits: that the steps were done with; None where they are exact.
-        invariants: what became of the energy, where there is one, then of the other invariants; one
-            at least.
-        times: at which the errors are kept, ascending: those where one is extreme in equal spans.
-        states: at the start and after each quarter of the run; none for the oscillator.
-        turns: how often the coordinate that oscillates fastest has turned back; 0 for the
-            oscillator.
+        t_end: the requested time.
+        steps: the number of steps; fewer than t_end/h only after a blow-up.
+        digits: the digits of the steps; None if they are exact.
+        invariants: the energy, if there is one, then the other invariants; at least one.
+        times: the times of the kept errors, ascending: extremes of equal spans.
+        states: at the start and after each quarter of the run; empty for the oscillator.
+        turns: the number of turns of the coordinate that oscillates fastest; 0 for the oscillator.
         escaped: the time after which the orbit leaves for ever, with a large error of the energy;
-            None where it does not.
-        stability: of the step map of the oscillator, else None.
-        method: what stepped, where it is known by more than its tableau.
+            or None.
+        stability: the stability of the step map of the oscillator, or None.
+        method: the method, if more than its tableau is known.
     """
 
     problem: Oscillator | Problem
@@ -197,7 +192,7 @@ class LongRun(Shown, Frozen):
 
     @property
     def energy(self) -> InvariantHistory | None:
-        """What became of the energy, where the problem has one."""
+        """The history of the energy; None if the problem has no energy."""
         if isinstance(self.problem, RightHandSide):
             return None
         return self.invariants[0]
@@ -225,10 +220,10 @@ class LongRun(Shown, Frozen):
 
 
 def count_steps(t_end: fmpq, step: fmpq) -> int:
-    """How many steps there are to the time ``t_end``.
+    """The number of steps to the time ``t_end``.
 
     Raises:
-        UsageProblem: they do not divide it, or are more than ``MAX_STEPS``.
+        UsageProblem: the step does not divide it, or there are more than ``MAX_STEPS``.
     """
     count = whole_steps(t_end, step)
     if count > MAX_STEPS:
@@ -240,8 +235,7 @@ def count_steps(t_end: fmpq, step: fmpq) -> int:
 def whole_run(
     step: fmpq | None, t_end: fmpq | None, usual_step: fmpq, usual_end: fmpq
 ) -> tuple[fmpq, fmpq]:
-    """A step size, and a time that is a whole number of them; a missing one comes near the
-    usual.
+    """A step size, and a time that is a multiple of it; missing ones are close to the usual.
 
     >>> whole_run(None, fmpq(1), fmpq(3, 10), fmpq(100))
     (1/4, 1)

@@ -1,9 +1,8 @@
-"""Conserved quantities over a long time: how far they go, and whether they drift.
+"""Conserved quantities over a long time: their errors, and whether they drift.
 
 The oscillator has an exact step, see ``garkcli.longtime.energy``. Every other problem is stepped
-and measured after each step, in memory that does not grow with their number. How good the errors
-are is bounded by what is carried, and checked on the first steps against the same steps with more
-digits.
+and measured after each step, in constant memory. The uncertainty of the errors is bounded from the
+digits, and checked on the first steps against steps with more digits.
 """
 
 from __future__ import annotations
@@ -50,9 +49,7 @@ _LEFT_TO_TIME = ("steps", "turns", "modulation", "level", "symplectic")  # what 
 
 
 def usual(problem: Oscillator | Problem) -> tuple[fmpq, fmpq]:
-    """A step size and a time that show the long run of ``problem``; 10 000 steps where nothing more
-    is known.
-    """
+    """A step size and a time that show the long run of ``problem``; 10 000 steps by default."""
     if isinstance(problem, Oscillator):
         return fmpq(1, 2) / problem.omega, fmpq(10_000) / problem.omega
     return problem.long_run or (problem.t_end / 40, 250 * problem.t_end)
@@ -67,22 +64,23 @@ def long_run(
     points: int = SERIES,
     tolerance: fmpq | None = None,
 ) -> LongRun:
-    """Step ``problem`` with ``tableau`` to the time ``t_end``; what becomes of the energy and of
-    the other invariants?
+    """Steps ``problem`` with ``tableau`` to the time ``t_end`` and judges the energy and the other
+    invariants.
 
     Args:
-        tableau: of any structure.
-        problem: in as many terms as the tableau is for, or in one that has a natural split.
+        tableau: a method of any structure.
+        problem: in as many terms as the tableau has, or in one with a natural split.
         t_end: a whole number of steps.
         step: h.
-        digits: of the steps; floats up to ``FLOAT_DIGITS``. Those of the oscillator are exact.
-        points: about how many times are kept.
-        tolerance: of rounded coefficients; a drift that they can cause is undecided.
+        digits: the digits of the steps; floats up to ``FLOAT_DIGITS``. Steps of the oscillator are
+            exact.
+        points: about the number of times that are kept.
+        tolerance: the rounding of the coefficients; a drift that it can cause is undecided.
 
     Raises:
-        UsageProblem: the problem is not of the form of the structure, the step does not divide the
-            time, there are more than ``MAX_STEPS`` of them, or the stage equations of the
-            oscillator have no unique solution.
+        UsageProblem: the problem does not suit the structure, the step does not divide the time,
+            there are more than ``MAX_STEPS`` steps, or the stage equations of the oscillator are
+            singular.
         StepFailed: the stage equations of a step were not solved, and the energy had not blown up
             before.
 
@@ -124,8 +122,8 @@ def long_run(
 
 @doing("round-off")
 def _noise(record: Record, bound: Binding, step: fmpq, digits: int) -> Floats:
-    """What the errors are good to at the end, as powers of ten: each step rounds each summand of an
-    invariant once, to leading order; and no less than what is found on the first steps.
+    """The uncertainty of the errors at the end, as powers of ten: each step rounds each summand of
+    an invariant once, to leading order; at least that found on the first steps.
     """
     import numpy as np
 
@@ -145,19 +143,19 @@ def _noise(record: Record, bound: Binding, step: fmpq, digits: int) -> Floats:
 
 
 _Finding: TypeAlias = tuple[Verdict, Shape, Doubt | None]
-"""What has become of one invariant: a verdict, with the trend or the doubt that it rests on."""
+"""A verdict on one invariant, with its trend or doubt."""
 
 
 class _Judge(Frozen):
-    """What has become of the invariants of a run.
+    """Judges the invariants of a run.
 
     Attributes:
-        record: of the run.
+        record: the record of the run.
         step: h.
         tableau: the method.
-        problem: what it steps.
-        tolerance: of rounded coefficients.
-        excused: the error of the energy that these can cause in all.
+        problem: the problem.
+        tolerance: the rounding of the coefficients.
+        excused: the error of the energy that the rounding can cause.
     """
 
     record: Record
@@ -169,15 +167,13 @@ class _Judge(Frozen):
 
     @cached_property
     def is_symplectic(self) -> bool:
-        """Whether the steps are symplectic by the coefficients."""
+        """Whether the coefficients make the steps symplectic."""
         problem = self.problem
         return isinstance(problem, Hamiltonian) and is_proved(self.tableau, problem, self.tolerance)
 
     @property
     def escape(self) -> int | None:
-        """The last step before the orbit escapes, where the energy is wrong enough for that to be
-        no part of the motion.
-        """
+        """The last step before the orbit escapes, if the energy error is large; None otherwise."""
         record = self.record
         if record.blew_up:
             return None
@@ -186,7 +182,7 @@ class _Judge(Frozen):
         return record.excursions.escape if is_wrong else None
 
     def history(self, k: int, noise: float) -> InvariantHistory:
-        """Of the invariant ``k``, whose errors are good to ``noise``."""
+        """The history of the invariant ``k``, whose errors have the uncertainty ``noise``."""
         import numpy as np
 
         record, h = self.record, to_float(self.step)
@@ -257,11 +253,11 @@ class _Judge(Frozen):
         return trend.finding == "drift" or trend.move >= _LARGE * self._size(k)
 
     def _size(self, k: int) -> float:
-        """Of the summands of an invariant at the start; 1 where all are zero."""
+        """The sum of the sizes of an invariant's summands at the start; 1 if all are zero."""
         return float(self.record.measure.sizes(self.record.states[0])[k]) or 1.0
 
     def _longer(self, trend: Trend | None, doubt: Doubt | None) -> fmpq | None:
-        """A time that would decide; None if that is too many steps, or no time would."""
+        """A time that would decide; None if there is none within the limit of steps."""
         if doubt not in _LEFT_TO_TIME:
             return None
         record = self.record

@@ -1,4 +1,4 @@
-"""The errors of the conserved quantities along a trajectory."""
+"""The errors of conserved quantities along a trajectory."""
 
 from __future__ import annotations
 
@@ -27,19 +27,17 @@ if TYPE_CHECKING:
 
 
 class Measure:
-    """What is conserved, at states against the start.
+    """Evaluates conserved quantities at states, relative to the start.
 
     Args:
-        problem: with at least one such quantity.
-        digits: that the states have.
-
-    Attributes:
-        names: of what is conserved; "energy" first where the problem has one.
+        problem: a problem with at least one conserved quantity.
+        digits: of the states. Attributes:
+        names: of the quantities; "energy" first if the problem has one.
         initial: the values at the start.
         scale: the sum of the sizes of the terms of H, or of the summands of the first invariant, at
-            the start; 1 where all are zero.
+            the start; 1 if all are zero.
         digits: that the states have.
-        has_energy: whether the first of them is the energy.
+        has_energy: whether the first one is the energy.
 
     Errors:
         UsageProblem: one of them has no value at the start.
@@ -77,8 +75,8 @@ class Measure:
         self.scale = sum(map(abs, terms)) or 1.0
 
     def errors(self, states: Iterable[Sequence[Any]]) -> Floats:
-        """I(y) − I(y_0) of each state y, shape (states, invariants); nan where I has no value, and
-        infinite where it is too large for a float.
+        """I(y) − I(y_0) of each state y, shape (states, invariants); nan if I has no value,
+        infinite if it is too large for a float.
         """
         import numpy as np
 
@@ -94,8 +92,8 @@ class Measure:
             )
 
     def sizes(self, y: Sequence[Any]) -> Floats:
-        """The sums of the sizes of the summands of each invariant at the state y, in floats; nan
-        where one has no value.
+        """The sums of the sizes of the summands of each invariant at the state y, in floats; nan if
+        one has no value.
         """
         import numpy as np
 
@@ -104,7 +102,7 @@ class Measure:
 
     @cached_property
     def _alone(self) -> list[Callable[..., list[Any]]]:
-        """Each for itself, for states at which one of them has no value."""
+        """Functions of single invariants, for states at which one of them has no value."""
         arguments = unknowns(self._problem)
         return [function((x,), arguments, bool(self._bits)) for x in conserved(self._problem)]
 
@@ -130,7 +128,7 @@ class Measure:
 
 
 def _values_of(expressions: Callable[..., list[Any]], y: Sequence[Any]) -> list[Any]:
-    """Expressions at the state y; one number that is none where one of them has no value."""
+    """Expressions at the state y; a single nan or inf if one of them has no value."""
     try:
         return expressions(*y)
     except OverflowError:

@@ -1,4 +1,4 @@
-"""What is kept of a long trajectory while it goes by."""
+"""Records sums, extremes and samples of a long trajectory."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ _FAR = 2.0
 
 
 class Excursions:
-    """Counts the turns of all coordinates, and keeps how far each position went up to its last one,
-    in pieces.
+    """Counts the turns of all coordinates, and the extent of each position up to its last turn, in
+    pieces.
 
-    A position has escaped at the end when it had turned back twice, and is now twice as far from
-    zero as it ever was before it or its momentum turned for the last time. An angle that begins to
-    rotate does not escape: its momentum goes on oscillating.
+    A position has escaped at the end if it had turned back twice, and is now twice as far from zero
+    as before it or its momentum turned for the last time. An angle that begins to rotate does not
+    escape: its momentum goes on oscillating.
     """
 
     def __init__(self) -> None:
@@ -40,7 +40,7 @@ class Excursions:
         self._positions: Floats = np.zeros(0)  # at the end
 
     def _shape_for(self, d: int) -> None:
-        """Begin to count for d degrees of freedom."""
+        """Prepares for d degrees of freedom."""
         import numpy as np
 
         # turns of each coordinate, and the step of the last turn of each pair (q, p)
@@ -51,14 +51,12 @@ class Excursions:
 
     @property
     def turns(self) -> int:
-        """How often the coordinate that oscillates fastest has turned back."""
+        """The number of turns of the coordinate that oscillates fastest."""
         return int(self._turned.max(initial=0))
 
     @property
     def escape(self) -> int | None:
-        """The number of the last step before a position has escaped, the latest of all; None where
-        none has.
-        """
+        """The number of the last step before a position has escaped, the latest of all; or None."""
         was_bound = self._turned[: len(self._positions)] >= _BOUND
         is_far = abs(self._positions) > _FAR * self._bounds
         has_escaped = was_bound & is_far
@@ -68,8 +66,8 @@ class Excursions:
         return int(steps.max())
 
     def add(self, first: int, states: Floats) -> None:
-        """The states of the steps ``first``, ``first`` + 1, …, shape (m, 2d); pieces overlap in two
-        states.
+        """Adds the states of the steps ``first``, ``first`` + 1, …, shape (m, 2d); pieces overlap
+        in two states.
         """
         import numpy as np
 
@@ -90,9 +88,8 @@ class Excursions:
             self._add_position(i, first, sizes[:, i], turns)
 
     def _add_position(self, i: int, first: int, sizes: Floats, turns: Integers) -> None:
-        """Of position i: |q| in the steps from ``first`` on, and where it or its momentum turned.
-
-        The turn number n is about the state n + 1.
+        """Adds |q| of position i in the steps from ``first`` on, with the turns of it or its
+        momentum. The turn number n belongs to the state n + 1.
         """
         beyond = self._beyond[i]
         if not turns.size:
@@ -107,7 +104,7 @@ class Excursions:
 
 
 COMPARED = 128
-"""How many steps the first errors are kept of, all of them."""
+"""The number of first steps whose errors are all kept."""
 # how many times the energy the energy error is when the failure of a step is called a blow-up
 _BLOWN = 1000
 _CHUNK = 8192  # steps measured at a time
@@ -119,26 +116,26 @@ _PARTS = 4  # equal parts of a run at whose ends the state is kept
 
 
 class Record:
-    """Sums and extremes of all errors, and a few of the errors and states themselves.
+    """Sums and extremes of all errors, and samples of errors and states.
 
     Args:
-        measure: of the invariants.
-        count: how many steps there will be.
-        points: about how many errors to keep.
+        measure: the measure of the invariants.
+        count: the number of steps.
+        points: about the number of errors to keep.
 
     Attributes:
-        trends: of the errors.
+        trends: the trends of the errors.
         largest: the largest |error| of each invariant.
         first: the errors of the start and of the first ``COMPARED`` steps, shape (steps,
             invariants).
-        states: those at the start and after each quarter of the steps, by the number of the step.
+        states: at the start and after each quarter of the steps, by the number of the step.
         done: the last step measured.
-        excursions: how often coordinates turn back, and how far they go.
-        exchange: of energy, along the trajectory.
-        blew_up: whether the steps ended there because the first quantity has passed all bounds.
+        excursions: the turns and extents of coordinates.
+        exchange: the exchange of energy along the trajectory.
+        blew_up: whether the run ended because the first quantity grew beyond all bounds.
         has_moved: whether a state differs from the start by more than rounding.
-        lost: the first step at which an invariant has no value, or one too large for squares of
-            it, by the number of the invariant; its errors are nan from there on, and count no more.
+        lost: by the number of an invariant, the first step at which it has no value or one too
+            large to square; its errors are nan from there on.
     """
 
     def __init__(self, measure: Measure, count: int, points: int) -> None:
@@ -168,25 +165,23 @@ class Record:
 
     @property
     def kept_numbers(self) -> Integers:
-        """The steps whose errors are kept: where one is extreme in a span of equal length, and both
-        ends.
-        """
+        """The steps whose errors are kept: extremes of equal spans, and both ends."""
         import numpy as np
 
         return np.array(self._numbers)
 
     @property
     def kept_errors(self) -> Floats:
-        """Their errors, shape (steps, invariants)."""
+        """The errors of these steps, shape (steps, invariants)."""
         import numpy as np
 
         return np.concatenate(self._errors)
 
     def take(self, path: Iterator[list[Any]]) -> None:
-        """Measure all states of ``path``, or those before a blow-up.
+        """Measures all states of ``path``, or those before a blow-up.
 
         Raises:
-            StepFailed: a step has failed, and that was not the end of a blow-up.
+            StepFailed: a step has failed without a blow-up.
         """
         chunk = self._span * max(1, _CHUNK // self._span)
         while self.done < self.count and not self.blew_up:
@@ -237,11 +232,11 @@ class Record:
         self._watch(np.array(states[:count], dtype=np.float64))
 
     def lose(self, start: int, errors: Floats) -> None:
-        """Note which invariants have no value from some step on; what comes after it is nan too.
+        """Notes invariants that have no value from some step on; their errors become nan.
 
         Args:
             start: the number of the first step.
-            errors: of the steps from there on, shape (m, invariants); these are changed.
+            errors: the errors from there on, shape (m, invariants), changed in place.
         """
         import numpy as np
 
@@ -268,7 +263,7 @@ class Record:
         return sorted(chosen)
 
     def _watch(self, states: Floats) -> None:
-        """What the motion itself does; two states are carried over from piece to piece."""
+        """Follows the motion; two states are carried over from piece to piece."""
         import numpy as np
 
         first = self.done - len(states) + 1
@@ -289,9 +284,7 @@ class Record:
 
 
 def extremes(errors: Floats, points: int) -> Integers:
-    """Indices of the least and the greatest value of equal spans, so that a wave keeps its height
-    in a plot.
-    """
+    """Indices of the minimum and maximum of equal spans, so that plots keep the height of waves."""
     import numpy as np
 
     if len(errors) <= points:

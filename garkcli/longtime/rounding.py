@@ -1,5 +1,4 @@
-"""What rounding can do to conserved quantities: that of the numbers stepped with, and that of the
-coefficients of the method.
+"""Bounds on the effect of rounding on conserved quantities: of floats, and of the coefficients.
 
 Both are derived in docs/energy.md.
 """
@@ -30,14 +29,14 @@ _HIGHER = 2.0  # for the terms of higher order in h and in the tolerance
 
 
 def unit_round_off(digits: int) -> float:
-    """The relative error of one operation on numbers of ``digits``."""
+    """The relative error of one operation with ``digits`` digits."""
     return _UNIT if digits <= FLOAT_DIGITS else 10.0**-digits
 
 
 def power_of_ten(x: float) -> float:
-    """The least power of ten that is not below ``x``; 0 for 0, and infinite for infinity.
+    """The least power of ten that is at least ``x``; 0 for 0, and infinite for infinity.
 
-    A bound on rounding errors is worth its power of ten only, and says the same on every machine.
+    Bounds on rounding errors are only good to a power of ten, which is the same on every machine.
 
     >>> power_of_ten(2.3e-13)
     1e-12
@@ -48,12 +47,12 @@ def power_of_ten(x: float) -> float:
 
 
 class Exchange:
-    """How much energy the two halves of the equations of motion exchange along a trajectory.
+    """The energy exchanged by the two halves of the equations of motion along a trajectory.
 
     Collects the sums over all steps, in pieces.
 
     Attributes:
-        steps: how many have been summed.
+        steps: the number of steps summed.
         first: Σ Δq·Δp, with its sign: h² Σ q̇·ṗ to leading order.
         second: Σ |Δq·Δ²p| + |Δp·Δ²q|: h³ Σ |q̇·p̈| + |ṗ·q̈| to leading order.
     """
@@ -64,7 +63,7 @@ class Exchange:
         self.second = 0.0
 
     def add(self, states: Floats) -> None:
-        """Consecutive states, shape (m, 2d); pieces overlap in two states."""
+        """Adds consecutive states, shape (m, 2d); pieces overlap in two states."""
         import numpy as np
 
         if len(states) < 3:
@@ -92,11 +91,11 @@ class Exchange:
 def energy_rate(
     tableau: Tableau, tolerance: fmpq | None, h: float, powers: tuple[float, float]
 ) -> float:
-    """The energy per unit of time that the rounding of coefficients can cause, to leading order.
+    """The energy per unit of time that rounding of coefficients can cause, to leading order.
 
     Args:
-        tableau: with the coefficients as printed.
-        tolerance: what each coefficient is good to; None for exact ones.
+        tableau: the printed method.
+        tolerance: the rounding of each coefficient; None for exact ones.
         h: the step size.
         powers: along the trajectory, see ``Exchange``.
     """
@@ -113,14 +112,9 @@ def invariant_rate(
     problem: RightHandSide,
     states: Iterable[tuple[float, Sequence[Any]]],
 ) -> float:
-    """What of the first invariant I the rounding of coefficients can cause per unit of time: a
-    stage that counts too much moves I by h ∂I/∂y·f^{l}, and these cancel in the sum alone.
-
-    Args:
-        tableau: with the coefficients as printed.
-        tolerance: what each coefficient is good to; None for exact ones.
-        problem: with an invariant.
-        states: times, and y then; those at which I has no slope do not count.
+    """The change of the first invariant I per unit of time that rounding of coefficients can cause:
+    a stage with too much weight moves I by h ∂I/∂y·f^{l}, which cancels only in the sum. ``states``
+    are pairs of time and y; those at which I has no slope are ignored.
     """
     if tolerance is None:
         return 0.0
@@ -141,10 +135,10 @@ def invariant_rate(
 
 
 def sensitivity(tableau: Tableau) -> tuple[float, float]:
-    """How much the conditions of orders 1 and 2 change with coefficients that change by one unit.
+    """The changes of the conditions of orders 1 and 2 when coefficients change by one unit.
 
-    Of order 1: the number of stages, where colours for positions and for momenta have weights of
-    their own that can sum to different numbers, else 0. Of order 2: Σ_l Σ_i |c^l_i| + s |b^l_i|.
+    Order 1: the number of stages if positions and momenta have weights of their own, whose sums can
+    differ, else 0. Order 2: Σ_l Σ_i |c^l_i| + s |b^l_i|.
     """
     printed = entries(tableau)
     stages = max(len(row) for row in printed.b)
@@ -154,6 +148,5 @@ def sensitivity(tableau: Tableau) -> tuple[float, float]:
 
 
 def _sum_of_sizes(rows: Iterable[Iterable[Any]]) -> float:
-    """Σ |x| over all entries, exact numbers or enclosed ones."""
     every = (x for row in rows for x in row)
     return sum(abs(float(x) if isinstance(x, arb) else to_float(x)) for x in every)

@@ -1,9 +1,8 @@
-"""How symplectic a step is: MᵀJM − J for the Jacobian M of one step, J = (0 I; −I 0).
+"""Measures symplecticity: MᵀJM − J for the Jacobian M of one step, J = (0 I; −I 0).
 
-M is found by central differences of steps with so many digits that neither truncation nor rounding
-comes near the round-off of floats; how good it is shows in the change when the perturbation is
-doubled. The step of the oscillator is linear, and there RᵀJR − J = (det R − 1) J exactly, see
-``garkcli.longtime.history``.
+M is found by central differences of steps with so many digits that truncation and rounding are far
+below the round-off of floats; doubling the perturbation shows its error. The step of the oscillator
+is linear, and there RᵀJR − J = (det R − 1) J exactly, see ``garkcli.longtime.history``.
 """
 
 from __future__ import annotations
@@ -34,12 +33,12 @@ _SAFETY = 8
 
 
 class Defect(Frozen):
-    """How far a step from one state is from being symplectic.
+    """The deviation of a step from symplecticity.
 
     Attributes:
-        time: of the state.
+        time: the time of the state.
         size: the largest entry of MᵀJM − J, in absolute value.
-        error: what ``size`` is good to; a symplectic step has ``size <= error``.
+        error: the uncertainty of ``size``; a symplectic step has ``size <= error``.
     """
 
     time: fmpq
@@ -56,8 +55,8 @@ class Symplecticity(Frozen):
     """Whether the steps of a method on a problem are symplectic.
 
     Attributes:
-        is_proved: whether they are by the coefficients, see the function of this name.
-        defects: those measured; none where it was not asked for.
+        is_proved: whether the coefficients prove it, see the function of this name.
+        defects: the measured defects; empty if not requested.
     """
 
     is_proved: bool
@@ -68,13 +67,13 @@ class Symplecticity(Frozen):
 def symplecticity_defects(
     tableau: Tableau, problem: Hamiltonian, step: fmpq, states: Sequence[State]
 ) -> tuple[Defect, ...]:
-    """Measure the steps from some states.
+    """Measures the defects of steps from some states.
 
     Args:
-        tableau: of any structure.
-        problem: in as many terms as the tableau is for, or in one that has a natural split.
+        tableau: a method of any structure.
+        problem: in as many terms as the tableau has, or in one with a natural split.
         step: h.
-        states: times, and (q, p) then, as ``LongRun.states`` has them.
+        states: pairs of time and (q, p), as in ``LongRun.states``.
 
     Raises:
         StepFailed: the stage equations of one were not solved.
@@ -87,7 +86,6 @@ def symplecticity_defects(
 
 
 def _exactly(x: Any) -> fmpq | arb:
-    """A float as the rational number it is."""
     if not isinstance(x, float):
         exact: fmpq | arb = x
         return exact
@@ -114,10 +112,7 @@ def _defect(method: Integrator, step: fmpq, time: fmpq, y: Sequence[Any]) -> Def
 
 
 def _jacobian(method: Integrator, step: fmpq, y: Sequence[Any], delta: fmpq) -> Jacobian:
-    """∂y₁/∂y by central differences with the width ``delta``."""
-
     def moved(i: int, by: fmpq) -> list[Any]:
-        """One step from ``y`` with its entry ``i`` changed."""
         start = list(y)
         start[i] = arb(y[i]) + arb(by)
         return integrate(method, step, 1, start)
@@ -132,7 +127,6 @@ def _jacobian(method: Integrator, step: fmpq, y: Sequence[Any], delta: fmpq) -> 
 
 
 def _deviation(M: Jacobian) -> arb:
-    """The largest entry of MᵀJM − J."""
     d = len(M) // 2
     largest = arb(0)
     for i in range(2 * d):
@@ -148,7 +142,7 @@ def _deviation(M: Jacobian) -> arb:
 
 
 def holds(tableau: Tableau, tolerance: fmpq | None = None) -> bool:
-    """Whether b_i b_j = b_i a_ij + b_j a_ji throughout, exactly or within a tolerance: all steps
+    """Whether b_i b_j = b_i a_ij + b_j a_ji throughout, exactly or within a tolerance, so all steps
     are symplectic.
     """
     return is_symplectic(meant(tableau, tolerance))
@@ -156,11 +150,8 @@ def holds(tableau: Tableau, tolerance: fmpq | None = None) -> bool:
 
 @doing("symplecticity")
 def is_proved(tableau: Tableau, problem: Hamiltonian, tolerance: fmpq | None = None) -> bool:
-    """Whether the steps of ``tableau`` on ``problem``, as ``symplecticity_defects`` takes them, are
-    symplectic by coefficients.
-
-    Of a problem whose terms depend on positions or on momenta alone, only the blocks that it can
-    see count.
+    """Whether the coefficients make the steps of ``tableau`` on ``problem`` symplectic. If terms
+    depend on positions or on momenta only, just the blocks that the problem sees count.
     """
     if holds(tableau, tolerance):
         return True

@@ -1,26 +1,25 @@
-"""Drift told apart from oscillation, in a signal too long to be kept.
+"""Distinguishes drift from oscillation in a signal too long to be stored.
 
 The errors e_0 … e_N of a conserved quantity are a slow trend, an oscillation of many frequencies,
 and noise. A line is fitted to a window [a, b] of the run by least squares with the weight
 
     w(s) = exp(−1/(s(1 − s))),      s = (n/N − a)/(b − a) ∈ (0, 1),
 
-which is smooth and vanishes with all derivatives at both ends. What an oscillation of frequency f
-adds to the slope is a Fourier coefficient of w, smaller than any power of 1/f; with equal weights
-it would be 1/f² only. Sums of twenty-odd windows are kept, whatever N is.
+which is smooth and vanishes with all derivatives at both ends. An oscillation of frequency f adds a
+Fourier coefficient of w to the slope, smaller than any power of 1/f; with equal weights it would be
+1/f² only. About twenty sums are kept for any N.
 
 The uncertainty of the slope has two parts, see docs/energy.md:
 
-- how far the slopes of the halves are from it, and how much those of the quarters vary: noise,
-  however it is correlated, and modulations that are not much longer than the run;
-- how much the height of the oscillation changes from quarter to quarter. What modulates the height
-  modulates the mean too, and a modulation much longer than the run is a line for all of its parts.
+- the distance of the slopes of the halves from it, and the variation of those of the quarters:
+noise, correlated or not, and modulations that are not much longer than the run; - the change of the
+height of the oscillation from quarter to quarter. A modulation of the height modulates the mean
+too, and one much longer than the run is a line in all parts.
 
-A slope of less than its uncertainty is none, one of ten times as much is a drift, and what lies
-between is undecided. A trend of another shape than a line is a drift too when the averages over the
-eighths keep rising, or falling, by more than the signal oscillates there. A single move to
-another level is undecided: it may be the first of many, or the last. What is known of the method
-besides is weighed in ``garkcli.longtime.longtime``.
+A slope below its uncertainty is no drift, one above ten times as much is a drift, and between them
+it is undecided. A trend of another shape is a drift if the averages over the eighths keep rising,
+or falling, by more than the signal oscillates there. A single move to another level is undecided.
+``garkcli.longtime.longtime`` also uses what is known of the method.
 """
 
 from __future__ import annotations
@@ -35,7 +34,7 @@ if TYPE_CHECKING:
 
 
 def _windows(parts: int, length: int) -> list[tuple[float, float]]:
-    """The windows of ``length`` parts, one after every part of a run in so many."""
+    """The windows of ``length`` parts, starting at each part of a run of ``parts``."""
     return [(k / parts, (k + length) / parts) for k in range(parts - length + 1)]
 
 
@@ -51,12 +50,12 @@ _FLOAT_SQUARED = 2.0**-40  # rounding of sums of squares, of the mean square
 
 
 class Windows(Frozen):
-    """What is fitted to the windows of one signal.
+    """The lines fitted to the windows of one signal.
 
     Attributes:
-        slopes: of the lines, per run, shape (windows,).
-        levels: of the lines, in the middle.
-        heights: root mean squares of what oscillates around the lines.
+        slopes: the slopes of the lines, per run, shape (windows,).
+        levels: the lines in the middle of the windows.
+        heights: root mean squares of the oscillation around the lines.
     """
 
     slopes: Floats
@@ -65,17 +64,13 @@ class Windows(Frozen):
 
 
 Shape: TypeAlias = Literal["none", "line", "curve", "step"]
-"""What a trend looks like: a line, something that rises or falls all along, or a move to another
-level.
-"""
+"""The shape of a trend: a line, a rise or fall throughout, or a move to another level."""
 Finding: TypeAlias = Literal["none", "undecided", "drift"]
-"""No trend to be distinguished from oscillation and noise; one that a modulation may explain; a
-drift.
-"""
+"""No trend above oscillation and noise; one that a modulation may explain; a drift."""
 LEAST = 64
 """Fewest steps that are judged: eight for each eighth."""
 CERTAIN = 10.0
-"""How many times its uncertainty a slope has to be for a drift.
+"""A drift has a slope of at least so many times its uncertainty.
 
 Of 480 runs of symplectic methods on systems of two planets none comes to that, see
 docs/energy.md.
@@ -96,13 +91,12 @@ class Trend(Frozen):
     """The slow part of one signal e_0 … e_N.
 
     Attributes:
-        slope: of the fitted line, per step.
+        slope: the slope of the fitted line, per step.
         uncertainty: of ``slope``.
         finding: whether the trend is a drift.
-        shape: of the trend; "none" where there is none to be distinguished from oscillation and
-            noise.
-        move: the size of what is undecided, where that is no line.
-        net: how far apart the levels at the start and at the end of the run are.
+        shape: of the trend; "none" if it is within oscillation and noise.
+        move: the size of an undecided trend that is not a line.
+        net: the distance of the levels at the start and end of the run.
     """
 
     slope: float
@@ -113,8 +107,8 @@ class Trend(Frozen):
     net: float = 0.0
 
     def exceeds(self, bound: float, count: int) -> bool:
-        """Whether the trend over ``count`` steps is more than ``bound`` can explain: a line, less
-        its uncertainty; of another shape, the change of level.
+        """Whether the trend over ``count`` steps is more than ``bound`` explains: a line without
+        its uncertainty, or another change of level.
         """
         if self.shape == "line":
             return (abs(self.slope) - self.uncertainty) * count > bound
@@ -122,17 +116,11 @@ class Trend(Frozen):
 
 
 class Trends:
-    """Collects several signals of the same length, in pieces, and finds the trend of each: by sums
-    from which lines are fitted.
+    """Collects several signals of the same length, in pieces, as sums from which the trend of each
+    is fitted.
 
-    Args:
-        count: N, the number of the last error.
-        signals: how many there are.
-
-    Attributes:
-        count: N.
-        largest: the size of the largest error of each signal.
-        ranges: the least and the greatest error of each half of the run, shape (2, 2, signals).
+    ``count`` is N, the number of the last error; ``largest`` has the largest |error| of each
+    signal, ``ranges`` the minimum and maximum of each half of the run, shape (2, 2, signals).
     """
 
     def __init__(self, count: int, signals: int) -> None:
@@ -157,7 +145,7 @@ class Trends:
         self.ranges[:, 1] = -np.inf
 
     def add(self, first: int, errors: Floats) -> None:
-        """The errors e_first, e_{first+1}, …, shape (m, signals)."""
+        """Adds the errors e_first, e_{first+1}, …, shape (m, signals)."""
         import numpy as np
 
         np.maximum(self.largest, np.abs(errors).max(axis=0), out=self.largest)
@@ -228,11 +216,11 @@ class Trends:
         return Windows(slopes, levels, np.sqrt(left))
 
     def of(self, signal: int, noise: float = 0.0) -> Trend:
-        """The trend of one signal, all of whose errors have been added; ``LEAST`` at least.
+        """The trend of one signal with all of at least ``LEAST`` errors.
 
         Args:
-            signal: which one.
-            noise: what the errors are good to; no trend is smaller.
+            signal: its index.
+            noise: the uncertainty of the errors, a lower bound for trends.
         """
         found = self._fitted(signal)
         least = noise + _FLOAT * float(self.largest[signal])
@@ -257,8 +245,8 @@ class Trends:
         return Trend(slope / count, uncertainty / count, finding, shape, move, net)
 
     def _move(self, signal: int, found: Windows, least: float) -> float:
-        """How far the first or last eighth lies apart, or one half of the run leaves the range of
-        the other; 0 where neither does.
+        """The distance of the first or last eighth from the others, or of one half of the run from
+        the range of the other; 0 if there is none.
         """
         move = _move_of_an_end(found, least)
         first, second = self.ranges[:, :, signal].tolist()
@@ -272,7 +260,7 @@ class Trends:
 
 
 def _move_of_an_end(found: Windows, least: float) -> float:
-    """How far the first or the last eighth lies apart from the others; 0 where neither does."""
+    """The distance of the first or last eighth from the others; 0 if it is within noise."""
     levels = found.levels[OF_EIGHTHS].tolist()
     height = float(found.heights[OF_EIGHTHS].max())
     first, *after_first = levels
@@ -288,7 +276,7 @@ def _move_of_an_end(found: Windows, least: float) -> float:
 
 
 def _uncertainty(found: Windows) -> float:
-    """Of the slope of the whole run, per run, but for rounding."""
+    """The uncertainty of the slope of the whole run, per run, without rounding."""
     import numpy as np
 
     slope = found.slopes[0]
@@ -303,8 +291,8 @@ def _uncertainty(found: Windows) -> float:
 
 
 def _climbs(found: Windows, least: float) -> bool:
-    """Whether the levels keep rising, or falling, by more than the signal oscillates: clearly so
-    from eighth to eighth, or by its height from eighth to eighth and clearly so in all.
+    """Whether the levels keep rising, or falling, by more than the signal oscillates: clearly from
+    eighth to eighth, or by its height from eighth to eighth and clearly in total.
     """
     import numpy as np
 
@@ -333,8 +321,8 @@ def _goes_on(moves: Floats, clear: Floats) -> bool:
 
 
 def _net(found: Windows, least: float) -> float:
-    """How far apart the first and the last level are, if that is clear and more than half of what
-    all levels vary; 0 if not.
+    """The distance of the first and last level, if it is clear and more than half of the range of
+    all levels; else 0.
     """
     levels: list[float] = found.levels[OF_EIGHTHS].tolist()
     heights: list[float] = found.heights[OF_EIGHTHS].tolist()
