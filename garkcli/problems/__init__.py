@@ -1,3 +1,3 @@
-"""What is integrated: Hamiltonian problems, built in or of your own, and the harmonic
+"""Problems: Hamiltonian ones, right-hand sides, built in or of your own, and the harmonic
 oscillator.
 """

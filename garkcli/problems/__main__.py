@@ -1,4 +1,4 @@
-"""``python -m garkcli.problems``: sympy answers all questions about built-in problems anew."""
+"""``python -m garkcli.problems``: writes sympy's answers about built-in problems."""
 
 from __future__ import annotations
 
@@ -25,7 +25,6 @@ from garkcli.problems.straightline import code_of
 from garkcli.problems.vectorfield import GROUPS, Group, Layout, VectorField
 
 TERMS = (1, 2, 3)
-"""The numbers of terms in which the problems are known."""
 
 
 def answers(name: str, terms: int) -> Record:
@@ -75,8 +74,6 @@ def _ask_field(field: VectorField, layout: Layout) -> None:
 
 
 def answers_of_clock() -> Record:
-    """Answers to the questions about ṫ = 1."""
-
     def work() -> None:
         code_of.cache_clear()
         of = problem("prothero-robinson", 1)
@@ -93,7 +90,7 @@ def _write(name: str, records: Iterable[Record]) -> None:
 
 
 def main() -> None:
-    """Write a file a problem, and one of the clock."""
+    """Writes one file for each problem, and one for the clock."""
     for name in PROBLEMS:
         _write(name, [answers(name, terms) for terms in TERMS])
     _write("clock", [answers_of_clock()])

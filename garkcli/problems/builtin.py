@@ -1,7 +1,7 @@
-"""The built-in problems: one list, from which the choices of ``--problem``, ``gark list`` and
+"""The list of built-in problems, from which the choices of ``--problem``, ``gark list`` and
 docs/problems.md are made.
 
-A problem is added by an entry here, and its test.
+To add a problem, add an entry here, and a test.
 """
 
 from __future__ import annotations
@@ -33,22 +33,20 @@ from garkcli.problems.problem import Problem
 from garkcli.problems.righthandside import RightHandSide
 
 Maker: TypeAlias = Callable[[int, int], Problem]
-"""Makes a problem of a number of terms and a seed."""
 StiffMaker: TypeAlias = Callable[[int, fmpq], RightHandSide]
-"""Makes a problem of a number of terms and a stiffness."""
 
 
 class BuiltIn(Frozen):
     """A built-in problem.
 
     Attributes:
-        name: what ``--problem`` takes.
+        name: its name for ``--problem``.
         summary: one line for ``gark list``.
         formula: H, or the sum of the right-hand sides, for people.
-        sees: which trees it sees, for people.
-        make: makes it.
+        sees: the trees that it sees, for people.
+        make: makes the problem.
         takes_seed: whether its coefficients depend on the seed.
-        stiff: makes it with a stiffness, where it has one to be chosen.
+        stiff: makes the problem with a stiffness, if it has one.
     """
 
     name: str
@@ -70,7 +68,7 @@ def mechanical(name: str, summary: str, formula: str, sees: str, made: Mechanica
 
 
 def stiff_one(name: str, summary: str, formula: str, sees: str, made: StiffMaker) -> BuiltIn:
-    """An entry for stiff right-hand sides; their stiffness is 1 where none is chosen."""
+    """An entry for stiff right-hand sides, with stiffness 1 by default."""
 
     def make(terms: int, _: int) -> RightHandSide:
         return made(terms, fmpq(1))
@@ -83,8 +81,8 @@ def problem(name: str, terms: int, seed: int = 1, stiffness: fmpq | None = None)
 
     Args:
         name: a key of ``PROBLEMS``.
-        terms: how many.
-        seed: of those with random coefficients.
+        terms: the number of terms.
+        seed: for random coefficients.
         stiffness: if the problem has one; 1 by default.
 
     Raises:
@@ -102,10 +100,10 @@ def problem(name: str, terms: int, seed: int = 1, stiffness: fmpq | None = None)
 
 
 def check_stiffness(name: str) -> None:
-    """Refuse a stiffness for a built-in problem that has none.
+    """Refuses a stiffness for a built-in problem without one.
 
     Raises:
-        UsageProblem: it would change nothing.
+        UsageProblem: the problem has no stiffness.
     """
     if built_in(name).stiff is None:
         takers = ", ".join(x.name for x in PROBLEMS.values() if x.stiff is not None)
@@ -114,11 +112,10 @@ def check_stiffness(name: str) -> None:
 
 
 def hamiltonian(name: str, terms: int, seed: int = 1) -> Hamiltonian:
-    """The Hamiltonian problem called ``name``, split into ``terms`` terms; ``seed`` is for those
-    with random coefficients.
+    """The Hamiltonian problem called ``name``, split into ``terms`` terms; ``seed`` is for random
+    coefficients.
 
-    Raises:
-        UsageProblem: there is no such problem, or it is not Hamiltonian.
+    Raises ``UsageProblem`` if there is no such problem, or it is not Hamiltonian.
 
     >>> [str(x) for x in hamiltonian("pendulum", 2).terms]
     ['px**2/2', '1 - cos(x)']
@@ -143,12 +140,12 @@ def built_in(name: str) -> BuiltIn:
 
 
 def is_path(text: str) -> bool:
-    """Whether this is the path of a problem file rather than the name of one of these."""
+    """Whether a text is the path of a problem file, not the name of a built-in problem."""
     return text == "-" or text.endswith((".yaml", ".yml")) or "/" in text or "\\" in text
 
 
 def check_seed(name: str, seed: int | None) -> None:
-    """Refuse a seed for a problem that has no random coefficients, be it one of a file.
+    """Refuses a seed for a problem without random coefficients, also one from a file.
 
     Raises:
         UsageProblem: ``seed`` is given and would change nothing.
@@ -328,10 +325,9 @@ _ENTRIES = (
     ),
 )
 PROBLEMS: Mapping[str, BuiltIn] = {entry.name: entry for entry in _ENTRIES}
-"""The problems by name, in the order in which they are shown."""
 GENERIC = ("generic", "generic-semi-separable", "generic-separable", "generic-nystrom")
-"""The Hamiltonian ones that see every tree of a structure, from the most general one to the most
+"""Hamiltonian problems that see every tree of a structure, from the most general to the most
 special.
 """
 GENERIC_RHS = "generic-rhs"
-"""That of right-hand sides."""
+"""The generic problem of right-hand sides."""

@@ -1,5 +1,5 @@
-"""Expressions of built-in problems that sympy makes on first use; the files of ``known/`` answer
-most questions about them without sympy.
+"""Expressions of built-in problems, made by sympy on first use; files in ``known/`` answer most
+questions without sympy.
 
 ``make known`` writes these files. sympy computes an answer that they lack.
 """
@@ -18,11 +18,10 @@ from garkcli.problems.expr import Expr, Exprs, Invariants, Vector
 
 T = TypeVar("T")
 Answer: TypeAlias = Any
-"""What JSON can say."""
+"""A value of JSON."""
 Record: TypeAlias = dict["Deferred", dict[str, Answer]]
-"""Answers by expressions and by questions."""
 KNOWN = Path(__file__).resolve().parent / "known"
-"""The folder with a file a problem: answers by the names of expressions and by questions."""
+"""The folder with one file per problem: answers by names of expressions and questions."""
 _record: ContextVar[Record | None] = ContextVar("record", default=None)
 
 
@@ -30,12 +29,12 @@ class Deferred(Sequence[Expr]):
     """Several sympy expressions, made on first use.
 
     Args:
-        name: says which they are; equal names mean equal expressions. It begins with the name of
-            the built-in problem and a blank.
+        name: identifies them; equal names mean equal expressions. It begins with the name of the
+            built-in problem and a blank.
         make: makes them.
-        names: what each is called, if they are named.
-        count: how many there are, where that is known.
-        total: their sum, where it is kept under a name of its own.
+        names: the names of the expressions, if any.
+        count: their number, if known.
+        total: their sum, if it has a name of its own.
     """
 
     def __init__(
@@ -51,11 +50,10 @@ class Deferred(Sequence[Expr]):
 
     @cached_property
     def made(self) -> Exprs:
-        """The expressions."""
         return tuple(self._make())
 
     def derived(self, what: str, make: Callable[[], Vector], count: int | None = None) -> Deferred:
-        """Expressions made of these, such as their derivatives."""
+        """Expressions derived from these, such as derivatives."""
         return Deferred(f"{self.name}, {what}", make, count)
 
     @overload
@@ -91,7 +89,7 @@ class Deferred(Sequence[Expr]):
 
 
 def ask(of: Vector, question: str, compute: Callable[[], T]) -> T:
-    """The answer to a question about expressions: the known one, or that of ``compute``."""
+    """The answer to a question about expressions, known or computed."""
     if not isinstance(of, Deferred):
         return compute()
     record = _record.get()
@@ -106,7 +104,7 @@ def ask(of: Vector, question: str, compute: Callable[[], T]) -> T:
 
 @cache
 def known(problem: str) -> Mapping[str, Mapping[str, Answer]]:
-    """The known answers on a built-in problem, by the names of expressions and by questions."""
+    """The known answers on a built-in problem, by names of expressions and questions."""
     path = KNOWN / f"{problem}.json"
     if not path.exists():
         return {}
@@ -126,7 +124,6 @@ def recorded(work: Callable[[], object]) -> Record:
 
 
 def names_of(invariants: Invariants) -> tuple[str, ...]:
-    """The names of invariants."""
     if isinstance(invariants, Deferred):
         return invariants.names
     return tuple(name for name, _ in invariants)

@@ -1,6 +1,5 @@
-"""Numbers that look random and are the same on every machine and with every version of Python.
-
-``random.Random`` promises that for ``random()`` alone: its ``choice`` and ``randint`` may change.
+"""Pseudorandom integers that are the same on every machine and with every version of Python:
+``random.Random`` promises that for ``random()`` only, not for ``choice`` and ``randint``.
 """
 
 from __future__ import annotations
@@ -14,10 +13,10 @@ _SECOND_FACTOR = 0x94D049BB133111EB
 
 
 class Draw:
-    """A sequence of whole numbers, the same for the same ``seed``: SplitMix64.
+    """A sequence of integers determined by ``seed``: SplitMix64.
 
     Args:
-        seed: any whole number; seeds that differ by a multiple of 2^64 are the same.
+        seed: any integer, taken modulo 2^64.
 
     >>> draw = Draw(1234567)
     >>> draw.word(), draw.word()
@@ -28,7 +27,7 @@ class Draw:
         self._state = seed % _WORD
 
     def word(self) -> int:
-        """The next number, from 0 to 2^64 − 1."""
+        """The next integer, from 0 to 2^64 − 1."""
         self._state = (self._state + _STEP) % _WORD
         z = self._state
         z = (z ^ (z >> 30)) * _FIRST_FACTOR % _WORD
@@ -36,9 +35,8 @@ class Draw:
         return z ^ (z >> 31)
 
     def between(self, low: int, high: int) -> int:
-        """A whole number from ``low`` to ``high``, both included."""
+        """An integer from ``low`` to ``high``, inclusive."""
         return low + self.word() * (high - low + 1) // _WORD
 
     def sign(self) -> int:
-        """−1 or 1."""
         return 2 * self.between(0, 1) - 1

@@ -19,9 +19,7 @@ DEGREE = 8
 order 8.
 """
 VARIABLES = ("x", "y")
-"""The positions."""
 UNKNOWNS = ("x", "y", "z")
-"""Those of right-hand sides."""
 _FORMS = 3  # powers of linear forms in each term
 # step and time; the solutions need not exist for longer
 _LONG_RUN = (fmpq(1, 100), fmpq(1))
@@ -29,9 +27,7 @@ _LONG_RUN = (fmpq(1, 100), fmpq(1))
 
 def generic(terms: int, seed: int) -> Hamiltonian:
     """H^{l} = Σ_k c_k (1 + a_k·(q, p))^8, with random rational c_k and a_k: every term has every
-    derivative.
-
-    The terms stay small, so that all solutions from the start exist to the final time.
+    derivative. The terms are small, so solutions exist to the final time.
     """
     draw = Draw(seed)
     split = [_polynomial(draw, "qp", terms) for _ in range(terms)]
@@ -39,7 +35,7 @@ def generic(terms: int, seed: int) -> Hamiltonian:
 
 
 def semi_separable(terms: int, seed: int) -> Hamiltonian:
-    """H^{1}(q, p) + Σ_l U^{l}(q), for methods that give forces to all terms but the first."""
+    """H^{1}(q, p) + Σ_l U^{l}(q), for methods that give forces to all terms except the first."""
     draw = Draw(seed)
     split = [_polynomial(draw, "qp", terms)]
     while len(split) < terms:
@@ -48,26 +44,20 @@ def semi_separable(terms: int, seed: int) -> Hamiltonian:
 
 
 def separable(terms: int, seed: int) -> Hamiltonian:
-    """T(p) + Σ_l U^{l}(q): velocities and forces alternate, and nothing else is missing."""
+    """T(p) + Σ_l U^{l}(q): sees all trees in which velocities and forces alternate."""
     draw = Draw(seed)
     kinetic = _polynomial(draw, "p", terms)
     return _separated("generic-separable", seed, kinetic, terms, draw)
 
 
 def nystrom(terms: int, seed: int) -> Hamiltonian:
-    """½|p|² + Σ_l U^{l}(q): velocities are linear, so that they do not branch."""
+    """½|p|² + Σ_l U^{l}(q): velocities are linear, so they do not branch."""
     return _separated("generic-nystrom", seed, _half_square, terms, Draw(seed))
 
 
 def generic_rhs(terms: int, seed: int, linear: frozenset[int] = frozenset()) -> RightHandSide:
     """f^{l} = Σ_k v_k (1 + a_k·y)^7, with random rational v_k and a_k: every component of every
-    term has every derivative.
-
-    Args:
-        terms: how many.
-        seed: of the coefficients.
-        linear: the terms that are linear instead, Σ_k v_k (1 + a_k·y), for methods that take them
-            to be.
+    term has every derivative. The terms in ``linear`` are Σ_k v_k (1 + a_k·y).
     """
     draw = Draw(seed)
     split = [_forms(draw, len(UNKNOWNS), len(UNKNOWNS), 100 * terms) for _ in range(terms)]
@@ -92,18 +82,17 @@ def generic_rhs(terms: int, seed: int, linear: frozenset[int] = frozenset()) -> 
 
 
 class _Form(Frozen):
-    """1 + a·y, and the factors that its power has in each of some sums."""
+    """1 + a·y, and the factors of its power in several sums."""
 
     slopes: tuple[fmpq, ...]
     factors: tuple[fmpq, ...]
 
     def power(self, y: Vector, degree: int) -> Expr:
-        """(1 + a·y)^degree."""
         return (1 + dot([rational(a) for a in self.slopes], y)) ** degree
 
 
 def _forms(draw: Draw, variables: int, sums: int, divisor: int) -> list[_Form]:
-    """Random forms in so many variables, for so many sums."""
+    """Random forms in ``variables`` variables, for ``sums`` sums."""
     found = []
     for _ in range(_FORMS):
         slopes = [fmpq(draw.sign() * draw.between(3, 12), 20) for _ in range(variables)]
@@ -113,7 +102,7 @@ def _forms(draw: Draw, variables: int, sums: int, divisor: int) -> list[_Form]:
 
 
 def _sums(forms: list[_Form], y: Vector, degree: int) -> Exprs:
-    """Σ_k v_k (1 + a_k·y)^degree, as many expressions as there are factors."""
+    """Σ_k v_k (1 + a_k·y)^degree, one expression for each factor."""
     powers = [form.power(y, degree) for form in forms]
     rows = zip(*(form.factors for form in forms), strict=True)
     return tuple(dot([rational(v) for v in row], powers) for row in rows)
@@ -127,10 +116,10 @@ def _half_square(_: Exprs, p: Exprs) -> Expr:
 
 
 def _polynomial(draw: Draw, groups: str, terms: int) -> _Term:
-    """Σ_k c_k (1 + a_k·y)^8 in the groups q, p, or both, one of ``terms`` terms of a Hamiltonian.
+    """Σ_k c_k (1 + a_k·y)^8 in q, p, or both, one of ``terms`` terms of a Hamiltonian.
 
-    Powers of linear forms span all polynomials; three of them a term are enough for no derivative
-    to vanish, and are cheap to evaluate.
+    Powers of linear forms span all polynomials; with three per term no derivative vanishes, and
+    they are cheap to evaluate.
     """
     forms = _forms(draw, len(groups) * len(VARIABLES), 1, 1600 * terms)
 
@@ -142,7 +131,7 @@ def _polynomial(draw: Draw, groups: str, terms: int) -> _Term:
 
 
 def _separated(name: str, seed: int, kinetic: _Term, terms: int, draw: Draw) -> Hamiltonian:
-    """T + Σ U, in one term where there is no other."""
+    """T + Σ U, in one term if only one is requested."""
     if terms == 1:
         U = _polynomial(draw, "q", terms)
         return _problem(name, seed, [lambda q, p: kinetic(q, p) + U(q, p)], draw)
@@ -167,6 +156,5 @@ def start(draw: Draw) -> tuple[fmpq, ...]:
 
 
 def _near_zero(draw: Draw, count: int) -> tuple[fmpq, ...]:
-    """Random numbers, each at most 1/5 from zero."""
     numerators = [draw.between(-10, 10) for _ in range(count)]
     return tuple(fmpq(n, 50) for n in numerators)

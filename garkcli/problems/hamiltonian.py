@@ -1,4 +1,4 @@
-"""A split Hamiltonian H = Σ_l H^{l}(q, p), differentiated by sympy and made into functions of
+"""Split Hamiltonians H = Σ_l H^{l}(q, p), differentiated by sympy and compiled to functions of
 numbers.
 
 The vector fields are V^{l} = ∂H^{l}/∂p and F^{l} = −∂H^{l}/∂q. The expressions are sympy objects
@@ -27,23 +27,22 @@ from garkcli.problems.vectorfield import (
 )
 
 FLOAT_DIGITS = 15
-"""Up to so many digits numbers are floats; beyond, they are the midpoints of balls."""
+"""Most digits of floats; with more, numbers are the midpoints of balls."""
 
 
 class Hamiltonian(Frozen):
     """H = Σ_l H^{l}(q, p) with its initial values, in units of its own.
 
     Attributes:
-        name: what the command line calls it.
+        name: its name on the command line.
         variables: d names of positions; the momentum of ``x`` is ``px``.
         terms: H^{l}, sympy expressions in ``symbols``.
         initial: q(0), then p(0), shape (2d,).
         t_end: the default final time of a convergence test, in units of time.
-        invariants: first integrals besides H: a name and an expression each.
-        is_generic: whether it is made to see every tree, so that no order above that of the method
-            is to be seen.
-        long_run: a step size and a time that show the motion over a long time, where they are
-            known.
+        invariants: first integrals besides H, pairs of name and expression.
+        is_generic: whether it sees every tree, so that no order above that of the method is
+            observed.
+        long_run: a step size and a time for long runs, if known.
     """
 
     name: str
@@ -57,26 +56,23 @@ class Hamiltonian(Frozen):
 
     @property
     def dimension(self) -> int:
-        """The number d of degrees of freedom."""
         return len(self.variables)
 
     @property
     def energy(self) -> Expr:
-        """H, a sympy expression."""
         return sum(self.terms)
 
     @property
     def layout(self) -> Layout:
-        """(q, p)."""
         return Layout(GROUPS, self.dimension)
 
     @property
     def quantities(self) -> Invariants:
-        """What is conserved: the energy, then the invariants; a name and an expression each."""
+        """The conserved quantities, the energy first: pairs of name and expression."""
         return (("energy", self.energy), *self.invariants)
 
     def unsplit(self) -> Hamiltonian:
-        """The same problem in one term."""
+        """The problem in one term."""
         return replace(self, terms=summed(self.terms, lambda: self.energy))
 
     def __repr__(self) -> str:
@@ -86,7 +82,6 @@ class Hamiltonian(Frozen):
 
 
 def summed(terms: Vector, total: Callable[[], Expr]) -> Vector:
-    """The sum of all terms as one."""
     if len(terms) == 1:
         return terms
     if isinstance(terms, Deferred):
@@ -106,7 +101,7 @@ def vector_field(problem: Hamiltonian, term: int, drives: Group) -> VectorField:
 
 @cache
 def _moved(H: Expr, variables: tuple[str, ...], drives: Group) -> Exprs:
-    """∂H/∂p or −∂H/∂q; a sum and its parts are differentiated once, whichever problem has them."""
+    """∂H/∂p or −∂H/∂q; cached, as problems share terms."""
     import sympy
 
     if drives == "q":

@@ -1,10 +1,10 @@
-"""The Legendre transform of a Lagrangian L(q, q̇), in closed form: H(q, p) = p·v − L(q, v) with p =
+"""The Legendre transform of a Lagrangian L(q, q̇) in closed form: H(q, p) = p·v − L(q, v) with p =
 ∂L/∂q̇(q, v).
 
 In the paper each term of a split Lagrangian has a velocity of its own: the stages Q̇^{l} belong to
-P^{l} = ∂L^{l}/∂q̇(Q^{l}, Q̇^{l}), and q̇ = Σ_l V^{l}. So the terms are transformed one by one,
-H^{l} being that of L^{l}; a term without velocities is −H^{l}, and has no momenta (the
-semi-separable and separable cases).
+P^{l} = ∂L^{l}/∂q̇(Q^{l}, Q̇^{l}), and q̇ = Σ_l V^{l}. So the terms are transformed one by one to
+H^{l}; a term L^{l} without velocities becomes −L^{l}, without momenta (the semi-separable and
+separable cases).
 """
 
 from __future__ import annotations
@@ -32,8 +32,8 @@ from garkcli.problems.vectorfield import symbols
 
 
 class Solved(Frozen):
-    """Velocities as functions of positions and momenta, and what they make of forms of the
-    Lagrangian.
+    """Velocities as functions of positions and momenta, and the values of forms of the Lagrangian
+    for them.
     """
 
     velocities: Substitution
@@ -41,14 +41,14 @@ class Solved(Frozen):
 
 
 class Equations(Frozen):
-    """p = ∂L/∂v for velocities that depend on each other alone.
+    """p = ∂L/∂v for velocities that only depend on each other.
 
     Attributes:
         v: the velocities.
         p: their momenta.
         gradient: ∂L/∂v.
         M: ∂²L/∂v².
-        start: what is known at the start.
+        start: the known values at the start.
     """
 
     v: Vector
@@ -59,13 +59,13 @@ class Equations(Frozen):
 
     @property
     def are_linear(self) -> bool:
-        """Whether they are linear in the velocities."""
+        """Whether the equations are linear in the velocities."""
         moving = set(self.v)
         entries = [x for row in self.M for x in row]
         return not any(x.free_symbols & moving for x in entries)
 
     def momenta(self, at: Place) -> dict[Expr, arb]:
-        """∂L/∂v where the velocities are known and the momenta are not."""
+        """∂L/∂v as momenta, if the velocities are known and the momenta are not; else empty."""
         needed: set[Expr] = set()
         for slope in self.gradient:
             needed |= slope.free_symbols
@@ -76,7 +76,7 @@ class Equations(Frozen):
 
 
 def candidates(L: Expr, equations: Equations) -> list[Solved]:
-    """What may solve the equations; some do not."""
+    """Candidates for solutions of the equations, some of which are wrong."""
     if equations.are_linear:
         return [_by_elimination(equations)]
     solved = _by_form(L, equations)
@@ -89,7 +89,7 @@ def candidates(L: Expr, equations: Equations) -> list[Solved]:
 
 
 def _by_elimination(equations: Equations) -> Solved:
-    """Where they are linear: v = M⁻¹(p − ∂L/∂v at v = 0)."""
+    """The solution of linear equations: v = M⁻¹(p − ∂L/∂v at v = 0)."""
     at_rest = dict.fromkeys(equations.v, 0)
     inverse, divisor = inverse_of(equations.M, equations.v, equations.start)
     pairs = zip(equations.p, equations.gradient, strict=True)
@@ -105,11 +105,11 @@ class _Form(Frozen):
     """L = φ(q, a) + b(q)·v with one form a = a_0(q) + ½ v·G(q)v.
 
     Attributes:
-        a: the form, as it is in L.
-        symbol: what stands for it in φ.
+        a: the form, as it occurs in L.
+        symbol: its symbol in φ.
         G: the matrix.
         slope: φ'(a).
-        b: of the linear part.
+        b: the coefficients of the linear part.
         at_rest: a_0.
     """
 
@@ -122,10 +122,9 @@ class _Form(Frozen):
 
 
 def _by_form(L: Expr, equations: Equations) -> list[Solved]:
-    """The velocities where L depends on them by one quadratic form, and linearly besides.
+    """The velocities if L depends on them by one quadratic form, and linearly otherwise.
 
-    Then p − b = φ'(a) G v, so that (p − b)·G⁻¹(p − b) = 2 φ'(a)² (a − a_0) is an equation for a
-    alone.
+    Then p − b = φ'(a) G v, so (p − b)·G⁻¹(p − b) = 2 φ'(a)² (a − a_0) is an equation for a.
     """
     import sympy
 
@@ -143,7 +142,7 @@ def _by_form(L: Expr, equations: Equations) -> list[Solved]:
 
 
 def _of_form(form: _Form, v: Vector, shifted: Vector, raised: Vector) -> list[Solved]:
-    """The velocities G⁻¹(p − b)/φ'(a) for the values of a, from p − b and G⁻¹(p − b)."""
+    """The velocities G⁻¹(p − b)/φ'(a) for the possible a, from p − b and G⁻¹(p − b)."""
     import sympy
 
     # a symbol for the square of the momenta keeps sympy from mixing it up with the rest
@@ -160,8 +159,8 @@ def _of_form(form: _Form, v: Vector, shifted: Vector, raised: Vector) -> list[So
 
 
 def _form(L: Expr, a: Expr, v: Vector) -> _Form | None:
-    """L by its part ``a``; None where that is no quadratic form that has all velocities, or where
-    they occur besides it other than linearly.
+    """L by its part ``a``; None if that is not a quadratic form in all velocities, or they occur
+    otherwise not just linearly.
     """
     import sympy
 
@@ -214,10 +213,10 @@ def by_solving(lagrangian: Lagrangian) -> Expr:
 
 
 def _solution(L: Expr, equations: Equations, p: Vector) -> Solved:
-    """The one solution that is right.
+    """The unique right solution.
 
     Raises:
-        NoLegendreTransform: none was found, or the start does not tell which it is.
+        NoLegendreTransform: none was found, or several fit the start.
     """
     right: list[Solved] = []
     for candidate in candidates(L, equations):
@@ -236,11 +235,10 @@ def _solution(L: Expr, equations: Equations, p: Vector) -> Solved:
 
 
 def _smooth(solved: Solved, p: Vector) -> list[Solved]:
-    """A candidate; in place of one with |y| those with y and with −y, where y is made of momenta
-    alone.
+    """A candidate without |y|: replaced by those with y and −y if y is made of momenta only.
 
-    An analytic velocity that is right near the start is right as far as it is analytic. None for
-    a value that is not real or has kinks at some positions.
+    An analytic velocity that is right near the start is right as far as it is analytic. Empty if a
+    value is not real or has kinks at some positions.
     """
     import sympy
 
@@ -260,7 +258,7 @@ def _smooth(solved: Solved, p: Vector) -> list[Solved]:
 
 
 def _with_sign(solved: Solved, sign: int) -> Solved:
-    """The same with ``sign`` · y for |y|."""
+    """The candidate with ``sign`` · y for |y|."""
     import sympy
 
     def without_kinks(y: Expr) -> Expr:
@@ -273,8 +271,8 @@ def _with_sign(solved: Solved, sign: int) -> Solved:
 
 
 def _is_right(solved: Substitution, equations: Equations) -> bool:
-    """Whether ∂L/∂v(q, v(q, p)) is p, and v(q, p) the velocity at the start, wherever it is
-    tested: at the start, and at most of some places near it.
+    """Whether ∂L/∂v(q, v(q, p)) is p, and v(q, p) the velocity at the start; tested at the start
+    and at random places near it.
     """
     draw = Draw(1)
     if _agrees(solved, equations, equations.start) is not True:
@@ -293,7 +291,7 @@ def _is_right(solved: Substitution, equations: Equations) -> bool:
 
 
 def _agrees(solved: Substitution, equations: Equations, place: Place) -> bool | None:
-    """Whether the equations hold at one place; None where something has no value there."""
+    """Whether the equations hold at one place; None if something has no value there."""
     at = {**place, **equations.momenta(place)}
     if not all(x in at for x in equations.p):
         return False
@@ -309,7 +307,7 @@ def _agrees(solved: Substitution, equations: Equations, place: Place) -> bool | 
 
 
 def _are_one(x: arb, y: arb) -> bool:
-    """Whether two enclosures, both good, may be those of one number."""
+    """Whether two good enclosures may be those of one number."""
     is_good = x.rad() + y.rad() < _GOOD
     return bool(is_good and x.overlaps(y))
 
@@ -319,16 +317,16 @@ def legendre_transform(L: Expr, variables: tuple[str, ...], start: Place) -> Exp
     """The Hamiltonian of a Lagrangian, sympy expressions both.
 
     Lagrangians that are quadratic in the velocities are transformed exactly: with L = ½ v·Mv + b·v
-    + c, H = ½ (p − b)·M⁻¹(p − b) − c, where M, b and c may depend on the positions. In others,
-    velocities are solved for one by one, or together where they occur in one quadratic form only,
-    as in √(1 − v·v); such solutions are tested at the start and at random places near it, with 90
+    + c, H = ½ (p − b)·M⁻¹(p − b) − c, where M, b and c may depend on the positions. Other equations
+    are solved for velocities one by one, or together if they occur in one quadratic form only, as
+    in √(1 − v·v); such solutions are tested at the start and at random places near it, with 90
     digits.
 
     Args:
         L: in the symbols of the positions and of the ``velocities``.
         variables: d names.
-        start: q(0), and velocities or momenta at the start where they are known: they tell which of
-            several solutions is meant.
+        start: q(0), and the known velocities or momenta at the start, which select one of several
+            solutions.
 
     Raises:
         NoLegendreTransform: the mass matrix is singular, or no solution was found.
@@ -382,10 +380,10 @@ def _of_quadratic(lagrangian: Lagrangian) -> Expr:
 def initial_momenta(
     lagrangians: Vector, hamiltonians: Vector, variables: tuple[str, ...], start: Place
 ) -> list[arb]:
-    """p(0) with which q̇(0) is the given velocity, shape (d,).
+    """The p(0) for which q̇(0) is the given velocity, shape (d,).
 
-    With one term that has velocities, p = ∂L/∂q̇. With several, each has a velocity of its own and
-    q̇ = Σ_l ∂H^{l}/∂p is solved for p.
+    If one term has velocities, p = ∂L/∂q̇. If several have, each with its own, q̇ = Σ_l ∂H^{l}/∂p
+    is solved for p.
 
     Args:
         lagrangians: L^{l}.
@@ -428,10 +426,8 @@ def initial_momenta(
 
 
 def missing_derivative(made: Expr, by: Vector, start: Place) -> tuple[str, str] | None:
-    """What is wrong with a derivative of an expression at the start, and the cure; None where all
-    derivatives exist.
-
-    A derivative with |x| counts as none: it has no derivatives of its own.
+    """The fault of a derivative of an expression at the start, and the cure; None if all
+    derivatives exist. A derivative with |x| counts as missing, as it is not differentiable.
     """
     gradient = [made.diff(x) for x in by]
     for x, g in zip(by, gradient, strict=True):

@@ -16,10 +16,10 @@ from garkcli.problems.expr import Expr, ExprMatrix, Exprs, Place, Vector, number
 from garkcli.problems.straightline import function
 
 MAX_COUPLED = 5
-"""Most velocities that a mass matrix depending on the positions may couple."""
+"""Most velocities that a position-dependent mass matrix may couple."""
 WRITE_HAMILTONIAN = "write the Hamiltonian itself: hamiltonian: instead of lagrangian:"
 BITS = 300
-"""Precision of enclosures that tell solutions apart."""
+"""Precision of enclosures that distinguish solutions."""
 
 
 @cache
@@ -31,14 +31,14 @@ def velocities(variables: tuple[str, ...]) -> Exprs:
 
 
 class Lagrangian(Frozen):
-    """A Lagrangian L of d velocities v, with its derivatives; sympy expressions all of them.
+    """A Lagrangian L of d velocities v with its derivatives, as sympy expressions.
 
     Attributes:
         L: the Lagrangian.
         gradient: ∂L/∂v, shape (d,).
         M: ∂²L/∂v², shape (d, d).
         variables: d names.
-        start: what is known at the start.
+        start: the known values at the start.
     """
 
     L: Expr
@@ -49,14 +49,13 @@ class Lagrangian(Frozen):
 
     @property
     def is_quadratic(self) -> bool:
-        """Whether it is quadratic in the velocities: M does not depend on them."""
+        """Whether L is quadratic in the velocities: M does not depend on them."""
         moving = set(velocities(self.variables))
         entries = [x for row in self.M for x in row]
         return not any(x.free_symbols & moving for x in entries)
 
 
 def differentiated(L: Expr, variables: tuple[str, ...], start: Place) -> Lagrangian:
-    """``L`` with its derivatives by the velocities."""
     v = velocities(variables)
     gradient = [L.diff(x) for x in v]
     M = [[slope.diff(x) for x in v] for slope in gradient]
@@ -64,7 +63,7 @@ def differentiated(L: Expr, variables: tuple[str, ...], start: Place) -> Lagrang
 
 
 def coupled(M: ExprMatrix) -> list[list[int]]:
-    """The sets of velocities that entries of M couple, each in order."""
+    """Sets of velocities that are coupled by entries of M, sorted."""
     after: dict[int, list[int]] = {}
     for i, row in enumerate(M):
         after[i] = []
@@ -75,11 +74,10 @@ def coupled(M: ExprMatrix) -> list[list[int]]:
 
 
 def inverse_of(M: ExprMatrix, names: Vector, start: Place) -> tuple[list[list[Expr]], Expr]:
-    """The inverse of a symmetric matrix as a matrix and its divisor: the adjugate and the
-    determinant, or 1.
+    """The inverse of a symmetric matrix as a matrix and a divisor: adjugate and determinant, or
+    inverse and 1.
 
-    Raises:
-        NoLegendreTransform: the determinant is zero, or contains zero at the start.
+    Raises ``NoLegendreTransform`` if the determinant is zero, or may be zero at the start.
     """
     import sympy
 
@@ -109,7 +107,7 @@ def inverse_of(M: ExprMatrix, names: Vector, start: Place) -> tuple[list[list[Ex
 
 
 def _inverse_of_numbers(M: ExprMatrix) -> list[list[Expr]] | None:
-    """The inverse of a matrix of rational numbers; None where it is singular."""
+    """The inverse of a rational matrix; None if it is singular."""
     matrix = fmpq_mat([[number(x) for x in row] for row in M])
     if not matrix.det():
         return None
@@ -117,11 +115,11 @@ def _inverse_of_numbers(M: ExprMatrix) -> list[list[Expr]] | None:
 
 
 _Places: TypeAlias = tuple[int, ...]
-"""Numbers of rows or columns, in order."""
+"""Indices of rows or columns, in order."""
 
 
 class _Minors:
-    """The minors of a symmetric matrix, each computed once."""
+    """The minors of a symmetric matrix, cached."""
 
     def __init__(self, M: ExprMatrix) -> None:
         self._M = M
@@ -129,11 +127,10 @@ class _Minors:
         self._known: dict[tuple[_Places, _Places], Any] = {}
 
     def determinant(self) -> Expr:
-        """That of the matrix."""
         return self._of(self._every, self._every)
 
     def adjugate(self) -> list[list[Expr]]:
-        """The determinant times the inverse; symmetric, so one of each pair of entries is made."""
+        """The determinant times the inverse; symmetric, so half of the entries are computed."""
         rows = []
         for i in self._every:
             row = []
@@ -144,7 +141,7 @@ class _Minors:
         return rows
 
     def _of(self, rows: _Places, columns: _Places) -> Expr:
-        """The determinant of some rows and columns, by its first row."""
+        """The minor of some rows and columns, by its first row."""
         import sympy
 
         if not rows:
@@ -163,7 +160,7 @@ class _Minors:
 
 
 def enclosed(expressions: Vector, at: Place) -> list[arb]:
-    """The expressions, enclosed; not finite where they have no value, or kinks."""
+    """The expressions, enclosed; not finite if they have no value, or kinks."""
     return enclosed_at(expressions, tuple(at), tuple(at.values()))
 
 
@@ -184,7 +181,7 @@ def enclosed_at(expressions: Vector, names: Vector, numbers: Sequence[arb]) -> l
 
 
 def is_smooth(expression: Expr) -> bool:
-    """Whether a sympy expression is real and has no |x|, which sympy makes of roots of squares."""
+    """Whether a sympy expression is real and without |x|, which sympy makes of roots of squares."""
     import sympy
 
     return not expression.has(sympy.Abs, sympy.sign, sympy.I, sympy.zoo, sympy.nan, sympy.oo)

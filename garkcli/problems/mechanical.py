@@ -1,7 +1,7 @@
 """Problems H = T + V, split for the number of terms of a method.
 
-The kinetic energy goes to the first term and the potential to the others: one part each where there
-are as many parts as terms, equal shares of all of it otherwise.
+The kinetic energy is the first term; the others get one part of the potential each if the numbers
+fit, otherwise equal shares.
 """
 
 from __future__ import annotations
@@ -18,11 +18,9 @@ from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.vectorfield import symbols
 
 Energy: TypeAlias = Callable[[Exprs, Exprs], Any]
-"""An expression in positions and momenta."""
 
 
 def half_square(_: Exprs, p: Exprs) -> Expr:
-    """The kinetic energy ½|p|² of unit masses."""
     return sum(x**2 for x in p) / 2
 
 
@@ -31,12 +29,12 @@ class Mechanical(Frozen):
 
     Attributes:
         variables: names of the positions.
-        potentials: the parts of the potential, of the positions.
+        potentials: the parts of the potential, from the positions.
         initial: q(0), then p(0).
         t_end: the final time of a convergence test.
-        kinetic: T of the positions and of the momenta.
-        invariants: what is conserved besides H: names, and expressions in positions and momenta.
-        long_run: a step size and a time that show the motion over a long time.
+        kinetic: T, from positions and momenta.
+        invariants: first integrals besides H: names, and expressions in positions and momenta.
+        long_run: a step size and a time for long runs.
     """
 
     variables: tuple[str, ...]
@@ -48,7 +46,6 @@ class Mechanical(Frozen):
     long_run: tuple[fmpq, fmpq] | None = None
 
     def problem(self, name: str, terms: int) -> Hamiltonian:
-        """The problem in ``terms`` terms."""
         whole = Deferred(f"{name} terms=1", lambda: self._split(1), 1)
         split = Deferred(f"{name} terms={terms}", lambda: self._split(terms), terms, total=whole)
         invariants: Invariants = ()
@@ -86,7 +83,7 @@ class Mechanical(Frozen):
 
 
 def numbers(text: str) -> tuple[fmpq, ...]:
-    """Rational numbers separated by blanks: q(0), then p(0).
+    """Rational numbers separated by blanks.
 
     >>> numbers("1 -1/2")
     (1, -1/2)
@@ -110,7 +107,7 @@ def pendulum_potential(x: Expr) -> Exprs:
 
 
 def _height(angle: Expr) -> Expr:
-    """How far the end of a rod of length 1 is above its lowest place."""
+    """The height of the end of a rod of length 1 above its lowest place."""
     import sympy
 
     return 1 - sympy.cos(angle)
@@ -129,7 +126,7 @@ def kepler_potential(x: Expr, y: Expr) -> Exprs:
 
 
 def angular_momentum(x: Expr, y: Expr, px: Expr, py: Expr) -> Expr:
-    """Of a mass in the plane, about the origin."""
+    """The angular momentum of a mass in the plane, about the origin."""
     return x * py - y * px
 
 
@@ -154,7 +151,7 @@ def rods_potential(a: Expr, b: Expr) -> Exprs:
 
 
 def rods(q: Exprs, _: Exprs) -> Expr:
-    """T of two rods of length 1 with masses 1, in absolute angles: its mass matrix depends on their
+    """T of two rods of length 1 with masses 1, in absolute angles: the mass matrix depends on their
     difference.
     """
     import sympy

@@ -32,7 +32,7 @@ def _is_pair(given: object) -> bool:
 class Oscillator(Frozen):
     """q̇ = p, ṗ = −ω²q, divided among the terms of a split.
 
-    Numbers of any kind are taken.
+    Numbers of any kind are accepted.
 
     Attributes:
         omega: ω > 0, in radians per unit of time.
@@ -94,7 +94,7 @@ class Oscillator(Frozen):
         return cls(omega, ((ONE, ZERO), *(potential,) * others))
 
     def drives(self, colour: Colour) -> tuple[fmpq, fmpq]:
-        """(k, v): how much of q̇ = p and of ṗ = −ω²q the vector field of ``colour`` is."""
+        """(k, v): the parts of q̇ = p and of ṗ = −ω²q in the vector field of ``colour``."""
         k, v = self.shares[colour.term]
         if colour.part == "p":
             return ZERO, v
@@ -109,15 +109,16 @@ class Oscillator(Frozen):
 
 
 def terms_of(tableau: Tableau) -> int:
-    """The number of terms of the split that ``tableau`` is for."""
+    """The number of terms of the split that suits ``tableau``."""
     return 1 + max(colour.term for colour in tableau.colours)
 
 
 def parse_shares(text: str, terms: int) -> Shares:
-    """Read ``kinetic:potential`` for each term, separated by commas.
+    """Parses ``kinetic:potential`` for each term, separated by commas.
 
     Raises:
-        UsageProblem: not that many pairs, no rational numbers, or a column that does not sum to 1.
+        UsageProblem: a wrong number of pairs, numbers that are not rational, or a column that does
+            not sum to 1.
 
     >>> parse_shares("1:0, 0:1/2, 0:1/2", 3)
     ((1, 0), (0, 1/2), (0, 1/2))
@@ -138,7 +139,7 @@ def parse_shares(text: str, terms: int) -> Shares:
 
 
 def example_shares(terms: int) -> str:
-    """The default split as ``parse_shares`` reads it.
+    """The default split in the notation of ``parse_shares``.
 
     >>> example_shares(2)
     '1:0,0:1'
@@ -163,14 +164,13 @@ def _share(text: str) -> fmpq:
 
 
 def check_structure(tableau: Tableau, problem: Oscillator) -> None:
-    """Whether the vector fields of the split are those that the colours and edges of ``tableau``
-    are for.
+    """Checks that the vector fields of the split suit the colours and edges of ``tableau``.
 
-    A share needs a colour that drives it, and where the product L^l L^m is not zero the stages of
-    colour l have to see colour m.
+    A share needs a colour that drives it, and if L^l L^m ≠ 0 the stages of colour l have to see
+    colour m.
 
     Raises:
-        UsageProblem: they are not.
+        UsageProblem: they do not.
     """
     terms = terms_of(tableau)
     if len(problem.shares) != terms:
@@ -190,7 +190,7 @@ def check_structure(tableau: Tableau, problem: Oscillator) -> None:
 
 
 def _unseen(tableau: Tableau, l: int, m: int) -> UsageProblem:
-    """Colour l depends on what colour m drives, and its stages do not see it."""
+    """The error if colour l depends on what colour m drives, and its stages do not see m."""
     one = tableau.colours[l].name
     other = tableau.colours[m].name
     example = example_shares(terms_of(tableau))
@@ -203,7 +203,7 @@ def _unseen(tableau: Tableau, l: int, m: int) -> UsageProblem:
 
 
 def _check_colour(tableau: Tableau, term: int, part: str, energy: str) -> None:
-    """Refuse a share of a term that no colour drives."""
+    """Refuses a share of a term that no colour drives."""
     if {x.part for x in tableau.colours if x.term == term}.isdisjoint({"y", part}):
         message = f"term {term + 1} has {energy} energy, but the method has no colour for it"
         cure = f"move the {energy} share to another term with --split"

@@ -1,4 +1,4 @@
-"""What is integrated, of either kind: a split Hamiltonian, or a right-hand side for each colour."""
+"""Problems of either kind: a split Hamiltonian, or a right-hand side for each colour."""
 
 from __future__ import annotations
 
@@ -14,24 +14,22 @@ from garkcli.problems.straightline import function
 from garkcli.problems.vectorfield import TIME, Group, VectorField, arguments_in
 
 Problem: TypeAlias = Hamiltonian | RightHandSide
-"""What a method steps."""
 
 
 def field_of(problem: Problem, term: int, drives: Group) -> VectorField:
-    """The vector field of one term that drives a group."""
     if isinstance(problem, Hamiltonian):
         return vector_field(problem, term, drives)
     return right_hand_side(problem, term)
 
 
 def unknowns(problem: Problem) -> Deferred:
-    """The symbols of a state, time excluded."""
+    """The symbols of a state, without time."""
     groups = [group for group in problem.layout.groups if group != TIME]
     return arguments_in(problem.variables, groups)
 
 
 def conserved(problem: Problem) -> Vector:
-    """What is conserved, the energy first where there is one."""
+    """The conserved quantities, the energy first if there is one."""
     invariants = problem.invariants
     of = problem.terms if isinstance(problem, Hamiltonian) else invariants
 
@@ -45,13 +43,12 @@ def conserved(problem: Problem) -> Vector:
 
 
 def conserved_names(problem: Problem) -> tuple[str, ...]:
-    """The names of what is conserved."""
+    """The names of the conserved quantities."""
     own = ("energy",) if isinstance(problem, Hamiltonian) else ()
     return (*own, *names_of(problem.invariants))
 
 
 def summands(problem: Problem, k: int) -> Vector:
-    """The summands of conserved quantity ``k``."""
     quantities = conserved(problem)
 
     def make() -> Exprs:
@@ -65,7 +62,7 @@ def summands(problem: Problem, k: int) -> Vector:
 
 
 def texts_of(problem: Problem) -> Any:
-    """The terms as sympy writes them: a text each, or one for each component."""
+    """The terms as sympy writes them: one text each, or one for each component."""
 
     def write() -> list[Any]:
         if isinstance(problem, Hamiltonian):
@@ -76,16 +73,15 @@ def texts_of(problem: Problem) -> Any:
 
 
 def quantities_function(problem: Problem, digits: int) -> Callable[..., list[Any]]:
-    """What is conserved, the energy first where there is one, as a function of the unknowns:
-    floats, or balls for more ``digits``.
-
-    For balls the rational constants are enclosed once, at the precision in force now.
+    """The conserved quantities, the energy first if there is one, as a function of the unknowns: in
+    floats, or in balls for more ``digits``, with rational constants enclosed at the current
+    precision.
     """
     return function(conserved(problem), unknowns(problem), digits > FLOAT_DIGITS)
 
 
 def merge_terms(problem: Problem, terms: int) -> Problem:
-    """The same sum in fewer terms, the last of which is the sum of all that remain.
+    """The problem in fewer terms, with the remaining ones summed in the last.
 
     >>> from garkcli.problems.builtin import hamiltonian
     >>> [str(x) for x in merge_terms(hamiltonian("pendulum", 2), 1).terms]

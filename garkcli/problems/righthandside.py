@@ -1,4 +1,4 @@
-"""ẏ = Σ_l f^{l}(t, y), a right-hand side for each colour: problems that need not be Hamiltonian.
+"""Right-hand sides ẏ = Σ_l f^{l}(t, y), one for each colour: problems that need not be Hamiltonian.
 
 The expressions are sympy objects built by ``garkcli.problems.builtin`` or translated node by node;
 no text is ever evaluated.
@@ -29,8 +29,8 @@ from garkcli.problems.vectorfield import (
 )
 
 EXACT_DIGITS = 50
-"""To so many digits an irrational start of an exact solution is certainly the rational one that is
-stepped from.
+"""An irrational start of an exact solution agrees with the rational one of the steps to so many
+digits.
 """
 
 
@@ -38,18 +38,17 @@ class RightHandSide(Frozen):
     """ẏ = Σ_l f^{l}(t, y) with y(0), in units of its own.
 
     Attributes:
-        name: what the command line calls it.
+        name: its name on the command line.
         variables: d names of unknowns.
         terms: f^{l}, d sympy expressions each, in ``symbols`` of the variables and of time.
         initial: y(0), shape (d,).
         t_end: the default final time of a convergence test.
-        invariants: first integrals: a name and an expression in the variables each.
-        exact: y(t), d expressions in time, where it is known.
-        is_generic: whether it is made to see every tree, so that no order above that of the method
-            is to be seen.
-        long_run: a step size and a time that show the motion over a long time, where they are
-            known.
-        stiffness: the value of its stiffness parameter, where it has one.
+        invariants: first integrals, pairs of name and expression in the variables.
+        exact: y(t), d expressions in time, if known.
+        is_generic: whether it sees every tree, so that no order above that of the method is
+            observed.
+        long_run: a step size and a time for long runs, if known.
+        stiffness: the value of its stiffness parameter, if it has one.
     """
 
     name: str
@@ -65,7 +64,6 @@ class RightHandSide(Frozen):
 
     @property
     def dimension(self) -> int:
-        """The number d of unknowns."""
         return len(self.variables)
 
     @property
@@ -78,22 +76,20 @@ class RightHandSide(Frozen):
 
     @property
     def layout(self) -> Layout:
-        """y, and t where it occurs."""
+        """y, and t if it occurs."""
         groups: tuple[Group, ...] = ("y", TIME) if self.has_time else ("y",)
         return Layout(groups, self.dimension)
 
     @property
     def quantities(self) -> Invariants:
-        """What is conserved: a name and an expression each."""
+        """The conserved quantities: pairs of name and expression."""
         return self.invariants
 
     @property
     def total(self) -> Exprs:
-        """Σ_l f^{l}, d expressions."""
         return tuple(map(sum, zip(*self.terms, strict=True)))
 
     def unsplit(self) -> RightHandSide:
-        """The same problem in one term."""
         return replace(self, terms=summed(self.terms, lambda: self.total))
 
     def __repr__(self) -> str:
@@ -126,15 +122,15 @@ def _one() -> Exprs:
 
 
 def solution(problem: RightHandSide, time: arb) -> list[arb]:
-    """The exact solution at one time, enclosed at the precision in force."""
+    """The exact solution at one time, at the current precision."""
     assert problem.exact is not None
     evaluate = function(problem.exact, arguments_in(problem.variables, (TIME,)), True)
     return [arb(x) for x in evaluate(arb(time))]
 
 
 def starts_exactly(problem: RightHandSide) -> bool:
-    """Whether the exact solution starts at the rational numbers y(0): irrational ones are rounded
-    to ``EXACT_DIGITS``.
+    """Whether the exact solution starts at the rational y(0); irrational starts are rounded to
+    ``EXACT_DIGITS``.
     """
     assert problem.exact is not None
     (t,) = symbols(problem.variables, TIME)
@@ -142,8 +138,8 @@ def starts_exactly(problem: RightHandSide) -> bool:
 
 
 def steepness(problem: RightHandSide) -> arb:
-    """‖∂(Σ f)/∂y‖ at the start, the largest sum of a row's absolute values: about how stiff the
-    problem is. 1 where it has no value.
+    """‖∂(Σ f)/∂y‖ at the start, the largest absolute row sum: about the stiffness of the problem; 1
+    if it has no value.
     """
     from garkcli.problems.mass import enclosed_at
 

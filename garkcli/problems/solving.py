@@ -1,6 +1,4 @@
-"""One equation for one unknown, in closed form: candidates for solutions, to be tested by who
-asks.
-"""
+"""Solves one equation for one unknown in closed form: candidates that the caller has to test."""
 
 from __future__ import annotations
 
@@ -11,10 +9,10 @@ MAX_SIZE = 300
 
 
 def solutions(f: Expr, u: Expr, c: Expr) -> list[Expr]:
-    """Expressions for u that may solve f(u) = c; some do not, and some solutions are not found.
+    """Candidates for u with f(u) = c; some are wrong, and some solutions may be missing.
 
-    Functions that hold u alone are undone from outside in; the rest is solved where it is a
-    polynomial of degree 1 or 2 in u or in u², be it after a square root has been squared away.
+    Functions of u are inverted from outside in; the rest is solved if it is a polynomial of degree
+    1 or 2 in u or u², possibly after squaring away a square root.
 
     Args:
         f: a sympy expression in u.
@@ -50,7 +48,7 @@ def solutions(f: Expr, u: Expr, c: Expr) -> list[Expr]:
 
 
 def _undone(f: Expr, inner: Expr, c: Expr) -> list[Expr]:
-    """The values of ``inner`` with which f = c."""
+    """The values of ``inner`` with f = c."""
     import sympy
 
     if f.is_Pow and f.base == inner and f.exp.is_Rational:
@@ -97,8 +95,8 @@ def _root(exponent: Expr, c: Expr) -> list[Expr]:
 
 
 def _by_polynomial(f: Expr, u: Expr) -> list[Expr]:
-    """The zeros of a fraction: its numerator is a polynomial in u of small degree, with one square
-    root at most.
+    """The zeros of a fraction whose numerator is a polynomial in u of small degree, with at most
+    one square root.
     """
     import sympy
 
@@ -129,8 +127,8 @@ def _by_polynomial(f: Expr, u: Expr) -> list[Expr]:
 
 
 def _without_root(f: Expr, u: Expr) -> Expr:
-    """What is zero where f = P + Q √S is: P² − S Q². f itself where it has no root of u, and None
-    where it has several, or is no polynomial in its root.
+    """P² − S Q² for f = P + Q √S; f itself without a root of u, and None with several, or if it is
+    not a polynomial in its root.
     """
     import sympy
 
@@ -158,7 +156,7 @@ def _without_root(f: Expr, u: Expr) -> Expr:
 
 
 def _quadratic(a: Expr, b: Expr, c: Expr) -> list[Expr]:
-    """The zeros of a u² + b u + c, where it is not constant."""
+    """The zeros of a u² + b u + c, unless it is constant."""
     import sympy
 
     if a == 0:

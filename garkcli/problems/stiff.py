@@ -1,8 +1,7 @@
-"""Problems that are not Hamiltonian, with a stiffness to be chosen.
+"""Problems that are not Hamiltonian, with a stiffness to choose.
 
-Right-hand sides are split into parts, the stiff one last. The parts go to the terms of a method in
-this order; where a method has more terms than there are parts, the last ones have equal shares of
-the last part.
+Right-hand sides are split into parts, the stiff one last. The parts become the terms of a method in
+this order; for more terms than parts, the last ones have equal shares of the last part.
 """
 
 from __future__ import annotations
@@ -17,7 +16,7 @@ from garkcli.problems.righthandside import RightHandSide
 from garkcli.problems.vectorfield import TIME, symbols
 
 CELLS = 8
-"""Of the reaction–diffusion line."""
+"""Number of cells of the reaction–diffusion line."""
 
 
 def prothero_robinson(terms: int, stiffness: fmpq) -> RightHandSide:
@@ -85,11 +84,11 @@ _SMOOTH_START = (fmpq(10, 81), fmpq(-292, 2187), fmpq(15266, 59049))
 
 
 def reaction_diffusion(terms: int, stiffness: fmpq) -> RightHandSide:
-    """u̇_i = r_i u_i (1 − u_i) + k (u_{i−1} − 2 u_i + u_{i+1}) in a line of cells that nothing
-    leaves, k the stiffness and r_i growing along the line.
+    """u̇_i = r_i u_i (1 − u_i) + k (u_{i−1} − 2 u_i + u_{i+1}) in a closed line of cells, with the
+    stiffness k, and r_i growing along the line.
 
-    It starts near the state that fast diffusion leads to: 1/4 everywhere, and off it what balances
-    the reaction, w/k with the differences of w summed up from the left.
+    It starts near the limit of fast diffusion: 1/4 everywhere, plus w/k, which balances the
+    reaction.
     """
     cells = range(CELLS)
     variables = tuple(f"u{i + 1}" for i in cells)
@@ -117,8 +116,8 @@ def reaction_diffusion(terms: int, stiffness: fmpq) -> RightHandSide:
 
 
 def _balanced(rates: Sequence[fmpq], stiffness: fmpq) -> tuple[fmpq, ...]:
-    """1/4 + w_i/k, where the diffusion of w cancels the reaction at 1/4 but for its mean, and w is
-    0 on average.
+    """1/4 + w_i/k, where the diffusion of w cancels the reaction at 1/4 up to its mean, and Σ w =
+    0.
     """
     level = fmpq(1, 4)
     growth = [r * level * (1 - level) for r in rates]
@@ -167,8 +166,8 @@ def _mean(numbers: Sequence[fmpq]) -> fmpq:
 
 
 def shared(name: str, parts: Callable[[], Sequence[Exprs]], terms: int) -> Deferred:
-    """The parts of the problem called ``name`` in ``terms`` terms: the last one in equal shares
-    where there are fewer parts, the last ones added up where there are more.
+    """The parts of the problem called ``name`` in ``terms`` terms: with fewer parts the last one in
+    equal shares, with more the last ones added up.
     """
     whole = Deferred(f"{name} terms=1", lambda: _shared(parts(), 1), 1)
     return Deferred(f"{name} terms={terms}", lambda: _shared(parts(), terms), terms, total=whole)

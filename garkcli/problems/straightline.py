@@ -1,8 +1,7 @@
-"""Our own sympy expressions as straight-line Python, for floats and for balls with any number of
-digits.
+"""sympy expressions of our own as straight-line Python, for floats and for balls of any precision.
 
-An expression is written as text node by node, common subexpressions once. The names in the text are
-all ours (arguments, temporaries, constants), so nothing that was read from a file is ever part of a
+An expression is written as text node by node, common subexpressions once. All names in the text are
+ours (arguments, temporaries, constants), so nothing that was read from a file is ever part of a
 program.
 """
 
@@ -25,21 +24,21 @@ _LONG = 300  # characters from which a part of an expression is given a name
 _WRITTEN = 3  # powers up to the third are products, which cost less than **
 _NAMES = (*formula.FUNCTIONS, "sqrt")
 FUNCTIONS = frozenset(_NAMES)
-"""The functions an expression may have, besides powers."""
+"""The functions that an expression may have, besides powers."""
 FLOATS: Mapping[str, Any] = {
     **{name: getattr(math, name) for name in _NAMES},
     "power": math.pow,  # refuses what ** would make complex
     "inf": math.inf,
     "isfinite": math.isfinite,
 }
-"""What the text for floats calls."""
+"""The names in programs for floats."""
 BALLS: Mapping[str, Any] = {
     **{f"ball_{name}": getattr(arb, name) for name in _NAMES},
     "ball_power": pow,
     "ball_pi": arb.pi,
     "ball_zero": arb(0),
 }
-"""What the text for balls calls; the text for floats has names of its own."""
+"""The names in programs for balls, different from those for floats."""
 
 
 class Code(Frozen):
@@ -49,11 +48,11 @@ class Code(Frozen):
     ``{k0}``, … for the constants.
 
     Attributes:
-        arguments: how many numbers it takes.
+        arguments: the number of arguments.
         temporaries: the texts of the temporaries, each in terms of those before.
         results: the texts of the expressions; "0" for those that are zero.
         constants: rational numbers, and None for π.
-        is_for_balls: whether its functions are those of ``BALLS``.
+        is_for_balls: whether it is for balls.
     """
 
     arguments: int
@@ -94,7 +93,7 @@ class Code(Frozen):
 
 
 def _is_one_name(text: str) -> bool:
-    """Whether this is zero, or a single argument, temporary or constant."""
+    """Whether a text is zero, or a single argument, temporary or constant."""
     if text == "0":
         return True
     is_enclosed = text.startswith("{") and text.endswith("}")
@@ -109,7 +108,7 @@ def _float(x: fmpq) -> str:
 
 
 def constant_name(x: fmpq) -> str:
-    """The name that the texts for balls have for a rational constant."""
+    """The name of a rational constant in programs for balls."""
     sign = "m" if x < 0 else ""
     p = abs(int(x.p))
     q = int(x.q)
@@ -122,7 +121,7 @@ def code_of(expressions: Vector, arguments: Vector, is_for_balls: bool) -> Code:
     """The code of sympy expressions in the symbols ``arguments``.
 
     Raises:
-        TypeError: an expression has a function that is none of ``FUNCTIONS``, or another symbol.
+        TypeError: an expression has a function outside of ``FUNCTIONS``, or another symbol.
     """
     if not (isinstance(expressions, Deferred) and isinstance(arguments, Deferred)):
         return _written(expressions, arguments, is_for_balls)
@@ -142,7 +141,7 @@ def code_of(expressions: Vector, arguments: Vector, is_for_balls: bool) -> Code:
 
 
 def _spelled_out(code: Code) -> dict[str, list[str]]:
-    """A code as JSON, without what its name says."""
+    """A code as JSON, without the parts that its name determines."""
     return {
         "temporaries": list(code.temporaries),
         "results": list(code.results),
@@ -177,15 +176,15 @@ class _Writer:
         self.is_for_balls = is_for_balls
 
     def named(self, text: str) -> str:
-        """A temporary of this text, or the text itself where it is one name."""
+        """A temporary for a text, or the text itself if it is one name."""
         if text.startswith("{"):
             return text
         self.temporaries.append(text)
         return f"{{t{len(self.temporaries) - 1}}}"
 
     def text(self, x: Expr) -> str:
-        """The text of ``x``, closed in parentheses where it is not a single name or call; never a
-        long one.
+        """The text of ``x``, in parentheses unless it is a single name or call, as a temporary if
+        it is long.
         """
         text = self._text(x)
         if len(text) < _LONG:
@@ -224,7 +223,7 @@ class _Writer:
         return self.constants.setdefault(x, f"{{k{len(self.constants)}}}")
 
     def _sum(self, terms: Vector) -> str:
-        """Terms without a minus sign first."""
+        """A sum, terms without a minus sign first."""
         made = ""
         for term in sorted(terms, key=lambda x: x.could_extract_minus_sign()):
             if not made:
@@ -270,7 +269,7 @@ class _Writer:
         return f"({power}*{sqrt}({name}))"
 
     def _integer_power(self, text: str, n: int) -> str:
-        """For balls by products: the power of a ball around zero is a ball around zero."""
+        """A power; for balls by products, as a power of a ball around zero has to be finite."""
         if n == 1:
             return text
         if n <= _WRITTEN:
@@ -285,16 +284,15 @@ class _Writer:
 
 
 def _is_negative(exponent: Expr) -> bool:
-    """Whether it is a negative rational number."""
     return bool(exponent.is_Rational and exponent.is_negative)
 
 
 def function(
     expressions: Vector, arguments: Vector, is_for_balls: bool
 ) -> Callable[..., list[Any]]:
-    """The expressions as one function of numbers, one after the other, to a list of numbers.
+    """Compiles the expressions to one function of numbers that returns a list.
 
-    For balls the rational constants are enclosed once, at the precision in force now.
+    For balls the rational constants are enclosed once, at the current precision.
     """
     code = code_of(expressions, arguments, is_for_balls)
     names = [f"a{i}" for i in range(len(arguments))]
@@ -309,7 +307,7 @@ def function(
 
 
 def enclosed(codes: Sequence[Code]) -> dict[str, arb]:
-    """The rational constants of the texts for balls, at the precision in force."""
+    """The rational constants of programs for balls, at the current precision."""
     found = {}
     for code in codes:
         for x in code.constants:
@@ -319,7 +317,7 @@ def enclosed(codes: Sequence[Code]) -> dict[str, arb]:
 
 
 def define(source: str, name: str, constants: Mapping[str, Any]) -> Any:
-    """The function ``name`` that a text of ours defines; the text has only names made in this
+    """The function ``name`` that one of our texts defines; all names in it are made in this
     package.
     """
     namespace: dict[str, Any] = {"__builtins__": {}, **_BUILTINS, **FLOATS, **BALLS, **constants}

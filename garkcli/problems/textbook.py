@@ -1,6 +1,4 @@
-"""The equations of every first lecture: ẏ = λy, the logistic equation, predator and prey, a
-pendulum with drag.
-"""
+"""Textbook equations: ẏ = λy, the logistic equation, predator and prey, a pendulum with drag."""
 
 from __future__ import annotations
 
@@ -43,7 +41,7 @@ def dahlquist(terms: int, stiffness: fmpq) -> RightHandSide:
 
 
 def logistic(terms: int, _: int) -> RightHandSide:
-    """ẏ = y (1 − y) from 1/10: growth, and what limits it; y = 1/(1 + 9 e^{−t})."""
+    """ẏ = y (1 − y) from 1/10: growth and its limit; y = 1/(1 + 9 e^{−t})."""
     variables = ("y",)
 
     def parts() -> list[Exprs]:

@@ -1,6 +1,6 @@
-"""Formulas to sympy expressions, node by node: text from a file never reaches sympy.
+"""Translates formulas to sympy expressions node by node: text from a file never reaches sympy.
 
-A translated expression is real and differentiable: it has no function but those of
+A translated expression is real and differentiable: its functions are those of
 ``garkcli.exact.formula``.
 """
 
@@ -29,15 +29,14 @@ from garkcli.frozen import Frozen
 from garkcli.problems.expr import Expr, rational
 
 MAX_SIZE = 100_000
-"""Most operations of all second derivatives of a problem together, as they are written out."""
+"""Most operations of all expanded second derivatives of a problem together."""
 
 
 class Translator(Frozen):
     """Makes sympy expressions of formulas.
 
     Attributes:
-        symbols: what each name stands for: the symbol of a variable, or the expression of a
-            parameter.
+        symbols: the value of each name: the symbol of a variable, or the expression of a parameter.
         values: the values of the parameters, for exponents.
     """
 
@@ -45,11 +44,11 @@ class Translator(Frozen):
     values: Mapping[str, Value]
 
     def check_constants(self, expression: Expression) -> None:
-        """Refuse what is beyond the limits of numbers, before sympy computes with it.
+        """Refuses constants beyond the limits before sympy computes with them.
 
         Raises:
             UndefinedValue: a part without variables has no value.
-            LimitExceeded: it is too large or too small.
+            LimitExceeded: a number is too large or too small.
         """
         if all(map(self._is_constant, names_in(expression))):
             value_of(expression, self.values)
@@ -63,7 +62,7 @@ class Translator(Frozen):
         return name.name in self.values or name.name in CONSTANTS
 
     def _check_exponent(self, exponent: Expression) -> None:
-        """Refuse an exponent with variables."""
+        """Refuses an exponent with variables."""
         for name in names_in(exponent):
             if not self._is_constant(name):
                 message = f"the exponent depends on {name.name}"
@@ -74,7 +73,7 @@ class Translator(Frozen):
         """The sympy expression of a formula whose names are all known.
 
         Raises:
-            UndefinedValue: it has no real value, or |x| in it, which has no derivative.
+            UndefinedValue: it has no real value, or contains |x|, which has no derivative.
             LimitExceeded: a number or an exponent in it is too large.
         """
         import sympy
@@ -160,7 +159,7 @@ class Translator(Frozen):
 
 
 def _without_kinks(made: Expr, at: Expression) -> Expr:
-    """Refuse |x|, which sympy finds in sqrt(x**2)."""
+    """Refuses |x|, which sympy makes of sqrt(x**2)."""
     import sympy
 
     if made.has(sympy.Abs):
@@ -173,12 +172,10 @@ def _without_kinks(made: Expr, at: Expression) -> Expr:
 
 
 def _shortened(text: str) -> str:
-    """A part of a formula as a message shows it."""
     return text if len(text) < 30 else "…"
 
 
 def _bits(x: Expr) -> int:
-    """The bits of the rational factor of an expression."""
     factor, _ = x.as_coeff_Mul()
     if not factor.is_Rational:
         return 1
@@ -186,11 +183,10 @@ def _bits(x: Expr) -> int:
 
 
 def size_of_derivatives(expression: Expr) -> int:
-    """About how many operations all second derivatives of a sympy expression have, as sympy writes
-    them out.
+    """An estimate of the operations in all expanded second derivatives of a sympy expression.
 
     Nothing is differentiated. A product of n factors has n (n − 1) products in its second
-    derivative, so that the length can be the cube of that of the text.
+    derivative, so the length can grow like the cube of that of the text.
 
     >>> from sympy.abc import x, y
     >>> size_of_derivatives(x + y), size_of_derivatives(x * y)
@@ -200,7 +196,7 @@ def size_of_derivatives(expression: Expr) -> int:
 
 
 class _Sizes(Frozen):
-    """How long an expression and its derivatives are.
+    """The lengths of an expression and its derivatives.
 
     Attributes:
         own: operations of the expression.
@@ -216,7 +212,7 @@ class _Sizes(Frozen):
 
 
 def _sizes(x: Expr, known: dict[Expr, _Sizes]) -> _Sizes:
-    """The sizes of x; ``known`` are those of parts."""
+    """The sizes of x, cached in ``known``."""
     if x not in known:
         known[x] = _sizes_of(x, known)
     return known[x]
@@ -247,8 +243,8 @@ def _sizes_of(x: Expr, known: dict[Expr, _Sizes]) -> _Sizes:
 
 
 def _sizes_of_product(n: int, factors: list[_Sizes]) -> _Sizes:
-    """A product with n symbols: its second derivatives have a term for each pair of factors that
-    are differentiated, or one factor twice.
+    """The sizes of a product with n symbols: its second derivatives have a term for each pair of
+    differentiated factors, or one factor twice.
     """
     size = 1 + sum(y.own for y in factors)
     symbols = sum(y.symbols for y in factors)

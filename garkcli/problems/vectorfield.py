@@ -1,4 +1,4 @@
-"""Vector fields of numbers in groups: positions and momenta, or all unknowns, and time.
+"""Vector fields of groups of numbers: positions, momenta, all unknowns, or time.
 
 The expressions are sympy objects; no text is ever evaluated. sympy is imported when the first field
 is derived.
@@ -21,44 +21,42 @@ from garkcli.problems.straightline import function
 Group: TypeAlias = Literal["q", "p", "y", "t"]
 """Positions, momenta, all unknowns of a problem that is not Hamiltonian, or time."""
 GROUPS: tuple[Group, Group] = ("q", "p")
-"""Those of a Hamiltonian problem."""
+"""The groups of a Hamiltonian problem."""
 TIME: Final = "t"
 """The name of time in formulas, and of its group."""
 
 
 class Layout(Frozen):
-    """The numbers of a state, group after group.
+    """The numbers of a state, group by group.
 
     Attributes:
-        groups: which there are, in order; time is the last one.
-        dimension: d, the numbers of every group but time, which is one.
+        groups: the groups in order, time last.
+        dimension: d, the size of every group except time, which has size 1.
     """
 
     groups: tuple[Group, ...]
     dimension: int
 
     def size(self, group: Group) -> int:
-        """How many numbers a group is."""
         return 1 if group == TIME else self.dimension
 
     def start(self, group: Group) -> int:
-        """Where the numbers of a group begin."""
         return self.groups.index(group) * self.dimension
 
     @property
     def total(self) -> int:
-        """How many numbers a state has, time included."""
+        """The number of numbers in a state, with time."""
         return sum(map(self.size, self.groups))
 
     @property
     def unknowns(self) -> int:
-        """How many it has without time."""
+        """The number of numbers in a state, without time."""
         return sum(self.dimension for group in self.groups if group != TIME)
 
 
 @cache
 def symbols(variables: tuple[str, ...], group: Group) -> Exprs:
-    """The sympy symbols of a group: positions and unknowns are called like the variables, shape
+    """The sympy symbols of a group: positions and unknowns have the names of the variables, shape
     (d,); time is one symbol.
     """
     import sympy
@@ -78,9 +76,8 @@ class VectorField(Frozen):
 
     Attributes:
         components: d sympy expressions; one for time.
-        variables: of the problem.
-        depends: the groups that occur in it, in their order: its functions take the values of these
-            only.
+        variables: the variables of the problem.
+        depends: the groups that occur in it, in order, which are the arguments of its functions.
     """
 
     components: Vector
@@ -89,16 +86,13 @@ class VectorField(Frozen):
 
     @property
     def is_zero(self) -> bool:
-        """Whether there is no such field."""
         return ask(self.components, "zero", lambda: not any(self.components))
 
     @property
     def is_linear(self) -> bool:
-        """Whether all second derivatives vanish."""
         return all(map(self.is_linear_in, self.depends))
 
     def is_linear_in(self, group: Group) -> bool:
-        """Whether its derivative by a group is constant."""
         return ask(
             self.components,
             f"linear in {group}",
@@ -107,7 +101,7 @@ class VectorField(Frozen):
 
     @property
     def degree(self) -> int | None:
-        """A bound of the degree of all components, before terms cancel; None when they are not
+        """A bound on the degree of all components, before terms cancel; None unless they are
         polynomials.
         """
         return ask(self.components, "degree", self._degree)
@@ -126,7 +120,7 @@ class VectorField(Frozen):
         return _derivative(self, group)
 
     def slopes(self, by: Sequence[tuple[Group, int]]) -> Vector:
-        """The derivatives by components of groups, row after row."""
+        """The derivatives by components of groups, row by row."""
         rows = range(len(self.components))
 
         def make() -> list[Expr]:
@@ -140,12 +134,10 @@ class VectorField(Frozen):
 
     @property
     def arguments(self) -> Vector:
-        """The symbols of what it depends on, in the order of the groups."""
         return arguments_in(self.variables, self.depends)
 
 
 def arguments_in(variables: tuple[str, ...], groups: Iterable[Group]) -> Deferred:
-    """The symbols of groups, one after the other."""
     names = [name for group in groups for name in _names(variables, group)]
 
     def make() -> list[Expr]:
@@ -157,7 +149,6 @@ def arguments_in(variables: tuple[str, ...], groups: Iterable[Group]) -> Deferre
 def occurring(
     components: Iterable[Any], variables: tuple[str, ...], groups: Iterable[Group]
 ) -> tuple[Group, ...]:
-    """Those of ``groups`` that occur in expressions."""
     free: set[Expr] = set()
     for component in components:
         free |= component.free_symbols
@@ -168,7 +159,7 @@ def occurring(
 def field_of_components(
     components: Vector, variables: tuple[str, ...], groups: Sequence[Group]
 ) -> VectorField:
-    """The field that has these components, in what occurs in them of ``groups``."""
+    """The field with these components, depending on those of ``groups`` that occur."""
     depends = ask(components, "depends", lambda: list(occurring(components, variables, groups)))
     return VectorField(components, variables, tuple(depends))
 
@@ -180,7 +171,7 @@ def _derivative(field: VectorField, group: Group) -> tuple[Exprs, ...]:
 
 
 def is_constant(x: Expr) -> bool:
-    """Whether an expression depends on nothing, be it written with symbols that cancel."""
+    """Whether an expression is constant, even with symbols that cancel."""
     import sympy
 
     names = tuple(sorted(x.free_symbols, key=str))
@@ -195,8 +186,8 @@ def is_constant(x: Expr) -> bool:
 
 
 def _is_simple(x: Expr) -> bool:
-    """Whether sympy simplifies an expression soon: it writes out powers, and sin(2a) as 2 sin(a)
-    cos(a), as long as a has a factor 2.
+    """Whether sympy simplifies an expression quickly: it expands powers, and sin(2a) as 2 sin(a)
+    cos(a) as long as a has a factor 2.
     """
     import sympy
 
@@ -212,8 +203,8 @@ _TRIES = 8  # random places where two values are sought
 
 
 def _differs(x: Expr, names: Exprs) -> bool:
-    """Whether two values of an expression lie in balls that do not overlap, which proves that it is
-    no constant.
+    """Whether two values of an expression lie in disjoint balls, which proves that it is not
+    constant.
     """
     bits = _BITS[0]
     while bits <= _BITS[1]:
@@ -225,7 +216,7 @@ def _differs(x: Expr, names: Exprs) -> bool:
 
 
 def _differs_at(x: Expr, names: Exprs, bits: int) -> bool | None:
-    """Whether balls of ``bits`` bits do not overlap; None where that is too few to tell."""
+    """Whether balls of ``bits`` bits are disjoint; None if these are too few."""
     draw = Draw(1)
     first: arb | None = None
     is_good = True
@@ -249,7 +240,7 @@ def _differs_at(x: Expr, names: Exprs, bits: int) -> bool | None:
 
 
 def _degree(x: Expr) -> int | None:
-    """The degree of a polynomial as it is written; None for another expression."""
+    """The degree of a polynomial as written; None for other expressions."""
     if not x.free_symbols:
         return 0
     if x.is_Symbol:
