@@ -1,1 +1,3 @@
-"""Methods made from methods: compositions, adjoints, splittings, extrapolation, multirate ones."""
+"""Methods made from methods: compositions, adjoints, splittings, extrapolation, multirate
+methods.
+"""

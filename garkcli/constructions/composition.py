@@ -1,14 +1,13 @@
 """Compositions: the substeps of methods, one after the other, as one tableau; splittings; adjoints;
 extrapolation.
 
-A stage of a substep begins where the substeps before it ended, so its row has their weights and
-then its own row, all times the fraction of the step: E. Hairer, C. Lubich, G. Wanner, *Geometric
-Numerical Integration*, section II.4. The methods are for the same vector fields; a colour that a
+A stage of a substep begins where the substeps before it end, so its row has their weights and then
+its own row, all times the fraction of the step: E. Hairer, C. Lubich, G. Wanner, *Geometric
+Numerical Integration*, section II.4. The methods have the same vector fields; a colour that a
 method does not use has no stages there.
 
 In a splitting method the parts of a problem flow in turn. For q̇ = v(p), ṗ = f(q) the flows are
-exact, as they are Euler steps: drifts of q and kicks of p. For ẏ = Σ f^{l}(y) each flow is one step
-of a method.
+exact Euler steps: drifts of q and kicks of p. For ẏ = Σ f^{l}(y) each flow is one step of a method.
 """
 
 from __future__ import annotations
@@ -39,14 +38,14 @@ from garkcli.tableau.stages import PointSpace, StageSpace
 from garkcli.tableau.tableau import Colour, Edge, Method, Tableau
 
 MAX_STAGES = 400
-"""Most stages of all colours together, before equal ones are put together."""
+"""Most stages of all colours together, before equal ones are merged."""
 
 
 def refuse_large(stages: int, cure: str) -> None:
-    """Refuse a method before it is made.
+    """Refuses a method that is too large, before it is made.
 
     Raises:
-        MethodError: it would have more stages than ``MAX_STAGES``.
+        MethodError: it has more stages than ``MAX_STAGES``.
     """
     if stages > MAX_STAGES:
         message = f"a method of {stages} stages (limit {MAX_STAGES})"
@@ -54,11 +53,11 @@ def refuse_large(stages: int, cure: str) -> None:
 
 
 class Substep(Frozen):
-    """A part of the step.
+    """A substep of a composition.
 
     Attributes:
-        tableau: of the method that takes it, its stages at points.
-        fraction: of the step; it may be negative.
+        tableau: its method, on point stages.
+        fraction: the fraction of the step, possibly negative.
     """
 
     tableau: Tableau
@@ -66,9 +65,9 @@ class Substep(Frozen):
 
 
 def composed(substeps: Sequence[Substep]) -> Tableau:
-    """The method that takes the substeps one after the other, equal stages once.
+    """The method that takes the substeps one after the other, with equal stages merged.
 
-    Two substeps meet in such a stage where one ends with the value at which the next begins.
+    Substeps share a stage if one ends with the value at which the next begins.
 
     Raises:
         MethodError: the methods are for different vector fields, or there are too many stages.
@@ -77,7 +76,7 @@ def composed(substeps: Sequence[Substep]) -> Tableau:
 
 
 def in_turn(substeps: Sequence[Substep]) -> Tableau:
-    """The same with every stage of every substep.
+    """The composition with every stage of every substep.
 
     Raises:
         MethodError: the methods are for different vector fields, or there are too many stages.
@@ -101,20 +100,20 @@ def in_turn(substeps: Sequence[Substep]) -> Tableau:
 
 
 def count_stages(tableau: Tableau) -> int:
-    """The stages of all spaces together."""
+    """The number of stages of all spaces."""
     return sum(space.stages for space in tableau.spaces)
 
 
 def seen_in_nodes(tableau: Tableau, l: int) -> int | None:
-    """The colour whose time the nodes of colour l are: itself where its stages see it, else the
-    first that they see; None where they see none.
+    """The colour whose time the nodes of colour l are: l itself if its stages see it, else the
+    first colour that they see; None if they see none.
     """
     seen = [m for k, m in tableau.edges() if k == l]
     return l if l in seen or not seen else seen[0]
 
 
 def advance(tableau: Tableau, l: int) -> Number:
-    """How far a step takes the time of colour l, in steps; 1 for every consistent method."""
+    """The change of time of colour l per step; 1 for every consistent method."""
     m = seen_in_nodes(tableau, l)
     colour = tableau.colours[l if m is None else m]
     return dot(colour.b, tableau.spaces[colour.space].one)
@@ -124,15 +123,12 @@ _CURE = "compose methods of the same form and structure"
 
 
 def _fields(tableau: Tableau) -> tuple[object, ...]:
-    """For which vector fields a method is."""
+    """A key of the vector fields that a method is for."""
     return tuple((x.part, x.term, x.kind) for x in tableau.colours), frozenset(tableau.edges())
 
 
 class _Composition:
-    """The tableau of one composition.
-
-    Colours share a stage space where they do so in every method.
-    """
+    """The tableau of one composition; colours share a stage space if they do in every method."""
 
     def __init__(self, substeps: Sequence[Substep]) -> None:
         self.substeps = substeps
@@ -144,7 +140,6 @@ class _Composition:
         self.space_of = [self.places.index(place) for place in of_colours]
 
     def tableau(self) -> Tableau:
-        """The tableau, stage by stage."""
         colours = tuple(map(self._colour, range(len(self.colours))))
         nodes = (next(x.c for x in colours if x.space == k) for k in range(len(self.places)))
         blocks: dict[Edge, Matrix] = {}
@@ -167,7 +162,7 @@ class _Composition:
         return replace(self.colours[l], space=self.space_of[l], b=b, c=c)
 
     def _rows(self, l: int, m: int) -> Iterator[Vector]:
-        """The rows of A^{l,m}: weights of what was before, the method's own row, zeros."""
+        """The rows of A^{l,m}: weights of the substeps before, the method's own row, zeros."""
         before: list[Number] = []
         widths = [len(x.tableau.colours[m].b) for x in self.substeps]
         for number, substep in enumerate(self.substeps, start=1):
@@ -180,14 +175,14 @@ class _Composition:
 
 
 Flow = tuple[int, Number]
-"""A part of the problem, counted from 0, and for which fraction of the step it flows."""
+"""A part of the problem, from 0, and the fraction of the step for which it flows."""
 
 
 def drift_and_kick(flows: Sequence[Flow], is_nystrom: bool = False) -> Tableau:
     """A splitting method of a separable Hamiltonian: part 0 moves q, part 1 moves p.
 
     Args:
-        flows: one after the other; those of length 0 are left out.
+        flows: in order; flows of length 0 are left out.
         is_nystrom: whether velocities are linear in the momenta.
     """
     nothing: Vector = ()
@@ -199,11 +194,11 @@ def drift_and_kick(flows: Sequence[Flow], is_nystrom: bool = False) -> Tableau:
 
 
 def split(methods: Sequence[Method], flows: Sequence[Flow]) -> Tableau:
-    """A splitting method for ẏ = Σ f^{l}(y), a colour each part.
+    """A splitting method for ẏ = Σ f^{l}(y), with one colour for each part.
 
     Args:
-        methods: what takes the steps of each part, its stages at points.
-        flows: one after the other; those of length 0 are left out.
+        methods: the method of each part, on point stages.
+        flows: in order; flows of length 0 are left out.
     """
     parts = [alone(methods, l) for l in range(len(methods))]
     return composed([Substep(parts[l], g) for l, g in flows if g])
@@ -226,12 +221,11 @@ def alone(methods: Sequence[Method], l: int) -> Tableau:
 
 
 def adjoint(tableau: Tableau) -> Tableau:
-    """The adjoint method, the inverse of the step with −h; its adjoint is the method itself.
+    """The adjoint method, the inverse of the step with −h.
 
     It has the same weights and the blocks 𝟙 b_mᵀ − A^{l,m}, its nodes are 1 − c: E. Hairer,
-    C. Lubich, G. Wanner, *Geometric Numerical Integration*, section V.2. Stages at points are put
-    in the opposite order, so that those of a composition stay in turn; a stage algebra is
-    reflected, x → 1 − x.
+    C. Lubich, G. Wanner, *Geometric Numerical Integration*, section V.2. Point stages are reversed,
+    which keeps the order of a composition; a stage algebra is reflected, x → 1 − x.
     """
     tableau.demand_fields("the adjoint method")
     turns = [_turn(space) for space in tableau.spaces]
@@ -256,7 +250,7 @@ def adjoint(tableau: Tableau) -> Tableau:
 
 
 def _turned_space(space: StageSpace, nodes: Vector) -> StageSpace:
-    """The space of the turned stages."""
+    """The space of the reversed or reflected stages."""
     if isinstance(space, PolynomialSpace):
         modulus = space.modulus(fmpq_poly([1, -1]))
         return PolynomialSpace(modulus / modulus.leading_coefficient())
@@ -264,7 +258,7 @@ def _turned_space(space: StageSpace, nodes: Vector) -> StageSpace:
 
 
 def _turn(space: StageSpace) -> Matrix:
-    """The opposite order of stages, or f(x) → f(1 − x) on polynomials; its own inverse."""
+    """The reversal of stages, or f(x) → f(1 − x) on polynomials; its own inverse."""
     if not isinstance(space, PolynomialSpace):
         return tuple(reversed(identity(space.stages)))
     columns: list[list[Number]] = []
@@ -276,17 +270,18 @@ def _turn(space: StageSpace) -> Matrix:
 
 
 def extrapolated(base: Tableau, parts: Sequence[int], order: int, is_symmetric: bool) -> Tableau:
-    """The extrapolated method, equal stages once: numbers of substeps, so that powers of h cancel.
+    """The extrapolated method with equal stages merged: a combination of numbers of substeps that
+    cancels powers of h.
 
     E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, section II.9:
     the error of a method of order p with n equal substeps has an expansion in h^p, h^(p+1), …, that
     of a symmetric method in h^p, h^(p+2), …
 
     Args:
-        base: the method, its stages at points.
-        parts: how many equal substeps it takes, a number for each row of the extrapolation table.
-        order: of the base.
-        is_symmetric: whether its error has every second power only.
+        base: the method, on point stages.
+        parts: the number of equal substeps in each row of the extrapolation table.
+        order: the order of the base.
+        is_symmetric: whether its error has only every second power.
 
     Raises:
         MethodError: there are too many stages.
@@ -300,7 +295,9 @@ def extrapolated(base: Tableau, parts: Sequence[int], order: int, is_symmetric: 
 
 
 def side_by_side(tableaus: Sequence[Tableau], weights: Vector) -> Tableau:
-    """The method Σ w_j Φ_j: every method on its own from the same value, their results combined."""
+    """The method Σ w_j Φ_j: every method takes the step from the same value, and the results are
+    combined.
+    """
     first = tableaus[0]
     colours = [_side_by_side(tableaus, weights, l) for l in range(first.size)]
     nodes = (next(x.c for x in colours if x.space == k) for k in range(len(first.spaces)))
@@ -323,7 +320,7 @@ def _side_by_side(tableaus: Sequence[Tableau], weights: Vector, l: int) -> Colou
 
 
 def _diagonal(blocks: Sequence[Matrix], widths: Sequence[int]) -> Iterator[Vector]:
-    """The rows of a block diagonal matrix, whose blocks have so many columns."""
+    """The rows of a block diagonal matrix whose blocks have ``widths`` columns."""
     for k, block in enumerate(blocks):
         before = [ZERO] * sum(widths[:k])
         after = [ZERO] * sum(widths[k + 1 :])

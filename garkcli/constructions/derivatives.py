@@ -1,10 +1,10 @@
-"""Multiderivative Runge–Kutta methods as tableaus: they use derivatives of f along the solution.
+"""Multiderivative Runge–Kutta methods, which use derivatives of f along the solution, as tableaus.
 
     Y_i = y + Σ_k h^k Σ_j a^k_ij f_k(Y_j),        y_1 = y + Σ_k h^k Σ_j b^k_j f_k(Y_j),
 
 with f_1 = f and f_{k+1} = f_k' f. So h^k f_k(Y_j) is a derivative of h f along the exact solution
-through Y_j. Collocation with n nodes in its place, with the derivatives of the polynomial through
-them, changes no condition up to order n: docs/exact-order.md, section 13.
+through Y_j. Replacing it by collocation with n nodes changes no condition up to order n:
+docs/exact-order.md, section 13.
 
 Sources: K. H. Kastlunger, G. Wanner, "Runge Kutta processes with multiple nodes", Computing 9
 (1972) 9; R. P. K. Chan, A. Y. J. Tsai, "On explicit two-derivative Runge–Kutta methods", Numer.
@@ -29,11 +29,11 @@ from garkcli.tableau.tableau import Colour, Method, Tableau
 
 
 class Derivatives(AlongFlow):
-    """A method that uses derivatives."""
+    """A method that uses derivatives along the solution."""
 
     def tableau(self, order: int) -> Tableau:
-        """A tableau whose conditions up to an order, not less than the number of derivatives, are
-        those of the method.
+        """A tableau with the conditions of the method up to an order, which is at least the number
+        of derivatives.
         """
         flow = _flow(order)
         rows: list[Vector] = []
@@ -59,7 +59,7 @@ class Derivatives(AlongFlow):
         )
 
     def arrays(self, count: int) -> tuple[Tableau, ...]:
-        """The array of each of so many f_k, with zeros for those that are not used."""
+        """The arrays of ``count`` derivatives f_k, with zeros for unused ones."""
         s = len(self.b[0])
         zeros = (ZERO,) * s
         unused = [((zeros,) * s, zeros)] * (count - len(self.A))
@@ -71,9 +71,9 @@ class Derivatives(AlongFlow):
         return tuple(made)
 
     def apparent_order(self, weights: Weights) -> int:
-        """The order up to which the weights of the tree without branchings and of quadrature fit,
-        but for residuals that rounding may explain. R(z) ends it: it is a polynomial, or rational
-        with numerator and denominator of degree s times the number of derivatives.
+        """The order up to which the weights of the unbranched trees and of quadrature fit, up to
+        residuals that rounding may explain. It is finite because R(z) is rational with numerator
+        and denominator of degree at most s times the number of derivatives.
         """
         return fitting(self._sums(weights))
 
@@ -98,11 +98,10 @@ def _dot(u: Sequence[float], v: Sequence[float]) -> float:
 
 
 def plan(method: Derivatives, embedded: Weights | None = None) -> int:
-    """The order for which the tableau of a method is made: one more than that which it may have;
-    less where it would have too many stages.
+    """The order for which the tableau of a method is made: one more than its apparent order, or
+    less if it would have too many stages.
 
-    Raises:
-        MethodError: it would have too many stages for its derivatives.
+    Raises ``MethodError`` if it has too many stages for its derivatives.
     """
     stages, least = len(method.b[0]), len(method.A)
     refuse_large(stages * least, "take fewer stages")
@@ -117,12 +116,12 @@ def is_derivatives(tableau: Tableau) -> bool:
 
 
 def embedded_of(rows: Sequence[Vector], tableau: Tableau) -> Weights:
-    """The embedded weights of f, f' f, … that a method with this tableau has."""
+    """The embedded weights of f, f' f, … in a method with this tableau."""
     return weights_of(rows[0], jets_of(tableau))
 
 
 def words_of(tableau: Tableau) -> str:
-    """How many stages and derivatives such a method has."""
+    """The numbers of stages and derivatives in words."""
     space = jets_of(tableau)
     stages = counted(space.stages // space.order, "stage")
     return f"multiderivative, {counted(space.derivatives, 'derivative')}, {stages}"
@@ -130,12 +129,12 @@ def words_of(tableau: Tableau) -> str:
 
 @lru_cache(maxsize=32)
 def _flow(order: int) -> Method:
-    """Collocation for the exact solution."""
+    """The collocation for the exact solution."""
     return collocation_at(flow_nodes(order))
 
 
 @lru_cache(maxsize=32)
 def _derivatives(order: int) -> tuple[Vector, ...]:
-    """The functionals that take values at these nodes to the derivatives at 0, from the 0th on."""
+    """The functionals that map values at these nodes to the derivatives at 0, from order 0 on."""
     basis = list(_flow(order).space.basis_polynomials())
     return tuple(tuple(factorial(k) * polynomial[k] for polynomial in basis) for k in range(order))

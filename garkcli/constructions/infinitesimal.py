@@ -58,11 +58,11 @@ class Interval(Frozen):
     """One fast problem, with τ from 0 to 1.
 
     Attributes:
-        begin: α_ij: how much of each Y_j − y_n is in the value that it begins with.
-        drift: γ_ij: how much of each is added on the way, evenly.
+        begin: α_ij: the coefficients of Y_j − y_n in its initial value.
+        drift: γ_ij: the coefficients of Y_j − y_n that are added evenly on the way.
         width: d_i, of the fast part.
-        forcing: for each slow part its rows.
-        after: for each slow part the row that is added at the end; empty for none.
+        forcing: the rows of each slow part.
+        after: for each slow part the row that is added at the end, or empty.
     """
 
     begin: Vector
@@ -73,7 +73,7 @@ class Interval(Frozen):
 
     @property
     def rows(self) -> Iterator[tuple[int, Vector]]:
-        """The rows of slow slopes, each with its part, counted from 0."""
+        """The rows of slow slopes, each with its part, from 0."""
         for part, powers in enumerate(self.forcing):
             for row in powers:
                 yield part, row
@@ -84,13 +84,13 @@ class Coupling(Frozen):
     """The slow stages, and the fast problems between them.
 
     Attributes:
-        nodes: of the slow stages, from 0 to 1; the last one is the end of the step.
-        intervals: those that lead to each stage but the first.
-        embedded: that which leads to the embedded value; None without that.
-        matrices: for each slow part those of τ⁰, τ¹, …, as the file has them; row i leads to the
-            stage after stage i. None of methods with α, β and γ.
-        restart: how they are meant of methods whose fast problems begin at y_n; else empty.
-        has_own_nodes: whether its coefficients make the nodes.
+        nodes: the nodes of the slow stages, from 0 to 1; the last one is the end of the step.
+        intervals: the intervals that lead to each stage after the first.
+        embedded: the interval that leads to the embedded value, or None.
+        matrices: for each slow part the matrices of τ⁰, τ¹, …, as in the file; row i leads to the
+            stage after stage i. None for methods with α, β and γ.
+        restart: their convention if fast problems begin at y_n; else empty.
+        has_own_nodes: whether its coefficients determine the nodes.
     """
 
     nodes: Vector
@@ -102,7 +102,6 @@ class Coupling(Frozen):
 
     @property
     def rows(self) -> Iterator[Vector]:
-        """All coefficients."""
         yield self.nodes
         for interval in self.every:
             yield from (interval.begin, interval.drift, (interval.width,))
@@ -110,7 +109,6 @@ class Coupling(Frozen):
 
     @property
     def parts(self) -> int:
-        """How many slow parts there are."""
         return len(self.intervals[0].forcing)
 
     @cached_property
@@ -124,14 +122,14 @@ def following(
     matrices: tuple[tuple[Matrix, ...], ...],
     embedded: tuple[Powers, ...] | None = None,
 ) -> Coupling:
-    """Every fast problem begins where the one before it ends; MIS, MRI-GARK, IMEX-MRI-GARK.
+    """A coupling in which every fast problem begins where the one before ends; MIS, MRI-GARK,
+    IMEX-MRI-GARK.
 
     Args:
         nodes: from 0 to 1, the last one for the end of the step.
-        matrices: for each slow part those of τ⁰, τ¹, …; row i leads from stage i to the next, with
-            a column for each node.
-        embedded: for each slow part the rows that lead from the last stage but one to the embedded
-            value.
+        matrices: for each slow part the matrices of τ⁰, τ¹, …; row i leads from stage i to the
+            next, with a column for each node.
+        embedded: for each slow part the rows from the last stage but one to the embedded value.
     """
     columns = len(nodes)
     intervals = [
@@ -143,7 +141,9 @@ def following(
 
 
 def mis_coupling(base: Method, embedded: Vector | None = None) -> Coupling:
-    """The constant coupling of multirate infinitesimal steps: differences of rows of a method."""
+    """The constant coupling of multirate infinitesimal steps: differences of the rows of a
+    method.
+    """
     rows = [*base.A, base.b]
     differences = [_difference(row, before) for before, row in pairwise(rows)]
     last = None if embedded is None else ((_difference(embedded, base.A[-1]),),)
@@ -157,15 +157,15 @@ def restarted(
     after: Matrix | None = None,
     embedded_after: Vector | None = None,
 ) -> Coupling:
-    """Every fast problem begins at y_n and goes on to c_i; IMEX-MRI-SR.
+    """A coupling in which every fast problem begins at y_n and goes on to c_i; IMEX-MRI-SR.
 
     Args:
         nodes: from 0, in any order; the last one is 1.
         forcing: for each slow part the matrices of τ⁰, τ¹, …, τ = 1 at c_i; row i leads to the
             stage after stage i.
-        embedded: for each slow part the rows that lead to the embedded value at 1.
-        after: of the last slow part, what is added after each fast problem.
-        embedded_after: the same of the embedded value.
+        embedded: for each slow part the rows to the embedded value at 1.
+        after: the correction by the last slow part after each fast problem.
+        embedded_after: the correction of the embedded value.
     """
     zeros = _zeros(len(nodes))
     before = ((),) * (len(forcing) - 1)
@@ -183,8 +183,8 @@ def restarted(
 
 
 def of_step_time(nodes: Vector, matrices: tuple[Matrix, ...]) -> tuple[Matrix, ...]:
-    """Forcing by polynomials in the time of the step, θ = c_i τ, as MERK methods have it, as
-    polynomials in τ: dv/dτ has a factor c_i.
+    """Forcing polynomials in the time of the step, θ = c_i τ, as in MERK methods, rewritten in τ:
+    dv/dτ has a factor c_i.
     """
     return tuple(
         tuple(tuple(c ** (k + 1) * x for x in row) for c, row in zip(nodes, matrix, strict=True))
@@ -196,8 +196,7 @@ def generalized(alpha: Matrix, beta: Matrix, gamma: Matrix) -> Coupling:
     """The methods of Wensch, Knoth and Galant; row i leads to the stage after stage i, the last one
     to the end of the step.
 
-    Raises:
-        MethodError: α or γ uses a stage that is still to come.
+    Raises ``MethodError`` if α or γ uses a later stage.
     """
     nodes: list[Number] = [ZERO]
     intervals = []
@@ -215,11 +214,7 @@ def generalized(alpha: Matrix, beta: Matrix, gamma: Matrix) -> Coupling:
 
 
 def check_ends(coupling: Coupling) -> None:
-    """Refuse nodes that are not from 0 to 1, but for those that α, β and γ make.
-
-    Raises:
-        MethodError: they are not.
-    """
+    """Refuses nodes that do not go from 0 to 1, unless α, β and γ determine them."""
     nodes = coupling.nodes
     if coupling.has_own_nodes:
         return
@@ -251,10 +246,10 @@ class Plan(Frozen):
     """The collocation and the slow stages of a method, chosen once by its printed numbers.
 
     Attributes:
-        fast: for each interval the nodes of the collocation that stands for the exact solution, or
-            1 for a method; 0 where it is not there.
-        stages: the slow stages whose slopes are used, counted from 0.
-        order: of the trees up to which collocation changes no condition; None for a method.
+        fast: for each interval the nodes of the collocation for the exact solution, or 1 for a
+            method; 0 without a fast part.
+        stages: the slow stages with slopes in use, from 0.
+        order: the order of trees up to which collocation changes no condition; None for a method.
     """
 
     fast: tuple[int, ...]
@@ -263,7 +258,7 @@ class Plan(Frozen):
 
 
 def plan_for_method(coupling: Coupling) -> Plan:
-    """With small steps of a method between the slow stages."""
+    """The plan with small steps of a method between the slow stages."""
     last = len(coupling.nodes) - 1
     is_seen = any(row[-1] for interval in coupling.every for _, row in interval.rows)
     stages = range(last + 1 if is_seen else last)
@@ -271,19 +266,20 @@ def plan_for_method(coupling: Coupling) -> Plan:
 
 
 def _solved(coupling: Coupling, counts: Sequence[int]) -> tuple[int, ...]:
-    """The counts where the fast part moves, or at the first interval where it moves nowhere."""
+    """The counts at intervals where the fast part moves, or at the first one if it moves
+    nowhere.
+    """
     moves = [bool(x.width) for x in coupling.every]
     moves[0] |= not any(moves)
     return tuple(n if x else 0 for n, x in zip(counts, moves, strict=True))
 
 
 def plan_for_flow(coupling: Coupling) -> Plan:
-    """With the exact solution of each fast problem.
+    """The plan with the exact solution of each fast problem.
 
-    No method has a higher order than ``highest`` says, and where rounding explains no large
-    residuals, than ``apparent_order`` says, so that collocation which keeps the trees up to the
-    next order decides the order. Elsewhere, and of a method with too many stages for that, the
-    search for the order ends there.
+    The order is at most ``highest``, and at most ``apparent_order`` unless rounding explains large
+    residuals, so collocation that keeps the trees up to the next order decides it. Otherwise, or
+    with too many stages for that, the search for the order ends there.
     """
     seen = {j for interval in coupling.every for _, row in interval.rows for j in _support(row)}
     degrees = _solved(coupling, [max(1, *map(len, x.forcing)) for x in coupling.every])
@@ -300,13 +296,13 @@ def _support(row: Vector) -> list[int]:
 
 
 def highest(coupling: Coupling) -> int:
-    """An order that the method cannot exceed, by what its slow stages see of each other.
+    """An upper bound of the order, from the dependencies of the slow stages.
 
-    Where the fast part is 0 it is a Runge–Kutta method. An explicit one has at most the order that
-    its longest chain of stages has: the tree without branchings that has one vertex more has
-    weight 0. One whose stages see themselves, but no later ones, has a stability function with real
-    poles and a numerator of degree s at most, hence the order s + 1 (Hairer and Wanner II, Theorem
-    IV.4.18); any other has 2 s.
+    With a zero fast part it is a Runge–Kutta method. The order of an explicit one is at most the
+    length of its longest chain of stages, as the unbranched tree with one vertex more has weight 0.
+    If stages see themselves but no later ones, the stability function has real poles and a
+    numerator of degree at most s, hence order at most s + 1 (Hairer and Wanner II, Theorem
+    IV.4.18); any other has at most 2 s.
     """
     sees: list[set[int]] = [set()]
     for interval in coupling.every:
@@ -324,13 +320,13 @@ def highest(coupling: Coupling) -> int:
 
 
 _PLAIN = 1e-3
-"""Relative residuals of this size are no rounding."""
+"""Larger relative residuals are not rounding."""
 
 
 def apparent_order(coupling: Coupling, stages: Iterable[int]) -> int:
-    """The order up to which quadrature and the tree without branchings fit, of the slow method with
-    equal slow parts, but for residuals that rounding may explain; the larger one of it and of the
-    embedded weights.
+    """The order up to which quadrature and the unbranched trees fit for the slow method with equal
+    slow parts, up to residuals that rounding may explain; the larger one with b or the embedded
+    weights.
     """
     still = Plan((0,) * len(coupling.every), tuple(sorted(stages)) or (0,))
     made, further = _Infinitesimal(coupling, still, None, 1).made()
@@ -343,7 +339,7 @@ def apparent_order(coupling: Coupling, stages: Iterable[int]) -> int:
 
 
 def _as_one(rows: Iterable[Iterable[Vector]]) -> list[list[float]]:
-    """The means over the slow parts, each row given for all of them."""
+    """The means over the slow parts, row by row."""
     return [
         [sum(map(to_float, column)) / len(column) for column in zip(*x, strict=True)] for x in rows
     ]
@@ -363,11 +359,8 @@ def _sums(A: Sequence[Sequence[float]], b: Sequence[float]) -> Iterator[tuple[fl
 
 
 def fitting(values: Iterable[tuple[float, float]]) -> int:
-    """The order up to which the weights of the tree without branchings, and of that with all of
-    them at the root, are about what they should be.
-
-    Args:
-        values: both of them, for each order.
+    """The order up to which the weights of the unbranched trees, and of the bushy ones, are about
+    right; ``values`` has both for each order.
     """
     order = 0
     for order, pair in enumerate(values, start=1):
@@ -379,12 +372,12 @@ def fitting(values: Iterable[tuple[float, float]]) -> int:
 
 @lru_cache(maxsize=32)
 def collocation(stages: int) -> Method:
-    """Collocation at equidistant nodes, the last of which is 1."""
+    """Collocation at equidistant nodes, the last one 1."""
     return collocation_at(tuple(fmpq(k, stages) for k in range(1, stages + 1)))
 
 
 def collocation_at(nodes: Vector) -> Method:
-    """Collocation at nodes, for a step to the last of them."""
+    """Collocation at nodes, for a step to the last one."""
     space = PointSpace(nodes)
     integrals = [antiderivative(x) for x in space.basis_polynomials()]
     powers = [[node**k for k in range(len(nodes) + 1)] for node in nodes]
@@ -398,10 +391,10 @@ def infinitesimal(
     """The method with its embedded weights.
 
     Args:
-        coupling: of the slow stages.
-        plan: what was decided of it.
-        fast: the method of the small steps, its stages at points; None for the exact solution.
-        steps: how many of them between two slow stages that are apart in time.
+        coupling: the coupling of the slow stages.
+        plan: its plan.
+        fast: the method of the small steps, on point stages; None for the exact solution.
+        steps: the number of small steps between two slow stages that are apart in time.
 
     Raises:
         MethodError: there are too many stages.
@@ -412,7 +405,7 @@ def infinitesimal(
 
 
 def _finished(program: _Infinitesimal, plan: Plan) -> tuple[Tableau, Further]:
-    """The method: without stages that are equal, or with stages on a flow."""
+    """The method with equal stages merged, or with its stages on a flow."""
     made, further = program.made()
     if plan.order is None:
         return from_colours(merged(as_colours(made, further)), further)
@@ -431,11 +424,11 @@ def interpolation(slow: Method) -> Powers:
 
 
 def plan_for_predictor(slow: Method, forcing: Iterable[Powers], fast: Method | None) -> Plan:
-    """For a slow method that takes the step for both parts before the fast problem.
+    """The plan for a slow method that takes the step for both parts before the fast problem.
 
     Args:
         slow: the method.
-        forcing: of the fast problem, and of that for the embedded value.
+        forcing: the forcing of the fast problem, and for the embedded value.
         fast: the method of the small steps; None for the exact solution.
     """
     s = slow.stages
@@ -461,15 +454,8 @@ def predicted(
     """A step-predictor: the slow method takes the step for both parts; then the fast problem is
     solved from y_n to the end of the step, with polynomials of the slow slopes as forcing.
 
-    Args:
-        slow: the method.
-        forcing: of the fast problem, and of that for the embedded value, if there is one.
-        plan: what was decided of them.
-        fast: the method of the small steps, its stages at points; None for the exact solution.
-        steps: how many of them.
-
-    Raises:
-        MethodError: there are too many stages.
+    Arguments as in ``plan_for_predictor`` and ``infinitesimal``. Raises ``MethodError`` if there
+    are too many stages.
     """
     of_fast = sum(plan.fast) if fast is None else len(forcing) * steps * fast.stages
     refuse_large(2 * slow.stages + of_fast, SMALLER)
@@ -482,7 +468,7 @@ def predicted(
 
 
 def slow_part(method: AnyTableau) -> AnyTableau:
-    """The slow method by itself: what is left where the fast part is 0."""
+    """The slow method by itself, with a zero fast part."""
     if isinstance(method, Tableau):
         return _slow_part(method)
     return method.derive("slow part", _slow_part)
@@ -496,7 +482,7 @@ def _slow_part(tableau: Tableau) -> Tableau:
 
 
 class _Infinitesimal:
-    """One such method, from stage to stage."""
+    """One infinitesimal method, made stage by stage."""
 
     def __init__(self, coupling: Coupling, plan: Plan, fast: Method | None, steps: int) -> None:
         self.coupling = coupling
@@ -508,7 +494,7 @@ class _Infinitesimal:
         self.places = {j: n for n, j in enumerate(plan.stages)}
 
     def made(self) -> tuple[Tableau, Further]:
-        """The whole; slow slopes that nothing looks at are left out."""
+        """The method; unused slow slopes are left out."""
         result = self._result()
         further = NOTHING
         if self.coupling.embedded is not None:
@@ -518,14 +504,14 @@ class _Infinitesimal:
         return self.program.tableau(result), further
 
     def _result(self) -> Value:
-        """The value at the end of the step, from stage to stage."""
+        """The value at the end of the step, stage by stage."""
         self._reached(START)
         for i, interval in enumerate(self.coupling.intervals):
             self._reached(self._after(i, interval))
         return self.values[-1]
 
     def _reached(self, value: Value) -> None:
-        """A slow stage; its own slope is in its value already, of an implicit one."""
+        """Adds a slow stage; an implicit one already has its own slope in its value."""
         i = len(self.values)
         if i in self.places:
             self.program.add(SLOW, value, self.coupling.nodes[i])
@@ -556,7 +542,7 @@ class _Infinitesimal:
         return scaled[0] if len(scaled) == 1 else summed(*scaled)
 
     def _slow(self, part: int, row: Vector) -> Value:
-        """A combination of the slopes of one slow part, whose stages may be still to come."""
+        """A combination of the slopes of one slow part, possibly of later stages."""
         return {(SLOW + part, self.places[j]): x for j, x in enumerate(row) if j in self.places}
 
     def _node(self, interval: Interval, tau: Number) -> Number:
@@ -618,7 +604,7 @@ class _Infinitesimal:
 
 
 class _Predicted(_Infinitesimal):
-    """A method whose slow stages are those of a method for both parts."""
+    """A step-predictor: its slow stages are those of a method for both parts."""
 
     def __init__(
         self, coupling: Coupling, plan: Plan, fast: Method | None, steps: int, slow: Method

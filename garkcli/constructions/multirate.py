@@ -1,7 +1,7 @@
 """Multirate methods: small steps of a fast method within one step of a slow one.
 
 The first colour is the fast part, the others are slow ones. With coupling matrices: M. Günther, A.
-Sandu, *Multirate generalized additive Runge–Kutta methods*, Numer. Math. 133 (2016). Those with
+Sandu, *Multirate generalized additive Runge–Kutta methods*, Numer. Math. 133 (2016). Methods with
 fast problems between slow stages are in ``infinitesimal``.
 """
 
@@ -24,9 +24,9 @@ from garkcli.tableau.tableau import Colour, Edge, Method, Tableau
 from garkcli.transfer import Rule
 
 Slope: TypeAlias = tuple[int, int]
-"""A stage of a colour, both counted from 0."""
+"""A stage of a colour, both from 0."""
 Value: TypeAlias = Mapping[Slope, Number]
-"""How much of each slope is in a value."""
+"""The coefficients of the slopes in a value."""
 START: Value = {}
 """The value at the beginning of the step."""
 
@@ -41,16 +41,12 @@ def summed(*values: Value) -> Value:
 
 
 def of_slopes(colour: int, stages: Iterable[int], weights: Iterable[Number]) -> Value:
-    """Weights for stages of one colour."""
+    """A combination of the slopes of one colour."""
     return {(colour, i): weight for i, weight in zip(stages, weights, strict=True)}
 
 
 class Program:
-    """The stages of a method, space by space.
-
-    Args:
-        spaces: for each colour the space of its stages.
-    """
+    """The stages of a method, space by space; ``spaces`` has the stage space of each colour."""
 
     def __init__(self, spaces: Sequence[int]) -> None:
         self.spaces = tuple(spaces)
@@ -59,16 +55,14 @@ class Program:
         self._nodes: list[list[Number]] = [[] for _ in range(count)]
 
     def count(self, space: int) -> int:
-        """How many stages a space has so far."""
         return len(self._rows[space])
 
     def add(self, space: int, value: Value, node: Number) -> None:
-        """One stage more."""
         self._rows[space].append(value)
         self._nodes[space].append(node)
 
     def tableau(self, result: Value) -> Tableau:
-        """The method whose step ends at a value; every colour sees every other."""
+        """The method whose step ends at ``result``; every colour sees every other."""
         colours = []
         blocks: dict[Edge, Matrix] = {}
         for m, space in enumerate(self.spaces):
@@ -86,15 +80,13 @@ class Program:
 
 
 FAST, SLOW = 0, 1
-"""The colours of the parts."""
 SMALLER = "take fewer steps, or methods of fewer stages"
 
 
 def small_steps(fast: Method, steps: int) -> Method:
-    """So many equal steps of a method as one.
+    """``steps`` equal steps of a method as one.
 
-    Raises:
-        MethodError: there are too many stages.
+    Raises ``MethodError`` if there are too many stages.
     """
     refuse_large(steps * fast.stages, SMALLER)
     one = Substep(gark([fast], {}), fmpq(1, steps))
@@ -102,7 +94,7 @@ def small_steps(fast: Method, steps: int) -> Method:
 
 
 def _alone(tableau: Tableau) -> Method:
-    """The method of one colour that a tableau is."""
+    """A tableau with one colour as a method."""
     return Method("", tableau.spaces[0], tableau.blocks[0, 0], tableau.colours[0].b)
 
 
@@ -110,14 +102,14 @@ def by_rule(slow: Method, fast: Method, steps: int, rule: Rule) -> Tableau:
     """Small steps and a slow step, coupled both ways by a transfer rule.
 
     Raises:
-        MethodError: the rule asks for distinct nodes, or there are too many stages.
+        MethodError: the rule needs distinct nodes, or there are too many stages.
     """
     whole = small_steps(fast, steps)
     return gark([whole, slow], {(FAST, SLOW): rule(whole, slow), (SLOW, FAST): rule(slow, whole)})
 
 
 def add_slow_stages(program: Program, slow: Method) -> None:
-    """The stages of a slow method that takes the step for both parts."""
+    """Adds the stages of a slow method that takes the step for both parts."""
     every = range(slow.stages)
     for row, node in zip(slow.A, slow.c, strict=True):
         coarse = summed(of_slopes(FAST, every, row), of_slopes(SLOW, every, row))
@@ -126,12 +118,11 @@ def add_slow_stages(program: Program, slow: Method) -> None:
 
 
 def slowest_first(slow: Method, fast: Method, steps: int) -> Tableau:
-    """The slow method takes the whole step for both parts; then the fast part is taken again in
-    small steps, with the slow slopes interpolated.
+    """The slow method takes the whole step for both parts; then the fast part is repeated in small
+    steps, with the slow slopes interpolated.
 
-    Raises:
-        CoincidingNodes: two nodes of the slow method are equal.
-        MethodError: there are too many stages.
+    Raises ``CoincidingNodes`` if two nodes of the slow method are equal, ``MethodError`` for too
+    many stages.
     """
     refuse_large(2 * slow.stages + steps * fast.stages, SMALLER)
     program = Program([FAST, SLOW])
@@ -152,7 +143,7 @@ def slowest_first(slow: Method, fast: Method, steps: int) -> Tableau:
 
 
 class Blocks(Frozen):
-    """Coupling matrices, one of each for every small step.
+    """Coupling matrices, one of each kind for every small step.
 
     Attributes:
         fast_slow: A^{f,s,λ}, a row for each fast stage.

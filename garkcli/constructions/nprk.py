@@ -2,9 +2,9 @@
 
     Y_i = y + h Σ_jk a_ijk F(Y_j, Y_k),        y_1 = y + h Σ_jk b_jk F(Y_j, Y_k).
 
-The stages of the tableau are the pairs (j, k) at which F is evaluated. A branch is in the first or
-in the second argument of F, which its colour says: it is seen through the rows of a for Y_j, or
-those for Y_k. The conditions are those of ``garkcli.order``; docs/exact-order.md proves it, section
+The stages of the tableau are the pairs (j, k) at which F is evaluated. The colour of a branch tells
+whether it is in the first or second argument of F: it is seen through the rows of a for Y_j, or
+those for Y_k. The conditions are those of ``garkcli.order``, proved in docs/exact-order.md, section
 12.
 
 Sources: T. Buvoli, B. S. Southworth, "A new class of Runge–Kutta methods for nonlinearly
@@ -23,7 +23,7 @@ from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Colour, Tableau
 
 Tensor = Sequence[Matrix]
-"""``a[i][j][k]``; rows and matrices may end early, zeros follow."""
+"""``a[i][j][k]``; rows and matrices may be short, with zeros to follow."""
 
 
 class Pairs(PointSpace):
@@ -33,7 +33,7 @@ class Pairs(PointSpace):
 
 
 def nprk(a: Tensor, b: Matrix, embedded: Matrix | None = None) -> tuple[Tableau, Vector | None]:
-    """The tableau of a method, its stages the pairs that are used.
+    """The tableau of a method, with the pairs in use as stages.
 
     Args:
         a: a matrix for each stage.
@@ -76,8 +76,8 @@ def is_nprk(tableau: Tableau) -> bool:
 
 
 def arrays_of(tableau: Tableau) -> tuple[tuple[Matrix, ...], Vector]:
-    """The numbers a_ijk of a method, zeros included, and its nodes; rows of stages that no pair has
-    are zero.
+    """The numbers a_ijk of a method, zeros included, and its nodes; rows of stages in no pair are
+    zero.
     """
     (space,) = tableau.spaces
     assert isinstance(space, Pairs)
@@ -100,7 +100,7 @@ def matrix_of(row: Vector, tableau: Tableau) -> Matrix:
 
 
 def additive(tableau: Tableau) -> Tableau:
-    """What the method is for y′ = f₁(y) + f₂(y), F(u, v) = f₁(u) + f₂(v): an additive method.
+    """The additive method for y′ = f₁(y) + f₂(y), that is, F(u, v) = f₁(u) + f₂(v).
 
     The stages of f₁ are the first arguments of the pairs, those of f₂ the second ones.
     """

@@ -5,8 +5,8 @@
 
 A vertex of g has branches of three kinds: on q it sees q′, a leaf with the column c, and g through
 Ā, which counts two orders; on q′ it sees g through A, which counts one. The first two colours share
-the stages; their weights are b̄, of the step in q, and b, of that in q′. The conditions are those of
-``garkcli.order``; docs/exact-order.md proves it, section 11.
+stages, with the weights b̄ of the step in q and b of that in q′. The conditions are those of
+``garkcli.order``, proved in docs/exact-order.md, section 11.
 
 Source: E. Hairer, S. P. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, II.14.
 """
@@ -30,7 +30,7 @@ from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Colour, Edge, Tableau
 
 TWICE = Kind(weight=2, is_field=False)
-"""The kind of a force that is integrated twice."""
+"""A force that is integrated twice."""
 KINDS = (TWICE, ARGUMENT, LEAF)
 NAMES = ("q", "q'", "q'0")
 """The colours: g in positions, g in velocities, the velocity at the beginning of the step."""
@@ -42,10 +42,10 @@ class Nystrom(Frozen):
 
     Attributes:
         Abar: ā_ij, through which positions see g; shape (s, s).
-        A: a_ij, through which velocities do; None where g depends on q alone.
-        c: the nodes: how much of h q′ is in the positions; time takes the same.
+        A: a_ij, through which velocities see g; None if g depends on q only.
+        c: the nodes: the coefficients of h q′ in the positions, and of time.
         bbar: b̄_i, the weights of the step in q.
-        b: those of the step in q′.
+        b: the weights of the step in q′.
     """
 
     Abar: Matrix
@@ -56,7 +56,7 @@ class Nystrom(Frozen):
 
     @staticmethod
     def of(tableau: Tableau) -> Nystrom:
-        """The method of a tableau that one has: ``of(method.tableau) == method``."""
+        """The method of such a tableau: ``of(method.tableau) == method``."""
         blocks = tableau.blocks
         c = tuple(row[0] for row in blocks[0, START])
         bbar, b = (tableau.colours[l].b for l in (POSITIONS, VELOCITIES))
@@ -64,7 +64,7 @@ class Nystrom(Frozen):
 
     @property
     def tableau(self) -> Tableau:
-        """Its colours are g in q, g in q′, and q′ at the beginning of the step."""
+        """The tableau with the colours g in q, g in q′, and q′ at the beginning of the step."""
         spaces = (PointSpace(self.c), PointSpace((ZERO,)))
         rows = ((0, self.bbar, self.c), (0, self.b, self.c), (1, (ONE,), (ZERO,)))
         colours = tuple(
@@ -79,17 +79,17 @@ class Nystrom(Frozen):
 
     @property
     def in_positions(self) -> Tableau:
-        """With the conditions of the step in q alone."""
+        """The tableau with the conditions of the step in q only."""
         return _without(self.tableau, VELOCITIES)
 
     @property
     def in_velocities(self) -> Tableau:
-        """With the conditions of the step in q′ alone."""
+        """The tableau with the conditions of the step in q′ only."""
         return _without(self.tableau, POSITIONS)
 
     @property
     def partitioned(self) -> Tableau:
-        """The same method for q̇ = p, ṗ = g(q) as a partitioned one.
+        """The partitioned method for q̇ = p, ṗ = g(q).
 
         The velocities p are evaluated at the beginning, with each row of Ā, and with b̄:
         q + c_i h q′ + h² Σ_j ā_ij g_j = q + (c_i − 1) h p + h (p + h Σ_j ā_ij g_j).
@@ -109,7 +109,7 @@ class Nystrom(Frozen):
 
     @property
     def split(self) -> Tableau:
-        """The same method for (q̇, ṗ) = (p, 0) + (0, g(q, p)), each colour with all unknowns."""
+        """The method for (q̇, ṗ) = (p, 0) + (0, g(q, p)), each colour with all unknowns."""
         made = self.partitioned
         nothing = tuple((ZERO,) * len(self.b) for _ in self.b)
         width = len(self.b) + 2
@@ -126,9 +126,7 @@ class Nystrom(Frozen):
 
     @property
     def arrays(self) -> tuple[Tableau, Tableau]:
-        """The arrays of Ā with c and b̄, and of A with b, as papers print them; A is zero where
-        there is none.
-        """
+        """The printed arrays: Ā with c and b̄, and A with b; A is zero if there is none."""
 
         def array(name: str, A: Matrix, b: Vector) -> Tableau:
             colour = Colour(name, 0, b, self.c)
@@ -154,7 +152,7 @@ Which: TypeAlias = Literal["in_positions", "in_velocities", "partitioned", "spli
 
 
 def seen(method: AnyTableau, which: Which) -> AnyTableau:
-    """Another tableau of the method that has this one, which is exact or rounded."""
+    """Another view of the method with a tableau, exact or rounded."""
     if isinstance(method, Tableau):
         return _seen(which, method)
     return method.derive(which.replace("_", " "), partial(_seen, which))
@@ -166,7 +164,7 @@ def _seen(which: Which, tableau: Tableau) -> Tableau:
 
 
 def partitioned(tableau: Tableau, tolerance: fmpq | None) -> Tableau:
-    """The partitioned method for q̇ = p, ṗ = g(q); ``meant`` knows what it is rounded of."""
+    """The partitioned method for q̇ = p, ṗ = g(q), known to ``meant`` with its rounding."""
     found = seen(meant(tableau, tolerance), "partitioned")
     if not isinstance(found, Tableau):
         keep(found)
@@ -174,7 +172,7 @@ def partitioned(tableau: Tableau, tolerance: fmpq | None) -> Tableau:
 
 
 def weights_of(bbar: Vector, b: Vector) -> Weights:
-    """A row per colour from those of the steps in q and in q′, such as embedded ones."""
+    """The weights of each colour from those of the steps in q and q′, such as embedded ones."""
     return bbar, b, (ONE,)
 
 
@@ -183,7 +181,7 @@ def dense_of(bbar: Matrix, b: Matrix | None) -> DenseOutput:
 
     Args:
         bbar: for each stage the coefficients of θ, θ², … in b̄_i.
-        b: those of b_i; None where q′ is the slope of q.
+        b: the coefficients of b_i; None if q′ is the slope of q.
 
     Raises:
         MethodError: the slope of q does not begin with q′.
@@ -203,13 +201,13 @@ def nystrom(Abar: Matrix, A: Matrix | None, c: Vector, bbar: Vector, b: Vector) 
 
     Args:
         Abar: shape (s, s).
-        A: shape (s, s); None where g depends on q alone.
+        A: shape (s, s); None if g depends on q only.
         c: length s.
         bbar: length s.
         b: length s.
 
     Raises:
-        ShapeMismatch: they do not fit each other.
+        ShapeMismatch: the shapes do not fit.
 
     >>> from flint import fmpq
     >>> from garkcli.order.certificate import find_order

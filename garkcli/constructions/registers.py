@@ -1,9 +1,9 @@
-"""Methods as codes with few registers print them, as tableaus: 2N, 3S*, van der Houwen, Shu–Osher;
-and Nyström methods as pairs.
+"""Low-storage schemes as tableaus: 2N, 3S*, van der Houwen, Shu–Osher; and Nyström methods as
+pairs.
 
-Every scheme is followed step by step, with what is in its registers as a multiple of the value at
-the beginning of the step and of the slopes so far. The numbers may be of any kind that can be added
-and multiplied: exact ones, or balls around what is printed.
+Every scheme is executed step by step, with its registers as combinations of the value at the
+beginning of the step and the slopes so far. The numbers may be exact, or balls around the printed
+ones.
 """
 
 from __future__ import annotations
@@ -22,17 +22,16 @@ from garkcli.order.tolerance import within
 from garkcli.tableau.tableau import Method, butcher
 
 Numbers: TypeAlias = Sequence[Any]
-"""Exact numbers or balls; whole numbers among them."""
+"""Exact numbers, integers or balls."""
 
 
 class Steps(Frozen):
-    """An explicit method as it is followed.
+    """An executed explicit method.
 
     Attributes:
         A: shape (s, s).
         b: the weights.
-        starts: how much of the value at the beginning of the step is in each stage, and in the
-            value at its end: 1 in all of them.
+        starts: the coefficient of the initial value in each stage and in the final value: all 1.
     """
 
     A: Sequence[Numbers]
@@ -41,7 +40,9 @@ class Steps(Frozen):
 
 
 class _Registers:
-    """What a scheme has made so far: the value at the beginning comes first, then the slopes."""
+    """The registers of a scheme: the coefficient of the initial value comes first, then those of
+    the slopes.
+    """
 
     def __init__(self, stages: int) -> None:
         self._size = stages + 1
@@ -53,12 +54,12 @@ class _Registers:
         return [int(i == place) for i in range(self._size)]
 
     def slope(self, value: Numbers) -> Numbers:
-        """The slope at a value: one stage more."""
+        """Adds a stage: the slope at a value."""
         self._seen.append(value)
         return self._unit(len(self._seen))
 
     def steps(self, end: Numbers) -> Steps:
-        """The method whose value at the end of the step is given."""
+        """The method with a given value at the end of the step."""
         starts = [x[0] for x in (*self._seen, end)]
         return Steps([x[1:] for x in self._seen], end[1:], starts)
 
@@ -70,10 +71,10 @@ def _sum(*terms: tuple[Any, Numbers]) -> Numbers:
 
 
 def _whole(row: Numbers, stages: int, first: int) -> Numbers:
-    """A row of so many numbers, where the first one is left out as all know it.
+    """A row of ``stages`` numbers, with ``first`` added if it is left out.
 
     Raises:
-        MethodError: it has another length.
+        MethodError: its length does not fit.
     """
     full = [first, *row] if len(row) == stages - 1 else row
     if len(full) != stages:
@@ -102,13 +103,13 @@ def two_registers(A: Numbers, B: Numbers) -> Steps:
 def in_two_registers(
     A: Sequence[Numbers], b: Numbers, tolerance: Any = 0
 ) -> tuple[list[Any], list[Any]] | int:
-    """A and B of Williamson's 2N for an explicit method of exact numbers; a stage, from 1, whose
-    slope and the next one have no ratio where the method has no such form.
+    """A and B of Williamson's 2N for an explicit method; if there is no such form, a stage, from 1,
+    whose slope has no ratio to the next one.
 
-    The differences of one row of A and the next, the last of them b, have the form
-    d_mj = B_m A_{j+1} ⋯ A_m. So B is their diagonal, and a method has the form if and only if each
-    column is A_i times the next one, from the diagonal of that on. Of rounded coefficients the
-    ratios are those of the largest entries, and what the form gives is within ``tolerance``.
+    The differences of successive rows of A and b have the form d_mj = B_m A_{j+1} ⋯ A_m. So B is
+    their diagonal, and the form exists if and only if each column is A_i times the next one, from
+    its diagonal on. For rounded coefficients the ratios are those of the largest entries, and the
+    form reproduces the entries within ``tolerance``.
 
     >>> from flint import fmpq
     >>> in_two_registers([[0, 0], [fmpq(2, 3), 0]], [fmpq(1, 4), fmpq(3, 4)])
@@ -139,15 +140,15 @@ def in_two_registers(
 
 
 def minus_two_registers(A: Numbers, B: Numbers) -> Steps:
-    """The same with dy ← h f(y) − A_i dy."""
+    """Williamson's 2N with dy ← h f(y) − A_i dy."""
     return two_registers([-x for x in A], B)
 
 
 def three_registers(
     gamma1: Numbers, gamma2: Numbers, gamma3: Numbers, delta: Numbers, beta: Numbers
 ) -> Steps:
-    """Ketcheson's 3S*: S₂ ← S₂ + δ_i S₁, S₁ ← γ₁ S₁ + γ₂ S₂ + γ₃ S₃ + β_i h f(S₁), where S₃ is the
-    value at the beginning; 2S has γ₃ = 0.
+    """Ketcheson's 3S*: S₂ ← S₂ + δ_i S₁, S₁ ← γ₁ S₁ + γ₂ S₂ + γ₃ S₃ + β_i h f(S₁), with S₃ the
+    initial value; 2S has γ₃ = 0.
     """
     stages = len(beta)
     known = ((gamma1, 0), (gamma2, 1), (gamma3, 0), (delta, 1))
@@ -161,7 +162,7 @@ def three_registers(
 
 
 def van_der_houwen(b: Numbers, *diagonals: Numbers) -> Steps:
-    """Van der Houwen's, 2R with one diagonal below the main one: every entry that is on none of the
+    """Van der Houwen's form, 2R with one diagonal below the main one: every entry outside of the
     diagonals is the weight of its column. Each diagonal has one entry per row, from the second row
     on.
     """
@@ -178,7 +179,7 @@ def van_der_houwen(b: Numbers, *diagonals: Numbers) -> Steps:
 
 
 def ahead(b: Numbers, A: Numbers) -> Steps:
-    """2C: y ← y + B_i h f, and f is evaluated at y + A_i h f, with the last f of before."""
+    """2C: y ← y + B_i h f, with f evaluated at y + A_i h f for the previous f."""
     A = _whole(A, len(b), 0)
     return van_der_houwen(b, [0, *(x + y for x, y in zip(A[1:], b, strict=False))])
 
@@ -187,9 +188,9 @@ def shu_osher(alpha: Sequence[Numbers], beta: Sequence[Numbers]) -> Steps:
     """Y_i = v_i y + Σ α_ij Y_j + h Σ β_ij f(Y_j) with v_i = 1 − Σ α_ij, of an explicit method.
 
     Args:
-        alpha: a row for each stage but the first, and one for the value at the end; a first row of
-            zeros may be before them.
-        beta: the same.
+        alpha: a row for each stage after the first, and one for the final value; a row of zeros may
+            precede them.
+        beta: like ``alpha``.
 
     Raises:
         MethodError: a value needs a later one.
@@ -215,8 +216,8 @@ def shu_osher(alpha: Sequence[Numbers], beta: Sequence[Numbers]) -> Steps:
 
 
 def diagonals(A: Sequence[Any], b: Numbers) -> Steps:
-    """2R, 3R, … as they are printed: the diagonals below the main one, each as long as it is; one
-    of them may be a row of numbers.
+    """2R, 3R, … as printed: the diagonals below the main one, each of its own length; a single one
+    may be a plain row.
     """
     rows = A if isinstance(A[0], Sequence) else [A]
     full = []
@@ -230,7 +231,7 @@ def diagonals(A: Sequence[Any], b: Numbers) -> Steps:
 
 
 def two_s(gamma1: Numbers, gamma2: Numbers, delta: Numbers, beta: Numbers) -> Steps:
-    """2S: 3S* without the value at the beginning."""
+    """2S: 3S* without the initial value."""
     return three_registers(gamma1, gamma2, [0] * len(beta), delta, beta)
 
 
@@ -242,7 +243,7 @@ OF_FILES: Mapping[str, Callable[..., Steps]] = {
     "2S": two_s,
     "3S*": three_registers,
 }
-"""Schemes as method files have them."""
+"""The schemes of method files."""
 
 
 def as_butcher(
@@ -254,10 +255,10 @@ def as_butcher(
         scheme: a name of ``OF_FILES``.
         numbers: its coefficients.
         c: the nodes; None for the row sums.
-        grain: by how much these may be off.
+        grain: the rounding of the nodes.
 
     Raises:
-        MethodError: they make none, or a stage does not begin at the value before the step.
+        MethodError: they are not a method, or a stage does not begin at the initial value.
     """
     made = OF_FILES[scheme](*numbers)
     for i, start in enumerate(made.starts, start=1):
@@ -284,16 +285,15 @@ FORMS: Mapping[str, Callable[[Numbers, Numbers], Steps]] = {
 
 
 def nystrom(A: Sequence[Numbers], b: Numbers, c: Numbers) -> tuple[list[Numbers], Numbers]:
-    """The velocities that the positions of a Nyström method see, which is the pair (q, p) with
-    stages for p at p, p + h g_1, …, p + h g_s: as q' = p is linear these are enough.
+    """The weights of velocities in the positions of a Nyström method, as a pair (q, p).
 
     Args:
-        A: Ā, which gives positions from forces.
-        b: b̄, the same at the end of the step.
+        A: Ā, the forces in the positions.
+        b: b̄, the forces in the final position.
         c: the nodes.
 
     Returns:
-        For each position and for the end of the step one weight more than there are forces.
+        for each position and for the final one, a weight more than there are forces.
     """
     first = [node - sum(row) for node, row in zip(c, A, strict=True)]
     return [[x, *row] for x, row in zip(first, A, strict=True)], [1 - sum(b), *b]

@@ -58,10 +58,10 @@ class Rosenbrock(Frozen):
 
     Attributes:
         alpha: α^{l,m}, of the arguments of f^{l}; shape (stages of l, stages of m).
-        gamma: γ^{l,m}, beside the Jacobian of f^{l}; the same shapes.
+        gamma: γ^{l,m}, beside the Jacobian of f^{l}; shaped like alpha.
         b: its weights, one row per colour.
-        c: where f is evaluated, one row per colour; None for the sums of the rows of α^{l,l}.
-        d: the weights of ∂f/∂t; None for those of γ^{l,l}.
+        c: the nodes of f, one row per colour; None for the row sums of α^{l,l}.
+        d: the weights of ∂f/∂t; None for the row sums of γ^{l,l}.
     """
 
     alpha: Blocks
@@ -72,8 +72,8 @@ class Rosenbrock(Frozen):
 
     @staticmethod
     def of(tableau: Tableau) -> Rosenbrock:
-        """The method of a tableau that one has: ``of(method.tableau) == method``, but that its
-        nodes are given.
+        """The method of such a tableau: ``of(method.tableau) == method``, with its nodes filled
+        in.
         """
         N = tableau.size // 2
 
@@ -90,24 +90,26 @@ class Rosenbrock(Frozen):
 
     @property
     def without_row_sums(self) -> Rosenbrock:
-        """The method without the c and d that are sums of its rows."""
+        """The method with c and d None if they are row sums."""
         plain = replace(self, c=None, d=None)
         c, d = plain.nodes
         return replace(self, c=None if self.c == c else self.c, d=None if self.d == d else self.d)
 
     @property
     def tableau(self) -> Tableau:
-        """With the Jacobians of all f^{l} at the beginning of the step."""
+        """The tableau with the Jacobians of all f^{l} at the beginning of the step."""
         return self._tableau(("f", NOT_ONE, self.alpha), ("f'", ONE_BRANCH, self._beta))
 
     @property
     def with_any_matrix(self) -> Tableau:
-        """The W-method: with an arbitrary matrix for each Jacobian."""
+        """The tableau of the W-method, with an arbitrary matrix for each Jacobian."""
         return self._tableau(("f", PLAIN, self.alpha), ("W", MATRIX, self.gamma))
 
     @property
     def with_old_jacobian(self) -> Tableau:
-        """With matrices that differ from the Jacobians by O(h), such as those of earlier steps."""
+        """The tableau with matrices that differ from the Jacobians by O(h), such as those of
+        earlier steps.
+        """
         return self._tableau(
             ("f", NOT_ONE, self.alpha),
             ("f'", ONE_BRANCH, self._beta),
@@ -116,22 +118,21 @@ class Rosenbrock(Frozen):
 
     @property
     def with_time(self) -> Tableau:
-        """Of f(t, y), with h d_i f_t added to the stages: time is a colour besides."""
+        """The tableau for f(t, y), with h d_i f_t added to the stages, and time as a colour."""
         return beside_clock(self.tableau, len(self.b))
 
     @property
     def on_dae(self) -> Tableau:
-        """On ẏ = f(y, z), 0 = g(y, z) of index 1: order p has the conditions of y up to p, and
-        those of z up to p − 1. A vertex of g has several branches and counts no order.
+        """The tableau on ẏ = f(y, z), 0 = g(y, z) of index 1: order p has the conditions of y up to
+        p, and those of z up to p − 1. A vertex of g has several branches and counts no order.
 
-        Raises:
-            SingularMatrixError: β = α + γ has no inverse, so that z is not determined.
+        Raises ``SingularMatrixError`` if β = α + γ has no inverse, so z is not determined.
         """
         return self._on_dae(late=1)
 
     @property
     def on_dae_in_y(self) -> Tableau:
-        """The tableau on DAEs with the conditions of y alone."""
+        """The tableau on DAEs with the conditions of y only."""
         return self._on_dae(late=None)
 
     @property
@@ -168,7 +169,7 @@ class Rosenbrock(Frozen):
 
     @property
     def arrays(self) -> tuple[Tableau, Tableau]:
-        """The arrays of α with c and b, and of γ with d, as papers print them."""
+        """The printed arrays: α with c and b, and γ with d."""
         made = []
         for name, blocks, nodes in zip("αγ", (self.alpha, self.gamma), self.nodes, strict=True):
             spaces = tuple(map(PointSpace, nodes))
@@ -181,9 +182,7 @@ class Rosenbrock(Frozen):
 
     @property
     def on_test_equation(self) -> Tableau:
-        """The Runge–Kutta or GARK method with the same R(z): A = β, which is all that linear
-        problems tell.
-        """
+        """The Runge–Kutta or GARK method with the same R(z): A = β."""
         return self._gark(self._beta, None)
 
     @property
@@ -201,7 +200,7 @@ class Rosenbrock(Frozen):
 
     @property
     def nodes(self) -> tuple[Rows, Rows]:
-        """The c and d as they are given, or as the rows say."""
+        """The nodes c and the weights d of f_t, as given or as row sums."""
         c, d = self.c, self.d
         if c is None:
             c = tuple(_sums(row[l]) for l, row in enumerate(self.alpha))
@@ -215,10 +214,10 @@ class Rosenbrock(Frozen):
         return tuple(tuple(map(add, *rows)) for rows in zip(self.alpha, self.gamma, strict=True))
 
     def _tableau(self, *kinds: tuple[str, Kind, Blocks]) -> Tableau:
-        """The colours of each kind see all others through blocks of their own.
+        """The tableau whose colours of each kind see all others through blocks of their own.
 
         Args:
-            kinds: a letter, what vertices are like, and the blocks.
+            kinds: a letter, the kind of vertices, and the blocks.
         """
         N = len(self.b)
         c, d = self.nodes
@@ -261,23 +260,23 @@ VIEWS: dict[str, Which] = {
     "old-jacobian-order": "with_old_jacobian",
     "nonautonomous-order": "with_time",
 }
-"""The orders besides that with the Jacobian, by their claims."""
+"""The views for orders other than that with the Jacobian, by claim."""
 DAE_VIEWS: dict[str, Which] = {
     "index-1-order": "on_dae",
     "index-1-y-order": "on_dae_in_y",
     "index-1-z-order": "on_dae_in_z",
 }
-"""The orders on differential-algebraic equations, which need an inverse of α + γ."""
+"""The views for orders on differential-algebraic equations, which need an inverse of α + γ."""
 OF_BETA = OF_TEST_EQUATION | {"gamma"}
-"""Properties that are those of the Runge–Kutta method with A = β."""
+"""Properties of the Runge–Kutta method with A = β."""
 NO_PROPERTY = Reason("a property of Runge–Kutta methods, which this Rosenbrock method is not")
 
 
 def seen(method: AnyTableau, which: Which) -> AnyTableau:
-    """Another tableau of the method that has this one, which is exact or rounded.
+    """Another view of the method with a tableau, exact or rounded.
 
     Raises:
-        SingularMatrixError: there is none on a DAE, as z is not determined.
+        SingularMatrixError: the DAE does not determine z.
     """
     if isinstance(method, Tableau):
         return _seen(which, method)
@@ -290,15 +289,15 @@ def _seen(which: Which, tableau: Tableau) -> Tableau:
 
 
 def weights_for(tableau: Tableau, b: Sequence[Vector]) -> Weights:
-    """A row for each colour of one of these tableaus, from one for each f^{l}, such as embedded
+    """The weights of each colour of such a tableau, from those of each f^{l}, such as embedded
     weights; time keeps its own.
     """
     return tuple(b[colour.term] if colour.term < len(b) else colour.b for colour in tableau.colours)
 
 
 def transformed_weights(further: Further, gamma: Matrix) -> Further:
-    """Embedded weights and dense output of one colour as programs store them, like m = b Γ⁻¹, as
-    those of the stages k_i.
+    """Embedded weights and dense output of one colour, converted from the stored form m = b Γ⁻¹ to
+    weights of the stages k_i.
     """
     return _times(further, gamma)
 
@@ -317,7 +316,7 @@ def _times(further: Further, matrix: Matrix) -> Further:
 
 
 def rosenbrock(alpha: Matrix, gamma: Matrix, b: Vector) -> Rosenbrock:
-    """A method of one colour.
+    """A Rosenbrock method of one colour.
 
     Args:
         alpha: shape (s, s), lower triangular or any other.
@@ -325,7 +324,7 @@ def rosenbrock(alpha: Matrix, gamma: Matrix, b: Vector) -> Rosenbrock:
         b: length s.
 
     Raises:
-        ShapeMismatch: they do not fit each other.
+        ShapeMismatch: the shapes do not fit.
 
     >>> from flint import fmpq
     >>> from garkcli.order.certificate import find_order
@@ -343,7 +342,7 @@ def rosenbrock(alpha: Matrix, gamma: Matrix, b: Vector) -> Rosenbrock:
 
 
 def transformed(A: Matrix, C: Matrix, gamma: Vector, m: Vector) -> Rosenbrock:
-    """A method as programs store it: A = α Γ⁻¹, C = diag(1/γ_ii) − Γ⁻¹, m = b Γ⁻¹.
+    """A method from the stored form A = α Γ⁻¹, C = diag(1/γ_ii) − Γ⁻¹, m = b Γ⁻¹.
 
     Args:
         A: shape (s, s).
@@ -352,14 +351,14 @@ def transformed(A: Matrix, C: Matrix, gamma: Vector, m: Vector) -> Rosenbrock:
         m: length s.
 
     Raises:
-        MethodError: a γ_ii is zero, or an entry of C that should be.
+        MethodError: a γ_ii is zero, or an entry of C on or above the diagonal is not.
     """
     full = _full(C, gamma)
     return rosenbrock(multiply(A, full), full, apply_left(m, full))
 
 
 class Stored(Frozen):
-    """A method of one colour as programs store it; see ``transformed``.
+    """A method of one colour in the stored form; see ``transformed``.
 
     Attributes:
         A: α Γ⁻¹.
@@ -377,10 +376,10 @@ class Stored(Frozen):
 
 
 def stored(method: Rosenbrock, further: Further = NOTHING) -> Stored:
-    """A method of one colour as programs store it.
+    """The stored form of a method of one colour.
 
     Args:
-        method: of one colour, its γ lower triangular.
+        method: a method of one colour with γ lower triangular.
         further: its embedded weights and its dense output.
 
     Raises:
@@ -409,7 +408,7 @@ def stored(method: Rosenbrock, further: Further = NOTHING) -> Stored:
 
 
 def _full(C: Matrix, gamma: Vector) -> Matrix:
-    """Γ from what programs store."""
+    """Γ from the stored form."""
     if not all(gamma):
         message = "a diagonal entry of gamma is 0, and the coefficients are divided by it"
         raise MethodError(message, "give alpha and gamma", code="cannot-construct")

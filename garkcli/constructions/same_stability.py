@@ -1,4 +1,4 @@
-"""Runge–Kutta methods with the R(z) of methods that are none."""
+"""Runge–Kutta methods with the R(z) of methods of other kinds."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from garkcli.tableau.tableau import Tableau
 
 
 def with_same_function(method: AnyTableau) -> AnyTableau | None:
-    """The Runge–Kutta method with the R(z) of a Rosenbrock method, or of one that uses
-    derivatives, exact or rounded; None of another kind.
+    """The Runge–Kutta method with the R(z) of a Rosenbrock or multiderivative method, exact or
+    rounded; None for other kinds.
     """
     tableau = printed(method)
     if not (is_rosenbrock(tableau) or is_derivatives(tableau)):
@@ -28,7 +28,7 @@ def _with_same_function(tableau: Tableau) -> Tableau:
 
 
 def on_test_equation(tableau: Tableau, tolerance: fmpq | None) -> Tableau | None:
-    """The same of a tableau, of which ``meant`` then knows what it is rounded of."""
+    """``with_same_function`` of a tableau, known to ``meant`` with its rounding."""
     found = with_same_function(meant(tableau, tolerance))
     if found is None or isinstance(found, Tableau):
         return found

@@ -1,9 +1,9 @@
-"""Compositions and splittings by name: the substeps of a method, and in which order the parts of a
-problem flow, and how long.
+"""Compositions and splittings by name: substeps of a method, or flows of the parts of a problem
+with their lengths.
 
-Some numbers are exact. Those of Yoshida, Suzuki and Umeno were worked out from their order
-conditions to 40 digits, by Newton's method from the published ones; the others are as published,
-with parameters that are free.
+Some numbers are exact. Those of Yoshida, Suzuki and Umeno were computed from their order conditions
+to 40 digits, by Newton's method from the published ones; the others are as published, with free
+parameters.
 """
 
 from __future__ import annotations
@@ -18,21 +18,21 @@ Part: TypeAlias = tuple[str, bool]
 """A fraction of the step as text, and whether the adjoint takes it."""
 Parts: TypeAlias = tuple[Part, ...]
 MAX_ORDER = 12
-"""Largest order of a scheme that is repeated."""
+"""Largest order of a repeated scheme."""
 
 
 class Scheme(Frozen):
     """A composition of one method.
 
     Attributes:
-        name: as in method files.
-        order: of the result, for people.
+        name: its name in method files.
+        order: the order of the result, for people.
         summary: one line.
-        parts: the substeps, from the order of the method and the order that is wanted, both 0
-            where the scheme has one order only.
-        tolerance: the rounding of its numbers; empty where they are exact.
-        has_orders: whether it is made for any order.
-        reference: where it was published.
+        parts: makes the substeps from the order of the method and the requested order, both 0 for a
+            scheme of one order.
+        tolerance: the rounding of its numbers; empty if exact.
+        has_orders: whether it exists for any order.
+        reference: its publication.
     """
 
     name: str
@@ -52,10 +52,8 @@ def palindrome(half: Sequence[str]) -> Callable[[int, int], Parts]:
 
 
 def repeated(fractions: Callable[[int], Sequence[str]]) -> Callable[[int, int], Parts]:
-    """A scheme that gains two orders, used as often as it takes.
-
-    Args:
-        fractions: the substeps that a symmetric method of some order has to take.
+    """A scheme that gains two orders, repeated as needed; ``fractions`` gives its substeps for a
+    symmetric method of some order.
     """
 
     def parts(base: int, wanted: int) -> Parts:
@@ -90,7 +88,7 @@ _BETA = (
 
 
 def _mclachlan(_: int, __: int) -> Parts:
-    """The adjoint takes β_1, the method α_1, and so on; α is β backwards."""
+    """Alternates β_1 by the adjoint and α_1 by the method; α is β reversed."""
     parts: list[Part] = []
     for beta, alpha in zip(_BETA, reversed(_BETA), strict=True):
         parts += [(beta, True), (alpha, False)]
@@ -222,7 +220,6 @@ SCHEMES: Mapping[str, Scheme] = {
         ),
     )
 }
-"""Every scheme by name."""
 OTHER_NAMES: Mapping[str, str] = {
     "yoshida-4": "triple-jump",
     "forest-ruth": "triple-jump",
@@ -234,24 +231,24 @@ OTHER_NAMES: Mapping[str, str] = {
     "suzuki-fractal": "suzuki",
     "verlet": "strang",
 }
-"""What people call some of them, and how the program does."""
+"""Other names of some schemes, and the names used here."""
 
 
 FlowText: TypeAlias = tuple[int, str]
-"""A part of the problem, counted from 0, and for which fraction of the step it flows."""
+"""A part of the problem, from 0, and the fraction of the step for which it flows."""
 
 
 class Splitting(Frozen):
     """A splitting by name.
 
     Attributes:
-        name: as in method files.
-        order: where the flows are exact, or of that order, for people.
+        name: its name in method files.
+        order: the order with exact flows, or flows of that order, for people.
         summary: one line.
-        flows: one after the other, for a number of parts.
-        terms: how many parts it is for; 0 for any number.
-        tolerance: the rounding of its numbers; empty where they are exact.
-        reference: where it was published.
+        flows: makes the flows for a number of parts.
+        terms: the number of parts; 0 for any number.
+        tolerance: the rounding of its numbers; empty if exact.
+        reference: its publication.
     """
 
     name: str
@@ -269,7 +266,7 @@ def _strang_flows(terms: int) -> tuple[FlowText, ...]:
 
 
 def alternating(a: Sequence[str], b: Sequence[str]) -> tuple[FlowText, ...]:
-    """Part 1 for a_1, part 2 for b_1, part 1 for a_2, and so on; b may be one shorter."""
+    """Alternates part 1 for a_1 and part 2 for b_1, part 1 for a_2, …; b may be one shorter."""
     flows: list[FlowText] = []
     for i, text in enumerate(a):
         flows.append((0, text))
@@ -284,7 +281,7 @@ def _two(a: Sequence[str], b: Sequence[str]) -> Callable[[int], tuple[FlowText, 
 
 
 def _mirrored(half: Sequence[str], count: int) -> tuple[str, ...]:
-    """A palindrome of so many texts, whose sum is 1: the texts in the middle are what is left."""
+    """A palindrome of ``count`` texts with sum 1; the middle ones are determined."""
     total = " + ".join(f"({x})" for x in half)
     if count % 2:
         return (*half, f"1 - 2*({total})", *reversed(half))
@@ -341,4 +338,3 @@ SPLITTINGS = {
         ),
     )
 }
-"""Every splitting by name."""

@@ -1,5 +1,5 @@
-"""What may be wanted of a Rosenbrock method besides its order, and which of the other wants are
-meant of it.
+"""Requirements on Rosenbrock methods in ``gark design``, and the tableau that each other
+requirement is about.
 """
 
 from __future__ import annotations
@@ -64,9 +64,9 @@ def _wants() -> Iterator[Want]:
 
 
 OF_ROSENBROCK = {want.key: want for want in _wants()}
-"""What may be wanted of Rosenbrock methods alone, by its key."""
+"""Requirements for Rosenbrock methods only, by key."""
 EVERY = {**WANTS, **OF_ROSENBROCK}
-"""All that may be wanted."""
+"""All requirements, by key."""
 
 
 def _itself(tableau: Tableau) -> Tableau:
@@ -83,14 +83,14 @@ _MEANT: dict[str, Callable[[Tableau], Tableau]] = {
     ),
     "stiffly-accurate": _itself,
 }
-"""Which tableau of a Rosenbrock method a want is about."""
+"""The tableau of a Rosenbrock method that a requirement is about."""
 
 
 def meant_of(want: Want, tableau: Tableau) -> tuple[Want, Tableau]:
-    """The want and the tableau that it is about.
+    """A requirement and the tableau that it is about.
 
     Raises:
-        MethodError: it has no meaning for methods of this kind.
+        MethodError: it is not defined for methods of this kind.
     """
     is_own = is_rosenbrock(tableau)
     if want.key in OF_ROSENBROCK and not is_own:
