@@ -1,1 +1,3 @@
-"""The same method in other forms: entry by entry, additive, partitioned, padded, canonical."""
+"""Conversion of methods to other forms: entry by entry, additive, partitioned, padded,
+canonical.
+"""

@@ -1,4 +1,4 @@
-"""A method in another form, as a method file that keeps what is still true."""
+"""Converts a method to another form, as a method file that keeps the claims that still hold."""
 
 from __future__ import annotations
 
@@ -33,14 +33,14 @@ from garkcli.tableau.garkmethod import GarkMethod, derived_name
 
 
 def padded(sheet: Sheet, stages: int) -> Sheet:
-    """The method with as many stages a colour, the new ones first, with zeros.
+    """The method with ``stages`` stages in each colour; new ones come first, with zeros.
 
-    A new stage is at the node 0, sees nothing and has no weight: its value is that before the step.
-    In front of the others it leaves explicit methods explicit, diagonally implicit ones diagonally
-    implicit, and last stages last.
+    A new stage has node 0 and zero row and weights: its value is the old value. Being first, it
+    keeps explicit methods explicit, diagonally implicit ones diagonally implicit, and last stages
+    last.
 
     Raises:
-        CannotConvert: a colour has more stages already.
+        CannotConvert: a colour has more stages.
     """
     spaces: list[list[Place]] = []
     for k, space in enumerate(sheet.tableau.spaces):
@@ -56,19 +56,19 @@ def padded(sheet: Sheet, stages: int) -> Sheet:
 
 
 KEPT = ("description", "reference")
-"""What a file says of its method whatever form it has."""
+"""Keys of a file that describe its method in any form."""
 UNNAMED = "a method"
 WIDER = (1, 10, 100, 1000)
-"""How much farther numbers of a form may be off than the entries that they are made of."""
+"""Factors by which numbers of a form may be rounded more than the entries."""
 
 
 class Converted(Frozen):
-    """A method in another form.
+    """A converted method.
 
     Attributes:
-        method: it, read from the text that was written.
-        left_out: the claims of the file that do not hold of it, or mean nothing for it.
-        loses_further: whether embedded weights or dense output are left behind.
+        method: the method, read from the written text.
+        left_out: the claims of the file that do not hold for it, or are not defined.
+        loses_further: whether embedded weights or dense output are lost.
     """
 
     method: MethodFile
@@ -87,20 +87,20 @@ def convert(
     digits: int | None = None,
     is_recognising: bool = False,
 ) -> Converted:
-    """The same method in another form.
+    """Converts a method to another form.
 
     Args:
         method: a loaded method, or one from arrays.
         to: one of ``TARGETS``.
-        stages: how many stages each colour gets at least, by stages in front that do nothing.
-        digits: of ``recovered``: how many after the point; None for 50, or as many
-            as the tolerance has.
-        is_recognising: of ``recovered``: whether exact numbers take the place of decimals where
-            all digits agree and no order falls.
+        stages: the least number of stages of each colour, filled up by unused ones in front.
+        digits: for ``recovered``: digits after the point; None for 50, or as many as the tolerance
+            has.
+        is_recognising: for ``recovered``: whether exact numbers replace decimals if all digits
+            agree and no order falls.
 
     Raises:
-        UsageProblem: there is no such form, or it has no digits.
-        CannotConvert: the method has none; the message says why.
+        UsageProblem: there is no such form, or ``digits`` does not apply to it.
+        CannotConvert: the method has no such form; the message says why.
         ZeroWeight: a pair would divide by zero.
 
     >>> heun = loads("{A: [[0, 0], [1, 0]], b: [1/2, 1/2]}")
@@ -143,7 +143,7 @@ def convert(
 
 
 def _converted(text: str, method: GarkMethod, goal: Target) -> Converted:
-    """The file with what the one before says of its method, and what still holds of it."""
+    """The file with the description of the old one, and the claims that still hold."""
     text = _with_head(text, method)
     if not isinstance(method, MethodFile):
         return Converted(loads(text))
@@ -151,11 +151,7 @@ def _converted(text: str, method: GarkMethod, goal: Target) -> Converted:
 
 
 def _refuse_forms(to: str, stages: int | None) -> None:
-    """Refuse what Rosenbrock methods do not have.
-
-    Raises:
-        CannotConvert: it is that.
-    """
+    """Refuses forms that Rosenbrock methods do not have."""
     cure = f"--to {' or --to '.join(FORMS[1:])}"
     if to not in FORMS:
         raise CannotConvert(f"a Rosenbrock method has no form {to}", cure)
@@ -164,8 +160,8 @@ def _refuse_forms(to: str, stages: int | None) -> None:
 
 
 def _printed(goal: Target, form: InForm, method: GarkMethod, sheet: Sheet, name: str) -> str:
-    """The file in a form of few registers. Of a rounded method each number of the form may be off
-    by so much that no order falls, and no entry of A and b is farther off.
+    """The file in a low-storage form. For a rounded method the numbers of the form may be rounded
+    as far as no order falls and no entry of A and b is farther off.
     """
     own = method.tolerance
     key, keys = form(sheet.tableau, own)
@@ -187,7 +183,7 @@ def _printed(goal: Target, form: InForm, method: GarkMethod, sheet: Sheet, name:
 
 
 def _written(found: Recovered, name: str) -> str:
-    """The file of a recovered method, with as many of the exact numbers as no order falls with."""
+    """The file of a recovered method, with as many exact numbers as keep all orders."""
     proposals = {**found.proposals}
     while True:
         text = write_tableau_file(
@@ -210,7 +206,7 @@ def _is_as_good(text: str, found: Recovered) -> bool:
 
 
 def _with_head(text: str, method: GarkMethod) -> str:
-    """The file with what the one before says of its method."""
+    """The file with the description of the old one."""
     if not isinstance(method, MethodFile):
         return text
     version, name, *others = text.splitlines(keepends=True)
@@ -218,8 +214,8 @@ def _with_head(text: str, method: GarkMethod) -> str:
 
 
 def _claimed(text: str, method: MethodFile, goal: Target) -> Converted:
-    """The file with the claims that hold of it; a claim may be on a companion before and on the
-    method itself now.
+    """The file with the claims that hold for it; a claim on a companion may become one on the
+    method.
     """
     names = {claim.key: claim.key for claim in method.claims}
     if goal.claims:

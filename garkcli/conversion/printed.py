@@ -1,6 +1,4 @@
-"""Explicit methods in the forms that codes with few registers print, where they have them; decided
-exactly.
-"""
+"""Low-storage and similar forms of explicit methods, if they exist; decided exactly."""
 
 from __future__ import annotations
 
@@ -22,14 +20,14 @@ from garkcli.tableau.tableau import Tableau
 Printed: TypeAlias = "tuple[str, Mapping[str, Any]]"
 """The key of the form with its keys: words, rows and matrices."""
 InForm: TypeAlias = "Callable[[Tableau, fmpq | None], Printed]"
-"""A function of a tableau and the rounding of its numbers, None for exact ones."""
+"""Makes the form of a tableau, given the rounding of its numbers, None for exact ones."""
 
 
 def explicit(tableau: Tableau, form: str) -> tuple[Matrix, Vector]:
     """A and b of an explicit method of one colour.
 
     Raises:
-        CannotConvert: it is another method.
+        CannotConvert: the method is not explicit, or has several colours.
     """
     if tableau.size != 1 or tableau.is_partitioned or tableau.colours[0].is_linear:
         raise CannotConvert(f"{form} is a form of methods of one colour", "--to gark has several")
@@ -45,7 +43,7 @@ def in_2n(tableau: Tableau, tolerance: fmpq | None = None) -> Printed:
     """Williamson's 2N.
 
     Raises:
-        CannotConvert: the method has none, exactly or within the tolerance.
+        CannotConvert: the method has no such form, exactly or within the tolerance.
     """
     A, b = explicit(tableau, "2N")
     found = in_two_registers(A, b)
@@ -61,8 +59,8 @@ def in_2n(tableau: Tableau, tolerance: fmpq | None = None) -> Printed:
 
 
 def in_registers(registers: int) -> InForm:
-    """Van der Houwen's with so many registers: below that many diagonals less one a column has the
-    weight of its stage.
+    """Van der Houwen's form with ``registers`` registers: below that many diagonals minus one, the
+    entries of a column are the weight of its stage.
     """
     form = f"{registers}R"
 
@@ -87,13 +85,7 @@ def in_registers(registers: int) -> InForm:
 
 def in_shu_osher(tableau: Tableau, _: fmpq | None = None) -> Printed:
     """The canonical form of Shu and Osher, whose numbers are not negative: with the SSP coefficient
-    r and K = (A; bᵀ), α = r K (I + r K)⁻¹ and β = α/r; r is that of the digits as printed.
-
-    Source: S. Gottlieb, D. Ketcheson, C.-W. Shu, *Strong Stability Preserving Runge–Kutta and
-    Multistep Time Discretizations*, 3.3.
-
-    Raises:
-        CannotConvert: r is 0, or no number with simple radicals.
+    r of the printed digits and K = (A; bᵀ), α = r K (I + r K)⁻¹ and β = α/r.
     """
     A, b = explicit(tableau, "shu-osher")
     found = ssp_coefficient(tableau)
@@ -125,7 +117,7 @@ def in_shu_osher(tableau: Tableau, _: fmpq | None = None) -> Printed:
 
 
 def _rounded(numbers: Sequence[Any], tolerance: fmpq) -> list[Number]:
-    """Numbers with one digit more than a tolerance has."""
+    """Numbers with one digit more than the tolerance."""
     digits = len(str((1 / tolerance).floor()))
     unit = fmpq(10) ** -digits
     near = (midpoint(to_ball(_number(x), 2 * digits)) for x in numbers)

@@ -1,4 +1,4 @@
-"""The method that the authors of a rounded file meant, to as many digits as one wants."""
+"""Recovers the method that the authors of a rounded file meant, to any number of digits."""
 
 from __future__ import annotations
 
@@ -30,25 +30,25 @@ if TYPE_CHECKING:
     from garkcli.tableau.tableau import Tableau
 
 DIGITS = 50
-"""After the point, unless others are requested or the file has more."""
+"""Default number of digits after the point, unless the file has more."""
 DIGITS_OF_A_ROOT = 20
-"""So many tell the root of a polynomial from its others."""
+"""Digits that distinguish a root of a polynomial from the others."""
 FEWEST_TO_RECOGNISE = 40
-"""Fewer digits speak for no exact number."""
+"""With fewer digits no exact number is proposed."""
 
 
 class Recovered(Frozen, eq=False):
-    """The method that a rounded one is taken to be.
+    """The method that a rounded one is taken to mean.
 
     Attributes:
-        sheet: its entries: those that no rounded number is in as they are, others with the wanted
-            digits.
-        tolerance: a unit of the last digit: with half a unit the method is at an end of many radii,
-            where no search finds it again.
-        exact: texts of numbers that are no decimals, by their values.
-        proposals: texts of exact numbers that the digits speak for, likewise; the shortest first.
-        orders: of the method, its conjugate, its pair, its embedded weights and dense output.
-        is_exact: whether A, b and c are exact, and only further weights rounded.
+        sheet: its entries: exact ones unchanged, others with the requested digits.
+        tolerance: a unit of the last digit; with half a unit the method would be at an end of many
+            radii, where no search finds it again.
+        exact: texts of numbers that are not decimals, by value.
+        proposals: texts of exact numbers suggested by the digits, by value; the shortest first.
+        orders: the orders of the method, its conjugate, its pair, its embedded weights and dense
+            output.
+        is_exact: whether only further weights are rounded.
     """
 
     sheet: Sheet
@@ -59,7 +59,7 @@ class Recovered(Frozen, eq=False):
     is_exact: bool
 
     def text_with(self, proposals: Mapping[Number, str]) -> Callable[[Number], str]:
-        """How coefficients are written where some exact numbers are taken."""
+        """The notation of coefficients with some exact numbers."""
         known = {**self.exact, **proposals}
 
         def text(number: Number) -> str:
@@ -69,7 +69,7 @@ class Recovered(Frozen, eq=False):
         return text
 
     def tolerance_with(self, proposals: Mapping[Number, str]) -> Written | None:
-        """The tolerance of a file with these; None where it has no decimals."""
+        """The tolerance of a file with these exact numbers; None without decimals."""
         known = {fmpq(0), *self.exact, *proposals}
         further = self.sheet.further
         dense = [row for power in further.powers for row in power]
@@ -83,16 +83,16 @@ class Recovered(Frozen, eq=False):
 def recovered(
     method: GarkMethod, digits: int | None = None, is_recognising: bool = False
 ) -> Recovered:
-    """The method that a rounded one is taken to be, with so many digits after the point.
+    """The method that a rounded one is taken to mean, with ``digits`` digits after the point.
 
     Args:
-        method: with a tolerance.
-        digits: after the point; None for 50, or as many as the tolerance has where it has more.
+        method: a method with a tolerance.
+        digits: digits after the point; None for 50, or the digits of the tolerance if more.
         is_recognising: whether to look for exact numbers.
 
     Raises:
-        CannotConvert: there is no rounding.
-        MethodError: no more digits of it are known.
+        CannotConvert: the method is exact.
+        MethodError: no more digits are known.
     """
     meant = with_further(as_meant(method))
     if meant is None:
@@ -113,7 +113,7 @@ def recovered(
     found: dict[Number, str] = {}
 
     def entry(value: Any, form: Any) -> Number:
-        """The number as it is written."""
+        """The number in the new file."""
         if isinstance(value, fmpq) and not isinstance(form, Affine):
             exact[value] = str(value)
             return value
@@ -135,12 +135,12 @@ def recovered(
 
 
 def nearest(x: fmpq, unit: fmpq) -> fmpq:
-    """The multiple of a unit that is nearest to a number."""
+    """The multiple of ``unit`` nearest to a number."""
     return unit * (x / unit + fmpq(1, 2)).floor()
 
 
 def _recognised(x: fmpq, digits: int) -> str | None:
-    """An exact number that so many digits speak for; all that are known agree with it."""
+    """An exact number suggested by ``digits`` digits, which agrees with all known ones; or None."""
     near = plain_decimal(nearest(x, fmpq(10) ** -DIGITS_OF_A_ROOT))
     found = exact_form(x, digits, near)
     if found is None:
@@ -173,7 +173,7 @@ def _entry_by_entry(
 
 
 def _numbers(sheet: Sheet) -> Iterator[Number]:
-    """All numbers that a file of it has."""
+    """All numbers in a file of the sheet."""
     for row in sheet.tableau.rows:
         yield from row
     for weights in sheet.further.rows:
@@ -182,7 +182,7 @@ def _numbers(sheet: Sheet) -> Iterator[Number]:
 
 
 def is_as_good(made: GarkMethod, found: Recovered) -> bool:
-    """Whether a method has all orders of the recovered one."""
+    """Whether a method has at least the orders of the recovered one."""
     return all(map(ge, orders_of(made), found.orders))
 
 

@@ -1,4 +1,4 @@
-"""Rosenbrock methods as papers print them, and as programs store them."""
+"""Rosenbrock methods as papers print them, and in the form that programs store."""
 
 from __future__ import annotations
 
@@ -40,31 +40,30 @@ PRINTED = "printed"
 TRANSFORMED = "transformed"
 """The form with A, C, γ_ii and m."""
 FORMS = ("spelled-out", PRINTED, TRANSFORMED)
-"""The forms of Rosenbrock methods, by the words of ``--to``."""
+"""The forms of Rosenbrock methods, as words of ``--to``."""
 _Parts: TypeAlias = "dict[str, tuple[Vector, ...]]"
-"""Rows by their keys in the file; of a vector one row."""
+"""The rows of each key in the file; a vector has one row."""
 _Texts: TypeAlias = "Mapping[str, Sequence[Sequence[str]]]"
 _MATRICES = {"alpha", "gamma", "A", "C", "dense"}
 _NOISE = 2.0**-40
-"""Shares of a radius below this come from the arithmetic with forms alone."""
+"""Smaller parts of a radius come from the arithmetic with forms only."""
 _SPARE = 100
-"""Into so many units of its last place a tolerance is divided."""
+"""The number of units of the last place in a tolerance."""
 
 
 def text_in_form(method: GarkMethod, to: str, name: str) -> str:
     """The file of a Rosenbrock method of one colour in one of its forms.
 
-    Exact numbers stay exact. Where decimals become others, these get two digits more than the
-    tolerance, which is then that of the new numbers: all methods that the old file admits are
-    within it.
+    Exact numbers stay exact. New decimals get two digits more than the tolerance, which is enlarged
+    to cover all methods that the old file admits.
 
     Args:
-        method: it.
+        method: the method.
         to: one of ``FORMS``.
-        name: what the file calls it.
+        name: its name in the file.
 
     Raises:
-        CannotConvert: it has no such form.
+        CannotConvert: the method has no such form.
     """
     if method.tableau.size > 2 and to == TRANSFORMED:
         message = "programs store Rosenbrock methods of one colour, and this one has more"
@@ -87,7 +86,7 @@ def text_in_form(method: GarkMethod, to: str, name: str) -> str:
 
 
 def _parts(tableau: Tableau, further: Further, form: str) -> _Parts:
-    """The keys of a file in a form; c and d where they are no sums of rows."""
+    """The keys of a file in a form; c and d unless they are row sums."""
     method = Rosenbrock.of(tableau).without_row_sums
     if len(method.b) > 1:
         return _blocks(method, further)
@@ -112,7 +111,7 @@ def _parts(tableau: Tableau, further: Further, form: str) -> _Parts:
 
 
 def _blocks(method: Rosenbrock, further: Further) -> _Parts:
-    """The same of several colours: each block by its colours."""
+    """The keys for several colours: each block by its colours."""
     parts: _Parts = {}
     for key, blocks in (("alpha", method.alpha), ("gamma", method.gamma)):
         for l, row in enumerate(blocks, start=1):
@@ -124,13 +123,13 @@ def _blocks(method: Rosenbrock, further: Further) -> _Parts:
 
 
 class _Places:
-    """The numbers of a form as forms of the rounded numbers that they are made of.
+    """The numbers of a form as affine forms in the rounded numbers.
 
     Args:
         rounded: the method with its further weights.
-        form: that is written.
-        keys: of what is written.
-        is_other: whether it is another form than that of the file.
+        form: the form to write.
+        keys: the keys to write.
+        is_other: whether it differs from the form of the file.
     """
 
     def __init__(
@@ -159,7 +158,7 @@ class _Places:
 
     @property
     def tolerance(self) -> Written | None:
-        """By how much the numbers that were written may be off, by keys of ``tolerance``."""
+        """The tolerance of the written numbers, by keys of ``tolerance``."""
         found = {}
         for key in self._forms:
             if _kind(key) in self._rounded:
@@ -169,7 +168,7 @@ class _Places:
         return found or None
 
     def texts(self, key: str, rows: Sequence[Vector]) -> Iterator[list[str]]:
-        """The numbers of a key as they are written."""
+        """The numbers of a key as text."""
         for row, forms in zip(rows, self._forms[key], strict=True):
             # equal γ_ii are written once, and each has a form
             yield [self._text(key, *pair) for pair in zip(row, forms, strict=False)]
@@ -195,7 +194,7 @@ def _kind(key: str) -> str:
 
 
 def _unit(radius: float) -> fmpq:
-    """The unit of the last place for numbers that may be off by a radius."""
+    """The unit of the last place for numbers with a radius."""
     unit = fmpq(1)
     while radius and float(unit.p) / float(unit.q) * _SPARE > radius:
         unit /= 10
@@ -203,7 +202,7 @@ def _unit(radius: float) -> fmpq:
 
 
 def _rounded_up(radius: float, unit: fmpq) -> fmpq:
-    """A radius and the rounding to a unit, in two digits."""
+    """A radius plus the rounding to a unit, in two digits."""
     whole = fmpq(*radius.as_integer_ratio()) + unit / 2
     step = unit * 10
     return step * -((-whole / step).floor())
@@ -237,7 +236,7 @@ def _file(texts: _Texts, form: str, name: str, tolerance: Written | None) -> str
 
 
 def _lines_of_blocks(texts: _Texts) -> Iterator[str]:
-    """The keys under ``blocks``, with null for blocks that are zero."""
+    """The keys under ``blocks``, with null for zero blocks."""
     N = len(texts["b"])
 
     def block(key: str) -> str:
@@ -256,7 +255,7 @@ def _lines_of_blocks(texts: _Texts) -> Iterator[str]:
 
 
 def _lower(rows: Sequence[Sequence[str]]) -> Iterator[Sequence[str]]:
-    """The rows of a triangular matrix up to the last entry that it may have; of another all."""
+    """The rows of a triangular matrix without its zeros; other matrices unchanged."""
     for behind in (0, 1):
         if all(x == "0" for i, row in enumerate(rows) for x in row[i + behind :]):
             return (row[: i + behind] for i, row in enumerate(rows))

@@ -1,4 +1,4 @@
-"""A method entry by entry, with its further rows of weights: what conversions work on."""
+"""A method entry by entry, with its further weights: the data of conversions."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ from garkcli.tableau.tableau import Edge, Tableau
 
 
 class OneField:
-    """The smallest field that holds all of some numbers, and the map into it.
+    """The smallest field that contains some numbers, and the map into it.
 
-    Numbers can be added when they come from one ``NumberField`` object; those of two
-    files never do, though both may be in ℚ(√3).
+    Only numbers from one ``NumberField`` object can be added; those of two files are not, even if
+    both are in ℚ(√3).
 
     Args:
-        numbers: from any fields; None of them needs to be irrational.
+        numbers: from any fields.
 
     Raises:
         LimitExceeded: together they generate too large a field.
@@ -56,33 +56,31 @@ class OneField:
             self._images[id(field)] = [domain.evaluate(x) for x, _ in field.radicals]
 
     def number(self, number: Number) -> Number:
-        """The same number in the common field."""
+        """The number in the common field."""
         if not isinstance(number, Algebraic) or not self._images:
             return number
         image: Number = with_radicals(number, self._images[id(number.field)])
         return image
 
     def vector(self, row: Sequence[Number]) -> Vector:
-        """A row, number by number."""
         return tuple(map(self.number, row))
 
     def matrix(self, rows: Sequence[Sequence[Number]]) -> Matrix:
-        """A block, number by number."""
         return tuple(map(self.vector, rows))
 
 
 Place: TypeAlias = tuple[int, int] | None
-"""A stage (space, number) of the method before; None for one that is added, with zeros."""
+"""A stage (space, index) of the old method; None for an added one, with zeros."""
 
 
 class CannotConvert(MethodError):
-    """A method that has no such form; the message says why."""
+    """A method has no such form; the message says why."""
 
     code = "cannot-convert"
 
 
 class Sheet(Frozen):
-    """A method with one coordinate a stage.
+    """A method on point stages.
 
     Attributes:
         tableau: over point spaces, all numbers from one field.
@@ -94,7 +92,7 @@ class Sheet(Frozen):
 
 
 def sheet_of(method: GarkMethod) -> Sheet:
-    """The entries of a method, with its embedded weights and its dense output.
+    """The entries of a method, with its embedded weights and dense output.
 
     Raises:
         CannotConvert: its nodes have no simple radicals.
@@ -108,7 +106,7 @@ def sheet_of(method: GarkMethod) -> Sheet:
 
 
 def in_one_field(sheets: Sequence[Sheet]) -> list[Sheet]:
-    """The same sheets with numbers that can be compared with each other.
+    """The sheets with numbers in one field, so that they can be compared.
 
     Raises:
         CannotConvert: the numbers generate too large a field.
@@ -123,7 +121,6 @@ def in_one_field(sheets: Sequence[Sheet]) -> list[Sheet]:
 
 
 def all_rows(sheet: Sheet) -> Iterator[Vector]:
-    """All rows of numbers."""
     for space in sheet.tableau.spaces:
         yield space.nodes
     for colour in sheet.tableau.colours:
@@ -136,7 +133,7 @@ def all_rows(sheet: Sheet) -> Iterator[Vector]:
 
 
 def _mapped(sheet: Sheet, field: OneField) -> Sheet:
-    """The sheet with each number as it is in a larger field."""
+    """The sheet with its numbers in a larger field."""
     old = sheet.tableau
     spaces = tuple(PointSpace(field.vector(space.nodes)) for space in old.spaces)
     colours = tuple(replace(x, b=field.vector(x.b), c=field.vector(x.c)) for x in old.colours)
@@ -145,15 +142,15 @@ def _mapped(sheet: Sheet, field: OneField) -> Sheet:
 
 
 def regrouped(sheet: Sheet, spaces: Sequence[Sequence[Place]], homes: Sequence[int]) -> Sheet:
-    """The method with its stages arranged anew.
+    """The method with its stages rearranged.
 
     Args:
         sheet: the method.
-        spaces: for each new stage space its stages.
-        homes: for each colour the new space that has all of its stages.
+        spaces: the stages of each new space.
+        homes: for each colour the new space with all its stages.
 
     Raises:
-        CannotConvert: a new space has stages that see a colour, and others that do not.
+        CannotConvert: some stages of a new space see a colour and others do not.
     """
     homes = [*homes] * (1 + len(sheet.further.rows))
 
@@ -180,26 +177,26 @@ def regrouped(sheet: Sheet, spaces: Sequence[Sequence[Place]], homes: Sequence[i
 
 
 def arranged(sheet: Sheet, spaces: Sequence[Sequence[Place]]) -> Sheet:
-    """The method with the stages of each space arranged anew, its colours where they are."""
+    """The method with the stages of each space rearranged."""
     return regrouped(sheet, spaces, [colour.space for colour in sheet.tableau.colours])
 
 
 def _nodes(tableau: Tableau, places: Iterable[Place]) -> Vector:
-    """The nodes of stages; 0 at those that are added."""
+    """The nodes of stages; 0 for added ones."""
     return tuple(
         ZERO if place is None else tableau.spaces[place[0]].nodes[place[1]] for place in places
     )
 
 
 def _chosen(row: Vector, space: int, places: Iterable[Place]) -> Vector:
-    """A row over the stages of one space; 0 at all others."""
+    """A row over the stages of one space; 0 for all others."""
     return tuple(ZERO if place is None or place[0] != space else row[place[1]] for place in places)
 
 
 def _block(
     tableau: Tableau, m: int, rows: Sequence[Place], columns: Sequence[Place]
 ) -> Matrix | None:
-    """What new stages see of a colour; None where they do not see it."""
+    """The block of new stages and a colour; None if they do not see it."""
     space = tableau.colours[m].space
     seeing = {place[0] for place in rows if place is not None}
     blind = [k for k in seeing if (k, m) not in tableau.blocks]
@@ -222,19 +219,19 @@ def _block(
 
 
 def each_its_own(sheet: Sheet) -> Sheet:
-    """The method with stages of its own for every colour."""
+    """The method with separate stages for every colour."""
     old = sheet.tableau
     spaces = [[(x.space, i) for i in range(len(x.b))] for x in old.colours]
     return regrouped(sheet, spaces, range(old.size))
 
 
 def of_weights(sheet: Sheet, change: Callable[[Tableau], Tableau | None]) -> Sheet:
-    """What a change of the tableau makes of the method and of its further weights.
+    """The method with its further weights after a change of the tableau.
 
-    The change sees each further row of weights as that of one more colour, which no stage sees.
+    Each further row of weights is changed like that of one more colour, which no stage sees.
 
     Raises:
-        CannotConvert: the change is not made.
+        CannotConvert: the change returns None.
     """
     changed = change(as_colours(sheet.tableau, sheet.further))
     if changed is None:

@@ -1,9 +1,9 @@
-"""Stages told apart by their entries, whatever their numbers are, and put in an order.
+"""Distinguishes stages by their entries, and sorts them.
 
-Every stage gets a class: first by its node and its weights, then again and again by the classes of
-its neighbours on both sides, with which entries, until no class divides any more (the
-refinement of colours of graphs by B. Weisfeiler and A. Lehman). Stages that a renumbering of a
-method turns into each other are in one class; classes have an order that no numbering changes.
+Every stage gets a class: first by its node and weights, then repeatedly by the classes of its
+neighbours on both sides with their entries, until no class divides any more (colour refinement of
+B. Weisfeiler and A. Lehman). Stages that a renumbering of the method maps to each other share a
+class; the order of classes does not depend on numbering.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ from garkcli.graph import solving_order
 from garkcli.tableau.tableau import Tableau
 
 Stage: TypeAlias = tuple[int, int]
-"""A stage: its space, and its number there."""
+"""A stage: its space, and its index there."""
 Classes: TypeAlias = dict[Stage, int]
 _Signature: TypeAlias = tuple[Any, ...]
-"""What tells stages apart; those of one round can be sorted."""
+"""A key of a stage; those of one round can be sorted."""
 _Glances: TypeAlias = dict[Stage, list[tuple[int, int, int]]]
-"""For each stage the colours that it sees, with which entry, at a stage of which class."""
+"""For each stage the colours that it sees, with the entry and the class of the other stage."""
 _Ranks: TypeAlias = Mapping[Number, int]
 
 
@@ -53,13 +53,13 @@ def _compared(x: Number, y: Number) -> int:
 
 
 def _numbered(signatures: Mapping[Stage, _Signature]) -> Classes:
-    """The places of signatures in ascending order."""
+    """The ranks of signatures in ascending order."""
     place = {signature: k for k, signature in enumerate(sorted({*signatures.values()}))}
     return {stage: place[x] for stage, x in signatures.items()}
 
 
 def _first(sheet: Sheet, ranks: _Ranks) -> dict[Stage, _Signature]:
-    """What a stage has by itself: its space, its nodes and its weights of every colour."""
+    """The first signature of each stage: its space, its nodes and its weights of every colour."""
     signatures: dict[Stage, _Signature] = {}
     for k, space in enumerate(sheet.tableau.spaces):
         rows = _own_rows(sheet, k)
@@ -80,7 +80,7 @@ def _own_rows(sheet: Sheet, space: int) -> list[Vector]:
 
 
 def _sights(tableau: Tableau, classes: Classes, ranks: _Ranks) -> dict[Stage, _Signature]:
-    """The class of a stage with what it sees, and with what sees it, both in ascending order."""
+    """The class of each stage with its sorted sights in both directions."""
     seen: _Glances = {}
     seeing: _Glances = {}
     for stage in classes:
@@ -104,15 +104,15 @@ def _sights(tableau: Tableau, classes: Classes, ranks: _Ranks) -> dict[Stage, _S
 def in_order(sheet: Sheet) -> Sheet:
     """The method with its stages sorted.
 
-    A stage comes after those that it needs, unless they need it too; what that leaves open is
-    decided by nodes, weights and entries. Two numberings of a method give the same, unless only
-    a search could tell their stages apart.
+    A stage comes after those that it needs, unless they need it too; ties are broken by nodes,
+    weights and entries. Two numberings of a method give the same result, unless only a search could
+    distinguish their stages.
     """
     return _arranged(sheet, stage_classes(sheet))
 
 
 def in_solving_order(sheet: Sheet) -> Sheet:
-    """The method with each stage after those that it needs, as near to its own order as can be."""
+    """The method with each stage after those that it needs, otherwise in its own order."""
     own: Classes = {stage: number for number, stage in enumerate(_stages(sheet.tableau))}
     return _arranged(sheet, own)
 
@@ -125,7 +125,7 @@ def _stages(tableau: Tableau) -> list[Stage]:
 
 
 def _arranged(sheet: Sheet, places: Classes) -> Sheet:
-    """The stages of each space, the first place first among those that nothing holds up."""
+    """The stages of each space in solving order, by place among those that are ready."""
     spaces: list[list[Place]] = [[] for _ in sheet.tableau.spaces]
     for stage in solving_order(_needs(sheet.tableau), places):
         k, _ = stage
@@ -134,7 +134,7 @@ def _arranged(sheet: Sheet, places: Classes) -> Sheet:
 
 
 def _needs(tableau: Tableau) -> dict[Stage, list[Stage]]:
-    """For each stage those that it sees with an entry that is not zero."""
+    """For each stage those that it sees with a nonzero entry."""
     needs: dict[Stage, list[Stage]] = {stage: [] for stage in _stages(tableau)}
     for (k, m), block in tableau.blocks.items():
         other = tableau.colours[m].space

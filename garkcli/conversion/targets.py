@@ -1,4 +1,4 @@
-"""The forms that methods can be brought into, by name."""
+"""The forms that methods can be converted to, by name."""
 
 from __future__ import annotations
 
@@ -25,16 +25,15 @@ from garkcli.tableau.tableau import Part
 
 
 class Target(Frozen):
-    """What ``--to`` names.
+    """A form that ``--to`` names.
 
     Attributes:
-        name: as it is requested.
-        summary: what it is, in a line.
-        convert: the entries in this form; raises ``CannotConvert`` with the reason.
-        claims: what the claims of the method become, by their keys; without it each claim that
-            holds of the result stays.
-        makes_another: whether the result is another method, made from this one.
-        printed: its coefficients as few registers print them; None where a tableau is written.
+        name: its name.
+        summary: one line.
+        convert: makes the entries in this form; raises ``CannotConvert`` with the reason.
+        claims: the new keys of claims; without it each claim that holds for the result stays.
+        makes_another: whether the result is another method.
+        printed: makes the coefficients of a low-storage form; None for a tableau.
     """
 
     name: str
@@ -48,14 +47,13 @@ class Target(Frozen):
 def as_gark(method: GarkMethod) -> Sheet:
     """The method as a GARK method.
 
-    The parts q and p of a partitioned method become colours whose vector fields are zero in the
-    other part.
+    The parts q and p become colours whose vector fields are zero in the other part.
     """
     return without_parts(each_its_own(sheet_of(method)))
 
 
 def without_parts(sheet: Sheet) -> Sheet:
-    """The method for vector fields that drive all unknowns, its colours numbered."""
+    """The method for vector fields that drive all unknowns, with its colours numbered."""
     colours = []
     for l, colour in enumerate(sheet.tableau.colours):
         colours.append(replace(colour, name=str(l + 1), term=l, part="y"))
@@ -65,9 +63,8 @@ def without_parts(sheet: Sheet) -> Sheet:
 def as_ark(method: GarkMethod) -> Sheet:
     """The method as an additive one.
 
-    Where the colours have the same stages already these are shared. Otherwise the stages of all
-    colours are one after the other, each with zeros in the columns of the others, and those that
-    are equal become one.
+    If the colours have the same stages, they share them. Otherwise the stages of all colours follow
+    each other, each with zeros in the columns of the others, and equal ones are merged.
 
     Raises:
         CannotConvert: a colour is linear, or some stages do not see every colour.
@@ -97,7 +94,7 @@ def as_ark(method: GarkMethod) -> Sheet:
 
 
 def shared(sheet: Sheet) -> Sheet | None:
-    """The method with one stage space, where stage i of every colour is the same; else None."""
+    """The method with one stage space, if stage i of every colour is the same; else None."""
     tableau = sheet.tableau
     first, *others = range(len(tableau.spaces))
     colours = range(tableau.size)
@@ -118,7 +115,7 @@ def as_prk(method: GarkMethod) -> Sheet:
     """The method as a partitioned one: colour 1 drives q, colour 2 drives p.
 
     Raises:
-        CannotConvert: it has not two colours, or these neither share their stages nor leave
+        CannotConvert: it does not have two colours, or these neither share their stages nor leave
             themselves unseen.
     """
     sheet = sheet_of(method)
@@ -145,23 +142,20 @@ def as_prk(method: GarkMethod) -> Sheet:
 
 
 def as_pair(method: GarkMethod) -> Sheet:
-    """The pair (Q, P) of a method and its conjugate, as a GARK method: colours V¹…Vᴺ, then
-    F¹…Fᴺ.
+    """The pair (Q, P) of a method and its conjugate, as a GARK method: colours V¹…Vᴺ, then F¹…Fᴺ.
 
-    Embedded weights and dense output are those of the method, not of the pair: they are left out.
-
-    Raises:
-        ZeroWeight: a conjugate would divide by zero.
+    Embedded weights and dense output, which are not those of the pair, are left out. Raises
+    ``ZeroWeight`` if a conjugate would divide by zero.
     """
     both = GarkMethod(tableau=pair(method.tableau))
     return without_parts(each_its_own(sheet_of(both)))
 
 
 def as_canonical(method: GarkMethod) -> Sheet:
-    """The smallest method that does the same, its stages in an order of their own.
+    """The smallest method with the same step, with its stages in canonical order.
 
-    Methods that differ in the numbers of their stages, in stages without influence or in stages
-    that are there twice, or in whether colours share their stages, have the same canonical form.
+    Methods that differ in numbering, in unused or repeated stages, or in whether colours share
+    stages, have the same canonical form.
     """
     sheet = sheet_of(method)
     if not sheet.tableau.is_partitioned:
@@ -173,11 +167,7 @@ def as_canonical(method: GarkMethod) -> Sheet:
 
 
 def as_rosenbrock(_: GarkMethod) -> Sheet:
-    """No GARK method has the forms of Rosenbrock methods.
-
-    Raises:
-        CannotConvert: always.
-    """
+    """Always raises ``CannotConvert``: no GARK method has the forms of Rosenbrock methods."""
     raise CannotConvert("this form is for Rosenbrock methods", "--to spelled-out has all numbers")
 
 
@@ -219,4 +209,3 @@ TARGETS: Mapping[str, Target] = {
         Target(TRANSFORMED, "of a Rosenbrock method A, C and m of programs", as_rosenbrock),
     )
 }
-"""Every form by name."""
