@@ -1,1 +1,1 @@
-"""Two methods held against each other: where they differ, and in what sense they are the same."""
+"""Comparison of two methods: their differences, and the sense in which they are the same."""

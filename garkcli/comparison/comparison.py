@@ -1,4 +1,4 @@
-"""Two methods held against each other, as one value: what ``gark diff`` reports."""
+"""The comparison of two methods, which ``gark diff`` reports."""
 
 from __future__ import annotations
 
@@ -32,15 +32,15 @@ from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
 
 Relation: TypeAlias = Literal["identical", "same", "within-rounding", "different", "undecided"]
-"""Entry by entry; as a method; up to the rounding that the files admit; not; not known."""
+"""By entries; as methods; up to the rounding that the files admit; different; not known."""
 
 
 WITH_TIME = "order with time"
-"""What the order on problems ẏ = f(t, y) is called, with the nodes as they are given."""
+"""The name of the order for ẏ = f(t, y), with the nodes as given."""
 
 
 class OrderPair(Frozen):
-    """An order of both methods; None where a method has none of the kind."""
+    """An order of both methods; None if a method has none of the kind."""
 
     name: str
     one: AnyOrder | None
@@ -48,12 +48,11 @@ class OrderPair(Frozen):
 
     @property
     def exists(self) -> bool:
-        """Whether one of the methods has it."""
         return self.one is not None or self.other is not None
 
     @property
     def is_different(self) -> bool:
-        """Whether they are known not to be the same number."""
+        """Returns whether the two orders are known to be different."""
         one, other = self.one, self.other
         if one is None or other is None:
             return one is not other
@@ -63,7 +62,7 @@ class OrderPair(Frozen):
 
 
 class PropertyPair(Frozen):
-    """A property that is not the same of both methods, with the rounding of each."""
+    """A property in which two methods differ, and their tolerances."""
 
     key: str
     one: Verdict
@@ -72,23 +71,23 @@ class PropertyPair(Frozen):
 
     @property
     def is_known(self) -> bool:
-        """Whether both are decided, so that the methods differ in it."""
+        """Whether the property is decided for both methods."""
         return not (self.one.is_undecided or self.other.is_undecided)
 
 
 class Comparison(Shown, Frozen):
-    """What two methods have in common, and where they differ.
+    """Similarities and differences of two methods.
 
     Attributes:
         one: a method.
         other: another.
         forms: what kind of tableau each is.
         gaps: where entries differ; empty where the numbers of colours differ.
-        sameness: in what sense they are the same method; None where they are not.
+        sameness: in what sense they are the same method; None if they are not.
         obstacle: why that is not known; empty where it is.
         allowed: how far the rounding that the files admit may move equal entries apart.
         orders: their orders, of the method, its embedded weights, its conjugate and its pair.
-        met: the conditions that one meets and the other does not; None where the methods are the
+        met: the conditions that one meets and the other does not; None if the methods are the
             same, or have different numbers of colours.
         properties: those that differ, or that are decided of one method alone.
     """
@@ -106,7 +105,7 @@ class Comparison(Shown, Frozen):
 
     @property
     def relation(self) -> Relation:
-        """Whether they are the same method, in one word."""
+        """The relation of the two methods in one word."""
         same = self.sameness
         if same is None:
             return "undecided" if self.obstacle else "different"
@@ -121,8 +120,8 @@ class Comparison(Shown, Frozen):
 
     @property
     def remark(self) -> str:
-        """What alone makes different methods different, where no entry of a block or of b does;
-        else empty.
+        """The only difference between the methods if it is not in a block or in b; otherwise
+        empty.
         """
         if self.relation != "different":
             return ""
@@ -139,7 +138,9 @@ class Comparison(Shown, Frozen):
 
     @property
     def _further(self) -> Iterator[str]:
-        """Which further weights of methods with the same step one lacks, or are others."""
+        """Yields the further weights that differ, or that one method lacks, if the steps are the
+        same.
+        """
         for name in ("embedded weights", "dense output"):
             key = name.partition(" ")[0]
             missing = [getattr(x, key) is None for x in (self.one, self.other)]
@@ -154,7 +155,7 @@ class Comparison(Shown, Frozen):
 
 @doing("differences")
 def compare(one: GarkMethod, other: GarkMethod, limit: int = DEFAULT_LIMIT) -> Comparison:
-    """Hold two methods against each other.
+    """Compare two methods.
 
     Methods are the same where a renumbering of stages or colours turns one into the other, once
     colours that share stages have copies of their own, and stages without influence and equal
@@ -255,7 +256,7 @@ VIEWED = {
     "index-1-order": "order on index-1 DAEs",
     "embedded-order": "order of the embedded weights",
 }
-"""The orders of methods that are no GARK methods, by their claims."""
+"""The orders of methods that are not GARK methods, by the keys of their claims."""
 
 
 def _viewed(analysis: AnyAnalysis, claim: str) -> AnyOrder | None:
@@ -265,7 +266,7 @@ def _viewed(analysis: AnyAnalysis, claim: str) -> AnyOrder | None:
 
 
 def _of_rosenbrock(gaps: Iterable[BlockGap], colours: int) -> Iterator[BlockGap]:
-    """As α, β = α + γ, b, c and c + d: each is in the tableau of the f and the f' twice."""
+    """Yields the gaps in α, β = α + γ, b, c and c + d; each occurs twice in the tableau."""
     for gap in gaps:
         if gap.seen is not None:
             if gap.seen < colours:
@@ -278,7 +279,7 @@ def _of_rosenbrock(gaps: Iterable[BlockGap], colours: int) -> Iterator[BlockGap]
 
 
 def _of_slow_parts(gaps: Iterable[BlockGap]) -> Iterator[BlockGap]:
-    """Without what stands for the exact solution."""
+    """Yields the gaps outside the fast part, which stands for the exact solution."""
     return (gap for gap in gaps if gap.colour and gap.seen != 0)
 
 
@@ -286,7 +287,7 @@ _IN_POSITIONS = {"A": "Abar", "b": "bbar", "embedded": "embedded bbar"}
 
 
 def _of_nystrom(gaps: Iterable[BlockGap]) -> Iterator[BlockGap]:
-    """As Ā, A, c, b̄ and b: the matrices and the nodes are in the tableau of q and q′ twice."""
+    """Yields the gaps in Ā, A, c, b̄ and b; the matrices and nodes occur twice in the tableau."""
     for gap in gaps:
         if gap.seen is not None:
             if gap.colour == POSITIONS and gap.seen != START:
@@ -299,12 +300,12 @@ def _of_nystrom(gaps: Iterable[BlockGap]) -> Iterator[BlockGap]:
 
 
 def _of_arguments(gaps: Iterable[BlockGap]) -> Iterator[BlockGap]:
-    """Blocks and weights of the first argument: those of the second are the same."""
+    """Yields the gaps in the first argument; those in the second are the same."""
     return (gap for gap in gaps if gap.colour == 0 or gap.kind == "c")
 
 
 def _of_derivatives(*methods: GarkMethod) -> Iterator[GarkMethod]:
-    """Methods that use derivatives as tableaus of a colour a derivative, of as many for each."""
+    """Yields the methods with one colour for each derivative, and equally many derivatives."""
     made = [Derivatives.of(x.tableau) for x in methods]
     count = max(len(x.A) for x in made)
     for method, found in zip(methods, made, strict=True):
@@ -327,13 +328,13 @@ OF_OTHER_KINDS: dict[str, _Only] = {
     "mdrk": lambda gaps, _: gaps,
     "mri": lambda gaps, _: _of_slow_parts(gaps),
 }
-"""The entries of methods that are no GARK methods, from those of their tableaus."""
+"""For each kind of methods that are not GARK methods, the function that selects their gaps."""
 
 
 def form_of(tableau: Tableau) -> str:
-    """What kind of tableau it is: rk, ark, gark, prk, or pair for other partitioned ones; row for
-    a Rosenbrock method, rkn for a Nyström method, nprk for a nonlinearly partitioned one, mdrk for
-    one that uses derivatives, mri for a multirate one with the exact fast part.
+    """Returns the kind of a tableau: ``rk``, ``ark``, ``gark``, ``prk``, ``pair`` (other
+    partitioned methods), ``row`` (Rosenbrock), ``rkn`` (Nyström), ``nprk`` (nonlinearly
+    partitioned), ``mdrk`` (with derivatives) or ``mri`` (multirate, with an exact fast part).
     """
     if is_rosenbrock(tableau):
         return "row"
@@ -359,7 +360,7 @@ def _of_embedded(analysis: Analysis) -> AnyOrder | None:
 
 
 def _differ(pair: PropertyPair) -> bool:
-    """Whether a property tells two methods apart; numbers of rounded ones have some digits only."""
+    """Returns whether the verdicts differ; numbers of rounded methods are compared to 12 digits."""
     one, other = pair.one.value, pair.other.value
     if any(pair.tolerances) and isinstance(one, Size) and isinstance(other, Size):
         return not isclose(float(one), float(other), rel_tol=1e-12)
@@ -367,5 +368,5 @@ def _differ(pair: PropertyPair) -> bool:
 
 
 def _text(verdict: Verdict) -> tuple[str, bool, bool]:
-    """What tells two verdicts apart; the reasons may differ."""
+    """Returns the parts of a verdict that are compared, without its reason."""
     return str(verdict.value), verdict.is_undecided, verdict.is_at_least

@@ -1,4 +1,4 @@
-"""Where the entries of methods differ, and order conditions that one of them meets alone."""
+"""Entries in which methods differ, and order conditions that only one of them fulfils."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from garkcli.tableau.pointwise import Block, Cell
 
 
 class EntryGap(Frozen):
-    """One entry that differs.
+    """An entry that differs.
 
     Attributes:
         row: its row from 0; None in weights and nodes.
@@ -34,7 +34,6 @@ class EntryGap(Frozen):
 
     @property
     def gap(self) -> Cell:
-        """The second minus the first."""
         return difference(self.other, self.one)
 
 
@@ -62,7 +61,7 @@ class BlockGap(Frozen):
 
     @property
     def largest(self) -> EntryGap | None:
-        """The entry with the largest difference, the first of several alike."""
+        """The entry with the largest difference; the first one if several are as large."""
         return max(self.gaps, key=_size, default=None)
 
 
@@ -74,8 +73,8 @@ def _size(gap: EntryGap) -> arb:
 
 
 def block_gaps(one: Grid, other: Grid, likeness: Likeness) -> Iterator[BlockGap]:
-    """Everything that differs between methods with the same number of colours: blocks, weights,
-    nodes, further weights.
+    """Yields all differences of methods with equally many colours: blocks, weights, nodes and
+    further weights.
     """
     compare = _Compare(likeness)
     colours = range(one.size)
@@ -95,7 +94,7 @@ def block_gaps(one: Grid, other: Grid, likeness: Likeness) -> Iterator[BlockGap]
 
 
 class _Compare:
-    """Comparison of single blocks and rows."""
+    """Compares blocks and rows."""
 
     def __init__(self, likeness: Likeness) -> None:
         self.likeness = likeness
@@ -103,7 +102,9 @@ class _Compare:
     def weights(
         self, kind: str, power: int, one: CellRows | None, other: CellRows | None
     ) -> Iterator[BlockGap]:
-        """Weights or nodes of all colours, which one of the methods may lack."""
+        """Yields the differences in the weights or nodes of all colours; None if a method has
+        none.
+        """
         if one is None and other is None:
             return
         for l in range(len(one or other or ())):
@@ -112,7 +113,7 @@ class _Compare:
             yield from self.blocks(BlockGap(kind, l, power=power), first, second)
 
     def blocks(self, place: BlockGap, one: Block, other: Block) -> Iterator[BlockGap]:
-        """One block; nothing where it is the same in both."""
+        """Yields the difference in one block, if any."""
         if one is None and other is None:
             return
         is_row = place.seen is None
@@ -140,7 +141,6 @@ def _at(
 
 
 def _shape(block: Block, is_row: bool) -> str:
-    """A shape in words."""
     if block is None:
         return "none"
     if is_row:
@@ -150,11 +150,11 @@ def _shape(block: Block, is_row: bool) -> str:
 
 
 MAX_CONDITIONS = 2000
-"""More conditions are not compared, of all orders together."""
+"""The largest number of conditions compared, of all orders together."""
 
 
 class Met(Frozen):
-    """Conditions of some orders that two methods do not meet alike.
+    """The conditions that only one of two methods fulfils.
 
     Attributes:
         order: all conditions up to this order were compared.
@@ -166,23 +166,20 @@ class Met(Frozen):
 
     @property
     def first_only(self) -> tuple[tuple[Condition, Condition], ...]:
-        """What the first method meets and the second does not."""
+        """The conditions that only the first method fulfils."""
         return tuple(x for x in self.pairs if x[0].holds)
 
     @property
     def second_only(self) -> tuple[tuple[Condition, Condition], ...]:
-        """What the second method meets and the first does not."""
+        """The conditions that only the second method fulfils."""
         return tuple(x for x in self.pairs if x[1].holds)
 
 
 def conditions_met(one: AnyTableau, other: AnyTableau, orders: tuple[int, int]) -> Met:
-    """The conditions that one method meets and the other does not, up to the first order at which
-    both fail; fewer where there are more than ``MAX_CONDITIONS`` conditions.
+    """Returns the conditions that only one of two methods fulfils, up to the first order at which
+    both fail, or up to ``MAX_CONDITIONS`` conditions.
 
-    Args:
-        one: a method.
-        other: another with the same number of colours.
-        orders: the orders that they are known to have.
+    ``orders`` are the orders that the methods are known to have.
     """
     tableau = printed(one)
     graph = _in_both(coupling_graph(tableau), coupling_graph(printed(other)))
@@ -212,7 +209,7 @@ def conditions_met(one: AnyTableau, other: AnyTableau, orders: tuple[int, int]) 
 
 
 def _in_both(one: Admissible, other: Admissible) -> Admissible:
-    """The trees of both of two graphs."""
+    """Returns the trees that both graphs have."""
     rows = zip(one.branches, other.branches, strict=True)
     kinds = zip(one.kinds, other.kinds, strict=True)
     return Admissible(

@@ -1,4 +1,5 @@
-"""Methods as they are compared, colour by colour and entry by entry.
+"""Methods as compared: by colours and entries. ¶ Two entries are equal exactly, or within the
+rounding that their files admit.
 
 Two entries count as the same exactly, or within the rounding that their files admit.
 """
@@ -21,13 +22,13 @@ from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.pointwise import Block, Cell, Row, entries
 
 DIGITS = 60
-"""Digits of entries that have no simple radicals."""
+"""Digits of entries without simple radicals."""
 CellRows: TypeAlias = tuple[Row, ...]
-"""A row per colour."""
+"""One row for each colour."""
 
 
 class Grid(Frozen):
-    """The entries of a method, each colour with stages of its own.
+    """The entries of a method in which each colour has its own stages.
 
     Attributes:
         A: ``A[l][m]`` is a block, or None.
@@ -46,27 +47,23 @@ class Grid(Frozen):
 
     @property
     def size(self) -> int:
-        """The number of colours."""
         return len(self.b)
 
     @property
     def stages(self) -> tuple[int, ...]:
-        """The number of stages of each colour."""
         return tuple(map(len, self.b))
 
     @property
     def further(self) -> tuple[CellRows, ...]:
-        """All weights besides b."""
         first = () if self.embedded is None else (self.embedded,)
         return (*first, *self.powers)
 
     @property
     def blocks(self) -> list[Block]:
-        """All blocks, row by row."""
         return [block for row in self.A for block in row]
 
     def with_colours(self, order: Sequence[int]) -> Grid:
-        """The same method with its colours in another order."""
+        """Returns the method with its colours in another order."""
 
         def chosen(rows: CellRows) -> CellRows:
             return tuple(rows[l] for l in order)
@@ -83,13 +80,13 @@ class Grid(Frozen):
 
     @property
     def of_the_step(self) -> Grid:
-        """The same without further weights."""
+        """The method without further weights."""
         return replace(self, embedded=None, powers=())
 
 
 def common_sheets(one: GarkMethod, other: GarkMethod) -> tuple[Sheet, Sheet] | None:
-    """Both methods with exact entries from one field, each colour with stages of its own; None
-    where the nodes of one have no simple radicals.
+    """Returns both methods in one field, with separate stages for each colour; None if the nodes of
+    one have no simple radicals.
     """
     try:
         first, second = in_one_field([sheet_of(one), sheet_of(other)])
@@ -99,7 +96,6 @@ def common_sheets(one: GarkMethod, other: GarkMethod) -> tuple[Sheet, Sheet] | N
 
 
 def grid_of(sheet: Sheet) -> Grid:
-    """The entries of a sheet in which each colour has stages of its own."""
     tableau = sheet.tableau
     colours = range(tableau.size)
     return Grid(
@@ -113,7 +109,7 @@ def grid_of(sheet: Sheet) -> Grid:
 
 
 def enclosed_grid(method: GarkMethod) -> Grid:
-    """The entries as enclosures, good to ``DIGITS`` digits."""
+    """Returns the entries as enclosures with ``DIGITS`` digits."""
     cells = entries(method.tableau, DIGITS).in_decimals(DIGITS)
     powers = tuple(map(_enclosed, method.further.powers))
     embedded = None if method.embedded is None else _enclosed(method.embedded)
@@ -126,7 +122,6 @@ def _enclosed(rows: Weights) -> CellRows:
 
 
 def difference(one: Cell, other: Cell) -> Cell:
-    """One entry minus another; of enclosures an enclosure."""
     if not isinstance(one, arb) and not isinstance(other, arb):
         return one - other
     with ctx.workprec(4 * DIGITS + 64):
@@ -138,7 +133,7 @@ def _ball(cell: Cell) -> arb:
 
 
 class Likeness(Frozen):
-    """Equality of entries.
+    """The comparison of entries.
 
     Attributes:
         allowed: how far rounding may have moved two equal entries apart; 0 where both are exact.
@@ -147,7 +142,7 @@ class Likeness(Frozen):
     allowed: fmpq = ZERO
 
     def cells(self, one: Cell, other: Cell) -> bool | None:
-        """Whether two entries are alike; None where enclosures leave it open."""
+        """Returns whether two entries are equal; None if their enclosures overlap."""
         gap = difference(one, other)
         if not isinstance(gap, arb):
             return within(gap, self.allowed)
@@ -157,17 +152,19 @@ class Likeness(Frozen):
         return False if size > self.allowed else None
 
     def rows(self, one: Row, other: Row) -> bool:
-        """Whether rows of one length may be alike, entry by entry."""
+        """Returns False if two rows are known to differ."""
         return all(self.cells(x, y) is not False for x, y in zip(one, other, strict=True))
 
     def blocks(self, one: Block, other: Block) -> bool:
-        """Whether blocks may be alike: both missing, or alike entry by entry."""
+        """Returns False if two blocks are known to differ; None only equals None."""
         if one is None or other is None:
             return one is other
         return all(self.rows(x, y) for x, y in zip(one, other, strict=True))
 
     def grids(self, one: Grid, other: Grid) -> bool:
-        """Whether methods may be alike, stage by stage."""
+        """Returns False if two methods are known to differ, with their stages in the given
+        order.
+        """
         if not have_one_shape(one, other):
             return False
         if not all(self.rows(x, y) for x, y in zip(_all_rows(one), _all_rows(other), strict=True)):
@@ -176,7 +173,7 @@ class Likeness(Frozen):
 
 
 def have_one_shape(one: Grid, other: Grid) -> bool:
-    """Whether methods have the same colours, stages and kinds of weights."""
+    """Returns whether methods have the same colours, stages and kinds of weights."""
     if one.stages != other.stages or one.kinds != other.kinds:
         return False
     if (one.embedded is None) != (other.embedded is None):
@@ -185,7 +182,6 @@ def have_one_shape(one: Grid, other: Grid) -> bool:
 
 
 def _all_rows(grid: Grid) -> list[Row]:
-    """Nodes and weights of all kinds."""
     rows = [*grid.c, *grid.b]
     for weights in grid.further:
         rows += weights

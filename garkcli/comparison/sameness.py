@@ -1,4 +1,4 @@
-"""In what sense two methods are the same one: which renumbering turns one into the other."""
+"""The renumberings that turn one method into another."""
 
 from __future__ import annotations
 
@@ -27,24 +27,19 @@ from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
 Stage: TypeAlias = tuple[int, int]
-"""A stage: its colour, and its number there."""
+"""A colour and the number of one of its stages."""
 Images: TypeAlias = tuple[tuple[int, ...], ...]
-"""For each colour the stages of the other method that its stages are."""
+"""For each colour, the corresponding stages of the other method."""
 _Candidates: TypeAlias = dict[Stage, list[int]]
 MAX_TRIALS = 3000
-"""So many stages are tried before the search ends."""
+"""The search stops after this number of trials."""
 
 
 def find_matching(one: Grid, other: Grid, likeness: Likeness) -> Images | None:
-    """The stages of ``other`` that the stages of ``one`` are; None where no renumbering does it.
+    """Returns the stages of ``other`` that correspond to those of ``one``, or None if the methods
+    differ.
 
-    Args:
-        one: a method.
-        other: another.
-        likeness: when entries count as the same.
-
-    Raises:
-        LimitExceeded: more than ``MAX_TRIALS`` stages were tried.
+    Raises LimitExceeded after ``MAX_TRIALS`` trials.
     """
     if not have_one_shape(one, other):
         return None
@@ -61,12 +56,12 @@ def find_matching(one: Grid, other: Grid, likeness: Likeness) -> Images | None:
 
 
 def _own(grid: Grid, l: int, i: int) -> Row:
-    """What a stage has by itself: its node and its weights of all kinds."""
+    """Returns the node and all weights of a stage."""
     return grid.c[l][i], grid.b[l][i], *[weights[l][i] for weights in grid.further]
 
 
 class _Search:
-    """Depth first, the stage with the fewest candidates next."""
+    """A depth-first search; the stage with the fewest candidates is next."""
 
     def __init__(self, one: Grid, other: Grid, likeness: Likeness) -> None:
         self.one = one
@@ -77,7 +72,7 @@ class _Search:
     def completions(
         self, candidates: _Candidates, chosen: dict[Stage, int]
     ) -> Iterator[dict[Stage, int]]:
-        """All ways to choose for the other stages too."""
+        """Yields all assignments of the remaining stages."""
         if not candidates:
             yield chosen
             return
@@ -94,7 +89,7 @@ class _Search:
                 yield from self.completions(rest, {**chosen, stage: j})
 
     def _narrowed(self, candidates: _Candidates, stage: Stage, image: int) -> _Candidates:
-        """What is left for the other stages."""
+        """Returns the candidates of the other stages that fit ``image``."""
         rest: _Candidates = {}
         for other, images in candidates.items():
             if other == stage:
@@ -108,7 +103,7 @@ class _Search:
         return rest
 
     def _fits(self, x: Stage, image_x: int, y: Stage, image_y: int) -> bool:
-        """Whether two stages see each other as their images do."""
+        """Returns whether the entries that couple two stages equal those of their images."""
         return self._sees(x, image_x, y, image_y) and self._sees(y, image_y, x, image_x)
 
     def _sees(self, x: Stage, image_x: int, y: Stage, image_y: int) -> bool:
@@ -120,11 +115,11 @@ class _Search:
 
 
 MOST_COLOURS = 5
-"""With more colours no other order of them is tried."""
+"""With more colours, only the given order is tried."""
 
 
 class Sameness(Frozen):
-    """How one method becomes the other; all counted from 0.
+    """The correspondence of two methods, with numbers from 0.
 
     Attributes:
         colours: for each colour of the first the colour of the second that it is.
@@ -142,25 +137,23 @@ class Sameness(Frozen):
 
     @property
     def keeps_colours(self) -> bool:
-        """Whether the colours are in the same order."""
         return self.colours == tuple(range(len(self.colours)))
 
     @property
     def keeps_stages(self) -> bool:
-        """Whether the stages are in the same order."""
         return all(row == tuple(range(len(row))) for row in self.stages)
 
     @property
     def is_plain(self) -> bool:
-        """Whether the entries are the same as they are."""
+        """Whether the entries are equal without renumbering or reduction."""
         return self.keeps_colours and self.keeps_stages and not self.is_reduced
 
 
 class Answer(Frozen):
-    """Whether two methods are the same.
+    """The result of a search for a correspondence.
 
     Attributes:
-        sameness: how; None where they are not, or where it is not known.
+        sameness: how; None if they are not, or if it is not known.
         obstacle: why it is not known; empty where it is.
     """
 
@@ -169,11 +162,11 @@ class Answer(Frozen):
 
 
 class Views(Frozen):
-    """Two methods as they are compared.
+    """The entries of two methods.
 
     Attributes:
         one, other: their entries.
-        sheets: the same exactly, from one field; None where enclosures are compared.
+        sheets: the same exactly, from one field; None if enclosures are compared.
     """
 
     one: Grid
@@ -182,7 +175,7 @@ class Views(Frozen):
 
 
 def views_of(one: GarkMethod, other: GarkMethod) -> Views:
-    """Both methods entry by entry: exactly where that is possible."""
+    """Returns the entries of both methods, exact if possible."""
     sheets = common_sheets(one, other)
     if sheets is None:
         return Views(enclosed_grid(one), enclosed_grid(other), None)
@@ -190,14 +183,10 @@ def views_of(one: GarkMethod, other: GarkMethod) -> Views:
 
 
 def find_sameness(one: GarkMethod, other: GarkMethod, views: Views, allowed: fmpq) -> Answer:
-    """How two methods are the same, if they are: as they are, with their stages or their colours
-    renumbered, or once reduced.
+    """Returns how two methods correspond: with equal entries, with stages or colours renumbered, or
+    after reduction.
 
-    Args:
-        one: a method.
-        other: another.
-        views: their entries, from ``views_of``.
-        allowed: how far rounding may have moved equal entries apart.
+    ``allowed`` is the largest distance by which rounding may have moved equal entries apart.
     """
     if views.sheets is None and _same_algebra(one.tableau, other.tableau):
         return Answer(_plainly(views.one))
@@ -214,14 +203,14 @@ def find_sameness(one: GarkMethod, other: GarkMethod, views: Views, allowed: fmp
 
 
 def _plainly(grid: Grid) -> Sameness:
-    """The entries as they are."""
+    """Returns the correspondence without renumbering."""
     stages = tuple(tuple(range(s)) for s in grid.stages)
     return Sameness(tuple(range(grid.size)), stages)
 
 
 def _same_algebra(one: Tableau, other: Tableau) -> bool:
-    """Whether methods at nodes without simple radicals have the same rational
-    numbers.
+    """Returns whether methods at nodes without simple radicals have the same rational
+    coefficients.
     """
     if len(one.spaces) != len(other.spaces) or one.size != other.size:
         return False
@@ -235,7 +224,7 @@ def _same_algebra(one: Tableau, other: Tableau) -> bool:
 
 
 def _as_they_are(one: Grid, other: Grid, allowed: fmpq) -> Sameness | None:
-    """The methods as they are, with their further weights or without."""
+    """Matches the methods without reduction, first with their further weights and then without."""
     same = _matched(one, other, allowed)
     if same is not None or not (one.further or other.further):
         return same
@@ -244,7 +233,7 @@ def _as_they_are(one: Grid, other: Grid, allowed: fmpq) -> Sameness | None:
 
 
 def _once_reduced(views: Views) -> Sameness | None:
-    """The same of what is left of the methods when they are reduced."""
+    """Matches the reduced methods."""
     has_further = bool(views.one.further or views.other.further)
     for step_only in (False, True) if has_further else (False,):
         sheets = [Sheet(x.tableau) if step_only else x for x in views.sheets or ()]
@@ -261,7 +250,7 @@ def _once_reduced(views: Views) -> Sameness | None:
 
 
 def _matched(one: Grid, other: Grid, allowed: fmpq) -> Sameness | None:
-    """The renumbering of colours and stages that makes one of the other."""
+    """Returns the renumbering of colours and stages that turns one method into the other."""
     likeness = Likeness(allowed)
     if likeness.grids(one, other):
         return replace(_plainly(one), allowed=allowed)
@@ -273,8 +262,8 @@ def _matched(one: Grid, other: Grid, allowed: fmpq) -> Sameness | None:
 
 
 def _orders(one: Grid, other: Grid) -> Iterator[tuple[int, ...]]:
-    """Orders of the colours of the second method in which it has the stages of the first, its own
-    first.
+    """Yields the orders of the colours of ``other`` in which the numbers of stages agree, the given
+    order first.
     """
     if one.size != other.size:
         return
