@@ -1,11 +1,12 @@
-"""Published methods as method files, below ``data``: a folder a kind, a file a method.
+"""Published methods as method files, in the folder ``data``: one folder for each kind, one file for
+each method.
 
-The name of a method is that of its file without ``.gark.yaml``, in lower case, its words joined by
-hyphens. ``paper`` has those of the paper, ``found`` what ``gark design`` found, ``errata`` tables
-that are published wrong, with the order that they have. ``index.json`` is made from them by
-``python -m garkcli.catalogue``; names are looked up in it, and lists are made of it.
+The name of a method is that of its file without ``.gark.yaml``, in lower case, with hyphens between
+the words. ``paper`` holds the methods of the paper, ``found`` those found by ``gark design``,
+``errata`` tables published with errors, with their actual order. ``index.json`` is made from the
+files by ``python -m garkcli.catalogue``; look-ups and lists use it.
 
-The room is a mapping from these names to methods, see ``garkcli.catalogue.mapping``:
+The module is a mapping from names to methods, see ``garkcli.catalogue.mapping``:
 
 >>> import garkcli
 >>> garkcli.catalogue["rk4"].stages, "no-such-method" in garkcli.catalogue

@@ -1,7 +1,7 @@
-"""``python -m garkcli.catalogue``: makes the index of the package anew, in a checkout.
+"""``python -m garkcli.catalogue``: updates the index of the package, in a checkout.
 
-Only files that have changed are judged again; with ``--all`` every one. The copies in ``methods/``
-follow their originals.
+Only files that have changed are analysed; with ``--all`` every one. The copies in ``methods/`` are
+updated too.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ HERE = Path(__file__).resolve().parent
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Make the index and update the copies; 2 where a file is no method."""
+    """Writes the index and the copies; returns 2 if a file is not a method."""
     data, index = HERE / "data", HERE / "index.json"
     before = ""
     if "--all" in arguments:

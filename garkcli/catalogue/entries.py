@@ -1,5 +1,5 @@
-"""The methods that have names, each as an entry: those of the package out of its index, your
-own by what their files claim, or judged on demand.
+"""The entries of all named methods: from the index of the package, and for the user's own files
+from their claims or an analysis.
 """
 
 from __future__ import annotations
@@ -21,25 +21,21 @@ if TYPE_CHECKING:
 
 
 FOUND, CLAIMED, UNREAD = "found", "claimed", "unread"
-"""How the facts of an entry are known: as ``gark check`` finds them, by the word of the file, or
-not at all.
-"""
+"""Origin of the facts of an entry: found by ``gark check``, claimed in the file, or unknown."""
 
 
 def all_entries(judges: bool = False) -> Iterator[Entry]:
-    """An entry for each method that a name means.
-
-    Args:
-        judges: whether methods that no index knows are judged as by ``gark check``.
+    """Yields an entry for each named method. With ``judges``, methods outside the index are
+    analysed.
     """
     for shelf, method in visible(every_shelf()):
         yield entry_on(shelf, method, judges)
 
 
 def entry_on(shelf: Shelf, method: Shelved, judges: bool = False) -> Entry:
-    """The entry of one method.
+    """Returns the entry of one method.
 
-    ``catalogue`` and ``folder`` say where it is, ``facts`` how they are known.
+    Its ``catalogue`` and ``folder`` say where the file is, its ``facts`` where they come from.
     """
     facts = FOUND
     if isinstance(shelf, Package):
@@ -55,7 +51,7 @@ def entry_on(shelf: Shelf, method: Shelved, judges: bool = False) -> Entry:
 
 
 def _of_file(method: Shelved, judges: bool) -> tuple[Entry, str]:
-    """The entry of a method that no index knows."""
+    """Returns the entry of a method outside the index."""
     # the index is read without any of this
     from garkcli.methodfile.load import loads
 
@@ -81,12 +77,10 @@ def _of_file(method: Shelved, judges: bool) -> tuple[Entry, str]:
 
 
 def entry_of_method(read: MethodFile, file: str) -> Entry:
-    """The entry of a method that was read from a file."""
     return {**_judged(read, read.source, file), "folder": "", "catalogue": "", "facts": FOUND}
 
 
 def _judged(read: MethodFile, name: str, file: str) -> Entry:
-    """What is found of a method."""
     from garkcli.catalogue.facts import found_of
     from garkcli.check.deciding import analyse_any
 
@@ -94,14 +88,13 @@ def _judged(read: MethodFile, name: str, file: str) -> Entry:
 
 
 def _blank(method: Shelved) -> Entry:
-    """An entry of whose method nothing is known."""
     from garkcli.catalogue.facts import blank
 
     return {**blank(), "name": method.name, "file": method.place}
 
 
 def _claimed(read: MethodFile, method: Shelved) -> Entry:
-    """What a file says of itself, its claims for facts."""
+    """Returns an entry with the claims of a file as its facts."""
     from garkcli.catalogue.facts import blank, head, shape
     from garkcli.methodfile.expectations import AtLeast
 
@@ -121,27 +114,26 @@ def _claimed(read: MethodFile, method: Shelved) -> Entry:
 _RANGE = re.compile(r"(>=|<=|=|>|<)?\s*([0-9]{1,4})")
 _SPAN = re.compile(r"([0-9]{1,4})\s*\.\.\s*([0-9]{1,4})")
 _MOST = 10_000
-"""No count of a method is as large."""
+"""No count of a method is as large as this."""
 _SEARCHED = ("name", "title", "reference")
-"""What words are sought in, besides the aliases."""
+"""The fields that are searched for words, besides the aliases."""
 
 
 class Range(Frozen):
-    """Whole numbers from ``least`` to ``most``."""
+    """The integers from ``least`` to ``most``."""
 
     least: int
     most: int
 
     def has(self, value: object) -> bool:
-        """Whether a value is one of them; an unknown one is not."""
+        """Returns whether a value lies in the range; unknown values do not."""
         return isinstance(value, int) and self.least <= value <= self.most
 
 
 def read_range(text: str) -> Range:
-    """What ``4``, ``>=4``, ``<4`` or ``2..4`` mean.
+    """Reads a range of integers: ``4``, ``>=4``, ``<4`` or ``2..4``.
 
-    Raises:
-        UsageProblem: it is none of them.
+    Raises UsageProblem for any other text.
 
     >>> read_range(">= 4").has(4), read_range("2..4").has(5), read_range("<4").has(3)
     (True, False, True)
@@ -165,7 +157,7 @@ def read_range(text: str) -> Range:
 
 
 class Wanted(Frozen):
-    """What is wanted; all of it at once.
+    """Conditions on methods, all of which have to hold.
 
     Attributes:
         values: by their keys in entries: ranges of numbers, truths, texts; unknown values
@@ -180,7 +172,6 @@ class Wanted(Frozen):
     words: Sequence[str] = ()
 
     def takes(self, entry: Entry) -> bool:
-        """Whether a method is as wanted."""
         for key, x in self.values.items():
             value = entry[key]
             is_so = type(x) is type(value) and x == value
@@ -198,7 +189,7 @@ class Wanted(Frozen):
 
 
 def _plain(text: str) -> str:
-    """A text as it is searched: without capitals and accents, hyphens as blanks.
+    """Returns a text in lower case without accents, with spaces for hyphens.
 
     >>> _plain("Störmer-Verlet")
     'stormer verlet'
@@ -208,11 +199,11 @@ def _plain(text: str) -> str:
 
 
 ORDERS = ("name", "order", "stages", "error")
-"""By what lists are sorted; each from small to large, but orders from large to small."""
+"""The orders in which lists are sorted: ascending, but with the highest order first."""
 
 
 def sorted_by(entries: Sequence[Entry], column: str) -> list[Entry]:
-    """Entries in an order that people ask for; unknown values come last."""
+    """Returns the entries sorted by a column, unknown values last."""
 
     def place(entry: Entry) -> tuple[Any, ...]:
         value = _measure(entry, column)
@@ -225,7 +216,6 @@ def sorted_by(entries: Sequence[Entry], column: str) -> list[Entry]:
 
 
 def _measure(entry: Entry, column: str) -> float | None:
-    """What an entry is sorted by."""
     if column == "error":
         error = entry["error_constant"]
         return None if error is None else float(error)

@@ -1,5 +1,7 @@
-"""What the index says of methods, found as ``gark check`` finds it, as plain data; and the index of
-the package, made of its method files: the same bytes on every machine.
+"""The facts that the index has of each method, as found by ``gark check``, and the index of the
+package.
+
+The index is the same, byte by byte, on every machine.
 """
 
 from __future__ import annotations
@@ -38,17 +40,16 @@ if TYPE_CHECKING:
 
 
 Entry = dict[str, Any]
-"""A method of the index: what people look for, and what was found."""
+"""The entry of a method in the index."""
 VERSION = 3
-"""Of what is found; a larger one than that of an index makes all of it anew."""
+"""The version of the facts; an index of another version is made anew."""
 MOST_TREES = 20_000
-"""Most trees of one order over which error coefficients are summed for the index."""
+"""The largest number of trees of one order over which error coefficients are summed."""
 MOST_STAGES = 8
-"""Most stages of a method whose sizes (`_SIZES`) are found for the index."""
+"""The largest number of stages for which the properties in ``_SIZES`` are computed."""
 LONGEST = 24
-"""Longest coefficient of such a method, as text: of others the sizes take minutes."""
+"""The longest coefficient for which they are computed; beyond it they take minutes."""
 _SIZES = ("p-stable", "i-stable", "real-stability", "imaginary-stability")
-"""Properties that need the roots of polynomials of high degree."""
 _DIGITS = 4
 
 
@@ -80,30 +81,23 @@ _UNKNOWN: Entry = {
 
 
 def blank() -> Entry:
-    """An entry with all its keys and nothing in it."""
     return {**_UNKNOWN, **{find(key).field: None for key in KEYS}, "undecided": []}
 
 
 class NoMethod(GarkError):
-    """A file of the catalogue that is no method, or does not have what it claims."""
+    """A file of the catalogue that is not a method, or fails its claims."""
 
 
 def digest(text: str) -> str:
-    """Which text an entry was made from, however its lines end."""
+    """Returns the hash of a text, whatever its line ends."""
     return hashlib.sha256(text.replace("\r\n", "\n").encode("utf-8")).hexdigest()[:16]
 
 
 def entry_of(path: str, name: str, file: str, text: str) -> Entry:
-    """The entry of one method file.
+    """Returns the entry of a method file.
 
-    Args:
-        path: where it is.
-        name: of the method.
-        file: where it is in the catalogue.
-        text: of the file.
-
-    Raises:
-        NoMethod: it cannot be read, or a claim of it fails.
+    ``file`` is its path within the catalogue. Raises NoMethod if the file cannot be read or a claim
+    fails.
     """
     outcome = check_file(path)
     analysis = outcome.analysis or outcome.of_other_kind
@@ -114,7 +108,7 @@ def entry_of(path: str, name: str, file: str, text: str) -> Entry:
 
 
 def found_of(method: MethodFile, analysis: AnyAnalysis, name: str, file: str) -> Entry:
-    """What was found of a method, and what its file says of itself."""
+    """Returns the entry of a method from its analysis and its file."""
     is_small = analysis.tableau.exact_to is not None or _is_small(analysis.tableau)
     sought = [key for key in KEYS if is_small or key not in _SIZES]
     verdicts = {key: analysis.subject.verdict(key) for key in sought}
@@ -139,7 +133,7 @@ def found_of(method: MethodFile, analysis: AnyAnalysis, name: str, file: str) ->
 
 
 def _what_fails(outcome: Outcome) -> str:
-    """Why a file has no place in the catalogue."""
+    """Returns why a file has no place in the catalogue."""
     if outcome.faults:
         return outcome.faults[0].message
     if outcome.analysis is None and outcome.of_other_kind is None:
@@ -149,7 +143,7 @@ def _what_fails(outcome: Outcome) -> str:
 
 
 def head(method: MethodFile, name: str, file: str) -> Entry:
-    """What a file says of itself."""
+    """Returns the bibliographic fields of an entry."""
     book = method.bibliography
     return {
         "name": name,
@@ -163,7 +157,7 @@ def head(method: MethodFile, name: str, file: str) -> Entry:
 
 
 def shape(method: MethodFile) -> Entry:
-    """How many stages and colours, what such a method is called, how its numbers are given."""
+    """Returns the fields about stages, colours, the kind of method and its coefficients."""
     tableau = method.tableau
     kind = _kind(tableau)
     # of these kinds several colours are one vector field: it and its Jacobian, or its arguments
@@ -198,7 +192,7 @@ def _order(key: str, analysis: AnyAnalysis) -> object:
 
 
 def _error_constant(analysis: AnyAnalysis) -> str | None:
-    """The norm of the principal error, rounded; None where it has too many trees."""
+    """Returns the rounded norm of the principal error; None if it has too many trees."""
     order = analysis.order
     if order.is_lower_bound or count_trees(analysis.tableau.size, order.order + 1) > MOST_TREES:
         return None
@@ -209,7 +203,7 @@ def _error_constant(analysis: AnyAnalysis) -> str | None:
 
 
 def _is_small(tableau: Tableau) -> bool:
-    """Whether the sizes of a method are found for the index."""
+    """Returns whether the properties in ``_SIZES`` are computed for a method."""
     stages = [space.stages for space in tableau.spaces]
     points = in_points(tableau)
     if max(stages) > MOST_STAGES or points is None:
@@ -218,14 +212,12 @@ def _is_small(tableau: Tableau) -> bool:
 
 
 Tell = Callable[[str], None]
-"""What the report says of each file that is judged."""
 
 
 def method_files(data: Path) -> list[tuple[str, Path]]:
-    """The method files below a folder, by their names.
+    """Returns the method files in a folder and their names.
 
-    Raises:
-        NoMethod: two have one name, or a name is not as names are.
+    Raises NoMethod if two have the same name or a name is not well-formed.
     """
     paths: dict[str, Path] = {}
     for path in data.rglob(f"*{SUFFIX}"):
@@ -241,16 +233,11 @@ def method_files(data: Path) -> list[tuple[str, Path]]:
 
 
 def made(data: Path, before: str, tell: Tell) -> str:
-    """The text of the index.
+    """Returns the text of the index.
 
-    Args:
-        data: the folder of the method files.
-        before: the text of an index of theirs, perhaps older, out of which entries are kept whose
-            files are as they were; empty for none.
-        tell: is called with the name of each method that is judged.
-
-    Raises:
-        NoMethod: a file is no method, or a claim of it fails.
+    Entries of ``before``, an earlier index or empty, are kept if their files are unchanged;
+    ``tell`` is called with the name of each file that is analysed. Raises NoMethod if a file is not
+    a method or a claim fails.
     """
     known = _known(before)
     entries = []
@@ -266,8 +253,8 @@ def made(data: Path, before: str, tell: Tell) -> str:
 
 
 def _known(before: str) -> dict[tuple[str, str], Entry]:
-    """The entries of an index by their files and the texts that they were made from; those without
-    a property that there is now are left out.
+    """Returns the entries of an index by file and hash, without those that lack a property of
+    today.
     """
     index: dict[str, Any] = json.loads(before) if before else {}
     if index.get("facts") != VERSION:
@@ -277,7 +264,7 @@ def _known(before: str) -> dict[tuple[str, str], Entry]:
 
 
 def _text(entries: list[Entry]) -> Iterator[str]:
-    """JSON with an entry a line, so that a change of one method is a change of one line."""
+    """Yields the JSON with one entry per line, so that diffs are short."""
     yield f'{{"facts": {VERSION}, "methods": ['
     for number, entry in enumerate(entries):
         yield ",\n" if number else "\n"
@@ -286,14 +273,11 @@ def _text(entries: list[Entry]) -> Iterator[str]:
 
 
 def recovered(data: Path, before: dict[str, dict[str, Any]], index: str) -> str:
-    """The text of ``order/recovered.json``: for each rounded method of the catalogue what a search
-    for it starts with.
+    """Returns the text of ``order/recovered.json``: for each rounded method of the catalogue the
+    start of a search for its exact coefficients.
 
-    Args:
-        data: the folder of the method files.
-        before: the methods of that file, perhaps older, by their keys; those stay whose method
-            files are as they were.
-        index: the text of the index that was made with it; empty for none.
+    Entries of ``before`` are kept if their files are unchanged. ``index`` is the index made
+    together with it, or empty.
     """
     known = {(x["method"], x["digest"]): (key, x) for key, x in before.items()}
     entries = _known(index).items() if before else ()
@@ -319,15 +303,7 @@ def _recovered_of(path: str, name: str, text: str) -> tuple[str, dict[str, Any]]
 
 
 def update_copies(data: Path, copies: Path) -> Iterator[Path]:
-    """Make the copies that a folder has of methods of the catalogue what these are.
-
-    Args:
-        data: the folder of the catalogue.
-        copies: a folder with copies of some of its files.
-
-    Yields:
-        each copy that was changed.
-    """
+    """Updates the copies of methods of the catalogue in a folder, and yields those that changed."""
     originals = dict(method_files(data))
     for copy in sorted(copies.rglob(f"*{SUFFIX}")):
         original = originals.get(copy.name.removesuffix(SUFFIX))

@@ -1,4 +1,4 @@
-"""Which method of the catalogue a tableau is: looked up by one number, then held against it."""
+"""Recognition of the methods of the catalogue: a look-up by one number, then a comparison."""
 
 from __future__ import annotations
 
@@ -20,21 +20,21 @@ if TYPE_CHECKING:
     from garkcli.tableau.tableau import Tableau
 
 WINDOW = 1e-5
-"""How far apart the fingerprints of a method and of its rounded copy may be."""
+"""The largest distance between the fingerprints of a method and a rounded copy."""
 ROUNDINGS = tuple(fmpq(1, 10**digits) for digits in (15, 14, 13, 12, 11, 10, 9, 8, 7, 6))
-"""The largest distance between entries of different methods in a report."""
+"""The distances that a report may state."""
 MOST_STAGES = 100
-"""Tableaus with more stages are not looked up."""
 _DIGITS = 9
 _ROUNDS = 2
 
 
 class Known(Frozen):
-    """A method of the catalogue that a tableau is, or nearly is, up to the numbers of its stages.
+    """A method of the catalogue that a tableau equals, or nearly equals, up to the order of the
+    stages.
 
     Attributes:
         method: its name.
-        within: how far apart entries are at most; None where they are the same exactly.
+        within: how far apart entries are at most; None if they are equal exactly.
         step_only: whether embedded weights differ, or one of the two has none.
         is_same: whether that is within the rounding that both files admit.
     """
@@ -46,7 +46,8 @@ class Known(Frozen):
 
 
 def fingerprint(tableau: Tableau) -> float:
-    """A number that renumbering stages or colours and leaving out superfluous stages do not change.
+    """Returns a number that does not depend on the order of stages and colours, or on superfluous
+    stages.
 
     It is Σ b·u of stage vectors u = φ(A u), made twice from 𝟙. With a smooth φ all methods of high
     order would give nearly one number, so that φ has a peak.
@@ -78,17 +79,18 @@ def _floats(rows: Sequence[Row]) -> list[list[float]]:
 
 
 def find_known(analysis: Analysis, text: str) -> Known | None:
-    """The method of the catalogue that was checked, or one next to it; None where there is none.
+    """Returns the method of the catalogue that an analysis is about, or one next to it; None if
+    there is none.
 
-    Args:
-        analysis: what was found of it.
-        text: of its file; a file of the catalogue is not told that it is itself.
+    ``text`` is that of the file: a file of the catalogue is not compared with itself.
     """
     return known_of(_of_analysis(analysis), text)
 
 
 def known_of(method: GarkMethod, text: str = "") -> Known | None:
-    """The same for a method and its embedded weights, wherever they are from."""
+    """Returns the method of the catalogue that a method equals, or one next to it; None if there is
+    none.
+    """
     from garkcli.methodfile.shelves import package
 
     tableau = method.tableau
@@ -104,7 +106,7 @@ def known_of(method: GarkMethod, text: str = "") -> Known | None:
 
 
 def _of_analysis(analysis: Analysis) -> GarkMethod:
-    """The method that was checked, without its dense output."""
+    """Returns the analysed method without dense output."""
     from garkcli.tableau.garkmethod import GarkMethod
 
     embedded = None
@@ -115,7 +117,7 @@ def _of_analysis(analysis: Analysis) -> GarkMethod:
 
 
 def _first_same(method: GarkMethod, texts: Mapping[str, str]) -> Known | None:
-    """The first of some methods, given by their files, that a method is."""
+    """Returns the first of the given files whose method equals ``method``."""
     from garkcli.comparison.sameness import find_sameness, views_of
     from garkcli.exact.field import ZERO
 
@@ -141,7 +143,6 @@ def _first_same(method: GarkMethod, texts: Mapping[str, str]) -> Known | None:
 
 @lru_cache(maxsize=100)  # many files may be near to one method
 def _read(name: str, text: str) -> GarkMethod:
-    """A method of the catalogue, by its file."""
     from garkcli.methodfile.load import loads
     from garkcli.tableau.garkmethod import GarkMethod
 

@@ -1,7 +1,7 @@
 """The catalogue as a mapping from names to methods: ``garkcli.catalogue["rk4"]``.
 
-The room itself is this mapping, so that whoever imports it in whatever way has the same object:
-``import garkcli.catalogue`` and ``from garkcli import catalogue``.
+The package ``garkcli.catalogue`` itself is this mapping, so that ``import garkcli.catalogue`` and
+``from garkcli import catalogue`` give the same object.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 _WORDS = ("kind", "structure")
-"""What the index says in a word."""
+"""The text fields of the index."""
 
 
 class NoSuchMethod(GarkError, KeyError):
@@ -26,10 +26,10 @@ class NoSuchMethod(GarkError, KeyError):
 
 
 class Catalogue(ModuleType):
-    """Published methods by their names; each is read on first use.
+    """Published methods by name; each is read from its file when it is asked for.
 
-    Its keys are the names, those of folders in ``GARK_PATH`` first; aliases are looked up too, as
-    on the command line. Each look-up reads the file again.
+    The keys are the names, those in the folders of ``GARK_PATH`` first; aliases are accepted too,
+    as on the command line.
 
     >>> import garkcli
     >>> garkcli.catalogue["rk4"].stages, "no-such-method" in garkcli.catalogue
@@ -39,7 +39,7 @@ class Catalogue(ModuleType):
     """
 
     def __getitem__(self, name: str) -> MethodFile:
-        """The method of a name or an alias.
+        """The method with a name or an alias.
 
         Raises:
             NoSuchMethod: there is none, or the name may mean several.
@@ -69,19 +69,19 @@ class Catalogue(ModuleType):
         return True  # a module is true; nothing is counted for that
 
     def keys(self) -> KeysView[str]:
-        """The names."""
+        """The names of the methods."""
         return KeysView(_mapping(self))
 
     def values(self) -> ValuesView[MethodFile]:
-        """The methods; each is read when it is come to."""
+        """The methods; each is read when the iteration reaches it."""
         return ValuesView(_mapping(self))
 
     def items(self) -> ItemsView[str, MethodFile]:
-        """Names and methods."""
+        """The names and methods."""
         return ItemsView(_mapping(self))
 
     def search(self, *words: str, folder: str = "", **wanted: bool | int | str) -> list[str]:
-        """The names of methods, as ``gark list methods`` chooses them; those of highest order
+        """The names of methods that match, as in ``gark list methods``; those of highest order
         first.
 
         Args:
@@ -111,7 +111,7 @@ class Catalogue(ModuleType):
         return [entry["name"] for entry in sorted_by(taken, "order")]
 
     def get(self, name: str, default: Any = None) -> Any:
-        """The method of a name or an alias; the default where there is none."""
+        """The method with a name or an alias, or the default if there is none."""
         try:
             return self[name]
         except NoSuchMethod:
@@ -122,22 +122,20 @@ Mapping.register(Catalogue)
 
 
 def _mapping(catalogue: Catalogue) -> Mapping[str, MethodFile]:
-    """The same, for type checkers."""
     return cast("Mapping[str, MethodFile]", catalogue)
 
 
 def method_names() -> list[str]:
-    """The names of all methods, those of your own folders first."""
+    """The names of all methods, those in the user's folders first."""
     from garkcli.methodfile.naming import every_shelf, visible
 
     return [method.name for _, method in visible(every_shelf())]
 
 
 def _found(name: object) -> Shelved:
-    """Where the method of a name is.
+    """Returns the file of a method.
 
-    Raises:
-        NoSuchMethod: there is none, or the name may mean several.
+    Raises NoSuchMethod if there is none, or if several are possible.
     """
     from garkcli.methodfile.naming import FAMILY, PREFIX, find_named
 
