@@ -1,1 +1,1 @@
-"""Many methods side by side: which there are, what is true of each, which are best."""
+"""Sweeps: many methods side by side, their properties, and the best of them."""

@@ -1,7 +1,7 @@
-"""The columns of a sweep: what the report says of each method, and which values are better.
+"""The columns of a sweep: the values reported for each method, and which values are better.
 
-One more column is one more entry of this list; properties of ``garkcli.properties`` are columns by
-themselves.
+A new column is a new entry of the list here; properties in ``garkcli.properties`` are columns
+already.
 """
 
 from __future__ import annotations
@@ -34,22 +34,17 @@ from garkcli.tableau.tableau import Tableau
 
 
 class Judged(Frozen):
-    """A method with what is known of it.
-
-    Attributes:
-        tableau: the method, its coefficients meant exactly.
-    """
+    """A method and its properties, each computed once. The coefficients are taken as exact."""
 
     tableau: Tableau
 
     @cached_property
     def order(self) -> Order:
-        """Its exact order."""
         return find_order(self.tableau)
 
     @cached_property
     def conjugate_order(self) -> Order | None:
-        """That of its symplectic conjugate; None where a weight is zero."""
+        """The order of the symplectic conjugate; None if a weight is zero."""
         try:
             return find_order(conjugate(self.tableau))
         except ZeroWeight:
@@ -57,7 +52,7 @@ class Judged(Frozen):
 
     @cached_property
     def pair(self) -> Tableau | None:
-        """Its symplectic pair; None where a weight is zero."""
+        """The symplectic pair; None if a weight is zero."""
         try:
             return pair(self.tableau)
         except ZeroWeight:
@@ -65,35 +60,31 @@ class Judged(Frozen):
 
     @cached_property
     def pair_order(self) -> Order | None:
-        """The exact order of the pair."""
         return None if self.pair is None else find_order(self.pair)
 
     @cached_property
     def simplifying(self) -> Simplifying:
-        """B, C and D, and the bounds they give."""
         return simplifying(self.tableau, DEFAULT_LIMIT)
 
     @cached_property
     def pair_simplifying(self) -> Simplifying | None:
-        """The same of the pair."""
         return None if self.pair is None else simplifying(self.pair, DEFAULT_LIMIT)
 
     @cached_property
     def constants(self) -> ErrorConstants | None:
-        """The error constants at the first order that fails."""
+        """The error constants of the first order that fails."""
         return _constants(self.tableau, self.order)
 
     @cached_property
     def pair_constants(self) -> ErrorConstants | None:
-        """The same of the pair."""
         if self.pair is None or self.pair_order is None:
             return None
         return _constants(self.pair, self.pair_order)
 
     @cached_property
     def subject(self) -> Subject:
-        """The method as its properties are decided; of a Rosenbrock method that with the same steps
-        on linear problems.
+        """The method whose properties are decided; for a Rosenbrock method the method with the same
+        steps on linear problems.
         """
         found = on_linear_problems(self.tableau)
         known = self.simplifying if found is self.tableau else simplifying(found, DEFAULT_LIMIT)
@@ -101,7 +92,7 @@ class Judged(Frozen):
 
     @cached_property
     def phase(self) -> PhaseError | None:
-        """The phase lag on the oscillator; None where it has no split for that."""
+        """The phase lag on the oscillator; None if the method has no partition for it."""
         problem = Oscillator.default(terms_of(self.tableau), fmpq(1))
         try:
             return oscillator_stability(self.tableau, problem).phase
@@ -110,7 +101,7 @@ class Judged(Frozen):
 
 
 def _constants(tableau: Tableau, order: Order) -> ErrorConstants | None:
-    """None where the order is known from below only, or there are too many trees."""
+    """Returns None if the order is a lower bound or there are too many trees."""
     if order.is_lower_bound:
         return None
     found = error_constants(tableau, order.order + 1)
@@ -118,14 +109,14 @@ def _constants(tableau: Tableau, order: Order) -> ErrorConstants | None:
 
 
 Value: TypeAlias = "bool | int | float | str | None"
-"""``infinity`` is the one text; None where there is no value."""
+"""The value of a column; ``infinity`` is the only text, None means no value."""
 INFINITY = "infinity"
 DIGITS = 12
-"""Digits of real numbers, rounded from enclosures of exact ones."""
+"""Digits of real numbers."""
 
 
 class Column(Frozen):
-    """A criterion.
+    """A column of a sweep.
 
     Attributes:
         name: in spec files and rows.
@@ -141,14 +132,14 @@ class Column(Frozen):
 
 
 def is_value(value: object) -> bool:
-    """Whether a column may have it."""
+    """Returns whether a column may have a value."""
     if isinstance(value, float):
         return isfinite(value)
     return value is None or isinstance(value, (bool, int)) or value == INFINITY
 
 
 def _error(constants: ErrorConstants | None, is_largest: bool) -> float | None:
-    """A norm of the principal error, from exact coefficients."""
+    """Returns a norm of the principal error."""
     if constants is None:
         return None
     norms = constants.all
@@ -162,7 +153,7 @@ def _error(constants: ErrorConstants | None, is_largest: bool) -> float | None:
 
 
 def _rounded(text: str) -> float:
-    """A decimal as a float.
+    """Returns a decimal as a float. ¶ Raises GarkError if it overflows or underflows.
 
     Raises:
         GarkError: it is beyond them: the float would be infinite, or 0 where the number is not.
@@ -205,8 +196,9 @@ def _order(found: object) -> int | None:
 
 
 def _view(which: Which, judged: Judged) -> int | None:
-    """The order of a Rosenbrock method of another kind; None of other methods but for f(t, y), and
-    on DAEs where α + γ has no inverse.
+    """Returns the order of a Rosenbrock method for another class of problems.
+
+    None for other methods, except for f(t, y), and on DAEs if α + γ is singular.
     """
     if not is_rosenbrock(judged.tableau):
         timed = with_time(judged.tableau) if which == "with_time" else None
@@ -277,13 +269,12 @@ _PLAIN = (
 )
 _OF_ROSENBROCK = {"order", "error", "error-largest", "stages", "colours"} | OF_BETA
 _OF_ROSENBROCK |= {*VIEWS, *DAE_VIEWS}
-"""The columns that have a meaning for Rosenbrock methods."""
+"""The columns that apply to Rosenbrock methods."""
 _LESS_IS_BETTER = {"implicit-stages", "fully-implicit", "reducible", "gamma"}
 
 
 @cache
 def columns() -> Mapping[str, Column]:
-    """Every column by its name."""
     found = {column.name: column for column in _PLAIN}
     for key in KEYS:
         text = f"gark check --explain {key}"
@@ -292,7 +283,8 @@ def columns() -> Mapping[str, Column]:
 
 
 def value_of(name: str, judged: Judged) -> Value:
-    """The value of a column.
+    """Returns the value of a column. ¶ Raises MethodError if the column does not apply to the
+    method.
 
     Raises:
         MethodError: it has no meaning for the method.
@@ -304,7 +296,7 @@ def value_of(name: str, judged: Judged) -> Value:
 
 
 def property_kind(name: str) -> str:
-    """Of a column: ``truth``, ``count`` or ``number``."""
+    """Returns the kind of a column: ``truth``, ``count`` or ``number``."""
     if name in KEYS:
         return find(name).kind
     if name in ("symplectic", "pair-p-stable"):

@@ -1,4 +1,4 @@
-"""Which methods a sweep has: templates times the values of their parameters, each with a key."""
+"""The methods of a sweep: templates times the values of their parameters, each with a key."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ Relation: TypeAlias = Literal["=", ">=", "<=", ">", "<"]
 
 
 class Condition(Frozen):
-    """What a method has to have to be kept.
+    """A condition on the methods that are kept.
 
     Attributes:
         column: which criterion.
@@ -35,7 +35,7 @@ class Condition(Frozen):
     bound: bool | float
 
     def holds(self, value: Value) -> bool:
-        """Whether a value fulfils it; what has no value does not."""
+        """Returns whether a value fulfils the condition; missing values do not."""
         if value is None:
             return False
         left, right = number(value), float(self.bound)
@@ -53,7 +53,6 @@ class Condition(Frozen):
 
 
 def number(value: Value) -> float:
-    """A value as it is compared."""
     if value == INFINITY:
         return math.inf
     assert value is not None
@@ -61,7 +60,7 @@ def number(value: Value) -> float:
 
 
 class Point(Frozen):
-    """One method.
+    """One method of a sweep.
 
     Attributes:
         key: no other method of the sweep has it.
@@ -77,7 +76,7 @@ class Point(Frozen):
 
 
 class Criteria(Frozen):
-    """What the report says of each method.
+    """The columns and conditions of a sweep.
 
     Attributes:
         columns: the criteria, in the order of the rows.
@@ -93,7 +92,7 @@ class Criteria(Frozen):
         return json.dumps([self.columns, conditions])
 
     def fingerprint(self, template: Template) -> str:
-        """What rows of a template have that were made by the same criteria of the same file."""
+        """Returns a hash of the template, the columns and the conditions."""
         text = f"{self._as_text}\n{template.text}"
         if template.is_searched:
             text += f"\norder {template.order}, {template.starts} starts"
@@ -101,7 +100,7 @@ class Criteria(Frozen):
 
 
 class Plan(Frozen):
-    """A sweep.
+    """The methods of a sweep and their columns.
 
     Attributes:
         name: of the sweep.
@@ -124,14 +123,13 @@ class Plan(Frozen):
         return [0, *accumulate(map(self._size, self.templates))]
 
     def __len__(self) -> int:
-        """How many methods there are."""
         return self._starts[-1]
 
     def _size(self, template: Template) -> int:
         return count_methods(template, self.grids)
 
     def points(self) -> Iterator[Point]:
-        """Every method, those of a template one after the other."""
+        """Yields all methods, template by template."""
         for template in self.templates:
             for index in range(self._size(template)):
                 settings = {}
@@ -152,12 +150,11 @@ class Plan(Frozen):
 
     @property
     def has_searches(self) -> bool:
-        """Whether some methods are searched for."""
         return any(template.is_searched for template in self.templates)
 
 
 def load_plan(path: str) -> Plan:
-    """Read a spec file.
+    """Reads a spec file. ¶ Raises MethodFileError with all errors and their positions.
 
     Raises:
         MethodFileError: every fault of it, with positions.
@@ -180,10 +177,9 @@ def sweep_schema() -> dict[str, Any]:
 
 
 def told(files: Files) -> Iterable[Key]:
-    """What the report says of the keys of spec files."""
+    """The keys of spec files."""
     return entries_of(file_of(_kinds()).inside(), files.page)
 
 
 def _kinds() -> dict[str, str]:
-    """The columns, and what each is."""
     return {name: property_kind(name) for name in columns()}

@@ -1,4 +1,4 @@
-"""Which methods are best: sorted by columns, and those that no other surpasses in all of them."""
+"""The best methods: sorted by columns, and those on the Pareto front."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from garkcli.sweep.plan import number
 from garkcli.sweep.row import Row
 
 _Point = list[float]
-"""A number a column, smaller for better."""
+"""One number for each column; smaller is better."""
 
 
 def kept(rows: Iterable[Row]) -> list[Row]:
-    """The rows of methods that fulfil all conditions."""
+    """Returns the rows that fulfil all conditions."""
     return [row for row in rows if row["kept"] is True]
 
 
 def distinct(rows: Iterable[Row]) -> list[Row]:
-    """The first row of each method: several seeds may find the same."""
+    """Returns the first row of each method: several seeds may find the same one."""
     found: dict[str, Row] = {}
     for row in rows:
         known_by = str(row["key"])
@@ -30,8 +30,8 @@ def distinct(rows: Iterable[Row]) -> list[Row]:
 
 
 def best_first(rows: Sequence[Row], by: Sequence[str]) -> list[Row]:
-    """Rows sorted by columns, the first counting most; what has no value comes last, and equal
-    ones are in the order of their keys.
+    """Returns rows sorted by columns, the first counting most. Missing values come last; ties are
+    sorted by key.
     """
 
     def place(row: Row) -> tuple[object, ...]:
@@ -41,8 +41,8 @@ def best_first(rows: Sequence[Row], by: Sequence[str]) -> list[Row]:
 
 
 def pareto_front(rows: Sequence[Row], by: Sequence[str]) -> list[Row]:
-    """The rows with all values that no other row surpasses: at least as good in every column and
-    better in one.
+    """Returns the rows with all values for which no other row is at least as good in every column
+    and better in one.
     """
     complete = [row for row in rows if all(row.get(name) is not None for name in by)]
     front: list[Row] = []
@@ -58,7 +58,9 @@ def pareto_front(rows: Sequence[Row], by: Sequence[str]) -> list[Row]:
 
 
 def _badness(row: Row, by: Sequence[str]) -> list[tuple[bool, float]]:
-    """For each column whether its value is missing, and a number that is smaller for better."""
+    """Returns for each column whether the value is missing, and a number that is smaller for better
+    values.
+    """
     found = []
     for name in by:
         value = row.get(name)

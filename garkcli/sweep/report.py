@@ -1,4 +1,4 @@
-"""What came of a sweep: its rows, the best of them, the front."""
+"""The results of a sweep: the rows, the best of them, and the Pareto front."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from garkcli.upward import Shown
 
 
 class SweepReport(Shown, Frozen):
-    """The report of a sweep.
+    """The results of a sweep.
 
     Attributes:
         source: the spec file.
@@ -30,29 +30,28 @@ class SweepReport(Shown, Frozen):
 
     @property
     def done(self) -> list[Row]:
-        """The rows of this sweep, in its order."""
+        """The rows of the sweep, in its order."""
         keys = (point.key for point in self.plan.points())
         return [self.rows[key] for key in keys if key in self.rows]
 
     @cached_property
     def kept(self) -> list[Row]:
-        """The rows that are kept, one of each method that was found several times."""
+        """The kept rows, one for each method."""
         return distinct(kept(self.done))
 
     @property
     def repeated(self) -> int:
-        """How many more of the kept rows have a method that another has."""
+        """The number of kept rows whose method occurs in another row."""
         return len(kept(self.done)) - len(self.kept)
 
     @property
     def best(self) -> list[Row]:
-        """The kept rows, best first."""
+        """The kept rows, the best first."""
         found = self.kept
         return best_first(found, self.plan.best) if self.plan.best else found
 
     @property
     def front(self) -> list[Row]:
-        """The Pareto front."""
         return pareto_front(self.kept, self.plan.pareto)
 
     @property

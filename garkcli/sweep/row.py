@@ -1,4 +1,4 @@
-"""The row of one method: its key, its parameters, and its columns."""
+"""The row of one method: its key, its parameters and its columns."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ from garkcli.tableau.tableau import Tableau
 
 
 def first_find(point: Point) -> Method | None:
-    """What ``gark design --search`` finds first from the seed of a point; None where it finds
-    nothing.
+    """Returns the first method that ``gark design --search`` finds from the seed of a point; None
+    if it finds none.
     """
     template = point.template
     assert point.seed is not None
@@ -41,10 +41,10 @@ def first_find(point: Point) -> Method | None:
 
 
 def _drawn(point: Point, draw: Draw) -> Method:
-    """Two methods with a transfer whose pair has an order, its free numbers drawn.
+    """Returns a method for which the pair has the wanted order, with randomly drawn free
+    parameters.
 
-    Raises:
-        MethodError: the order is none of theirs, or not all weights are positive.
+    Raises MethodError if no such method exists, or if a weight is not positive.
     """
     family = _asked(point).family
     order = point.template.order
@@ -63,7 +63,7 @@ def _drawn(point: Point, draw: Draw) -> Method:
 
 
 def method_found(point: Point, found: Method) -> Tableau:
-    """The method of an exact find, read again from the text of its file."""
+    """Returns an exact method as read from the text of its file."""
     claim = f"{'pair-' * point.template.is_drawn}order: {found.order}"
     return loads(with_values(_asked(point).family, found.values, "", claim), point.key).tableau
 
@@ -74,8 +74,8 @@ def _asked(point: Point) -> FileSearch:
 
 
 Row: TypeAlias = "dict[str, Value | dict[str, str]]"
-"""``key``, ``spec``, ``kept``, ``method``, ``parameters``, then columns; ``failure`` where there is
-no such method. What was searched for has ``seed``, and ``proof`` and ``values`` where it was found.
+"""Has ``key``, ``spec``, ``kept``, ``method``, ``parameters`` and the columns; ``failure`` if there
+is no such method. Rows of searches also have ``seed``, and with a result ``proof`` and ``values``.
 """
 
 
@@ -84,7 +84,7 @@ _SETTINGS = ("parameters", "values")
 
 
 def is_row(row: Any) -> TypeGuard[Row]:
-    """Whether what was read from a file is a row, every value of its kind."""
+    """Returns whether data from a file are a row with values of the right types."""
     if not isinstance(row, dict) or not isinstance(row.get("kept"), bool):
         return False
     if not all(isinstance(row.get(name), str) for name in _TEXTS):
@@ -100,7 +100,7 @@ def is_row(row: Any) -> TypeGuard[Row]:
 
 
 def row_of(criteria: Criteria, point: Point) -> Row:
-    """What is true of a method, as far as its row goes.
+    """Returns the row of a method.
 
     Conditions are decided first, in their order; the first that fails ends the row.
     """
@@ -127,7 +127,7 @@ def row_of(criteria: Criteria, point: Point) -> Row:
 
 
 def crashed_row(criteria: Criteria, point: Point, why: str) -> Row:
-    """The row of a method that ended the process it was judged in."""
+    """Returns the row of a method whose process was ended."""
     return {**_start(criteria, point), "failure": f"its process was ended {why}"}
 
 
@@ -151,7 +151,9 @@ def _message(error: Exception) -> str:
 
 
 def _tableau(point: Point) -> Tableau:
-    """The method: as a member of its family where that is read already, else from its file."""
+    """Returns the method of a point, as a member of its family if possible, otherwise from its
+    file.
+    """
     family = _family(point.template.text, point.template.parameters)
     if family is not None:
         values: Mapping[str, Number] = {
@@ -165,9 +167,9 @@ def _tableau(point: Point) -> Tableau:
 
 
 def _searched(point: Point, row: Row) -> Tableau | None:
-    """The method that is found from the seed of a row, told in the row.
+    """Returns the method found from the seed of a row, and records it in the row.
 
-    None where its coefficients are not known exactly: then nothing else is reported of it.
+    None if its coefficients are not known exactly; then no columns are reported.
     """
     found = first_find(point)
     if found is None:
@@ -180,7 +182,7 @@ def _searched(point: Point, row: Row) -> Tableau | None:
 
 @lru_cache(maxsize=32)
 def _family(text: str, parameters: tuple[str, ...]) -> FamilyFile | None:
-    """The family of a file; None where not all of its parameters are free, or it has radicals."""
+    """Returns the family of a file; None if a parameter is not free or there are radicals."""
     try:
         family = loads_family(text)
     except GarkError:

@@ -1,4 +1,4 @@
-"""The rows that are missing, each made once: in this process, in others, or on a cluster."""
+"""The computation of missing rows in this process, in others, or on a cluster."""
 
 from __future__ import annotations
 
@@ -16,26 +16,24 @@ from garkcli.sweep.row import Row, crashed_row, row_of
 from garkcli.sweep.store import RowStore
 
 Result: TypeAlias = tuple[str, float]
-"""Rows as lines of JSON, and the processor time that they took."""
+"""Rows as lines of JSON, and the processor time used."""
 
 
 def rows_of(criteria: Criteria, points: Sequence[Point]) -> Result:
-    """The rows of some methods."""
     begin = process_time()
     return lines([row_of(criteria, point) for point in points]), process_time() - begin
 
 
 def lines(rows: Sequence[Row]) -> str:
-    """Rows as lines of JSON."""
     return "".join(f"{json.dumps(row)}\n" for row in rows)
 
 
 CHUNK = 25
-"""Methods of a task: the machinery of a task costs about as much as one of them."""
+"""Methods per task: the overhead of a task is about the cost of one method."""
 
 
 class Progress(Mutable):
-    """What a run has come to.
+    """The progress of a run.
 
     Attributes:
         total: how many methods the sweep has.
@@ -51,7 +49,7 @@ class Progress(Mutable):
 
 
 def sweep(plan: Plan, store: RowStore, jobs: int = 1, scheduler: str = "") -> Iterator[Progress]:
-    """Add the rows that are missing, in the order in which they come.
+    """Adds the missing rows in the order in which they are computed.
 
     Args:
         plan: the sweep.
@@ -90,7 +88,7 @@ def sweep(plan: Plan, store: RowStore, jobs: int = 1, scheduler: str = "") -> It
 def _results(
     criteria: Criteria, tasks: list[list[Point]], jobs: int, scheduler: str
 ) -> Iterator[Result]:
-    """Tasks that end their worker are done again, a method each; then it is known which does."""
+    """Yields the results; tasks that end their worker are repeated method by method."""
     ended: list[Sequence[Point]] = []
 
     def crashed(points: Sequence[Point], why: str) -> Result:

@@ -1,7 +1,7 @@
-"""The rows of a sweep on disk: a line of JSON each, appended whole, each key once.
+"""The rows of a sweep on disk, one line of JSON each, with unique keys.
 
-What a killed process leaves behind is at worst a last line without its end; it is cut off, and its
-method done again. One process writes: a lock keeps a second one out, where the system has locks.
+After a killed process the last line may be incomplete; it is cut off and its method repeated. Where
+the system has locks, only one process can write.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ class RowStore:
         os.close(self._file)
 
     def _is_file(self) -> bool:
-        """Whether there may be rows; False of the null device, which takes all and keeps none."""
+        """Returns whether the file is regular; False for the null device, which keeps nothing."""
         status = os.fstat(self._file)
         if stat.S_ISREG(status.st_mode):
             return True
@@ -119,7 +119,7 @@ class RowStore:
         raise UsageProblem(message, "choose another --rows, or remove the line", code="other-file")
 
     def add(self, row: Row) -> None:
-        """Append a row that is not there yet."""
+        """Appends a row, unless its key is present already."""
         key = str(row["key"])
         if key in self.rows:
             return
@@ -130,4 +130,4 @@ class RowStore:
 
 
 _FLAGS = getattr(os, "O_BINARY", 0) | getattr(os, "O_NONBLOCK", 0)
-"""Bytes as they are, and no wait for a file that has nothing to give."""
+"""Binary mode, and no waiting for a file without data."""
