@@ -1,4 +1,4 @@
-"""What the words of reports and files mean: ``gark explain`` and docs/glossary.md."""
+"""The meaning of the words in reports and files: ``gark explain`` and docs/glossary.md."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import Any
 
 
 def read(name: str) -> dict[str, Any]:
-    """Entries of the glossary that are many and short: a file of ``data``, in its order."""
+    """Returns the entries of a file in ``data``, in their order."""
     import tomllib  # paid for by who asks what something means
     from importlib.resources import files
 

@@ -1,8 +1,8 @@
-"""What errors mean, and what findings do: each kind of fault has a code, which an error says where
-it is raised, and the messages that it has, so that ``gark explain`` knows a message that is pasted.
+"""The meaning of errors and findings.
 
-The words of a message that stay the same are in ``data/faults-*.toml``; so one cause has one code
-wherever it shows, in whatever sentence.
+Each kind of fault has a code, given where the error is raised, and its messages, so that ``gark
+explain`` recognises a pasted message. The fixed words of the messages are in
+``data/faults-*.toml``; a cause has the same code wherever it is reported.
 """
 
 from __future__ import annotations
@@ -21,14 +21,14 @@ TOPICS = {
     "methods": "Methods and problems",
     "usage": "Options",
 }
-"""The files of faults in the order of the documentation, with what they are about."""
+"""The files of faults in the order of the documentation, with their subjects."""
 HOLE = "{}"
 _REST = r"(?: \(also at .*\)|; .*|, and \d+ more.*)?"
-"""What is added to a message: other places, or the cure."""
+"""Text after a message: other places, or the cure."""
 _QUOTED = re.compile(r"""(?<!\w)(?:'(?:[^'\\]|\\.)*'|"(?:[^"\\]|\\.)*")""", re.DOTALL)
-"""What a message quotes; behind a letter ' is an apostrophe or a derivative."""
+"""Quotations in a message; after a letter, ' is an apostrophe or a derivative."""
 _SHORT = 6
-"""Characters, with the quotes, of what messages of the program quote themselves: '[', ">= n"."""
+"""Longest quotation, with its quotes, that belongs to the message itself: '[', ">= n"."""
 
 
 class FaultKind(Frozen):
@@ -52,7 +52,6 @@ class FaultKind(Frozen):
 
 @lru_cache(maxsize=len(TOPICS))
 def faults_of(topic: str) -> tuple[FaultKind, ...]:
-    """The kinds of faults of a topic."""
     kinds = []
     for code, entry in read(f"faults-{topic}").items():
         kind = FaultKind(
@@ -68,19 +67,16 @@ def faults_of(topic: str) -> tuple[FaultKind, ...]:
 
 @lru_cache(maxsize=1)
 def by_code() -> Mapping[str, FaultKind]:
-    """Every kind of fault by its code."""
     return {kind.code: kind for topic in TOPICS for kind in faults_of(topic)}
 
 
 def code_of(message: str, least: int = 1) -> str:
-    """The code of the kind of fault that a message tells.
+    """Returns the code of the kind of fault of a message.
 
-    Of several kinds the one with the longest words is meant; what a message says of the place,
-    before a colon, is passed over, and so is what it quotes from a file.
+    If several kinds match, the one with the most fixed words wins. The place before a colon and
+    quotations from a file are ignored.
 
-    Args:
-        message: what is wrong.
-        least: how many letters of it have to be the program's own.
+    ``least`` is the least number of letters that the fixed words need.
 
     >>> code_of("A^{1,1}, row 1, entry 1: 'gama' is not a parameter")
     'unknown-name'
@@ -90,7 +86,9 @@ def code_of(message: str, least: int = 1) -> str:
 
 
 def codes_of(message: str, least: int = 1) -> list[str]:
-    """The codes of the kinds with the longest words; of messages of the program it is one."""
+    """Returns the codes of the kinds with the most fixed words; for messages of the program one
+    code.
+    """
     codes: list[str] = []
     own = _QUOTED.sub(_without_text, message)
     for said in _messages():
@@ -103,20 +101,20 @@ def codes_of(message: str, least: int = 1) -> list[str]:
 
 
 def _without_text(quoted: re.Match[str]) -> str:
-    """Quotes with nothing of a file between them, which may read like another message."""
+    """Empties a quotation from a file, which may read like another message."""
     text = quoted.group()
     return text if len(text) <= _SHORT else "''"
 
 
 class _Message(Frozen):
-    """A message of a kind: the words between its holes."""
+    """A message of a kind, as the words between its holes."""
 
     letters: int
     code: str
     words: tuple[str, ...]
 
     def is_told_by(self, message: str) -> bool:
-        """Whether a message is this one, filled."""
+        """Returns whether a message is this one with its holes filled."""
         if not all(word in message for word in self.words):
             return False
         filled = ".*".join(map(re.escape, self.words))
@@ -125,7 +123,7 @@ class _Message(Frozen):
 
 @lru_cache(maxsize=1)
 def _messages() -> tuple[_Message, ...]:
-    """Those of all kinds, those with the longest words first."""
+    """Returns the messages of all kinds, those with the most fixed words first."""
     messages = []
     for kind in by_code().values():
         for said in kind.says:
@@ -135,11 +133,11 @@ def _messages() -> tuple[_Message, ...]:
 
 
 COMMANDS = {"check": "docs/ci.md", "audit": "docs/audit.md"}
-"""The commands that have findings, with the page about each."""
+"""The commands that have findings, with their pages."""
 
 
 class FindingKind(Frozen):
-    """A kind of finding: what it means, in whole sentences, and what to do."""
+    """A kind of finding."""
 
     code: str
     text: str
@@ -148,7 +146,7 @@ class FindingKind(Frozen):
 
 @lru_cache(maxsize=len(COMMANDS))
 def findings_of(command: str) -> Mapping[str, FindingKind]:
-    """The kinds of findings of a command by their codes.
+    """Returns the kinds of findings of a command by their codes.
 
     >>> list(findings_of("check"))
     ['unreadable', 'claim', 'undecided', 'no-claim']

@@ -1,4 +1,4 @@
-"""What the fields of JSON reports hold, as data/fields.toml has it."""
+"""The meaning of the fields of JSON reports, from data/fields.toml."""
 
 from __future__ import annotations
 
@@ -18,12 +18,11 @@ ORDERS = (
     *("stage_order", "weak_stage_order", "symplectic_order", "energy_order"),
     *("effective_order", "exact_order"),
 )
-"""The fields with an order, beside which others say how sure it is."""
+"""The fields with an order; further fields say how certain it is."""
 
 
 @lru_cache(maxsize=1)
 def field_entries() -> Mapping[str, str]:
-    """What each field holds, by its name or by that of the one above and its own."""
     entries: dict[str, str] = read("fields")
     endings = {x: text for x, text in entries.items() if x.startswith("_")}
     texts = {x: text for x, text in entries.items() if x not in endings}
@@ -33,10 +32,9 @@ def field_entries() -> Mapping[str, str]:
 
 
 def field_text(path: Sequence[str]) -> str:
-    """What a field holds; empty where there is no entry.
+    """Returns the meaning of a field; empty if there is no entry.
 
-    Args:
-        path: the report, the fields above, its name.
+    ``path`` holds the report, the parent fields and the name.
 
     >>> field_text(("diff", "first"))
     'The first of both methods.'

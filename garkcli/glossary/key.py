@@ -1,4 +1,4 @@
-"""The keys of the files that people write, as they are reported; rooms above declare them."""
+"""The keys of the files that users write; the rooms that read them declare them."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from garkcli.upward import answered
 
 
 class Files(NamedTuple):
-    """A kind of files: what they are called, and the page about them."""
+    """A kind of file and its page."""
 
     name: str
     page: str
@@ -26,13 +26,13 @@ KINDS = {
 
 
 class Key(Frozen):
-    """What a key means.
+    """The meaning of a key.
 
     Attributes:
         path: the key with those that it is below, as ``compose.steps``.
         text: what it is, in whole sentences.
         example: a line of such a file with it.
-        default: what holds where it is left out; None where nothing does.
+        default: what holds where it is left out; None if nothing does.
         page: where more is said.
         is_word: whether it is found by its own name too.
     """
@@ -47,7 +47,7 @@ class Key(Frozen):
 
 @lru_cache(maxsize=len(KINDS))
 def keys_of(kind: str) -> Mapping[str, Key]:
-    """The keys of a kind of files by their paths, in the order of the documentation.
+    """Returns the keys of a kind of files by their paths, in the order of the documentation.
 
     >>> keys_of("method")["compose.from"].default
     2

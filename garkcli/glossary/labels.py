@@ -1,4 +1,4 @@
-"""What people read in place of the keys of results, where that is not the key with spaces."""
+"""Labels of the keys of results that are not simply the key with spaces."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ LABELS = {
 
 
 def key_of(label: str) -> str:
-    """The key that people read a label in place of.
+    """Returns the key for a label.
 
     >>> key_of("A-stable"), key_of("pair order")
     ('a_stable', 'pair_order')
@@ -54,7 +54,7 @@ def key_of(label: str) -> str:
 
 
 def label_of(key: str) -> str:
-    """What people read in place of a key.
+    """Returns the label for a key.
 
     >>> label_of("a_stable"), label_of("pair_order")
     ('A-stable', 'pair order')

@@ -1,4 +1,4 @@
-"""What a term of the field is, and the one list of terms, as data/terms-*.toml have it."""
+"""The terms of the field, from data/terms-*.toml."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from garkcli.glossary import read
 PAPER = (
     "A. Zanna, Discrete Variational Methods and Symplectic Generalized Additive Runge–Kutta Methods"
 )
-"""What sources call paper; they name its sections."""
+"""The source called paper; its sections are cited."""
 
 
 class Term(Frozen):
-    """A term with its meaning.
+    """A term and its meaning.
 
     Attributes:
         name: as people look for it.
         text: what it is, in whole sentences.
-        formula: the definition in signs; empty where there is none.
+        formula: the definition in signs; empty if there is none.
         source: where it comes from: the paper's section or another.
         labels: what reports call it, and other names.
         see: names of terms near it.
@@ -42,12 +42,15 @@ TOPICS = {
     "design": "Methods with unknowns",
     "reports": "What reports say",
 }
-"""The files of terms in the order of the documentation, with what they are about."""
+"""The files of terms in the order of the documentation, with their subjects."""
 
 
 @lru_cache(maxsize=len(TOPICS))
 def terms_of(topic: str) -> tuple[Term, ...]:
-    """The terms of a topic; ``short`` in its file has short names of sources."""
+    """Returns the terms of a topic.
+
+    ``short`` in its file has abbreviations of sources.
+    """
     entries = read(f"terms-{topic}")
     short = {"paper": PAPER, **entries.pop("short", {})}
 
@@ -69,7 +72,8 @@ def terms_of(topic: str) -> tuple[Term, ...]:
 
 
 def plain(word: str) -> str:
-    """A word as it is compared: small letters, blanks for hyphens and underlines, no colon behind.
+    """Returns a word for comparison: lower case, spaces for hyphens and underscores, no final
+    colon.
 
     >>> plain("Stiffly-Accurate:")
     'stiffly accurate'
@@ -79,6 +83,5 @@ def plain(word: str) -> str:
 
 @lru_cache(maxsize=1)
 def by_word() -> dict[str, Term]:
-    """Every name and label with its term."""
     every = [term for topic in TOPICS for term in terms_of(topic)]
     return {word: term for term in every for word in (term.name, *term.labels)}
