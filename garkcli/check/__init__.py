@@ -1,1 +1,1 @@
-"""From a path to an outcome: analysis, claims, findings."""
+"""Checks of method files: analysis, claims and findings."""

@@ -1,4 +1,4 @@
-"""Everything known about one method, as one value, and what proves its orders."""
+"""The analysis of a method, and the proofs of its orders."""
 
 from __future__ import annotations
 
@@ -32,34 +32,33 @@ if TYPE_CHECKING:
 
 
 class Analysis(Shown, Frozen):
-    """The truth about a tableau, its symplectic conjugate, and their pair.
+    """The orders and conditions of a method, its symplectic conjugate and its pair.
 
     Attributes:
         tableau: the method.
-        order: its exact order with a witness.
-        simplifying: B, C, D and the bounds they give.
+        order: its order with a witness.
+        simplifying: B, C, D and their bounds of the order.
         inconsistent: the blocks with A^{l,m} 𝟙 ≠ c^{l}, as (l, m) counted from 0.
         symplectic: whether it is its own conjugate; for a partitioned tableau, whether its two
-            parts are.
-        conjugate: the conjugate, or None where a weight is zero; then ``obstacle`` says which.
-        conjugate_order: the exact order of the conjugate.
+            parts are conjugate.
+        conjugate: the conjugate, or None if a weight is zero, which ``obstacle`` names.
+        conjugate_order: the order of the conjugate.
         conjugate_inconsistent: the blocks with Â^{l,m} 𝟙 ≠ c^{l}.
         pair: the symplectic pair with 2N colours, or None.
-        pair_order: the exact order of the pair.
+        pair_order: the order of the pair.
         pair_simplifying: B, C, D and the bounds for the pair.
-        bound: the paper's lower bound of the order; within a tolerance as far as the order bears it
-            out.
+        bound: the paper's lower bound of the order; within a tolerance at most the order.
         pair_bound: the same for the pair.
-        sharp_bound: the sharper bound of docs/sharper-bound.md, in the same way.
+        sharp_bound: the sharper bound of docs/sharper-bound.md, likewise.
         pair_sharp_bound: the same for the pair.
-        obstacle: why there is no conjugate; empty where there is one.
+        obstacle: why there is no conjugate; empty if there is one.
         limit: where the search for orders stopped.
-        tolerance: the rounding within which all of this holds; None where it holds exactly.
-        nonautonomous_order: the order on problems ẏ = f(t, y) with the nodes as printed; None where
-            that has no meaning.
-        embedded: the truth about its embedded weights; None where it has none.
-        dense: the truth about its dense output; likewise.
-        further: these weights.
+        tolerance: the rounding within which all of this holds; None for exact coefficients.
+        nonautonomous_order: the order on problems ẏ = f(t, y) with the nodes as printed; None if
+            not applicable.
+        embedded: the facts about its embedded weights, or None.
+        dense: the facts about its dense output, or None.
+        further: its embedded and dense weights.
     """
 
     tableau: Tableau
@@ -87,7 +86,6 @@ class Analysis(Shown, Frozen):
 
     @cached_property
     def subject(self) -> Subject:
-        """The method whose properties are decided on demand."""
         from garkcli.properties.subject import Subject
 
         method = meant(self.tableau, self.tolerance)
@@ -96,8 +94,8 @@ class Analysis(Shown, Frozen):
 
     @cached_property
     def nearness(self) -> Nearness | None:
-        """How far the method that a rounded one is taken to be is from the print; None of an exact
-        one.
+        """The distance of the exact method that a rounded one stands for from its printed
+        coefficients; None for an exact method.
         """
         method = meant(self.tableau, self.tolerance)
         if isinstance(method, Tableau):
@@ -108,7 +106,7 @@ class Analysis(Shown, Frozen):
 
     @cached_property
     def wrong_rows(self) -> tuple[WrongSum, ...]:
-        """The rows whose sums are not the nodes, beyond what rounding explains."""
+        """The rows whose sum differs from the node by more than rounding explains."""
         if not self.inconsistent:
             return ()
         from garkcli.order.sums import wrong_rows
@@ -118,7 +116,9 @@ class Analysis(Shown, Frozen):
 
     @cached_property
     def wrong_weights(self) -> tuple[WrongSum, ...]:
-        """The weights, embedded ones after them, whose sum is not 1, in the same way."""
+        """The weights whose sum differs from 1 by more than rounding explains, the embedded ones
+        last.
+        """
         found: list[WrongSum] = []
         method = meant(self.tableau, self.tolerance)
         asked = [(method, self.order, False)]
@@ -144,7 +144,7 @@ class Analysis(Shown, Frozen):
 
 @doing("conjugate and pair")
 def conjugate_and_pair(method: AnyTableau) -> tuple[AnyTableau | None, AnyTableau | None, Reason]:
-    """The conjugate and the symplectic pair, None where a weight is zero, and then why."""
+    """Returns the conjugate and the symplectic pair, or None for both and the reason."""
     conjugated, both, obstacle = None, None, NO_REASON
     if not printed(method).has_fields_alone or printed(method).exact_to is not None:
         return None, None, Reason("it is no GARK method")
@@ -160,13 +160,13 @@ def conjugate_and_pair(method: AnyTableau) -> tuple[AnyTableau | None, AnyTablea
 
 
 def is_pair_of_itself(method: AnyTableau, both: AnyTableau) -> bool:
-    """Whether a partitioned tableau is the pair that is made of it."""
+    """Returns whether a partitioned method is its own pair."""
     tableau = printed(method)
     return tableau.is_partitioned and printed(both).blocks == tableau.blocks
 
 
 def inconsistent_blocks(method: AnyTableau | None) -> tuple[tuple[int, int], ...]:
-    """The blocks with A^{l,m} 𝟙 ≠ c^{l}; none of what does not exist."""
+    """Returns the blocks with A^{l,m} 𝟙 ≠ c^{l}; none if there is no method."""
     if method is None:
         return ()
     return tuple(edge for edge, holds in consistent_blocks(method).items() if not holds)
@@ -175,7 +175,7 @@ def inconsistent_blocks(method: AnyTableau | None) -> tuple[tuple[int, int], ...
 def nonautonomous(
     method: AnyTableau, order: AnyOrder, inconsistent: Sequence[tuple[int, int]], limit: int
 ) -> AnyOrder | None:
-    """The order on problems ẏ = f(t, y); where A^{l,m} 𝟙 = c^{l} it is the order."""
+    """Returns the order for ẏ = f(t, y), which is the order itself if A^{l,m} 𝟙 = c^{l}."""
     timed = with_time(method) if isinstance(method, Tableau) else method.with_time()
     if timed is None:
         return None
@@ -183,15 +183,15 @@ def nonautonomous(
 
 
 class MethodProof(Shown, Frozen):
-    """What decides the orders of a method.
+    """The proofs of the orders of a method.
 
     Attributes:
-        name: of the method.
+        name: the name of the method.
         method: its order.
-        conjugate: that of its symplectic conjugate, or None where a weight is zero.
-        pair: that of the symplectic pair, or None likewise; of a partitioned method it needs the
-            weights of the positions alone.
-        obstacle: why there is no conjugate; empty where there is one.
+        conjugate: that of its symplectic conjugate, or None if a weight is zero.
+        pair: that of the symplectic pair, or None if a weight is zero; for a partitioned method
+            only the weights of the positions count.
+        obstacle: why there is no conjugate; empty if there is one.
     """
 
     name: str

@@ -1,5 +1,6 @@
-"""What got worse since an earlier JSON report: for projects that do not pass yet, but must not get
-worse.
+"""The differences from an earlier JSON report that are changes for the worse.
+
+For projects that do not pass yet but must not get worse.
 """
 
 from __future__ import annotations
@@ -15,11 +16,11 @@ from garkcli.files import read_bytes
 from garkcli.frozen import Frozen
 
 File: TypeAlias = Mapping[str, Any]
-"""What a JSON report says of one file."""
+"""The entry of a file in a JSON report."""
 Earlier: TypeAlias = Mapping[str, File]
 """The files of an earlier report by path."""
 SCHEMA = "gark/check/1"
-"""The name of the report that a baseline is."""
+"""The schema of the report that serves as a baseline."""
 ORDERS = (
     "order",
     "conjugate_order",
@@ -32,7 +33,7 @@ ORDERS = (
 
 
 class Regression(Frozen):
-    """One thing that was better before: in which file, what, how it was, how it is."""
+    """A value that was better in the earlier report."""
 
     file: str
     what: str
@@ -41,15 +42,14 @@ class Regression(Frozen):
 
 
 MAX_BYTES = 256 * 2**20
-"""Largest baseline that is read: room for some hundred thousand files."""
+"""The largest baseline that is read: some hundred thousand files."""
 _CURE = "make one with gark check --format json -o FILE"
 
 
 def read_baseline(path: str) -> Earlier:
-    """The files of an earlier report by path.
+    """Reads the files of an earlier report by path.
 
-    Raises:
-        UsageProblem: it is not a report of ``gark check --format json``, or one that was damaged.
+    Raises UsageProblem unless the file is a complete report of ``gark check --format json``.
     """
     try:
         report = json.loads(_text(path))
@@ -64,12 +64,12 @@ def read_baseline(path: str) -> Earlier:
 
 
 def _path_of(file: File) -> str:
-    """Its path, written the same way on every system."""
+    """Returns the path with forward slashes."""
     return PurePath(file["file"]).as_posix()
 
 
 def _text(path: str) -> str:
-    """What is in the file; devices, named pipes and large files are not read at all."""
+    """Returns the content of a file; devices, pipes and large files are refused unread."""
     try:
         is_large = os.path.exists(path) and os.path.getsize(path) > MAX_BYTES
         data = b"" if is_large else read_bytes(path, MAX_BYTES)
@@ -85,7 +85,7 @@ def _refused(path: str, why: str) -> UsageProblem:
 
 
 def _is_whole(file: object) -> bool:
-    """Whether the entry of one file has the fields that are compared, each of its kind."""
+    """Returns whether the entry of a file has the compared fields, with the right types."""
     if not isinstance(file, dict) or not isinstance(file.get("file"), str):
         return False
     if "errors" in file:
@@ -103,9 +103,7 @@ def _is_whole_claim(claim: object) -> bool:
 
 
 def regressions(report: Mapping[str, Any], baseline: Earlier) -> list[Regression]:
-    """Everything in a JSON report that is worse than in ``baseline``; a file that is new must be
-    right.
-    """
+    """Returns all changes for the worse since ``baseline``. A new file has to pass."""
     found: list[Regression] = []
     for now in report["files"]:
         before = baseline.get(_path_of(now))

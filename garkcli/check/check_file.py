@@ -1,4 +1,4 @@
-"""Load, analyse, verify: from a path to an outcome, with nothing printed."""
+"""Loading, analysis and verification of one file, without output."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def check_file(
     want_constants: bool = False,
     settings: Mapping[str, str] = NO_SETTINGS,
 ) -> Outcome:
-    """Check one method file; a file that cannot be read gives an outcome with its faults.
+    """Check one method file. A file that cannot be read gives an outcome with its faults.
 
     Args:
         path: a file, or ``-`` for standard input.
@@ -50,7 +50,7 @@ def check_file(
 def check_method(
     method: MethodFile, limit: int = DEFAULT_LIMIT, want_constants: bool = False
 ) -> Outcome:
-    """Check a method that was read.
+    """Check a method that was read from a file.
 
     Args:
         method: with its claims.
@@ -79,7 +79,7 @@ def check_method(
 
 
 def _check_other_kind(method: MethodFile, limit: int, want_constants: bool) -> Outcome:
-    """Check a method that is no GARK method."""
+    """Checks a method that is not a GARK method."""
     from garkcli.constructions.nprk import is_nprk  # few methods need these
     from garkcli.constructions.nystrom import is_nystrom
     from garkcli.constructions.rosenbrock import is_rosenbrock
@@ -105,7 +105,7 @@ def _check_other_kind(method: MethodFile, limit: int, want_constants: bool) -> O
 
 
 def _constants(found: AnyAnalysis) -> ErrorConstants | None:
-    """The error constants; None where no condition is known to fail."""
+    """Returns the error constants; None if no condition is known to fail."""
     if found.order.is_lower_bound:
         return None
     from garkcli.order.constants import error_constants  # numpy is paid for here

@@ -1,4 +1,4 @@
-"""The claims of a file held against what was found."""
+"""The verification of the claims of a file."""
 
 from __future__ import annotations
 
@@ -31,7 +31,6 @@ AnySubject: TypeAlias = "Subject | LinearSubject | NoProperties"
 
 
 def verify(claims: tuple[ClaimText, ...], analysis: AnyAnalysis) -> tuple[Claim, ...]:
-    """Hold each claim against the truth."""
     return tuple(_held_against(claim, analysis) for claim in claims)
 
 
@@ -47,7 +46,7 @@ def _held_against(claim: ClaimText, analysis: AnyAnalysis) -> Claim:
 
 
 def _why_none(key: str, analysis: AnyAnalysis) -> str:
-    """Why there is nothing of which a claim speaks."""
+    """Returns why a claim does not apply to a method."""
     kind = getattr(analysis, "kind", "a GARK method")
     if key in OF_ROSENBROCK and kind != "a Rosenbrock method":
         return "it is no Rosenbrock method"
@@ -79,7 +78,7 @@ PLACES = {
     "dense-position-order": "dense.position_order",
     "dense-velocity-order": "dense.velocity_order",
 }
-"""Where an analysis has what a claim is on, if not under its name."""
+"""The attributes of an analysis for claims whose names differ from them."""
 _OF_DENSE_STEPS = ("dense-position-order", "dense-velocity-order")
 OF_DENSE = ("dense-order", "dense-continuous", "dense-smooth", *_OF_DENSE_STEPS)
 OF_DAE = ("index-1-order", "index-1-y-order", "index-1-z-order", "embedded-index-1-order")
@@ -88,21 +87,23 @@ OF_ROSENBROCK = (
     *("w-order", "old-jacobian-order", "embedded-w-order", "embedded-old-jacobian-order"),
     *OF_DAE,
 )
-"""The orders that Rosenbrock methods have besides."""
+"""The further orders of Rosenbrock methods."""
 OF_NYSTROM = (
     *("position-order", "velocity-order", "embedded-position-order", "embedded-velocity-order"),
     *_OF_DENSE_STEPS,
 )
 """The orders that Nyström methods have besides."""
 OF_INFINITESIMAL = ("slow-order",)
-"""Those that multirate methods with the exact fast solution have besides."""
+"""The orders of multirate methods with exact fast solutions."""
 
 
 _OF_OTHERS = frozenset({*OF_ROSENBROCK, *OF_NYSTROM, *OF_INFINITESIMAL})
 
 
 def found_value(key: str, analysis: AnyAnalysis) -> object:
-    """What is true of an order, a table, or symplecticity; None where it has no meaning."""
+    """Returns the value found for an order, a table of orders, or symplecticity; None if not
+    applicable.
+    """
     found: Any = analysis
     if not isinstance(analysis, Analysis) and key not in OF_DENSE:
         view = analysis.view(key)
@@ -119,7 +120,6 @@ def found_value(key: str, analysis: AnyAnalysis) -> object:
 
 
 def verify_property(claim: ClaimText, subject: AnySubject) -> Claim:
-    """Hold a claim on a property against the truth."""
     verdict = subject.verdict(claim.key)
     return claim_of(claim, _found(verdict), _holds(claim, verdict, subject), verdict.reason)
 
@@ -144,7 +144,6 @@ def _holds(claim: ClaimText, verdict: Verdict, subject: AnySubject) -> bool | No
 
 
 def claim_of(claim: ClaimText, found: str, holds: bool | None, reason: Reason = NO_REASON) -> Claim:
-    """A claim with what was found."""
     mark = claim.node.start_mark
     return Claim(
         claim=claim.key,
@@ -158,8 +157,9 @@ def claim_of(claim: ClaimText, found: str, holds: bool | None, reason: Reason = 
 
 
 def agrees(wanted: object, found: object) -> bool | None:
-    """Whether a value of a file, a number or a list of numbers or lists, is what was found; None
-    where that is a lower bound, and leaves it open.
+    """Returns whether a value from a file, a number or a nested list, agrees with the value found.
+
+    None if a lower bound leaves that open.
 
     >>> agrees(AtLeast(3), 4), agrees(3, AtLeast(4)), agrees(5, AtLeast(4))
     (True, False, None)
@@ -182,7 +182,7 @@ def agrees(wanted: object, found: object) -> bool | None:
 
 
 def capped(value: object, limit: int) -> object:
-    """A number at which the search stopped is known to be at least that large, no more."""
+    """Returns a number, or AtLeast if the search stopped at it."""
     if isinstance(value, (list, tuple)):
         return [capped(x, limit) for x in value]
     is_number = isinstance(value, int) and not isinstance(value, bool)
@@ -190,7 +190,7 @@ def capped(value: object, limit: int) -> object:
 
 
 def claimed_text(value: object) -> str:
-    """A value as it is written in YAML."""
+    """Returns a value in YAML."""
     if isinstance(value, (list, tuple)):
         inside = ", ".join(claimed_text(x) for x in value)
         return f"[{inside}]"

@@ -1,5 +1,5 @@
-"""What is to blame for an order that is smaller than the file claims, or, where it claims none,
-that one wrong entry seems to cost.
+"""The likely cause of an order below the claimed one, or below that of a method with one entry
+changed.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 WITHOUT_NODES = {"order", "conjugate-order", "pair-order", "symplectic"}
 """The claims that do not depend on nodes: without ``c`` in the file these follow the entries."""
 UNASKED = {"order", "embedded-order"}
-"""The orders that a wrong entry may cost unclaimed."""
+"""The orders for which a cause is sought without a claim."""
 
 
 def culprit(
@@ -37,23 +37,16 @@ def culprit(
     limit: int,
     remark: Remark | None = None,
 ) -> Blame | None:
-    """What is to blame for the first order that is smaller than the file claims, or for that of a
-    method of which it claims none.
-
-    Args:
-        method: as it was read.
-        analysis: the truth about it.
-        claims: what became of its claims.
-        limit: where the search for orders stops.
-        remark: what its digits say of its rounding.
+    """Returns the likely cause of the first order below its claim, or of the order of a method
+    without one.
     """
     blame = _of_claims(method, analysis, remark) or _unclaimed(method, analysis, remark)
     return _with_consequences(method, claims, blame, limit)
 
 
 def _of_claims(method: MethodFile, analysis: Analysis, remark: Remark | None) -> Blame | None:
-    """Nobody is to blame where the next order is not known to fail, or where rounding explains that
-    it does.
+    """Returns the cause of the first order below its claim; None if the next order is not known to
+    fail, or rounding explains the failure.
     """
     for key, tableau, found in _orders(method, analysis):
         claimed = highest_order(method.claims, [key])
@@ -81,14 +74,14 @@ def _of_claims(method: MethodFile, analysis: Analysis, remark: Remark | None) ->
 
 
 def _is_explained(method: MethodFile, remark: Remark | None, claimed: int) -> bool:
-    """Whether a wider tolerance than that of the file gives the claimed order."""
+    """Returns whether a wider tolerance than the file gives would yield the claimed order."""
     if method.tolerance is None or remark is None:
         return False
     return bool(remark.line) and remark.order >= claimed
 
 
 def _orders(method: MethodFile, analysis: Analysis) -> Iterator[tuple[str, Tableau, AnyOrder]]:
-    """The orders that a file may claim, with the tableau whose entries may be wrong."""
+    """Yields the orders that a file may claim, with the tableau whose entries may be wrong."""
     for key, found in (
         ("order", analysis.order),
         ("conjugate-order", analysis.conjugate_order),
@@ -101,8 +94,8 @@ def _orders(method: MethodFile, analysis: Analysis) -> Iterator[tuple[str, Table
 
 
 def _unclaimed(method: MethodFile, analysis: Analysis, remark: Remark | None) -> Blame | None:
-    """The entry that seems wrong in a method, or in its embedded weights, of which the file claims
-    no order.
+    """Returns the entry that seems wrong in a method, or embedded weights, without claimed
+    order.
     """
     claimed = {claim.key for claim in method.claims}
     is_made = method.form in CONSTRUCTIONS  # no file prints its embedded weights
@@ -121,8 +114,8 @@ def _unclaimed(method: MethodFile, analysis: Analysis, remark: Remark | None) ->
 def _ways(
     method: MethodFile, tableau: Tableau, found: AnyOrder, key: str, remark: Remark | None
 ) -> Iterator[tuple[AnyTableau, AnyOrder]]:
-    """The method as conditions are judged, with its order: exactly or within the tolerance of the
-    file; where decimals are meant exactly by its word, then as if they were rounded.
+    """Yields the method and its order: exactly or within the tolerance of the file; for decimals
+    declared exact also as if they were rounded.
     """
     if not isinstance(found, Order):
         yield meant(method.tableau, method.tolerance, method.further), found
@@ -140,7 +133,7 @@ def _ways(
 def _with_consequences(
     method: MethodFile, claims: tuple[Claim, ...], blame: Blame | None, limit: int
 ) -> Blame | None:
-    """The same, with the other claims that fail for the reason that its first repair removes."""
+    """Returns the blame, with the other claims that its first repair makes true."""
     if blame is None or not blame.repairs or blame.repairs[0].is_embedded:
         return blame
     others = set()

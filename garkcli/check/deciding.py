@@ -1,4 +1,4 @@
-"""From a tableau to its analysis, exactly or within the tolerance of its file."""
+"""The analysis of a tableau, exactly or within the tolerance of its file."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 
 def analyse_any(method: GarkMethod, limit: int = DEFAULT_LIMIT) -> AnyAnalysis:
-    """The analysis of a method of any kind; see ``analyse``."""
+    """Returns the analysis of a method of any kind; see ``analyse``."""
     return analyse_any_tableau(method.tableau, limit, method.tolerance, method.further)
 
 
@@ -42,7 +42,7 @@ def analyse_any_tableau(
     tolerance: fmpq | None = None,
     further: Further = NOTHING,
 ) -> AnyAnalysis:
-    """The analysis of a tableau of any kind; see ``analyse``."""
+    """Returns the analysis of a tableau of any kind; see ``analyse``."""
     if tableau.is_gark:
         return analyse(tableau, limit, tolerance, further)
     from garkcli.constructions.nprk import is_nprk  # few methods need these
@@ -76,7 +76,7 @@ def analyse(
     tolerance: fmpq | None = None,
     further: Further = NOTHING,
 ) -> Analysis:
-    """Decide everything that ``gark check`` reports; up to the order ``limit``.
+    """Decide all that ``gark check`` reports, with orders up to ``limit``.
 
     Args:
         tableau: the method.
@@ -140,7 +140,9 @@ def analyse(
 
 
 def looks_rounded(method: MethodFile) -> Remark | None:
-    """The tolerance that a file lacks; None where it has one, or is exact, or has a misprint."""
+    """Returns the remark on the missing tolerance of a file; None if it has one, is exact or has a
+    misprint.
+    """
     if method.tolerance is not None:
         return None
     order = order_of(method.tableau)
@@ -153,7 +155,7 @@ def looks_rounded(method: MethodFile) -> Remark | None:
 
 
 def remark_of(method: MethodFile, analysis: Analysis) -> Remark | None:
-    """The remark on the digits of a file: on the method, else on its embedded weights."""
+    """Returns the remark on the digits of a file: on the method or on its embedded weights."""
     asked = [("order", analysis.order)]
     if analysis.embedded is not None:
         asked.append(("embedded-order", analysis.embedded.order))
@@ -169,12 +171,12 @@ def remark_of(method: MethodFile, analysis: Analysis) -> Remark | None:
 
 
 def is_doubtful(found: AnyOrder, tolerance: fmpq | None) -> bool:
-    """Whether rounding may be why an order is no higher: it is not in nearly all exact methods."""
+    """Returns whether rounding may be the reason why an order is not higher."""
     return found.witness is not None and (bool(tolerance) or within(found.witness.residual, TINY))
 
 
 def _capped(
     conditions: Simplifying | None, order: AnyOrder | None, bound: Callable[[Simplifying], int]
 ) -> int | None:
-    """A bound, as far as the order bears it out: within a tolerance it may not."""
+    """Returns a bound, at most the order: within a tolerance it may exceed it."""
     return None if conditions is None or order is None else min(bound(conditions), order.order)

@@ -1,4 +1,4 @@
-"""Everything known about one method that uses derivatives of f, as one value."""
+"""The analysis of a method that uses derivatives of f."""
 
 from __future__ import annotations
 
@@ -12,8 +12,9 @@ from garkcli.reason import Reason
 
 
 class DerivativesAnalysis(OrderFacts):
-    """The truth about a multiderivative method; its tableau has stages along the exact solutions
-    whose derivatives it uses.
+    """The orders of a multiderivative method.
+
+    Its tableau has stages along the exact solutions whose derivatives it uses.
     """
 
     kind = "a multiderivative method"
@@ -21,7 +22,7 @@ class DerivativesAnalysis(OrderFacts):
 
     @cached_property
     def subject(self) -> LinearSubject:
-        """The method whose properties are decided on demand: R(z) decides all that it has."""
+        """The method whose properties are decided: all of them follow from R(z)."""
         method = with_same_function(meant(self.tableau, self.tolerance))
         assert method is not None
         order = self.order.order

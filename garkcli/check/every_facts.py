@@ -1,9 +1,9 @@
-"""What is true of a family for every value of its parameters, and of which values it is not.
+"""Facts about a family for all values of its parameters, and the exceptional values.
 
 A question about coefficients that are rational functions is answered once, with the parameters as
-unknowns; the polynomials that counted as different from zero on the way are kept. Wherever
-none of them is zero the answer is the same. The answer that counts is the ordinary one for some
-rational values there. With one parameter the finitely many others are examined one by one.
+unknowns. The polynomials that were taken as different from zero on the way are recorded: where none
+of them is zero, the answer is the same. The answer is confirmed at some rational values there. With
+one parameter, the finitely many other values are examined one by one.
 """
 
 from __future__ import annotations
@@ -27,30 +27,30 @@ from garkcli.tableau.family import ring_of
 from garkcli.tableau.tableau import Tableau
 
 Worded: TypeAlias = "Value | str"
-"""What a reason has in it."""
+"""A part of a reason."""
 MOST_SPECIAL = 60
-"""Most single values that are examined."""
+"""The largest number of exceptional values that are examined."""
 
 
 MOST_ASKED = 60
-"""How often a question is asked where polynomials are zero."""
+"""The number of times that a question is asked where polynomials are zero."""
 
 
 class Fact(Frozen):
     """An answer for a family.
 
     Attributes:
-        value: for every value of the parameters but those below; None where there is none.
-        special: single values of the one parameter, each with the answer there.
-        open: several parameters: polynomials; where one is zero the answer may be another.
+        value: for all values except those below; None if the question does not apply.
+        special: exceptional values of a single parameter, with their answers.
+        open: several parameters: polynomials at whose zeros the answer may differ.
         zeros: several parameters: polynomials at whose common zeros, real ones if there are any,
-            and only there, an order is higher, or what is else not true is.
-        elsewhere: several parameters: polynomials, each with the answer wherever it is zero.
-        unknown: single values of the one parameter that are not decided.
-        where: of what is true on whole intervals of the one parameter, these; else None.
-        is_undecided: whether no answer is known that holds but for these.
-        differs: whether two values are known for which it is not the same.
-        why: these two, or what is in the way of knowing it.
+            and only there, an order is higher or a property holds.
+        elsewhere: several parameters: polynomials, with the answer at their zeros.
+        unknown: undecided values of a single parameter.
+        where: the intervals of a single parameter on which a property holds; otherwise None.
+        is_undecided: whether no answer for almost all values is known.
+        differs: whether two values with different answers are known.
+        why: these two values, or the reason why it is undecided.
     """
 
     value: Any
@@ -66,13 +66,13 @@ class Fact(Frozen):
 
     @property
     def is_everywhere(self) -> bool:
-        """Whether the answer is the same for every value."""
+        """Whether the answer is the same for all values."""
         others = (*self.special, *self.elsewhere, *self.open, *self.zeros, *self.unknown)
         is_one = self.where is None and not self.is_undecided
         return is_one and not others
 
     def of(self, part: Callable[[Any], Any]) -> Fact:
-        """The same of a part of the answer."""
+        """Returns the fact with ``part`` of each answer."""
 
         def of(whole: Any) -> Any:
             return None if whole is None else part(whole)
@@ -89,19 +89,19 @@ class Fact(Frozen):
 
 
 class Budget(Mutable):
-    """How often a question may still be asked."""
+    """The number of questions that may still be asked."""
 
     left: int
 
 
 Question: TypeAlias = Callable[[Tableau], Any]
-"""Something to be asked of a tableau, whatever its coefficients are; answers are compared."""
+"""A question about a tableau with any coefficients; its answers are compared."""
 UNDECIDED = object()
-"""The answer of a question that is not decided for a tableau."""
+"""The answer to a question that is not decided for a tableau."""
 
 
 def answer(ask: Question, tableau: Tableau) -> Any:
-    """The answer to a question; None where it has no meaning."""
+    """Returns the answer to a question; None if the question does not apply."""
     try:
         return ask(tableau)
     except (GarkError, ZeroDivisionError):
@@ -111,13 +111,10 @@ def answer(ask: Question, tableau: Tableau) -> Any:
 def find(
     family: EveryFamily, ask: Question, is_of_stages: bool = False, budget: Budget | None = None
 ) -> Fact:
-    """The answer to a question that only compares coefficients with each other.
+    """Returns the answer to a question that only compares coefficients.
 
-    Args:
-        family: of methods.
-        ask: the question.
-        is_of_stages: whether it is about entries, stage by stage.
-        budget: how often it may be asked; None for the usual.
+    ``is_of_stages`` says that the question compares entries stage by stage; ``budget`` limits how
+    often it is asked.
     """
     budget = budget or Budget(MOST_ASKED)
     budget.left -= 1
@@ -165,17 +162,16 @@ def find(
 
 
 def _asked(ask: Question, tableau: Tableau, ring: Parameters) -> tuple[Any, list[fmpq_mpoly]]:
-    """The answer with the parameters as unknowns, and what counted as different from zero."""
+    """Returns the answer with the parameters as unknowns, and the polynomials taken as nonzero."""
     with ring.telling_apart() as told:
         value = answer(ask, tableau)
     return value, list(told.values())
 
 
 def _asked_in_points(family: EveryFamily, ask: Question) -> tuple[Any, list[fmpq_mpoly]]:
-    """The same with a coordinate for each stage.
+    """Returns the same with one coordinate for each stage.
 
-    Raises:
-        TypeError: there are no simple nodes, or several parameters beside them.
+    Raises TypeError unless there are simple nodes, or one parameter.
     """
     tableau = family.in_points
     if tableau is family.tableau:
@@ -191,7 +187,7 @@ NOT_DECIDED = "gark check --set judges single methods"
 
 
 def by_samples(family: EveryFamily, ask: Question) -> Fact:
-    """That the answers differ is known from two of them; that they do not is not."""
+    """Returns a fact that differs if two samples do, and is undecided otherwise."""
     first: tuple[Reason, Any] | None = None
     for values, method in family.samples():
         found = answer(ask, method)
@@ -209,7 +205,7 @@ def by_samples(family: EveryFamily, ask: Question) -> Fact:
 
 
 def told(value: object) -> Worded:
-    """An answer in a word, or the number."""
+    """Returns an answer as a word or a number."""
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, (Size, str)):
@@ -218,18 +214,15 @@ def told(value: object) -> Worded:
 
 
 DIGITS = 12
-"""Of values that have no simple radicals."""
+"""Digits of values without simple radicals."""
 MOST = 4
-"""Most single values and polynomials that are named; the others are counted."""
+"""The number of exceptional values and polynomials that are listed; the rest is counted."""
 
 
 def fact_reason(fact: Fact, name: str, text: Callable[[object], Worded] = told) -> Reason:
-    """An answer with its exceptions.
+    """Returns an answer with its exceptions.
 
-    Args:
-        fact: the answer.
-        name: of the one parameter, where there is one.
-        text: a value in words.
+    ``name`` is that of the parameter if there is only one.
     """
     if fact.where is not None:
         where = joined(" or ", [_interval(x, name) for x in fact.where])
@@ -244,7 +237,7 @@ def fact_reason(fact: Fact, name: str, text: Callable[[object], Worded] = told) 
 
 
 def exceptions(fact: Fact, name: str, text: Callable[[object], Worded] = told) -> Reason:
-    """Where the answer is another one, each after a semicolon."""
+    """Returns the exceptional values and their answers, each after a semicolon."""
     groups: dict[str, tuple[object, list[RealRoot]]] = {}
     for root, value in fact.special:
         groups.setdefault(repr(value), (value, []))[1].append(root)
@@ -282,7 +275,7 @@ def _unknown(fact: Fact, name: str) -> Reason:
 
 
 def values_reason(roots: Sequence[RealRoot], name: str) -> Reason:
-    """Some values of the parameter, those of one polynomial together."""
+    """Returns values of the parameter as text, grouped by their polynomials."""
     groups: dict[str, list[RealRoot]] = {}
     for root in roots:
         groups.setdefault(str(root.polynomial), []).append(root)
@@ -291,7 +284,7 @@ def values_reason(roots: Sequence[RealRoot], name: str) -> Reason:
 
 
 def _roots(same: Sequence[RealRoot], name: str) -> Reason:
-    """Some roots of one polynomial, which is reported where they have no simple form."""
+    """Returns roots of a polynomial, with the polynomial unless they have a simple form."""
     first = same[0]
     values = Reason("{} = {}", Formula(name), joined(" or ", [_number(x) for x in same]))
     if first.exact is not None:
@@ -301,7 +294,7 @@ def _roots(same: Sequence[RealRoot], name: str) -> Reason:
 
 
 def _others(everything: Sized) -> str:
-    """How many there are beyond those that are named."""
+    """Returns how many are not listed."""
     more = len(everything) - MOST
     return f" and {more} more" if more > 0 else ""
 
@@ -311,12 +304,12 @@ def _zero(polynomial: str) -> Reason:
 
 
 def zeros_reason(polynomials: Sequence[str]) -> Reason:
-    """That polynomials are zero, all of them."""
+    """Returns the text for the vanishing of all polynomials."""
     return Reason("{}{}", joined(", ", [*map(_zero, polynomials[:MOST])]), _others(polynomials))
 
 
 def _any_zero(polynomials: Sequence[str]) -> Reason:
-    """That one of some polynomials is zero."""
+    """Returns the text for the vanishing of one of several polynomials."""
     if len(polynomials) == 1:
         return zeros_reason(polynomials)
     shown = joined(", ", [*map(Formula, polynomials[:MOST])])
@@ -324,7 +317,6 @@ def _any_zero(polynomials: Sequence[str]) -> Reason:
 
 
 def _interval(interval: Interval, name: str) -> Reason:
-    """The values of the parameter in an interval."""
     start, end = interval.start, interval.end
     if interval.is_point:
         assert start is not None

@@ -1,9 +1,10 @@
-"""A family made ready to be judged for every value: fixed values are put in, roots have rules.
+"""A family prepared for statements about all values: fixed values are substituted, roots have
+rules.
 
-A polynomial is rewritten in u ≥ 0, with t = (l + g u)/(1 + u) for a range [l, g] and t = l ± u
-for one with a single end: where no coefficient is negative and those at the corners are positive
-it has no zero. For [l, g] these are its coefficients in the basis of Bernstein, up to positive
-factors. The converse is not claimed.
+A polynomial is rewritten in u ≥ 0, with t = (l + g u)/(1 + u) for a range [l, g] and t = l ± u for
+a half-line. It has no zero if no coefficient is negative and the coefficients at the corners are
+positive. For [l, g] these are its Bernstein coefficients up to positive factors. The converse does
+not hold.
 """
 
 from __future__ import annotations
@@ -33,25 +34,19 @@ from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 
 Range: TypeAlias = tuple[fmpq | None, fmpq | None]
-"""The least and the greatest value; None where there is none."""
+"""The ends of a range; None for infinity."""
 _Chart: TypeAlias = Callable[[fmpq_mpoly], tuple[fmpq_mpoly, fmpq_mpoly]]
 """A parameter in u: numerator and denominator."""
 
 FREE: Range = (None, None)
 MOST_TERMS = 300
-"""A polynomial that may become one of more terms in u counts as one that may be zero."""
+"""A polynomial with more terms in u than this counts as one that may be zero."""
 
 
 def can_vanish(p: fmpq_mpoly, ring: Parameters, ranges: Mapping[str, Range]) -> bool:
-    """Whether a polynomial may have a real zero within the ranges of its parameters.
+    """Returns False only if a polynomial certainly has no real zero within the ranges.
 
-    Args:
-        p: a polynomial.
-        ring: of it.
-        ranges: of its parameters; unknowns for roots of numbers have none.
-
-    Returns:
-        False only where it has no zero for certain.
+    Unknowns that stand for roots of numbers have no range.
     """
     if not p:
         return True
@@ -60,7 +55,7 @@ def can_vanish(p: fmpq_mpoly, ring: Parameters, ranges: Mapping[str, Range]) -> 
 
 
 def _can_vanish(p: fmpq_mpoly, ring: Parameters, ranges: Mapping[str, Range]) -> bool:
-    """The same of an irreducible polynomial."""
+    """Returns the same for an irreducible polynomial."""
     used = unknowns_of(p)
     names = [ring.names[k] for k in used]
     has_roots = any(name not in ranges for name in names)
@@ -76,7 +71,7 @@ def _can_vanish(p: fmpq_mpoly, ring: Parameters, ranges: Mapping[str, Range]) ->
 
 
 def is_within(value: RealRoot, ends: Range) -> bool:
-    """Whether a number lies in a range, its ends included."""
+    """Returns whether a number lies in a closed range."""
     least, greatest = ends
     below = least is not None and value < RealRoot.rational(least)
     above = greatest is not None and RealRoot.rational(greatest) < value
@@ -84,7 +79,7 @@ def is_within(value: RealRoot, ends: Range) -> bool:
 
 
 def _charts(ends: Range) -> Iterator[_Chart]:
-    """The range as the image of u ≥ 0; the whole line as that of two."""
+    """Yields maps of u ≥ 0 onto the range; two for the whole line."""
     least, greatest = ends
     if least is not None and greatest is not None:
         yield lambda u: (least + greatest * u, 1 + u)
@@ -100,7 +95,7 @@ def _charts(ends: Range) -> Iterator[_Chart]:
 def _may_vanish(
     p: fmpq_mpoly, used: Sequence[int], inside: Sequence[Range], case: Sequence[_Chart]
 ) -> bool:
-    """Whether coefficients in u leave it open that there is a zero."""
+    """Returns whether the coefficients in u leave the existence of a zero open."""
     found = {}
     for exponents, a in _rewritten(p, used, case).to_dict().items():
         found[tuple(map(int, exponents))] = fmpq(a)
@@ -118,7 +113,7 @@ def _may_vanish(
 
 
 def _rewritten(p: fmpq_mpoly, used: Sequence[int], case: Sequence[_Chart]) -> fmpq_mpoly:
-    """A polynomial in u, without the denominator that is positive."""
+    """Returns a polynomial in u, without its positive denominator."""
     context = p.context()
     u = context.gens()
     degrees = p.degrees()
@@ -138,15 +133,10 @@ def _rewritten(p: fmpq_mpoly, used: Sequence[int], case: Sequence[_Chart]) -> fm
 def carried(
     fixed: Mapping[str, object], ranges: Mapping[str, Range], left: Sequence[str]
 ) -> dict[str, Range]:
-    """The ranges of the parameters that are left, with what those of the others make of them.
+    """Returns the ranges of the parameters that are left, cut by the ranges of the fixed ones.
 
-    Args:
-        fixed: the values of the others, numbers and polynomials in those that are left.
-        ranges: of all.
-        left: the names of the others.
-
-    Raises:
-        MethodError: a range leaves no value, or is not one of a parameter that is left.
+    ``fixed`` has the values of the other parameters: numbers, or polynomials in those left. Raises
+    MethodError if no value is left, or a range does not become one of a single parameter.
     """
     found = {name: ranges[name] for name in left}
     for name, value in fixed.items():
@@ -169,7 +159,7 @@ def carried(
 
 
 def _affine(name: str, value: object, left: Sequence[str]) -> tuple[str | None, fmpq, fmpq]:
-    """The one parameter in a value, its factor, and what is added; None in a number."""
+    """Returns the parameter in an affine value, its factor and the constant; None in a number."""
     if isinstance(value, fmpq):
         return None, ZERO, value
     assert isinstance(value, Parametric)
@@ -192,7 +182,7 @@ def _affine(name: str, value: object, left: Sequence[str]) -> tuple[str | None, 
 
 
 def _common(name: str, one: Range, other: Range) -> Range:
-    """The intersection of two ranges of a parameter."""
+    """Returns the intersection of two ranges of a parameter."""
     both = [one, other]
     starts = [start for start, _ in both if start is not None]
     ends = [end for _, end in both if end is not None]
@@ -206,7 +196,7 @@ def _common(name: str, one: Range, other: Range) -> Range:
 
 
 def moved_rules(old: Parameters, new: Parameters) -> Iterator[Rule]:
-    """The rules of a ring in one without some parameters."""
+    """Returns the rules of a ring in one with fewer parameters."""
     shift = len(old.names) - len(new.names)
     for rule in old.rules:
         yield Rule(rule.index - shift, rule.degree, rule.instead.project_to_context(new.context))
@@ -215,7 +205,7 @@ def moved_rules(old: Parameters, new: Parameters) -> Iterator[Rule]:
 def solved(
     relations: Sequence[fmpq_mpoly], ring: Parameters, unknowns: Sequence[str]
 ) -> dict[str, fmpq_mpoly]:
-    """What relations that are linear in an unknown give it, each in those that are left then."""
+    """Returns the values of unknowns in which relations are linear, in terms of those left."""
     fixed: dict[str, fmpq_mpoly] = {}
     waiting = [p for p in relations if p]
     while waiting:
@@ -235,21 +225,19 @@ def solved(
 
 
 def is_linear(p: fmpq_mpoly, ring: Parameters, name: str) -> bool:
-    """Whether a polynomial is a number times an unknown, plus what is without it."""
+    """Returns whether a polynomial is a number times an unknown plus terms without it."""
     index = ring.names.index(name)
     return p.degrees()[index] == 1 and p.derivative(index).is_constant()
 
 
 def value_of(p: fmpq_mpoly, ring: Parameters, values: dict[str, object]) -> object:
-    """A polynomial at values of the unknowns that it has."""
     return evaluated(p, [values.get(name) for name in ring.names])
 
 
 def moved_nonzero(family: Family, values: dict[str, object]) -> tuple[fmpq_mpoly, ...]:
-    """What a family divides by and is not seen in it, at values of its unknowns.
+    """Returns the polynomials that a family divides by, at values of its unknowns.
 
-    Raises:
-        MethodError: it is zero there.
+    Raises MethodError if one is zero there.
     """
     found = []
     for p in family.nonzero:
@@ -264,7 +252,7 @@ def moved_nonzero(family: Family, values: dict[str, object]) -> tuple[fmpq_mpoly
 
 
 def rules_of(family: Family, ring: Parameters) -> Iterator[Rule]:
-    """What powers of the roots are equal to, each of the degree that the roots before leave."""
+    """Yields the rules for powers of the roots, of the degree that is left by earlier roots."""
     for number, radical in enumerate(family.radicals):
         index = family.ring.names.index(radical.name)
         before = {family.ring.names.index(x.name) for x in family.radicals}
@@ -287,14 +275,15 @@ def rules_of(family: Family, ring: Parameters) -> Iterator[Rule]:
 
 
 MOST_DEGREE = 6
-"""Values of a larger degree are not looked at over their number field."""
+"""Values of larger degree are not examined over their number field."""
 _SAMPLES = [fmpq(*x) for x in ((2, 7), (3, 5), (7, 4), (-5, 3), (11, 3))]
-"""Where parameters are tried."""
+"""Sample values of parameters."""
 MOST_SAMPLES = 40
 
 
 class EveryFamily(Frozen):
-    """A family without relations but those of its roots.
+    """A family whose only relations are those of its roots. ¶ The tableau has entries in
+    ``family.parameters``, which are the free ones, and in roots of numbers.
 
     Attributes:
         family: its tableau has entries in the parameters that are left, ``family.parameters``,
@@ -305,7 +294,6 @@ class EveryFamily(Frozen):
 
     @property
     def tableau(self) -> Tableau:
-        """The tableau for every value."""
         return self.family.tableau
 
     @property
@@ -315,24 +303,27 @@ class EveryFamily(Frozen):
 
     @property
     def has_one(self) -> bool:
-        """Whether one rational parameter is all there is: then single values are examined."""
+        """Whether there is one rational parameter and nothing else, so that single values are
+        examined.
+        """
         return len(self.ring.names) == 1
 
     @cached_property
     def poles(self) -> tuple[fmpq_mpoly, ...]:
-        """Polynomials: where one is zero there is no method."""
+        """Polynomials at whose zeros there is no method."""
         return (*FamilyConditions(self.tableau, self.ring).denominators, *self.family.nonzero)
 
     @cached_property
     def in_points(self) -> Tableau | None:
-        """The tableau with one coordinate a stage, the roots of its nodes as unknowns with rules.
+        """The tableau with one coordinate for each stage, the roots of its nodes as unknowns with
+        rules.
 
-        None where the nodes have no simple radicals, or there are roots among the coefficients.
+        None if the nodes have no simple radicals, or there are roots among the coefficients.
         """
         return self.printed(self.tableau)
 
     def printed(self, tableau: Tableau) -> Tableau | None:
-        """The same of a tableau that is made of this one, such as the conjugate."""
+        """Returns the same for a tableau derived from this one, such as the conjugate."""
         if all(isinstance(x, PointSpace) for x in tableau.spaces):
             return tableau
         if len(self.family.parameters) != len(self.ring.names):
@@ -341,13 +332,13 @@ class EveryFamily(Frozen):
 
     @cached_property
     def relations(self) -> list[fmpq_mpoly]:
-        """What the roots among the coefficients satisfy: zero."""
+        """The relations of the roots among the coefficients."""
         ring = self.ring
         return [ring.context.gen(rule.index) ** rule.degree - rule.instead for rule in ring.rules]
 
     @cached_property
     def weights(self) -> list[fmpq_mpoly]:
-        """Polynomials of which one is zero where a weight is, each irreducible."""
+        """Irreducible polynomials; where one is zero, a weight is."""
         numbers: list[object] = [b for colour in self.tableau.colours for b in colour.b]
         found = factors(b.numerator for b in numbers if isinstance(b, Parametric))
         return [p for p in found if not self.is_number(p)]
@@ -359,8 +350,8 @@ class EveryFamily(Frozen):
         return [p for p in self.weights if p not in poles and self.can_vanish(p)]
 
     def common_zeros(self, polynomials: Sequence[fmpq_mpoly | fmpz_mpoly]) -> tuple[str, ...]:
-        """Polynomials as text, but for what roots of numbers satisfy; none where one of them is
-        zero for no value that the file admits.
+        """Returns polynomials as text, without those zero by the relations of the roots; none if
+        one of them cannot be zero for admitted values.
         """
         ring = self.ring
         texts = []
@@ -374,48 +365,47 @@ class EveryFamily(Frozen):
         return tuple(dict.fromkeys(texts))
 
     def at(self, value: Number) -> Tableau:
-        """The method for a value of the one parameter."""
         [name] = self.ring.names
         return member(self.tableau, self.ring, {name: value})
 
     def is_inside(self, value: RealRoot) -> bool:
-        """Whether there is a method for a value of the one parameter, and the file admits it."""
+        """Returns whether there is a method for a value of the parameter, and the file admits
+        it.
+        """
         return self._admits(value) and all(sign_at(in_one(p), value) for p in self.poles)
 
     def _admits(self, value: RealRoot) -> bool:
-        """Whether a value of the one parameter is in its range."""
         [ends] = self.family.ranges.values()
         return is_within(value, ends) and all(sign_at(p, value) >= 0 for p in self.bounds)
 
     @cached_property
     def bounds(self) -> list[Polynomial]:
-        """Of one parameter: polynomials that are at least 0, where ends are algebraic."""
+        """For one parameter: polynomials that have to be nonnegative, from algebraic ends."""
         return [in_one(p, 0) for p in self.family.not_negative]
 
     @cached_property
     def ends(self) -> tuple[RealRoot | None, RealRoot | None]:
-        """The least and the greatest value of the one parameter; None where there is none."""
+        """The least and the greatest value of the parameter; None if unbounded."""
         [name] = self.family.parameters
         [inside] = admitted(self.family, name)
         return inside.start, inside.end
 
     def can_vanish(self, p: fmpq_mpoly) -> bool:
-        """Whether a polynomial may be zero for values that the file admits."""
+        """Returns whether a polynomial may be zero for values that the file admits."""
         if self.bounds and unknowns_of(p) == [0]:
             return any(self._admits(root) for root in roots_of([in_one(p, 0)]))
         return can_vanish(p, self.ring, self.family.ranges)
 
     def is_number(self, p: fmpq_mpoly) -> bool:
-        """Whether there are at most roots of numbers in a polynomial."""
+        """Returns whether a polynomial contains roots of numbers at most."""
         roots = {rule.index for rule in self.ring.rules}
         return {*unknowns_of(p)} <= roots
 
     def norm(self, p: fmpq_mpoly, ring: Parameters) -> fmpq_mpoly:
-        """A polynomial in the one parameter that is zero where one with roots of nodes is.
+        """Returns a polynomial in the parameter that is zero where a polynomial with roots of nodes
+        is.
 
-        Args:
-            p: a polynomial.
-            ring: of it; its first unknown is the parameter.
+        The first unknown of ``ring`` is the parameter.
         """
         for rule in reversed(ring.rules):
             relation = ring.context.gen(rule.index) ** rule.degree
@@ -423,12 +413,14 @@ class EveryFamily(Frozen):
         return p.project_to_context(self.ring.context, {0: 0})
 
     def roots(self, polynomials: Sequence[fmpq_mpoly]) -> list[RealRoot]:
-        """The values of the one parameter, in ascending order, at which one is zero."""
+        """Returns the values of the parameter at which one of the polynomials is zero,
+        ascending.
+        """
         return [root for root in roots_of(map(in_one, polynomials)) if self.is_inside(root)]
 
     def where_zero(self, p: fmpq_mpoly) -> EveryFamily | None:
-        """The methods with a zero of a polynomial; None where it gives no parameter its value, or
-        the range of that one is none of another.
+        """Returns the family of the methods with a zero of a polynomial; None if the polynomial
+        determines no parameter, or its range does not become that of another one.
         """
         names = ranged_last(self.family)
         if not any(is_linear(p, self.ring, name) for name in names):
@@ -464,10 +456,8 @@ class EveryFamily(Frozen):
     def samples(
         self, apart: Sequence[fmpq_mpoly] = ()
     ) -> Iterator[tuple[dict[str, fmpq], Tableau]]:
-        """Methods of the family with rational parameters; none where there are roots beside them.
-
-        Args:
-            apart: polynomials that are not zero there.
+        """Yields methods of the family with rational parameters, away from zeros of ``apart``; none
+        if there are roots besides the parameters.
         """
         if len(self.family.parameters) != len(self.ring.names):
             return
@@ -490,7 +480,7 @@ class EveryFamily(Frozen):
                 yield named, member(self.tableau, self.ring, named)
 
     def _tried(self, name: str) -> Iterator[fmpq]:
-        """Values of a parameter within its range."""
+        """Yields sample values of a parameter within its range."""
         least, greatest = self.family.ranges[name]
         for x in _SAMPLES:
             share = (x + 2) / 6
@@ -505,21 +495,20 @@ class EveryFamily(Frozen):
 
 
 def ranged_last(family: Family) -> list[str]:
-    """The parameters, those without a range first: they are put in first."""
+    """Returns the parameters, those without a range first, in the order of elimination."""
     ranges = family.ranges
     return sorted(family.parameters, key=lambda name: ranges[name] != FREE)
 
 
 def exact_value(root: RealRoot) -> Number | None:
-    """A value as a number; None where its field is too large."""
+    """Returns a value as a number; None if its field is too large."""
     return number_of(root, MOST_DEGREE)
 
 
 def every_family(family: Family) -> EveryFamily:
-    """The family with what its relations fix put in.
+    """Returns the family with the values that its relations fix.
 
-    Raises:
-        MethodError: a relation that is no value of an unknown, or roots that depend on parameters.
+    Raises MethodError if a relation does not determine an unknown, or a root depends on parameters.
     """
     relations = [*family.relations]
     for name, (least, greatest) in family.ranges.items():
@@ -560,10 +549,9 @@ def every_family(family: Family) -> EveryFamily:
 def _moved_bounds(
     family: Family, values: dict[str, object], left: Sequence[str]
 ) -> tuple[fmpq_mpoly, ...]:
-    """The polynomials of algebraic ends of ranges, at values of the unknowns.
+    """Returns the polynomials of algebraic ends of ranges at values of the unknowns.
 
-    Raises:
-        MethodError: several parameters are left, or a value is outside of its range.
+    Raises MethodError if several parameters are left or a value is out of its range.
     """
     found = []
     for p in family.not_negative:

@@ -1,4 +1,4 @@
-"""The order that a family has for every value, and the values for which it has a higher one."""
+"""The order of a family for all values, and the values with a higher order."""
 
 from __future__ import annotations
 
@@ -22,21 +22,21 @@ from garkcli.order.conditions import elementary_weight
 from garkcli.tableau.tableau import Tableau
 
 SECONDS = 10.0
-"""After so many it is undecided for which values the next order is reached."""
+"""Time for the values with the next order; after it they are undecided."""
 
 
 class EveryOrder(Frozen):
     """An order of a family.
 
     Attributes:
-        tableau: whose order it is, for every value.
-        fact: the order for every value, with the single values that have another; ``zeros`` are
-            the polynomials whose common zeros have a higher one.
-        witness: a tree whose condition is not met by every value, its elementary weight a rational
-            function of the parameters; None where the limit was reached.
-        dimension: of the set of values, real and complex, with the next order; −1 where it is
-            empty, None where that was not decided.
-        poles: polynomials: where one is zero a weight is, and there is no conjugate.
+        tableau: the tableau with this order.
+        fact: the order, with the exceptional values; ``zeros`` are the polynomials at whose common
+            zeros it is higher.
+        witness: a tree whose condition fails for some values, its elementary weight a rational
+            function of the parameters; None if the limit was reached.
+        dimension: the dimension of the set of values, real and complex, with the next order; −1 if
+            it is empty, None if undecided.
+        poles: polynomials at whose zeros a weight is zero, so that there is no conjugate.
     """
 
     tableau: Tableau
@@ -47,22 +47,15 @@ class EveryOrder(Frozen):
 
     @property
     def order(self) -> int:
-        """The order for every value."""
         found = self.fact.value
         assert isinstance(found, int)
         return found
 
 
 def every_order(family: EveryFamily, whose: Whose, limit: int) -> EveryOrder:
-    """The order for every value, of the method, its conjugate or its pair.
+    """Returns the order for all values, of the method, its conjugate or its pair.
 
-    Args:
-        family: of methods.
-        whose: which order.
-        limit: the order at which to stop.
-
-    Raises:
-        ZeroWeight: a weight is zero for every value, and there is no conjugate.
+    Raises ZeroWeight if a weight is zero for all values, so that there is no conjugate.
     """
     ring = family.ring
     tableau = TABLEAUS[whose](family.tableau)
@@ -90,7 +83,9 @@ def every_order(family: EveryFamily, whose: Whose, limit: int) -> EveryOrder:
 
 
 def _without(family: EveryFamily, fact: Fact, lost: Sequence[fmpq_mpoly]) -> Fact:
-    """The order where there is no such method with a zero of one of some polynomials."""
+    """Returns the order, with None at the zeros of some polynomials, where there is no such
+    method.
+    """
     if not family.has_one:
         texts = [family.ring.text(p) for p in lost]
         return replace(fact, elsewhere=tuple((x, None) for x in texts))
@@ -107,7 +102,7 @@ def _place(special: tuple[RealRoot, object]) -> RealRoot:
 def _higher(
     family: EveryFamily, whose: Whose, order: int, start: Ideal, zeros: list[fmpq_mpoly]
 ) -> tuple[Fact, int | None]:
-    """The order with the values that have a higher one, and how many dimensions these have."""
+    """Returns the order with the exceptional values, and the dimension of their set."""
     try:
         with within(SECONDS):
             ideal = start.with_zeros(zeros)
@@ -124,9 +119,8 @@ def _higher(
 
 
 def _real(family: EveryFamily, whose: Whose, ideal: Ideal) -> list[tuple[RealRoot, int | None]]:
-    """The real solutions that the file admits, each with its order.
-
-    Each is known by the value of its first parameter.
+    """Returns the admitted real solutions with their orders, by the value of the first
+    parameter.
     """
     found = []
     for solution in solutions(ideal):

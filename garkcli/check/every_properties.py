@@ -1,7 +1,7 @@
-"""Properties of a family: for every value of its parameters, or for which.
+"""Properties of a family, for all values of its parameters or for a set of values.
 
-Most of them ask only which coefficients are zero or equal. Those that take signs are decided for
-one parameter between the zeros of the polynomials whose signs matter; A-, L- and P-stability by
+Most only ask which coefficients are zero or equal. Those with inequalities are decided for one
+parameter, between the zeros of the polynomials whose signs matter; A-, L- and P-stability by
 ``garkcli.design.stable_values``.
 """
 
@@ -40,14 +40,14 @@ COMPARING = (
     "stage-order",
     "weak-stage-order",
 )
-"""Those that ask which coefficients are zero or equal."""
+"""The properties that ask which coefficients are zero or equal."""
 STABLE: dict[str, Wanted] = {
     "a-stable": "a-stable",
     "l-stable": "l-stable",
     "p-stable": "p-stable",
     "i-stable": "i-stable",
 }
-"""Those whose values are found by a decomposition of the plane."""
+"""The properties whose values are found by a decomposition of the plane."""
 
 
 _NOTHING = Simplifying((), (), ())
@@ -61,14 +61,6 @@ class OrMore(int):
 
 
 def find_property(family: EveryFamily, key: str, limit: int) -> Fact:
-    """What is true of a property.
-
-    Args:
-        family: of methods.
-        key: of the property.
-        limit: at which the search for B, C and D stops.
-    """
-
     def ask(tableau: Tableau) -> Any:
         # the order is requested with rounded coefficients only, B and C for one property
         known = simplifying(tableau, limit, "BC") if key == "stage-order" else _NOTHING
@@ -105,7 +97,7 @@ def _is_complete(tableau: Tableau) -> bool:
 def _of_set(
     family: EveryFamily, found: tuple[Interval, ...], unknown: tuple[RealRoot, ...] = ()
 ) -> Fact:
-    """What holds on a set: for every value that the file admits, for none, or on the set."""
+    """Returns the fact for a set of values: all admitted ones, none, or the set."""
     if not found:
         return Fact(False, unknown=unknown)
     if _is_all(family, found):
@@ -114,7 +106,7 @@ def _of_set(
 
 
 def _is_all(family: EveryFamily, found: tuple[Interval, ...]) -> bool:
-    """Whether a set, without gaps within its intervals, is every value with a method."""
+    """Returns whether a set without gaps contains every admitted value."""
     least, greatest = family.ends
     poles = roots_of(map(in_one, family.poles))
     first, last = found[0], found[-1]
@@ -129,7 +121,9 @@ def _is_all(family: EveryFamily, found: tuple[Interval, ...]) -> bool:
 
 
 def _by_signs(family: EveryFamily, ask: Question, numbers: list[object]) -> Fact:
-    """What depends on the signs of rational functions of the one parameter."""
+    """Returns the fact for a question that depends on signs of rational functions of the
+    parameter.
+    """
     critical: list[Polynomial] = []
     critical += [in_one(p) for p in family.poles]
     for x in numbers:
@@ -154,8 +148,8 @@ def _by_signs(family: EveryFamily, ask: Question, numbers: list[object]) -> Fact
 
 
 def _weights(tableau: Tableau) -> list[object]:
-    """Whether all are positive depends on these: det(1 − z G), G the diagonal form of the
-    weights.
+    """Returns numbers whose signs decide whether all weights are positive: the coefficients of
+    det(1 − z G), G the diagonal form of the weights.
     """
     numbers: list[object] = []
     for l, colour in enumerate(tableau.colours):
@@ -172,7 +166,7 @@ def _nodes(tableau: Tableau) -> list[object]:
 
 
 def _algebraic(tableau: Tableau) -> list[object]:
-    """Whether M is positive semidefinite depends on the signs in det(1 − z M)."""
+    """Returns numbers whose signs decide algebraic stability: the coefficients of det(1 − z M)."""
     return [*characteristic_coefficients(contractivity(tableau)), *_weights(tableau)]
 
 
@@ -181,9 +175,9 @@ SIGNS: dict[str, Callable[[Tableau], list[object]]] = {
     "nodes-in-unit-interval": _nodes,
     "algebraically-stable": _algebraic,
 }
-"""Those that depend on signs: of which numbers."""
+"""For properties that depend on signs: the numbers."""
 ROWS: dict[str, Callable[[Tableau], Iterator[Number]]] = {
     "positive-weights": lambda tableau: chain.from_iterable(x.b for x in tableau.colours),
     "nodes-in-unit-interval": lambda tableau: chain.from_iterable(x.c for x in tableau.colours),
 }
-"""Those that depend on a part of the tableau: on which entries."""
+"""For properties that depend on a part of the tableau: the entries."""

@@ -1,4 +1,4 @@
-"""Everything that holds for every value of the free parameters of a file, and its claims."""
+"""The facts about a file with free parameters for all their values, and its claims."""
 
 from __future__ import annotations
 
@@ -30,23 +30,23 @@ from garkcli.tableau.forms import pair, with_time
 from garkcli.tableau.tableau import Tableau
 
 TOLD = ("stiffly-accurate", "fsal", "symmetric")
-"""Properties that are reported where they hold for every value."""
+"""Properties that are reported if they hold for all values."""
 
 
 class EveryValue(Frozen):
-    """What holds for every value.
+    """The facts about a family for all values of its parameters.
 
     Attributes:
-        file: as it was read.
-        family: with what the file fixes put in.
+        file: the file.
+        family: its family, with the fixed values substituted.
         limit: where the searches for orders and for B, C and D stop.
-        order: that of the method.
-        conjugate_order: that of its symplectic conjugate; None where a weight is zero.
-        pair_order: that of the symplectic pair; None likewise.
-        obstacle: why there is no conjugate; empty where there is one.
+        order: the order of the method.
+        conjugate_order: the order of its symplectic conjugate; None if a weight is zero.
+        pair_order: the order of the symplectic pair; None if a weight is zero.
+        obstacle: why there is no conjugate; empty if there is one.
         inconsistent: the blocks with A^{l,m} 𝟙 ≠ c^{l}, as (l, m) counted from 0.
         symplectic: whether it is its own conjugate.
-        embedded_order: the order with the embedded weights in place of b; None for none.
+        embedded_order: the order with the embedded weights in place of b; None without.
     """
 
     file: FamilyFile
@@ -68,27 +68,26 @@ class EveryValue(Frozen):
 
     @property
     def parameters(self) -> tuple[str, ...]:
-        """The names of the free parameters."""
         return self.family.family.parameters
 
     @property
     def tableau(self) -> Tableau:
-        """The method, its entries rational functions."""
+        """The method, whose entries are rational functions."""
         return self.family.tableau
 
     @property
     def is_consistent(self) -> bool:
-        """Whether the nodes are the row sums of all blocks, for every value."""
+        """Whether the nodes are the row sums of all blocks, for all values."""
         return self.inconsistent.is_everywhere and not self.inconsistent.value
 
     @cached_property
     def nonautonomous_order(self) -> EveryOrder | None:
-        """The order on problems ẏ = f(t, y); None where that has no meaning."""
+        """The order on problems ẏ = f(t, y); None if not applicable."""
         return self._with_time(self.order, self.file.tableau)
 
     @cached_property
     def embedded_nonautonomous_order(self) -> EveryOrder | None:
-        """The same with the embedded weights in place of b; None where there are none."""
+        """The order on problems ẏ = f(t, y) with the embedded weights in place of b, if any."""
         rows = self.file.further.embedded
         if rows is None or self.embedded_order is None:
             return None
@@ -102,23 +101,23 @@ class EveryValue(Frozen):
 
     @cached_property
     def _with_further(self) -> EveryFamily:
-        """The family with a colour more for each row of embedded or dense weights."""
+        """The family with a further colour for each row of embedded or dense weights."""
         if not self.file.further:
             return self.family
         whole = as_colours(self.file.tableau, self.file.further)
         return every_family(replace(self.file, tableau=whole))
 
     def verdict(self, key: str) -> Fact:
-        """What is true of a property; each is decided once."""
+        """Returns the fact about a property, decided once."""
         if key not in self._known:
             family = self._with_further if key == "reducible" else self.family
             self._known[key] = find_property(family, key, self.limit)
         return self._known[key]
 
     def simplifying(self, key: str) -> Fact:
-        """B, C, D or a bound by them; ``pair-`` before it asks for that of the pair.
+        """Returns B, C, D or a bound from them; with the prefix ``pair-`` that of the pair.
 
-        Each is a question of its own: B asks nothing of blocks.
+        B is decided by itself, as it does not involve blocks.
         """
         if key not in self._known:
             limit, name = self.limit, key.removeprefix("pair-")
@@ -133,21 +132,15 @@ class EveryValue(Frozen):
 
     @property
     def holding(self) -> list[str]:
-        """The reported properties that hold for every value."""
         found = {key: self.verdict(key) for key in TOLD}
         return [key for key, fact in found.items() if fact.is_everywhere and fact.value is True]
 
 
 def every_value(file: FamilyFile, limit: int) -> EveryValue:
-    """Decide what holds for every value of the parameters of a file.
+    """Returns the facts for all values of the parameters of a file.
 
-    Args:
-        file: with free parameters; what it asks of them under ``design`` is not meant.
-        limit: where the searches for orders and for B, C and D stop.
-
-    Raises:
-        MethodError: it is asked of the parameters what is no value of one of them, or a root
-            depends on them.
+    The demands under ``design`` are ignored. Raises MethodError if a relation does not determine a
+    parameter, or a root depends on them.
     """
     family = every_family(file)
     conjugate, both, obstacle = None, None, NO_REASON
@@ -174,7 +167,6 @@ def every_value(file: FamilyFile, limit: int) -> EveryValue:
 
 
 def _order_with(file: FamilyFile, tableau: Tableau, limit: int) -> EveryOrder:
-    """The order of another tableau in the same parameters."""
     return every_order(every_family(replace(file, tableau=tableau)), "method", limit)
 
 
@@ -183,7 +175,7 @@ def _again(text: str, source: str, settings: dict[str, str], limit: int) -> Ever
 
 
 def _symplectic(family: EveryFamily) -> Fact:
-    """Whether every value makes a symplectic method; else the common zeros of which polynomials."""
+    """Returns whether all values give a symplectic method, or the common zeros that do."""
     found = find(family, is_symplectic)
     if found.value is not False or not found.open:
         return found
@@ -199,20 +191,16 @@ def _symplectic(family: EveryFamily) -> Fact:
 
 
 MOST_PARAMETERS = 30
-"""Free parameters of a file that is checked: with 27 it takes ten seconds, with 35 minutes."""
+"""The largest number of free parameters: 27 take ten seconds, 35 minutes."""
 
 
 @doing("what holds for every value of the parameters")
 def check_every(
     file: HasFreeParameters, limit: int, want_constants: bool, settings: Mapping[str, str]
 ) -> Outcome:
-    """Check a file whose parameters are free.
+    """Checks a file with free parameters.
 
-    Args:
-        file: with its text.
-        limit: where the search for orders stops, unless a claim of the file reaches further.
-        want_constants: whether error constants were requested, which need values.
-        settings: values of other parameters.
+    ``limit`` is where the search for orders stops, unless a claim reaches further.
     """
     try:
         family = family_of(file, settings)
@@ -249,13 +237,12 @@ def check_every(
 
 
 def _refused(file: HasFreeParameters, message: str, cure: str, code: str) -> Outcome:
-    """What gark does not decide for every value."""
+    """Returns the outcome for a file that cannot be decided for all values."""
     faults = (Fault(message, cure, code=code),)
     return Outcome(file.source, file.source, faults=faults, text=file.text)
 
 
 def verify_every(claims: Sequence[ClaimText], found: EveryValue) -> tuple[Claim, ...]:
-    """Hold each claim against what is true for every value."""
     return tuple(_held_against(claim, found) for claim in claims)
 
 
@@ -266,7 +253,6 @@ def _held_against(claim: ClaimText, found: EveryValue) -> Claim:
 
 
 def _fact(key: str, found: EveryValue) -> Fact:
-    """What is true of the subject of a claim."""
     if key in KEYS:
         return found.verdict(key)
     if key in ("B", "C", "D") or key.endswith("bound"):
@@ -276,7 +262,7 @@ def _fact(key: str, found: EveryValue) -> Fact:
 
 
 def _holds(claim: ClaimText, fact: Fact, limit: int) -> bool | None:
-    """Whether a claim is true for every value; None where that is undecided."""
+    """Returns whether a claim is true for all values; None if undecided."""
     wanted = claim.value
     if fact.is_undecided and not fact.differs:
         return None
@@ -297,7 +283,7 @@ def _holds(claim: ClaimText, fact: Fact, limit: int) -> bool | None:
 
 
 def _is_bound(wanted: object) -> bool:
-    """Whether a claim says no more than how large numbers are at least."""
+    """Returns whether a claim only has lower bounds."""
     if isinstance(wanted, list):
         return all(x is None or _is_bound(x) for x in wanted)
     return isinstance(wanted, AtLeast)

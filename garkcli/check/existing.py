@@ -1,4 +1,4 @@
-"""Proofs that a method within the rounding of a printed one has an order."""
+"""Proofs that a method within the rounding of a printed one has a certain order."""
 
 from __future__ import annotations
 
@@ -22,17 +22,17 @@ from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
 
 MOST_PARTS = 100_000
-"""Of the longest way to make the entries of the printed numbers."""
+"""The largest number of operations in the entries that are made of printed numbers."""
 
 
 class PrintedNumber(Frozen):
-    """A number of a method that is rounded.
+    """A number of a rounded method.
 
     Attributes:
-        printed: as the file has it.
-        radius: by how much it may be off.
-        centre: of the method around which one is proved to exist.
-        width: by how much it may differ from that.
+        printed: the number in the file.
+        radius: its largest error.
+        centre: its value in the approximate method around which an exact one exists.
+        width: the largest distance from ``centre``.
     """
 
     printed: fmpq
@@ -50,8 +50,8 @@ class ExistenceProof(Shown, Frozen):
         numbers: the printed numbers that its entries are made of.
         tableau: its entries say how: traces and exact numbers.
         conditions: all trees up to the order, each with its column of W (``order.existence``).
-        witness: trees with factors: the sum of their conditions vanishes for no method within the
-            radii; None where no such sum is known, or the search stopped at its limit.
+        witness: trees with factors whose sum of conditions vanishes for no method within the radii;
+            None if no such sum is known, or the search stopped at its limit.
     """
 
     name: str
@@ -67,7 +67,8 @@ class ExistenceProof(Shown, Frozen):
 
 @doing("proof")
 def prove_method_exists(method: GarkMethod, limit: int = DEFAULT_LIMIT) -> ExistenceProof:
-    """That a method within the rounding of a printed one has its order, and none a higher one.
+    """Proofs that a method within the rounding of a printed one has its order, and none a higher
+    one.
 
     Args:
         method: as it was loaded; its coefficients are rounded.
@@ -115,7 +116,7 @@ def _why_not(search: Recovery, order: int) -> str:
 
 
 def _traced(search: Recovery) -> tuple[Tableau, list[int]]:
-    """The tableau with traces of the printed numbers that are in it, and which these are."""
+    """Returns the tableau with traces of the printed numbers in it, and their indices."""
     count = len(search.box.numbers)
     everything = _made(search, [Trace(k) for k in range(count)])
     used = sorted({k for x in _entries(everything) for k in _numbers_in(told(x))})

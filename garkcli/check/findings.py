@@ -1,4 +1,4 @@
-"""What is wrong with checked files: in words, and a value each for the formats of machines."""
+"""The findings in checked files, as text and as values for machine formats."""
 
 from __future__ import annotations
 
@@ -31,15 +31,15 @@ BOUND = "min{r, 2η+2, ξ+1, η+ζ+1}"
 SHARP_BOUND = "min{r, 2η+2, ξ+1, χ+2, η+ζ+3}"
 """The bound of ``Simplifying.sharp_bound``."""
 NEAR = 1e-3
-"""Row sums and nodes that differ by less are meant to be the same."""
+"""Row sums and nodes that differ by less are taken to be meant equal."""
 _SHORT = 20
-"""Characters beyond which an exact entry is shown in decimals."""
+"""Length beyond which an exact entry is shown in decimals."""
 _LONG = 60
-"""Characters of value and residual beyond which a witness is shown in decimals."""
+"""Length of value and residual beyond which a witness is shown in decimals."""
 
 
 def witness_text(witness: Witness, colours: bool | Sequence[str]) -> Reason:
-    """Which condition fails, and by how much; with the colours of trees, or their names."""
+    """Returns the condition that fails and its residual."""
     return _told(witness, Code(format_tree(witness.tree, colours)))
 
 
@@ -48,11 +48,11 @@ DENSE_ORDERS = {
     "dense-position-order": "position_order",
     "dense-velocity-order": "velocity_order",
 }
-"""Claims on orders of dense output, with what has them."""
+"""Claims on orders of dense output, and the attributes for them."""
 
 
 def dense_witness_text(found: DenseWitness, colours: bool | Sequence[str]) -> Reason:
-    """Which power of θ in the condition of which tree is not what it should be."""
+    """Returns the tree and the power of θ whose condition fails, and the residual."""
     tree = Code(format_tree(found.witness.tree, colours))
     power = Formula(f"θ^{found.power}", rf"\theta^{{{found.power}}}")
     return _told(found.witness, Reason("{}, at {}", tree, power))
@@ -71,7 +71,7 @@ def _told(witness: Witness, condition: Code | Reason) -> Reason:
 
 
 def bound_numbers(found: Simplifying) -> str:
-    """What the bounds of the order are made of."""
+    """Returns the numbers that the bounds of the order are made of."""
     numbers = {"r": found.r, "η": found.eta, "ζ": found.zeta, "ξ": found.xi, "χ": found.chi}
     return ", ".join(
         f"{name} {'≥' if found.is_open(number) else '='} {number}"
@@ -80,8 +80,10 @@ def bound_numbers(found: Simplifying) -> str:
 
 
 def claim_witness(outcome: Outcome, claim: str) -> Reason:
-    """The witness against a failed claim on an order, what a bound is made of, what speaks against
-    a property or leaves it undecided; empty where there is none of these.
+    """Returns the reason against a claim: the witness of an order, the numbers of a bound, the
+    reason for a property.
+
+    Empty if there is none.
     """
     for made in outcome.claims:
         if made.claim == claim and made.holds is not True and made.reason:
@@ -116,7 +118,7 @@ def claim_witness(outcome: Outcome, claim: str) -> Reason:
 
 
 def order_of(analysis: Analysis, claim: str) -> tuple[AnyOrder | None, Tableau | None]:
-    """The order that a claim is on, and the tableau that has it."""
+    """Returns the order that a claim is about, and its tableau."""
     embedded = analysis.embedded
     if embedded is not None and claim == "embedded-order":
         return embedded.order, embedded.tableau
@@ -133,8 +135,8 @@ def order_of(analysis: Analysis, claim: str) -> tuple[AnyOrder | None, Tableau |
 
 
 def claim_hint(outcome: Outcome, claim: str) -> Reason:
-    """What would mend a failed claim on an order, or one that fails with it; empty where nothing is
-    known.
+    """Returns what would make a failed claim on an order true, or the claim that fails with it;
+    empty if unknown.
     """
     analysis, blame = outcome.analysis, outcome.blame
     if analysis is None:
@@ -161,7 +163,7 @@ def claim_hint(outcome: Outcome, claim: str) -> Reason:
 
 
 def repair_text(repair: Repair, names: Sequence[str]) -> Reason:
-    """An entry, as it should be and as it is.
+    """Returns an entry with its new and its old value.
 
     Args:
         repair: an entry with another value.
@@ -177,7 +179,7 @@ def repair_text(repair: Repair, names: Sequence[str]) -> Reason:
 
 
 def sum_text(found: WrongSum, names: Sequence[str]) -> Reason:
-    """A sum, as it is and as it should be.
+    """Returns a sum with its actual and its expected value.
 
     Args:
         found: that of weights or of a row.
@@ -199,7 +201,7 @@ def sum_text(found: WrongSum, names: Sequence[str]) -> Reason:
 
 
 def total_text(total: Number) -> Formula | str:
-    """The sum of weights as people read it: its distance from 1 where it is next to it."""
+    """Returns the sum of weights, as the distance from 1 if it is close to 1."""
     if total == 1 or abs(to_ball(total - 1)) >= NEAR:
         return _short(total)
     off = to_decimal(total - 1, 2)
@@ -207,18 +209,17 @@ def total_text(total: Number) -> Formula | str:
 
 
 def _short(number: Number) -> Formula | str:
-    """A sum as people read it: exactly where that is short."""
     text = to_text(number)
     return Formula(text) if len(text) <= _SHORT else to_decimal(number, 12)
 
 
 def names_of(colours: Sequence[int], names: Sequence[str]) -> tuple[str, ...]:
-    """The names of some colours, where there are several."""
+    """Returns the names of colours, or none if there is only one colour."""
     return tuple(names[l] for l in colours) if len(names) > 1 else ()
 
 
 def value_text(number: Number, digits: int = 17) -> Formula | str:
-    """An entry as files have them: short ones exactly, decimals in full, others to some digits."""
+    """Returns an entry: exactly if short, decimals in full, others to ``digits`` digits."""
     text = shortest(number)
     if isinstance(number, fmpq) and "." in text and len(text) <= _LONG:
         return text
@@ -226,11 +227,11 @@ def value_text(number: Number, digits: int = 17) -> Formula | str:
 
 
 CLAIM = "write what holds under expect: gark claims FILE --write"
-"""The cure of a file that lacks a claim."""
+"""The cure for a file that lacks a claim."""
 
 
 class Finding(Frozen):
-    """One fault or one failed claim.
+    """A fault or a failed claim.
 
     Attributes:
         rule: a key of ``KINDS``.
@@ -257,7 +258,7 @@ class Finding(Frozen):
 
 
 class Part(Frozen):
-    """A finding as its kind makes it: ``key`` is the same as long as the same thing is wrong."""
+    """A finding from its kind; ``key`` identifies it from run to run."""
 
     message: str
     help: str
@@ -268,7 +269,7 @@ class Part(Frozen):
 
 
 class Kind(Frozen):
-    """A kind of finding: what it is in words, where it occurs, and its level."""
+    """A kind of finding."""
 
     text: str
     find: Callable[[Outcome], Iterator[Part]]
@@ -310,11 +311,11 @@ KINDS = {
     ),
     "no-claim": Kind("the file lacks a claim that is required", _missing_claims),
 }
-"""Every kind of finding; formats and their documentation are made from it."""
+"""All kinds of findings; formats and their documentation are made from it."""
 
 
 def findings(outcome: Outcome) -> Iterator[Finding]:
-    """All findings of one file, kind by kind in file order."""
+    """Yields the findings of a file, kind by kind in the order of the file."""
     from pathlib import PurePath
 
     file = PurePath(outcome.file).as_posix()
@@ -328,7 +329,6 @@ def findings(outcome: Outcome) -> Iterator[Finding]:
 
 
 def fingerprint(key: str) -> str:
-    """A short text that is the same for the same key, and for no other."""
     from hashlib import sha256
 
     return sha256(key.encode("utf-8", "surrogatepass")).hexdigest()[:32]

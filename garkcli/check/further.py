@@ -1,4 +1,4 @@
-"""What embedded weights and dense output are good for: their orders, the estimate of the error."""
+"""The orders of embedded weights and dense output, and the error estimate."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from garkcli.tableau.tableau import Tableau
 
 
 class EmbeddedFacts(Frozen):
-    """The truth about embedded weights.
+    """The orders of embedded weights, and their error estimate.
 
     Attributes:
-        tableau: the method with them for b.
-        order: its order.
-        nonautonomous_order: that on problems ẏ = f(t, y) with the nodes as printed; None where that
-            has no meaning.
-        estimator: the estimate of the error that they give.
+        tableau: the method with them in place of b.
+        order: their order.
+        nonautonomous_order: the order on problems ẏ = f(t, y) with the nodes as printed; None if
+            not applicable.
+        estimator: the error estimate.
     """
 
     tableau: Tableau
@@ -33,11 +33,11 @@ class EmbeddedFacts(Frozen):
 
 
 class DenseFacts(Frozen):
-    """The truth about dense output.
+    """The order and the continuity of dense output.
 
     Attributes:
-        order: for all θ.
-        degree: of its polynomials.
+        order: the order for all θ.
+        degree: the degree of its polynomials.
         ends_at_step: whether b(1) = b.
         slopes: whether its slope is continuous from step to step.
     """
@@ -49,9 +49,7 @@ class DenseFacts(Frozen):
 
     @property
     def is_smooth(self) -> bool | None:
-        """Whether the output and its slope are continuous from step to step; None where that is
-        not decided.
-        """
+        """Whether the output and its slope are continuous from step to step; None if undecided."""
         return self.ends_at_step and self.slopes.are_continuous
 
 
@@ -63,18 +61,11 @@ def further_facts(
     limit: int,
     spans: StageSpans | None = None,
 ) -> tuple[EmbeddedFacts | None, DenseFacts | None]:
-    """Decide all that ``gark check`` reports of embedded weights and dense output.
+    """Returns the facts about embedded weights and about dense output, each None if the method has
+    none.
 
-    Args:
-        method: the tableau, with its rounding where it is rounded.
-        further: its further weights.
-        order: its own order.
-        inconsistent: the blocks whose row sums are not the nodes.
-        limit: where the search for orders stops.
-        spans: of the stage vectors, where some are known.
-
-    Returns:
-        what is true of the embedded weights and of the dense output, None of what it has not.
+    ``order`` is that of the method, ``inconsistent`` the blocks whose row sums are not the nodes,
+    ``spans`` the stage vectors known already.
     """
     embedded, facts = None, None
     weights, dense = further.embedded, further.dense
@@ -96,7 +87,8 @@ def estimate(
     limit: int,
     spans: StageSpans | None = None,
 ) -> Estimator:
-    """The estimate of the error that embedded weights give.
+    """Returns the error estimate of embedded weights. ¶ ``orders`` are those of the method and with
+    these weights.
 
     Args:
         method: the tableau, with its rounding where it is rounded.
@@ -115,7 +107,7 @@ def estimate(
 def dense_facts(
     method: AnyTableau, dense: DenseOutput, limit: int, spans: StageSpans | None = None
 ) -> DenseFacts:
-    """Decide what ``gark check`` reports of dense output, as ``further_facts`` does."""
+    """Returns the facts about dense output."""
     whole = with_further(method) or method
     return DenseFacts(
         order=dense_order(as_dense(method), dense, limit, spans),

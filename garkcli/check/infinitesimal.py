@@ -1,4 +1,4 @@
-"""Everything known about one multirate infinitesimal method with the exact fast solution."""
+"""The analysis of a multirate infinitesimal method with exact fast solutions."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from garkcli.tableau.tableau import Tableau
 
 
 class InfinitesimalAnalysis(OrderFacts, kw_only=True):
-    """The truth about a multirate infinitesimal method whose fast problems are solved exactly;
-    its tableau has collocation in place of the exact solutions.
+    """The orders of a multirate infinitesimal method whose fast problems are solved exactly. Its
+    tableau has collocation in their place.
 
     Attributes:
         slow_order: where the fast part is 0: that of its slow method.
@@ -30,11 +30,10 @@ class InfinitesimalAnalysis(OrderFacts, kw_only=True):
 
     @classmethod
     def besides(cls, method: AnyTableau, limit: int) -> dict[str, Any]:
-        """The order of the slow method."""
         return {"slow_order": _among_all(order_of(slow_part(method), limit), printed(method))}
 
     def view(self, claim: str) -> tuple[AnyOrder, Tableau] | None:
-        """The order that a claim is on, with the tableau that has it; None for other claims."""
+        """Returns the order that a claim is about and its tableau; None for other claims."""
         return (self.slow_order, self.tableau) if claim == "slow-order" else super().view(claim)
 
     def __repr__(self) -> str:
@@ -42,7 +41,7 @@ class InfinitesimalAnalysis(OrderFacts, kw_only=True):
 
 
 def _among_all(order: AnyOrder, tableau: Tableau) -> AnyOrder:
-    """An order of the slow method, its colours counted after the fast one."""
+    """Returns an order of the slow method with the colours counted after the fast one."""
 
     def moved(tree: Tree) -> Tree:
         return tableau.tree(tree.root + SLOW, map(moved, tree.branches))

@@ -1,4 +1,4 @@
-"""What a word means: a term, a claim, a key of a file, a family, the code of an error."""
+"""The meanings of a word: a term, a claim, a key of a file, a family, a fault."""
 
 from __future__ import annotations
 
@@ -16,20 +16,20 @@ from garkcli.glossary.term import Term, by_word, plain
 
 
 class Meaning(Frozen):
-    """What a word means in one of its senses.
+    """One meaning of a word.
 
     Attributes:
-        kind: what it is: a term, a claim, a key, …
-        name: as it is written.
-        text: in whole sentences.
-        formula: the definition in signs; empty where there is none.
-        values: of a claim, how it is written.
-        scope: of a claim, for which methods it has a meaning; empty for all.
-        default: of a key, what holds without it; empty where nothing does.
-        example: a line of a file with it, or what has the fault.
-        cure: of a fault or a finding, what to do.
-        source: where it comes from.
-        see: words near it.
+        kind: a term, a claim, a key, …
+        name: the word.
+        text: the meaning in full sentences.
+        formula: the definition as a formula, if there is one.
+        values: the values of a claim.
+        scope: the methods to which a claim applies; empty for all.
+        default: the default of a key, if there is one.
+        example: a line of a file with it, or an example of the fault.
+        cure: what to do about a fault or a finding.
+        source: the reference or the page.
+        see: related words.
     """
 
     kind: str
@@ -49,10 +49,10 @@ class Meaning(Frozen):
 
 
 class Sense(Frozen):
-    """One kind of words.
+    """A kind of words.
 
     Attributes:
-        names: those that have a meaning, each with other spellings under which it is found.
+        names: the words of this kind, each with its other spellings.
         mean: the meaning of a name.
     """
 
@@ -61,7 +61,7 @@ class Sense(Frozen):
 
 
 def every_sense() -> Iterator[Sense]:
-    """Every kind of word, in the order in which meanings are reported."""
+    """Yields the kinds of words in the order in which meanings are reported."""
     yield Sense(_plainly(by_word()), lambda word: term_meaning(by_word()[word]))
     from garkcli.methodfile.expectations import CLAIMS
 
@@ -80,14 +80,13 @@ def _plainly(names: Mapping[str, object]) -> dict[str, tuple[str, ...]]:
 
 
 def term_meaning(term: Term) -> Meaning:
-    """A term of the glossary as the meaning of a word."""
     return Meaning(
         "term", term.name, term.text, formula=term.formula, source=term.source, see=term.see
     )
 
 
 def claim_meaning(key: str) -> Meaning:
-    """What a claim of a method file means.
+    """Returns the meaning of a claim of a method file. ¶ Raises UsageProblem for an unknown claim.
 
     Raises:
         UsageProblem: there is no such claim.
@@ -106,7 +105,7 @@ def claim_meaning(key: str) -> Meaning:
 
 
 def _keys(kind: str) -> Sense:
-    """The keys of a kind of files: each is found by its path and by its own name."""
+    """Returns the keys of a kind of files, found by their paths and their own names."""
     keys = keys_of(kind)
     files, _ = KINDS[kind]
 
@@ -124,7 +123,7 @@ def _keys(kind: str) -> Sense:
 
 
 def _choices() -> Iterator[Sense]:
-    """What keys and options can be set to: families, rules, schemes, shapes, problems."""
+    """Yields the values of keys and options: families, rules, schemes, shapes, problems."""
     from garkcli.constructions.schemes import SCHEMES, SPLITTINGS
     from garkcli.families.registry import FAMILIES
     from garkcli.methodfile.shapes import SHAPES
@@ -144,12 +143,12 @@ def _choices() -> Iterator[Sense]:
 
 
 def _order(order: str) -> str:
-    """The order of a family: a number, a formula, or the key that gives it."""
+    """Returns the order of a family: a number, a formula, or the key that gives it."""
     return f"The key {order} sets the order." if order.isalpha() else f"Order {order}."
 
 
 def _listed(kind: str, texts: Mapping[str, str], sources: Mapping[str, str] | None = None) -> Sense:
-    """Words that ``gark list`` shows with their texts."""
+    """Returns the words that ``gark list`` shows with their texts."""
 
     def mean(name: str) -> Meaning:
         source = (sources or {}).get(name) or "gark list"
@@ -175,7 +174,6 @@ def _findings(command: str) -> Sense:
 
 
 def fault_meaning(code: str) -> Meaning:
-    """What an error means."""
     kind = by_code()[code]
     return Meaning(
         "error", code, kind.text, example=kind.example, cure=kind.cure, source="docs/bad-input.md"
@@ -183,7 +181,7 @@ def fault_meaning(code: str) -> Meaning:
 
 
 def field_meanings(word: str) -> list[Meaning]:
-    """What the fields of JSON reports of a name hold: one meaning for each place that differs."""
+    """Returns the meanings of a field of JSON reports, one for each that differs."""
     wanted = plain(word)
     found = []
     for name, text in field_entries().items():
@@ -194,7 +192,7 @@ def field_meanings(word: str) -> list[Meaning]:
 
 
 def sentence(text: str) -> str:
-    """A remark as a sentence; a formula at its start stays.
+    """Returns a remark as a sentence; a formula at its start keeps its case.
 
     >>> sentence("zero above the diagonal"), sentence("s = n^2; strong-stability-preserving")
     ('Zero above the diagonal.', 's = n^2; strong-stability-preserving.')
@@ -205,13 +203,13 @@ def sentence(text: str) -> str:
 
 __all__ = ["Meaning", "claim_meaning", "explain", "known_words", "term_meaning"]
 _FIRST_VALUE = re.compile(r":? +(?=[-\d\[(≥∞])")
-"""Where the label of a line ends: a number or a tree follows."""
+"""The end of the label of a line: a number or a tree follows."""
 _SURELY = 8
-"""Letters that a pasted message has in common with one of the program."""
+"""The number of letters that a pasted message shares with one of the program."""
 
 
 def explain(word: str) -> list[Meaning]:
-    """What a word means, in every sense that it has: ``gark explain``.
+    """The meanings of a word, as in ``gark explain``.
 
     Args:
         word: a term, a label of a report, a claim, a key of a file with or without those above it,
@@ -240,7 +238,7 @@ def explain(word: str) -> list[Meaning]:
 
 
 def _known(word: str) -> list[tuple[Sense, str]]:
-    """What a word leads to; of a line of a report what is before a number or a tree."""
+    """Returns the senses of a word, or of the label of a line from a report."""
     every = _by_plain()
     if word not in every:
         label = _FIRST_VALUE.split(word)[0]
@@ -249,7 +247,7 @@ def _known(word: str) -> list[tuple[Sense, str]]:
 
 
 def _of_message(text: str) -> Meaning:
-    """What a message of an error means.
+    """Returns the meaning of an error message. ¶ Raises UsageProblem if it is unknown.
 
     Raises:
         UsageProblem: it is none.
@@ -261,7 +259,7 @@ def _of_message(text: str) -> Meaning:
 
 
 def _near(text: str) -> str:
-    """The words that a misspelt one may be, or where all of them are found."""
+    """Returns a cure with similar words, or with the command that lists them."""
     words = known_words()
     cure = did_you_mean(text, words)
     if not cure.startswith("one of"):
@@ -273,7 +271,6 @@ def _near(text: str) -> str:
 
 @lru_cache(maxsize=1)
 def _by_plain() -> dict[str, list[tuple[Sense, str]]]:
-    """Every spelling with what it leads to."""
     found: dict[str, list[tuple[Sense, str]]] = {}
     for sense in every_sense():
         for name, spellings in sense.names.items():
@@ -283,6 +280,6 @@ def _by_plain() -> dict[str, list[tuple[Sense, str]]]:
 
 
 def known_words() -> list[str]:
-    """Every word that has a meaning, in order."""
+    """All words that have a meaning, sorted."""
     words = {name for sense in every_sense() for name in sense.names}
     return sorted(words | set(field_entries()))

@@ -1,4 +1,4 @@
-"""Everything known about one nonlinearly partitioned method, as one value."""
+"""The analysis of a nonlinearly partitioned method."""
 
 from __future__ import annotations
 
@@ -15,8 +15,9 @@ from garkcli.tableau.tableau import Tableau
 
 
 class NprkAnalysis(OrderFacts):
-    """The truth about a nonlinearly partitioned method; the colours of its tableau are the
-    arguments of F, its stages the pairs at which it is evaluated.
+    """The orders of a nonlinearly partitioned method.
+
+    The colours of its tableau are the arguments of F, its stages the pairs at which F is evaluated.
     """
 
     kind = "a nonlinearly partitioned method"
@@ -31,7 +32,7 @@ def analyse_nprk(
     tolerance: fmpq | None = None,
     further: Further = NOTHING,
 ) -> NprkAnalysis:
-    """Decide everything that ``gark check`` reports of a nonlinearly partitioned method.
+    """Decide all that ``gark check`` reports of a nonlinearly partitioned method.
 
     Args:
         tableau: of the method.

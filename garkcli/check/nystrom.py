@@ -1,4 +1,4 @@
-"""Everything known about one Nyström method, as one value."""
+"""The analysis of a Nyström method."""
 
 from __future__ import annotations
 
@@ -30,20 +30,20 @@ from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
 
 VIEWS: dict[str, Which] = {"position-order": "in_positions", "velocity-order": "in_velocities"}
-"""The orders of the two steps, by their claims."""
+"""The orders of the two components, by their claims."""
 OF_OSCILLATOR = frozenset({"p-stable", "i-stable"})
 """Properties of the partitioned method with the same steps."""
 _NO_PROPERTY = Reason("a property of Runge–Kutta methods, which this Nyström method is not")
 
 
 class NystromOrders(Frozen):
-    """The orders of some weights at the stages of a Nyström method.
+    """The orders of weights at the stages of a Nyström method.
 
     Attributes:
-        tableau: of the method.
-        order: of both steps, the smaller one.
-        position_order: of the step in q.
-        velocity_order: of the step in q′.
+        tableau: the tableau of the method.
+        order: the order in both components, the smaller one.
+        position_order: the order in q.
+        velocity_order: the order in q′.
     """
 
     tableau: Tableau
@@ -53,13 +53,12 @@ class NystromOrders(Frozen):
 
     @classmethod
     def of(cls, method: AnyTableau, limit: int, spans: StageSpans | None = None) -> NystromOrders:
-        """The orders up to a limit."""
         order = order_of(method, limit, spans)
         q, v = (order_of(seen(method, which), limit, spans) for which in VIEWS.values())
         return cls(printed(method), order, q, v)
 
     def view(self, claim: str) -> tuple[AnyOrder, Tableau]:
-        """The order that a claim is on, with the tableau that has it."""
+        """Returns the order that a claim is about and its tableau."""
         found: AnyOrder = getattr(self, claim.replace("-", "_"))
         if claim == "order":
             return found, self.tableau
@@ -67,7 +66,7 @@ class NystromOrders(Frozen):
 
 
 class NystromDense(DenseFacts):
-    """The truth about dense output; its slope is that of q, and should be q′ at both ends.
+    """The order of dense output. The slope of q should be q′ at both ends.
 
     Attributes:
         position_order: for all θ, of q.
@@ -81,7 +80,6 @@ class NystromDense(DenseFacts):
     def of(
         cls, method: AnyTableau, dense: DenseOutput, limit: int, spans: StageSpans | None
     ) -> NystromDense:
-        """Decide it up to a limit."""
         whole, known = with_further(method) or method, as_dense(method)
         return cls(
             order=dense_order(known, dense, limit, spans),
@@ -94,7 +92,7 @@ class NystromDense(DenseFacts):
 
 
 def _ends_of_slope(dense: DenseOutput, tableau: Tableau) -> Ends:
-    """The slope of q is q′ + h Σ b̄_i'(θ) g_i: b̄'(0) = 0, and b̄'(1) = b."""
+    """Returns the slope at the ends; it is q′ + h Σ b̄_i'(θ) g_i, so b̄'(0) = 0 and b̄'(1) = b."""
     b = tableau.colours[VELOCITIES].b
     zeros = (ZERO,) * len(b)
     first = dense.coefficients(1)[POSITIONS]
@@ -104,7 +102,7 @@ def _ends_of_slope(dense: DenseOutput, tableau: Tableau) -> Ends:
 
 
 class EmbeddedOrders(Frozen):
-    """The truth about embedded weights.
+    """The orders of embedded weights, and their error estimate.
 
     Attributes:
         orders: of the method with them for b̄ and b.
@@ -116,16 +114,16 @@ class EmbeddedOrders(Frozen):
 
 
 class NystromAnalysis(Shown, Frozen):
-    """The truth about a Nyström method.
+    """The orders of a Nyström method.
 
     Attributes:
-        tableau: of the method.
+        tableau: the tableau of the method.
         orders: its orders.
         limit: where the search for orders stopped.
-        tolerance: the rounding within which all of this holds; None where it holds exactly.
-        embedded: the truth about its embedded weights; None where it has none.
-        dense: the truth about its dense output; likewise.
-        further: these weights.
+        tolerance: the rounding within which all of this holds; None for exact coefficients.
+        embedded: the facts about its embedded weights, or None.
+        dense: the facts about its dense output, or None.
+        further: its embedded and dense weights.
     """
 
     tableau: Tableau
@@ -140,17 +138,16 @@ class NystromAnalysis(Shown, Frozen):
 
     @property
     def order(self) -> AnyOrder:
-        """The order of both steps: the smaller one."""
+        """The order in both components, the smaller one."""
         return self.orders.order
 
     @cached_property
     def subject(self) -> LinearSubject:
-        """The method whose properties are decided on demand."""
         method = seen(meant(self.tableau, self.tolerance), "partitioned")
         return LinearSubject.of(method, self.order.order, self.limit, OF_OSCILLATOR, _NO_PROPERTY)
 
     def view(self, claim: str) -> tuple[AnyOrder, Tableau] | None:
-        """The order that a claim is on, with the tableau that has it; None for other claims."""
+        """Returns the order that a claim is about and its tableau; None for other claims."""
         whose: NystromOrders | None = self.orders
         if claim.startswith("embedded-"):
             whose = None if self.embedded is None else self.embedded.orders
@@ -169,7 +166,7 @@ def analyse_nystrom(
     tolerance: fmpq | None = None,
     further: Further = NOTHING,
 ) -> NystromAnalysis:
-    """Decide everything that ``gark check`` reports of a Nyström method.
+    """Decide all that ``gark check`` reports of a Nyström method.
 
     Args:
         tableau: of the method.

@@ -1,5 +1,5 @@
-"""What the analyses of methods that are no GARK methods have alike: their orders, and what R(z)
-decides.
+"""Common parts of the analyses of methods that are not GARK methods: their orders, and the
+properties that R(z) decides.
 """
 
 from __future__ import annotations
@@ -31,13 +31,10 @@ if TYPE_CHECKING:
 
 
 class LinearSubject(Frozen):
-    """The properties of a method that are those of another with the same steps on linear problems:
-    of a Runge–Kutta method with the same R(z), or of a partitioned one on the oscillator.
+    """The properties of a method that depend on linear problems only, decided for a method with the
+    same steps there.
 
-    Attributes:
-        on_linear_problems: that method.
-        keys: these properties.
-        reason: why it has no others.
+    That is a Runge–Kutta method with the same R(z), or a partitioned method on the oscillator.
     """
 
     on_linear_problems: Subject
@@ -48,39 +45,38 @@ class LinearSubject(Frozen):
     def of(
         method: AnyTableau, order: int, limit: int, keys: frozenset[str], reason: Reason
     ) -> LinearSubject:
-        """Of that other method, exact or rounded, and the order of the method."""
+        """Returns the subject for that method, exact or rounded, and the order of the original."""
         conditions = simplifying(method, limit)
         return LinearSubject(Subject.read(method, order, conditions, limit, NOTHING), keys, reason)
 
     @property
     def rounding(self) -> fmpq:
-        """By how much the printed coefficients may be off."""
+        """The largest error of the printed coefficients."""
         return self.on_linear_problems.rounding
 
     @cached_property
     def at_infinity(self) -> Number | None:
-        """R(∞); None where R is not bounded, or rounded coefficients leave it open."""
+        """R(∞); None if R is unbounded or the rounding leaves it open."""
         inner = self.on_linear_problems
         return None if inner.tolerance else inner.linear.at_infinity()
 
     def verdict(self, key: str) -> Verdict:
-        """What is true of a property."""
         if key not in self.keys:
             return Verdict.meaningless(self.reason)
         return self.on_linear_problems.verdict(key)
 
 
 class OrderFacts(Shown, Frozen):
-    """The truth about a method that is no GARK method and has one order, or little more.
+    """The orders of a method that is not a GARK method.
 
     Attributes:
-        tableau: of the method.
+        tableau: the tableau of the method.
         order: its order.
         limit: where the search for orders stopped.
-        tolerance: the rounding within which all of this holds; None where it holds exactly.
-        embedded: the truth about its embedded weights; None where it has none.
-        further: these weights.
-        nonautonomous_order: on problems ẏ = f(t, y), with the nodes of the file.
+        tolerance: the rounding within which all of this holds; None for exact coefficients.
+        embedded: the facts about its embedded weights, or None.
+        further: its embedded weights.
+        nonautonomous_order: the order on problems ẏ = f(t, y), with the nodes of the file.
     """
 
     tableau: Tableau
@@ -98,7 +94,9 @@ class OrderFacts(Shown, Frozen):
     def with_flow(
         cls, tableau: Tableau, limit: int, tolerance: fmpq | None, further: Further
     ) -> Self:
-        """Of a tableau with stages that stand for exact solutions; see ``analyse``."""
+        """Returns the analysis of a tableau with stages that stand for exact solutions; see
+        ``analyse``.
+        """
         limit = min(limit, tableau.exact_to or limit)
         method = meant(tableau, tolerance, further)
         spans = StageSpans(tableau) if further and method is tableau else None
@@ -112,20 +110,20 @@ class OrderFacts(Shown, Frozen):
 
     @classmethod
     def besides(cls, method: AnyTableau, limit: int) -> dict[str, Any]:  # noqa: ARG003
-        """What such a method has besides, decided after its order."""
+        """Returns further fields of the class, decided after the order."""
         return {}
 
     @property
     def dense(self) -> None:
-        """It has no dense output."""
+        """Such methods have no dense output."""
 
     @cached_property
     def subject(self) -> NoProperties | LinearSubject:
-        """It has no properties."""
+        """Such methods have no properties."""
         return NoProperties(self.tolerance or fmpq(0), self.no_property)
 
     def view(self, claim: str) -> tuple[AnyOrder, Tableau] | None:
-        """The order that a claim is on, with the tableau that has it; None for other claims."""
+        """Returns the order that a claim is about and its tableau; None for other claims."""
         whose: OrderFacts | EmbeddedFacts | None = self
         if claim.startswith("embedded-"):
             whose, claim = self.embedded, claim.removeprefix("embedded-")

@@ -1,4 +1,4 @@
-"""What became of one file: the analysis, its claims held against the truth, or its faults."""
+"""The result for one file: its analysis, its verified claims, or its faults."""
 
 from __future__ import annotations
 
@@ -32,16 +32,16 @@ if TYPE_CHECKING:
 
 
 class Claim(Frozen):
-    """A claim of ``expect`` held against the truth.
+    """A claim under ``expect`` and whether it holds.
 
     Attributes:
-        claim: its key in ``expect``.
-        expected: what the file says, as text.
-        found: what is true, as text.
-        holds: whether they agree; None where that is undecided.
+        claim: its key under ``expect``.
+        expected: the claimed value as text.
+        found: the actual value as text.
+        holds: whether they agree; None if undecided.
         line: the line of the claim in the file, from 1.
         column: its column, from 1.
-        reason: of a property that is claimed in vain, what speaks against it.
+        reason: the reason against a property that is claimed.
     """
 
     claim: str
@@ -59,32 +59,31 @@ class Claim(Frozen):
 
 
 class Outcome(Shown, Frozen):
-    """One checked file.
+    """The result of checking one file.
 
     Attributes:
         file: its path as given, or ``<stdin>``.
-        name: the name it gives itself, or its path.
-        structure: which vector fields the problem has.
-        analysis: the truth; None where the file cannot be read as a method.
+        name: the name in the file, or its path.
+        structure: the structure of the vector fields.
+        analysis: the analysis; None if the file cannot be read as a method.
         claims: every claim of the file.
-        faults: why it cannot be read; empty where it can.
-        text: the file as read, for showing lines of it.
-        blame: where the order falls short of a claim, what the failing conditions tell; None
-            otherwise.
-        remark: what the digits of the file say of its rounding; None where they say nothing more.
+        faults: why the file cannot be read; empty if it can.
+        text: the text of the file, for showing lines of it.
+        blame: the likely cause of an order below its claim, or None.
+        remark: the remark on its digits, or None.
         constants: the error constants at the first failing order, if wanted.
-        needs_claims: whether a file that makes no claim fails.
-        needed: claims without which a file fails.
+        needs_claims: whether a file without claims fails.
+        needed: the required claims.
         is_crash: whether the program failed, not the file; ``faults`` say how.
         wants_properties: whether to show all properties.
-        every: what holds for every value, of a file with free parameters; it has no analysis.
-        rosenbrock: the truth about a Rosenbrock method; it has no analysis.
-        nystrom: the truth about a Nyström method; likewise.
-        nprk: the truth about a nonlinearly partitioned method; likewise.
-        derivatives: the truth about a multiderivative method; likewise.
-        infinitesimal: the truth about a multirate method with the exact fast solution; likewise.
-        left_behind: further weights of the methods that it is made from, in words.
-        rules: what made blocks between diagonal methods.
+        every: the facts about a file with free parameters, in place of an analysis.
+        rosenbrock: the analysis of a Rosenbrock method.
+        nystrom: the analysis of a Nyström method.
+        nprk: the analysis of a nonlinearly partitioned method.
+        derivatives: the analysis of a multiderivative method.
+        infinitesimal: the analysis of a multirate method with exact fast solutions.
+        left_behind: further weights of the underlying methods that it lacks, as text.
+        rules: the rules of blocks between diagonal methods.
     """
 
     file: str
@@ -112,13 +111,15 @@ class Outcome(Shown, Frozen):
 
     @property
     def of_other_kind(self) -> OtherAnalysis | None:
-        """The analysis of a method that is no GARK method; None of one that is, or of none."""
+        """The analysis of a method that is not a GARK method, or None."""
         found = self.rosenbrock or self.nystrom or self.nprk
         return found or self.derivatives or self.infinitesimal
 
     @property
     def found(self) -> Analysis | EveryValue | OtherAnalysis | None:
-        """What is true of the method, or for every value of its parameters; None for neither."""
+        """The analysis of the method, or the facts for all values of its parameters; None
+        without.
+        """
         return self.analysis or self.every or self.of_other_kind
 
     @property
@@ -138,17 +139,17 @@ class Outcome(Shown, Frozen):
 
     @property
     def is_read(self) -> bool:
-        """Whether the file could be read, as a method or as a family of them."""
+        """Whether the file could be read, as a method or as a family."""
         return self.found is not None
 
     @property
     def makes_no_claim(self) -> bool:
-        """Whether the file is a method and nothing is claimed of it."""
+        """Whether the file is a method without claims."""
         return self.is_read and not self.claims
 
     @property
     def lacks(self) -> tuple[str, ...]:
-        """What the file would have to claim and does not, a remark each."""
+        """The claims that are required and missing, each as a remark."""
         if not self.is_read:
             return ()
         if self.needs_claims and not self.claims:
@@ -158,13 +159,13 @@ class Outcome(Shown, Frozen):
 
     @property
     def ok(self) -> bool:
-        """Whether the file is a method, every claim holds, and there are those that are needed."""
+        """Whether the file is a method, all claims hold, and the required claims are there."""
         return self.exit_code == 0
 
     @property
     def exit_code(self) -> int:
-        """0 where all holds, 1 where a claim fails, 2 where the file cannot be read, 3 where a
-        claim is undecided and none fails, or the program failed.
+        """The exit code: 0 if all claims hold, 1 if a claim fails, 2 if the file cannot be read, 3
+        if a claim is undecided and none fails, or if the program failed.
         """
         if not self.is_read:
             return 3 if self.is_crash else 2

@@ -1,4 +1,4 @@
-"""Why a pair has its order, and whether the rules between its methods keep it: the criteria of
+"""The reason for the order of a pair, and whether block rules preserve it, by the criteria of
 docs/pair-order.md.
 """
 
@@ -24,12 +24,12 @@ if TYPE_CHECKING:
 
 
 class PairReason(Frozen):
-    """What B, C, D and the even condition say of the order of the pair.
+    """The consequences of B, C, D and the even condition for the order of the pair.
 
     Attributes:
-        order: the pair has at least this one; None where the theorem says nothing.
-        parts: why, and what is missing for the next order.
-        is_sharp: whether the pair has no larger one by this theorem.
+        order: the least order of the pair; None if the theorem does not apply.
+        parts: the reason, and the conditions missing for the next order.
+        is_sharp: whether the order is not larger, by this theorem.
     """
 
     order: int | None
@@ -38,14 +38,14 @@ class PairReason(Frozen):
 
     @property
     def text(self) -> str:
-        """The same in one line."""
+        """The reason in one line."""
         return "; ".join(self.parts)
 
 
 def pair_reason(found: Analysis) -> PairReason | None:
-    """Why the pair has its order; None where there is no pair.
+    """Returns the reason for the order of the pair; None if there is no pair.
 
-    Where a hypothesis of the theorem does not hold, the text says which one.
+    If a hypothesis of the theorem fails, the text says which one.
     """
     if found.pair is None or found.pair_order is None:
         return None
@@ -69,7 +69,9 @@ def pair_reason(found: Analysis) -> PairReason | None:
 
 
 def _no_statement(found: Analysis, tableau: Tableau) -> str:
-    """The hypothesis without which the criterion says nothing; empty where all of these hold."""
+    """Returns the hypothesis that fails, so that the criterion does not apply; empty if none
+    fails.
+    """
     for l, colour in enumerate(tableau.colours):
         row = [m for m in range(tableau.size) if tableau.block(l, m) is not None]
         if not row:
@@ -85,7 +87,7 @@ def _no_statement(found: Analysis, tableau: Tableau) -> str:
 
 
 def _is_sharp(found: Analysis) -> tuple[bool, str]:
-    """Whether the criterion is necessary too; otherwise why not."""
+    """Returns whether the criterion is necessary too, and otherwise why not."""
     for colour in found.tableau.colours:
         if colour.is_linear:
             return False, f"colour {colour.name} is linear"
@@ -98,7 +100,7 @@ def _is_sharp(found: Analysis) -> tuple[bool, str]:
 
 
 def _held(order: int, has_blocks: bool) -> str:
-    """The conditions of an order; of several colours on each block."""
+    """Returns the conditions of an order, with several colours on each block."""
     k = (order - 1) // 2
     parts = [f"B({order})"] if order else ["nothing"]
     if k > 0:
@@ -111,7 +113,7 @@ _MOST_BLOCKS = 4
 
 
 def _missing(missing: Sequence[Condition], names: Sequence[str], blocks: int) -> str:
-    """The conditions that do not hold, each with where it does not."""
+    """Returns the conditions that fail, and the blocks on which they do."""
     parts = []
     for letter, number in added(_order_of(missing[0])):
         there = [x for x in missing if x.letter == letter]
@@ -133,7 +135,7 @@ def _missing(missing: Sequence[Condition], names: Sequence[str], blocks: int) ->
 
 
 def _order_of(condition: Condition) -> int:
-    """The order that adds a condition."""
+    """Returns the order for which a condition is needed."""
     if condition.letter == "B":
         return condition.number
     return 2 * condition.number + (2 if condition.letter == "even" else 1)
@@ -149,12 +151,12 @@ def _on(places: Sequence[str], every: int, noun: str) -> str:
 
 
 MOST_RULES = 150
-"""Blocks by rules that are examined, one by one."""
+"""The largest number of blocks by rules that are examined."""
 
 
 def rule_reasons(found: Analysis, rules: Sequence[BlockRule]) -> Iterator[str]:
-    """For each block that a rule made, whether it fits the least pair order of the diagonal
-    methods; nothing where the theorem is about other methods.
+    """Yields for each block made by a rule whether it preserves the least pair order of the
+    diagonal methods; nothing if the theorem does not apply.
     """
     tableau = found.tableau
     if len(rules) > MOST_RULES:
@@ -185,11 +187,11 @@ def rule_reasons(found: Analysis, rules: Sequence[BlockRule]) -> Iterator[str]:
 
 
 class Fit(Frozen):
-    """Whether a block by a rule keeps the least pair order of the diagonal methods.
+    """Whether a block by a rule preserves the least pair order of the diagonal methods.
 
     Attributes:
-        keeps: whether it does; None where the numbers leave it to the entries.
-        numbers: that decide it.
+        keeps: whether it does; None if that depends on the entries.
+        numbers: the numbers that decide it, as text.
     """
 
     keeps: bool | None
@@ -197,7 +199,7 @@ class Fit(Frozen):
 
 
 def _by_block(by_numbers: Fit, missing: Sequence[Condition]) -> Fit:
-    """What the conditions of the block decide, where the numbers do not."""
+    """Returns the decision by the conditions of the block."""
     names = [
         "the even condition" if x.letter == "even" else f"{x.letter}({x.number})" for x in missing
     ]
@@ -209,8 +211,8 @@ def _by_block(by_numbers: Fit, missing: Sequence[Condition]) -> Fit:
 
 
 def fit(x: BlockRule, methods: Sequence[Method], p: int) -> Fit | None:
-    """Whether a block by a rule keeps pair order p, which the diagonal methods have; None for rules
-    and methods that the theorems are not about.
+    """Returns whether a block by a rule preserves pair order p of the diagonal methods; None for
+    rules and methods that the theorems do not cover.
     """
     match x.rule:
         case "legendre":
@@ -233,12 +235,10 @@ def _legendre(degree: int | None, methods: Sequence[Method], p: int) -> Fit:
 
 
 def _quadrature_order(method: Method) -> int:
-    """r_l, the largest n with B(n)."""
     return simplifying(gark([method], {})).r
 
 
 def _quadrature_error(method: Method, exponent: int) -> Number:
-    """1/(j + 1) − b(x^j)."""
     return fmpq(1, exponent + 1) - dot(method.b, method.space.power(method.c, exponent))
 
 
@@ -278,12 +278,12 @@ def _interpolation(l: Method, m: Method, p: int) -> Fit | None:
 
 
 def _degree(columns: Matrix) -> int:
-    """The largest degree of polynomials, whose coefficients are columns."""
+    """Returns the largest degree of the polynomials whose coefficients are the columns."""
     return max((i for i, row in enumerate(columns) if any(row)), default=0)
 
 
 def _agreement(l: Method, m: Method) -> int | None:
-    """ρ, how many moments of the weights agree; None for all of them."""
+    """Returns ρ, the number of moments in which the weights agree; None for all."""
     mine, other = l.space.one, m.space.one
     for rho in range(l.stages + m.stages):
         if dot(l.b, mine) != dot(m.b, other):

@@ -1,9 +1,8 @@
-"""A remark on rounding: how many digits numbers have, which order they would have, and which entry
-is off.
+"""A remark on rounding: the precision of the numbers, the order within it, and the wrong entry.
 
-Each number is taken to be off by what its own last digits leave open. Where a method within that
-has a higher order than the word of the file gives, exact or within its tolerance, the remark says
-which tolerance to write; where there is none, and one entry alone is in the way, which entry.
+The error of each number is taken from its last digits. If a method within these errors has a higher
+order than the file gives, the remark states the tolerance to write; if there is none and a single
+entry is the cause, the remark states that entry.
 """
 
 from __future__ import annotations
@@ -29,18 +28,18 @@ if TYPE_CHECKING:
     from garkcli.exact.field import Number
 
 COARSEST = -1
-"""No tolerance is proposed that is not below ten to this power."""
+"""Only tolerances below ten to this power are proposed."""
 
 
 class Remark(Frozen):
-    """A remark on the digits of a file: the tolerance that it lacks, or the entry that is off.
+    """A remark on the digits of a file: its missing tolerance, or its wrong entry.
 
     Attributes:
-        order: that the method would have.
-        of: what would have it: ``order``, or ``embedded-order``.
-        exponent: the tolerance to write is 10 to this power; None where an entry is off.
-        repairs: single entries of which one is off, each with the value that it would have; those
-            that change least first.
+        order: the order that the method would have.
+        of: which order: ``order`` or ``embedded-order``.
+        exponent: the tolerance to write is 10 to this power; None if an entry is wrong.
+        repairs: the entries of which one is wrong, with their correct values, the smallest changes
+            first.
     """
 
     order: int
@@ -50,7 +49,7 @@ class Remark(Frozen):
 
     @property
     def line(self) -> str:
-        """The line to write into the method file; empty where an entry is off."""
+        """The line to write into the method file; empty if an entry is wrong."""
         return "" if self.exponent is None else f"tolerance: 1e{self.exponent}"
 
 
@@ -61,14 +60,10 @@ def remark_on(
     of: str = "order",
     limit: int = DEFAULT_LIMIT,
 ) -> Remark | None:
-    """The remark on the digits of a method; None where they say no more than the file.
+    """Returns the remark on the digits of a method; None if they add nothing to the file.
 
-    Args:
-        tableau: the method, as it was read.
-        found: its order, or that of its embedded weights, by the word of the file.
-        tolerance: of the file; None where its numbers are exact.
-        of: which order that is: ``order``, or ``embedded-order``.
-        limit: where the search for orders stops.
+    ``found`` is its order, or that of its embedded weights, as ``of`` says, with the tolerance of
+    the file or exactly.
     """
     if not _is_rounding(found):
         return None
@@ -97,7 +92,7 @@ def remark_on(
 
 
 def _is_rounding(found: AnyOrder) -> bool:
-    """Whether a condition is missed by so little that rounding, or a wrong digit, may be why."""
+    """Returns whether a residual is so small that rounding, or a wrong digit, may explain it."""
     missed = found.witness
     return missed is not None and within(missed.residual, unnatural(found.order + 1))
 
@@ -105,8 +100,8 @@ def _is_rounding(found: AnyOrder) -> bool:
 def _judged(
     rounded: RoundedTableau, of: str, found: AnyOrder, limit: int
 ) -> tuple[RoundedTableau, AnyOrder]:
-    """The method within its digits, and its order: the known one where they do not explain
-    that it is no higher.
+    """Returns the method within its digits and its order, which is ``found`` if the digits do not
+    explain why it is not higher.
     """
     judged = derived(rounded, of)
     assert isinstance(judged, RoundedTableau)
@@ -118,8 +113,8 @@ def _judged(
 def _off(
     judged: RoundedTableau, order: int, limit: int, units: Mapping[Number, fmpq]
 ) -> dict[Repair, int]:
-    """The entries of which one is in the way; one that is short beside the others does not
-    where its own digits explain it.
+    """Returns the entries that may be wrong, with the order after repair. An entry with fewer
+    digits than the others is left out if its digits explain the deviation.
     """
     reached = suspects(judged, order, limit)
     return {
@@ -130,21 +125,18 @@ def _off(
 
 
 def _most(reached: Mapping[Repair, int]) -> tuple[Repair, ...]:
-    """The repairs that give the highest order."""
+    """Returns the repairs that give the highest order."""
     return tuple(x for x, n in reached.items() if n == max(reached.values()))
 
 
 def enough(
     off: fmpq, order: int, within: Callable[[fmpq], AnyTableau], tolerance: fmpq = ZERO
 ) -> int | None:
-    """The exponent of the smallest power of ten, beyond a tolerance, within which a method of an
-    order is found; None where that is too coarse.
+    """Returns the exponent of the smallest power of ten above ``tolerance`` within which a method
+    of the order is found; None if that is too coarse.
 
-    Args:
-        off: by how much numbers of a method of the order are off at most.
-        order: of it.
-        within: the method as printed, with a tolerance for all its numbers.
-        tolerance: that is too tight.
+    ``off`` is the largest distance of the numbers from a method of the order, ``within`` the method
+    with a given tolerance.
     """
     exponent = 0
     # the method that was found is the nearest; the one that was meant may be further off

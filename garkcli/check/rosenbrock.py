@@ -1,4 +1,4 @@
-"""Everything known about one Rosenbrock or W-method, as one value."""
+"""The analysis of a Rosenbrock or W-method."""
 
 from __future__ import annotations
 
@@ -25,15 +25,15 @@ if TYPE_CHECKING:
 
 
 class RosenbrockOrders(Frozen):
-    """The orders of some weights at the stages of a Rosenbrock method.
+    """The orders of weights at the stages of a Rosenbrock method.
 
     Attributes:
-        method: with the Jacobian; of a rounded one a search of its own, which the orders on DAEs
-            move in turn, so that none contradicts another.
-        order: with the Jacobian.
-        w_order: with any matrix in its place.
-        old_jacobian_order: with a matrix that differs from it by O(h).
-        nonautonomous_order: on problems ẏ = f(t, y), with the c and d of the file.
+        method: the method with the Jacobian; a rounded one has a search of its own, refined by each
+            order on DAEs, so that the results are consistent.
+        order: the order with the Jacobian.
+        w_order: the order with any matrix in its place.
+        old_jacobian_order: the order with a matrix that differs from it by O(h).
+        nonautonomous_order: the order on problems ẏ = f(t, y), with the c and d of the file.
     """
 
     method: AnyTableau
@@ -46,7 +46,6 @@ class RosenbrockOrders(Frozen):
     def of(
         cls, method: AnyTableau, limit: int, spans: StageSpans | None = None
     ) -> RosenbrockOrders:
-        """The orders up to a limit."""
         order = order_of(method, limit, spans)
         w, old, timed = (order_of(seen(method, which), limit) for which in VIEWS.values())
         alone = method if isinstance(method, Tableau) else method.aside()
@@ -54,14 +53,16 @@ class RosenbrockOrders(Frozen):
 
     @cached_property
     def index_1_order(self) -> AnyOrder | None:
-        """On ẏ = f(y, z), 0 = g(y, z) of index 1: the largest p with an error O(h^(p+1)) of a step
-        in y, and O(h^p) in z; None where α + γ has no inverse.
+        """The order on ẏ = f(y, z), 0 = g(y, z) of index 1: the largest p with an error O(h^(p+1))
+        of a step in y and O(h^p) in z.
+
+        None if α + γ is singular.
         """
         return self._on_dae("on_dae", self.order)
 
     @cached_property
     def index_1_y_order(self) -> AnyOrder | None:
-        """The largest p with O(h^(p+1)) in y: between that of both and that of the method."""
+        """The largest p with O(h^(p+1)) in y; between the index-1 order and the order."""
         both = self.index_1_order
         if both is None or both.order == self.order.order:
             return both
@@ -69,15 +70,15 @@ class RosenbrockOrders(Frozen):
 
     @cached_property
     def index_1_z_order(self) -> AnyOrder | None:
-        """The largest p with O(h^(p+1)) in z: that of both, or one less. Its conditions are those
-        of both.
+        """The largest p with O(h^(p+1)) in z: the index-1 order or one less. Its conditions are
+        those of the index-1 order.
         """
         both, _ = self.index_1_order, self.index_1_y_order  # a rounded method is moved in turn
         return both and self._on_dae("on_dae_in_z", both)
 
     def _on_dae(self, which: Which, most: AnyOrder) -> AnyOrder | None:
-        """It is no larger than another order, whose trees are some of its own, and which ends it
-        where it is as large: that of the method has the trees without g.
+        """Returns an order on DAEs, at most ``most``, whose trees are among its own: the trees of
+        the method are those without g.
         """
         if printed(self.method).size > 2:
             return None  # y and z would be of several colours
@@ -92,7 +93,7 @@ class RosenbrockOrders(Frozen):
         return replace(found, **{name: getattr(most, name) for name in told})
 
     def view(self, claim: str) -> tuple[AnyOrder, Tableau] | None:
-        """The order that a claim is on, with the tableau that has it; None where there is none."""
+        """Returns the order that a claim is about and its tableau; None if there is none."""
         found: AnyOrder | None = getattr(self, claim.replace("-", "_"))
         if found is None:
             return None
@@ -103,7 +104,7 @@ class RosenbrockOrders(Frozen):
 
 
 class EmbeddedOrders(Frozen):
-    """The truth about embedded weights.
+    """The orders of embedded weights, and their error estimate.
 
     Attributes:
         orders: of the method with them for b.
@@ -115,21 +116,21 @@ class EmbeddedOrders(Frozen):
 
     @property
     def order(self) -> AnyOrder:
-        """With the Jacobian."""
+        """The order with the Jacobian."""
         return self.orders.order
 
 
 class RosenbrockAnalysis(Shown, Frozen):
-    """The truth about a Rosenbrock or W-method.
+    """The orders of a Rosenbrock or W-method.
 
     Attributes:
-        tableau: with the Jacobian.
+        tableau: the tableau with the Jacobian.
         orders: its orders.
         limit: where the search for orders stopped.
-        tolerance: the rounding within which all of this holds; None where it holds exactly.
-        embedded: the truth about its embedded weights; None where it has none.
-        dense: the truth about its dense output; likewise.
-        further: these weights.
+        tolerance: the rounding within which all of this holds; None for exact coefficients.
+        embedded: the facts about its embedded weights, or None.
+        dense: the facts about its dense output, or None.
+        further: its embedded and dense weights.
     """
 
     tableau: Tableau
@@ -144,27 +145,27 @@ class RosenbrockAnalysis(Shown, Frozen):
 
     @property
     def order(self) -> AnyOrder:
-        """With the Jacobian."""
+        """The order with the Jacobian."""
         return self.orders.order
 
     @property
     def w_order(self) -> AnyOrder:
-        """With any matrix in place of the Jacobian."""
+        """The order with any matrix in place of the Jacobian."""
         return self.orders.w_order
 
     @property
     def old_jacobian_order(self) -> AnyOrder:
-        """With a matrix that differs from the Jacobian by O(h)."""
+        """The order with a matrix that differs from the Jacobian by O(h)."""
         return self.orders.old_jacobian_order
 
     @property
     def nonautonomous_order(self) -> AnyOrder:
-        """On problems ẏ = f(t, y), with the c and d of the file."""
+        """The order on problems ẏ = f(t, y), with the c and d of the file."""
         return self.orders.nonautonomous_order
 
     @property
     def index_1_order(self) -> AnyOrder | None:
-        """On DAEs of index 1: errors O(h^(p+1)) of a step in y, and O(h^p) in z."""
+        """The order on DAEs of index 1: errors O(h^(p+1)) of a step in y, and O(h^p) in z."""
         return self.orders.index_1_order
 
     @property
@@ -174,22 +175,21 @@ class RosenbrockAnalysis(Shown, Frozen):
 
     @property
     def index_1_z_order(self) -> AnyOrder | None:
-        """The same in z."""
+        """The largest p with O(h^(p+1)) in z."""
         return self.orders.index_1_z_order
 
     @cached_property
     def subject(self) -> LinearSubject:
-        """The method whose properties are decided on demand."""
         method = seen(meant(self.tableau, self.tolerance), "on_test_equation")
         return LinearSubject.of(method, self.order.order, self.limit, OF_BETA, NO_PROPERTY)
 
     @property
     def at_infinity(self) -> Number | None:
-        """R(∞); None where R is not bounded, or rounded coefficients leave it open."""
+        """R(∞); None if R is unbounded or the rounding leaves it open."""
         return self.subject.at_infinity
 
     def view(self, claim: str) -> tuple[AnyOrder, Tableau] | None:
-        """The order that a claim is on, with the tableau that has it; None for other claims."""
+        """Returns the order that a claim is about and its tableau; None for other claims."""
         whose: RosenbrockOrders | None = self.orders
         if claim.startswith("embedded-"):
             whose = None if self.embedded is None else self.embedded.orders
@@ -208,7 +208,7 @@ def analyse_rosenbrock(
     tolerance: fmpq | None = None,
     further: Further = NOTHING,
 ) -> RosenbrockAnalysis:
-    """Decide everything that ``gark check`` reports of a Rosenbrock method.
+    """Decide all that ``gark check`` reports of a Rosenbrock method.
 
     Args:
         tableau: of the method with the Jacobian.

@@ -1,4 +1,4 @@
-"""What a file may claim of a method, and be right: the truth as it is written under ``expect``."""
+"""The true claims of a method, as written under ``expect``."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from garkcli.properties.property import Size
 from garkcli.properties.registry import KEYS, find
 
 ORDERS = ("order", "conjugate-order", "pair-order", "symplectic", "embedded-order", "dense-order")
-"""What is always worth claiming."""
+"""The claims that are always written."""
 OF_ROSENBROCK = (
     *("order", "w-order", "old-jacobian-order", "nonautonomous-order", "index-1-order"),
     *("embedded-order", "embedded-w-order", "dense-order"),
     *("a-stable", "l-stable"),
 )
-"""The same of Rosenbrock methods."""
+"""The claims that are always written for Rosenbrock methods."""
 OF_NYSTROM = (
     *("order", "position-order", "velocity-order"),
     *("embedded-order", "embedded-position-order", "embedded-velocity-order"),
@@ -27,9 +27,9 @@ OF_NYSTROM = (
 )
 """Claims on the orders of Nyström methods."""
 OF_INFINITESIMAL = ("order", "slow-order", "nonautonomous-order", "embedded-order")
-"""The same of multirate methods with the exact fast solution."""
+"""Claims on the orders of multirate methods with exact fast solutions."""
 OF_DERIVATIVES = ("order", "embedded-order", "a-stable", "l-stable")
-"""The same of methods that use derivatives."""
+"""Claims of methods that use derivatives."""
 OF_OTHER_KINDS = {
     "a Rosenbrock method": OF_ROSENBROCK,
     "a Nyström method": OF_NYSTROM,
@@ -37,19 +37,19 @@ OF_OTHER_KINDS = {
     "a multiderivative method": OF_DERIVATIVES,
     "a multirate method with the exact fast part": OF_INFINITESIMAL,
 }
-"""Claims on the orders of methods that are no GARK methods, by kind."""
+"""Claims of methods that are not GARK methods, by kind."""
 DIGITS = 12
-"""Of numbers without simple radicals; a decimal claims no further ones."""
+"""Digits of numbers without simple radicals; a decimal claims these digits only."""
 
 
 class TrueClaims(Frozen):
-    """What may be claimed of one method.
+    """True claims of one method.
 
     Attributes:
-        file: its path as given.
-        claims: values as they are written in YAML, by key.
-        left: what was requested and has no meaning for the method, or is not decided.
-        analysis: that decides them.
+        file: the path.
+        claims: values in YAML by key.
+        left: requested claims that do not apply or are undecided.
+        analysis: the analysis of the method.
     """
 
     file: str
@@ -59,8 +59,8 @@ class TrueClaims(Frozen):
 
 
 def usual_keys(analysis: AnyAnalysis) -> list[str]:
-    """The claims that a file without any is given: orders, whether it is symplectic, its stage
-    order, and those properties that a plain check decides and that it has.
+    """Returns the claims that a file without any is given: orders, symplecticity, stage order, and
+    the properties that a plain check decides and the method has.
     """
     if not isinstance(analysis, Analysis):
         return [*true_claims(analysis, OF_OTHER_KINDS[analysis.kind])]
@@ -76,14 +76,9 @@ def usual_keys(analysis: AnyAnalysis) -> list[str]:
 
 
 def true_claims(analysis: AnyAnalysis, keys: Iterable[str]) -> dict[str, str]:
-    """The truth of some claims, each as it is written in YAML.
+    """Returns the true claims among ``keys`` in YAML, in the order of the documentation.
 
-    Args:
-        analysis: of a method.
-        keys: of claims; one without a meaning for the method, or that is not decided, is left out.
-
-    Returns:
-        Texts by key, in the order of the documentation.
+    Claims that do not apply or are undecided are left out.
     """
     wanted = set(keys)
     found = {}
@@ -114,7 +109,7 @@ def _text(key: str, analysis: AnyAnalysis) -> str | None:
 
 
 def _written(value: object) -> str:
-    """A value in YAML; ``>= 4`` would begin a folded text there, so it is in quotes."""
+    """Returns a value in YAML, with quotes around ``>= 4``, which would begin a folded text."""
     if isinstance(value, list):
         return f"[{', '.join(map(_written, value))}]"
     text = claimed_text(value)
