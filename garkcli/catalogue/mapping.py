@@ -26,7 +26,7 @@ class NoSuchMethod(GarkError, KeyError):
 
 
 class Catalogue(ModuleType):
-    """Published methods by name; each is read from its file when it is asked for.
+    """Published methods by name; a lookup reads its file.
 
     The keys are the names, those in the folders of ``GARK_PATH`` first; aliases are accepted too,
     as on the command line.

@@ -116,7 +116,7 @@ _IN_WORDS = re.compile(
 
 
 def in_words(name: str) -> Value | None:
-    """The number that a name says, which nothing else tells; None for other names.
+    """The number that a name such as ONE_SIXTH spells; None for other names.
 
     >>> in_words("ONE_SIXTH").value, in_words("twothirds").value, in_words("thirds_of")
     (1/6, 2/3, None)

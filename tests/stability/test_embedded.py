@@ -112,3 +112,10 @@ def test_it_is_reported() -> None:
     assert data["R"] == {"numerator": "1", "denominator": "-z + 1"}
     assert (data["R_infinity"], data["a_stable"], data["l_stable"]) == ("0", True, True)
     assert in_json("rk4") is None
+
+
+def test_a_rosenbrock_method_is_no_runge_kutta_method() -> None:
+    """Which is why it has no algebraic stability."""
+    run = gark("stability", "ros3p")
+    assert run.code == 0
+    assert "it is no Runge-Kutta method" in " ".join(run.out.split())

@@ -1,6 +1,4 @@
-"""Tasks of the optimiser of a search: minimise a sum of goals, or first find a method that meets all
-wants.
-"""
+"""Tasks of the optimiser of a search: minimise a sum of goals, or first meet all wants."""
 
 from __future__ import annotations
 
@@ -184,8 +182,8 @@ class Least(Task):
 
 
 class Missing(Task):
-    """The distance of solutions from all wants: the least y such that all inequalities, those of low
-    levels too, hold up to y.
+    """The distance of solutions from all wants: the least y up to which all inequalities hold,
+    those of low levels too.
 
     Args:
         total: with the levels and the inequalities.
