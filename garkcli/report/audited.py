@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from pathlib import PurePath
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from garkcli.bridges.audit import Audited
 from garkcli.bridges.finding import CODES, AuditFinding
@@ -31,13 +31,13 @@ MOST = 100
 
 
 class Audit(NamedTuple):
-    """What is reported: the tables, and whether errors are all that is wanted."""
+    """Tables to report, and whether errors are all that is wanted."""
 
     tables: Sequence[Audited]
     errors_alone: bool = False
 
     @property
-    def wrong(self) -> list[tuple[Audited, list[AuditFinding]]]:
+    def wrong(self) -> list[tuple[Audited, Sequence[AuditFinding]]]:
         """The tables with errors or doubts, and what is found of them."""
         if self.errors_alone:
             found = ((x, [y for y in x.findings if y.level == "error"]) for x in self.tables)
@@ -117,37 +117,37 @@ def _number(order: Judged | None) -> int | None:
     return None if order is None else order.order
 
 
-FINDING = Section(
-    Row("code", choice(*CODES)),
-    Row("level", choice("error", "warning", "note")),
-    Row("message", TEXT),
-    Row("help", TEXT),
+FINDING: Section[AuditFinding] = Section(
+    Row("code", choice(*CODES), lambda x: x.code),
+    Row("level", choice("error", "warning", "note"), lambda x: x.level),
+    Row("message", TEXT, lambda x: x.message),
+    Row("help", TEXT, lambda x: x.help),
 )
 
 
-def _count(key: str, get: Callable[[Audited], int | None]) -> Row:
+def _count(key: str, get: Callable[[Audited], int | None]) -> Row[Audited]:
     return maybe(key, COUNT, get, DETAIL)
 
 
-TABLE = Section(
-    Row("source", TEXT, "table.source", DATA),
-    Row("line", POSITION, "table.line", DATA),
-    Row("format", TEXT, "table.format", DETAIL),
-    Row("name", TEXT, "table.name", DATA),
+TABLE: Section[Audited] = Section(
+    Row("source", TEXT, lambda x: x.table.source, DATA),
+    Row("line", POSITION, lambda x: x.table.line, DATA),
+    Row("format", TEXT, lambda x: x.table.format, DETAIL),
+    Row("name", TEXT, lambda x: x.table.name, DATA),
     maybe("order", COUNT, lambda x: _number(x.order), DATA),
     _count("declared_order", lambda x: x.table.order),
     maybe("embedded_order", COUNT, lambda x: _number(x.embedded_order), DATA),
     _count("declared_embedded", lambda x: x.table.embedded_order),
     _count("nonautonomous_order", lambda x: _number(x.nonautonomous_order)),
-    Row("findings", parts(FINDING), level=DATA),
-    Row("findings_in_words", rows_of(_finding_rows), "findings", DETAIL),
+    Row("findings", parts(FINDING), lambda x: x.findings, DATA),
+    Row("findings_in_words", rows_of(_finding_rows), lambda x: x.findings, DETAIL),
     title=place_and_orders,
 )
-WRONG = Section(
-    Row("findings_in_words", rows_of(_finding_rows), "1"),
+WRONG: Section[tuple[Audited | Subject, Sequence[AuditFinding]]] = Section(
+    Row("findings_in_words", rows_of(_finding_rows), lambda x: x[1]),
     title=lambda x, d: place_and_orders(x[0], d),
 )
-SUMMARY = Section(
+SUMMARY: Section[Sequence[Audited]] = Section(
     Row("tables", COUNT, len), Row("wrong", COUNT, _errors), Row("unread", COUNT, _unread)
 )
 REPORT: Report[Audit] = Report.only(
@@ -155,9 +155,9 @@ REPORT: Report[Audit] = Report.only(
     "report of gark audit",
     Section(
         answer(_answer),
-        Row("tables", parts(TABLE), level=DETAIL),
-        Row("wrong_tables", shown(WRONG, MOST), "wrong", label="tables", is_short=True),
-        Row("summary", part(SUMMARY), "tables", DATA),
+        Row("tables", parts(TABLE), lambda x: x.tables, DETAIL),
+        Row("wrong_tables", shown(WRONG, MOST), lambda x: x.wrong, label="tables", is_short=True),
+        Row("summary", part(SUMMARY), lambda x: x.tables, DATA),
     ),
 )
 
@@ -184,7 +184,7 @@ def _told(
     return REPORT.render([audit], format, paint, verbosity, width=width)
 
 
-def _github(tables: Sequence[Audited], *_: Any) -> str:
+def _github(tables: Sequence[Audited], *_: object) -> str:
     """A workflow command for each finding, and the text for the log."""
     told = "".join(f"{x}\n" for x in [annotation(x) for x in _findings(tables)])
     return told + commands_off(_told(tables, verbosity=-1))

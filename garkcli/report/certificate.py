@@ -7,8 +7,8 @@ the format. That of a rounded method proves that one within its rounding has the
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from typing import TYPE_CHECKING, Any, TypeAlias
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeAlias, TypeVar
 
 from flint import fmpq, fmpq_poly
 
@@ -32,20 +32,31 @@ from garkcli.reason import NO_REASON
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.stages import StageSpace
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Kind, Level, Row, Section, maybe, optional
+from garkcli.tell.facts import Json, Kind, Level, Row, Rows, Section, maybe, optional, via
 from garkcli.tell.kinds import COUNT, INDEX, POSITION, TEXT, TREE, TRUTH, choice, order_answer
-from garkcli.tell.parts import part, parts, rows_of, told
+from garkcli.tell.parts import SAID, part, parts, rows_of, told
 from garkcli.tell.report import Report
 from garkcli.version import __version__
 
 if TYPE_CHECKING:
-    from garkcli.check.existing import ExistenceProof
+    from garkcli.check.existing import ExistenceProof, PrintedNumber
+    from garkcli.ntrees.tree import Tree
+    from garkcli.order.certificate import Witness
+    from garkcli.tableau.tableau import Colour, Tableau
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 DIGITS_OF_ROOT = 100
 """Decimal places of the interval that says which root θ is."""
-In: TypeAlias = "tuple[Any, int]"
-"""A part of a tableau over a field of some degree."""
+P = TypeVar("P")
+Block: TypeAlias = "tuple[tuple[int, int], Sequence[Sequence[Number]]]"
+"""The space and the colour that it is between, and its entries."""
+
+
+class In(NamedTuple, Generic[P]):
+    """A part of a tableau over a field of some degree."""
+
+    part: P
+    degree: int
 
 
 # for people
@@ -121,79 +132,92 @@ def _numbers(found: Iterable[Number], degree: int) -> list[str | list[str]]:
 RATIONAL: S.Schema = {"type": "string", "pattern": r"^-?\d+(/\d+)?$"}
 NUMBER: S.Schema = S.one_of(RATIONAL, S.array(RATIONAL))
 """A rational number, or the coordinates of one of ℚ(θ)."""
-RATIONALS = Kind(S.array(RATIONAL))
-NUMBERS = Kind(S.array(NUMBER))
-FIELD = Section(
+RATIONALS: Kind[Sequence[str]] = Kind(Json(S.array(RATIONAL)))
+NUMBERS: Kind[object] = Kind(Json(S.array(NUMBER)))
+ROWS: Kind[object] = Kind(Json(S.array(S.array(NUMBER))))
+ARITY: Kind[Sequence[int]] = Kind(Json(S.array(S.one_of({"enum": [0, 1, 2]}))))
+VALUE: Kind[object] = Kind(Json(NUMBER))
+REQUIRED: Kind[str] = Kind(Json(RATIONAL))
+FIELD: Section[NumberField] = Section(
     Row("modulus", RATIONALS, lambda x: _texts(x.modulus)),
     Row("theta_between", RATIONALS, _theta_between),
 )
-SPACE = Section(
-    Row("stages", POSITION),
-    optional("modulus", RATIONALS, _modulus),
-    optional("between_nodes", RATIONALS, _between),
+STAGES: Row[StageSpace] = Row("stages", POSITION, lambda x: x.stages)
+SPACE: Section[StageSpace] = Section(
+    STAGES, optional("modulus", RATIONALS, _modulus), optional("between_nodes", RATIONALS, _between)
 )
-VERTICES = Section(
-    Row("branches", Kind(S.array(S.one_of({"enum": [0, 1, 2]}))), lambda kind: sorted(kind.arity)),
-    Row("weight", POSITION, "weight"),
-    Row("in_solution", TRUTH, "is_exact"),
+VERTICES: Section[VertexKind] = Section(
+    Row("branches", ARITY, lambda x: sorted(x.arity)),
+    Row("weight", POSITION, lambda x: x.weight),
+    Row("in_solution", TRUTH, lambda x: x.is_exact),
 )
 
 
-def _own_kind(colour: In) -> VertexKind | None:
+def _own_kind(colour: Colour) -> VertexKind | None:
     """The kind of vertices where the key ``linear`` does not say it."""
-    kind: VertexKind = colour[0].kind
-    return None if kind in FIELDS else kind
+    return None if colour.kind in FIELDS else colour.kind
 
 
-COLOUR = Section(
-    Row("name", TEXT, "0.name"),
-    Row("space", INDEX, "0.space"),
-    Row("drives", choice("y", "q", "p"), "0.part"),
-    Row("linear", TRUTH, "0.is_linear"),
+OF_COLOUR: Rows[Colour] = (
+    Row("name", TEXT, lambda x: x.name),
+    Row("space", INDEX, lambda x: x.space),
+    Row("drives", choice("y", "q", "p"), lambda x: x.part),
+    Row("linear", TRUTH, lambda x: x.is_linear),
     optional("vertices", part(VERTICES), _own_kind),
-    Row("b", NUMBERS, lambda x: _numbers(x[0].b, x[1])),
 )
-BLOCK = Section(
-    Row("space", INDEX, "0.0.0"),
-    Row("colour", INDEX, "0.0.1"),
-    Row("A", Kind(S.array(S.array(NUMBER))), lambda x: [_numbers(row, x[1]) for row in x[0][1]]),
+OF_BLOCK: Rows[Block] = (
+    Row("space", INDEX, lambda x: x[0][0]),
+    Row("colour", INDEX, lambda x: x[0][1]),
 )
-WITNESS = Section(
-    Row("tree", TREE, "0.tree"),
-    Row("value", Kind(NUMBER), lambda x: _number(x[0].value, x[1])),
-    Row("required", Kind(RATIONAL), lambda x: str(x[0].required)),
+COLOUR: Section[In[Colour]] = Section(
+    via(lambda x: x.part, OF_COLOUR), Row("b", NUMBERS, lambda x: _numbers(x.part.b, x.degree))
+)
+BLOCK: Section[In[Block]] = Section(
+    via(lambda x: x.part, OF_BLOCK),
+    Row("A", ROWS, lambda x: [_numbers(row, x.degree) for row in x.part[1]]),
+)
+WITNESS: Section[In[Witness]] = Section(
+    Row("tree", TREE, lambda x: x.part.tree),
+    Row("value", VALUE, lambda x: _number(x.part.value, x.degree)),
+    Row("required", REQUIRED, lambda x: str(x.part.required)),
 )
 
 
-def _all(get: Callable[[Any], Iterable[Any]]) -> Callable[[Any], list[In]]:
+def _blocks(tableau: Tableau) -> list[Block]:
+    return sorted(tableau.blocks.items())
+
+
+def _all(found: Iterable[P], tableau: Tableau) -> list[In[P]]:
     """Parts of a tableau with the degree of its numbers."""
-    return lambda proof: [(x, proof.tableau.degree) for x in get(proof.tableau)]
+    return [In(x, tableau.degree) for x in found]
 
 
-def _witness(proof: Proof) -> In | None:
+def _witness(proof: Proof) -> In[Witness] | None:
     """The tree that fails; None where the search ended at its limit."""
     witness = proof.order.witness
-    return None if witness is None else (witness, proof.tableau.degree)
+    return None if witness is None else In(witness, proof.tableau.degree)
 
 
-TREES = Kind(
-    S.array(S.array(S.array(S.TEXT))),
-    lambda spanning, _: [
-        [[format_tree(tree) for tree in trees] for trees in by_colour] for by_colour in spanning
-    ],
+TREES: Kind[Sequence[Sequence[Sequence[Tree]]]] = Kind(
+    Json(
+        S.array(S.array(S.array(S.TEXT))),
+        lambda spanning, _: [
+            [[format_tree(tree) for tree in trees] for trees in by_colour] for by_colour in spanning
+        ],
+    )
 )
-TRUE_OF = [
-    Row("order", COUNT, "order.order", DATA),
-    Row("spanning", TREES, level=DATA),
+TRUE_OF: Rows[Proof] = [
+    Row("order", COUNT, lambda x: x.order.order, DATA),
+    Row("spanning", TREES, lambda x: x.spanning, DATA),
     maybe("witness", part(WITNESS), _witness, DATA),
-    Row("spanning_in_words", rows_of(_tree_rows), ".", DETAIL),
+    Row("spanning_in_words", rows_of(_tree_rows), lambda x: x, DETAIL),
 ]
-TRUTH_OF = Section(*TRUE_OF)
-PROOF = Section(
-    Row("spaces", parts(SPACE), "tableau.spaces", DATA),
-    Row("colours", parts(COLOUR), _all(lambda tableau: tableau.colours), DATA),
-    Row("blocks", parts(BLOCK), _all(lambda tableau: sorted(tableau.blocks.items())), DATA),
-    *TRUE_OF,
+TRUTH_OF = Section(TRUE_OF)
+PROOF: Section[Proof] = Section(
+    Row("spaces", parts(SPACE), lambda x: x.tableau.spaces, DATA),
+    Row("colours", parts(COLOUR), lambda x: _all(x.tableau.colours, x.tableau), DATA),
+    Row("blocks", parts(BLOCK), lambda x: _all(_blocks(x.tableau), x.tableau), DATA),
+    TRUE_OF,
 )
 
 
@@ -202,15 +226,15 @@ def _pair(proof: MethodProof) -> Proof | None:
     return None if proof.conjugate is None else proof.pair
 
 
-EXACT = Section(
-    Row("name", TEXT, level=DATA),
+EXACT: Section[MethodProof] = Section(
+    Row("name", TEXT, lambda x: x.name, DATA),
     Row("version", TEXT, lambda _: __version__, DATA),
-    maybe("field", part(FIELD), "method.tableau.field", DATA),
-    Row("order", told(_proved), "method", HEADLINE),
-    Row("conjugate_order", told(_proved), "conjugate"),
-    Row("pair_order", told(_proved), "pair"),
-    Row("method", part(PROOF), level=DETAIL),
-    optional("conjugate", part(PROOF), level=DETAIL),
+    maybe("field", part(FIELD), lambda x: x.method.tableau.field, DATA),
+    Row("order", told(_proved), lambda x: x.method, HEADLINE),
+    Row("conjugate_order", told(_proved), lambda x: x.conjugate),
+    Row("pair_order", told(_proved), lambda x: x.pair),
+    Row("method", part(PROOF), lambda x: x.method, DETAIL),
+    optional("conjugate", part(PROOF), lambda x: x.conjugate, DETAIL),
     optional("pair", part(TRUTH_OF), _pair, DETAIL),
     optional("no_conjugate", TEXT, lambda x: str(x.obstacle) or None),
     title=lambda x, d: d.prose(x.name),
@@ -252,48 +276,60 @@ DECIMAL: S.Schema = {"type": "string", "pattern": r"^-?\d+([/.]\d+)?$"}
 """A rational number, also in decimals."""
 MADE: S.Schema = S.one_of(DECIMAL, {"type": "integer"}, {"type": "array"})
 """How an entry is made: a rational number, the number of a printed one, or [sign, one, other]."""
-SHORT = Kind(DECIMAL, lambda x, _: rational_text(x))
-SHORTS = Kind(S.array(DECIMAL), lambda row, _: [rational_text(x) for x in row])
-PRINTED = Section(
-    Row("printed", SHORT), Row("radius", SHORT), Row("centre", SHORT), Row("width", SHORT)
+SHORT: Kind[fmpq] = Kind(Json(DECIMAL, lambda x, _: rational_text(x)))
+SHORTS: Kind[Sequence[fmpq]] = Kind(
+    Json(S.array(DECIMAL), lambda row, _: [rational_text(x) for x in row])
 )
-OF_COLOUR = Section(
-    *COLOUR.rows[:-1], Row("b", Kind(S.array(MADE)), lambda x: [made_of(a) for a in x[0].b])
+ENTRIES: Kind[Sequence[Number]] = Kind(
+    Json(S.array(MADE), lambda row, _: [made_of(x) for x in row])
 )
-OF_BLOCK = Section(
-    *BLOCK.rows[:2],
-    Row("A", Kind(S.array(S.array(MADE))), lambda x: [[*map(made_of, row)] for row in x[0][1]]),
+MATRIX: Kind[Sequence[Sequence[Number]]] = Kind(
+    Json(S.array(S.array(MADE)), lambda rows, _: [[made_of(x) for x in row] for row in rows])
 )
-CONDITION = Section(Row("tree", TREE, "0"), Row("W", SHORTS, "1"))
-FACTOR = Section(Row("tree", TREE, "0"), Row("factor", SHORT, "1"))
-EXISTING = Section(
-    Row("spaces", parts(Section(SPACE.rows[0])), "tableau.spaces", DATA),
-    Row("colours", parts(OF_COLOUR), _all(lambda tableau: tableau.colours), DATA),
-    Row("blocks", parts(OF_BLOCK), _all(lambda tableau: sorted(tableau.blocks.items())), DATA),
-    Row("order", COUNT, "order.order", DATA),
-    Row("conditions", parts(CONDITION), level=DATA),
-    maybe("witness", parts(FACTOR), level=DATA),
+PRINTED: Section[PrintedNumber] = Section(
+    Row("printed", SHORT, lambda x: x.printed),
+    Row("radius", SHORT, lambda x: x.radius),
+    Row("centre", SHORT, lambda x: x.centre),
+    Row("width", SHORT, lambda x: x.width),
 )
-WITHIN = Section(
-    Row("name", TEXT, level=DATA),
+TRACED_COLOUR: Section[Colour] = Section(OF_COLOUR, Row("b", ENTRIES, lambda x: x.b))
+TRACED_BLOCK: Section[Block] = Section(OF_BLOCK, Row("A", MATRIX, lambda x: x[1]))
+CONDITION: Section[tuple[Tree, tuple[fmpq, ...]]] = Section(
+    Row("tree", TREE, lambda x: x[0]), Row("W", SHORTS, lambda x: x[1])
+)
+FACTOR: Section[tuple[Tree, fmpq]] = Section(
+    Row("tree", TREE, lambda x: x[0]), Row("factor", SHORT, lambda x: x[1])
+)
+EXISTING: Section[ExistenceProof] = Section(
+    Row("spaces", parts(Section(STAGES)), lambda x: x.tableau.spaces, DATA),
+    Row("colours", parts(TRACED_COLOUR), lambda x: x.tableau.colours, DATA),
+    Row("blocks", parts(TRACED_BLOCK), lambda x: _blocks(x.tableau), DATA),
+    Row("order", COUNT, lambda x: x.order.order, DATA),
+    Row("conditions", parts(CONDITION), lambda x: x.conditions, DATA),
+    maybe("witness", parts(FACTOR), lambda x: x.witness, DATA),
+)
+WITHIN: Section[ExistenceProof] = Section(
+    Row("name", TEXT, lambda x: x.name, DATA),
     Row("version", TEXT, lambda _: __version__, DATA),
-    Row("order", told(_exists), ".", HEADLINE),
-    Row("excluded", told(lambda text, d: d.prose(text)), _excluded, label="next order"),
-    Row("numbers", parts(PRINTED), level=DATA),
-    Row("method", part(EXISTING), ".", DATA),
-    Row("spanning_in_words", rows_of(_condition_rows), ".", DETAIL),
+    Row("order", told(_exists), lambda x: x, HEADLINE),
+    Row("excluded", SAID, _excluded, label="next order"),
+    Row("numbers", parts(PRINTED), lambda x: x.numbers, DATA),
+    Row("method", part(EXISTING), lambda x: x, DATA),
+    Row("spanning_in_words", rows_of(_condition_rows), lambda x: x, DETAIL),
     title=lambda x, d: d.prose(x.name),
 )
 
-REPORT: Report[Any] = Report(
-    "gark/certificate/1",
-    "certificate of gark certificate",
-    lambda: [EXACT, WITHIN],
-    lambda proof: EXACT if isinstance(proof, MethodProof) else WITHIN,
-    key="",
+
+def form(proof: MethodProof | ExistenceProof) -> Section[Any]:
+    """The rows of a proof."""
+    return EXACT if isinstance(proof, MethodProof) else WITHIN
+
+
+REPORT: Report[MethodProof | ExistenceProof] = Report(
+    "gark/certificate/1", "certificate of gark certificate", lambda: [EXACT, WITHIN], form, key=""
 )
 
 
-def whole(proof: Any, _: str) -> Any:
-    """What the report says of a proof, which has a name."""
+def whole(proof: MethodProof | ExistenceProof, _: str) -> MethodProof | ExistenceProof:
+    """The proof, which has a name."""
     return proof

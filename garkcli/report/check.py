@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from operator import attrgetter
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING, Literal, NamedTuple, Protocol, TypeAlias, TypedDict, TypeVar
 
 from garkcli.check.findings import (
     BOUND,
@@ -17,7 +16,7 @@ from garkcli.check.findings import (
 from garkcli.check.findings import CLAIM as CLAIM_CURE
 from garkcli.check.pair_reasons import pair_reason, rule_reasons
 from garkcli.errors import counted
-from garkcli.exact.display import decimal, plain_decimal, to_float
+from garkcli.exact.display import decimal, plain_decimal, to_float, to_text
 from garkcli.frozen import replace
 from garkcli.ntrees.drawing import draw_text
 from garkcli.ntrees.notation import format_tree
@@ -29,23 +28,118 @@ from garkcli.properties.registry import KEYS, find
 from garkcli.reason import NO_REASON, Place, Reason, joined
 from garkcli.report.failure import FAULT
 from garkcli.tell import kinds
-from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, maybe, optional, via
+from garkcli.tell.facts import (
+    Answer,
+    Json,
+    Kind,
+    Level,
+    Row,
+    Rows,
+    Section,
+    Several,
+    Status,
+    maybe,
+    optional,
+    via,
+)
 from garkcli.tell.parts import part, parts, picture, rows_of, told
+from garkcli.tell.shown import Parts, Words
 
 if TYPE_CHECKING:
+    from flint import fmpq
+
+    from garkcli.catalogue.known import Known
+    from garkcli.check.analysis import Analysis
     from garkcli.check.every_family import EveryFamily
+    from garkcli.check.further import DenseFacts
+    from garkcli.check.outcome import Claim, Outcome
+    from garkcli.check.remark import Remark
+    from garkcli.exact.field import Number
     from garkcli.ntrees.tree import Tree
-    from garkcli.order.dense import DenseOrder
+    from garkcli.order.blame import Blame
+    from garkcli.order.certificate import Witness
+    from garkcli.order.constants import ErrorConstants, Norms
+    from garkcli.order.deciding import AnyOrder
+    from garkcli.order.dense import DenseOrder, DenseWitness
+    from garkcli.order.functionals import Estimator
+    from garkcli.order.nearness import Entry, Nearness
+    from garkcli.order.repair import Repair
+    from garkcli.order.simplifying import Simplifying
+    from garkcli.order.sums import WrongSum
     from garkcli.properties.pattern import Shape
+    from garkcli.properties.property import Verdict
+    from garkcli.tableau.tableau import Colour, Tableau
     from garkcli.tell.dialect import Plain
+    from garkcli.tell.shown import Wording
 
 HEADLINE, USUAL, DETAIL, DATA = Level
+V = TypeVar("V", bound="bool | int | Size")
+Edge: TypeAlias = "tuple[int, int]"
+Failing: TypeAlias = "tuple[Witness, Tableau]"
+"""A condition that fails, with the tableau that misses it."""
+
+
+class HasVerdicts(Protocol):
+    """Decides properties of a method."""
+
+    def verdict(self, key: str, /) -> Verdict:
+        """What is true of a property."""
+
+
+class Judged(Protocol):
+    """An analysis that decides properties."""
+
+    @property
+    def subject(self) -> HasVerdicts:
+        """The method."""
+
+    @property
+    def tolerance(self) -> fmpq | None:
+        """The rounding of its coefficients."""
+
+
+class Analysed(Protocol):
+    """An analysis of a method."""
+
+    @property
+    def tableau(self) -> Tableau:
+        """Of the method."""
+
+    @property
+    def tolerance(self) -> fmpq | None:
+        """The rounding of its coefficients."""
+
+
+class Viewed(Analysed, Protocol):
+    """An analysis with an order for each claim."""
+
+    def view(self, claim: str, /) -> tuple[AnyOrder, Tableau] | None:
+        """The order that a claim is on, with the tableau that has it."""
+
+
+class Estimating(Protocol):
+    """Facts about embedded weights."""
+
+    @property
+    def estimator(self) -> Estimator:
+        """The estimate of the error that they give."""
+
+
+class HasEmbedded(Protocol):
+    """An analysis of a method that may have embedded weights."""
+
+    @property
+    def embedded(self) -> Estimating | None:
+        """Facts about these."""
+
+
+OfOtherKind = TypeVar("OfOtherKind", bound=Viewed)
 
 
 # the method
 
 
-def stages_text(tableau: Any) -> str:
+def stages_text(tableau: Tableau) -> str:
     """``4 stages``; ``2 colours, 2 + 3 stages``; of many colours their sum.
 
     The stages of a colour are those at which its vector field is evaluated: those of q drive q.
@@ -62,28 +156,34 @@ def stages_text(tableau: Any) -> str:
     return stages if len(counts) == 1 else f"{len(counts)} colours, {stages}"
 
 
-def _shape_words(shape: Shape, tolerance: Any, d: Plain) -> str:
+def _shape_words(shape: Shape, tolerance: fmpq | None, d: Plain) -> str:
     """``ESDIRK within 1e-9``: equal entries that are not zero are so within the rounding."""
     return d.known(shape.name, Status(tolerance if shape.singly else None))
 
 
-def _method_phrase(_: str, answer: Answer, d: Plain) -> str:
+def _method_phrase(_: str, answer: Answer[Outcome], d: Plain) -> str:
     """``explicit, 4 stages``."""
-    outcome = answer.value
+    assert answer.value is not None
+    return _method_in_short(answer.value, d)
+
+
+def _method_in_short(outcome: Outcome, d: Plain) -> str:
+    found = outcome.analysis or outcome.every
+    assert found is not None
     structure = "" if outcome.structure == "general" else f"for {outcome.structure} problems, "
     kind = ""
-    if outcome.every is None:
+    if outcome.analysis is not None:
         a = outcome.analysis
         kind = f"{_shape_words(a.subject.shape, a.tolerance, d)}, "
-    return f"{structure}{kind}{stages_text(outcome.found.tableau)}"
+    return f"{structure}{kind}{stages_text(found.tableau)}"
 
 
-def _method_words(outcome: Any, d: Plain) -> str:
-    text = _method_phrase("", Answer(outcome), d)
-    return text if outcome.every is not None else with_arithmetic(text, outcome.analysis)
+def _method_words(outcome: Outcome, d: Plain) -> str:
+    text = _method_in_short(outcome, d)
+    return text if outcome.analysis is None else with_arithmetic(text, outcome.analysis)
 
 
-def with_arithmetic(text: str, a: Any) -> str:
+def with_arithmetic(text: str, a: Analysed) -> str:
     """A method in words, with the numbers that its orders are decided in."""
     if a.tolerance is not None:
         return f"{text}; coefficients rounded"
@@ -92,11 +192,11 @@ def with_arithmetic(text: str, a: Any) -> str:
     return f"{text}; decided in {field}"
 
 
-def viewed_order(key: str, level: Any = Level.USUAL, label: str = "") -> Row:
+def viewed_order(key: str, level: Level = USUAL, label: str | None = None) -> Row[Viewed]:
     """An order of an analysis with a ``view`` for each claim."""
     claim = key.replace("_", "-")
 
-    def get(a: Any) -> Answer:
+    def get(a: Viewed) -> Answer[AnyOrder]:
         view = a.view(claim)
         if view is None:
             return Answer(None)
@@ -104,27 +204,33 @@ def viewed_order(key: str, level: Any = Level.USUAL, label: str = "") -> Row:
         names = [x.name for x in tableau.colours] if tableau.size > 1 else []
         return replace(kinds.order_answer(order), names=names)
 
-    return Row(key, kinds.ORDER, get, level, has_null=key != "order", label=label or None)
+    return Row(key, kinds.ORDER, get, level, has_null=key != "order", label=label)
 
 
-def failing(*claims: str) -> Callable[[Any], list[tuple[Any, Any]]]:
-    """The trees at which the orders of some claims end, each with its tableau."""
+def failing(*claims: str) -> Row[Viewed]:
+    """The trees at which the orders of some claims end, each with its tableau, drawn."""
 
-    def get(a: Any) -> list[tuple[Any, Any]]:
-        views = filter(None, map(a.view, claims))
-        found: list[tuple[Any, Any]] = []
-        for order, tableau in views:
-            if order.witness and order.witness not in [x for x, _ in found]:
-                found.append((order.witness, tableau))
-        return found
+    def get(a: Viewed) -> list[Failing]:
+        return each_once(view for view in map(a.view, claims) if view is not None)
 
-    return get
+    return Row("trees_that_fail", picture(drawn), get, DETAIL)
 
 
-METHOD = Row("method", told(_method_words, _method_phrase), ".", line="method")
+def each_once(views: Iterable[tuple[AnyOrder, Tableau]]) -> list[Failing]:
+    """The conditions at which orders end, each once, with the tableau that misses it."""
+    found: list[Failing] = []
+    for order, tableau in views:
+        if order.witness and order.witness not in [x for x, _ in found]:
+            found.append((order.witness, tableau))
+    return found
 
 
-def title(outcome: Any, d: Plain) -> str:
+METHOD: Row[Outcome] = Row(
+    "method", told(_method_words, _method_phrase), lambda x: x, line="method"
+)
+
+
+def title(outcome: Outcome, d: Plain) -> str:
     """What a report is about."""
     name = d.prose(outcome.file or outcome.name)
     if outcome.every is None:
@@ -150,54 +256,43 @@ def _some(names: Sequence[str], most: int = 8) -> str:
 # orders
 
 
-def order(key: str, of: Callable[[Any], Any], level: Any = USUAL) -> Row:
-    """An order of a method."""
-    return Row(
-        key, kinds.ORDER, lambda a: kinds.order_answer(of(a)), level, has_null=key != "order"
-    )
-
-
-def of_several(key: str) -> Row:
+def of_several(key: str, get: Callable[[Analysis], AnyOrder | None]) -> Row[Analysis]:
     """The order of the conjugate or the pair: usual where a method has several colours."""
 
-    def get(a: Any) -> Answer:
-        answer = kinds.order_answer(getattr(a, key))
+    def answer(a: Analysis) -> Answer[AnyOrder]:
+        answer = kinds.order_answer(get(a))
         is_told = a.tableau.size > 1 and (answer.value or key == "conjugate_order")
         level = USUAL if is_told else DETAIL  # there is no pair where there is no conjugate
-        return replace(
-            answer, reason=a.obstacle if answer.value is None else NO_REASON, level=level
-        )
+        reason = a.obstacle if answer.value is None else NO_REASON
+        return replace(answer, reason=reason, level=level)
 
-    return maybe(key, kinds.ORDER, get)
+    return maybe(key, kinds.ORDER, answer)
 
 
-def _pair_in_brief(a: Any) -> Answer:
+def _pair_in_brief(a: Analysis) -> Answer[AnyOrder]:
     """For one colour that is not symplectic, in a part of a sentence."""
     is_told = a.tableau.size == 1 and a.pair_order is not None and not a.symplectic
     return replace(kinds.order_answer(a.pair_order), level=USUAL if is_told else DATA)
 
 
-def with_time(key: str, of: Callable[[Any], Any]) -> Row:
+def with_time(key: str, get: Callable[[Analysis], AnyOrder | None]) -> Row[Analysis]:
     """The order on problems with time, told where the nodes are not the row sums."""
 
-    def get(a: Any) -> Answer:
+    def answer(a: Analysis) -> Answer[AnyOrder]:
         level = USUAL if a.inconsistent else DETAIL
-        return replace(kinds.order_answer(of(a)), level=level)
+        return replace(kinds.order_answer(get(a)), level=level)
 
-    return maybe(key, kinds.ORDER, get)
-
-
-def witnesses(a: Any) -> list[tuple[Any, Any]]:
-    """The conditions at which orders end, each once, with the tableau that misses it."""
-    found: list[tuple[Any, Any]] = []
-    for claim in ("order", "conjugate-order", "pair-order", "embedded-order"):
-        order, tableau = order_of(a, claim)
-        if order and order.witness and order.witness not in [x for x, _ in found]:
-            found.append((order.witness, tableau))
-    return found
+    return maybe(key, kinds.ORDER, answer)
 
 
-def drawn(found: Any, d: Plain) -> list[str]:
+def witnesses(a: Analysis) -> list[Failing]:
+    """The conditions at which the orders of a method end."""
+    claims = ("order", "conjugate-order", "pair-order", "embedded-order")
+    views = (order_of(a, claim) for claim in claims)
+    return each_once((order, tableau) for order, tableau in views if order and tableau)
+
+
+def drawn(found: Sequence[Failing], d: Plain) -> list[str]:
     """Trees with the values of their conditions."""
     lines = []
     room = d.width - 2
@@ -221,64 +316,70 @@ def named_colours(tree: Tree, names: Sequence[str]) -> str:
 # B, C, D and the bounds
 
 
-def tables(letter: str) -> Row:
+def table(
+    letter: str,
+    kind: Kind[kinds.Table],
+    rows: Callable[[Simplifying], Sequence[Sequence[int | None]]],
+) -> Row[Analysis]:
     """B, C or D of all blocks."""
-    kind = kinds.ROW_OF_COUNTS if letter == "B" else kinds.TABLE
-    return Row(
-        letter,
-        kind,
-        lambda a: Answer(
-            kinds.Table(getattr(a.simplifying, letter), a.simplifying.limit), Status(a.tolerance)
-        ),
-        DETAIL,
-    )
+
+    def get(a: Analysis) -> Answer[kinds.Table]:
+        found = kinds.Table(rows(a.simplifying), a.simplifying.limit)
+        return Answer(found, Status(a.tolerance))
+
+    return Row(letter, kind, get, DETAIL)
 
 
-def bound(number: str, simple: str, formula: str) -> Callable[[Any], Any]:
+def bound(a: Analysis, is_sharp: bool, is_of_pair: bool = False) -> Answer[int] | None:
     """A bound of the order, from what it is made."""
-
-    def get(a: Any) -> Any:
-        whose = a.pair_simplifying if number.startswith("pair") else a.simplifying
-        value = getattr(a, number)
-        if value is None or whose is None:
-            return None
-        computed = getattr(whose, simple)
-        doubt = f"; {computed} is not decided within the tolerance" if computed != value else ""
-        return Answer(
-            value,
-            Status(a.tolerance, whose.is_open(computed)),
-            Reason(f"{formula} with {bound_numbers(whose)}{doubt}"),
-        )
-
-    return get
+    whose = a.pair_simplifying if is_of_pair else a.simplifying
+    value = a.pair_bound if is_of_pair else a.bound
+    if is_sharp:
+        value = a.pair_sharp_bound if is_of_pair else a.sharp_bound
+    if value is None or whose is None:
+        return None
+    computed, formula = whose.bound, BOUND
+    if is_sharp:
+        computed, formula = whose.sharp_bound, SHARP_BOUND
+    doubt = f"; {computed} is not decided within the tolerance" if computed != value else ""
+    reason = Reason(f"{formula} with {bound_numbers(whose)}{doubt}")
+    return Answer(value, Status(a.tolerance, whose.is_open(computed)), reason)
 
 
-def pair_criterion(a: Any) -> Any:
-    """Why the pair has its order, by B, C, D and the even condition."""
+def pair_criterion(a: Analysis) -> Answer[int] | None:
+    """The order of the pair by B, C, D and the even condition."""
     found = pair_reason(a)
     if found is None:
         return None
     return Answer(found.order, Status(a.tolerance, not found.is_sharp), Reason(found.text))
 
 
-def pair_criterion_why(a: Any) -> list[str]:
-    """The same for programs."""
+def pair_criterion_why(a: Analysis) -> list[str]:
+    """The parts of that reason."""
     found = pair_reason(a)
     return [] if found is None else [*found.parts]
 
 
-def _simplifying_phrase(_: str, answer: Answer, d: Plain) -> str:
+def _simplifying_phrase(_: str, answer: Answer[Analysis], d: Plain) -> str:
     """``B(4), C(1), D(1) give at least order 3``."""
-    a, found = answer.value, answer.value.simplifying
+    a = answer.value
+    assert a is not None
+    found = a.simplifying
     numbers = (("B", found.r), ("C", found.eta), ("D", found.zeta))
     said = ", ".join(f"{letter}({d.capped(x, found.limit)})" for letter, x in numbers)
     return d.known(f"{said} give at least order {a.bound}", Status(a.tolerance))
 
 
-SIMPLIFYING = Section(
-    *map(tables, "BCD"),
-    *(Row(x, kinds.COUNT, f"simplifying.{x}", DATA) for x in ("r", "eta", "zeta", "xi", "chi")),
-    Row("bound", kinds.COUNT, bound("bound", "bound", BOUND), DETAIL),
+SIMPLIFYING: Section[Analysis] = Section(
+    table("B", kinds.ROW_OF_COUNTS, lambda x: [x.B]),
+    table("C", kinds.TABLE, lambda x: x.C),
+    table("D", kinds.TABLE, lambda x: x.D),
+    Row("r", kinds.COUNT, lambda a: a.simplifying.r, DATA),
+    Row("eta", kinds.COUNT, lambda a: a.simplifying.eta, DATA),
+    Row("zeta", kinds.COUNT, lambda a: a.simplifying.zeta, DATA),
+    Row("xi", kinds.COUNT, lambda a: a.simplifying.xi, DATA),
+    Row("chi", kinds.COUNT, lambda a: a.simplifying.chi, DATA),
+    Row("bound", kinds.COUNT, lambda a: bound(a, is_sharp=False), DETAIL),
     optional(
         "limit",
         kinds.COUNT,
@@ -295,34 +396,30 @@ MOST_ROWS = 3
 """More that do not sum to their nodes are counted."""
 
 
-def wrong(found: Sequence[Any], letter: str, within: Any) -> Answer:
+def wrong(found: Sequence[Edge], letter: str, within: fmpq | None) -> Answer[bool]:
     """Whether the nodes are the row sums."""
 
-    def words(found: Any, d: Plain) -> str:
+    def words(found: Sequence[Edge], d: Plain) -> str:
         return d.few([d.block(letter, edge) + d.prose("𝟙") for edge in found])
 
-    blocks = Kind({}, words=words)
     verb = "differs" if len(found) == 1 else "differ"
-    return Answer(
-        not found,
-        Status(within),
-        Reason(f"{{}} {verb} from c", blocks(found)) if found else NO_REASON,
-    )
+    reason = Reason(f"{{}} {verb} from c", told(words)(found)) if found else NO_REASON
+    return Answer(not found, Status(within), reason)
 
 
-def consistent(a: Any) -> Answer:
-    """The same of the method, told where they are not."""
+def consistent(a: Analysis) -> Answer[bool]:
+    """Whether those of the method are, told where they are not."""
     answer = wrong(a.inconsistent, "A", a.tolerance)
     if rows := a.wrong_rows:
         names = [colour.name for colour in a.tableau.colours]
         more = f"; and {len(rows) - MOST_ROWS} more" if len(rows) > MOST_ROWS else ""
-        told = joined("; ", [sum_text(x, names) for x in rows[:MOST_ROWS]])
-        answer = replace(answer, reason=Reason(f"{{}}: {{}}{more}", answer.reason, told))
+        sums = joined("; ", [sum_text(x, names) for x in rows[:MOST_ROWS]])
+        answer = replace(answer, reason=Reason(f"{{}}: {{}}{more}", answer.reason, sums))
     return replace(answer, level=USUAL if a.inconsistent else DETAIL)
 
 
-def conjugate_consistent(a: Any) -> Any:
-    """The same of the conjugate of several colours."""
+def conjugate_consistent(a: Analysis) -> Answer[bool] | None:
+    """Whether those of the conjugate are, told of several colours."""
     if a.conjugate is None:
         return None
     is_told = a.conjugate_inconsistent and a.tableau.size > 1
@@ -339,19 +436,20 @@ there, or are undecided.
 """
 
 
-def within(a: Any, key: str) -> Any:
+def within(a: Judged, key: str) -> fmpq | None:
     """The rounding within which a method has a property; None for exactly, or for none."""
     return rounding(key, a.subject.verdict(key).value, a.tolerance)
 
 
-def rounding(key: str, value: object, tolerance: Any) -> Any:
-    """The same of the value of a property."""
+def rounding(key: str, value: object, tolerance: fmpq | None) -> fmpq | None:
+    """The rounding within which a property has a value."""
     return tolerance if value and key in OF_EQUATIONS else None
 
 
-def verdict_answer(a: Any, key: str) -> Answer:
-    """What is decided of a property."""
+def verdict_answer(a: Analysis, key: str, kind: type[V]) -> Answer[V]:
+    """A property whose values are of a type."""
     v = a.subject.verdict(key)
+    assert v.value is None or isinstance(v.value, kind)
     status = Status(within(a, key), v.is_at_least, v.reason if v.is_undecided else NO_REASON)
     is_told = v.value is not True and not v.is_undecided
     return Answer(v.value, status, v.reason if is_told else NO_REASON)
@@ -369,28 +467,36 @@ WORTH_A_WORD = {
 """Properties that are usually told where they have this value."""
 
 
-def truth(key: str) -> Row:
+def truth(key: str) -> Row[Analysis]:
     """A property that every check decides."""
     worthy, words = WORTH_A_WORD.get(key, (None, ""))
 
-    def phrase(label: str, answer: Answer, d: Plain) -> str:
+    def phrase(label: str, answer: Answer[bool], d: Plain) -> str:
         return d.known(d.prose(words or label), answer.status)
 
-    def get(a: Any) -> Answer:
-        answer = verdict_answer(a, key)
+    def get(a: Analysis) -> Answer[bool]:
+        answer = verdict_answer(a, key, bool)
         is_told = worthy is not None and (answer.value is worthy or bool(answer.status.open))
         return replace(answer, level=USUAL if is_told else DETAIL)
 
-    return maybe(find(key).field, replace(kinds.TRUTH, phrase=phrase), get)
+    kind = Kind(kinds.TRUTH.what, Words(kinds.truth_words, phrase=phrase))
+    return maybe(find(key).field, kind, get)
 
 
-def _names(tableau: Any, space: int) -> list[str]:
+def _names(tableau: Tableau, space: int) -> list[str]:
     return [colour.name for colour in tableau.colours if colour.space == space]
 
 
-def together(a: Any) -> list[Any]:
+class Staged(TypedDict):
+    """Stages of colours, from 1; or how those of polynomials move."""
+
+    colours: list[str]
+    stages: list[int] | Literal["1 - x"]
+
+
+def together(a: Analysis) -> list[list[Staged]]:
     """The stages that are solved together, system by system, space by space."""
-    found = []
+    found: list[list[Staged]] = []
     for system in a.subject.shape.systems:
         by_space: dict[int, list[int]] = {}
         for space, stage in system:
@@ -399,8 +505,8 @@ def together(a: Any) -> list[Any]:
     return found
 
 
-def _systems_words(found: Any, d: Plain) -> str:
-    def whose(x: Any) -> str:
+def _systems_words(found: Sequence[Sequence[Staged]], d: Plain) -> str:
+    def whose(x: Staged) -> str:
         return f" of {d.prose(', '.join(x['colours']))}" if len(d.colours) > 1 else ""
 
     return "; ".join(
@@ -409,7 +515,7 @@ def _systems_words(found: Any, d: Plain) -> str:
     )
 
 
-def renumbering(a: Any) -> list[Any] | None:
+def renumbering(a: Analysis) -> list[Staged] | None:
     """How the stages of a symmetric method are renumbered, space by space."""
     return [
         {
@@ -420,10 +526,10 @@ def renumbering(a: Any) -> list[Any] | None:
     ] or None
 
 
-def _renumbering_words(found: Any, d: Plain) -> str:
-    def one(x: Any) -> str:
+def _renumbering_words(found: Sequence[Staged], d: Plain) -> str:
+    def one(x: Staged) -> str:
         whose = f"{d.prose(', '.join(x['colours']))}: " if len(d.colours) > 1 else ""
-        if x["stages"] == "1 - x":
+        if isinstance(x["stages"], str):
             return whose + d.prose("x → 1 − x")
         moved = [f"{i}↔{j}" for i, j in enumerate(x["stages"], start=1) if i < j]
         return whose + d.prose(f"stages {', '.join(moved)}" if moved else "each stage its own")
@@ -438,13 +544,13 @@ RENUMBERED = kinds.record(
 
 
 class OfColour(NamedTuple):
-    """What a colour is like."""
+    """The shape of a colour, and its stage order within a rounding."""
 
     name: str
     shape: Shape | None
     stage_order: int
     limit: int
-    within: Any
+    within: fmpq | None
 
     @property
     def is_open(self) -> bool:
@@ -452,19 +558,19 @@ class OfColour(NamedTuple):
         return self.stage_order >= self.limit
 
 
-def by_colour(a: Any) -> list[OfColour]:
+def by_colour(a: Analysis) -> list[OfColour]:
     """All colours."""
     names = [colour.name for colour in a.tableau.colours]
     found = zip(names, a.subject.shapes, a.subject.simplifying.stage_orders, strict=True)
     return [OfColour(*x, a.subject.limit, a.tolerance) for x in found]
 
 
-COLOUR = Section(
-    Row("name", kinds.TEXT, level=DATA),
+COLOUR: Section[OfColour] = Section(
+    Row("name", kinds.TEXT, lambda x: x.name, DATA),
     Row(
         "kind",
         kinds.choice("explicit", "diagonally implicit", "fully implicit", None),
-        "shape.kind",
+        lambda x: None if x.shape is None else x.shape.kind,
     ),
     maybe(
         "gamma",
@@ -477,21 +583,26 @@ COLOUR = Section(
 )
 
 
-def whole_number(key: str) -> Callable[[Any], Answer]:
+def whole_number(a: Analysis, key: str) -> Answer[int]:
     """A property that is a whole number, and may be a lower bound."""
-    return lambda a: replace(verdict_answer(a, key), reason=NO_REASON)
+    return replace(verdict_answer(a, key, int), reason=NO_REASON)
 
 
-def count_rows(key: str) -> tuple[Row, ...]:
+def count_rows(key: str) -> Rows[Analysis]:
     """Its number, and in JSON whether that is a lower bound."""
-    field, is_open = find(key).field, lambda a: a.subject.verdict(key).is_at_least or None
+    field = find(key).field
     return (
-        Row(field, kinds.COUNT, whole_number(key), DETAIL),
-        optional(f"{field}_is_lower_bound", kinds.TRUE, is_open, DATA),
+        Row(field, kinds.COUNT, lambda a: whole_number(a, key), DETAIL),
+        optional(
+            f"{field}_is_lower_bound",
+            kinds.TRUE,
+            lambda a: a.subject.verdict(key).is_at_least or None,
+            DATA,
+        ),
     )
 
 
-def colours_apart(a: Any) -> list[OfColour] | None:
+def colours_apart(a: Analysis) -> list[OfColour] | None:
     """The colours, where they are not alike."""
     found = by_colour(a)
     kinds_of = {(x.shape and x.shape.kind, x.stage_order) for x in found}
@@ -510,8 +621,9 @@ def _colours_words(found: Sequence[OfColour], d: Plain) -> str:
     return "; ".join(texts)
 
 
-SYSTEMS = Kind(S.array(S.array(STAGES)), words=_systems_words)
-OWN_ROWS = {
+SYSTEMS = Kind(Json(S.array(S.array(STAGES))), Words(_systems_words))
+MOVED = Kind(Json(S.array(RENUMBERED)), Words(_renumbering_words))
+OWN_ROWS: dict[str, Rows[Analysis]] = {
     "gamma": (
         maybe(
             "gamma",
@@ -520,15 +632,13 @@ OWN_ROWS = {
         ),
     ),
     "implicit-stages": (
-        maybe("implicit_stages", kinds.COUNT, "subject.shape.implicit_stages", DETAIL),
+        maybe("implicit_stages", kinds.COUNT, lambda x: x.subject.shape.implicit_stages, DETAIL),
         Row("solved_together", SYSTEMS, together, DETAIL),
     ),
     "symmetric": (
         truth("symmetric"),
-        maybe(
-            "renumbering", Kind(S.array(RENUMBERED), words=_renumbering_words), renumbering, DETAIL
-        ),
-        Row("symplectic", kinds.TRUTH, level=DATA),
+        maybe("renumbering", MOVED, renumbering, DETAIL),
+        Row("symplectic", kinds.TRUTH, lambda x: x.symplectic, DATA),
     ),
     "stage-order": count_rows("stage-order"),
     "weak-stage-order": count_rows("weak-stage-order"),
@@ -536,16 +646,20 @@ OWN_ROWS = {
 """Properties that are no truths, or that are reported with more than their truth."""
 
 
-def property_rows() -> Iterator[Row]:
+def property_rows() -> Iterator[Row[Analysis]]:
     """Those that every check decides; what linear stability needs is decided where it is asked."""
     for key, file in KEYS.items():
         if file != "stability":
             yield from OWN_ROWS.get(key) or (truth(key),)
 
 
-PROPERTIES = Section(
-    *property_rows(),
-    Row("by_colour", parts(COLOUR), by_colour, lambda x: DETAIL if len(x.value) > 1 else DATA),
+PROPERTIES: Section[Analysis] = Section(
+    property_rows(),
+    Row(
+        "by_colour",
+        parts(COLOUR),
+        lambda a: Answer(by_colour(a), level=DETAIL if a.tableau.size > 1 else DATA),
+    ),
     Row(
         "undecided",
         kinds.TEXTS,
@@ -562,50 +676,81 @@ def _block(*colours: int | None) -> list[int]:
     return [x + 1 for x in colours if x is not None]
 
 
-def _of_matrix(r: Any) -> bool:
+def _of_matrix(r: Repair) -> bool:
     return r.m is not None and r.i is not None
 
 
-PLACED = Kind(kinds.BLOCK)
-REPAIR = Section(
+PLACED: Kind[list[int]] = Kind(Json(kinds.BLOCK))
+REPAIR: Section[Repair] = Section(
     optional("b", PLACED, lambda r: None if _of_matrix(r) or r.is_embedded else _block(r.l, r.m)),
     optional("embedded", PLACED, lambda r: _block(r.l) if r.is_embedded else None),
     optional("A", PLACED, lambda r: _block(r.l, r.m) if _of_matrix(r) else None),
-    maybe("row", Kind(S.INTEGER), lambda r: None if r.i is None else r.i + 1),
-    Row("entry", kinds.INDEX, "j"),
-    Row("old", kinds.EXACT),
-    Row("new", kinds.EXACT),
+    maybe("row", kinds.INTEGER, lambda r: None if r.i is None else r.i + 1),
+    Row("entry", kinds.INDEX, lambda x: x.j),
+    Row("old", kinds.EXACT, lambda x: x.old),
+    Row("new", kinds.EXACT, lambda x: x.new),
 )
-BLAME = Section(
-    Row("of", kinds.choice("order", "conjugate-order", "pair-order", "embedded-order")),
-    Row("order", kinds.POSITION),
-    Row("failing", kinds.COUNT),
-    Row("conditions", kinds.COUNT, "total"),
-    Row("only_coupling", kinds.TRUTH),
+BLAME: Section[Blame] = Section(
+    Row(
+        "of",
+        kinds.choice("order", "conjugate-order", "pair-order", "embedded-order"),
+        lambda x: x.of,
+    ),
+    Row("order", kinds.POSITION, lambda x: x.order),
+    Row("failing", kinds.COUNT, lambda x: x.failing),
+    Row("conditions", kinds.COUNT, lambda x: x.total),
+    Row("only_coupling", kinds.TRUTH, lambda x: x.only_coupling),
     maybe("culprit", PLACED, lambda b: None if b.culprit is None else _block(*b.culprit)),
-    Row("in_every", kinds.BLOCKS),
-    Row("in_none", kinds.BLOCKS),
-    Row("repairs", parts(REPAIR)),
-    Row("restores", kinds.TEXTS),
-    maybe("restored", kinds.POSITION),
+    Row("in_every", kinds.BLOCKS, lambda x: x.in_every),
+    Row("in_none", kinds.BLOCKS, lambda x: x.in_none),
+    Row("repairs", parts(REPAIR), lambda x: x.repairs),
+    Row("restores", kinds.TEXTS, lambda x: x.restores),
+    maybe("restored", kinds.POSITION, lambda x: x.restored),
 )
-WRONG_SUM = Section(
+WRONG_SUM: Section[WrongSum] = Section(
     optional("b", PLACED, lambda x: _block(x.l) if x.m is None and not x.is_embedded else None),
     optional("embedded", PLACED, lambda x: _block(x.l) if x.is_embedded else None),
     optional("A", PLACED, lambda x: None if x.m is None else _block(x.l, x.m)),
     maybe("row", kinds.POSITION, lambda x: None if x.i is None else x.i + 1),
-    Row("sum", kinds.EXACT, "total"),
-    Row("required", kinds.EXACT, "wanted"),
+    Row("sum", kinds.EXACT, lambda x: x.total),
+    Row("required", kinds.EXACT, lambda x: x.wanted),
 )
-REMARK = Section(
-    Row("of", kinds.choice("order", "embedded-order")),
-    Row("order", kinds.COUNT),
-    optional("line", Kind(S.TEXT), lambda r: r.line or None),
-    Row("repairs", parts(REPAIR)),
+REMARK: Section[Remark] = Section(
+    Row("of", kinds.choice("order", "embedded-order"), lambda x: x.of),
+    Row("order", kinds.COUNT, lambda x: x.order),
+    optional("line", kinds.TEXT, lambda r: r.line or None),
+    Row("repairs", parts(REPAIR), lambda x: x.repairs),
 )
 
 
-def _entry_words(found: Any, d: Plain) -> str:
+class Placed(NamedTuple):
+    """An entry of a tableau."""
+
+    entry: Entry
+    tableau: Tableau
+
+
+class Recovered(NamedTuple):
+    """How far the print of a method is from the method that it is taken to mean."""
+
+    near: Nearness
+    analysis: Analysis
+
+    @property
+    def entry(self) -> Placed | None:
+        """The entry that is off the most."""
+        return self._placed(self.near.entry)
+
+    @property
+    def suspect(self) -> Placed | None:
+        """An entry that may be misprinted."""
+        return self._placed(self.near.suspect)
+
+    def _placed(self, entry: Entry | None) -> Placed | None:
+        return None if entry is None else Placed(entry, self.analysis.tableau)
+
+
+def _entry_words(found: Placed, d: Plain) -> str:
     """``a[3,2]``; of several colours ``a{1,2}[3,2]``."""
     x, tableau = found
     colours = [x.l] if x.m is None else [x.l, x.m]
@@ -613,50 +758,42 @@ def _entry_words(found: Any, d: Plain) -> str:
     return d.place(Place(x.letter, tuple(names), (x.j,) if x.i is None else (x.i, x.j)))
 
 
-def _recovered_words(found: Any, d: Plain) -> str:
+def _recovered_words(found: Recovered, d: Plain) -> str:
     """``0.98 t from the print, at a[3,2]``."""
-    near, tableau, order = found
+    near = found.near
     text = f"{plain_decimal(near.distance)} t from the print"
-    if near.entry is not None:
-        text += f", at {_entry_words((near.entry, tableau), d)}"
-    if near.suspect is not None:
-        entry = _entry_words((near.suspect, tableau), d)
-        text += f"; {entry} alone is far off: a misprint?"
+    if found.entry is not None:
+        text += f", at {_entry_words(found.entry, d)}"
+    if found.suspect is not None:
+        text += f"; {_entry_words(found.suspect, d)} alone is far off: a misprint?"
     if near.is_proved:
+        order = found.analysis.order.order
         text += f"; a method of order {order} within t is proved to exist"
     return text if near.is_full else f"{text}; its conditions are met to second order"
 
 
-def _recovered(a: Any) -> Any:
-    return None if a.nearness is None else (a.nearness, a.tableau, a.order.order)
+def _recovered(a: Analysis) -> Recovered | None:
+    return None if a.nearness is None else Recovered(a.nearness, a)
 
 
-def _entry(which: str) -> Callable[[Any], Any]:
-    def get(found: Any) -> Any:
-        near, tableau, _ = found
-        entry = getattr(near, which)
-        return None if entry is None else (entry, tableau)
-
-    return get
-
-
-ENTRY = Section(
-    Row("letter", kinds.choice("a", "b", "c", "embedded", "dense"), "0.letter"),
-    Row("colours", PLACED, lambda x: _block(x[0].l, x[0].m)),
-    Row("indices", PLACED, lambda x: _block(x[0].i, x[0].j)),
+ENTRY: Section[Placed] = Section(
+    Row("letter", kinds.choice("a", "b", "c", "embedded", "dense"), lambda x: x.entry.letter),
+    Row("colours", PLACED, lambda x: _block(x.entry.l, x.entry.m)),
+    Row("indices", PLACED, lambda x: _block(x.entry.i, x.entry.j)),
 )
-RECOVERED = Section(
-    Row("distance", kinds.FLOAT, lambda x: to_float(x[0].distance)),
-    maybe("entry", part(ENTRY), _entry("entry")),
-    maybe("suspect", part(ENTRY), _entry("suspect")),
-    Row("met_fully", kinds.TRUTH, "0.is_full"),
-    Row("proved_to_exist", kinds.TRUTH, "0.is_proved"),
+RECOVERED: Section[Recovered] = Section(
+    Row("distance", kinds.FLOAT, lambda x: to_float(x.near.distance)),
+    maybe("entry", part(ENTRY), lambda x: x.entry),
+    maybe("suspect", part(ENTRY), lambda x: x.suspect),
+    Row("met_fully", kinds.TRUTH, lambda x: x.near.is_full),
+    Row("proved_to_exist", kinds.TRUTH, lambda x: x.near.is_proved),
 )
 
 
-def hints(o: Any) -> list[Reason]:
-    """What failing conditions tell, a sentence or two each."""
+def hints(o: Outcome) -> list[Reason]:
+    """The culprits and repairs that failing conditions show, a sentence or two each."""
     a = o.analysis
+    assert a is not None
     sums = a.wrong_weights
     if o.remark is None and o.blame is None and not sums:
         return []
@@ -673,32 +810,37 @@ def hints(o: Any) -> list[Reason]:
     ]
 
 
-HINTS = Row("hints", rows_of(lambda xs, d: [(d.note("hint"), d.reason(x)) for x in xs]), hints)
+def hint_rows(found: Sequence[Reason], d: Plain) -> list[tuple[str, str]]:
+    """A row for each hint."""
+    return [(d.note("hint"), d.reason(x)) for x in found]
+
+
+HINTS: Row[Outcome] = Row("hints", rows_of(hint_rows), hints)
 
 
 # error constants, further weights
 
 
-def _norms_words(n: Any, d: Plain) -> str:
+def _norms_words(n: Norms, d: Plain) -> str:
     text = f"2-norm {n.two:.6g}, largest {n.largest:.6g}"
     return (
         text if n.worst is None else f"{text} at {d.tree(n.worst)}, of {counted(n.trees, 'tree')}"
     )
 
 
-VALUE_TEXT = Kind(S.TEXT, kinds.EXACT.data, kinds.EXACT.words)
-NORMS = Section(
-    Row("trees", kinds.COUNT),
-    maybe("two_norm_squared", VALUE_TEXT, "two_squared"),
-    Row("two_norm", kinds.FLOAT, "two"),
-    Row("inf_norm", kinds.FLOAT, "largest"),
-    maybe("worst", kinds.TREE),
-    maybe("worst_value", VALUE_TEXT),
+VALUE_TEXT: Kind[Number] = Kind(Json(S.TEXT, lambda x, _: to_text(x)), kinds.EXACT.shown)
+NORMS: Section[Norms] = Section(
+    Row("trees", kinds.COUNT, lambda x: x.trees),
+    maybe("two_norm_squared", VALUE_TEXT, lambda x: x.two_squared),
+    Row("two_norm", kinds.FLOAT, lambda x: x.two),
+    Row("inf_norm", kinds.FLOAT, lambda x: x.largest),
+    maybe("worst", kinds.TREE, lambda x: x.worst),
+    maybe("worst_value", VALUE_TEXT, lambda x: x.worst_value),
     title=lambda n, d: f"norms over {counted(n.trees, 'tree')}",
 )
 
 
-def constants_words(c: Any, d: Plain) -> str:
+def constants_words(c: ErrorConstants, d: Plain) -> str:
     how = "" if c.is_exact else " in floats"
     text = f"of order {c.order}{how}: {_norms_words(c.all, d)}"
     if len(d.colours) > 1 and of_fields(c):
@@ -706,48 +848,53 @@ def constants_words(c: Any, d: Plain) -> str:
     return text
 
 
-def of_fields(c: Any) -> bool:
+def of_fields(c: ErrorConstants) -> bool:
     """Whether all colours are vector fields of their own, which may be coupled."""
     return c.all.worst is None or c.all.worst.is_of_fields
 
 
-CONSTANTS = Section(
-    Row("order", kinds.POSITION),
-    Row("exact", kinds.TRUTH, "is_exact", DATA),
-    Row("all", part(NORMS)),
+CONSTANTS: Section[ErrorConstants] = Section(
+    Row("order", kinds.POSITION, lambda x: x.order),
+    Row("exact", kinds.TRUTH, lambda x: x.is_exact, DATA),
+    Row("all", part(NORMS), lambda x: x.all),
     Row("coupling", part(NORMS), lambda c: c.coupling if of_fields(c) else None, has_null=True),
 )
 
 
-def estimate_words(e: Any, d: Plain) -> str:
+def estimate_words(e: Estimator, d: Plain) -> str:
     text = estimate_phrase(e, d)
-    return text if e.is_zero else f"{text}, sum of b − embedded {kinds.EXACTS(e.sums).words(d)}"
+    return text if e.is_zero else f"{text}, sum of b − embedded {kinds.EXACTS.words(e.sums, d)}"
 
 
-def estimate_phrase(e: Any, _: Plain) -> str:
+def estimate_phrase(e: Estimator, _: Plain) -> str:
     """``of order 3``."""
     if e.is_zero:
         return "zero: the embedded weights are b"
     return "leading term not found" if e.order is None else f"of order {e.order}"
 
 
-ESTIMATE = Section(
-    maybe("order", kinds.POSITION),
-    Row("zero", kinds.TRUTH, "is_zero"),
-    Row("sums", kinds.EXACTS),
-    maybe("leading_term", part(CONSTANTS, constants_words), "constants"),
+ESTIMATE: Section[Estimator] = Section(
+    maybe("order", kinds.POSITION, lambda x: x.order),
+    Row("zero", kinds.TRUTH, lambda x: x.is_zero),
+    Row("sums", kinds.EXACTS, lambda x: x.sums),
+    maybe("leading_term", part(CONSTANTS, constants_words), lambda x: x.constants),
 )
-DENSE_WITNESS = Section(
-    Row("order", kinds.POSITION, "witness.tree.order"),
-    Row("tree", kinds.TREE, "witness.tree"),
-    Row("power", kinds.POSITION),
-    Row("value", kinds.EXACT, "witness.value"),
-    Row("required", kinds.EXACT, "witness.required"),
-    Row("residual", kinds.EXACT, "witness.residual"),
+ERROR_ESTIMATE: Row[HasEmbedded] = maybe(
+    "error_estimate",
+    part(ESTIMATE, estimate_phrase),
+    lambda a: None if a.embedded is None else a.embedded.estimator,
+)
+DENSE_WITNESS: Section[DenseWitness] = Section(
+    Row("order", kinds.POSITION, lambda x: x.witness.tree.order),
+    Row("tree", kinds.TREE, lambda x: x.witness.tree),
+    Row("power", kinds.POSITION, lambda x: x.power),
+    Row("value", kinds.EXACT, lambda x: x.witness.value),
+    Row("required", kinds.EXACT, lambda x: x.witness.required),
+    Row("residual", kinds.EXACT, lambda x: x.witness.residual),
 )
 
 
-def dense_words(x: Any, d: Plain) -> str:
+def dense_words(x: DenseFacts, _: Plain) -> str:
     """How the pieces of single steps fit together."""
     if not x.ends_at_step:
         return "does not end where the step does: b(1) is not b"
@@ -755,12 +902,12 @@ def dense_words(x: Any, d: Plain) -> str:
     return f"of degree {x.degree}, continuous, b(1) = b; {slope[x.slopes.are_continuous]}"
 
 
-def dense_order(a: Any) -> Any:
+def dense_order(a: Analysis) -> Answer[int] | None:
     """The order of dense output for every θ."""
     return None if a.dense is None else dense_answer(a.dense.order, a.tableau.size > 1)
 
 
-def dense_answer(found: DenseOrder, colours: bool | Sequence[str]) -> Answer:
+def dense_answer(found: DenseOrder, colours: bool | Sequence[str]) -> Answer[int]:
     """An order of dense output as a value with its status.
 
     Args:
@@ -772,73 +919,100 @@ def dense_answer(found: DenseOrder, colours: bool | Sequence[str]) -> Answer:
     if found.witness is None:
         return Answer(found.order, status)
     reason = dense_witness_text(found.witness, colours)
-    return Answer(found.order, status, reason, more=found.witness.witness)
+    return Answer(found.order, status, reason, witness=found.witness.witness)
 
 
-DENSE = Section(
-    Row("degree", kinds.POSITION),
-    maybe("witness", part(DENSE_WITNESS), "order.witness"),
-    Row("continuous", kinds.TRUTH, "ends_at_step"),
-    maybe("smooth", kinds.TRUTH, "is_smooth"),
-    maybe("slope_at_start", kinds.TRUTH, "slopes.at_start"),
-    maybe("slope_at_end", kinds.TRUTH, "slopes.at_end"),
+DENSE: Section[DenseFacts] = Section(
+    Row("degree", kinds.POSITION, lambda x: x.degree),
+    maybe("witness", part(DENSE_WITNESS), lambda x: x.order.witness),
+    Row("continuous", kinds.TRUTH, lambda x: x.ends_at_step),
+    maybe("smooth", kinds.TRUTH, lambda x: x.is_smooth),
+    maybe("slope_at_start", kinds.TRUTH, lambda x: x.slopes.at_start),
+    maybe("slope_at_end", kinds.TRUTH, lambda x: x.slopes.at_end),
     optional("order_is_lower_bound", kinds.TRUE, lambda x: x.order.is_lower_bound or None, DATA),
     optional("order_undecided", kinds.TRUE, lambda x: bool(x.order.undecided) or None, DATA),
 )
-COLOURS = Section(
-    Row("name", kinds.TEXT, "1.name"),
-    Row("stages", kinds.POSITION, lambda x: x[0].spaces[x[1].space].stages),
+
+
+class InTableau(NamedTuple):
+    """A colour of a tableau."""
+
+    colour: Colour
+    tableau: Tableau
+
+
+COLOURS: Section[InTableau] = Section(
+    Row("name", kinds.TEXT, lambda x: x.colour.name),
+    Row("stages", kinds.POSITION, lambda x: x.tableau.spaces[x.colour.space].stages),
 )
 
 
-def colours_of(tableau: Any) -> list[Any]:
+def colours_of(tableau: Tableau) -> list[InTableau]:
     """The colours with their tableau."""
-    return [(tableau, colour) for colour in tableau.colours]
+    return [InTableau(colour, tableau) for colour in tableau.colours]
 
 
 # what is found of a method
 
-ANALYSIS = [
+
+def _pair_phrase(_: str, answer: Answer[AnyOrder], d: Plain) -> str:
+    assert answer.value is not None
+    return f"the symplectic pair has order {kinds.order_cell(answer.value, d)}"
+
+
+OF_ALL_KINDS: Rows[Analysed] = (
     Row("exact", kinds.TRUTH, lambda a: a.tolerance is None, DATA),
-    maybe("tolerance", kinds.TOLERANCE, level=DATA),
+    maybe("tolerance", kinds.TOLERANCE, lambda a: a.tolerance, DATA),
+)
+"""The first rows of every analysis."""
+COLOURS_OF: Row[Analysed] = Row("colours", parts(COLOURS), lambda a: colours_of(a.tableau), DATA)
+COUNTED: Kind[int] = told(lambda x, _: str(x))
+ANALYSIS: Rows[Analysis] = [
+    *OF_ALL_KINDS,
     Row("recovered_in_words", told(_recovered_words), _recovered, DETAIL, label="recovered"),
     optional("recovered", part(RECOVERED), _recovered, DATA),
-    Row("colours", parts(COLOURS), lambda a: colours_of(a.tableau), DATA),
-    order("order", lambda a: a.order, HEADLINE),
+    COLOURS_OF,
+    Row("order", kinds.ORDER, lambda a: kinds.order_answer(a.order), HEADLINE),
     Row(
         "stage_order",
-        told(lambda x, d: str(x)),
-        whole_number("stage-order"),
+        COUNTED,
+        lambda a: whole_number(a, "stage-order"),
         line="method",
         is_short=True,
     ),
-    Row("simplifying", replace(part(SIMPLIFYING), phrase=_simplifying_phrase), ".", line="method"),
-    of_several("conjugate_order"),
-    of_several("pair_order"),
+    Row("simplifying", part(SIMPLIFYING, phrase=_simplifying_phrase), lambda a: a, line="method"),
+    of_several("conjugate_order", lambda a: a.conjugate_order),
+    of_several("pair_order", lambda a: a.pair_order),
     with_time("nonautonomous_order", lambda a: a.nonautonomous_order),
-    order("embedded_order", lambda a: a.embedded and a.embedded.order),
-    with_time(
-        "embedded_nonautonomous_order", lambda a: a.embedded and a.embedded.nonautonomous_order
+    maybe(
+        "embedded_order",
+        kinds.ORDER,
+        lambda a: None if a.embedded is None else kinds.order_answer(a.embedded.order),
     ),
-    maybe("error_estimate", part(ESTIMATE, estimate_words), "embedded.estimator"),
+    with_time(
+        "embedded_nonautonomous_order",
+        lambda a: None if a.embedded is None else a.embedded.nonautonomous_order,
+    ),
+    maybe(
+        "error_estimate",
+        part(ESTIMATE, estimate_words),
+        lambda a: None if a.embedded is None else a.embedded.estimator,
+    ),
     maybe("dense_order", kinds.COUNT, dense_order),
-    maybe("dense", part(DENSE, dense_words), label="dense output"),
+    maybe("dense", part(DENSE, dense_words), lambda a: a.dense, label="dense output"),
     maybe("pair_criterion", kinds.COUNT, pair_criterion, DETAIL),
     Row("pair_criterion_why", kinds.TEXTS, pair_criterion_why, DATA),
-    maybe("pair_bound", kinds.COUNT, bound("pair_bound", "bound", BOUND), DETAIL),
-    Row("sharp_bound", kinds.COUNT, bound("sharp_bound", "sharp_bound", SHARP_BOUND), DETAIL),
+    maybe("pair_bound", kinds.COUNT, lambda a: bound(a, is_sharp=False, is_of_pair=True), DETAIL),
+    Row("sharp_bound", kinds.COUNT, lambda a: bound(a, is_sharp=True), DETAIL),
     maybe(
-        "pair_sharp_bound",
-        kinds.COUNT,
-        bound("pair_sharp_bound", "sharp_bound", SHARP_BOUND),
-        DETAIL,
+        "pair_sharp_bound", kinds.COUNT, lambda a: bound(a, is_sharp=True, is_of_pair=True), DETAIL
     ),
     Row("consistent", kinds.TRUTH, consistent),
-    Row("inconsistent_blocks", kinds.BLOCKS, "inconsistent", DATA),
+    Row("inconsistent_blocks", kinds.BLOCKS, lambda a: a.inconsistent, DATA),
     Row("wrong_sums", parts(WRONG_SUM), lambda a: [*a.wrong_weights, *a.wrong_rows], DATA),
     Row(
         "bound_in_brief",
-        told(lambda x, d: str(x)),
+        COUNTED,
         lambda a: Answer(a.bound, Status(a.tolerance)),
         DATA,
         label="bound",
@@ -852,15 +1026,12 @@ ANALYSIS = [
     ),
     Row(
         "pair",
-        told(
-            lambda x, d: str(x.order),
-            lambda _, a, d: f"the symplectic pair has order {kinds.order_cell(a.value, d)}",
-        ),
+        told(lambda x, _: str(x.order), _pair_phrase),
         _pair_in_brief,
         line="symplectic",
         is_short=True,
     ),
-    Row("properties", part(PROPERTIES), ".", line="symplectic"),
+    Row("properties", part(PROPERTIES), lambda a: a, line="symplectic"),
     Row("by_colour", told(_colours_words), colours_apart, label="colours", is_short=True),
     Row("trees_that_fail", picture(drawn), witnesses, DETAIL),
 ]
@@ -870,17 +1041,17 @@ ANALYSIS = [
 
 MOST_CLAIMS = 6
 """More that hold are counted."""
-CLAIM = Section(
-    Row("claim", kinds.TEXT),
-    Row("expected", kinds.TEXT),
-    Row("found", kinds.TEXT),
-    Row("holds", kinds.TRUTH, has_null=True),
-    Row("line", kinds.POSITION),
+CLAIM: Section[Claim] = Section(
+    Row("claim", kinds.TEXT, lambda x: x.claim),
+    Row("expected", kinds.TEXT, lambda x: x.expected),
+    Row("found", kinds.TEXT, lambda x: x.found),
+    Row("holds", kinds.TRUTH, lambda x: x.holds, has_null=True),
+    Row("line", kinds.POSITION, lambda x: x.line),
     optional("why", kinds.TEXT, lambda c: c.why or None),
 )
 
 
-def claim_rows(outcome: Any, d: Plain) -> list[tuple[str, str]]:
+def claim_rows(outcome: Outcome, d: Plain) -> list[tuple[str, str]]:
     """The claims that fail or are undecided, with their places; those that hold, together."""
     rows = []
     for c in (*outcome.failed_claims, *outcome.undecided_claims):
@@ -899,7 +1070,7 @@ def claim_rows(outcome: Any, d: Plain) -> list[tuple[str, str]]:
     return rows
 
 
-def _claims_cell(o: Any, d: Plain) -> str:
+def _claims_cell(o: Outcome, d: Plain) -> str:
     if not o.is_read:
         return "cannot be read"
     unmet = (o.failed_claims, "fail"), (o.undecided_claims, "undecided")
@@ -910,25 +1081,28 @@ def _claims_cell(o: Any, d: Plain) -> str:
     return held if o.claims else "none"
 
 
-IN_BRIEF = Row("claims_in_brief", told(_claims_cell), ".", DATA, label="claims")
-CLAIMS = (
+IN_BRIEF: Row[Outcome] = Row(
+    "claims_in_brief", told(_claims_cell), lambda o: o, DATA, label="claims"
+)
+CLAIMS_IN_WORDS: Row[Outcome] = Row(
+    "claims_in_words", rows_of(claim_rows), lambda o: o if o.claims or o.lacks else None
+)
+CLAIMS: Rows[Outcome] = (
     IN_BRIEF,
-    Row("claims", parts(CLAIM), level=DATA),
-    Row("claims_in_words", rows_of(claim_rows), lambda o: o if o.claims or o.lacks else None),
+    Row("claims", parts(CLAIM), lambda o: o.claims, DATA),
+    CLAIMS_IN_WORDS,
 )
 VALUE = S.one_of({"type": ["boolean", "integer", "string", "null"]}, ROOT_OF)
 
 
-def verdict_data(v: Any, _: Plain) -> Any:
+def verdict_data(v: Verdict, _: Plain) -> object:
     """A value for programs; null where there is none."""
-    from garkcli.properties.property import Size
-
     if not isinstance(v.value, Size):
         return v.value
     return "infinity" if v.value.root is None else root_data(v.value.root)
 
 
-def verdict_words(v: Any) -> Reason:
+def verdict_words(v: Verdict) -> Reason:
     """A property in a word or a number."""
     if v.value is None:
         return Reason("not decided" if v.is_undecided else "no meaning")
@@ -938,23 +1112,35 @@ def verdict_words(v: Any) -> Reason:
     return Reason("at least {}" if v.is_at_least else "{}", number)
 
 
-VERDICT = Section(
-    Row("property", Kind({"enum": list(KEYS)}), "0"),
-    Row("value", Kind(VALUE, verdict_data), "1"),
-    Row("undecided", kinds.TRUTH, "1.is_undecided"),
-    Row("why", kinds.TEXT, "1.why"),
+class PropertyVerdict(NamedTuple):
+    """A verdict on a property, and the rounding within which it holds."""
+
+    key: str
+    verdict: Verdict
+    tolerance: fmpq | None
+
+
+VERDICT: Section[PropertyVerdict] = Section(
+    Row("property", kinds.choice(*KEYS), lambda x: x.key),
+    Row("value", Kind(Json(VALUE, verdict_data)), lambda x: x.verdict),
+    Row("undecided", kinds.TRUTH, lambda x: x.verdict.is_undecided),
+    Row("why", kinds.TEXT, lambda x: x.verdict.why),
 )
 
 
-def every_property(o: Any) -> Any:
+def property_verdict(a: Judged, key: str) -> PropertyVerdict:
+    """The verdict on a property."""
+    return PropertyVerdict(key, a.subject.verdict(key), within(a, key))
+
+
+def every_property(o: Outcome) -> list[PropertyVerdict] | None:
     """All properties with what decides them, where they were requested."""
-    if not o.wants_properties:
+    if not o.wants_properties or o.analysis is None:
         return None
-    a = o.analysis
-    return [(key, a.subject.verdict(key), within(a, key)) for key in KEYS]
+    return [property_verdict(o.analysis, key) for key in KEYS]
 
 
-def property_rows_of(found: Any, d: Plain) -> list[tuple[str, str]]:
+def property_rows_of(found: Sequence[PropertyVerdict], d: Plain) -> list[tuple[str, str]]:
     """Properties with their verdicts, and what decides them."""
     rows = []
     for key, v, tolerance in found:
@@ -963,94 +1149,89 @@ def property_rows_of(found: Any, d: Plain) -> list[tuple[str, str]]:
     return rows
 
 
-OK = (
-    Row("ok", kinds.TRUTH, level=DATA),
-    Row("structure", kinds.choice("general", "semi-separable", "separable", "nystrom"), level=DATA),
-    METHOD,
-)
+IS_OK: Row[Outcome] = Row("ok", kinds.TRUTH, lambda o: o.ok, DATA)
+STRUCTURES = kinds.choice("general", "semi-separable", "separable", "nystrom")
+OK: Rows[Outcome] = (IS_OK, Row("structure", STRUCTURES, lambda o: o.structure, DATA), METHOD)
 
 
-def transfer(outcome: Any) -> Any:
+def transfer(o: Outcome) -> Answer[list[str]] | None:
     """Which rules keep the order of the pair; told where the file takes a degree that does not."""
-    found = [*rule_reasons(outcome.analysis, outcome.rules)]
+    found = [] if o.analysis is None else [*rule_reasons(o.analysis, o.rules)]
     is_told = any(x.startswith("legendre") and " loses " in x for x in found)
     return Answer(found, level=USUAL if is_told else DETAIL) if found else None
 
 
-TRANSFER = optional(
-    "transfer", replace(kinds.TEXTS, words=lambda x, d: "; ".join(map(d.prose, x))), transfer
-)
-SAME_AS = Section(
-    Row("method", kinds.TEXT), maybe("within", kinds.TOLERANCE), Row("step_only", kinds.TRUTH)
+SENTENCES: Kind[Sequence[str]] = Kind(
+    kinds.TEXTS.what, Words(lambda x, d: "; ".join(map(d.prose, x)))
 )
 
 
-DIFFERS_FROM = Section(
-    Row("method", kinds.TEXT),
-    Row("at_most", kinds.TOLERANCE, "within"),
-    Row("step_only", kinds.TRUTH),
-)
-
-
-def _known(is_same: bool) -> Any:
+def known(o: Outcome, is_same: bool) -> Known | None:
     """The method of the catalogue that was checked, or one that it differs from by little."""
+    # most files are in no catalogue, and quiet reports do not ask
+    from garkcli.catalogue.known import find_known
 
-    def known(o: Any) -> Any:
-        # most files are in no catalogue, and quiet reports do not ask
-        from garkcli.catalogue.known import find_known
-
-        found = find_known(o.analysis, o.text)
-        return found if found and found.is_same is is_same else None
-
-    return known
+    found = None if o.analysis is None else find_known(o.analysis, o.text)
+    return found if found and found.is_same is is_same else None
 
 
-def _known_words(known: Any, d: Plain) -> str:
+def of_catalogue(within: Row[Known]) -> Section[Known]:
+    """A method of the catalogue that is the same within a rounding, or differs by that."""
+    return Section(
+        Row("method", kinds.TEXT, lambda x: x.method),
+        within,
+        Row("step_only", kinds.TRUTH, lambda x: x.step_only),
+    )
+
+
+def _known_words(known: Known, d: Plain) -> str:
     by = ""
     if known.within:
         by = f" {'within' if known.is_same else 'by at most'} {decimal(known.within)}"
     return f"{d.prose(known.method)}{by}{', but for embedded weights' if known.step_only else ''}"
 
 
-LEFT_BEHIND = optional(
-    "left_behind",
-    Kind(S.array(S.TEXT), lambda x, _: list(x), lambda x, d: f"{' and '.join(x)} of its parts"),
-    lambda o: o.left_behind or None,
+PARTS: Kind[Sequence[str]] = Kind(
+    Json(S.array(S.TEXT), lambda x, _: list(x)),
+    Words(lambda x, _: f"{' and '.join(x)} of its parts"),
 )
+LEFT_BEHIND: Row[Outcome] = optional("left_behind", PARTS, lambda o: o.left_behind or None)
+IN_FULL: Row[Outcome] = optional(
+    "error_constants", part(CONSTANTS, constants_words), lambda o: o.constants
+)
+SAME_AS = of_catalogue(maybe("within", kinds.TOLERANCE, lambda x: x.within))
+DIFFERS_FROM = of_catalogue(Row("at_most", kinds.TOLERANCE, lambda x: x.within))
 COLUMNS = (
     *("file", "order", "embedded_order", "conjugate_order", "pair_order"),
     *("bound_in_brief", "symplectic", "claims_in_brief"),
 )
-CHECKED = Section(
-    *kinds.FILE_AND_NAME,
-    *OK,
-    *via(lambda o: o.analysis, ANALYSIS),
-    TRANSFER,
+CHECKED: Section[Outcome] = Section(
+    kinds.FILE_AND_NAME,
+    OK,
+    via(lambda o: o.analysis, ANALYSIS),
+    optional("transfer", SENTENCES, transfer),
     LEFT_BEHIND,
     optional("every_property", parts(VERDICT), every_property, DATA),
-    optional("blame", part(BLAME), level=DATA),
-    optional("error_constants", part(CONSTANTS, constants_words), "constants"),
-    optional("remark", part(REMARK), level=DATA),
-    optional("same_as", part(SAME_AS, _known_words), _known(is_same=True)),
-    optional("differs_from", part(DIFFERS_FROM, _known_words), _known(is_same=False)),
-    *CLAIMS,
+    optional("blame", part(BLAME), lambda o: o.blame, DATA),
+    IN_FULL,
+    optional("remark", part(REMARK), lambda o: o.remark, DATA),
+    optional("same_as", part(SAME_AS, _known_words), lambda o: known(o, is_same=True)),
+    optional("differs_from", part(DIFFERS_FROM, _known_words), lambda o: known(o, is_same=False)),
+    CLAIMS,
     HINTS,
     Row("properties_in_words", rows_of(property_rows_of), every_property),
     title=title,
     columns=COLUMNS,
 )
-
-
-AT_LEAST_ONE = Kind({}, section=FAULT, is_list=True, is_never_empty=True)
-UNREADABLE = Section(
-    *kinds.FILE_AND_NAME,
-    Row("ok", Kind({"const": False}), level=DATA),
-    Row("errors", AT_LEAST_ONE, "faults"),
+UNREADABLE: Section[Outcome] = Section(
+    kinds.FILE_AND_NAME,
+    Row("ok", kinds.constant(value=False), lambda o: o.ok, DATA),
+    Row("errors", Kind(Several(FAULT, is_never_empty=True), Parts(FAULT)), lambda o: o.faults),
     IN_BRIEF,
     title=lambda o, d: f"{d.prose(o.file)}: {d.bad('cannot be read as a method')}",
     columns=COLUMNS,
 )
-SUMMARY = Section(
+SUMMARY: Section[Sequence[Outcome]] = Section(
     Row("files", kinds.COUNT, len),
     Row("failed", kinds.COUNT, lambda xs: sum(not (x.ok or x.is_open) for x in xs)),
     Row("undecided", kinds.COUNT, lambda xs: sum(x.is_open for x in xs)),
@@ -1058,34 +1239,31 @@ SUMMARY = Section(
 )
 
 
-OF_OTHER_KINDS = [
-    Row("exact", kinds.TRUTH, lambda a: a.tolerance is None, DATA),
-    maybe("tolerance", kinds.TOLERANCE, level=DATA),
-    Row("colours", parts(COLOURS), lambda a: colours_of(a.tableau), DATA),
-]
-"""Rows of the analysis of methods that are no GARK methods, before their orders."""
-
-
 def of_other_kind(
-    attribute: str, flag: str, words: Callable[[Any, Plain], str], analysis: Sequence[Row]
-) -> Section:
+    get: Callable[[Outcome], OfOtherKind | None],
+    flag: str,
+    words: Wording[OfOtherKind],
+    analysis: Rows[OfOtherKind],
+) -> Section[Outcome]:
     """The rows of a method that is no GARK method.
 
     Args:
-        attribute: where its outcome has the analysis.
+        get: the analysis of an outcome.
         flag: the field of JSON that says of which kind it is.
-        words: what the method is, of an outcome.
+        words: what the method is, of an analysis.
         analysis: the rows of its analysis after those of all kinds.
     """
     return Section(
-        *kinds.FILE_AND_NAME,
-        Row("ok", kinds.TRUTH, level=DATA),
+        kinds.FILE_AND_NAME,
+        IS_OK,
         Row(flag, kinds.TRUE, lambda _: True, DATA),
-        Row("method", told(words), "."),
-        *(row.of(attrgetter(attribute)) for row in (*OF_OTHER_KINDS, *analysis)),
+        via(get, [Row("method", told(words), lambda a: a)]),
+        via(get, OF_ALL_KINDS),
+        via(get, [COLOURS_OF]),
+        via(get, analysis),
         LEFT_BEHIND,
-        optional("error_constants", part(CONSTANTS, constants_words), "constants"),
-        *CLAIMS,
+        IN_FULL,
+        CLAIMS,
         title=title,
         columns=COLUMNS,
     )

@@ -8,7 +8,7 @@ from garkcli.check.outcome import Outcome
 from garkcli.errors import counted, excerpt, printable
 from garkcli.page.paint import Paint
 from garkcli.page.plain import inert
-from garkcli.report.check import CLAIMS, HINTS
+from garkcli.report.check import claim_rows, hint_rows, hints
 from garkcli.report.checked import REPORT
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Level
@@ -36,9 +36,7 @@ def render(
     level = Level.DETAIL if verbosity > 0 else Level.USUAL
     blocks = []
     for outcome in outcomes:
-        d = REPORT.dialect(
-            outcome, "text", paint=paint, width=width, is_brief=verbosity <= 0, places=digits
-        )
+        d = REPORT.dialect(outcome, "text", paint, verbosity <= 0, width=width, places=digits)
         if not outcome.is_read:
             lines = faults_lines(outcome, paint)
         elif is_full:
@@ -72,13 +70,9 @@ def _short(outcome: Outcome, d: Plain, is_quiet: bool) -> Iterator[str]:
         claims = counted(len(outcome.claims), "claim")
         yield f"{mark} {d.prose(outcome.file)}: {', '.join(said)}  ({claims})"
     if not outcome.ok:
-        rows = CLAIMS[-1].kind.rows
-        hints = HINTS.kind.rows
-        assert rows is not None
-        assert hints is not None
-        told = [row for row in rows(outcome, d) if "hold" not in row[0]]
+        told = [row for row in claim_rows(outcome, d) if "hold" not in row[0]]
         if outcome.analysis is not None:
-            told += hints(HINTS.fact(outcome).value, d)
+            told += hint_rows(hints(outcome), d)
         yield from d.rows(told)
 
 

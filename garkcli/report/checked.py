@@ -3,20 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING
 
 from garkcli.check.outcome import Outcome
+from garkcli.frozen import replace
 from garkcli.report.check import CHECKED, SUMMARY, UNREADABLE
 from garkcli.tell.facts import Row, Section
 from garkcli.tell.parts import part
-from garkcli.tell.report import Report
+from garkcli.tell.report import Report, Signs
+
+if TYPE_CHECKING:
+    from garkcli.check.analysis import Analysis
+    from garkcli.check.outcome import OtherAnalysis
 
 
-def _signs(outcome: Outcome) -> dict[str, Any]:
+def _signs(outcome: Outcome) -> Signs:
     found = outcome.found
     if found is None:
         return {}
-    names = {"colours": [colour.name for colour in found.tableau.colours]}
+    names: Signs = {"colours": [colour.name for colour in found.tableau.colours]}
     if not found.tableau.has_fields_alone:
         names["names"] = names["colours"]
     if outcome.every is None:
@@ -24,7 +29,7 @@ def _signs(outcome: Outcome) -> dict[str, Any]:
     return {**names, "parameter": next(iter(outcome.every.parameters), "")}
 
 
-def form(outcome: Outcome) -> Section:
+def form(outcome: Outcome) -> Section[Outcome]:
     """The rows of a file: of a method, of a family, of one that cannot be read."""
     if outcome.every is not None:
         from garkcli.report.every import EVERY
@@ -53,8 +58,8 @@ def form(outcome: Outcome) -> Section:
     return UNREADABLE if outcome.analysis is None else CHECKED
 
 
-def forms() -> Iterator[Section]:
-    """All of them."""
+def forms() -> Iterator[Section[Outcome]]:
+    """The rows of every kind of file."""
     from garkcli.report.derivatives import DERIVATIVES
     from garkcli.report.every import EVERY
     from garkcli.report.infinitesimal import INFINITESIMAL
@@ -72,7 +77,7 @@ REPORT: Report[Outcome] = Report(
     forms,
     form,
     _signs,
-    tail=Section(Row("summary", part(SUMMARY), ".")),
+    tail=Section(Row("summary", part(SUMMARY), lambda xs: xs)),
     is_open=True,
 )
 
@@ -88,9 +93,8 @@ OF_ANALYSES = {
 """Where an outcome has the analysis of a method."""
 
 
-def whole(found: Any, name: str) -> Outcome:
-    """What the report says of an outcome, or of an analysis by a name."""
-    from garkcli.check.outcome import Outcome
-
-    kind = OF_ANALYSES.get(type(found).__name__)
-    return Outcome(name, name, **{kind: found}) if kind else found
+def whole(found: Outcome | Analysis | OtherAnalysis, name: str) -> Outcome:
+    """The outcome that the report tells: itself, or of an analysis by a name."""
+    if isinstance(found, Outcome):
+        return found
+    return replace(Outcome(name, name), **{OF_ANALYSES[type(found).__name__]: found})

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from string import ascii_lowercase
-from typing import Any
 
 from garkcli.errors import counted, printable
 from garkcli.frozen import Frozen, fields
@@ -228,37 +227,39 @@ def _has_capital(word: str) -> bool:
     return any(sign.isupper() for sign in word)
 
 
-def _of(field: str) -> Row:
+def _of(field: str) -> Row[Reference]:
     """A field of a publication, where it has it."""
-    is_list = field in {"authors", "editors"}
-    return optional(field, TEXTS if is_list else TEXT, lambda x: getattr(x, field) or None)
+    if field in {"authors", "editors"}:
+        return optional(field, TEXTS, lambda x: getattr(x, field) or None)
+    return optional(field, TEXT, lambda x: getattr(x, field) or None)
 
 
-def of_reference(field: str) -> Callable[[Any], str | None]:
-    """What a reference has besides its line; None of one that is plain text."""
-    return lambda x: getattr(x.reference, field) if x.reference else None
-
-
-REFERENCE = Section(*(_of(name) for name in fields(Reference)))
+REFERENCE: Section[Reference] = Section(_of(name) for name in fields(Reference))
 """The fields of a publication, those that it has."""
-CITED = Section(
-    Row("methods", TEXTS, "0.methods"),
-    Row("key", TEXT, "1"),
+CITED: Section[tuple[Cited, str]] = Section(
+    Row("methods", TEXTS, lambda x: x[0].methods),
+    Row("key", TEXT, lambda x: x[1]),
     maybe("text", TEXT, lambda x: x[0].text or None),
-    maybe("reference", part(REFERENCE), "0.reference"),
+    maybe("reference", part(REFERENCE), lambda x: x[0].reference),
     maybe("bibtex", TEXT, lambda x: _bibtex(*x) if x[0].text else None),
 )
-LINE = Section(
-    Row("methods", TEXTS, label=""),
+LINE: Section[Cited] = Section(
+    Row("methods", TEXTS, lambda x: x.methods, label=""),
     Row("reference", TEXT, lambda x: x.text or "no reference in its file"),
-    *(Row(name, BESIDE, of_reference(name), Level.DETAIL) for name in ("doi", "coefficients")),
+    Row("doi", BESIDE, lambda x: None if x.reference is None else x.reference.doi, Level.DETAIL),
+    Row(
+        "coefficients",
+        BESIDE,
+        lambda x: None if x.reference is None else x.reference.coefficients,
+        Level.DETAIL,
+    ),
 )
 REPORT: Report[Sequence[Cited]] = Report.only(
     "gark/cite/1",
     "report of gark cite",
     Section(
         Row("references", parts(CITED), lambda x: [*zip(x, keys(x), strict=True)], Level.DATA),
-        Row("methods", shown(LINE, 0), "."),
+        Row("methods", shown(LINE, 0), lambda x: x),
         title=lambda x, _: counted(sum(bool(one.text) for one in x), "publication"),
     ),
 )

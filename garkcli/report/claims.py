@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import NamedTuple
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, NamedTuple
 
 from garkcli.check.analysis import Analysis
 from garkcli.check.derivatives import DerivativesAnalysis
@@ -16,9 +16,9 @@ from garkcli.errors import printable
 from garkcli.page.paint import folded
 from garkcli.properties.registry import KEYS
 from garkcli.report import derivatives, infinitesimal, nprk, nystrom, rosenbrock
-from garkcli.report.check import ANALYSIS, SIMPLIFYING, property_rows_of, within
+from garkcli.report.check import ANALYSIS, SIMPLIFYING, property_rows_of, property_verdict
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Level, Row, Section
+from garkcli.tell.facts import Level, Row, Rows, Section, via
 from garkcli.tell.kinds import TEXT, TEXTS, TRUTH
 from garkcli.tell.outputs import words
 from garkcli.tell.parts import parts, rows_of
@@ -41,7 +41,7 @@ def _claim_rows(found: TrueClaims, d: Plain) -> list[tuple[str, str]]:
 
 
 _ROWS = {row.key: row for row in (*ANALYSIS, *SIMPLIFYING.rows)}
-_ROWS_OF_OTHER_KINDS = {
+_ROWS_OF_OTHER_KINDS: dict[str, dict[str, Row[Any]]] = {
     analysis.kind: {row.key: row for row in rows}
     for analysis, rows in (
         (RosenbrockAnalysis, rosenbrock.ANALYSIS),
@@ -56,34 +56,35 @@ _ROWS_OF_OTHER_KINDS = {
 def _how(found: TrueClaims, d: Plain) -> Iterator[tuple[str, str]]:
     """The value of each claim with what decides it."""
     a = found.analysis
-    known = _ROWS if isinstance(a, Analysis) else _ROWS_OF_OTHER_KINDS[a.kind]
+    known: Mapping[str, Row[Any]] = _ROWS
+    if not isinstance(a, Analysis):
+        known = _ROWS_OF_OTHER_KINDS[a.kind]
     for key, value in found.claims.items():
         row = known.get(key.replace("-", "_"))
         if key in KEYS:
-            yield from property_rows_of([(key, a.subject.verdict(key), within(a, key))], d)
+            yield from property_rows_of([property_verdict(a, key)], d)
         else:
             yield key, d.prose(value) if row is None else words(row.fact(a), d)
 
 
-CLAIM = Section(Row("claim", TEXT, "0"), Row("value", TEXT, "1"))
-FILE = Section(
-    *(
-        row.of(lambda x: x.found)
-        for row in (
-            Row("file", TEXT, level=DATA),
-            Row("claims", parts(CLAIM), lambda x: list(x.claims.items()), DATA),
-            Row("claims_in_words", rows_of(_claim_rows), "."),
-            Row("not_claimed", TEXTS, lambda x: list(x.left)),
-        )
-    ),
-    title=lambda x, d: d.prose(x.found.file),
+CLAIM: Section[tuple[str, str]] = Section(
+    Row("claim", TEXT, lambda x: x[0]), Row("value", TEXT, lambda x: x[1])
+)
+OF_METHOD: Rows[TrueClaims] = (
+    Row("file", TEXT, lambda x: x.file, DATA),
+    Row("claims", parts(CLAIM), lambda x: list(x.claims.items()), DATA),
+    Row("claims_in_words", rows_of(_claim_rows), lambda x: x),
+    Row("not_claimed", TEXTS, lambda x: list(x.left)),
+)
+FILE: Section[Claims] = Section(
+    via(lambda x: x.found, OF_METHOD), title=lambda x, d: d.prose(x.found.file)
 )
 REPORT: Report[Claims] = Report(
     "gark/claims/1",
     "report of gark claims",
     lambda: [FILE],
     lambda _: FILE,
-    tail=Section(Row("written", TRUTH, "0.is_written")),
+    tail=Section(Row("written", TRUTH, lambda x: x[0].is_written)),
 )
 
 

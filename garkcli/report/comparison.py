@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from string import ascii_lowercase, ascii_uppercase
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from flint import fmpq
 
@@ -22,10 +22,14 @@ from garkcli.report import convergence as alone
 from garkcli.report.costs import Tested, at_equal_errors
 from garkcli.report.failure import FAULT
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Choice, Level, Row, Section, maybe, via
+from garkcli.tell.facts import Choice, Level, Row, Rows, Section, maybe, via
 from garkcli.tell.kinds import COUNT, TEXT, TRUTH, constant
 from garkcli.tell.parts import SAID, answer, part, parts, rows_of, scene, shown, told
 from garkcli.tell.report import Report
+
+if TYPE_CHECKING:
+    from garkcli.plots.scene import Scene
+    from garkcli.report.problem import Stepped
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 _LONGEST = 60  # characters of a Hamiltonian that are still shown
@@ -111,17 +115,20 @@ def _verdict(x: Named, d: Plain) -> str:
     return d.note(verdict) if verdict == "reduced" else alone.verdict_words(verdict, d)
 
 
-def _tested(row: Row) -> Row:
-    return row.of(lambda x: x.entry.result)
+def _observed(x: Convergence, _: Plain) -> str:
+    return order_text(x.observed_order)
 
 
-METHOD = Section(
-    Row("letter", TEXT, label=""),
-    _tested(Row("observed", told(lambda x, _: order_text(x.observed_order)), ".")),
-    _tested(Row("visible", COUNT, alone.visible)),
-    _tested(Row("predicted", COUNT, alone.predicted)),
-    Row("verdict", told(_verdict), "."),
-    Row("method", TEXT, "name"),
+OF_TEST: Rows[Convergence] = (
+    Row("observed", told(_observed), lambda x: x),
+    Row("visible", COUNT, alone.visible),
+    Row("predicted", COUNT, alone.predicted),
+)
+METHOD: Section[Named] = Section(
+    Row("letter", TEXT, lambda x: x.letter, label=""),
+    via(lambda x: x.entry.result, OF_TEST),
+    Row("verdict", told(_verdict), lambda x: x),
+    Row("method", TEXT, lambda x: x.name),
 )
 
 
@@ -175,8 +182,8 @@ def _errors(x: Sizes, d: Plain) -> Iterator[tuple[str, str]]:
         yield f"slope {letter}", "" if row.slope is None else f"{row.slope:.2f}"
 
 
-SIZE = Section(
-    Row("h", alone.STEP_SIZE), Row("errors", rows_of(lambda x, d: list(_errors(x, d))), ".")
+SIZE: Section[Sizes] = Section(
+    Row("h", alone.STEP_SIZE, lambda x: x.h), Row("errors", rows_of(_errors), lambda x: x)
 )
 
 # the costs
@@ -189,14 +196,24 @@ class Work(NamedTuple):
     row: Step
 
 
-WORK = Section(
-    Row("letter", TEXT, label=""),
-    Row("h", alone.STEP_SIZE, "row.h"),
-    Row("error", told(lambda x, d: d.prose(scientific(x.row.error))), "."),
-    maybe("cost", part(alone.COST), "row.cost"),
+def _error(x: Work, d: Plain) -> str:
+    return d.prose(scientific(x.row.error))
+
+
+WORK: Section[Work] = Section(
+    Row("letter", TEXT, lambda x: x.letter, label=""),
+    Row("h", alone.STEP_SIZE, lambda x: x.row.h),
+    Row("error", told(_error), lambda x: x),
+    maybe("cost", part(alone.COST), lambda x: x.row.cost),
 )
-EQUAL = Section(
-    Row("letter", TEXT, "0", label=""), Row("costs", rows_of(lambda cells, _: cells), "1")
+
+
+def _cost_rows(costs: Sequence[tuple[str, str]], _: Plain) -> Sequence[tuple[str, str]]:
+    return costs
+
+
+EQUAL: Section[tuple[str, list[tuple[str, str]]]] = Section(
+    Row("letter", TEXT, lambda x: x[0], label=""), Row("costs", rows_of(_cost_rows), lambda x: x[1])
 )
 
 
@@ -209,7 +226,7 @@ def _work(compared: Compared) -> list[Work]:
     ]
 
 
-def _equal(what: str) -> Row:
+def _equal(what: str) -> Row[Compared]:
     """A table of what equal errors cost."""
     return Row(
         f"{what}_at_equal_errors",
@@ -217,6 +234,14 @@ def _equal(what: str) -> Row:
         lambda c: at_equal_errors(c.tested, what) if c.has_work else [],
         label=f"{what} for an error of",
     )
+
+
+def _remark_rows(remarks: Sequence[tuple[str, str]], d: Plain) -> list[tuple[str, str]]:
+    return [(x, d.prose(text)) for x, text in remarks]
+
+
+def _scene(compared: Compared) -> Scene:
+    return errors_scene(compared.tested, compared.against)
 
 
 def _drawn(compared: Compared) -> Compared | None:
@@ -260,48 +285,74 @@ def _answer(compared: Compared, d: Plain) -> str:
     return f"{counted(len(compared.entries), 'method')}: {', '.join(filter(None, texts))}"
 
 
-HEAD = (Row("file", TEXT, "entry.file"), Row("ok", TRUTH, lambda x: x.entry.exit_code == 0))
-TESTED = {
-    kind: Section(
-        *HEAD,
-        Row("schema", constant(alone.REPORT.schema_name), lambda _: alone.REPORT.schema_name),
-        *via(lambda x: x.test, section.rows),
-    )
-    for kind, section in alone.FORMS.items()
-}
-UNTESTED = Section(
-    *HEAD, Row("name", TEXT, "entry.name"), Row("errors", parts(FAULT), "entry.faults")
+HEAD: Rows[Named] = (
+    Row("file", TEXT, lambda x: x.entry.file),
+    Row("ok", TRUTH, lambda x: x.entry.exit_code == 0),
 )
-RESULT = Choice(
+SCHEMA: Row[object] = Row(
+    "schema", constant(alone.REPORT.schema_name), lambda _: alone.REPORT.schema_name
+)
+
+
+def _test(x: Named) -> alone.ConvergenceReport | None:
+    return x.test
+
+
+TESTED: dict[type[Stepped], Section[Named]] = {
+    kind: Section(HEAD, SCHEMA, via(_test, section.rows)) for kind, section in alone.FORMS.items()
+}
+UNTESTED: Section[Named] = Section(
+    HEAD,
+    Row("name", TEXT, lambda x: x.entry.name),
+    Row("errors", parts(FAULT), lambda x: x.entry.faults),
+)
+RESULT: Section[Named] = Choice(
     lambda x: UNTESTED if x.test is None else TESTED[type(x.test.result.problem)],
     UNTESTED,
     *TESTED.values(),
 )
-LINE = (Row("file", TEXT, "0.file"), Row("method", TEXT, "0.name"))
-SUMMARY = Section(
+
+
+class Line(NamedTuple):
+    """A step size of a method of a comparison."""
+
+    entry: Entry
+    step: alone.StepTold
+
+
+LINE: Rows[Line] = (
+    Row("file", TEXT, lambda x: x.entry.file),
+    Row("method", TEXT, lambda x: x.entry.name),
+)
+SUMMARY: Section[Compared] = Section(
     Row("files", COUNT, lambda c: len(c.entries)),
     Row("failed", COUNT, lambda c: sum(x.exit_code != 0 for x in c.entries)),
 )
+
+
+def _lines(c: Compared) -> tuple[Section[Line], list[Line]]:
+    steps = alone.WORKED if c.has_work else alone.STEP
+    found = [Line(x.entry, step) for x in c.named if x.test for step in alone.steps(x.test)]
+    return Section(LINE, via(lambda x: x.step, steps.rows)), found
+
+
 REPORT: Report[Compared] = Report.only(
     "gark/converge-comparison/1",
     "report of gark converge of several methods",
     Section(
         answer(_answer),
         Row("problem_in_words", SAID, _problem, label="problem"),
-        Row("remarks", rows_of(lambda xs, d: [(x, d.prose(text)) for x, text in xs]), _remarks),
-        Row("methods", shown(METHOD, MOST_METHODS), "named", label=""),
+        Row("remarks", rows_of(_remark_rows), _remarks),
+        Row("methods", shown(METHOD, MOST_METHODS), lambda x: x.named, label=""),
         Row("sizes", shown(SIZE, MOST_METHODS), _sizes, label="errors"),
         Row("work", shown(WORK, MOST_METHODS), _work),
         _equal("evaluations"),
         _equal("seconds"),
-        Row("plot", scene(lambda c: errors_scene(c.tested, c.against)), _drawn, DETAIL),
-        Row("results", parts(RESULT), "named", DATA),
-        Row("summary", part(SUMMARY), ".", DATA),
+        Row("plot", scene(_scene), _drawn, DETAIL),
+        Row("results", parts(RESULT), lambda x: x.named, DATA),
+        Row("summary", part(SUMMARY), lambda x: x, DATA),
     ),
-    lines=lambda c: (
-        Section(*LINE, *via(lambda x: x[1], (alone.WORKED if c.has_work else alone.STEP).rows)),
-        [(x.entry, step) for x in c.named if x.test is not None for step in alone.steps(x.test)],
-    ),
+    lines=_lines,
 )
 
 

@@ -14,7 +14,7 @@ from garkcli.constructions.rosenbrock import is_rosenbrock
 from garkcli.errors import counted
 from garkcli.exact.display import decimal, decimal_latex, shortest, to_decimal, to_latex
 from garkcli.exact.parametric import Parametric
-from garkcli.frozen import Frozen, Mutable, replace
+from garkcli.frozen import Frozen, Mutable
 from garkcli.ntrees.notation import condition_latex, condition_text, format_tree, vertex_letters
 from garkcli.ntrees.tree import Tree
 from garkcli.order.conditions import Condition
@@ -26,10 +26,20 @@ from garkcli.report.symplectic_subject import SUBJECT, Subject
 from garkcli.report.trees import DATA, DETAIL, SIZES, TREES, pictures
 from garkcli.tableau.tableau import Tableau
 from garkcli.tell.dialect import LONG, Plain
-from garkcli.tell.facts import Kind, Level, Row, Section, maybe, optional
-from garkcli.tell.kinds import NUMERAL, POSITION, TEXTS, TOLERANCE, choice, numeral_text
+from garkcli.tell.facts import Json, Kind, Level, Row, Rows, Section, maybe, optional, via
+from garkcli.tell.kinds import (
+    DERIVATION,
+    INDEX,
+    NUMERAL,
+    POSITION,
+    TEXTS,
+    TOLERANCE,
+    choice,
+    numeral_text,
+)
 from garkcli.tell.parts import part, sentence, stream, told
 from garkcli.tell.report import Report
+from garkcli.tell.shown import Words
 
 MOST_DECIMALS = 20
 """Of a value; longer ones are rounded."""
@@ -134,7 +144,7 @@ class Conditions(Mutable):
         return about.names if about else [str(l + 1) for l in range(self.coloured or 1)]
 
     @property
-    def form(self) -> Section:
+    def form(self) -> Section[Conditions]:
         """What tells the table: the keys that no row has are left out."""
         is_shapes = not (self.subject or self.valued or self.coloured)
         left_out = {"for_all": not is_shapes, "multiplicity": self.subject is not None}
@@ -232,11 +242,12 @@ def _number(condition: Condition, key: str, d: Plain) -> str:
     return d.formula(rf"\approx {decimal_latex(text)}", f"about {text}")
 
 
-def _numeral(key: str, level: Level) -> Row:
-    kind = Kind(
-        S.NUMERAL, lambda x, d: numeral_text(getattr(x, key), d), lambda x, d: _number(x, key, d)
+def _numeral(key: str, level: Level) -> Row[Condition]:
+    kind: Kind[Condition] = Kind(
+        Json(S.NUMERAL, lambda x, d: numeral_text(getattr(x, key), d)),
+        Words(lambda x, d: _number(x, key, d)),
     )
-    return Row(key, kind, "condition", level)
+    return Row(key, kind, lambda x: x, level)
 
 
 def _state(condition: Condition, d: Plain) -> str:
@@ -288,58 +299,62 @@ def _for_all(letters: Sequence[str], d: Plain) -> str:
     return d.formula(rf"\forall\, {text}", text)
 
 
-_PICTURE, _ = pictures(lambda x: x.tree)
-_ROOT, *_SIZES = SIZES
-_TREE = (
-    _PICTURE,
-    Row(
-        "tree",
-        Kind(S.TEXT, lambda x, _: format_tree(x.tree, not x.is_shape), lambda x, d: d.tree(x.tree)),
-        ".",
-    ),
-    replace(_ROOT, get=lambda x: None if x.is_shape else x.tree.root, has_null=True),
-    *_SIZES,
-    Row("condition", Kind(S.TEXT, lambda x, _: x.text(), _formula), ".", DETAIL),
-    optional(
-        "for_all",
-        Kind(S.array(S.TEXT), words=_for_all, csv=lambda _: {}),
-        lambda x: x.letters and list(x.letters),
-        DETAIL,
-    ),
+def _tree(x: ConditionRow) -> Tree:
+    return x.tree
+
+
+_PICTURE, _ = pictures(_tree)
+TREE: Kind[ConditionRow] = Kind(
+    Json(S.TEXT, lambda x, _: format_tree(x.tree, not x.is_shape)),
+    Words(lambda x, d: d.tree(x.tree)),
 )
-_VALUES = (
+FORMULA: Kind[ConditionRow] = Kind(Json(S.TEXT, lambda x, _: x.text()), Words(_formula))
+FOR_ALL: Kind[Sequence[str]] = Kind(
+    Json(S.array(S.TEXT), lambda x, _: list(x), csv=lambda _: {}), Words(_for_all)
+)
+HOLDS: Kind[Condition] = Kind(Json(S.FLAG, lambda x, _: x.holds), Words(_state))
+_TREE: Rows[ConditionRow] = (
+    _PICTURE,
+    Row("tree", TREE, lambda x: x),
+    maybe("root", INDEX, lambda x: None if x.is_shape else x.tree.root, DATA),
+    *SIZES[1:],
+    Row("condition", FORMULA, lambda x: x, DETAIL),
+    optional("for_all", FOR_ALL, lambda x: x.letters, DETAIL),
+)
+_OF_CONDITION: Rows[Condition] = (
     _numeral("value", DETAIL),
     _numeral("required", DATA),
     _numeral("residual", DETAIL),
-    Row("holds", Kind(S.FLAG, lambda x, _: x.holds, _state), "condition"),
-    Row("kind", choice("coupling", "diagonal"), lambda x: _kind(x.condition), DATA, has_null=True),
-    optional("multiplicity", POSITION, lambda x: len(x.condition.trees), DATA),
+    Row("holds", HOLDS, lambda x: x),
+    maybe("kind", choice("coupling", "diagonal"), _kind, DATA),
+    optional("multiplicity", POSITION, lambda x: len(x.trees), DATA),
 )
-_CLASS = (
+_VALUES: Rows[ConditionRow] = via(lambda x: x.condition, _OF_CONDITION)
+_CLASS: Rows[ConditionRow] = (
     optional("stands_for", POSITION, lambda x: x.stands_for or None, DETAIL),
     optional("members", TREES, lambda x: [format_tree(u) for u in x.members] or None, DATA),
-    Row("condition", told(_in_words), ".", is_short=True),
+    Row("condition", told(_in_words), lambda x: x, is_short=True),
 )
-_OF_METHOD = (
-    Row("derivation", Kind(S.DERIVATION), "valued.derivation", DATA),
-    Row("colours", TEXTS, "valued.names", DATA),
-    maybe("tolerance", TOLERANCE, "valued.tolerance", DATA),
+_OF_METHOD: Rows[Valued] = (
+    Row("derivation", DERIVATION, lambda x: x.derivation, DATA),
+    Row("colours", TEXTS, lambda x: x.names, DATA),
+    maybe("tolerance", TOLERANCE, lambda x: x.tolerance, DATA),
 )
 
 
 @cache
-def row_of(has_values: bool, left_out: frozenset[str] = frozenset()) -> Section:
+def row_of(has_values: bool, left_out: frozenset[str] = frozenset()) -> Section[ConditionRow]:
     """A line of the table, without the rows of some keys."""
     rows = (*_TREE, *(_VALUES if has_values else ()), *_CLASS)
-    return Section(*(row for row in rows if row.key not in left_out))
+    return Section(row for row in rows if row.key not in left_out)
 
 
 @cache
-def _form(has_values: bool, left_out: frozenset[str] = frozenset()) -> Section:
+def _form(has_values: bool, left_out: frozenset[str] = frozenset()) -> Section[Conditions]:
     return Section(
-        *(_OF_METHOD if has_values else ()),
+        via(lambda x: x.valued, _OF_METHOD if has_values else ()),
         sentence(lambda x: x.legend),
-        optional("symplectic", part(SUBJECT), "subject", DATA),
+        optional("symplectic", part(SUBJECT), lambda x: x.subject, DATA),
         Row(
             "conditions",
             stream(row_of(has_values, left_out), lambda x, _: f"order {x.tree.order}"),

@@ -2,11 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple, get_args
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple, get_args
 
-from flint import arb
+from flint import arb, fmpq
 
-from garkcli.convergence.result import CLOSE, MAX_ORDER, Convergence, Stiffness, Verdict, curve
+from garkcli.convergence.result import (
+    CLOSE,
+    MAX_ORDER,
+    Convergence,
+    Cost,
+    Stiffness,
+    Verdict,
+    curve,
+)
 from garkcli.convergence.result import Row as Step
 from garkcli.exact.display import to_float
 from garkcli.frozen import Frozen
@@ -17,24 +26,30 @@ from garkcli.problems.deferred import names_of
 from garkcli.problems.oscillator import Oscillator
 from garkcli.reason import Reason
 from garkcli.report.failure import FAILURE, Failure
-from garkcli.report.problem import STEPPED
+from garkcli.report.problem import STEPPED, Run
 from garkcli.tableau.garkmethod import derivation_of
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import (
     Answer,
     Choice,
+    Json,
     Kind,
     Level,
     Row,
+    Rows,
     Section,
     Status,
     maybe,
     optional,
     via,
 )
-from garkcli.tell.kinds import COUNT, EXACT, POSITION, TEXT, TEXTS, TRUTH, choice
+from garkcli.tell.kinds import COUNT, DERIVATION, EXACT, POSITION, TEXT, TEXTS, TRUTH, choice
 from garkcli.tell.parts import answer, part, rows_of, scene, table
 from garkcli.tell.report import Report
+from garkcli.tell.shown import Labels, Words
+
+if TYPE_CHECKING:
+    from garkcli.plots.scene import Scene
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 MOST_STEPS = 10
@@ -98,49 +113,61 @@ def _place(order: float) -> float:
     return round(order, 4) + 0.0
 
 
-STEP_SIZE = Kind(S.SIZE, lambda h, _: to_float(h), lambda h, d: d.number(h))
-MEASURED = Kind(S.SIZE, lambda x, _: _number(x), lambda x, d: d.prose(rounded(x)), csv=for_programs)
-SLOPE = Kind(S.NUMBER, lambda x, _: _place(x), lambda x, _: f"{x:.3f}")
-OBSERVED = Kind(S.NUMBER, lambda x, _: _place(x), lambda x, _: order_text(x))
-SECONDS = Kind(S.SIZE, words=lambda x, _: scientific(arb(x)))
+STEP_SIZE: Kind[fmpq] = Kind(
+    Json(S.SIZE, lambda h, _: to_float(h)), Words(lambda h, d: d.number(h))
+)
+MEASURED: Kind[arb] = Kind(
+    Json(S.SIZE, lambda x, _: _number(x), csv=for_programs), Words(lambda x, d: d.prose(rounded(x)))
+)
+SLOPE: Kind[float] = Kind(Json(S.NUMBER, lambda x, _: _place(x)), Words(lambda x, _: f"{x:.3f}"))
+OBSERVED: Kind[float] = Kind(
+    Json(S.NUMBER, lambda x, _: _place(x)), Words(lambda x, _: order_text(x))
+)
+RESOLUTION: Kind[float] = Kind(Json(S.SIZE, lambda x, _: float(f"{x:.3g}")))
+SECONDS: Kind[float] = Kind(Json(S.SIZE), Words(lambda x, _: scientific(arb(x))))
 
 
 def _short_name(name: str) -> str:
     return name if len(name) <= _LONGEST_HEAD else f"{name[:24]}…{name[-15:]}"
 
 
-INVARIANT_ERRORS = Kind(
-    {"type": "object", "additionalProperties": S.SIZE},
-    lambda errors, _: {name: _number(x) for name, x in errors.items()},
-    rows=lambda errors, d: [
-        (d.prose(f"{_short_name(name)} error"), d.prose(rounded(x))) for name, x in errors.items()
-    ],
-    csv=lambda errors: {
-        f"{name.replace(' ', '_')}_error": for_programs(x) for name, x in errors.items()
-    },
+INVARIANT_ERRORS: Kind[dict[str, arb]] = Kind(
+    Json(
+        {"type": "object", "additionalProperties": S.SIZE},
+        lambda errors, _: {name: _number(x) for name, x in errors.items()},
+        csv=lambda errors: {
+            f"{name.replace(' ', '_')}_error": for_programs(x) for name, x in errors.items()
+        },
+    ),
+    Labels(
+        lambda errors, d: [
+            (d.prose(f"{_short_name(name)} error"), d.prose(rounded(x)))
+            for name, x in errors.items()
+        ]
+    ),
 )
 
 # the table
 
-COST = Section(
-    Row("steps", COUNT),
-    Row("evaluations", COUNT),
-    Row("newton_iterations", COUNT, "iterations", label="iterations"),
-    Row("jacobians", COUNT, label="Jacobians"),
-    maybe("seconds", SECONDS),
+COST: Section[Cost] = Section(
+    Row("steps", COUNT, lambda x: x.steps),
+    Row("evaluations", COUNT, lambda x: x.evaluations),
+    Row("newton_iterations", COUNT, lambda x: x.iterations, label="iterations"),
+    Row("jacobians", COUNT, lambda x: x.jacobians, label="Jacobians"),
+    maybe("seconds", SECONDS, lambda x: x.seconds),
 )
-STEP = Section(
-    Row("h", STEP_SIZE, "row.h"),
-    Row("h_exact", EXACT, "row.h", DATA),
-    Row("error", MEASURED, "row.error"),
-    maybe("slope", SLOPE, "row.slope"),
-    maybe("energy_error", MEASURED, "row.energy_error"),
-    Row("invariant_errors", INVARIANT_ERRORS),
-    maybe("digits", POSITION, "row.digits"),
-    optional("below_round_off", TEXTS, level=DATA),
+STEP: Section[StepTold] = Section(
+    Row("h", STEP_SIZE, lambda x: x.row.h),
+    Row("h_exact", EXACT, lambda x: x.row.h, DATA),
+    Row("error", MEASURED, lambda x: x.row.error),
+    maybe("slope", SLOPE, lambda x: x.row.slope),
+    maybe("energy_error", MEASURED, lambda x: x.row.energy_error),
+    Row("invariant_errors", INVARIANT_ERRORS, lambda x: x.invariant_errors),
+    maybe("digits", POSITION, lambda x: x.row.digits),
+    optional("below_round_off", TEXTS, lambda x: x.below_round_off, DATA),
 )
-WORKED = Section(*STEP.rows, maybe("work", part(COST), "row.cost"))
-_STEPS = Choice(lambda x: WORKED if x.test.has_work else STEP, STEP, WORKED)
+WORKED: Section[StepTold] = Section(STEP.rows, maybe("work", part(COST), lambda x: x.row.cost))
+_STEPS: Section[StepTold] = Choice(lambda x: WORKED if x.test.has_work else STEP, STEP, WORKED)
 
 
 def steps(test: ConvergenceReport) -> list[StepTold]:
@@ -148,27 +175,27 @@ def steps(test: ConvergenceReport) -> list[StepTold]:
     return [StepTold(row, test) for row in test.result.rows]
 
 
-def lines(x: Any) -> tuple[Section, list[StepTold]]:
+def lines(x: ConvergenceReport | Failure) -> tuple[Section[StepTold], list[StepTold]]:
     """The rows for CSV; no column where there is no energy."""
     if isinstance(x, Failure):
         return STEP, []
     section, found = WORKED if x.has_work else STEP, steps(x)
     if all(step.row.energy_error is not None for step in found):
         return section, found
-    return Section(*(row for row in section.rows if row.key != "energy_error")), found
+    return Section(row for row in section.rows if row.key != "energy_error"), found
 
 
 # orders and the verdict
 
 
-def visible(x: Convergence) -> Answer:
+def visible(x: Convergence) -> Answer[int]:
     """The order that is to be observed: at least that where the problem may hide some trees."""
     return Answer(
         x.visible_order, Status(at_least=not x.visible.is_sharp), Reason("{}", x.visible.trees)
     )
 
 
-def predicted(x: Convergence) -> Answer:
+def predicted(x: Convergence) -> Answer[int]:
     """The order of the method; what the problem hides of it."""
     hidden = f"its failing trees of order {x.predicted_order + 1} are not seen here"
     return Answer(
@@ -260,24 +287,27 @@ def _drawn(test: ConvergenceReport) -> ConvergenceReport | None:
 # reports
 
 
-def _resolution(x: Convergence) -> float | None:
-    """The smallest h ‖∂f/∂y‖ in a few digits."""
-    return None if x.stiff is None else float(f"{x.stiff.resolution:.3g}")
-
-
-SHORT = Section(Row("t_end", EXACT, "short_time"), maybe("observed_order", OBSERVED, "short_order"))
-STIFF = Section(
-    maybe("least_h_times_norm", Kind(S.SIZE), _resolution),
-    Row("classical_order", COUNT, "predicted_order"),
-    maybe("stage_order", COUNT, "stiff.stage_order"),
-    maybe("weak_stage_order", COUNT, "stiff.weak_stage_order"),
-    maybe("slope", SLOPE, "observed_order"),
+SHORT: Section[Convergence] = Section(
+    Row("t_end", EXACT, lambda x: x.short_time),
+    maybe("observed_order", OBSERVED, lambda x: x.short_order),
 )
-_RESULT = [
-    Row("t_end", EXACT, level=DATA),
+OF_STIFFNESS: Rows[Stiffness] = (
+    maybe("stage_order", COUNT, lambda x: x.stage_order),
+    maybe("weak_stage_order", COUNT, lambda x: x.weak_stage_order),
+)
+STIFF: Section[Convergence] = Section(
+    maybe(
+        "least_h_times_norm", RESOLUTION, lambda x: None if x.stiff is None else x.stiff.resolution
+    ),
+    Row("classical_order", COUNT, lambda x: x.predicted_order),
+    via(lambda x: x.stiff, OF_STIFFNESS),
+    maybe("slope", SLOPE, lambda x: x.observed_order),
+)
+_RESULT: Rows[Convergence] = [
+    Row("t_end", EXACT, lambda x: x.t_end, DATA),
     answer(_answer),
     Row("visible_order", COUNT, visible),
-    Row("visible_order_is_exact", TRUTH, "visible.is_sharp", DATA),
+    Row("visible_order_is_exact", TRUTH, lambda x: x.visible.is_sharp, DATA),
     Row("predicted_order", COUNT, predicted),
     optional(
         "jacobian",
@@ -285,30 +315,42 @@ _RESULT = [
         lambda x: None if x.jacobian == "exact" else x.jacobian,
         label="Jacobian",
     ),
-    maybe("observed_order", OBSERVED, level=DATA),
-    Row("agrees", TRUTH, level=DATA),
-    Row("verdict", choice(*get_args(Verdict)), level=DATA),
-    Row("plateau", COUNT, level=DATA),
+    maybe("observed_order", OBSERVED, lambda x: x.observed_order, DATA),
+    Row("agrees", TRUTH, lambda x: x.agrees, DATA),
+    Row("verdict", choice(*get_args(Verdict)), lambda x: x.verdict, DATA),
+    Row("plateau", COUNT, lambda x: x.plateau, DATA),
     optional("short", part(SHORT), lambda x: None if x.short_time is None else x, DATA),
     optional("stiff", part(STIFF), lambda x: None if x.stiff is None else x, DATA),
-    Row("note", TEXT, "visible.trees", DATA),
+    Row("note", TEXT, lambda x: x.visible.trees, DATA),
 ]
-FORMS = {
-    kind: Section(
-        Row("name", TEXT, level=DATA),
-        Row("derivation", Kind(S.DERIVATION), lambda x: derivation_of(x.result.method), DATA),
-        *via(lambda x: x.result, [*rows, *_RESULT]),
-        Row("notes", rows_of(lambda xs, d: [("note", d.prose(x)) for x in xs]), notes),
+
+
+def _form(problem: Rows[Run]) -> Section[ConvergenceReport]:
+    return Section(
+        Row("name", TEXT, lambda x: x.name, DATA),
+        Row("derivation", DERIVATION, lambda x: derivation_of(x.result.method), DATA),
+        via(lambda x: x.result, problem),
+        via(lambda x: x.result, _RESULT),
+        Row("notes", rows_of(_notes_rows), notes),
         Row("steps", table(_STEPS, MOST_STEPS), steps),
-        Row("plot", scene(lambda x: errors_scene([(x.name, x.result)], x.against)), _drawn, DETAIL),
+        Row("plot", scene(_scene), _drawn, DETAIL),
         title=lambda x, d: d.prose(x.name),
     )
-    for kind, rows in STEPPED.items()
-}
+
+
+def _notes_rows(texts: Sequence[str], d: Plain) -> list[tuple[str, str]]:
+    return [("note", d.prose(x)) for x in texts]
+
+
+def _scene(x: ConvergenceReport) -> Scene:
+    return errors_scene([(x.name, x.result)], x.against)
+
+
+FORMS = {kind: _form(problem) for kind, problem in STEPPED.items()}
 """By the kind of the problem."""
 
 
-def form(x: ConvergenceReport | Failure) -> Section:
+def form(x: ConvergenceReport | Failure) -> Section[Any]:
     """The rows of a test, or of one without a result."""
     return FAILURE if isinstance(x, Failure) else FORMS[type(x.result.problem)]
 

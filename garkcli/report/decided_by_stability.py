@@ -2,29 +2,45 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Protocol
 
 from garkcli.tell import kinds
-from garkcli.tell.facts import Answer, Level, Row, Status, maybe, optional
+from garkcli.tell.facts import Answer, Level, Row, Rows, Status, maybe, optional
 from garkcli.tell.parts import told
 
 if TYPE_CHECKING:
+    from flint import fmpq
+
+    from garkcli.check.order_facts import LinearSubject
     from garkcli.tell.dialect import Plain
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 
 
-def _truth(key: str) -> Row:
+class OnLinearProblems(Protocol):
+    """An analysis whose subject is a ``LinearSubject``."""
+
+    @property
+    def subject(self) -> LinearSubject:
+        """Decides properties by R(z)."""
+
+    @property
+    def tolerance(self) -> fmpq | None:
+        """The rounding of the coefficients."""
+
+
+def _truth(key: str) -> Row[OnLinearProblems]:
     """A property that R(z) decides."""
 
-    def get(a: Any) -> Answer:
+    def get(a: OnLinearProblems) -> Answer[bool]:
         v = a.subject.verdict(key)
+        assert v.value is None or isinstance(v.value, bool)
         return Answer(v.value, Status(open=v.reason) if v.is_undecided else Status(), v.reason)
 
     return maybe(key.replace("-", "_"), kinds.TRUTH, get, DATA)
 
 
-def _stability_words(a: Any, d: Plain) -> str:
+def _stability_words(a: OnLinearProblems, d: Plain) -> str:
     """``A-stable, R(∞) = 0``."""
     words = []
     for key, name in (("a-stable", "A-stable"), ("l-stable", "L-stable")):
@@ -42,11 +58,11 @@ def _stability_words(a: Any, d: Plain) -> str:
     return ", ".join(words)
 
 
-STABILITY = (
-    Row("stability", told(_stability_words), "."),
+STABILITY: Rows[OnLinearProblems] = (
+    Row("stability", told(_stability_words), lambda a: a),
     _truth("a-stable"),
     _truth("l-stable"),
-    maybe("R_infinity", kinds.EXACT, "subject.at_infinity", DATA),
+    maybe("R_infinity", kinds.EXACT, lambda a: a.subject.at_infinity, DATA),
     optional(
         "R",
         kinds.ratio("z"),
@@ -55,4 +71,3 @@ STABILITY = (
         label="R(z)",
     ),
 )
-"""The rows of an analysis whose ``subject`` is a ``LinearSubject``."""

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from itertools import groupby
-from typing import Any, NamedTuple, get_args
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias, get_args
 
-from garkcli.design.choices import Choice
+from garkcli.design.choices import Choice as Choices
 from garkcli.design.design import Design, Found, Step, estimates_nothing
 from garkcli.design.design import Kind as Verdict
 from garkcli.design.member import Whose
 from garkcli.design.minimise.objective import Level as LevelObjective
-from garkcli.design.minimise.result import Candidate, Extent, Minimum, Proof
+from garkcli.design.minimise.result import Candidate, Extent, Limit, Minimum, Proof
 from garkcli.design.minimise.smallest import DECIMALS
 from garkcli.design.solutions import value_at
 from garkcli.design.stable_values import StableValues
@@ -24,16 +24,22 @@ from garkcli.ntrees.tree import Tree
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ALGEBRAIC, root_data
 from garkcli.reason import Reason
-from garkcli.report.design_values import conditions, equation, where, zeros
+from garkcli.report.design_values import AnyPolynomial, conditions, equation, where, zeros
 from garkcli.report.stable_values import VALUES, ends, number, stability
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Kind, Level, Row, Section, maybe, optional, via
+from garkcli.tell.facts import Choice, Json, Kind, Level, Row, Rows, Section, maybe, optional, via
 from garkcli.tell.kinds import COUNT, INTEGER, POSITION, TEXT, TEXTS, TREE, TRUTH, choice, constant
 from garkcli.tell.parts import answer, part, parts, rows_of, told
 from garkcli.tell.report import Report
+from garkcli.tell.shown import Words
+
+if TYPE_CHECKING:
+    from garkcli.design.ideal import Ideal
+    from garkcli.design.parts import Pieces
+    from garkcli.order.deciding import AnyOrder
 
 HEADLINE, USUAL, DETAIL, DATA = Level
-Rows = list[tuple[str, str]]
+Texts: TypeAlias = list[tuple[str, str]]
 ROOM = 400
 """So many signs of polynomials are usual; with details all of them are reported."""
 MOST = 4
@@ -57,7 +63,7 @@ class DesignReport(NamedTuple):
     file: str
     design: Design
     digits: int = 12
-    choices: Sequence[Choice] = ()
+    choices: Sequence[Choices] = ()
     minimum: Minimum | None = None
     sets: Sequence[StableValues] = ()
 
@@ -233,7 +239,7 @@ def _values(found: Order, d: Plain, is_whole: bool) -> Iterator[str]:
         yield "found by msolve: each is proved, that there are no others is not"
 
 
-def certified(order: Any, whose: str) -> str:
+def certified(order: AnyOrder, whose: str) -> str:
     """The order of a solution."""
     return f"order {'at least ' * order.is_lower_bound}{order.order} of the {whose}"
 
@@ -287,11 +293,11 @@ def groups(design: Design) -> list[list[Order]]:
     return [list(group) for _, group in groupby(found, key=lambda x: x.likeness)]
 
 
-def order_rows(x: DesignReport, d: Plain) -> Rows:
+def order_rows(x: DesignReport, d: Plain) -> Texts:
     """What each order asks; usually only the highest that is reached with its polynomials."""
     if not x.design.family.parameters:
         return single_rows(x.design, d)
-    rows: Rows = []
+    rows: Texts = []
     best = _best(x.design)
     for group in groups(x.design):
         first, last = group[0].step.order, group[-1]
@@ -302,7 +308,7 @@ def order_rows(x: DesignReport, d: Plain) -> Rows:
     return rows
 
 
-def single_rows(design: Design, d: Plain) -> Rows:
+def single_rows(design: Design, d: Plain) -> Texts:
     """Which condition stops a method without unknowns."""
     last = design.last
     if last.witness is None:
@@ -318,7 +324,7 @@ def _tree(design: Design, tree: Tree, d: Plain) -> str:
     return d.naming([colour.name for colour in design.tableau.colours]).tree(tree)
 
 
-def choice_rows(choices: Sequence[Choice], d: Plain) -> Rows:
+def choice_rows(choices: Sequence[Choices], d: Plain) -> Texts:
     """What each choice leaves."""
     rows = []
     for x in choices:
@@ -386,7 +392,7 @@ def _briefly(step: Step) -> str:
     return counted(count, "solution") if real == count else f"{real} of {count} solutions"
 
 
-def embedded_rows(x: DesignReport, d: Plain) -> Rows:
+def embedded_rows(x: DesignReport, d: Plain) -> Texts:
     """That there is nothing to estimate errors with, and what helps."""
     best = _best(x.design)
     if best is None or not estimates_nothing(x.design, best):
@@ -398,7 +404,7 @@ def embedded_rows(x: DesignReport, d: Plain) -> Rows:
     return [("embedded", d.prose(text))]
 
 
-def stable_rows(x: DesignReport, d: Plain) -> Rows:
+def stable_rows(x: DesignReport, d: Plain) -> Texts:
     """What the ends of the stable values are; how stability is decided where it is not."""
     family, best = x.design.family, _best(x.design)
     kinds = ", ".join(map(str, family.stable))
@@ -495,14 +501,14 @@ def _candidate(minimum: Minimum, candidate: Candidate, d: Plain) -> str:
     return f"{joined(_parameters(minimum, candidate), d)}: {'; '.join(said)}"
 
 
-def _toward(limit: Any, d: Plain) -> str:
+def _toward(limit: Limit, d: Plain) -> str:
     toward, name = limit.toward, d.expression(limit.parameter)
     if toward.end is not None:
         return f"{name} {d.prose('→')} {number(toward.end, d)}"
     return f"{name} {d.prose('→')} {'' if toward.is_right else '-'}{d.infinity}"
 
 
-def best_rows(minimum: Minimum, d: Plain) -> Rows:
+def best_rows(minimum: Minimum, d: Plain) -> Texts:
     """What is made small, its value, and where it is reached or approached."""
     what = minimum.objective.summary.format(next=minimum.step.order + 1)
     if not minimum.design.family.parameters:
@@ -520,15 +526,17 @@ def best_rows(minimum: Minimum, d: Plain) -> Rows:
 
 # for programs
 
-VALUES_OF = Kind(
-    {"type": "object", "additionalProperties": ALGEBRAIC},
-    lambda values, d: {name: root_data(x, d.digits) for name, x in values.items()},
-    joined,
+VALUES_OF: Kind[dict[str, RealRoot]] = Kind(
+    Json(
+        {"type": "object", "additionalProperties": ALGEBRAIC},
+        lambda values, d: {name: root_data(x, d.digits) for name, x in values.items()},
+    ),
+    Words(joined),
 )
-NO_VALUES = Kind(S.NULL, lambda *_: None)
-
-
-END = Kind(ALGEBRAIC, lambda x, d: x if isinstance(x, str) else root_data(x, d.digits))
+NO_VALUES: Kind[object] = Kind(Json(S.NULL))
+END: Kind[RealRoot | str] = Kind(
+    Json(ALGEBRAIC, lambda x, d: x if isinstance(x, str) else root_data(x, d.digits))
+)
 
 
 def _accepted(x: Solutions) -> bool | None:
@@ -540,12 +548,6 @@ def _accepted(x: Solutions) -> bool | None:
     return True if x.number in x.found.accepted else None
 
 
-OF_FOUND = via(
-    lambda x: x.found,
-    [Row("multiplicity", POSITION, "solution.multiplicity"), maybe("order", COUNT, "order.order")],
-)
-
-
 def _embedded_order(found: Found) -> int | None:
     return None if found.embedded is None else found.embedded[0].order
 
@@ -554,74 +556,88 @@ def _dense_order(found: Found) -> int | None:
     return None if found.dense is None else found.dense.order
 
 
-def _embedded_error(found: Found, index: int) -> RealRoot | None:
-    return found.embedded and value_at(found.embedded[1], found.solution.real[index])
+def _embedded_error(found: Found, index: int | None) -> RealRoot | None:
+    if found.embedded is None or index is None:
+        return None
+    return value_at(found.embedded[1], found.solution.real[index])
 
 
-REAL = Section(
-    Row("values", VALUES_OF),
-    Row("real", constant(True), lambda _: True),
+OF_FOUND: Rows[Found] = (
+    Row("multiplicity", POSITION, lambda x: x.solution.multiplicity),
+    maybe("order", COUNT, lambda x: None if x.order is None else x.order.order),
+)
+FURTHER: Rows[Found] = (
+    optional("embedded_order", COUNT, _embedded_order),
+    optional("dense_order", COUNT, _dense_order),
+)
+REAL: Section[Solutions] = Section(
+    Row("values", VALUES_OF, lambda x: x.values),
+    Row("real", constant(value=True), lambda _: True),
     Row("admissible", TRUTH, lambda x: x.number in x.found.accepted),
     Row("stable", TRUTH, _accepted, has_null=True, is_optional=True),
-    optional("embedded_order", COUNT, lambda x: _embedded_order(x.found)),
+    via(lambda x: x.found, FURTHER[:1]),
     optional("embedded_error", END, lambda x: _embedded_error(x.found, x.number)),
-    optional("dense_order", COUNT, lambda x: _dense_order(x.found)),
-    *OF_FOUND,
+    via(lambda x: x.found, FURTHER[1:]),
+    via(lambda x: x.found, OF_FOUND),
 )
-NOT_REAL = Section(
-    Row("values", NO_VALUES),
-    Row("real", constant(False), lambda _: False),
-    Row("count", POSITION, "others"),
-    *OF_FOUND,
+NOT_REAL: Section[Solutions] = Section(
+    Row("values", NO_VALUES, lambda x: x.values),
+    Row("real", constant(value=False), lambda _: False),
+    Row("count", POSITION, lambda x: x.others),
+    via(lambda x: x.found, OF_FOUND),
 )
-SOLUTION = Kind(
-    S.one_of(REAL.schema, NOT_REAL.schema),
-    lambda x, d: (NOT_REAL if x.number is None else REAL).data(x, d),
-    is_list=True,
+SOLUTION: Section[Solutions] = Choice(
+    lambda x: NOT_REAL if x.number is None else REAL, REAL, NOT_REAL
 )
-CONDITIONS = Kind(S.array(S.TEXT), lambda xs, _: list(map(str, xs)))
+CONDITIONS: Kind[Sequence[Reason]] = Kind(Json(S.array(S.TEXT), lambda xs, _: list(map(str, xs))))
 
 
-def _known(get: Any) -> Any:
-    """What is known of an ideal, where it was found."""
-
-    def value(x: Order) -> Any:
-        return None if x.step.ideal is None or x.step.kind == "undecided" else get(x)
-
-    return value
+def _ideal(x: Order) -> Ideal | Pieces | None:
+    """The ideal of an order that is decided."""
+    return None if x.step.kind == "undecided" else x.step.ideal
 
 
-STEP = [
-    Row("order", POSITION, "step.order", DATA),
-    Row("verdict", choice(*get_args(Verdict)), "step.kind", DATA),
-    maybe("reached", TRUTH, "step.has_methods", DATA),
-    optional("ideal", TEXTS, _known(lambda x: x.zeros), DATA),
-    Row("restrictions", CONDITIONS, "conditions", DATA),
+def _dimension(x: Order) -> int | None:
+    ideal = _ideal(x)
+    return None if ideal is None else ideal.dimension
+
+
+def _zeros(
+    x: Order, ideal: Ideal | Pieces | None, polynomials: Sequence[AnyPolynomial]
+) -> list[str] | None:
+    return None if ideal is None else zeros(x.design.family, polynomials)
+
+
+STEP: Rows[Order] = [
+    Row("order", POSITION, lambda x: x.step.order, DATA),
+    Row("verdict", choice(*get_args(Verdict)), lambda x: x.step.kind, DATA),
+    maybe("reached", TRUTH, lambda x: x.step.has_methods, DATA),
+    optional("ideal", TEXTS, lambda x: None if _ideal(x) is None else x.zeros, DATA),
+    Row("restrictions", CONDITIONS, lambda x: x.conditions, DATA),
     optional(
-        "real_ideal",
-        TEXTS,
-        lambda x: x.step.real and zeros(x.design.family, x.step.polynomials_of_real),
-        DATA,
+        "real_ideal", TEXTS, lambda x: _zeros(x, x.step.real, x.step.polynomials_of_real), DATA
     ),
     optional(
         "stable_ideal",
         TEXTS,
-        lambda x: x.step.of_stable and zeros(x.design.family, x.step.polynomials_of_stable),
+        lambda x: _zeros(x, x.step.of_stable, x.step.polynomials_of_stable),
         DATA,
     ),
-    optional("dimension", INTEGER, _known(lambda x: x.step.ideal.dimension), DATA),
+    optional("dimension", INTEGER, _dimension, DATA),
     optional("complete", TRUTH, lambda x: None if x.step.ideal is None else x.step.is_all, DATA),
-    Row("solutions", SOLUTION, level=DATA),
-    maybe("witness", TREE, "step.witness", DATA),
+    Row("solutions", parts(SOLUTION), lambda x: x.solutions, DATA),
+    maybe("witness", TREE, lambda x: x.step.witness, DATA),
 ]
-CHOICE = Section(
-    Row("name", TEXT),
-    Row("value", TEXT),
-    Row("order", POSITION),
-    Row("dimension_before", INTEGER, "before"),
-    Row("dimension", INTEGER, "after"),
+CHOICE: Section[Choices] = Section(
+    Row("name", TEXT, lambda x: x.name),
+    Row("value", TEXT, lambda x: x.value),
+    Row("order", POSITION, lambda x: x.order),
+    Row("dimension_before", INTEGER, lambda x: x.before),
+    Row("dimension", INTEGER, lambda x: x.after),
 )
-DECIMAL = Kind(S.TEXT, lambda x, d: x if isinstance(x, str) else root_decimal(x, d.digits))
+DECIMAL: Kind[RealRoot | str] = Kind(
+    Json(S.TEXT, lambda x, d: x if isinstance(x, str) else root_decimal(x, d.digits))
+)
 
 
 def _value(minimum: Minimum) -> RealRoot | str | None:
@@ -636,53 +652,65 @@ def _gradient(minimum: Minimum) -> str | None:
     return polynomial_text(primitive, name)
 
 
-def _end(limit: Any) -> RealRoot | str:
+def _end(limit: Limit) -> RealRoot | str:
     end = limit.toward.end
     return end if end is not None else "infinity" if limit.toward.is_right else "-infinity"
 
 
-MINIMISER = Section(
-    Row("values", VALUES_OF, lambda x: _parameters(*x)),
-    maybe("order", COUNT, "1.found.order.order"),
-    Row("proof", choice(*get_args(Proof)), "1.proof"),
-    Row("constant", TRUTH, "1.is_constant"),
-    optional("embedded_order", COUNT, lambda x: _embedded_order(x[1].found)),
-    optional("embedded_error", END, lambda x: _embedded_error(x[1].found, x[1].index)),
-    optional("dense_order", COUNT, lambda x: _dense_order(x[1].found)),
+class Minimiser(NamedTuple):
+    """One of the best methods."""
+
+    minimum: Minimum
+    candidate: Candidate
+
+
+MINIMISER: Section[Minimiser] = Section(
+    Row("values", VALUES_OF, lambda x: _parameters(x.minimum, x.candidate)),
+    via(lambda x: x.candidate.found, OF_FOUND[1:]),
+    Row("proof", choice(*get_args(Proof)), lambda x: x.candidate.proof),
+    Row("constant", TRUTH, lambda x: x.candidate.is_constant),
+    via(lambda x: x.candidate.found, FURTHER[:1]),
+    optional(
+        "embedded_error", END, lambda x: _embedded_error(x.candidate.found, x.candidate.index)
+    ),
+    via(lambda x: x.candidate.found, FURTHER[1:]),
 )
-OBJECTIVE = Section(
-    Row("name", TEXT, "objective.key"),
-    Row("order", POSITION, "step.order"),
+LIMIT: Section[Limit] = Section(
+    Row("parameter", TEXT, lambda x: x.parameter), Row("toward", END, _end)
+)
+OBJECTIVE: Section[Minimum] = Section(
+    Row("name", TEXT, lambda x: x.objective.key),
+    Row("order", POSITION, lambda x: x.step.order),
     maybe("value", DECIMAL, _value),
     maybe("exact", END, _value),
-    Row("among", choice(*get_args(Extent)), "extent"),
-    Row("compared", COUNT, "candidates"),
+    Row("among", choice(*get_args(Extent)), lambda x: x.extent),
+    Row("compared", COUNT, lambda x: x.candidates),
     optional("gradient", TEXT, _gradient),
-    Row("minimisers", parts(MINIMISER), lambda x: [(x, one) for one in x.minimisers]),
-    Row("limits", parts(Section(Row("parameter", TEXT), Row("toward", END, _end)))),
+    Row("minimisers", parts(MINIMISER), lambda x: [Minimiser(x, one) for one in x.minimisers]),
+    Row("limits", parts(LIMIT), lambda x: x.limits),
 )
-WHOLE = Section(
-    Row("file", TEXT, level=DATA),
-    Row("name", TEXT, "design.family.name", DETAIL),
-    Row("of", choice(*get_args(Whose)), "design.whose", DATA),
+WHOLE: Section[DesignReport] = Section(
+    Row("file", TEXT, lambda x: x.file, DATA),
+    Row("name", TEXT, lambda x: x.design.family.name, DETAIL),
+    Row("of", choice(*get_args(Whose)), lambda x: x.design.whose, DATA),
     answer(_answer),
-    Row("least", told(_least), "minimum", HEADLINE, label=""),
+    Row("least", told(_least), lambda x: x.minimum, HEADLINE, label=""),
     Row("unknowns", TEXTS, lambda x: list(x.design.family.parameters)),
-    Row("choices", parts(CHOICE), level=DATA),
-    Row("choices_in_words", rows_of(choice_rows), "choices"),
-    *via(lambda x: Order(x.design, x.design.last), STEP),
+    Row("choices", parts(CHOICE), lambda x: x.choices, DATA),
+    Row("choices_in_words", rows_of(choice_rows), lambda x: x.choices),
+    via(lambda x: Order(x.design, x.design.last), STEP),
     Row(
         "orders",
-        parts(Section(*STEP)),
+        parts(Section(STEP)),
         lambda x: [Order(x.design, step) for step in x.design.steps],
         DATA,
     ),
-    Row("orders_in_words", rows_of(order_rows), "."),
-    Row("embedded_in_words", rows_of(embedded_rows), "."),
-    optional("objective", part(OBJECTIVE), "minimum", DATA),
-    Row("best_in_words", rows_of(best_rows), "minimum"),
+    Row("orders_in_words", rows_of(order_rows), lambda x: x),
+    Row("embedded_in_words", rows_of(embedded_rows), lambda x: x),
+    optional("objective", part(OBJECTIVE), lambda x: x.minimum, DATA),
+    Row("best_in_words", rows_of(best_rows), lambda x: x.minimum),
     optional("stable", parts(VALUES), lambda x: x.sets or None, DATA),
-    Row("stable_in_words", rows_of(stable_rows), "."),
+    Row("stable_in_words", rows_of(stable_rows), lambda x: x),
     title=lambda x, d: d.prose(x.file),
 )
 REPORT: Report[DesignReport] = Report.only(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple, get_args
+from typing import NamedTuple, get_args
 
 from flint import fmpq
 
@@ -13,13 +13,12 @@ from garkcli.exact.display import decimal
 from garkcli.exact.rounding import in_decimals
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Kind, Level, Row, Section, maybe
+from garkcli.tell.facts import Json, Kind, Level, Row, Section, maybe
 from garkcli.tell.kinds import COUNT, INTEGER, POSITION, TEXT, TEXTS, TOLERANCE, TREE, TRUTH, choice
 from garkcli.tell.parts import answer, parts, rows_of
 from garkcli.tell.report import Report
 
 HEADLINE, USUAL, DETAIL, DATA = Level
-Rows = list[tuple[str, str]]
 
 
 class WithinReport(NamedTuple):
@@ -136,10 +135,10 @@ def _solution(found: _Found, d: Plain) -> str:
     return ", ".join(texts) + d.prose("".join(f"; {x}" for x in said))
 
 
-def rows(x: WithinReport, d: Plain) -> Rows:
+def rows(x: WithinReport, d: Plain) -> list[tuple[str, str]]:
     """Each order with the values for it and their method."""
     design = x.design
-    told: Rows = []
+    told: list[tuple[str, str]] = []
     for step in design.steps:
         label = f"order {step.order}"
         if not step.has_methods:
@@ -175,41 +174,47 @@ def rows(x: WithinReport, d: Plain) -> Rows:
     return told
 
 
-TEXTS_BY_NAME = Kind({"type": "object", "additionalProperties": S.TEXT}, lambda x, _: dict(x))
-DIRECTION = Section(Row("free", TEXT, "0"), Row("values", TEXTS_BY_NAME, "1"))
-SOLUTION = Section(
-    Row(
-        "values", TEXTS_BY_NAME, lambda x: {k: x.values.text(k, x.digits) for k in x.values.values}
-    ),
-    Row("directions", parts(DIRECTION)),
-    Row("dimension", COUNT, "values.dimension"),
-    Row("distance", Kind({"type": "number", "minimum": 0}), lambda x: round(x.values.distance, 6)),
-    Row("admissible", TRUTH, "values.is_admitted"),
-    maybe("embedded_order", COUNT, "values.embedded"),
+TEXTS_BY_NAME: Kind[dict[str, str]] = Kind(
+    Json({"type": "object", "additionalProperties": S.TEXT}, lambda x, _: dict(x))
+)
+DISTANCE: Kind[float] = Kind(Json({"type": "number", "minimum": 0}, lambda x, _: round(x, 6)))
+DIRECTION: Section[tuple[str, dict[str, str]]] = Section(
+    Row("free", TEXT, lambda x: x[0]), Row("values", TEXTS_BY_NAME, lambda x: x[1])
+)
+SOLUTION: Section[_Found] = Section(
+    Row("values", TEXTS_BY_NAME, lambda x: x.texts),
+    Row("directions", parts(DIRECTION), lambda x: x.directions),
+    Row("dimension", COUNT, lambda x: x.values.dimension),
+    Row("distance", DISTANCE, lambda x: x.values.distance),
+    Row("admissible", TRUTH, lambda x: x.values.is_admitted),
+    maybe("embedded_order", COUNT, lambda x: x.values.embedded),
 )
 
 
-def _step(get: Any) -> Any:
-    return lambda x: get(x[1])
+class _Order(NamedTuple):
+    """A step of a design."""
+
+    design: DesignWithin
+    step: StepWithin
 
 
-STEP = Section(
-    Row("order", POSITION, _step(lambda s: s.order)),
-    maybe("reached", TRUTH, _step(lambda s: s.has_methods)),
-    Row("linear", TRUTH, _step(lambda s: s.is_linear)),
-    maybe("printed_dimension", INTEGER, _step(lambda s: s.printed)),
-    maybe("witness", TREE, _step(lambda s: s.witness)),
-    Row("solutions", parts(SOLUTION), lambda x: _of(*x)),
+STEP: Section[_Order] = Section(
+    Row("order", POSITION, lambda x: x.step.order),
+    maybe("reached", TRUTH, lambda x: x.step.has_methods),
+    Row("linear", TRUTH, lambda x: x.step.is_linear),
+    maybe("printed_dimension", INTEGER, lambda x: x.step.printed),
+    maybe("witness", TREE, lambda x: x.step.witness),
+    Row("solutions", parts(SOLUTION), lambda x: _of(x.design, x.step)),
 )
-WHOLE = Section(
-    Row("file", TEXT, level=DATA),
-    Row("name", TEXT, "design.family.name", DETAIL),
-    Row("of", choice(*get_args(Whose)), "design.whose", DATA),
+WHOLE: Section[WithinReport] = Section(
+    Row("file", TEXT, lambda x: x.file, DATA),
+    Row("name", TEXT, lambda x: x.design.family.name, DETAIL),
+    Row("of", choice(*get_args(Whose)), lambda x: x.design.whose, DATA),
     answer(_answer),
     Row("unknowns", TEXTS, lambda x: list(x.design.family.parameters)),
-    Row("tolerance", TOLERANCE, "design.tolerance", DATA),
-    Row("orders", parts(STEP), lambda x: [(x.design, s) for s in x.design.steps], DATA),
-    Row("orders_in_words", rows_of(rows), "."),
+    Row("tolerance", TOLERANCE, lambda x: x.design.tolerance, DATA),
+    Row("orders", parts(STEP), lambda x: [_Order(x.design, step) for step in x.design.steps], DATA),
+    Row("orders_in_words", rows_of(rows), lambda x: x),
     title=lambda x, d: d.prose(x.file),
 )
 REPORT: Report[WithinReport] = Report.only(

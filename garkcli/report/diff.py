@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
-from flint import arb
+from flint import arb, fmpq
 
 from garkcli.check.findings import value_text
-from garkcli.comparison.comparison import WITH_TIME, Comparison
-from garkcli.comparison.differences import BlockGap, EntryGap
+from garkcli.comparison.comparison import WITH_TIME, Comparison, OrderPair, PropertyPair
+from garkcli.comparison.differences import BlockGap, EntryGap, Met
+from garkcli.comparison.sameness import Sameness
 from garkcli.constructions.derivatives import words_of
 from garkcli.constructions.nprk import is_nprk
 from garkcli.errors import counted
 from garkcli.exact.display import decimal, to_text
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
-from garkcli.properties.property import Size
+from garkcli.properties.property import Size, Verdict
 from garkcli.properties.registry import KEYS
 from garkcli.reason import Reason
 from garkcli.report import rosenbrock
@@ -24,10 +25,17 @@ from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.tableau import Tableau
 from garkcli.tell import kinds
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, maybe
+from garkcli.tell.facts import Answer, Json, Kind, Level, Row, Rows, Section, Status, maybe
 from garkcli.tell.parts import SAID, part, parts, shown
 from garkcli.tell.parts import told as told_kind
-from garkcli.tell.report import Report
+from garkcli.tell.report import Report, Signs
+from garkcli.tell.shown import Words
+
+if TYPE_CHECKING:
+    from garkcli.exact.field import Number
+    from garkcli.order.conditions import Condition
+    from garkcli.order.deciding import AnyOrder
+    from garkcli.tableau.pointwise import Cell
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 FORMS = {
@@ -78,18 +86,23 @@ class Compared(NamedTuple):
 # kinds
 
 
-def _relation_phrase(_: str, answer: Answer, d: Plain) -> str:
-    text = d.known(d.prose(RELATIONS.get(answer.value, answer.value)), answer.status)
+def _relation_words(relation: str, d: Plain) -> str:
+    return d.prose(RELATIONS.get(relation, relation))
+
+
+def _relation_phrase(_: str, answer: Answer[str], d: Plain) -> str:
+    assert answer.value is not None
+    text = d.known(_relation_words(answer.value, d), answer.status)
     if answer.reason:
         text += f": {d.reason(answer.reason)}"
     return (d.bad if answer.value in {"different", "undecided", SAME_STEP} else d.good)(text)
 
 
-def _entry_data(x: Any, _: Plain) -> str:
+def _entry_data(x: Cell, _: Plain) -> str:
     return str(x.str(30, radius=False)) if isinstance(x, arb) else to_text(x)
 
 
-def _entry_words(x: Any, d: Plain) -> str:
+def _entry_words(x: Cell, d: Plain) -> str:
     """An entry: exact where it is short."""
     if isinstance(x, arb):
         return d.prose(str(x.str(12, radius=False)))
@@ -97,11 +110,11 @@ def _entry_words(x: Any, d: Plain) -> str:
     return d.prose(found) if isinstance(found, str) else d.number(x)
 
 
-def _known(key: str, verdict: Any, tolerance: Any) -> Answer:
+def _known(key: str, verdict: Verdict, tolerance: fmpq | None) -> Answer[Verdict]:
     return Answer(verdict, Status(rounding(key, verdict.value, tolerance)))
 
 
-def _verdict_cell(verdict: Any, d: Plain) -> str:
+def _verdict_cell(verdict: Verdict, d: Plain) -> str:
     """The value of a property, without the polynomial that a number is a root of."""
     value = verdict.value
     if isinstance(value, Size) and value.root is not None and not verdict.is_at_least:
@@ -109,25 +122,30 @@ def _verdict_cell(verdict: Any, d: Plain) -> str:
     return d.prose(str(verdict_words(verdict)).partition(", a root of ")[0])
 
 
-RELATION = Kind(
-    {"enum": [*RELATIONS]},
-    lambda x, _: "different" if x == SAME_STEP else x,
-    phrase=_relation_phrase,
+RELATION: Kind[str] = Kind(
+    Json({"enum": [*RELATIONS]}, lambda x, _: "different" if x == SAME_STEP else x),
+    Words(_relation_words, phrase=_relation_phrase),
 )
-ENTRY = Kind(S.NUMERAL, _entry_data, _entry_words)
-VALUE = Kind(S.EXACT, kinds.EXACT.data, _entry_words)
-ORDER_ALONE = Kind(S.COUNT, lambda x, _: x.order, kinds.order_cell)
-VERDICT = Kind(S.TEXT, lambda x, _: str(verdict_words(x)), _verdict_cell)
-IMAGES = Kind(S.array(S.array(S.POSITION)), lambda x, _: [[i + 1 for i in row] for row in x])
-COLOURS = Kind(S.array(S.POSITION), lambda x, _: [l + 1 for l in x])
-SHAPES = Kind(S.array(S.TEXT), lambda x, _: list(x))
-STAGES = Kind(S.array(S.POSITION), lambda x, _: list(x), lambda x, _: ", ".join(map(str, x)))
+ENTRY: Kind[Cell] = Kind(Json(S.NUMERAL, _entry_data), Words(_entry_words))
+VALUE: Kind[Number] = Kind(kinds.EXACT.what, Words(_entry_words))
+ORDER_ALONE: Kind[AnyOrder] = Kind(Json(S.COUNT, lambda x, _: x.order), Words(kinds.order_cell))
+VERDICT: Kind[Verdict] = Kind(
+    Json(S.TEXT, lambda x, _: str(verdict_words(x))), Words(_verdict_cell)
+)
+IMAGES: Kind[Sequence[Sequence[int]]] = Kind(
+    Json(S.array(S.array(S.POSITION)), lambda x, _: [[i + 1 for i in row] for row in x])
+)
+COLOURS: Kind[Sequence[int]] = Kind(Json(S.array(S.POSITION), lambda x, _: [l + 1 for l in x]))
+SHAPES: Kind[Sequence[str]] = Kind(Json(S.array(S.TEXT), lambda x, _: list(x)))
+STAGES: Kind[Sequence[int]] = Kind(
+    Json(S.array(S.POSITION), lambda x, _: list(x)), Words(lambda x, _: ", ".join(map(str, x)))
+)
 
 
 # what is compared
 
 
-def relation(x: Compared) -> Answer:
+def relation(x: Compared) -> Answer[str]:
     """Whether the methods are the same, within which rounding, and why not."""
     found = x.found
     same = found.sameness
@@ -166,7 +184,7 @@ def _numbers(images: Sequence[int]) -> str:
     return ", ".join(str(i + 1) for i in images)
 
 
-def tolerances(x: Compared) -> Any:
+def tolerances(x: Compared) -> str | None:
     """The tolerances of the files where they are not the same."""
     one, other = x.found.one.tolerance, x.found.other.tolerance
     if one == other:
@@ -187,7 +205,7 @@ def _orders_words(x: Compared, d: Plain) -> str:
     return "; ".join(texts)
 
 
-def _conditions_words(met: Any, _: Plain) -> str:
+def _conditions_words(met: Met, _: Plain) -> str:
     if not met.pairs:
         return f"up to order {met.order} both meet the same ones"
     first, second = (len(x) or "none" for x in (met.first_only, met.second_only))
@@ -241,83 +259,89 @@ def _place_words(gap: Gap, _: Plain) -> str:
     return f"{row}entry {gap.entry.entry + 1}"
 
 
-def _side(which: str, index: int) -> Row:
-    """What one of the methods has there; its shape where that differs."""
+def _side(index: int) -> Row[Gap]:
+    """The entry of one of the methods; its shape where that differs."""
 
     def words(gap: Gap, d: Plain) -> str:
         if gap.entry is not None:
-            return _entry_words(getattr(gap.entry, which), d)
+            return _entry_words((gap.entry.one, gap.entry.other)[index], d)
         return gap.block.shapes[index] if gap.block.shapes else ""
 
-    return Row(("first", "second")[index], told_kind(words), ".")
+    return Row(("first", "second")[index], told_kind(words), lambda x: x)
 
 
-GAP = (
-    Row("block", told_kind(_block_words), ".", label=""),
-    Row("largest", told_kind(_place_words), ".", label="largest"),
-    _side("one", 0),
-    _side("other", 1),
-    Row("difference", ENTRY, "entry.gap", label="off by"),
+GAP: Rows[Gap] = (
+    Row("block", told_kind(_block_words), lambda x: x, label=""),
+    Row("largest", told_kind(_place_words), lambda x: x, label="largest"),
+    _side(0),
+    _side(1),
+    Row("difference", ENTRY, lambda x: None if x.entry is None else x.entry.gap, label="off by"),
 )
-COUNTED = Row(
-    "of_entries",
-    told_kind(lambda gap, _: f"{len(gap.block.gaps)} of {gap.block.entries}"),
-    lambda gap: gap if gap.entry else None,
-    label="entries",
+
+
+def _of_entries(gap: Gap, _: Plain) -> str:
+    return f"{len(gap.block.gaps)} of {gap.block.entries}"
+
+
+COUNTED: Row[Gap] = Row(
+    "of_entries", told_kind(_of_entries), lambda gap: gap if gap.entry else None, label="entries"
 )
-ENTRIES = Section(
-    maybe("row", kinds.INDEX),
-    Row("entry", kinds.INDEX),
-    Row("first", ENTRY, "one"),
-    Row("second", ENTRY, "other"),
-    Row("difference", ENTRY, "gap"),
-    Row("undecided", kinds.TRUTH, "is_open"),
+ENTRIES: Section[EntryGap] = Section(
+    maybe("row", kinds.INDEX, lambda x: x.row),
+    Row("entry", kinds.INDEX, lambda x: x.entry),
+    Row("first", ENTRY, lambda x: x.one),
+    Row("second", ENTRY, lambda x: x.other),
+    Row("difference", ENTRY, lambda x: x.gap),
+    Row("undecided", kinds.TRUTH, lambda x: x.is_open),
 )
-BLOCK = Section(
-    Row("kind", kinds.choice("A", "b", "c", "embedded", "dense", *OF_OTHER_KINDS)),
-    Row("colour", kinds.INDEX),
-    maybe("seen", kinds.INDEX),
+BLOCK: Section[BlockGap] = Section(
+    Row(
+        "kind", kinds.choice("A", "b", "c", "embedded", "dense", *OF_OTHER_KINDS), lambda x: x.kind
+    ),
+    Row("colour", kinds.INDEX, lambda x: x.colour),
+    maybe("seen", kinds.INDEX, lambda x: x.seen),
     maybe("power", kinds.POSITION, lambda x: x.power or None),
-    maybe("shapes", SHAPES),
-    Row("of_entries", kinds.COUNT, "entries"),
-    maybe("largest", part(ENTRIES)),
-    Row("entries", parts(ENTRIES), "gaps"),
+    maybe("shapes", SHAPES, lambda x: x.shapes),
+    Row("of_entries", kinds.COUNT, lambda x: x.entries),
+    maybe("largest", part(ENTRIES), lambda x: x.largest),
+    Row("entries", parts(ENTRIES), lambda x: x.gaps),
 )
-SAME = Section(
-    Row("colours", COLOURS),
-    Row("stages", IMAGES),
-    Row("reduced", kinds.TRUTH, "is_reduced"),
-    Row("step_only", kinds.TRUTH),
+SAME: Section[Sameness] = Section(
+    Row("colours", COLOURS, lambda x: x.colours),
+    Row("stages", IMAGES, lambda x: x.stages),
+    Row("reduced", kinds.TRUTH, lambda x: x.is_reduced),
+    Row("step_only", kinds.TRUTH, lambda x: x.step_only),
     maybe("within", kinds.TOLERANCE, lambda x: x.allowed or None),
 )
-ORDERS = Section(
-    Row("of", kinds.TEXT, "name"),
-    maybe("first", ORDER_ALONE, "one"),
-    maybe("second", ORDER_ALONE, "other"),
+ORDERS: Section[OrderPair] = Section(
+    Row("of", kinds.TEXT, lambda x: x.name),
+    maybe("first", ORDER_ALONE, lambda x: x.one),
+    maybe("second", ORDER_ALONE, lambda x: x.other),
 )
-CONDITION = Section(
-    Row("tree", kinds.TREE, "0.tree", label=""),
-    Row("order", kinds.POSITION, "0.tree.order"),
-    Row("required", VALUE, "0.required"),
-    Row("first", VALUE, "0.value"),
-    Row("second", VALUE, "1.value"),
+CONDITION: Section[tuple[Condition, Condition]] = Section(
+    Row("tree", kinds.TREE, lambda x: x[0].tree, label=""),
+    Row("order", kinds.POSITION, lambda x: x[0].tree.order),
+    Row("required", VALUE, lambda x: x[0].required),
+    Row("first", VALUE, lambda x: x[0].value),
+    Row("second", VALUE, lambda x: x[1].value),
 )
-MET = Section(
-    Row("order", kinds.COUNT),
-    Row("first_only", parts(CONDITION)),
-    Row("second_only", parts(CONDITION)),
+MET: Section[Met] = Section(
+    Row("order", kinds.COUNT, lambda x: x.order),
+    Row("first_only", parts(CONDITION), lambda x: x.first_only),
+    Row("second_only", parts(CONDITION), lambda x: x.second_only),
 )
-PROPERTY = Section(
-    Row("property", kinds.choice(*KEYS, "symplectic"), "key", label=""),
+PROPERTY: Section[PropertyPair] = Section(
+    Row("property", kinds.choice(*KEYS, "symplectic"), lambda x: x.key, label=""),
     Row("first", VERDICT, lambda x: _known(x.key, x.one, x.tolerances[0])),
     Row("second", VERDICT, lambda x: _known(x.key, x.other, x.tolerances[1])),
 )
-METHOD = Section(
-    Row("file", kinds.TEXT),
-    Row("name", kinds.TEXT, "method.name"),
-    Row("form", Kind({"enum": [*FORMS]}, words=lambda x, d: d.prose(FORMS[x]))),
-    Row("stages", STAGES, "method.stages"),
-    maybe("tolerance", kinds.TOLERANCE, "method.tolerance"),
+FORM: Kind[str] = Kind(Json({"enum": [*FORMS]}), Words(lambda x, d: d.prose(FORMS[x])))
+METHOD: Section[Method] = Section(
+    Row("file", kinds.TEXT, lambda x: x.file),
+    Row("name", kinds.TEXT, lambda x: x.method.name),
+    Row("form", FORM, lambda x: x.form),
+    Row("stages", STAGES, lambda x: x.method.stages),
+    maybe("tolerance", kinds.TOLERANCE, lambda x: x.method.tolerance),
 )
 
 
@@ -339,8 +363,8 @@ def _method_words(x: Method, d: Plain) -> str:
     return d.prose(f"{name}: {about}" if name and name != x.file else about)
 
 
-def _properties(is_known: bool) -> Any:
-    return lambda x: [p for p in x.found.properties if p.is_known is is_known]
+def _properties(x: Compared, is_known: bool) -> list[PropertyPair]:
+    return [p for p in x.found.properties if p.is_known is is_known]
 
 
 REPORT: Report[Compared] = Report.only(
@@ -353,11 +377,11 @@ REPORT: Report[Compared] = Report.only(
         maybe("obstacle", kinds.TEXT, lambda x: x.found.obstacle or None, DATA),
         maybe("remark", kinds.TEXT, lambda x: x.found.remark or None, DATA),
         Row("same", SAID, told),
-        maybe("same", part(SAME), "found.sameness", DATA),
+        maybe("same", part(SAME), lambda x: x.found.sameness, DATA),
         Row("tolerance", SAID, tolerances),
-        Row("orders", told_kind(_orders_words), "."),
-        Row("conditions", told_kind(_conditions_words), "found.met"),
-        Row("differences", parts(BLOCK), "found.gaps", DATA),
+        Row("orders", told_kind(_orders_words), lambda x: x),
+        Row("conditions", told_kind(_conditions_words), lambda x: x.found.met),
+        Row("differences", parts(BLOCK), lambda x: x.found.gaps, DATA),
         Row(
             "compared",
             SAID,
@@ -369,25 +393,37 @@ REPORT: Report[Compared] = Report.only(
         ),
         Row(
             "largest",
-            shown(Section(GAP[0], COUNTED, *GAP[1:]), 4),
+            shown(Section(GAP[0], COUNTED, GAP[1:]), 4),
             largest_gaps,
             label="differences",
             is_short=True,
         ),
-        Row("entries", shown(Section(*GAP), 0), every_gap, DETAIL),
-        Row("orders", parts(ORDERS), "found.orders", DATA),
-        maybe("conditions", part(MET), "found.met", DATA),
-        Row("pairs", shown(CONDITION, 3), "found.met.pairs", label="conditions"),
-        Row("properties", parts(PROPERTY), "found.properties", DATA),
-        Row("known", shown(PROPERTY, 5), _properties(True), label="properties"),
-        Row("half_known", shown(PROPERTY, 2), _properties(False), label="decided of one alone"),
+        Row("entries", shown(Section(GAP), 0), every_gap, DETAIL),
+        Row("orders", parts(ORDERS), lambda x: x.found.orders, DATA),
+        maybe("conditions", part(MET), lambda x: x.found.met, DATA),
+        Row(
+            "pairs",
+            shown(CONDITION, 3),
+            lambda x: None if x.found.met is None else x.found.met.pairs,
+            label="conditions",
+        ),
+        Row("properties", parts(PROPERTY), lambda x: x.found.properties, DATA),
+        Row(
+            "known", shown(PROPERTY, 5), lambda x: _properties(x, is_known=True), label="properties"
+        ),
+        Row(
+            "half_known",
+            shown(PROPERTY, 2),
+            lambda x: _properties(x, is_known=False),
+            label="decided of one alone",
+        ),
         title=lambda x, d: " against ".join(map(d.prose, x.files)),
     ),
     lambda x: _signs(x.found.one.tableau),
 )
 
 
-def _signs(tableau: Tableau) -> dict[str, Any]:
+def _signs(tableau: Tableau) -> Signs:
     names = [colour.name for colour in tableau.colours]
     is_plain = tableau.has_fields_alone or is_nprk(tableau)  # whose names are numbers
     return {"colours": names, "names": [] if is_plain else names}

@@ -4,27 +4,30 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from math import isnan
-from typing import NamedTuple, get_args
+from typing import Any, NamedTuple, get_args
+
+from flint import fmpq
 
 from garkcli.errors import counted
 from garkcli.exact.display import to_decimal, to_float
 from garkcli.frozen import Frozen, replace
 from garkcli.longtime.history import WORDS, Doubt, InvariantHistory, LongRun, Stability, Verdict
 from garkcli.longtime.rounding import power_of_ten
-from garkcli.longtime.symplecticity import Symplecticity
+from garkcli.longtime.symplecticity import Defect, Symplecticity
 from garkcli.longtime.trend import LEAST, Shape
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.figures import measured
 from garkcli.plots.energy import energy_scene
 from garkcli.problems.hamiltonian import FLOAT_DIGITS
 from garkcli.report.failure import FAILURE, Failure
-from garkcli.report.problem import STEPPED
+from garkcli.report.problem import STEPPED, Run
 from garkcli.tableau.garkmethod import derivation_of, word_for
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Kind, Level, Row, Section, maybe, optional, via
-from garkcli.tell.kinds import COUNT, EXACT, POSITION, TEXT, TRUTH, choice, claim_word
+from garkcli.tell.facts import Json, Kind, Level, Row, Rows, Section, maybe, optional, via
+from garkcli.tell.kinds import COUNT, DERIVATION, EXACT, POSITION, TEXT, TRUTH, choice, claim_word
 from garkcli.tell.parts import SAID, answer, part, parts, rows_of, scene, table
 from garkcli.tell.report import Report
+from garkcli.tell.shown import Words
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 MOST_QUANTITIES = 10
@@ -284,17 +287,14 @@ def _drawn(report: EnergyReport) -> LongRun | None:
     return replace(report.run, invariants=seen) if seen else None
 
 
-SIZE, NUMBER = Kind(S.SIZE), Kind(S.NUMBER)
-TIME = Kind(S.SIZE, lambda x, _: to_float(x))
-QUANTITY = Section(
-    Row("name", TEXT, "history.name", label=""),
-    Row(
-        "initial",
-        Kind(S.NUMBER, words=lambda x, _: f"{x:.6g}"),
-        "history.initial",
-        label="at the start",
-    ),
-    *via(
+SIZE: Kind[float] = Kind(Json(S.SIZE))
+NUMBER: Kind[float] = Kind(Json(S.NUMBER))
+INITIAL: Kind[float] = Kind(Json(S.NUMBER), Words(lambda x, _: f"{x:.6g}"))
+TIME: Kind[fmpq] = Kind(Json(S.SIZE, lambda x, _: to_float(x)))
+QUANTITY: Section[Quantity] = Section(
+    Row("name", TEXT, lambda x: x.history.name, label=""),
+    Row("initial", INITIAL, lambda x: x.history.initial, label="at the start"),
+    via(
         lambda x: x.history,
         [
             Row("largest", SAID, _largest, label="largest error"),
@@ -302,43 +302,43 @@ QUANTITY = Section(
         ],
     ),
     Row("drift_in_words", SAID, _drift, label="drift"),
-    Row("max_error", SIZE, "history.max_error", DATA),
-    Row("drift", NUMBER, "history.drift", DATA),
-    Row("drift_uncertainty", SIZE, "history.uncertainty", DATA),
+    Row("max_error", SIZE, lambda x: x.history.max_error, DATA),
+    Row("drift", NUMBER, lambda x: x.history.drift, DATA),
+    Row("drift_uncertainty", SIZE, lambda x: x.history.uncertainty, DATA),
     Row(
         "drift_in_all",
         NUMBER,
         lambda x: None if x.history.drift is None else x.history.drift * x.run.end,
         DATA,
     ),
-    *via(
+    via(
         lambda x: x.history,
         [
-            Row("oscillation", SIZE, "amplitude", DATA),
-            Row("round_off", SIZE, level=DATA),
-            Row("rounded_coefficients", SIZE, "coefficients", DATA),
-            Row("verdict", choice(*get_args(Verdict)), level=DATA),
-            Row("trend", choice(*get_args(Shape)), "shape", DATA),
-            Row("t_end_to_decide", TIME, "longer", DATA),
-            Row("doubt", choice(*get_args(Doubt), None), level=DATA),
-            Row("no_value_at", TIME, level=DATA),
+            Row("oscillation", SIZE, lambda x: x.amplitude, DATA),
+            Row("round_off", SIZE, lambda x: x.round_off, DATA),
+            Row("rounded_coefficients", SIZE, lambda x: x.coefficients, DATA),
+            Row("verdict", choice(*get_args(Verdict)), lambda x: x.verdict, DATA),
+            Row("trend", choice(*get_args(Shape)), lambda x: x.shape, DATA),
+            Row("t_end_to_decide", TIME, lambda x: x.longer, DATA),
+            Row("doubt", choice(*get_args(Doubt), None), lambda x: x.doubt, DATA),
+            Row("no_value_at", TIME, lambda x: x.no_value_at, DATA),
         ],
     ),
 )
-RUN = [
+RUN: Rows[LongRun] = [
     Row("steps_in_words", SAID, _steps, label="steps"),
-    Row("step", TIME, level=DATA),
-    Row("step_exact", EXACT, "step", DATA),
-    Row("t_end", TIME, level=DATA),
-    Row("t_end_exact", EXACT, "t_end", DATA),
-    Row("steps", COUNT, level=DATA),
-    maybe("digits", POSITION, level=DATA),
+    Row("step", TIME, lambda x: x.step, DATA),
+    Row("step_exact", EXACT, lambda x: x.step, DATA),
+    Row("t_end", TIME, lambda x: x.t_end, DATA),
+    Row("t_end_exact", EXACT, lambda x: x.t_end, DATA),
+    Row("steps", COUNT, lambda x: x.steps, DATA),
+    maybe("digits", POSITION, lambda x: x.digits, DATA),
     maybe("turns", COUNT, lambda x: None if x.digits is None else x.turns, DATA),
     Row("blew_up", TRUTH, lambda x: x.is_unstable and x.escaped is None, DATA),
-    Row("escaped_at", TIME, "escaped", DATA),
-    Row("drifts", TRUTH, level=DATA),
+    Row("escaped_at", TIME, lambda x: x.escaped, DATA),
+    Row("drifts", TRUTH, lambda x: x.drifts, DATA),
     answer(_answer),
-    Row("verdicts", rows_of(_verdicts), "."),
+    Row("verdicts", rows_of(_verdicts), lambda x: x),
     Row(
         "quantities",
         table(QUANTITY, MOST_QUANTITIES),
@@ -346,60 +346,89 @@ RUN = [
         label="",
     ),
 ]
-DEFECT = Section(Row("t", TIME, "time"), Row("size", SIZE), Row("good_to", SIZE, "error"))
-SYMPLECTIC = Section(
-    Row("proved", TRUTH, "symplecticity.is_proved"),
-    optional(
-        "determinant_minus_1", TEXT, lambda x: x.run.stability and _determinant(x.run.stability)
-    ),
-    Row("defects", parts(DEFECT), "symplecticity.defects"),
+DEFECT: Section[Defect] = Section(
+    Row("t", TIME, lambda x: x.time),
+    Row("size", SIZE, lambda x: x.size),
+    Row("good_to", SIZE, lambda x: x.error),
 )
-CLAIM = Section(Row("claim", TEXT), Row("found", TEXT), Row("holds", TRUTH, has_null=True))
-FORMS = {
-    kind: Section(
-        Row("name", TEXT, level=DATA),
-        Row("derivation", Kind(S.DERIVATION), lambda x: derivation_of(x.run.method), DATA),
-        *via(lambda x: x.run, [*rows, *RUN]),
+OF_STEPS: Rows[Symplecticity] = (
+    Row("proved", TRUTH, lambda x: x.is_proved),
+    Row("defects", parts(DEFECT), lambda x: x.defects),
+)
+SYMPLECTIC: Section[EnergyReport] = Section(
+    via(lambda x: x.symplecticity, OF_STEPS[:1]),
+    optional(
+        "determinant_minus_1",
+        TEXT,
+        lambda x: None if x.run.stability is None else _determinant(x.run.stability),
+    ),
+    via(lambda x: x.symplecticity, OF_STEPS[1:]),
+)
+CLAIM: Section[Claim] = Section(
+    Row("claim", TEXT, lambda x: x.claim),
+    Row("found", TEXT, lambda x: x.found),
+    Row("holds", TRUTH, lambda x: x.holds, has_null=True),
+)
+
+
+def _form(problem: Rows[Run]) -> Section[EnergyReport]:
+    return Section(
+        Row("name", TEXT, lambda x: x.name, DATA),
+        Row("derivation", DERIVATION, lambda x: derivation_of(x.run.method), DATA),
+        via(lambda x: x.run, problem),
+        via(lambda x: x.run, RUN),
         Row("symplectic_in_words", SAID, lambda x: "; ".join(_symplectic(x)), label="symplectic"),
-        Row("claims_in_words", rows_of(_claims), "claims"),
+        Row("claims_in_words", rows_of(_claims), lambda x: x.claims),
         Row("plot", scene(energy_scene), _drawn, DETAIL),
         maybe(
             "symplectic", part(SYMPLECTIC), lambda x: None if x.symplecticity is None else x, DATA
         ),
-        Row("claims", parts(CLAIM), level=DATA),
+        Row("claims", parts(CLAIM), lambda x: x.claims, DATA),
         title=lambda x, d: d.prose(x.name),
     )
-    for kind, rows in STEPPED.items()
-}
+
+
+FORMS = {kind: _form(problem) for kind, problem in STEPPED.items()}
 """By the kind of the problem."""
-MOMENT = Section(
-    Row("t", SIZE, "0"),
-    Row(
-        "errors",
-        Kind(
-            {"type": "object"},
-            csv=lambda errors: {
-                f"{name.replace(' ', '_')}_error": "" if isnan(x) else repr(x)
-                for name, x in errors.items()
-            },
-        ),
-        "1",
-    ),
+
+
+class Moment(NamedTuple):
+    """A time of a run with the errors of all quantities; NaN where there is no value."""
+
+    t: float
+    errors: dict[str, float]
+
+
+ERRORS: Kind[dict[str, float]] = Kind(
+    Json(
+        {"type": "object"},
+        csv=lambda errors: {
+            f"{name.replace(' ', '_')}_error": "" if isnan(x) else repr(x)
+            for name, x in errors.items()
+        },
+    )
 )
-"""A time of a run with the errors of all quantities; empty where there is no value."""
+MOMENT: Section[Moment] = Section(
+    Row("t", SIZE, lambda x: x.t), Row("errors", ERRORS, lambda x: x.errors)
+)
 
 
-def _moments(report: EnergyReport) -> Iterator[tuple[float, dict[str, float]]]:
+def _moments(report: EnergyReport) -> Iterator[Moment]:
     invariants = report.run.invariants
     for k, t in enumerate(report.run.times):
-        yield t, {x.name: x.errors[k] for x in invariants}
+        yield Moment(t, {x.name: x.errors[k] for x in invariants})
+
+
+def form(x: EnergyReport | Failure) -> Section[Any]:
+    """The rows of a run, or of one without a result."""
+    return FAILURE if isinstance(x, Failure) else FORMS[type(x.run.problem)]
 
 
 REPORT: Report[EnergyReport | Failure] = Report(
     "gark/energy/1",
     "report of gark energy",
     lambda: (*FORMS.values(), FAILURE),
-    lambda x: FAILURE if isinstance(x, Failure) else FORMS[type(x.run.problem)],
+    form,
     key="",
     lines=lambda x: (MOMENT, () if isinstance(x, Failure) else _moments(x)),
 )

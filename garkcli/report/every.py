@@ -5,7 +5,7 @@ to answers with exceptions.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, TypeVar, cast
 
 from garkcli.check.every_facts import Fact, exceptions, fact_reason, zeros_reason
 from garkcli.check.every_facts import told as told_value
@@ -14,7 +14,7 @@ from garkcli.check.every_properties import find_property
 from garkcli.design.stability_functions import FamilyFunction, family_functions
 from garkcli.exact.display import to_text
 from garkcli.exact.polynomial_text import power_text, sum_text
-from garkcli.frozen import Frozen, replace
+from garkcli.frozen import Frozen
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ALGEBRAIC, root_data, sum_latex
 from garkcli.properties.registry import KEYS
@@ -22,15 +22,32 @@ from garkcli.reason import NO_REASON, Formula, Reason, joined
 from garkcli.report import check as c
 from garkcli.report.design_values import conditions
 from garkcli.tell import kinds
-from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, maybe, optional
-from garkcli.tell.parts import part, parts, rows_of
+from garkcli.tell.facts import (
+    Answer,
+    Json,
+    Kind,
+    Level,
+    Row,
+    Rows,
+    Section,
+    Status,
+    maybe,
+    optional,
+    via,
+)
+from garkcli.tell.parts import SAID, part, parts, rows_of
 from garkcli.tell.report import Report
+from garkcli.tell.shown import Labels, Words
 
 if TYPE_CHECKING:
     from garkcli.check.every_orders import EveryOrder
+    from garkcli.check.every_value import EveryValue
+    from garkcli.check.outcome import Outcome
+    from garkcli.design.stability_functions import Coefficients
     from garkcli.tell.dialect import Plain
 
 HEADLINE, USUAL, DETAIL, DATA = Level
+V = TypeVar("V")
 MOST = 8
 """Most polynomials that are named."""
 VALUE: S.Schema = {
@@ -52,13 +69,13 @@ FACT: S.Schema = kinds.record(
 FACT["required"] = FACT["required"][:-2]
 
 
-def fact_data(f: Fact, inner: Kind, d: Plain) -> dict[str, Any]:
+def fact_data(f: Fact, inner: Kind[V], d: Plain) -> dict[str, object]:
     """An answer for every value, its exceptions, what is open."""
 
-    def data(x: Any) -> Any:
-        return None if x is None else inner.data(x, d)
+    def data(x: V | None) -> object:
+        return None if x is None or inner.what is None else inner.what.data(x, d)
 
-    found = {
+    found: dict[str, object] = {
         "decided": not f.is_undecided or f.differs,
         "every_value": f.is_everywhere,
         "value": data(f.value),
@@ -73,35 +90,38 @@ def fact_data(f: Fact, inner: Kind, d: Plain) -> dict[str, Any]:
     return {**found, "why": str(f.why)} if f.why else found
 
 
-def lifted(inner: Kind) -> Kind:
-    """The same kind of value for a family: only the exceptions are new."""
+def lifted(inner: Kind[V]) -> Kind[Fact]:
+    """A kind of value for a family: only the exceptions are new."""
 
     def words(f: Fact, d: Plain) -> str:
         from garkcli.tell.dialect import Plain
 
-        assert inner.words is not None
-        inner_words, plain = inner.words, Plain(colours=d.colours)
-        return d.reason(fact_reason(f, d.parameter, lambda x: inner_words(x, plain)))
+        plain, of_value = (
+            Plain(colours=d.colours),
+            cast("Callable[[object, Plain], str]", inner.words),
+        )
+        return d.reason(fact_reason(f, d.parameter, lambda x: of_value(x, plain)))
 
-    return Kind(FACT, lambda f, d: fact_data(f, inner, d), words)
+    return Kind(Json(FACT, lambda f, d: fact_data(f, inner, d)), Words(words))
 
 
-ANY = Kind(VALUE, words=lambda x, d: d.reason(Reason("{}", told_value(x))))
+ANY: Kind[object] = Kind(Json(VALUE), Words(lambda x, d: d.reason(Reason("{}", told_value(x)))))
 WITNESS = kinds.record(order=S.POSITION, tree=S.TEXT, residual=S.TEXT)
 
 
-def _witness(o: EveryOrder, _: Any = None) -> dict[str, Any] | None:
+def _witness(o: EveryOrder) -> dict[str, object] | None:
     if o.witness is None:
         return None
     data = kinds.witness_data(o.witness)
     return {key: data[key] for key in WITNESS["properties"]}
 
 
-ORDER_PARTS = Section(
-    Row("order", kinds.COUNT),
-    maybe("witness", Kind(WITNESS), _witness),
-    Row("fact", lifted(kinds.COUNT)),
-    maybe("dimension", Kind(S.INTEGER)),
+FAILS: Kind[dict[str, object]] = Kind(Json(WITNESS))
+ORDER_PARTS: Section[EveryOrder] = Section(
+    Row("order", kinds.COUNT, lambda x: x.order),
+    maybe("witness", FAILS, _witness),
+    Row("fact", lifted(kinds.COUNT), lambda x: x.fact),
+    maybe("dimension", kinds.INTEGER, lambda x: x.dimension),
     Row("weights", kinds.TEXTS, lambda o: list(o.poles)),
 )
 
@@ -119,9 +139,10 @@ def _higher(o: EveryOrder, name: str) -> Reason:
     return Reason(f"; no real value of the file has order {higher}")
 
 
-def _order_words(answer: Answer, d: Plain) -> str:
+def _order_words(answer: Answer[EveryOrder], d: Plain) -> str:
     """``2; order 3 is missed at [[]] by …; order 3 where …``."""
     o = answer.value
+    assert o is not None
     if o.witness is None:
         return f"{d.known(str(o.order), Status(at_least=True))}: no further was looked"
     text = f"{o.order}; {d.failure(o.witness)}{d.reason(_higher(o, d.parameter))}"
@@ -131,93 +152,101 @@ def _order_words(answer: Answer, d: Plain) -> str:
     return text
 
 
-EVERY_ORDER = Kind(
-    ORDER_PARTS.schema,
-    lambda o, d: ORDER_PARTS.data(o, d),
-    answer_words=_order_words,
-    cell=lambda o, _: f"{o.order} for every value",
+EVERY_ORDER: Kind[EveryOrder] = Kind(
+    ORDER_PARTS, Words(lambda o, _: f"{o.order} for every value", whole=_order_words)
 )
-BLOCK_LISTS = Kind(
-    kinds.BLOCKS.schema,
-    lambda x, _: kinds.numbers_from_one(x),
-    lambda x, d: f"no: {d.few([d.block('A', edge) for edge in x])}" if x else "yes",
+BLOCK_LISTS: Kind[Sequence[tuple[int, int]]] = Kind(
+    kinds.BLOCKS.what,
+    Words(lambda x, d: f"no: {d.few([d.block('A', edge) for edge in x])}" if x else "yes"),
 )
 
 
-def of(name: str) -> Callable[[Any], Fact]:
-    """B, C or D as a table, or a bound by them."""
+def of_blocks(name: str, kind: Kind[kinds.Table]) -> Row[EveryValue]:
+    """B, C or D as a table."""
 
-    def get(e: Any) -> Fact:
-        fact: Fact = e.simplifying(name)
-        return fact.of(lambda x: kinds.Table(x, e.limit)) if name in "BCD" else fact
+    def get(e: EveryValue) -> Fact:
+        rows = (lambda x: [x]) if name == "B" else (lambda x: x)
+        return e.simplifying(name).of(lambda x: kinds.Table(rows(x), e.limit))
 
-    return get
+    return Row(name, lifted(kind), get)
 
 
-def of_several(key: str) -> Row:
+def of_several(key: str, get: Callable[[EveryValue], EveryOrder | None]) -> Row[EveryValue]:
     """An order of the conjugate or the pair, or why there is none; a detail of one colour."""
 
-    def get(e: Any) -> Answer:
-        value = getattr(e, key)
+    def answer(e: EveryValue) -> Answer[EveryOrder]:
+        value = get(e)
         reason = NO_REASON if value is not None else e.obstacle
         return Answer(value, reason=reason, level=None if e.tableau.size > 1 else DETAIL)
 
-    return maybe(key, EVERY_ORDER, get)
+    return maybe(key, EVERY_ORDER, answer)
 
 
-def with_time(key: str) -> Row:
-    """The order on problems with time, where the nodes are not the row sums."""
-    return Row(key, TOLD_ORDER, lambda e: None if e.is_consistent else getattr(e, key))
-
-
-RESTRICTIONS = Kind(S.array(S.TEXT), lambda f, _: list(map(str, conditions(f.family, f.poles))))
-TOLD_ORDER = replace(EVERY_ORDER, is_data=False)
-FAMILY = [
+RESTRICTIONS: Kind[EveryFamily] = Kind(
+    Json(S.array(S.TEXT), lambda f, _: list(map(str, conditions(f.family, f.poles))))
+)
+TOLD_ORDER: Kind[EveryOrder] = Kind(None, EVERY_ORDER.shown)
+JUDGED_LATER = "judged for values of the parameters: --set NAME=1/2"
+FAMILY: Rows[EveryValue] = [
     Row("every_value", kinds.TRUE, lambda _: True, DATA),
     Row("unknowns", kinds.TEXTS, lambda e: list(e.parameters), DATA),
     Row("restrictions", RESTRICTIONS, lambda e: e.family, DATA),
     Row("colours", kinds.TEXTS, lambda e: [x.name for x in e.tableau.colours], DATA),
-    Row("order", EVERY_ORDER, level=HEADLINE),
-    of_several("conjugate_order"),
-    of_several("pair_order"),
-    with_time("nonautonomous_order"),
-    maybe("embedded_order", EVERY_ORDER),
-    with_time("embedded_nonautonomous_order"),
+    Row("order", EVERY_ORDER, lambda x: x.order, HEADLINE),
+    of_several("conjugate_order", lambda e: e.conjugate_order),
+    of_several("pair_order", lambda e: e.pair_order),
+    Row(
+        "nonautonomous_order",
+        TOLD_ORDER,
+        lambda e: None if e.is_consistent else e.nonautonomous_order,
+    ),
+    maybe("embedded_order", EVERY_ORDER, lambda x: x.embedded_order),
+    Row(
+        "embedded_nonautonomous_order",
+        TOLD_ORDER,
+        lambda e: None if e.is_consistent else e.embedded_nonautonomous_order,
+    ),
     Row(
         "dense",
-        replace(kinds.TEXT, is_data=False),
-        lambda e: e.file.further.dense and "judged for values of the parameters: --set NAME=1/2",
+        SAID,
+        lambda e: JUDGED_LATER if e.file.further.dense else None,
         label="dense output",
     ),
-    Row("B", lifted(kinds.ROW_OF_COUNTS), of("B")),
-    Row("C", lifted(kinds.TABLE), of("C")),
-    Row("D", lifted(kinds.TABLE), of("D")),
-    Row("bound", lifted(kinds.COUNT), of("bound"), DETAIL),
-    Row("sharp_bound", lifted(kinds.COUNT), of("sharp-bound"), DETAIL),
-    Row("inconsistent_blocks", lifted(BLOCK_LISTS), "inconsistent", label="consistent"),
-    Row("symplectic", lifted(kinds.TRUTH)),
-    Row("holding", replace(kinds.TEXTS, is_data=False), label="properties"),
+    of_blocks("B", kinds.ROW_OF_COUNTS),
+    of_blocks("C", kinds.TABLE),
+    of_blocks("D", kinds.TABLE),
+    Row("bound", lifted(kinds.COUNT), lambda e: e.simplifying("bound"), DETAIL),
+    Row("sharp_bound", lifted(kinds.COUNT), lambda e: e.simplifying("sharp-bound"), DETAIL),
+    Row("inconsistent_blocks", lifted(BLOCK_LISTS), lambda x: x.inconsistent, label="consistent"),
+    Row("symplectic", lifted(kinds.TRUTH), lambda x: x.symplectic),
+    Row("holding", Kind(None, kinds.TEXTS.shown), lambda x: x.holding, label="properties"),
 ]
 
 
-def verdicts(o: Any) -> Any:
+def verdicts(o: Outcome) -> dict[str, Fact] | None:
     """All properties, where they were requested."""
-    return {key: o.every.verdict(key) for key in KEYS} if o.wants_properties else None
+    if not o.wants_properties or o.every is None:
+        return None
+    return {key: o.every.verdict(key) for key in KEYS}
 
 
-VERDICTS = Kind(
-    {"type": "object", "properties": dict.fromkeys(KEYS, FACT), "additionalProperties": False},
-    lambda found, d: {key: fact_data(x, ANY, d) for key, x in found.items()},
-    rows=lambda found, d: [
-        (key, d.reason(fact_reason(x, d.parameter, told_value))) for key, x in found.items()
-    ],
+VERDICTS: Kind[dict[str, Fact]] = Kind(
+    Json(
+        {"type": "object", "properties": dict.fromkeys(KEYS, FACT), "additionalProperties": False},
+        lambda found, d: {key: fact_data(x, ANY, d) for key, x in found.items()},
+    ),
+    Labels(
+        lambda found, d: [
+            (key, d.reason(fact_reason(x, d.parameter, told_value))) for key, x in found.items()
+        ]
+    ),
 )
-EVERY = Section(
-    *kinds.FILE_AND_NAME,
-    *c.OK,
-    *(row.of(lambda o: o.every) for row in FAMILY),
+EVERY: Section[Outcome] = Section(
+    kinds.FILE_AND_NAME,
+    c.OK,
+    via(lambda o: o.every, FAMILY),
     c.LEFT_BEHIND,
-    *c.CLAIMS,
+    c.CLAIMS,
     optional("every_property", VERDICTS, verdicts),
     title=c.title,
     columns=c.COLUMNS,
@@ -257,29 +286,28 @@ def every_stability(file: str, name: str, family: EveryFamily) -> EveryStability
     return EveryStability(file, name, family, family_functions(family.tableau, family.ring))
 
 
-def _text(coefficients: Sequence[Any], variable: str) -> str:
+def _text(coefficients: Coefficients, variable: str) -> str:
     """A polynomial, lowest power first, its coefficients in brackets where they are sums."""
     return sum_text((a, power_text(variable, k)) for k, a in enumerate(coefficients))
 
 
-def _latex(coefficients: Sequence[Any], variable: str) -> str:
+def _latex(coefficients: Coefficients, variable: str) -> str:
     return sum_latex((a, power_text(variable, k, f"{{{k}}}")) for k, a in enumerate(coefficients))
 
 
-def _sum(variable: str) -> Kind:
+def _sum(variable: str) -> Kind[Coefficients]:
     return Kind(
-        S.array(S.EXACT),
-        lambda xs, _: [to_text(x) for x in xs],
-        lambda xs, d: d.formula(_latex(xs, variable), _text(xs, variable)),
+        Json(S.array(S.EXACT), lambda xs, _: [to_text(x) for x in xs]),
+        Words(lambda xs, d: d.formula(_latex(xs, variable), _text(xs, variable))),
     )
 
 
-FUNCTION = Section(
-    Row("name", kinds.TEXT, level=DATA),
-    Row("numerator", _sum("z")),
-    Row("denominator", _sum("z")),
-    maybe("R_infinity", kinds.EXACT, "at_infinity"),
-    Row("e_polynomial", _sum("x"), level=DETAIL),
+FUNCTION: Section[FamilyFunction] = Section(
+    Row("name", kinds.TEXT, lambda x: x.name, DATA),
+    Row("numerator", _sum("z"), lambda x: x.numerator),
+    Row("denominator", _sum("z"), lambda x: x.denominator),
+    maybe("R_infinity", kinds.EXACT, lambda x: x.at_infinity),
+    Row("e_polynomial", _sum("x"), lambda x: x.e_polynomial, DETAIL),
 )
 
 
@@ -289,7 +317,7 @@ def _variable(preferred: str, parameters: Sequence[str]) -> str:
     return next(others, f"{preferred}_")
 
 
-def _function_rows(found: Any, d: Plain) -> list[tuple[str, str]]:
+def _function_rows(found: EveryStability, d: Plain) -> list[tuple[str, str]]:
     names = found.family.family.parameters
     z = _variable("z", names)
     x = _variable("x", [*names, z])
@@ -306,11 +334,11 @@ def _function_rows(found: Any, d: Plain) -> list[tuple[str, str]]:
         rows.append(
             (f"{d.prose('R(∞)')}{which}", "unbounded" if limit is None else d.number(limit))
         )
-        rows.append((f"E({x}){which}", _sum(x)(f.e_polynomial).words(d)))
+        rows.append((f"E({x}){which}", _sum(x).words(f.e_polynomial, d)))
     return rows
 
 
-def _stability_rows(x: Any, d: Plain) -> list[tuple[str, str]]:
+def _stability_rows(x: EveryStability, d: Plain) -> list[tuple[str, str]]:
     """For which values each kind of stability holds, or what decides it."""
     rows = []
     for key, fact in x.facts.items():
@@ -323,20 +351,19 @@ def _stability_rows(x: Any, d: Plain) -> list[tuple[str, str]]:
     return [*rows, ("intervals, SSP", d.prose(f"numbers: --set {d.parameter}=1/2"))]
 
 
-STABLE = Section(
-    *(
-        Row(key.replace("-", "_"), lifted(ANY), lambda x, key=key: x.facts[key])  # type: ignore[misc]
-        for key in STABILITIES
-    )
-)
-EVERY_STABILITY = Section(
-    *kinds.FILE_AND_NAME,
+def _stable(key: str) -> Row[EveryStability]:
+    return Row(key.replace("-", "_"), lifted(ANY), lambda x: x.facts[key])
+
+
+STABLE = Section(map(_stable, STABILITIES))
+EVERY_STABILITY: Section[EveryStability] = Section(
+    kinds.FILE_AND_NAME,
     Row("unknowns", kinds.TEXTS, lambda x: list(x.family.family.parameters), DATA),
     Row("restrictions", RESTRICTIONS, lambda x: x.family, DATA),
-    Row("functions", parts(FUNCTION), level=DATA),
-    Row("stability", part(STABLE), ".", DATA),
-    Row("functions_in_words", rows_of(_function_rows), "."),
-    Row("stability_in_words", rows_of(_stability_rows), "."),
+    Row("functions", parts(FUNCTION), lambda x: x.functions, DATA),
+    Row("stability", part(STABLE), lambda x: x, DATA),
+    Row("functions_in_words", rows_of(_function_rows), lambda x: x),
+    Row("stability_in_words", rows_of(_stability_rows), lambda x: x),
     title=lambda x, d: f"{d.prose(x.file)}: {c.every_value(x.family, d)}",
 )
 STABILITY: Report[EveryStability] = Report(

@@ -10,12 +10,12 @@ from garkcli.tell.facts import Row, Section, maybe
 from garkcli.tell.kinds import POSITION, TEXT
 from garkcli.tell.parts import parts
 
-FAULT = Section(
+FAULT: Section[Fault] = Section(
     maybe("line", POSITION, lambda f: f.line or None),
     maybe("column", POSITION, lambda f: f.column or None),
-    Row("code", TEXT),
-    Row("message", TEXT),
-    Row("help", TEXT),
+    Row("code", TEXT, lambda x: x.code),
+    Row("message", TEXT, lambda x: x.message),
+    Row("help", TEXT, lambda x: x.help),
 )
 """A fault and its cure; the place is null where the whole file is meant."""
 
@@ -27,5 +27,7 @@ class Failure(NamedTuple):
     faults: Sequence[Fault]
 
 
-FAILURE = Section(Row("name", TEXT), Row("errors", parts(FAULT), "faults"))
+FAILURE: Section[Failure] = Section(
+    Row("name", TEXT, lambda x: x.name), Row("errors", parts(FAULT), lambda x: x.faults)
+)
 """The report of such a run, for programs; people read it elsewhere."""

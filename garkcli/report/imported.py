@@ -2,23 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
 from garkcli.bridges.collecting import Result
 from garkcli.bridges.finding import AuditFinding
+from garkcli.bridges.judging import Judged
 from garkcli.bridges.subject import Subject
 from garkcli.errors import counted
-from garkcli.frozen import replace
 from garkcli.report.audited import FINDING, MOST, WRONG
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Answer, Level, Row, Section, Status, maybe
+from garkcli.tell.facts import Answer, Kind, Level, Row, Rows, Section, Status, maybe
 from garkcli.tell.kinds import COUNT, POSITION, TEXT, TEXTS
 from garkcli.tell.parts import parts, picture, shown
 from garkcli.tell.report import Report
+from garkcli.tell.shown import Words
 
 DETAIL, DATA = Level.DETAIL, Level.DATA
-ORDER = replace(COUNT, absent="no method")
+ORDER: Kind[int] = Kind(COUNT.what, Words(lambda x, _: str(x), absent="no method"))
 
 
 class Found(NamedTuple):
@@ -32,10 +33,10 @@ class Found(NamedTuple):
         """What people call it."""
         return self.result.table.name or self.result.stem
 
-    def order(self, of: str) -> Answer:
+    def order(self, get: Callable[[Subject], Judged | None]) -> Answer[int]:
         """An order of its method, as its digits let it be known."""
         method = self.result.method
-        found = None if method is None else getattr(method, of)
+        found = None if method is None else get(method)
         if method is None or found is None:
             return Answer(None)
         return Answer(found.order, Status(method.tolerance or None, found.is_limited))
@@ -69,38 +70,40 @@ def _texts(found: Sequence[Found], _: Plain) -> list[str]:
     return [line for x in found if x.result.method for line in x.result.method.text.splitlines()]
 
 
-SIZES = (
-    Row("stages", COUNT, "result.table.stages"),
-    Row("colours", COUNT, "result.table.colours"),
-    maybe("order", ORDER, lambda x: x.order("order")),
-    maybe("embedded_order", COUNT, lambda x: x.order("embedded_order")),
+SIZES: Rows[Found] = (
+    Row("stages", COUNT, lambda x: x.result.table.stages),
+    Row("colours", COUNT, lambda x: x.result.table.colours),
+    maybe("order", ORDER, lambda x: x.order(lambda m: m.order)),
+    maybe("embedded_order", COUNT, lambda x: x.order(lambda m: m.embedded_order)),
 )
-METHOD = Section(
-    Row("source", TEXT, "result.table.source"),
-    Row("line", POSITION, "result.table.line"),
-    Row("format", TEXT, "result.table.format"),
-    Row("name", TEXT, "result.table.name"),
-    maybe("file", TEXT),
-    *SIZES,
+METHOD: Section[Found] = Section(
+    Row("source", TEXT, lambda x: x.result.table.source),
+    Row("line", POSITION, lambda x: x.result.table.line),
+    Row("format", TEXT, lambda x: x.result.table.format),
+    Row("name", TEXT, lambda x: x.result.table.name),
+    maybe("file", TEXT, lambda x: x.file),
+    SIZES,
     Row("notes", TEXTS, lambda x: [*x.result.notes()]),
-    Row("findings", parts(FINDING), "result.errors"),
+    Row("findings", parts(FINDING), lambda x: x.result.errors),
 )
-LINE = Section(
-    Row("name", TEXT, label=""),
-    *SIZES,
+LINE: Section[Found] = Section(
+    Row("name", TEXT, lambda x: x.name, label=""),
+    SIZES,
     Row("source", TEXT, lambda x: f"{x.result.table.source}:{x.result.table.line}"),
-    Row("file", TEXT),
+    Row("file", TEXT, lambda x: x.file),
 )
-NOTE = Section(Row("name", TEXT, "0", label=""), Row("notes", TEXT, "1"))
+NOTE: Section[tuple[str, str]] = Section(
+    Row("name", TEXT, lambda x: x[0], label=""), Row("notes", TEXT, lambda x: x[1])
+)
 REPORT: Report[Sequence[Found]] = Report.only(
     "gark/import/1",
     "report of gark import",
     Section(
-        Row("methods", parts(METHOD), ".", DATA),
-        Row("name", shown(LINE, 0), "."),
+        Row("methods", parts(METHOD), lambda x: x, DATA),
+        Row("name", shown(LINE, 0), lambda x: x),
         Row("name", shown(NOTE, 0), _notes),
         Row("wrong_methods", shown(WRONG, MOST), _wrong, label="methods", is_short=True),
-        Row("texts", picture(_texts), ".", DETAIL),
+        Row("texts", picture(_texts), lambda x: x, DETAIL),
         title=_title,
     ),
 )

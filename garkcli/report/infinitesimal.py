@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from garkcli.errors import counted
 from garkcli.report import check as c
 from garkcli.tell import kinds
-from garkcli.tell.facts import Level, Row, maybe
-from garkcli.tell.parts import part, picture
+from garkcli.tell.facts import Level, Row, Rows
 
 if TYPE_CHECKING:
+    from garkcli.check.infinitesimal import InfinitesimalAnalysis
     from garkcli.tell.dialect import Plain
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 
 
-def _method_words(outcome: Any, d: Plain) -> str:
-    a = outcome.infinitesimal
+def _method_words(a: InfinitesimalAnalysis, d: Plain) -> str:
     slow = a.tableau.size - 1
     text = f"multirate, {counted(a.tableau.spaces[-1].stages, 'slow stage')}"
     if slow > 1:
@@ -26,14 +25,14 @@ def _method_words(outcome: Any, d: Plain) -> str:
     return c.with_arithmetic(text, a)
 
 
-ANALYSIS = [
-    Row("exact_to", kinds.POSITION, "tableau.exact_to", DATA),
+ANALYSIS: Rows[InfinitesimalAnalysis] = [
+    Row("exact_to", kinds.POSITION, lambda a: a.tableau.exact_to, DATA),
     c.viewed_order("order", HEADLINE),
     c.viewed_order("slow_order", label="slow method"),
     c.viewed_order("nonautonomous_order", label="order for f(t, y)"),
     c.viewed_order("embedded_order"),
     c.viewed_order("embedded_nonautonomous_order", DETAIL, "embedded for f(t, y)"),
-    maybe("error_estimate", part(c.ESTIMATE, c.estimate_phrase), "embedded.estimator"),
-    Row("trees_that_fail", picture(c.drawn), c.failing("order", "embedded-order"), DETAIL),
+    c.ERROR_ESTIMATE,
+    c.failing("order", "embedded-order"),
 ]
-INFINITESIMAL = c.of_other_kind("infinitesimal", "multirate", _method_words, ANALYSIS)
+INFINITESIMAL = c.of_other_kind(lambda o: o.infinitesimal, "multirate", _method_words, ANALYSIS)

@@ -3,30 +3,33 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any, TypeAlias
+from typing import Any, Never, TypeAlias, TypeVar
 
 from flint import fmpq
 
 from garkcli.errors import counted
 from garkcli.exact.display import shortest
 from garkcli.exact.expression import read_decimal
-from garkcli.frozen import replace
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.properties.registry import every_property
 from garkcli.report.citation import short_name
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, maybe
+from garkcli.tell.facts import Answer, Json, Kind, Level, Row, Rows, Section, Status, maybe
 from garkcli.tell.kinds import COUNT, POSITION, TEXT, TEXTS, TRUTH, choice
 from garkcli.tell.parts import parts, shown, told
 from garkcli.tell.report import ListReport, Report
+from garkcli.tell.shown import Words
 
 HEADLINE, USUAL, DETAIL, DATA = Level
+V = TypeVar("V")
 Entry: TypeAlias = dict[str, Any]
 ORDER = "order"
 """The line of a report that has orders and how large errors are."""
 
 
-def _field(key: str, kind: Kind, level: Level = DATA, has_null: bool = True, line: str = "") -> Row:
+def _field(
+    key: str, kind: Kind[V], level: Level = DATA, has_null: bool = True, line: str = ""
+) -> Row[Entry]:
     """A row of the field of that name; what nobody knows is null."""
     return Row(key, kind, lambda entry: entry[key], level, has_null, line=line)
 
@@ -36,12 +39,12 @@ def rounding(entry: Entry) -> fmpq | None:
     return None if entry["tolerance"] is None else read_decimal(entry["tolerance"])
 
 
-def order(key: str) -> Callable[[Entry], Answer]:
+def order(key: str) -> Callable[[Entry], Answer[int]]:
     """An order as it is known."""
     return lambda entry: Answer(entry[key], Status(rounding(entry)))
 
 
-def _order(key: str, level: Level = USUAL, label: str | None = None) -> Row:
+def _order(key: str, level: Level = USUAL, label: str | None = None) -> Row[Entry]:
     return maybe(key, COUNT, order(key), level, line=ORDER, label=label)
 
 
@@ -52,9 +55,9 @@ def _size_words(text: str, d: Plain) -> str:
     return d.prose(shortest(fmpq(int(over), int(under))) if is_fraction else text)
 
 
-SIZE = replace(TEXT, words=_size_words)
-KINDS = {"truth": TRUTH, "count": COUNT, "number": SIZE}
-PROPERTIES = [
+SIZE: Kind[str] = Kind(TEXT.what, Words(_size_words))
+KINDS: dict[str, Kind[Never]] = {"truth": TRUTH, "count": COUNT, "number": SIZE}
+PROPERTIES: Rows[Entry] = [
     _field(
         x.field,
         KINDS[x.kind],
@@ -64,9 +67,9 @@ PROPERTIES = [
     for x in every_property()
 ]
 TRUTHS = ["symplectic", *(x.field for x in every_property() if x.kind == "truth")]
-STAGES = Kind(S.array(S.POSITION), csv=lambda xs: "; ".join(map(str, xs)))
+STAGES: Kind[list[int]] = Kind(Json(S.array(S.POSITION), csv=lambda xs: "; ".join(map(str, xs))))
 _KIND = choice("rk", "ark", "prk", "gark", "row", "rkn", "nprk", "mdrk", "mri", "family", None)
-METHOD = [
+METHOD: Rows[Entry] = [
     _field("name", TEXT, USUAL, has_null=False),
     _field("aliases", TEXTS, USUAL, has_null=False),
     _field("file", TEXT, DETAIL, has_null=False),
@@ -165,14 +168,14 @@ def _type(entry: Entry) -> str:
     return next((word for key, word in TYPES.items() if entry[key]), "")
 
 
-LINE = Section(
+LINE: Section[Entry] = Section(
     Row("name", TEXT, lambda x: x["name"], label=""),
-    Row("order", told(_order_words), "."),
-    Row("stages", told(_stages_words), "."),
+    Row("order", told(_order_words), lambda x: x),
+    Row("stages", told(_stages_words), lambda x: x),
     Row("kind", TEXT, lambda x: x["kind"] or "unread"),
     Row("explicit", TEXT, _type, label="type"),
-    Row("properties", told(_marks_words), ".", label="is"),
-    Row("reference", told(_reference_words), "."),
+    Row("properties", told(_marks_words), lambda x: x, label="is"),
+    Row("reference", told(_reference_words), lambda x: x),
     is_cut=True,
 )
 """A method in a line."""
@@ -193,9 +196,9 @@ REPORT: Report[Sequence[Entry]] = ListReport.only(
     "",
     "list of gark list methods",
     Section(
-        Row("methods", parts(Section(*METHOD)), ".", DATA),
-        Row("name", shown(LINE, 0), "."),
+        Row("methods", parts(Section(METHOD)), lambda x: x, DATA),
+        Row("name", shown(LINE, 0), lambda x: x),
         title=_title,
     ),
-    lines=lambda entries: (Section(*METHOD), entries),
+    lines=lambda entries: (Section(METHOD), entries),
 )

@@ -12,7 +12,6 @@ from garkcli.constructions.schemes import SCHEMES, SPLITTINGS, Scheme, Splitting
 from garkcli.errors import counted
 from garkcli.families.family import Family, Option
 from garkcli.families.registry import FAMILIES
-from garkcli.frozen import replace
 from garkcli.problems.builtin import PROBLEMS, BuiltIn
 from garkcli.tell.facts import Level, Row, Section
 from garkcli.tell.kinds import TEXT, TEXTS, TRUTH
@@ -60,34 +59,40 @@ def _key_words(family: Family) -> str:
     return "; ".join(f"{key} {values}" for key, values in chosen_by(family))
 
 
-NAME = Row("name", TEXT, "0", label="")
-OPTION = Section(Row("key", TEXT, "0"), Row("values", TEXT, "1"))
-FAMILY = Section(
-    Row("name", TEXT, label=""),
+NAME: Row[tuple[str, str]] = Row("name", TEXT, lambda x: x[0], label="")
+OPTION: Section[tuple[str, str]] = Section(
+    Row("key", TEXT, lambda x: x[0]), Row("values", TEXT, lambda x: x[1])
+)
+FAMILY: Section[Family] = Section(
+    Row("name", TEXT, lambda x: x.name, label=""),
     Row("stages", TEXT, lambda x: _sizes(x) if x.size == "stages" else ""),
     Row("options", parts(OPTION), lambda x: [*chosen_by(x)], DATA),
-    Row("order", TEXT),
-    Row("summary", TEXT),
+    Row("order", TEXT, lambda x: x.order),
+    Row("summary", TEXT, lambda x: x.summary),
     Row("options", BESIDE, _key_words, DETAIL),
     Row("reference", BESIDE, lambda x: str(x.reference), DETAIL),
 )
-RULE = Section(
+RULE: Section[tuple[str, str]] = Section(
     NAME,
-    Row("summary", TEXT, "1"),
+    Row("summary", TEXT, lambda x: x[1]),
     Row("blocks", BESIDE, lambda x: "both" if x[0] in PAIR_RULES else "one", DETAIL),
 )
-PROBLEM = Section(
-    Row("name", TEXT, label=""),
-    Row("summary", TEXT),
-    Row("formula", BESIDE, level=DETAIL),
-    Row("trees", BESIDE, "sees", DETAIL),
+PROBLEM: Section[BuiltIn] = Section(
+    Row("name", TEXT, lambda x: x.name, label=""),
+    Row("summary", TEXT, lambda x: x.summary),
+    Row("formula", BESIDE, lambda x: x.formula, DETAIL),
+    Row("trees", BESIDE, lambda x: x.sees, DETAIL),
 )
-TOPIC = Section(Row("name", TEXT, "0", label=""), Row("count", TEXT, "1"), Row("see", TEXT, "2"))
-SCHEME = Section(
-    Row("name", TEXT, label=""),
-    Row("order", TEXT),
-    Row("summary", TEXT),
-    Row("reference", TEXT, level=DETAIL),
+TOPIC: Section[tuple[str, str, str]] = Section(
+    Row("name", TEXT, lambda x: x[0], label=""),
+    Row("count", TEXT, lambda x: x[1]),
+    Row("see", TEXT, lambda x: x[2]),
+)
+SCHEME: Section[Scheme | Splitting] = Section(
+    Row("name", TEXT, lambda x: x.name, label=""),
+    Row("order", TEXT, lambda x: x.order),
+    Row("summary", TEXT, lambda x: x.summary),
+    Row("reference", TEXT, lambda x: x.reference, DETAIL),
 )
 
 
@@ -98,22 +103,19 @@ def _topics(lists: Lists) -> list[tuple[str, str, str]]:
     return [(name, str(count), f"gark list {name}") for name, count in counts.items()]
 
 
-ROWS = {
-    row.key: row
-    for row in (
-        Row("families", table(FAMILY, 0), lambda x: [*x.families.values()]),
-        Row("transfer", table(RULE, 0), lambda x: [*x.rules.items()]),
-        Row("schemes", table(SCHEME, 0), lambda x: [*x.schemes.values()]),
-        Row("splittings", table(SCHEME, 0), lambda x: [*x.splittings.values()]),
-        Row("problems", table(PROBLEM, 0), lambda x: [*x.problems.values()]),
-    )
+ROWS: dict[str, Row[Lists]] = {
+    "families": Row("families", table(FAMILY, 0), lambda x: [*x.families.values()]),
+    "transfer": Row("transfer", table(RULE, 0), lambda x: [*x.rules.items()]),
+    "schemes": Row("schemes", table(SCHEME, 0), lambda x: [*x.schemes.values()]),
+    "splittings": Row("splittings", table(SCHEME, 0), lambda x: [*x.splittings.values()]),
+    "problems": Row("problems", table(PROBLEM, 0), lambda x: [*x.problems.values()]),
 }
 """By what gark list can list alone."""
 
 
-def _counted(row: Row, lists: Lists) -> str:
+def _counted(row: Row[Lists], lists: Lists) -> str:
     """How many a list has of what, above it."""
-    return f"{len(row.value(lists))} {'transfer rules' if row.key == 'transfer' else row.key}"
+    return f"{len(row.get(lists))} {'transfer rules' if row.key == 'transfer' else row.key}"
 
 
 REPORT: Report[Lists] = Report.only(
@@ -121,8 +123,8 @@ REPORT: Report[Lists] = Report.only(
     "report of gark list",
     Section(
         Row("topics", shown(TOPIC, 0), _topics, label="", is_short=True),
-        *(
-            replace(line, level=DETAIL, is_optional=True)
+        (
+            line.but(level=DETAIL, is_optional=True)
             for row in ROWS.values()
             for line in (sentence(partial(_counted, row)), row)
         ),
@@ -139,13 +141,13 @@ def only(what: str) -> Report[Lists]:
     return Report.only("gark/list/1", f"report of gark list {what}", section)
 
 
-TARGET = Section(
-    Row("name", TEXT, label=""),
+TARGET: Section[Bridge] = Section(
+    Row("name", TEXT, lambda x: x.name, label=""),
     Row("kinds", TEXTS, lambda x: [*x.kinds]),
-    Row("reads_back", TRUTH, level=DETAIL),
+    Row("reads_back", TRUTH, lambda x: x.reads_back, DETAIL),
     Row("has_test", TRUTH, lambda x: x.words is not None, DETAIL),
-    Row("suffix", TEXT, level=DETAIL),
-    Row("summary", TEXT),
+    Row("suffix", TEXT, lambda x: x.suffix, DETAIL),
+    Row("summary", TEXT, lambda x: x.summary),
 )
 
 

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from garkcli.check.meanings import Meaning, term_meaning
-from garkcli.frozen import replace
 from garkcli.glossary.term import TOPICS, terms_of
 from garkcli.page.paint import folded, indented
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Level, Row, Section, optional
+from garkcli.tell.facts import Kind, Level, Row, Section, optional, via
 from garkcli.tell.kinds import TEXT, TEXTS
 from garkcli.tell.report import Report
+from garkcli.tell.shown import Labels
 
 
 class Told(NamedTuple):
@@ -22,9 +22,9 @@ class Told(NamedTuple):
     meaning: Meaning
 
 
-def _optional(key: str, field: str = "") -> Row:
+def _optional(key: str, get: Callable[[Meaning], str]) -> Row[Meaning]:
     """A part of a meaning that some have."""
-    return optional(key, TEXT, lambda x: getattr(x, field or key) or None)
+    return optional(key, TEXT, lambda x: get(x) or None)
 
 
 def _example_rows(text: str, d: Plain) -> list[tuple[str, str]]:
@@ -32,23 +32,23 @@ def _example_rows(text: str, d: Plain) -> list[tuple[str, str]]:
     return [("" if i else "example", d.prose(x)) for i, x in enumerate(text.splitlines())]
 
 
-EXAMPLE = replace(TEXT, rows=_example_rows)
-MEANING = Section(
-    *(
-        row.of(lambda x: x.meaning)
-        for row in (
-            Row("kind", TEXT, level=Level.DATA),
-            Row("name", TEXT, level=Level.DATA),
-            Row("text", TEXT, label="", line="text"),
-            _optional("formula"),
-            _optional("values"),
-            _optional("for", "scope"),
-            _optional("default"),
-            replace(_optional("example"), kind=EXAMPLE),
-            _optional("cure"),
-            Row("source", TEXT),
-            Row("see", TEXTS),
-        )
+EXAMPLE: Kind[str] = Kind(TEXT.what, Labels(_example_rows))
+MEANING: Section[Told] = Section(
+    via(
+        lambda x: x.meaning,
+        [
+            Row("kind", TEXT, lambda x: x.kind, Level.DATA),
+            Row("name", TEXT, lambda x: x.name, Level.DATA),
+            Row("text", TEXT, lambda x: x.text, label="", line="text"),
+            _optional("formula", lambda x: x.formula),
+            _optional("values", lambda x: x.values),
+            _optional("for", lambda x: x.scope),
+            _optional("default", lambda x: x.default),
+            optional("example", EXAMPLE, lambda x: x.example or None),
+            _optional("cure", lambda x: x.cure),
+            Row("source", TEXT, lambda x: x.source),
+            Row("see", TEXTS, lambda x: x.see),
+        ],
     ),
     title=lambda x, d: d.prose(f"{x.meaning.name}: {x.meaning.kind}"),
 )
@@ -58,7 +58,7 @@ REPORT: Report[Told] = Report(
     lambda: [MEANING],
     lambda _: MEANING,
     key="meanings",
-    tail=Section(Row("word", TEXT, "0.word")),
+    tail=Section(Row("word", TEXT, lambda x: x[0].word)),
 )
 
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Callable, Iterator, Sequence
+from typing import NamedTuple
 
 from garkcli.backward.formulas import ModifiedFormula, PowerTerm
-from garkcli.backward.summary import BackwardAnalysis
+from garkcli.backward.summary import BackwardAnalysis, Reached
 from garkcli.errors import counted
 from garkcli.exact.display import to_decimal
 from garkcli.exact.field import Number
@@ -17,9 +17,10 @@ from garkcli.page.paint import numbered
 from garkcli.reason import NO_REASON, Reason
 from garkcli.report.problem import describe
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Answer, Beside, Kind, Level, Row, Section, Status, maybe, via
+from garkcli.tell.facts import Answer, Beside, Json, Kind, Level, Row, Section, Status, maybe, via
 from garkcli.tell.kinds import (
     COUNT,
+    DERIVATION,
     INDEX,
     NUMERAL,
     POSITION,
@@ -32,6 +33,7 @@ from garkcli.tell.kinds import (
 )
 from garkcli.tell.parts import SAID, part, parts, rows_of, table, told
 from garkcli.tell.report import Report
+from garkcli.tell.shown import Words
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 MOST_TERMS = 10
@@ -85,21 +87,21 @@ def _size(factor: Number, d: Plain) -> str:
     return "" if d.breadth == "page" else to_decimal(factor, 4)
 
 
-TERM = Section(
+TERM: Section[Term] = Section(
     Row("power", told(lambda x, d: d.formula(f"h^{{{x}}}", f"h^{x}")), lambda x: x.tree.order - 1),
-    Row("picture", told(lambda x, d: d.sketch(x)), "tree", label=""),
-    Row("tree", TREE),
-    Row("root", INDEX, "tree.root", DATA),
-    Row("order", POSITION, "tree.order", DATA),
-    Row("symmetry", POSITION),
-    Row("coefficient", NUMERAL),
+    Row("picture", told(lambda x, d: d.sketch(x)), lambda x: x.tree, label=""),
+    Row("tree", TREE, lambda x: x.tree),
+    Row("root", INDEX, lambda x: x.tree.root, DATA),
+    Row("order", POSITION, lambda x: x.tree.order, DATA),
+    Row("symmetry", POSITION, lambda x: x.symmetry),
+    Row("coefficient", NUMERAL, lambda x: x.coefficient),
     Row("factor", NUMERAL, lambda x: x.coefficient / x.symmetry),
     Row("value", told(_size), lambda x: x.coefficient / x.symmetry, Level.DETAIL),
 )
 """Of the sum Σ h^(ρ−1) b(u)/σ F(u), or of Σ h^(ρ−1) b(u)/|Aut| H(u) over free trees."""
 
 
-def _equation(report: ModifiedReport) -> Answer:
+def _equation(report: ModifiedReport) -> Answer[list[Term]]:
     """The coefficients b(u) that are not zero; usual where there is no Hamiltonian.
 
     Of rounded coefficients those of the orders that the method has are left out but for order 1:
@@ -117,10 +119,14 @@ def _equation(report: ModifiedReport) -> Answer:
     return Answer(terms, level=USUAL if is_told else DATA)
 
 
-def _hamiltonian(report: ModifiedReport) -> Answer:
+def _hamiltonian(report: ModifiedReport) -> Answer[list[Term]]:
     """The terms of the modified Hamiltonian; None where there is none."""
     found = report.found.hamiltonian
-    terms = found and [Term(x.tree.representative, x.tree.symmetry, x.coefficient) for x in found]
+    terms = (
+        None
+        if found is None
+        else [Term(x.tree.representative, x.tree.symmetry, x.coefficient) for x in found]
+    )
     return Answer(terms, level=USUAL if report.formula is None else DATA)
 
 
@@ -133,12 +139,12 @@ def unknowns_of(formula: ModifiedFormula) -> list[str]:
     return [*positions, *(f"p{name}" for name in positions)]
 
 
-def _text(formula: Any) -> str:
+def _text(formula: object) -> str:
     """A formula as problem files write it."""
     return str(formula).replace("**", "^")
 
 
-def _latex(formula: Any) -> str:
+def _latex(formula: object) -> str:
     import sympy
 
     return str(sympy.latex(formula))
@@ -175,48 +181,53 @@ def _row(left: str, terms: Sequence[PowerTerm], component: int) -> str:
     return f"  {left} &= {joined}"
 
 
-POWER = Section(
-    Row("power", COUNT), Row("formulas", TEXTS, lambda x: [_text(y) for y in x.formulas])
+POWER: Section[PowerTerm] = Section(
+    Row("power", COUNT, lambda x: x.power),
+    Row("formulas", TEXTS, lambda x: [_text(y) for y in x.formulas]),
 )
-FORMULA = Section(
-    Row("problem", TEXT, "problem.name"),
-    Row("of", choice("hamiltonian", "equation")),
+FORMULA: Section[ModifiedFormula] = Section(
+    Row("problem", TEXT, lambda x: x.problem.name),
+    Row("of", choice("hamiltonian", "equation"), lambda x: x.of),
     Row("unknowns", TEXTS, unknowns_of),
     Row("max_power", COUNT, lambda x: x.max_order - 1),
-    Row("terms", parts(POWER)),
+    Row("terms", parts(POWER), lambda x: x.terms),
 )
 
 
 # the report
 
 
-REACHED = Kind(
-    S.COUNT,
-    words=lambda x, _: str(x),
-    beside=(
-        Beside(
-            "*order_is_lower_bound",
-            S.nullable(S.FLAG),
-            lambda a, _: a.status.at_least,
-            is_optional=False,
+REACHED: Kind[int] = Kind(
+    Json(
+        S.COUNT,
+        beside=(
+            Beside(
+                "*order_is_lower_bound",
+                S.nullable(S.FLAG),
+                lambda a, _: a.status.at_least,
+                is_optional=False,
+            ),
         ),
     ),
+    Words(lambda x, _: str(x)),
 )
 
 
-def _order(key: str, level: Level = HEADLINE) -> Row:
+def _order(
+    key: str, get: Callable[[BackwardAnalysis], Reached | None], level: Level = HEADLINE
+) -> Row[BackwardAnalysis]:
     """An order, and whether it is a lower bound."""
 
-    def get(x: BackwardAnalysis) -> Answer:
-        reached = getattr(x, key.removesuffix("_order"))
+    def answer(x: BackwardAnalysis) -> Answer[int]:
+        reached = get(x)
         if reached is None:
             return Answer(None, reason=_FORMLESS)
         return Answer(reached.order, Status(x.tolerance, reached.is_lower_bound))
 
-    return maybe(key, REACHED, get, level)
+    return maybe(key, REACHED, answer, level)
 
 
-def _symplectic(x: BackwardAnalysis) -> Answer:
+def _symplectic(x: BackwardAnalysis) -> Answer[bool]:
     is_formless = x.structure is None and x.tolerance is None
     status = Status(x.tolerance if x.is_symplectic else None)
     return Answer(x.is_symplectic, status, _FORMLESS if is_formless else NO_REASON)
@@ -233,27 +244,27 @@ def _note(report: ModifiedReport) -> str:
     return "coefficients of one method within the rounding" if is_rounded else ""
 
 
-MODIFIED = Section(
-    Row("file", TEXT, level=DATA),
-    Row("name", TEXT, level=DATA),
-    Row("derivation", Kind(S.DERIVATION), level=DATA),
-    maybe("tolerance", TOLERANCE, "found.tolerance", DATA),
-    *via(
+MODIFIED: Section[ModifiedReport] = Section(
+    Row("file", TEXT, lambda x: x.file, DATA),
+    Row("name", TEXT, lambda x: x.name, DATA),
+    Row("derivation", DERIVATION, lambda x: x.derivation, DATA),
+    maybe("tolerance", TOLERANCE, lambda x: x.found.tolerance, DATA),
+    via(
         lambda x: x.found,
         [
-            _order("order"),
+            _order("order", lambda x: x.order),
             Row("symplectic", TRUTH, _symplectic, HEADLINE),
-            _order("symplectic_order", USUAL),
-            _order("energy_order"),
-            _order("effective_order"),
+            _order("symplectic_order", lambda x: x.symplectic, USUAL),
+            _order("energy_order", lambda x: x.energy),
+            _order("effective_order", lambda x: x.effective),
         ],
     ),
     Row("trees", SAID, _vertices),
     Row("colours_in_words", SAID, lambda x: numbered(x.names), label="colours"),
-    Row("colours", TEXTS, "names", DATA),
-    Row("max_order", POSITION, "found.equation.max_order", DATA),
+    Row("colours", TEXTS, lambda x: x.names, DATA),
+    Row("max_order", POSITION, lambda x: x.found.equation.max_order, DATA),
     Row("note", SAID, _note),
-    Row("formula_in_words", rows_of(lambda x, d: list(_formula_rows(x, d))), "formula"),
+    Row("formula_in_words", rows_of(_formula_rows), lambda x: x.formula),
     maybe(
         "hamiltonian",
         table(TERM, MOST_TERMS),
@@ -266,7 +277,7 @@ MODIFIED = Section(
         _equation,
         label="modified equation: Σ h^(ρ−1) b(u)/σ F(u)",
     ),
-    maybe("formula", part(FORMULA), level=DATA),
+    maybe("formula", part(FORMULA), lambda x: x.formula, DATA),
     title=lambda x, d: d.prose(x.name or x.file),
 )
 REPORT: Report[ModifiedReport] = Report.only(

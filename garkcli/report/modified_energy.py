@@ -6,20 +6,22 @@ from collections.abc import Iterator, Sequence
 from math import ceil
 from typing import Any, NamedTuple, get_args
 
+from flint import fmpq
+
 from garkcli.backward.energy import ModifiedEnergy, ModifiedRun, Verdict
 from garkcli.convergence.result import Row as Step
 from garkcli.frozen import Frozen
-from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.figures import scientific
 from garkcli.report.convergence import STEP_SIZE
 from garkcli.report.failure import FAILURE, Failure
 from garkcli.report.problem import describe, driving
 from garkcli.tableau.garkmethod import derivation_of
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, maybe, via
-from garkcli.tell.kinds import COUNT, EXACT, POSITION, TEXT, TRUTH, choice
-from garkcli.tell.parts import SAID, answer, parts, rows_of, shown, table
+from garkcli.tell.facts import Answer, Json, Kind, Level, Row, Rows, Section, Status, maybe, via
+from garkcli.tell.kinds import COUNT, DERIVATION, EXACT, POSITION, TEXT, TRUTH
+from garkcli.tell.parts import SAID, parts, rows_of, shown, table, told
 from garkcli.tell.report import Report
+from garkcli.tell.shown import Words
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 MOST = 12
@@ -71,7 +73,7 @@ def _answer(energies: Sequence[ModifiedEnergy], d: Plain) -> str:
 class Errors(NamedTuple):
     """The errors of a step size."""
 
-    h: Any
+    h: fmpq
     errors: list[tuple[ModifiedEnergy, Step]]
 
 
@@ -89,61 +91,72 @@ def _cells(errors: list[tuple[ModifiedEnergy, Step]], d: Plain) -> list[tuple[st
     return cells
 
 
-NUMBER = Kind({"type": "number"})
-STEP = Section(Row("h", EXACT), Row("error", NUMBER, _error), maybe("slope", NUMBER))
-ENERGY = Section(
+NUMBER: Kind[float] = Kind(Json({"type": "number"}))
+STEP: Section[Step] = Section(
+    Row("h", EXACT, lambda x: x.h),
+    Row("error", NUMBER, _error),
+    maybe("slope", NUMBER, lambda x: x.slope),
+)
+VERDICT: Kind[str] = Kind(Json({"enum": [*get_args(Verdict)]}), Words(_verdict))
+ENERGY: Section[ModifiedEnergy] = Section(
     Row("terms", SAID, _terms, label=""),
-    Row("power", COUNT, level=DATA),
-    Row("verdict", Kind(choice(*get_args(Verdict)).schema, words=_verdict)),
+    Row("power", COUNT, lambda x: x.power, DATA),
+    Row("verdict", VERDICT, lambda x: x.verdict),
     Row("exact_order", COUNT, lambda x: Answer(x.exact_order, Status(at_least=x.is_lower_bound))),
-    Row("exact_order_is_lower_bound", TRUTH, "is_lower_bound", DATA),
+    Row("exact_order_is_lower_bound", TRUTH, lambda x: x.is_lower_bound, DATA),
     Row("observed", SAID, _observed, label="observed order"),
-    maybe("observed_order", NUMBER, level=DATA),
-    maybe("uncertainty", NUMBER, level=DATA),
-    Row("rows", parts(STEP), level=DATA),
+    maybe("observed_order", NUMBER, lambda x: x.observed_order, DATA),
+    maybe("uncertainty", NUMBER, lambda x: x.uncertainty, DATA),
+    Row("rows", parts(STEP), lambda x: x.rows, DATA),
 )
-SIZES = Section(Row("h", STEP_SIZE), Row("errors", rows_of(_cells)))
-MEASURED = Section(
-    Row("name", TEXT, level=DATA),
-    Row("derivation", Kind(S.DERIVATION), lambda x: derivation_of(x.run.method), DATA),
-    *via(
-        lambda x: x.run,
-        [
-            Row("problem", TEXT, "problem.name", DATA),
-            answer(_answer, "energies"),
-            Row(
-                "problem_in_words",
-                SAID,
-                lambda x: f"{describe(x.problem)}; to t = {x.t_end}, {x.digits} digits",
-                label="problem",
-            ),
-            Row("colours_in_words", SAID, driving, label="colours"),
-            Row("t_end", EXACT, level=DATA),
-            Row("max_order", POSITION, level=DATA),
-            Row("digits", POSITION, level=DATA),
-            Row("energies", table(ENERGY, MOST), label=""),
-            Row(
-                "errors",
-                shown(SIZES, MOST),
-                lambda x: list(_errors(x)),
-                label="root mean square of H(t) - H(0), and with the modified terms of H",
-            ),
-        ],
+SIZES: Section[Errors] = Section(
+    Row("h", STEP_SIZE, lambda x: x.h), Row("errors", rows_of(_cells), lambda x: x.errors)
+)
+RUN: Rows[ModifiedRun] = (
+    Row("problem", TEXT, lambda x: x.problem.name, DATA),
+    Row("answer", told(_answer), lambda x: x.energies, HEADLINE, label=""),
+    Row(
+        "problem_in_words",
+        SAID,
+        lambda x: f"{describe(x.problem)}; to t = {x.t_end}, {x.digits} digits",
+        label="problem",
     ),
-    title=lambda x, d: d.prose(x.name),
-)
-LINE = Section(
-    Row("h", STEP_SIZE),
+    Row("colours_in_words", SAID, driving, label="colours"),
+    Row("t_end", EXACT, lambda x: x.t_end, DATA),
+    Row("max_order", POSITION, lambda x: x.max_order, DATA),
+    Row("digits", POSITION, lambda x: x.digits, DATA),
+    Row("energies", table(ENERGY, MOST), lambda x: x.energies, label=""),
     Row(
         "errors",
-        Kind({"type": "object"}, csv=lambda x: {f"error_{e.power}": repr(_error(s)) for e, s in x}),
+        shown(SIZES, MOST),
+        lambda x: list(_errors(x)),
+        label="root mean square of H(t) - H(0), and with the modified terms of H",
     ),
 )
+MEASURED: Section[ModifiedEnergyReport] = Section(
+    Row("name", TEXT, lambda x: x.name, DATA),
+    Row("derivation", DERIVATION, lambda x: derivation_of(x.run.method), DATA),
+    via(lambda x: x.run, RUN),
+    title=lambda x, d: d.prose(x.name),
+)
+ERRORS: Kind[Sequence[tuple[ModifiedEnergy, Step]]] = Kind(
+    Json({"type": "object"}, csv=lambda x: {f"error_{e.power}": repr(_error(s)) for e, s in x})
+)
+LINE: Section[Errors] = Section(
+    Row("h", STEP_SIZE, lambda x: x.h), Row("errors", ERRORS, lambda x: x.errors)
+)
+
+
+def form(x: ModifiedEnergyReport | Failure) -> Section[Any]:
+    """The rows of a measurement, or of one without a result."""
+    return FAILURE if isinstance(x, Failure) else MEASURED
+
+
 REPORT: Report[ModifiedEnergyReport | Failure] = Report(
     "gark/modified-energy/1",
     "report of gark energy --modified",
     lambda: (MEASURED, FAILURE),
-    lambda x: FAILURE if isinstance(x, Failure) else MEASURED,
+    form,
     key="",
     lines=lambda x: (LINE, () if isinstance(x, Failure) else _errors(x.run)),
 )

@@ -6,7 +6,7 @@ Nothing is coloured, so that a page is readable whatever its background; all tex
 from __future__ import annotations
 
 from html import escape
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from garkcli.check.findings import witness_text
 from garkcli.errors import printable
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from garkcli.tableau.garkmethod import GarkMethod
     from garkcli.tell.facts import Answer, Kind
 
+V = TypeVar("V")
 MAX_COLUMNS = 24
 """Most stages side by side; a larger tableau is named, not shown."""
 
@@ -66,7 +67,7 @@ def order_html(order: AnyOrder) -> str:
 
 
 def dense_order_html(order: DenseOrder) -> str:
-    """The same of dense output."""
+    """The order of dense output in a sentence, and the tree at which it ends."""
     from garkcli.report.check import dense_answer
     from garkcli.tell.kinds import COUNT
 
@@ -75,12 +76,12 @@ def dense_order_html(order: DenseOrder) -> str:
     return _said("dense order", COUNT, dense_answer(order, has_colours)) + _drawn(witness)
 
 
-def _said(label: str, kind: Kind, answer: Answer) -> str:
+def _said(label: str, kind: Kind[V], answer: Answer[V]) -> str:
     from garkcli.tell.facts import Row
     from garkcli.tell.html import Html
     from garkcli.tell.outputs import phrase
 
-    row = Row("order", kind, lambda _: answer, label=label)
+    row: Row[None] = Row("order", kind, lambda _: answer, label=label)
     return f"<p>{phrase(row.fact(None), Html())}</p>"
 
 

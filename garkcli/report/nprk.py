@@ -2,31 +2,31 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from garkcli.errors import counted
 from garkcli.report import check as c
-from garkcli.tell.facts import Level, Row, maybe
-from garkcli.tell.parts import SAID, part, picture
+from garkcli.tell.facts import Level, Row, Rows
+from garkcli.tell.parts import SAID
 
 if TYPE_CHECKING:
+    from garkcli.check.nprk import NprkAnalysis
     from garkcli.tell.dialect import Plain
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 IN_THE_TREES = "1 and 2 are the arguments of F that branches are in"
 
 
-def _method_words(outcome: Any, _: Plain) -> str:
-    a = outcome.nprk
+def _method_words(a: NprkAnalysis, _: Plain) -> str:
     pairs = counted(a.tableau.spaces[0].stages, "pair")
     return c.with_arithmetic(f"nonlinearly partitioned, {pairs} of stages", a)
 
 
-ANALYSIS = [
+ANALYSIS: Rows[NprkAnalysis] = [
     c.viewed_order("order", HEADLINE),
     c.viewed_order("embedded_order"),
-    maybe("error_estimate", part(c.ESTIMATE, c.estimate_phrase), "embedded.estimator"),
+    c.ERROR_ESTIMATE,
     Row("in the trees", SAID, lambda _: IN_THE_TREES),
-    Row("trees_that_fail", picture(c.drawn), c.failing("order", "embedded-order"), DETAIL),
+    c.failing("order", "embedded-order"),
 ]
-NPRK = c.of_other_kind("nprk", "nprk", _method_words, ANALYSIS)
+NPRK = c.of_other_kind(lambda o: o.nprk, "nprk", _method_words, ANALYSIS)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, TypeAlias
+from typing import Protocol, TypeAlias, TypeVar
+
+from flint import fmpq
 
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.problems.hamiltonian import Hamiltonian
@@ -11,11 +13,12 @@ from garkcli.problems.oscillator import Oscillator
 from garkcli.problems.problem import Problem, texts_of
 from garkcli.problems.righthandside import RightHandSide
 from garkcli.tableau.garkmethod import GarkMethod
-from garkcli.tell.facts import Kind, Level, Row, maybe
+from garkcli.tell.facts import Json, Kind, Level, Row, Rows, maybe, via
 from garkcli.tell.kinds import EXACT, TEXT
 from garkcli.tell.parts import SAID
 
 Stepped: TypeAlias = Oscillator | Problem
+P = TypeVar("P", Oscillator, Hamiltonian, RightHandSide)
 
 _LONGEST = 80
 """Characters of the terms that are still shown; longer ones are counted."""
@@ -67,18 +70,35 @@ def _is_short(texts: Sequence[str]) -> bool:
     return sum(map(len, texts)) <= _LONGEST
 
 
-_LISTS = Kind(S.array(S.array(S.TEXT)), lambda xs, _: [[str(x) for x in term] for term in xs])
-_FORMULAS = Kind(S.array(S.TEXT), lambda xs, _: [str(x) for x in xs])
-_TERMS: dict[type[Stepped], tuple[Row, ...]] = {
-    Oscillator: (Row("omega", EXACT, level=Level.DATA), Row("split", _LISTS, "shares", Level.DATA)),
-    Hamiltonian: (Row("hamiltonian", _FORMULAS, texts_of, Level.DATA),),
-    RightHandSide: (
-        Row("right_hand_sides", _LISTS, texts_of, Level.DATA),
-        maybe("stiffness", EXACT, level=Level.DATA),
-    ),
-}
-STEPPED: dict[type[Stepped], list[Row]] = {
-    kind: [
+_LISTS: Kind[Sequence[Sequence[object]]] = Kind(
+    Json(S.array(S.array(S.TEXT)), lambda xs, _: [[str(x) for x in term] for term in xs])
+)
+_FORMULAS: Kind[Sequence[object]] = Kind(Json(S.array(S.TEXT), lambda xs, _: [str(x) for x in xs]))
+
+
+class Run(Protocol):
+    """Steps of a method on a problem."""
+
+    @property
+    def method(self) -> GarkMethod | None:
+        """The method; None without one."""
+
+    @property
+    def problem(self) -> Stepped:
+        """The problem."""
+
+    @property
+    def t_end(self) -> fmpq:
+        """The end of the run."""
+
+
+def _stepped(kind: type[P], terms: Rows[P]) -> Rows[Run]:
+    """What the report says of the problem of a run: in words, and its terms for programs."""
+
+    def problem(x: Run) -> P | None:
+        return x.problem if isinstance(x.problem, kind) else None
+
+    return [
         Row("problem", TEXT, lambda x: x.problem.name, Level.DATA),
         Row(
             "problem_in_words",
@@ -86,23 +106,40 @@ STEPPED: dict[type[Stepped], list[Row]] = {
             lambda x: f"{describe(x.problem)}; to t = {x.t_end}",
             label="problem",
         ),
-        Row("colours_in_words", SAID, lambda x: driving(x), label="colours"),
-        *(row.of(lambda x: x.problem) for row in rows),
+        Row("colours_in_words", SAID, driving, label="colours"),
+        *via(problem, terms),
     ]
-    for kind, rows in _TERMS.items()
-}
-"""What the report says of the problem of a run, by its kind: in words, and for programs ω and the
-shares (k_l, v_l) of each term, the terms H^{l}, or the components of each term f^{l}.
-"""
 
 
-def driving(run: Any) -> str:
+def driving(run: Run) -> str:
     """What the colours of a method do with the terms of a Hamiltonian, where its file does not say
     it by a partition; empty where there is nothing to say.
     """
-    method: GarkMethod | None = run.method
+    method = run.method
     if method is None or isinstance(run.problem, RightHandSide):
         return ""
     if method.tableau.is_partitioned or method.tableau.size == 1:
         return ""
     return "colour l steps the whole vector field of H{l}"
+
+
+STEPPED: dict[type[Stepped], Rows[Run]] = {
+    Oscillator: _stepped(
+        Oscillator,
+        (
+            Row("omega", EXACT, lambda x: x.omega, Level.DATA),
+            Row("split", _LISTS, lambda x: x.shares, Level.DATA),
+        ),
+    ),
+    Hamiltonian: _stepped(Hamiltonian, (Row("hamiltonian", _FORMULAS, texts_of, Level.DATA),)),
+    RightHandSide: _stepped(
+        RightHandSide,
+        (
+            Row("right_hand_sides", _LISTS, texts_of, Level.DATA),
+            maybe("stiffness", EXACT, lambda x: x.stiffness, Level.DATA),
+        ),
+    ),
+}
+"""By the kind of the problem; for programs it has ω and the shares (k_l, v_l) of each term, the
+terms H^{l}, or the components of each term f^{l}.
+"""

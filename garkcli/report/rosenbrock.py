@@ -2,24 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from garkcli.constructions.rosenbrock import Rosenbrock
 from garkcli.errors import counted
 from garkcli.report import check as c
 from garkcli.report.decided_by_stability import STABILITY
 from garkcli.tell import kinds
-from garkcli.tell.facts import Level, Row, maybe
-from garkcli.tell.parts import SAID, part, picture
+from garkcli.tell.facts import Answer, Level, Row, Rows, maybe
+from garkcli.tell.parts import SAID, part
 
 if TYPE_CHECKING:
+    from garkcli.check.rosenbrock import RosenbrockAnalysis
+    from garkcli.tableau.tableau import Tableau
     from garkcli.tell.dialect import Plain
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 
 
-def words_of(tableau: Any) -> str:
+def words_of(tableau: Tableau) -> str:
     """How many colours and stages it has."""
     colours = tableau.size // 2
     stages = [space.stages for space in tableau.spaces[:colours]]
@@ -28,17 +29,12 @@ def words_of(tableau: Any) -> str:
     return f"Rosenbrock, {counted(colours, 'colour')}, stages {', '.join(map(str, stages))}"
 
 
-def _method_words(outcome: Any, d: Plain) -> str:
-    a = outcome.rosenbrock
+def _method_words(a: RosenbrockAnalysis, d: Plain) -> str:
     text = words_of(a.tableau)
     diagonal = set(Rosenbrock.of(a.tableau).diagonal)
     if len(diagonal) == 1:
         text += f", {d.prose('γ')} = {d.number(diagonal.pop())}"
     return c.with_arithmetic(text, a)
-
-
-def _dense(get: Callable[[Any], Any]) -> Callable[[Any], Any]:
-    return lambda a: None if a.dense is None else get(a)
 
 
 IN_THE_TREES = (
@@ -47,11 +43,12 @@ IN_THE_TREES = (
 )
 
 
-def _names(a: Any) -> list[str]:
-    return [colour.name for colour in a.tableau.colours]
+def _dense_order(a: RosenbrockAnalysis) -> Answer[int] | None:
+    names = [colour.name for colour in a.tableau.colours]
+    return None if a.dense is None else c.dense_answer(a.dense.order, names)
 
 
-ANALYSIS = [
+ANALYSIS: Rows[RosenbrockAnalysis] = [
     c.viewed_order("order", HEADLINE),
     c.viewed_order("w_order", label="with any matrix W"),
     c.viewed_order("old_jacobian_order", label="old Jacobian f' + hE"),
@@ -64,16 +61,11 @@ ANALYSIS = [
     c.viewed_order("embedded_old_jacobian_order", DETAIL, "embedded, f' + hE"),
     c.viewed_order("embedded_nonautonomous_order", DETAIL, "embedded for f(t, y)"),
     c.viewed_order("embedded_index_1_order", DETAIL, "embedded, index 1"),
-    maybe("error_estimate", part(c.ESTIMATE, c.estimate_phrase), "embedded.estimator"),
-    maybe("dense_order", kinds.COUNT, _dense(lambda a: c.dense_answer(a.dense.order, _names(a)))),
-    maybe("dense", part(c.DENSE, c.dense_words), label="dense output"),
+    c.ERROR_ESTIMATE,
+    maybe("dense_order", kinds.COUNT, _dense_order),
+    maybe("dense", part(c.DENSE, c.dense_words), lambda a: a.dense, label="dense output"),
     *STABILITY,
-    Row(
-        "trees_that_fail",
-        picture(c.drawn),
-        c.failing("order", "w-order", "index-1-order", "embedded-order"),
-        DETAIL,
-    ),
+    c.failing("order", "w-order", "index-1-order", "embedded-order"),
     Row("in the trees", SAID, lambda _: IN_THE_TREES, DETAIL),
 ]
-ROSENBROCK = c.of_other_kind("rosenbrock", "rosenbrock", _method_words, ANALYSIS)
+ROSENBROCK = c.of_other_kind(lambda o: o.rosenbrock, "rosenbrock", _method_words, ANALYSIS)

@@ -20,7 +20,7 @@ from garkcli.exact.expression import parse
 from garkcli.exact.rewriting import names_in
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Kind, Level, Row, Section, maybe, optional, via
+from garkcli.tell.facts import Json, Kind, Level, Row, Rows, Section, maybe, optional, via
 from garkcli.tell.kinds import COUNT, POSITION, TEXT, TEXTS, TRUTH, choice
 from garkcli.tell.parts import answer, parts, rows_of
 from garkcli.tell.report import Report
@@ -151,45 +151,60 @@ def _objective_rows(report: SearchReport, d: Plain) -> list[tuple[str, str]]:
     return [("objective", d.prose(objective.summary.format(next=report.search.order + 1)))]
 
 
-RESIDUAL = Kind(
-    {**S.TEXT, "description": "A power of ten that no residual is above; 0 where all vanish."}
+def _key(objective: Objective | LevelObjective | None) -> str | None:
+    return None if objective is None else objective.key
+
+
+RESIDUAL: Kind[str] = Kind(
+    Json({**S.TEXT, "description": "A power of ten that no residual is above; 0 where all vanish."})
 )
 VALUES: S.Schema = {
     "type": "object",
     "description": "Exact numbers; decimals where the proof is not exact.",
     "additionalProperties": S.TEXT,
 }
-OF_METHOD = [
-    Row("proof", choice(*get_args(Proof))),
-    Row("order", POSITION),
-    Row("residual", RESIDUAL),
-    Row("start", POSITION),
-    Row("values", Kind(VALUES, lambda values, _: dict(values))),
-    maybe("objective", TEXT),
+OF_METHOD: Rows[Method] = [
+    Row("proof", choice(*get_args(Proof)), lambda x: x.proof),
+    Row("order", POSITION, lambda x: x.order),
+    Row("residual", RESIDUAL, lambda x: x.residual),
+    Row("start", POSITION, lambda x: x.start),
+    Row("values", Kind(Json(VALUES, lambda values, _: dict(values))), lambda x: x.values),
+    maybe("objective", TEXT, lambda x: x.objective),
 ]
-METHOD = Section(maybe("file", TEXT, "1"), *via(lambda x: x[0], OF_METHOD))
-SECONDS = Kind({"type": "number", "minimum": 0, "description": "Of the processor."})
-WHOLE = Section(
-    Row("file", TEXT, level=DATA),
-    Row("name", TEXT, "search.family.name", DETAIL),
-    Row("of", choice(*get_args(Whose)), "search.whose", DATA),
+METHOD: Section[tuple[Method, str | None]] = Section(
+    maybe("file", TEXT, lambda x: x[1]), via(lambda x: x[0], OF_METHOD)
+)
+SECONDS: Kind[float] = Kind(
+    Json({"type": "number", "minimum": 0, "description": "Of the processor."})
+)
+WHOLE: Section[SearchReport] = Section(
+    Row("file", TEXT, lambda x: x.file, DATA),
+    Row("name", TEXT, lambda x: x.search.family.name, DETAIL),
+    Row("of", choice(*get_args(Whose)), lambda x: x.search.whose, DATA),
     answer(_found),
     Row("unknowns", TEXTS, lambda x: list(x.search.family.parameters)),
-    Row("order", POSITION, "search.order", DATA),
-    optional("objective", TEXT, lambda x: x.result.objective and x.result.objective.key, DATA),
+    Row("order", POSITION, lambda x: x.search.order, DATA),
+    optional("objective", TEXT, lambda x: _key(x.result.objective), DATA),
     Row("objective_in_words", rows_of(_objective_rows), lambda x: x),
-    *via(
+    via(
         lambda x: x.result,
         [
-            Row("starts", COUNT, level=DATA),
-            Row("successes", COUNT, level=DATA),
-            Row("degenerate", COUNT, level=lambda a: USUAL if a.value else DATA),
-            Row("unstable", COUNT, level=lambda a: USUAL if a.value else DATA),
-            Row("interrupted", TRUTH, "is_interrupted", DATA),
+            Row("starts", COUNT, lambda x: x.starts, DATA),
+            Row("successes", COUNT, lambda x: x.successes, DATA),
+            Row(
+                "degenerate",
+                COUNT,
+                lambda x: x.degenerate,
+                level=lambda a: USUAL if a.value else DATA,
+            ),
+            Row(
+                "unstable", COUNT, lambda x: x.unstable, level=lambda a: USUAL if a.value else DATA
+            ),
+            Row("interrupted", TRUTH, lambda x: x.is_interrupted, DATA),
             Row("seconds", SECONDS, lambda x: round(x.seconds, 3), DATA),
         ],
     ),
-    Row("methods", parts(METHOD), level=DATA),
+    Row("methods", parts(METHOD), lambda x: x.methods, DATA),
     Row("methods_in_words", rows_of(method_rows), lambda x: x),
     title=lambda x, d: d.prose(x.file),
 )

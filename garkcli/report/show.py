@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from garkcli.errors import counted, printable
 from garkcli.frozen import Frozen
 from garkcli.reference import Reference
-from garkcli.report.citation import REFERENCE, of_reference
+from garkcli.report.citation import REFERENCE
 from garkcli.report.list_methods import METHOD, TRUTHS, TYPES, Entry
 from garkcli.report.tableau import DOCUMENT, drawn
 from garkcli.report.tableau import Shown as ShownTableau
@@ -65,12 +63,12 @@ def kind(x: Shown) -> str:
     return ", ".join(about)
 
 
-def such(value: bool) -> Any:
+def such(x: Shown, value: bool) -> str:
     """The properties that the method has, or that it has not; what it has says which kinds of
     stages it has not.
     """
     told = [key for key in TRUTHS if value or key not in TYPES]
-    return lambda x: ", ".join(key.replace("_", "-") for key in told if x.entry[key] is value)
+    return ", ".join(key.replace("_", "-") for key in told if x.entry[key] is value)
 
 
 def undecided(x: Shown) -> str:
@@ -84,16 +82,20 @@ REPORT: Report[Shown] = Report.only(
     Section(
         Row("kind", SAID, kind),
         Row("description", SAID, lambda x: " ".join(x.description.split())),
-        *via(lambda x: x.entry, METHOD),
-        Row("description", TEXT, level=DATA),
-        Row("it_is", SAID, such(True), is_short=True),
-        Row("it_is_not", SAID, such(False), is_short=True),
+        via(lambda x: x.entry, METHOD),
+        Row("description", TEXT, lambda x: x.description, DATA),
+        Row("it_is", SAID, lambda x: such(x, value=True), is_short=True),
+        Row("it_is_not", SAID, lambda x: such(x, value=False), is_short=True),
         Row("undecided", SAID, undecided, label="not decided"),
-        Row("doi", SAID, of_reference("doi")),
-        Row("coefficients", SAID, of_reference("coefficients")),
-        maybe("publication", part(REFERENCE), "reference", DATA),
-        Row("tableau", part(DOCUMENT), "whole", DATA),
-        Row("tableau", drawing(drawn), "whole"),
+        Row("doi", SAID, lambda x: None if x.reference is None else x.reference.doi),
+        Row(
+            "coefficients",
+            SAID,
+            lambda x: None if x.reference is None else x.reference.coefficients,
+        ),
+        maybe("publication", part(REFERENCE), lambda x: x.reference, DATA),
+        Row("tableau", part(DOCUMENT), lambda x: x.whole, DATA),
+        Row("tableau", drawing(drawn), lambda x: x.whole),
         title=lambda x, d: d.prose(x.title),
     ),
 )

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from itertools import product
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, NamedTuple, Never, Protocol, TypeAlias
 
-from flint import arb, ctx
+from flint import arb, ctx, fmpq
 
 from garkcli.exact.display import BITS_OF_A_DIGIT, to_ball, to_text
 from garkcli.exact.field import Number
@@ -20,7 +20,7 @@ from garkcli.exact.polynomial_text import (
     polynomial_text,
 )
 from garkcli.exact.roots import RealRoot, sign
-from garkcli.frozen import Frozen, replace
+from garkcli.frozen import Frozen
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ALGEBRAIC, ROOT_OF, root_data
 from garkcli.plots.regions import stability_scene
@@ -28,19 +28,38 @@ from garkcli.reason import NO_REASON, Formula, Reason
 from garkcli.stability.ball_polynomials import Bounds
 from garkcli.stability.fraction import MOST_LINES, Fraction
 from garkcli.stability.linear import poles_are_right
-from garkcli.stability.summary import Stability
+from garkcli.stability.summary import AtPoint, Colours, LinearStability, Stability
 from garkcli.stability.two_frequencies import SlowInterval, TwoFrequencies
 from garkcli.tableau.garkmethod import Derivation, derived_name
 from garkcli.tell import kinds
-from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, maybe, via
-from garkcli.tell.parts import part, parts, scene
+from garkcli.tell.facts import Answer, Json, Kind, Level, Row, Rows, Section, Status, maybe, via
+from garkcli.tell.parts import part, parts, scene, told
 from garkcli.tell.report import Report
+from garkcli.tell.shown import Words
 
 if TYPE_CHECKING:
+    from garkcli.exact.cells import Interval
+    from garkcli.plots.scene import Scene
+    from garkcli.stability.damping import ImexPair, Ray
+    from garkcli.stability.oscillator import OscillatorStability
     from garkcli.stability.springs_plane import SpringsPlane
+    from garkcli.stability.ssp import AdditiveRadius, SspCoefficient
     from garkcli.tell.dialect import Plain
+    from garkcli.tell.shown import Wording
 
 HEADLINE, USUAL, DETAIL, DATA = Level
+Extent: TypeAlias = "Sequence[Interval] | Bounds"
+"""A part of an axis."""
+Form: TypeAlias = "tuple[Polynomial, Polynomial, Polynomial]"
+"""A quadratic form of (ωq, p)."""
+
+
+class Timed(Protocol):
+    """Facts for which the time may not be enough."""
+
+    @property
+    def late(self) -> frozenset[str]:
+        """Their attributes that it was not enough for."""
 
 
 class StabilityReport(Frozen):
@@ -93,10 +112,10 @@ def _square_root(root: RealRoot, digits: int) -> str:
 
 def _around_zero(
     bounds: str, nowhere: str, everywhere: str, end: Callable[[RealRoot, Plain], str]
-) -> Callable[[Any, Plain], str]:
+) -> Wording[Extent]:
     """The interval of an axis that begins at 0: of −z on the real one, of y² on the imaginary."""
 
-    def words(found: Any, d: Plain) -> str:
+    def words(found: Extent, d: Plain) -> str:
         if isinstance(found, Bounds):
             return nowhere if found.high == 0 else d.bounds(found, d.prose(bounds))
         first = found[0] if found else None
@@ -113,7 +132,7 @@ def _height(end: RealRoot, d: Plain) -> str:
     return d.prose(f"|y| ≤ {_square_root(end, d.digits)}, y² ≤ ") + d.root(end)
 
 
-def _end_data(found: Any, d: Plain) -> dict[str, Any]:
+def _end_data(found: Extent, d: Plain) -> dict[str, object]:
     """The first interval, by its end: in −z on the real axis, in y² on the imaginary one."""
     if isinstance(found, Bounds):
         return kinds.bounds_data(found)
@@ -123,22 +142,32 @@ def _end_data(found: Any, d: Plain) -> dict[str, Any]:
 
 
 _END = kinds.record(to=S.nullable(ALGEBRAIC))
-REAL = Kind(
-    S.one_of(_END, kinds.BOUNDS),
-    _end_data,
-    _around_zero("−z ≤ ", "z = 0 only", "z ≤ 0", lambda end, d: d.upto("−z", end)),
+REAL: Kind[Extent] = Kind(
+    Json(S.one_of(_END, kinds.BOUNDS), _end_data),
+    Words(_around_zero("−z ≤ ", "z = 0 only", "z ≤ 0", lambda end, d: d.upto("−z", end))),
 )
-IMAGINARY = replace(REAL, words=_around_zero("y² ≤ ", "y = 0 only", "all y", _height))
-SSP = Kind(
-    S.one_of(S.TEXT, ROOT_OF, kinds.BOUNDS),
-    lambda x, d: kinds.bounds_data(x) if isinstance(x, Bounds) else kinds.RADIUS.data(x, d),
-    lambda x, d: d.bounds(x) if isinstance(x, Bounds) else kinds.RADIUS(x).words(d),
+IMAGINARY: Kind[Extent] = Kind(
+    REAL.what, Words(_around_zero("y² ≤ ", "y = 0 only", "all y", _height))
 )
-SECTOR = Kind(
-    kinds.record(degrees=S.TEXT, cosine=ALGEBRAIC),
-    lambda x, d: {"degrees": _degrees(x.cosine, d.digits), "cosine": root_data(x.cosine, d.digits)},
-    lambda x, d: d.prose(f"α = {_degrees(x.cosine, d.digits)}°, cos α = ") + d.root(x.cosine),
+
+
+def _ssp_data(x: SspCoefficient | Bounds, d: Plain) -> object:
+    return kinds.bounds_data(x) if isinstance(x, Bounds) else kinds.radius_data(x, d)
+
+
+def _ssp_words(x: SspCoefficient | Bounds, d: Plain) -> str:
+    return d.bounds(x) if isinstance(x, Bounds) else kinds.RADIUS.words(x, d)
+
+
+SSP = Kind(Json(S.one_of(S.TEXT, ROOT_OF, kinds.BOUNDS), _ssp_data), Words(_ssp_words))
+SECTOR: Kind[RealRoot] = Kind(
+    Json(
+        kinds.record(degrees=S.TEXT, cosine=ALGEBRAIC),
+        lambda x, d: {"degrees": _degrees(x, d.digits), "cosine": root_data(x, d.digits)},
+    ),
+    Words(lambda x, d: d.prose(f"α = {_degrees(x, d.digits)}°, cos α = ") + d.root(x)),
 )
+"""A sector by its cosine."""
 
 
 def integral_parts(R: Fraction) -> tuple[Multivariate, Multivariate]:
@@ -149,23 +178,25 @@ def integral_parts(R: Fraction) -> tuple[Multivariate, Multivariate]:
     return P * constant_term, Q * constant_term
 
 
-def _fraction_data(R: Fraction, _: Plain) -> dict[str, Any]:
+def _fraction_data(R: Fraction, _: Plain) -> dict[str, object]:
     over, under = (
         multivariate_text(p, [f"z{k + 1}" for k in range(p.variables)]) for p in integral_parts(R)
     )
     return {"numerator": over, "denominator": under, "lowest_terms": R.is_reduced}
 
 
-FRACTION = Kind(
-    kinds.record(numerator=S.TEXT, denominator=S.TEXT, lowest_terms=S.FLAG),
-    _fraction_data,
-    lambda R, d: (
-        d.fraction(*integral_parts(R)) + ("" if R.is_reduced else "; perhaps not in lowest terms")
+FRACTION: Kind[Fraction] = Kind(
+    Json(kinds.record(numerator=S.TEXT, denominator=S.TEXT, lowest_terms=S.FLAG), _fraction_data),
+    Words(
+        lambda R, d: (
+            d.fraction(*integral_parts(R))
+            + ("" if R.is_reduced else "; perhaps not in lowest terms")
+        )
     ),
 )
 
 
-def _conserved_words(form: Any, d: Plain) -> str:
+def _conserved_words(form: Form, d: Plain) -> str:
     terms = []
     for p, name in zip(integral(form), ("(ωq)²", "ωq p", "p²"), strict=True):
         factor = d.polynomial(p, "z")
@@ -176,19 +207,25 @@ def _conserved_words(form: Any, d: Plain) -> str:
     return " + ".join(terms)
 
 
-CONSERVED = Kind(
-    kinds.record(qq=S.TEXT, qp=S.TEXT, pp=S.TEXT),
-    lambda form, _: dict(
-        zip(("qq", "qp", "pp"), (polynomial_text(p, "z") for p in integral(form)), strict=True)
+CONSERVED: Kind[Form] = Kind(
+    Json(
+        kinds.record(qq=S.TEXT, qp=S.TEXT, pp=S.TEXT),
+        lambda form, _: dict(
+            zip(("qq", "qp", "pp"), (polynomial_text(p, "z") for p in integral(form)), strict=True)
+        ),
     ),
-    _conserved_words,
+    Words(_conserved_words),
 )
-FROM_TO = Kind(
-    kinds.record(**{"from": S.EXACT, "to": S.EXACT}),
-    lambda x, _: {"from": str(x.low), "to": str(x.high)},
-    lambda x, _: f"every a = (hω_slow)² from {x.low} to {x.high}",
+FROM_TO: Kind[SlowInterval] = Kind(
+    Json(
+        kinds.record(**{"from": S.EXACT, "to": S.EXACT}),
+        lambda x, _: {"from": str(x.low), "to": str(x.high)},
+    ),
+    Words(lambda x, _: f"every a = (hω_slow)² from {x.low} to {x.high}"),
 )
-SQUARE = Kind(S.EXACT, lambda x, _: str(x), lambda x, d: f"a = (hω_slow)² = {d.number(x)}")
+SQUARE: Kind[fmpq] = Kind(
+    Json(S.EXACT, lambda x, _: str(x)), Words(lambda x, d: f"a = (hω_slow)² = {d.number(x)}")
+)
 
 
 # what is found
@@ -197,12 +234,12 @@ ROUNDED = Reason("coefficients are rounded")
 LATE = Reason("it takes longer than --seconds")
 
 
-def _open(x: Any, name: str) -> Answer | None:
+def _open(x: Timed, name: str) -> Answer[Never] | None:
     """The answer where the time was not enough for an attribute; None where it was."""
     return Answer(None, Status(open=LATE)) if name in x.late else None
 
 
-def a_stable(x: Any) -> Answer:
+def a_stable(x: LinearStability) -> Answer[bool]:
     """Whether |R| ≤ 1 in the left half plane, and why not."""
     if x.a_stable is not False or x.within is not None:
         return _open(x, "a_stable") or kinds.truth(x.a_stable, open_because=ROUNDED)
@@ -214,26 +251,26 @@ def a_stable(x: Any) -> Answer:
     return kinds.truth(False, Reason("|R(iy)| > 1 where E(y²) < 0, E = {}", E))
 
 
-def sector(x: Any) -> Any:
+def sector(x: LinearStability) -> RealRoot | Answer[RealRoot] | None:
     """A(α)-stability."""
     if x.within is not None:
         return None
     if x.sector is None:
         return _open(x, "sector") or Answer(None, Status(open=Reason("too many stages")))
-    return Answer(None, reason=Reason("no")) if x.sector.cosine is None else x.sector
+    return x.sector.cosine or Answer(None, reason=Reason("no"))
 
 
-def _less_than_all(answer: Answer) -> Level:
+def _less_than_all(answer: Answer[RealRoot]) -> Level:
     """A sector is reported where it is not the left half plane, which A-stable says."""
     if answer.value is None:
         return USUAL if answer.status.open else DETAIL
-    return USUAL if answer.value.cosine.exact != 0 else DETAIL
+    return USUAL if answer.value.exact != 0 else DETAIL
 
 
 PRINTED = Reason("of the digits as printed, not of all methods within the tolerance")
 
 
-def limit(x: Any) -> Answer:
+def limit(x: LinearStability) -> Answer[Number]:
     """R(∞)."""
     found = x.R.at_infinity()
     if found is None:
@@ -243,23 +280,26 @@ def limit(x: Any) -> Answer:
     return Answer(found)
 
 
-def either(exact: str) -> Callable[[Any], Any]:
-    """Of exact coefficients, or of rounded ones."""
-    return lambda x: _open(x, exact) or getattr(x if x.within is None else x.within, exact)
+def real(x: LinearStability) -> Extent | Answer[Extent] | None:
+    """The interval of the real axis, of exact or of rounded coefficients."""
+    return _open(x, "real") or (x.real if x.within is None else x.within.real)
 
 
-def ssp(x: Any) -> Any:
+def imaginary(x: LinearStability) -> Extent | Answer[Extent] | None:
+    """The interval of the imaginary axis."""
+    return _open(x, "imaginary") or (x.imaginary if x.within is None else x.within.imaginary)
+
+
+def ssp(x: LinearStability) -> SspCoefficient | Bounds | Answer[Never] | None:
     """The SSP coefficient."""
     if x.is_linear_alone:
         return None
     found = x.ssp if x.within is None else x.within.ssp
-    without_nodes = Answer(None, Status(open=Reason("the nodes have no simple radicals")))
-    return found or _open(x, "ssp") or without_nodes
+    without_nodes = Reason("the nodes have no simple radicals")
+    return found or _open(x, "ssp") or Answer(None, Status(open=without_nodes))
 
 
-def _complex_words(x: Any, d: Plain) -> str:
-    """A complex number of texts."""
-    real, imaginary = x
+def _complex_words(d: Plain, real: str, imaginary: str) -> str:
     text = real
     if imaginary != "0":
         minus, size = "-" * imaginary.startswith("-"), imaginary.removeprefix("-")
@@ -268,16 +308,16 @@ def _complex_words(x: Any, d: Plain) -> str:
     return d.formula(text, text)
 
 
-def _points_words(points: Any, d: Plain) -> str:
+def _points_words(points: Sequence[AtPoint], d: Plain) -> str:
     """R and |R| at each point, and whether that is bounded by 1."""
     said = []
     for x in points:
-        z = f"z = {_complex_words(list(map(to_text, x.z)), d)}"
-        if x.value is None:
+        z = f"z = {_complex_words(d, *map(to_text, x.z))}"
+        if x.value is None or x.squared is None:
             said.append(f"{z}: a pole")
             continue
-        value = _complex_words([_decimals_of(y, d.digits) for y in x.value], d)
-        size = _modulus(x, d.digits)
+        value = _complex_words(d, *(_decimals_of(y, d.digits) for y in x.value))
+        size = _modulus(x.squared, d.digits)
         than = {-1: "less than 1", 0: "exactly", 1: "more than 1"}[sign(x.squared - 1)]
         said.append(f"{z}: {value}, {d.formula(rf'|R| = {size}', f'|R| = {size}')}, {than}")
     return "; ".join(said)
@@ -287,24 +327,26 @@ def _decimals_of(x: Number, digits: int) -> str:
     return ball_decimal(to_ball(x, digits + 4), digits)
 
 
-def _modulus(x: Any, digits: int) -> str:
-    return _decimals(lambda _: to_ball(x.squared, digits + 24).sqrt(), digits)
+def _modulus(squared: Number, digits: int) -> str:
+    return _decimals(lambda _: to_ball(squared, digits + 24).sqrt(), digits)
 
 
-DECIMALS = Kind(
-    S.array(S.TEXT),
-    lambda x, d: [_decimals_of(y, d.digits) for y in x],
-    lambda x, d: ", ".join(_decimals_of(y, d.digits) for y in x),
+SIZE: Kind[Number] = Kind(Json(S.TEXT, lambda x, d: _modulus(x, d.digits)))
+DECIMALS: Kind[Sequence[Number]] = Kind(
+    Json(S.array(S.TEXT), lambda x, d: [_decimals_of(y, d.digits) for y in x]),
+    Words(lambda x, d: ", ".join(_decimals_of(y, d.digits) for y in x)),
 )
-POINT = Section(
-    Row("z", kinds.EXACTS),
-    maybe("value", kinds.EXACTS),
-    maybe("decimals", DECIMALS, "value"),
-    maybe("squared", kinds.EXACT),
-    maybe("size", Kind(S.TEXT, lambda x, d: _modulus(x, d.digits)), lambda x: x.value and x),
-    maybe("bounded", kinds.TRUTH, lambda x: None if x.value is None else sign(x.squared - 1) <= 0),
+POINT: Section[AtPoint] = Section(
+    Row("z", kinds.EXACTS, lambda x: x.z),
+    maybe("value", kinds.EXACTS, lambda x: x.value),
+    maybe("decimals", DECIMALS, lambda x: x.value),
+    maybe("squared", kinds.EXACT, lambda x: x.squared),
+    maybe("size", SIZE, lambda x: x.squared),
+    maybe(
+        "bounded", kinds.TRUTH, lambda x: None if x.squared is None else sign(x.squared - 1) <= 0
+    ),
 )
-LINEAR = [
+LINEAR: Rows[LinearStability] = [
     Row(
         "R",
         kinds.ratio("z"),
@@ -321,8 +363,8 @@ LINEAR = [
         lambda a: HEADLINE if a.value else DETAIL,
     ),
     maybe("A_alpha", SECTOR, sector, _less_than_all),
-    maybe("real_interval", REAL, either("real")),
-    maybe("imaginary_interval", IMAGINARY, either("imaginary")),
+    maybe("real_interval", REAL, real),
+    maybe("imaginary_interval", IMAGINARY, imaginary),
     maybe("ssp", SSP, ssp),
     Row(
         "points",
@@ -331,27 +373,27 @@ LINEAR = [
         label="at points",
     ),
 ]
-OF_COLOUR = Section(
-    Row("name", kinds.TEXT, level=DATA),
-    *LINEAR,
+OF_COLOUR: Section[LinearStability] = Section(
+    Row("name", kinds.TEXT, lambda x: x.name, DATA),
+    LINEAR,
     title=lambda x, d: f"colour {d.prose(x.name)} alone",
 )
 
 
-OF_EMBEDDED = Section(
-    replace(LINEAR[0], label="R̂(z)"),
-    replace(LINEAR[1], label="R̂(∞)"),
-    *LINEAR[2:5],
-    *(replace(row, level=DETAIL) for row in LINEAR[5:7]),
+OF_EMBEDDED: Section[LinearStability] = Section(
+    LINEAR[0].but(label="R̂(z)"),
+    LINEAR[1].but(label="R̂(∞)"),
+    LINEAR[2:5],
+    (row.but(level=DETAIL) for row in LINEAR[5:7]),
     LINEAR[-1],
     title=lambda _, d: d.prose("embedded weights"),
 )
-EMBEDDED = maybe(
+EMBEDDED: Row[StabilityReport] = maybe(
     "embedded", part(OF_EMBEDDED), lambda x: _open(x.found, "embedded") or x.found.embedded
 )
 
 
-def conserved(o: Any) -> Answer:
+def conserved(o: OscillatorStability) -> Answer[Form]:
     """The quadratic form that a step keeps."""
     if not o.determinant.is_one:
         return Answer(None, reason=Reason("none: the determinant is not 1"))
@@ -360,28 +402,28 @@ def conserved(o: Any) -> Answer:
     return Answer(o.conserved)
 
 
-def p_stable(o: Any) -> Answer:
+def p_stable(o: OscillatorStability) -> Answer[bool]:
     """Neither growth nor decay on the oscillator for any step size, and where that ends."""
     if o.is_i_stable and not o.is_p_stable:
         return kinds.truth(False, "solutions decay")
     return i_stable(o)
 
 
-def i_stable(o: Any) -> Answer:
+def i_stable(o: OscillatorStability) -> Answer[bool]:
     """Stability for every step size on the oscillator, and where it ends."""
     if o.is_i_stable:
         return kinds.truth(True)
     first = o.stable[0] if o.stable else None
-    if first is None or not first.has_start or first.is_point:
+    if first is None or not first.has_start or first.is_point or first.end is None:
         return kinds.truth(False, "unstable for small step sizes")
     where = "beyond" if first.has_end else "at"
     return kinds.truth(False, Reason(f"not stable {where} x = {{}}", ROOT_ALONE(first.end)))
 
 
-ROOT_ALONE = Kind(ALGEBRAIC, words=lambda x, d: d.root(x))
+ROOT_ALONE: Kind[RealRoot] = told(lambda x, d: d.root(x))
 
 
-def phase(o: Any) -> Answer:
+def phase(o: OscillatorStability) -> Answer[int]:
     """The order of the phase lag, and its sign."""
     if o.phase.order is None:
         return Answer(None, reason=Reason("none: the frequency is exact"))
@@ -393,14 +435,14 @@ def phase(o: Any) -> Answer:
     return Answer(o.phase.order, reason=reason)
 
 
-PHASE = Kind(S.COUNT, words=lambda n, _: f"of order {n}")
-_X = kinds.intervals("x")
-STABLE = Kind(
-    _X.schema, _X.data, lambda xs, d: " or ".join(_zone(x, d) for x in xs) if xs else "for no x"
+PHASE: Kind[int] = Kind(Json(S.COUNT), Words(lambda n, _: f"of order {n}"))
+STABLE: Kind[Sequence[Interval]] = Kind(
+    Json(S.array(kinds.INTERVAL), kinds.intervals_data),
+    Words(lambda xs, d: " or ".join(_zone(x, d) for x in xs) if xs else "for no x"),
 )
 
 
-def _zone(x: Any, d: Plain) -> str:
+def _zone(x: Interval, d: Plain) -> str:
     """An interval of x = (hω)², with the root of its end, which is one of hω."""
     if x.is_point or x.end is None:
         return d.interval(x, "x")
@@ -408,7 +450,7 @@ def _zone(x: Any, d: Plain) -> str:
     return f"{d.interval(x, 'x')}, {root} to {_square_root(x.end, d.digits)}"
 
 
-def discriminant(o: Any) -> Answer:
+def discriminant(o: OscillatorStability) -> Answer[Polynomial]:
     """4D² − N², and what that is."""
     meaning = "tr M = N/D for a step M"
     if o.determinant.is_one:
@@ -417,20 +459,20 @@ def discriminant(o: Any) -> Answer:
 
 
 OF_WAVES = "oscillator stable, x = (hω)²"
-OSCILLATOR = [
-    Row("trace", kinds.ratio("x"), level=DETAIL),
-    Row("determinant", kinds.ratio("x"), level=DETAIL),
+OSCILLATOR: Rows[OscillatorStability] = [
+    Row("trace", kinds.ratio("x"), lambda x: x.trace, DETAIL),
+    Row("determinant", kinds.ratio("x"), lambda x: x.determinant, DETAIL),
     Row("discriminant", kinds.polynomial("x"), discriminant, DETAIL),
-    Row("stable", STABLE, label=OF_WAVES),
+    Row("stable", STABLE, lambda x: x.stable, label=OF_WAVES),
     maybe("p_stable", kinds.TRUTH, p_stable),
     maybe("i_stable", kinds.TRUTH, i_stable),
     maybe("phase_order", PHASE, phase),
-    maybe("phase_constant", kinds.EXACT, "phase.constant", DATA),
+    maybe("phase_constant", kinds.EXACT, lambda x: x.phase.constant, DATA),
     maybe("conserved", CONSERVED, conserved, DETAIL),
 ]
 
 
-def algebraic(x: Any) -> Answer:
+def algebraic(x: StabilityReport) -> Answer[bool]:
     """Algebraic stability, and why not."""
     found = x.found
     if found.algebraic is None:
@@ -448,7 +490,7 @@ def algebraic(x: Any) -> Answer:
     return kinds.truth(found.algebraic.holds, ", ".join(why))
 
 
-def title(x: Any, d: Plain) -> str:
+def title(x: StabilityReport, d: Plain) -> str:
     """What a report is about."""
     within = x.found.tolerance
     given = x.file or x.name
@@ -456,107 +498,134 @@ def title(x: Any, d: Plain) -> str:
     return name if within is None else d.known(name, Status(within))
 
 
-def head(kind: str) -> list[Row]:
+def head(kind: str) -> Rows[StabilityReport]:
     """The first fields of every report."""
     return [
         *kinds.FILE_AND_NAME,
-        Row("derivation", Kind(S.DERIVATION), level=DATA),
+        Row("derivation", kinds.DERIVATION, lambda x: x.derivation, DATA),
         Row("kind", kinds.constant(kind), lambda _: kind, DATA),
-        maybe("tolerance", kinds.TOLERANCE, "found.tolerance", DATA),
+        maybe("tolerance", kinds.TOLERANCE, lambda x: x.found.tolerance, DATA),
     ]
 
 
-RADII = Section(Row("direction", kinds.EXACTS, "ratios"), maybe("radius", kinds.RADIUS))
+RADII: Section[AdditiveRadius] = Section(
+    Row("direction", kinds.EXACTS, lambda x: x.ratios),
+    maybe("radius", kinds.RADIUS, lambda x: x.radius),
+)
 
 
-def _radii_words(found: Any, d: Plain) -> str:
+def _radii_words(found: Sequence[AdditiveRadius], d: Plain) -> str:
     """How far the region of absolute monotonicity reaches in each direction."""
     texts = []
     for r in found:
         if r.radius is None:
             return "not decided: the nodes have no simple radicals"
-        direction = ", ".join({0: "0", 1: "r"}.get(q, f"{q} r") for q in r.ratios)
+        direction = ", ".join("0" if q == 0 else "r" if q == 1 else f"{q} r" for q in r.ratios)
         direction = d.formula(f"({direction})", f"({direction})")
-        texts.append(f"{direction}, {d.prose('r ≤')} {kinds.RADIUS(r.radius).words(d)}")
+        texts.append(f"{direction}, {d.prose('r ≤')} {kinds.RADIUS.words(r.radius, d)}")
     return "; ".join(texts)
 
 
-def _ray(sign: str) -> Kind:
-    def words(ray: Any, d: Plain) -> str:
+def _ray(sign: str) -> Kind[Ray]:
+    def words(ray: Ray, d: Plain) -> str:
         if ray.end is None:
             return "no limit"
         return "none" if ray.end.exact == 0 else d.upto(sign, ray.end)
 
     return Kind(
-        _END, lambda x, d: {"to": None if x.end is None else root_data(x.end, d.digits)}, words
+        Json(_END, lambda x, d: {"to": None if x.end is None else root_data(x.end, d.digits)}),
+        Words(words),
     )
 
 
-IMEX = Section(
-    Row("explicit", kinds.TEXT, lambda c: c.names[c.pair.explicit], DATA),
-    Row("implicit", kinds.TEXT, lambda c: c.names[c.pair.implicit], DATA),
-    maybe("real_interval", _ray("−z"), lambda c: _open(c, "real") or c.real),
-    maybe("imaginary_interval", _ray("|z|"), lambda c: _open(c, "imaginary") or c.imaginary),
-    title=lambda c, d: d.prose(
-        f"implicit-explicit pair, z{c.pair.explicit + 1} with |R| ≤ 1 for every"
-        f" z{c.pair.implicit + 1} with Re ≤ 0"
+class Imex(NamedTuple):
+    """The colours of an implicit-explicit pair."""
+
+    colours: Colours
+    pair: ImexPair
+
+
+def imex(x: StabilityReport) -> Imex | None:
+    """The pair among the colours, if they are one."""
+    colours = x.found.colours
+    return Imex(colours, colours.pair) if colours is not None and colours.pair else None
+
+
+IMEX: Section[Imex] = Section(
+    Row("explicit", kinds.TEXT, lambda x: x.colours.names[x.pair.explicit], DATA),
+    Row("implicit", kinds.TEXT, lambda x: x.colours.names[x.pair.implicit], DATA),
+    maybe("real_interval", _ray("−z"), lambda x: _open(x.colours, "real") or x.colours.real),
+    maybe(
+        "imaginary_interval",
+        _ray("|z|"),
+        lambda x: _open(x.colours, "imaginary") or x.colours.imaginary,
+    ),
+    title=lambda x, d: d.prose(
+        f"implicit-explicit pair, z{x.pair.explicit + 1} with |R| ≤ 1 for every"
+        f" z{x.pair.implicit + 1} with Re ≤ 0"
     ),
 )
-PLOT = Row(
+
+
+def _scene(x: StabilityReport) -> Scene:
+    return stability_scene([(x.name, x.found)], x.is_order_star, x.plane)
+
+
+PLOT: Row[StabilityReport] = Row(
     "plot",
-    scene(lambda x: stability_scene([(x.name, x.found)], x.is_order_star, x.plane)),
+    scene(_scene),
     lambda x: x if x.found.linear or x.found.oscillator or x.plane else None,
     DETAIL,
 )
 
 
-def fraction(x: Any) -> Any:
+def fraction(x: Colours) -> Fraction | Answer[Fraction]:
     """R of all colours."""
-    found = x.found.colours
-    if found.R is None:
-        late = _open(found, "R")
-        if late is not None:
-            return late
-        reason = Reason(f"too large: {found.lines} lines determine it (limit {MOST_LINES})")
-        return Answer(None, reason=reason)
-    return found.R
+    too_large = Reason(f"too large: {x.lines} lines determine it (limit {MOST_LINES})")
+    return x.R or _open(x, "R") or Answer(None, reason=too_large)
 
 
-ALIKE = via(lambda x: x.found.linear[0], LINEAR)
-ALONE = Row("colours", parts(OF_COLOUR), lambda x: x.found.linear[1:], DETAIL)
-SEVERAL = [
+OF_COLOURS: Rows[Colours] = (
     maybe("R", FRACTION, fraction, label="R(z1, z2, …)"),
+    maybe("ssp_radii", parts(RADII, _radii_words), lambda x: _open(x, "radii") or x.radii),
+)
+
+
+def _colours(x: StabilityReport) -> Colours | None:
+    return x.found.colours
+
+
+ALIKE: Rows[StabilityReport] = via(lambda x: x.found.linear[0], LINEAR)
+ALONE: Row[StabilityReport] = Row("colours", parts(OF_COLOUR), lambda x: x.found.linear[1:], DETAIL)
+SEVERAL: Rows[StabilityReport] = [
+    *via(_colours, OF_COLOURS[:1]),
     *ALIKE[1:],
     ALONE,
-    Row("R_alike", kinds.ratio("z"), "found.linear.0.R", DETAIL),
-    maybe(
-        "ssp_radii",
-        parts(RADII, _radii_words),
-        lambda x: _open(x.found.colours, "radii") or x.found.colours.radii,
-    ),
-    maybe("pair", part(IMEX), lambda x: x.found.colours if x.found.colours.pair else None),
+    Row("R_alike", kinds.ratio("z"), lambda x: x.found.linear[0].R, DETAIL),
+    *via(_colours, OF_COLOURS[1:]),
+    maybe("pair", part(IMEX), imex),
 ]
 
 
-def _waves(linear: str, waves: str) -> list[Row]:
+def _waves(linear: str, waves: str) -> Rows[StabilityReport]:
     """The rows of the oscillator; first where there is no other test equation."""
     rows = WAVES[waves]
     if linear != "none":
         return rows
     return [
-        replace(row, level=HEADLINE, label=f"{OF_WAVES}:") if row.key == "stable" else row
+        row.but(level=HEADLINE, label=f"{OF_WAVES}:") if row.key == "stable" else row
         for row in rows
     ]
 
 
-WAVES = {
+WAVES: dict[str, Rows[StabilityReport]] = {
     "none": [],
     "late": [maybe("stable", STABLE, lambda x: _open(x.found, "oscillator"), label=OF_WAVES)],
     "known": via(lambda x: x.found.oscillator, OSCILLATOR),
 }
 """By what is known of the oscillator."""
-TAIL = [maybe("algebraically_stable", kinds.TRUTH, algebraic), PLOT]
-LINEARS = {
+TAIL: Rows[StabilityReport] = [maybe("algebraically_stable", kinds.TRUTH, algebraic), PLOT]
+LINEARS: dict[str, Rows[StabilityReport]] = {
     "none": [*head("oscillator")],
     "alike": [*head("linear"), *ALIKE, ALONE, EMBEDDED],
     "several": [*head("linear"), *SEVERAL, EMBEDDED],
@@ -564,7 +633,7 @@ LINEARS = {
 """By what the colours do on the linear test equation: ``R`` has a z for each colour, or one."""
 COLUMNS = ("file", "a_stable", "l_stable", "real_interval", "imaginary_interval", "ssp")
 FORMS = {
-    (linear, waves): Section(*rows, *_waves(linear, waves), *TAIL, title=title, columns=COLUMNS)
+    (linear, waves): Section(rows, _waves(linear, waves), TAIL, title=title, columns=COLUMNS)
     for (linear, rows), waves in product(LINEARS.items(), WAVES)
 }
 
@@ -577,55 +646,46 @@ def factors(p: Polynomial) -> list[tuple[Polynomial, int]]:
     return [(Polynomial.from_flint(factor), power) for factor, power in found]
 
 
-FACTOR = Section(
-    Row("factor", kinds.polynomial("x"), "0"), Row("multiplicity", kinds.POSITION, "1")
+FACTOR: Section[tuple[Polynomial, int]] = Section(
+    Row("factor", kinds.polynomial("x"), lambda x: x[0]),
+    Row("multiplicity", kinds.POSITION, lambda x: x[1]),
 )
 
 
-def _factors_words(found: Any, d: Plain) -> str:
+def _factors_words(found: Sequence[tuple[Polynomial, int]], d: Plain) -> str:
     return "; ".join(d.polynomial(p, "x") + (f", {k} times" if k > 1 else "") for p, k in found)
 
 
-SPRINGS = Section(
-    *head("two-frequencies"),
-    *via(
-        lambda x: x.springs,
-        [
-            Row("slow", SQUARE, label="two springs, x = (hω_fast)²"),
-            Row("trace", kinds.ratio("x"), level=DETAIL),
-            Row("determinant", kinds.ratio("x"), level=DETAIL),
-            Row(
-                "factors",
-                parts(FACTOR, _factors_words),
-                lambda s: Answer(factors(s.discriminant), reason=Reason("tr M = N/D for a step M")),
-            ),
-            Row("stable", STABLE),
-        ],
+OF_SPRINGS: Rows[TwoFrequencies] = (
+    Row("slow", SQUARE, lambda x: x.slow, label="two springs, x = (hω_fast)²"),
+    Row("trace", kinds.ratio("x"), lambda x: x.trace, DETAIL),
+    Row("determinant", kinds.ratio("x"), lambda x: x.determinant, DETAIL),
+    Row(
+        "factors",
+        parts(FACTOR, _factors_words),
+        lambda s: Answer(factors(s.discriminant), reason=Reason("tr M = N/D for a step M")),
     ),
-    PLOT,
-    title=title,
+    Row("stable", STABLE, lambda x: x.stable),
 )
-SLOW = Section(
-    *head("slow-interval"),
-    *via(
-        lambda x: x.slow,
-        [
-            Row("slow", FROM_TO, ".", label="two springs, x = (hω_fast)²"),
-            Row("stable", STABLE),
-            maybe(
-                "stable_for_every_fast",
-                kinds.TRUTH,
-                lambda s: kinds.truth(s.is_stable_for_all, open_because="at the x below"),
-            ),
-            Row("open_points", kinds.ROOTS),
-        ],
+OF_SLOW: Rows[SlowInterval] = (
+    Row("slow", FROM_TO, lambda x: x, label="two springs, x = (hω_fast)²"),
+    Row("stable", STABLE, lambda x: x.stable),
+    maybe(
+        "stable_for_every_fast",
+        kinds.TRUTH,
+        lambda x: kinds.truth(x.is_stable_for_all, open_because="at the x below"),
     ),
-    PLOT,
-    title=title,
+    Row("open_points", kinds.ROOTS, lambda x: x.open_points),
+)
+SPRINGS: Section[StabilityReport] = Section(
+    head("two-frequencies"), via(lambda x: x.springs, OF_SPRINGS), PLOT, title=title
+)
+SLOW: Section[StabilityReport] = Section(
+    head("slow-interval"), via(lambda x: x.slow, OF_SLOW), PLOT, title=title
 )
 
 
-def form(x: StabilityReport) -> Section:
+def form(x: StabilityReport) -> Section[StabilityReport]:
     """The rows of a report: fields are there by what the method is."""
     if x.slow is not None:
         return SLOW
@@ -654,7 +714,7 @@ def formulas(found: Stability) -> Iterator[tuple[str, str]]:
     """Names and values in LaTeX of what decides stability."""
     from garkcli.page.exactly import multivariate_latex, quotient_latex
 
-    def quotient(x: Any, variable: str) -> str:
+    def quotient(x: kinds.Quotient, variable: str) -> str:
         return quotient_latex(x.numerator, x.denominator, variable)
 
     if found.colours is not None and found.colours.R is not None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from flint import fmpq
 
@@ -18,10 +18,13 @@ from garkcli.page.exactly import ALGEBRAIC, root_data
 from garkcli.plots.stable_plane import stable_plane_scene
 from garkcli.tableau.family import Stability
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Kind, Level, Row, Section, maybe
+from garkcli.tell.facts import Json, Kind, Level, Row, Rows, Section, maybe, via
 from garkcli.tell.kinds import INDEX, INTERVAL, ROOTS, TEXT, TEXTS, choice, interval_data, record
 from garkcli.tell.parts import answer, rows_of, scene
 from garkcli.tell.report import Report
+
+if TYPE_CHECKING:
+    from garkcli.plots.scene import Scene
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 
@@ -108,7 +111,7 @@ def _answer(values: StablePlane, d: Plain) -> str:
     return f"the method is {text} for {'' if values.undecided else 'exactly '}these {names}"
 
 
-def _end_data(end: End, names: tuple[str, ...], d: Plain) -> Any:
+def _end_data(end: End, names: tuple[str, ...], d: Plain) -> object:
     if end is None:
         return None
     if isinstance(end, RealRoot):
@@ -120,7 +123,7 @@ def _end_data(end: End, names: tuple[str, ...], d: Plain) -> Any:
     }
 
 
-def _strip_data(strip: Strip, names: tuple[str, ...], d: Plain) -> dict[str, Any]:
+def _strip_data(strip: Strip, names: tuple[str, ...], d: Plain) -> dict[str, object]:
     base: Interval = strip.base
     parts = [
         {
@@ -141,26 +144,32 @@ _END = S.nullable(
     )
 )
 _PART = record(**{"from": _END, "to": _END}, from_included=S.FLAG, to_included=S.FLAG)
-STRIPS = Kind(
-    S.array(record(base=INTERVAL, parts=S.array(_PART))),
-    lambda x, d: [_strip_data(strip, x.family.ring.names, d) for strip in x.strips],
+STRIPS: Kind[StablePlane] = Kind(
+    Json(
+        S.array(record(base=INTERVAL, parts=S.array(_PART))),
+        lambda x, d: [_strip_data(strip, x.family.ring.names, d) for strip in x.strips],
+    )
 )
-WHOLE = Section(
-    Row("file", TEXT, level=DATA),
-    Row("name", TEXT, "values.family.name", DETAIL),
-    *(
-        row.of(lambda x: x.values)
-        for row in (
-            Row("unknowns", TEXTS, lambda x: list(x.family.ring.names), DATA),
-            Row("wanted", choice("a-stable"), lambda _: "a-stable", DATA),
-            maybe("colour", INDEX, level=DATA),
-            answer(lambda x, d: _answer(x, d)),
-            Row("ends", rows_of(strips), "."),
-            Row("strips", STRIPS, ".", DATA),
-            Row("undecided", ROOTS, level=DATA),
-            Row("plot", scene(lambda x: stable_plane_scene(x, x.family.name)), ".", DETAIL),
-        )
-    ),
+
+
+def _scene(x: StablePlane) -> Scene:
+    return stable_plane_scene(x, x.family.name)
+
+
+OF_VALUES: Rows[StablePlane] = (
+    Row("unknowns", TEXTS, lambda x: list(x.family.ring.names), DATA),
+    Row("wanted", choice("a-stable"), lambda _: "a-stable", DATA),
+    maybe("colour", INDEX, lambda x: x.colour, DATA),
+    answer(_answer),
+    Row("ends", rows_of(strips), lambda x: x),
+    Row("strips", STRIPS, lambda x: x, DATA),
+    Row("undecided", ROOTS, lambda x: x.undecided, DATA),
+    Row("plot", scene(_scene), lambda x: x, DETAIL),
+)
+WHOLE: Section[PlaneReport] = Section(
+    Row("file", TEXT, lambda x: x.file, DATA),
+    Row("name", TEXT, lambda x: x.values.family.name, DETAIL),
+    via(lambda x: x.values, OF_VALUES),
     title=lambda x, d: d.prose(x.file),
 )
 REPORT: Report[PlaneReport] = Report.only(

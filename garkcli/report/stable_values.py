@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple, get_args
+from collections.abc import Sequence
+from typing import NamedTuple, get_args
 
 from garkcli.design.member import Whose
+from garkcli.design.stability_kinds import TwoSprings
 from garkcli.design.stable_values import StableValues, Wanted
 from garkcli.exact.cells import Interval
 from garkcli.exact.polynomial_text import root_decimal, root_text
@@ -14,7 +16,7 @@ from garkcli.page import schema as S  # noqa: N812 -- its names are those of kin
 from garkcli.page.exactly import ALGEBRAIC, root_data
 from garkcli.tableau.family import Stability
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Kind, Level, Row, Section, maybe, optional
+from garkcli.tell.facts import Json, Kind, Level, Row, Rows, Section, maybe, optional, via
 from garkcli.tell.kinds import (
     INDEX,
     INTERVAL,
@@ -26,7 +28,7 @@ from garkcli.tell.kinds import (
     interval_data,
     record,
 )
-from garkcli.tell.parts import part, rows_of, told
+from garkcli.tell.parts import answer, part, rows_of
 from garkcli.tell.report import Report
 
 HEADLINE, USUAL, DETAIL, DATA = Level
@@ -91,56 +93,59 @@ def ends(values: StableValues, d: Plain) -> list[tuple[str, str]]:
     return [*rows.items(), *open_values]
 
 
-def _springs_words(springs: Any, d: Plain) -> str:
+def _springs_words(springs: TwoSprings, d: Plain) -> str:
     """What is asked of the method."""
     end = "" if springs.greatest is None else f" up to {springs.greatest}"
     return d.prose(f"(hω_slow)² = {springs.slow}, every (hω_fast)²{end}")
 
 
-def _interval(x: Any, d: Plain) -> dict[str, Any]:
-    return {"point": root_data(x.start, d.digits)} if x.is_point else interval_data(x, d)
+def _interval(x: Interval, d: Plain) -> dict[str, object]:
+    if x.is_point and x.start is not None:
+        return {"point": root_data(x.start, d.digits)}
+    return interval_data(x, d)
 
 
-SET = Kind(
-    S.array(S.one_of(record(point=ALGEBRAIC), INTERVAL)),
-    lambda found, d: [_interval(x, d) for x in found],
+SET: Kind[Sequence[Interval]] = Kind(
+    Json(
+        S.array(S.one_of(record(point=ALGEBRAIC), INTERVAL)),
+        lambda found, d: [_interval(x, d) for x in found],
+    )
 )
-SPRINGS = Section(
+SPRINGS: Section[TwoSprings] = Section(
     Row("slow", TEXT, lambda x: str(x.slow)),
-    Row("fast", INDEX),
+    Row("fast", INDEX, lambda x: x.fast),
     maybe("up_to", TEXT, lambda x: None if x.greatest is None else str(x.greatest)),
 )
-WANTED = Row("wanted", choice(*get_args(Wanted)), level=DATA)
-COLOUR = maybe("colour", INDEX, level=DATA)
-FOUND = [Row("set", SET, "found", DATA), Row("undecided", ROOTS, level=DATA)]
-APART = optional("apart", TRUTH, lambda x: x.is_apart or None, DATA)
-VALUES = Section(WANTED, COLOUR, *FOUND, APART)
+WANTED: Row[StableValues] = Row("wanted", choice(*get_args(Wanted)), lambda x: x.wanted, DATA)
+COLOUR: Row[StableValues] = maybe("colour", INDEX, lambda x: x.colour, DATA)
+FOUND: Rows[StableValues] = [
+    Row("set", SET, lambda x: x.found, DATA),
+    Row("undecided", ROOTS, lambda x: x.undecided, DATA),
+]
+APART: Row[StableValues] = optional("apart", TRUTH, lambda x: x.is_apart or None, DATA)
+VALUES = Section(WANTED, COLOUR, FOUND, APART)
 """The values as a part of the report of an order."""
 
 
-WHOLE = Section(
-    Row("file", TEXT, level=DATA),
-    Row("name", TEXT, "values.family.name", DETAIL),
-    *(
-        row.of(lambda x: x.values)
-        for row in (
-            Row("of", choice(*get_args(Whose)), "whose", DATA),
-            Row("unknowns", TEXTS, lambda x: list(x.family.parameters), DATA),
-            optional("linear_form", TEXT, lambda x: None if x.form is None else str(x.form), DATA),
-            WANTED,
-            COLOUR,
-            maybe("springs", part(SPRINGS, _springs_words), "two_springs", label="two springs"),
-            Row(
-                "answer",
-                told(lambda x, d: f"the {x.whose} is {stability(x, d)}"),
-                ".",
-                HEADLINE,
-                label="",
-            ),
-            Row("ends", rows_of(ends), "."),
-            *FOUND,
-        )
-    ),
+def _answer(x: StableValues, d: Plain) -> str:
+    return f"the {x.whose} is {stability(x, d)}"
+
+
+OF_VALUES: Rows[StableValues] = (
+    Row("of", choice(*get_args(Whose)), lambda x: x.whose, DATA),
+    Row("unknowns", TEXTS, lambda x: list(x.family.parameters), DATA),
+    optional("linear_form", TEXT, lambda x: None if x.form is None else str(x.form), DATA),
+    WANTED,
+    COLOUR,
+    maybe("springs", part(SPRINGS, _springs_words), lambda x: x.two_springs, label="two springs"),
+    answer(_answer),
+    Row("ends", rows_of(ends), lambda x: x),
+    *FOUND,
+)
+WHOLE: Section[StableReport] = Section(
+    Row("file", TEXT, lambda x: x.file, DATA),
+    Row("name", TEXT, lambda x: x.values.family.name, DETAIL),
+    via(lambda x: x.values, OF_VALUES),
     title=lambda x, d: d.prose(x.file),
 )
 REPORT: Report[StableReport] = Report.only(

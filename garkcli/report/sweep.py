@@ -16,10 +16,11 @@ from garkcli.sweep.plan import Plan
 from garkcli.sweep.report import SweepReport
 from garkcli.sweep.row import Row as Judged
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Kind, Level, Row, Section, via
+from garkcli.tell.facts import Json, Kind, Level, Row, Section, via
 from garkcli.tell.kinds import COUNT, TEXT, TEXTS, record
-from garkcli.tell.parts import answer, scene, table, told
+from garkcli.tell.parts import answer, scene, shown, told
 from garkcli.tell.report import Report
+from garkcli.tell.shown import Words
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 WORDS = {"exact": "exact", "exists": "proved to exist", "numerical": "numerical"}
@@ -60,19 +61,30 @@ def _method(row: Judged) -> str:
     return f"{row['key']}{proof}"
 
 
-VALUE = Kind({"type": ["boolean", "number", "string", "null"]}, words=_value_words, absent="-")
+OF_VALUE: S.Schema = {"type": ["boolean", "number", "string", "null"]}
+VALUE: Kind[Value] = Kind(Json(OF_VALUE), Words(_value_words, absent="-"))
 
 
-def _column(name: str) -> Row:
-    return Row(name, VALUE, lambda row: row.get(name), label=name)
+def _value(row: Judged, name: str) -> Value:
+    value = row.get(name)
+    assert not isinstance(value, dict)
+    return value
 
 
-def _table(plan: Plan | None, label: str, get: Any, most: int = 10) -> Row:
+def _column(name: str) -> Row[Judged]:
+    return Row(name, VALUE, lambda row: _value(row, name), label=name)
+
+
+def _table(
+    plan: Plan | None, label: str, get: Callable[[SweepReport], Sequence[Judged]], most: int = 10
+) -> Row[SweepReport]:
     """Methods, a line each: the criteria, and which method it is."""
     criteria = [] if plan is None else [_column(name) for name in plan.criteria.columns]
-    of_row = via(lambda x: x[1], [*criteria, Row("method", TEXT, _method)])
-    kind = table(Section(Row("number", COUNT, "0"), *of_row), most, is_data=False)
-    return Row("lines", kind, lambda x: list(enumerate(get(x), start=1)), label=label)
+    line: Section[tuple[int, Judged]] = Section(
+        Row("number", COUNT, lambda x: x[0]),
+        via(lambda x: x[1], [*criteria, Row("method", TEXT, _method)]),
+    )
+    return Row("lines", shown(line, most), lambda x: [*enumerate(get(x), start=1)], label=label)
 
 
 # for programs
@@ -88,25 +100,25 @@ ROW["properties"] |= {
     "seed": S.COUNT,
     "proof": {"enum": list(WORDS)},
     "values": {"type": "object", "additionalProperties": S.TEXT},
-    **dict.fromkeys(columns(), VALUE.schema),
+    **dict.fromkeys(columns(), OF_VALUE),
 }
-ROWS = Kind(S.array(ROW), lambda rows, _: list(rows))
+ROWS: Kind[Sequence[Judged]] = Kind(Json(S.array(ROW), lambda rows, _: list(rows)))
 
 
-def section(report: SweepReport | None = None) -> Section:
+def section(report: SweepReport | None = None) -> Section[SweepReport]:
     """The rows that tell a sweep, by its criteria."""
     plan = None if report is None else report.plan
     by, front = ("", "") if plan is None else (", ".join(plan.best), ", ".join(plan.pareto))
     most = 10 if report is None else report.top
     return Section(
-        Row("file", TEXT, "source", DATA),
-        Row("name", TEXT, "plan.name", DATA),
+        Row("file", TEXT, lambda x: x.source, DATA),
+        Row("name", TEXT, lambda x: x.plan.name, DATA),
         answer(_answer),
         Row("methods", COUNT, lambda x: len(x.plan), DATA),
         Row("kept", COUNT, lambda x: len(x.best), DATA),
-        Row("repeated", COUNT, level=DATA),
+        Row("repeated", COUNT, lambda x: x.repeated, DATA),
         Row("failed", COUNT, lambda x: len(x.failed), DATA),
-        Row("failures", told(_failed_words), "failed", label="failed"),
+        Row("failures", told(_failed_words), lambda x: x.failed, label="failed"),
         Row("columns", TEXTS, lambda x: list(x.plan.criteria.columns), DATA),
         Row("best", ROWS, lambda x: x.best[: x.top], DATA),
         _table(plan, f"best by {by}" if by else "best", lambda x: x.best, most),
@@ -127,23 +139,27 @@ def section(report: SweepReport | None = None) -> Section:
     )
 
 
-def flat(plan: Plan) -> Section:
+def flat(plan: Plan) -> Section[Judged]:
     """A row without nesting: what CSV and Parquet have of it."""
 
-    def setting(name: str) -> Row:
-        return Row(name, TEXT, lambda row: row["parameters"].get(name))
+    def setting(name: str) -> Row[Judged]:
+        def get(row: Judged) -> str | None:
+            settings = row["parameters"]
+            return settings.get(name) if isinstance(settings, dict) else None
+
+        return Row(name, TEXT, get)
 
     found = [_column("seed"), _column("proof"), Row("values", TEXT, _values)]
     return Section(
-        Row("key", TEXT, lambda row: row["key"]),
-        Row("method", TEXT, lambda row: row["method"]),
-        *map(setting, plan.grids),
-        *(found if plan.has_searches else []),
-        *map(_column, plan.criteria.columns),
+        Row("key", TEXT, lambda row: str(row["key"])),
+        Row("method", TEXT, lambda row: str(row["method"])),
+        map(setting, plan.grids),
+        (found if plan.has_searches else []),
+        map(_column, plan.criteria.columns),
     )
 
 
-def _lines(report: SweepReport) -> tuple[Section, Iterable[Judged]]:
+def _lines(report: SweepReport) -> tuple[Section[Judged], Iterable[Judged]]:
     return flat(report.plan), report.best
 
 

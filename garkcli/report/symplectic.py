@@ -8,11 +8,11 @@ from typing import NamedTuple
 from garkcli.frozen import Frozen
 from garkcli.ntrees.symplectic import KINDS, ConditionClass
 from garkcli.ntrees.tree import Tree
-from garkcli.page.schema import Schema, counts_of, one_of, published
+from garkcli.page.schema import Schema, one_of, published
 from garkcli.report import trees
 from garkcli.report.symplectic_subject import SUBJECT, Subject
-from garkcli.report.trees import BRACKETS, DATA, SIZES, TREES, pictures
-from garkcli.tell.facts import Kind, Row, Section, optional, via
+from garkcli.report.trees import BRACKETS, DATA, SIZES, TREES, counts, pictures
+from garkcli.tell.facts import Row, Rows, Section, optional, via
 from garkcli.tell.kinds import COUNT, POSITION, TRUTH, choice
 from garkcli.tell.parts import rows_of, sentence, stream
 from garkcli.tell.report import Report
@@ -64,54 +64,65 @@ def _by_order(x: FreeList) -> dict[str, int] | None:
     return {str(n): few for n, few, _ in counts} if len(counts) > 1 else None
 
 
-HEAD = (
+def _subject(x: FreeList) -> Subject:
+    return x.subject
+
+
+HEAD: Rows[FreeList] = (
     Row("order", POSITION, lambda x: x.subject.orders[-1], DATA),
     Row("upto", TRUTH, lambda x: len(x.subject.orders) > 1, DATA),
-    *via(lambda x: x.subject, SUBJECT.rows),
+    *via(_subject, SUBJECT.rows),
 )
-END = sentence(lambda x: x.subject.summary)
+END: Row[FreeList] = sentence(lambda x: x.subject.summary)
 
 
-_PICTURE, _DRAWN = pictures(lambda x: x.tree)
+def _tree(x: FreeTree) -> Tree:
+    return x.tree
 
 
-def _listing(*members: Row) -> Section:
+_PICTURE, _DRAWN = pictures(_tree)
+
+
+def _listing(*members: Row[FreeTree]) -> Section[FreeList]:
     """A line a class, with its members where they are requested."""
-    part = Section(
+    part: Section[FreeTree] = Section(
         _PICTURE,
-        Row("kind", choice(*KINDS), "subject.kind", DATA),
-        Row("representative", BRACKETS, "tree", label="tree"),
-        *SIZES,
+        Row("kind", choice(*KINDS), lambda x: x.subject.kind, DATA),
+        Row("representative", BRACKETS, lambda x: x.tree, label="tree"),
+        SIZES,
         Row("stands_for", POSITION, lambda x: len(x.found.members)),
         _DRAWN,
-        *members,
+        members,
     )
-    classes = Row(
+    classes: Row[FreeList] = Row(
         "classes",
         stream(part, lambda x, _: f"order {x.tree.order}"),
-        lambda x: (FreeTree(x.subject, found) for found in x.classes),
+        lambda x: (FreeTree(x.subject, found) for found in x.classes or ()),
     )
-    return Section(*HEAD, sentence(lambda x: x.subject.legend), classes, END)
+    return Section(HEAD, sentence(lambda x: x.subject.legend), classes, END)
 
 
 LISTED = _listing()
 WITH_MEMBERS = _listing(optional("members", TREES, lambda x: x.subject.members(x.found)))
-COUNTS = Section(
-    *HEAD,
-    optional("by_order", Kind(counts_of("order")), _by_order, DATA),
+COUNTS: Section[FreeList] = Section(
+    HEAD,
+    optional("by_order", counts("order"), _by_order, DATA),
     Row(
         "counts",
         rows_of(lambda x, _: [(f"order {n}", f"{k} instead of {m}") for n, k, m in x]),
-        "subject.counts",
+        lambda x: x.subject.counts,
     ),
     END,
 )
-COUNTED = Section(
-    Row("kind", choice(*KINDS)), *(Row(key, COUNT) for key in ("order", "count", "instead_of"))
+COUNTED: Section[Counted] = Section(
+    Row("kind", choice(*KINDS), lambda x: x.kind),
+    Row("order", COUNT, lambda x: x.order),
+    Row("count", COUNT, lambda x: x.count),
+    Row("instead_of", COUNT, lambda x: x.instead_of),
 )
 
 
-def _form(x: FreeList) -> Section:
+def _form(x: FreeList) -> Section[FreeList]:
     if x.classes is None:
         return COUNTS
     return WITH_MEMBERS if x.with_members else LISTED

@@ -133,12 +133,12 @@ class Subject(Frozen):
         return _PROBLEMS[self.kind]
 
 
-SUBJECT = Section(
-    Row("kind", choice(*KINDS), level=Level.DATA),
+SUBJECT: Section[Subject] = Section(
+    Row("kind", choice(*KINDS), lambda x: x.kind, Level.DATA),
     Row("terms", POSITION, lambda x: len(x.structure.leaders), Level.DATA),
-    Row("colours", TEXTS, "names", Level.DATA),
-    Row("count", COUNT, "independent", Level.DATA),
-    Row("instead_of", COUNT, "all_conditions", Level.DATA),
+    Row("colours", TEXTS, lambda x: x.names, Level.DATA),
+    Row("count", COUNT, lambda x: x.independent, Level.DATA),
+    Row("instead_of", COUNT, lambda x: x.all_conditions, Level.DATA),
 )
 
 

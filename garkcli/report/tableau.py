@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from itertools import chain
-from typing import Any, NamedTuple, cast
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
 
 from flint import arb, fmpq
 
@@ -24,7 +24,7 @@ from garkcli.frozen import replace
 from garkcli.order.meant import as_meant, printed
 from garkcli.order.simplifying import is_symplectic
 from garkcli.page.cells import cell_text, remark
-from garkcli.page.schema import DERIVATION, NUMBER, NUMERAL, Schema, array, nullable
+from garkcli.page.schema import NUMBER, NUMERAL, Schema, array, nullable
 from garkcli.page.tableau_text import readable
 from garkcli.report.check import COLOURS, colours_of, wrong
 from garkcli.tableau import pointwise
@@ -32,13 +32,17 @@ from garkcli.tableau.garkmethod import Derivation, GarkMethod
 from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.tableau import Tableau
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Answer, Kind, Level, Row, Section, Status, optional, via
-from garkcli.tell.kinds import TEXT, TRUTH, constant
+from garkcli.tell.facts import Answer, Json, Kind, Level, Row, Rows, Section, Status, optional, via
+from garkcli.tell.kinds import DERIVATION, TEXT, TRUTH, constant
 from garkcli.tell.outputs import labelled
 from garkcli.tell.parts import SAID, drawing, part, parts, rows_of, sentence, told
 from garkcli.tell.report import Report
 
+if TYPE_CHECKING:
+    from garkcli.exact.matrix import Vector
+
 DETAIL, DATA = Level.DETAIL, Level.DATA
+Grid: TypeAlias = "Sequence[Sequence[Cell]]"
 
 
 class Shown(NamedTuple):
@@ -86,34 +90,35 @@ def _numeral(entries: Entries, cell: Cell) -> str:
     return cell_text(cell, entries.digits) if isinstance(cell, arb) else to_text(cell)
 
 
-def _entries(entry: Schema, change: Callable[[Entries, Cell], object]) -> list[Row]:
+def _entries(entry: Schema, change: Callable[[Entries, Cell], object]) -> Rows[Entries]:
     """c, A, b and further weights with their entries changed into what ``entry`` describes."""
 
-    def rows(entries: Entries, found: Sequence[Sequence[Cell]] | None) -> Any:
-        return found and [[change(entries, x) for x in row] for row in found]
+    def rows(entries: Entries, found: Grid | None) -> list[list[object]] | None:
+        return None if found is None else [[change(entries, x) for x in row] for row in found]
 
-    def several(entries: Entries, found: Sequence[Any] | None) -> Any:
-        return found and [rows(entries, x) for x in found]
+    def several(entries: Entries, found: Sequence[Grid | None]) -> list[list[list[object]] | None]:
+        return [rows(entries, x) for x in found]
 
     matrix = array(array(entry))
+    one: Kind[Sequence[object]] = Kind(Json(matrix))
+    blocks: Kind[Sequence[object]] = Kind(Json(array(array(nullable(matrix)))))
+    powers: Kind[Sequence[object]] = Kind(Json(array(matrix)))
     return [
-        Row("c", Kind(matrix), lambda x: rows(x, x.c), DATA),
-        Row(
-            "A", Kind(array(array(nullable(matrix)))), lambda x: [several(x, y) for y in x.A], DATA
-        ),
-        Row("b", Kind(matrix), lambda x: rows(x, x.b), DATA),
-        optional("embedded", Kind(matrix), lambda x: rows(x, x.embedded), DATA),
-        optional("dense", Kind(array(matrix)), lambda x: several(x, x.dense), DATA),
+        Row("c", one, lambda x: rows(x, x.c), DATA),
+        Row("A", blocks, lambda x: [several(x, y) for y in x.A], DATA),
+        Row("b", one, lambda x: rows(x, x.b), DATA),
+        optional("embedded", one, lambda x: rows(x, x.embedded), DATA),
+        optional("dense", powers, lambda x: None if x.dense is None else several(x, x.dense), DATA),
     ]
 
 
-def _consistent(x: Any) -> Answer:
-    return wrong(inconsistent_blocks(as_meant(x.method)), "A", x.method.tolerance)
+def _consistent(x: GarkMethod) -> Answer[bool]:
+    return wrong(inconsistent_blocks(as_meant(x)), "A", x.tolerance)
 
 
-def _symplectic(x: Any) -> Answer:
-    found = is_symplectic(as_meant(x.method))
-    return Answer(found, Status(x.method.tolerance if found else None))
+def _symplectic(x: GarkMethod) -> Answer[bool]:
+    found = is_symplectic(as_meant(x))
+    return Answer(found, Status(x.tolerance if found else None))
 
 
 def _sums(x: Shown, _: Plain) -> str:
@@ -130,20 +135,23 @@ FORMULAS = {
 """How what is made of a method is made."""
 
 
-ABOUT = Section(
+OF_ENTRIES: Rows[Shown] = (
     Row("made_by", SAID, lambda x: FORMULAS[x.derivation]),
-    Row("weights_sum", told(_sums), "."),
+    Row("weights_sum", told(_sums), lambda x: x),
+)
+OF_METHOD: Rows[GarkMethod] = (
     Row("consistent", TRUTH, _consistent),
     Row("symplectic", TRUTH, _symplectic),
 )
+ABOUT: Section[Shown] = Section(OF_ENTRIES, via(lambda x: x.method, OF_METHOD))
 
 
 def _about(x: Shown, d: Plain) -> list[tuple[str, str]]:
-    """What a tableau is like; a document takes the tableau alone."""
+    """The properties of a tableau; a document takes the tableau alone."""
     if d.breadth == "page" or x.method is None or not x.tableau.is_gark:
         return []
     # what a method of a family is depends on its parameters
-    about = Section(*ABOUT.rows[:2]) if x.tableau.has_parameters else ABOUT
+    about = Section(OF_ENTRIES) if x.tableau.has_parameters else ABOUT
     ((_, rows),) = labelled(about, x, d, DETAIL)
     return rows
 
@@ -157,10 +165,6 @@ def _decimals(x: Shown, d: Plain) -> list[str]:
     if not is_told or not has_others or x.tableau.has_parameters or not x.tableau.is_gark:
         return []
     return d.tableau(x.tableau, entries.in_decimals(DIGITS))
-
-
-def _is_gark(tableau: Tableau) -> bool:
-    return tableau.is_gark
 
 
 OF_SLOW = "the slow method, which is left where the fast part is 0"
@@ -203,7 +207,7 @@ def shown_parts(tableau: Tableau, whole: Entries) -> list[tuple[str, Tableau, En
 
 def _of_derivatives(tableau: Tableau, whole: Entries) -> Iterator[tuple[str, Tableau, Entries]]:
     method, row = Derivatives.of(tableau), whole.embedded
-    embedded = None if row is None else embedded_of(cast("Any", row), tableau)
+    embedded = None if row is None else embedded_of(cast("Sequence[Vector]", row), tableau)
     for k, array_of in enumerate(method.arrays(len(method.A))):
         entries = pointwise.entries(array_of, whole.digits)
         if embedded is not None:
@@ -221,18 +225,18 @@ def drawn(x: Shown, d: Plain) -> list[str]:
     return lines
 
 
-FLOATS = Section(*_entries(NUMBER, lambda _, x: _float(x)))
-TABLEAU = Section(
-    Row("name", TEXT, level=DATA),
-    Row("derivation", Kind(DERIVATION), level=DATA),
-    Row("exact", TRUTH, "entries.is_exact", DATA),
+FLOATS: Section[Entries] = Section(_entries(NUMBER, lambda _, x: _float(x)))
+TABLEAU: Section[Shown] = Section(
+    Row("name", TEXT, lambda x: x.name, DATA),
+    Row("derivation", DERIVATION, lambda x: x.derivation, DATA),
+    Row("exact", TRUTH, lambda x: x.entries.is_exact, DATA),
     sentence(lambda x: remark(x.readable)),
-    Row("about", rows_of(_about), ".", DETAIL),
+    Row("about", rows_of(_about), lambda x: x, DETAIL),
     Row("colours", parts(COLOURS), lambda x: colours_of(x.tableau), DATA),
-    *via(lambda x: x.entries, _entries(NUMERAL, _numeral)),
-    Row("float", part(FLOATS), "entries", DATA),
-    Row("tableau", drawing(drawn), "."),
-    Row("decimals", drawing(_decimals), ".", DETAIL, label=""),
+    via(lambda x: x.entries, _entries(NUMERAL, _numeral)),
+    Row("float", part(FLOATS), lambda x: x.entries, DATA),
+    Row("tableau", drawing(drawn), lambda x: x),
+    Row("decimals", drawing(_decimals), lambda x: x, DETAIL, label=""),
     title=lambda x, d: d.prose(x.name),
 )
 SCHEMA = "gark/tableau/1"
@@ -242,5 +246,5 @@ REPORT: Report[Shown] = Report.only(
     TABLEAU,
     lambda _: {"is_inserted": True},
 )
-DOCUMENT = Section(Row("schema", constant(SCHEMA), lambda _: SCHEMA), *TABLEAU.rows)
-"""The same within another document."""
+DOCUMENT: Section[Shown] = Section(Row("schema", constant(SCHEMA), lambda _: SCHEMA), TABLEAU.rows)
+"""A tableau within another document."""

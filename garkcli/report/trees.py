@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import Any, NamedTuple, TypeAlias
+from typing import NamedTuple, Protocol, TypeAlias, TypeVar
 
 from garkcli.errors import counted
 from garkcli.frozen import Frozen, Mutable
@@ -12,16 +12,18 @@ from garkcli.ntrees.notation import parse_tree
 from garkcli.ntrees.tree import Tree
 from garkcli.page.schema import TEXT, array, counts_of
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Kind, Level, Row, Section, optional
+from garkcli.tell.facts import Json, Kind, Level, Row, Rows, Section, optional
 from garkcli.tell.kinds import COUNT, INDEX, POSITION, TRUTH
 from garkcli.tell.parts import rows_of, sentence, stream, told
 from garkcli.tell.report import Report
+from garkcli.tell.shown import Words
 
 Counts: TypeAlias = Sequence[tuple[int, tuple[int, ...]]]
 """For each order, the numbers of trees by root colour."""
 DRAWN_ORDER = 4
 """Up to this order a terminal shows the drawn trees too, with -v all."""
 DETAIL, DATA = Level.DETAIL, Level.DATA
+T = TypeVar("T")
 
 
 class Query(Frozen):
@@ -101,33 +103,52 @@ class TreeList(Mutable):
 # the rows of any list of trees
 
 
-def pictures(tree: Callable[[Any], Tree]) -> tuple[Row, Row]:
+def pictures(tree: Callable[[T], Tree]) -> tuple[Row[T], Row[T]]:
     """The drawn tree of a part: in LaTeX, and on a terminal where it is small."""
 
-    def small(x: Any, d: Plain) -> str:
+    def small(x: T, d: Plain) -> str:
         found = tree(x)
-        if x.order > DRAWN_ORDER and d.is_brief:
+        if found.order > DRAWN_ORDER and d.is_brief:
             return ""
         return "\n".join(d.drawing(draw_text(found, d.has_colours(found), d.width // 2)))
 
+    def sketch(x: T, d: Plain) -> str:
+        return d.sketch(tree(x))
+
     return (
-        Row("picture", told(lambda x, d: d.sketch(tree(x))), ".", DETAIL, label=""),
-        Row("drawn", told(small), ".", label="", is_short=True),
+        Row("picture", told(sketch), lambda x: x, DETAIL, label=""),
+        Row("drawn", told(small), lambda x: x, label="", is_short=True),
     )
 
 
-BRACKETS = Kind(TEXT, lambda tree, d: d.tree(tree), lambda tree, d: d.tree(tree))
-TREES = Kind(
-    array(TEXT),
-    words=lambda trees, d: "  ".join(map(d.tree, trees)),
-    csv=lambda trees: " ".join(trees),
+BRACKETS: Kind[Tree | str] = Kind(
+    Json(TEXT, lambda tree, d: d.tree(tree)), Words(lambda tree, d: d.tree(tree))
+)
+TREES: Kind[Sequence[Tree | str]] = Kind(
+    Json(array(TEXT), csv=lambda trees: " ".join(map(str, trees))),
+    Words(lambda trees, d: "  ".join(map(d.tree, trees))),
 )
 """Trees in brackets."""
-SIZES = (
-    Row("root", INDEX, "tree.root", DATA),
-    Row("order", POSITION, "tree.order", DETAIL),
-    Row("sigma", POSITION, "tree.symmetry"),
-    Row("gamma", POSITION, "tree.density"),
+
+
+def counts(what: str) -> Kind[dict[str, int]]:
+    """Numbers by what they are of."""
+    return Kind(Json(counts_of(what)))
+
+
+class HasTree(Protocol):
+    """A line about a tree."""
+
+    @property
+    def tree(self) -> Tree:
+        """The tree."""
+
+
+SIZES: Rows[HasTree] = (
+    Row("root", INDEX, lambda x: x.tree.root, DATA),
+    Row("order", POSITION, lambda x: x.tree.order, DETAIL),
+    Row("sigma", POSITION, lambda x: x.tree.symmetry),
+    Row("gamma", POSITION, lambda x: x.tree.density),
 )
 
 
@@ -148,36 +169,37 @@ def _count_rows(found: TreeList, _: Plain) -> Iterator[tuple[str, str]]:
         yield f"order {n}", text
 
 
-_PICTURE, _DRAWN = pictures(lambda x: parse_tree(x.tree))
-TREE = Section(
+def _tree(x: TreeRow) -> Tree:
+    return parse_tree(x.tree)
+
+
+_PICTURE, _DRAWN = pictures(_tree)
+TREE: Section[TreeRow] = Section(
     _PICTURE,
-    Row("tree", BRACKETS),
-    Row("root", INDEX, level=DATA),
-    Row("order", POSITION, level=DETAIL),
-    Row("sigma", POSITION),
-    Row("gamma", POSITION),
+    Row("tree", BRACKETS, lambda x: x.tree),
+    Row("root", INDEX, lambda x: x.root, DATA),
+    Row("order", POSITION, lambda x: x.order, DETAIL),
+    Row("sigma", POSITION, lambda x: x.sigma),
+    Row("gamma", POSITION, lambda x: x.gamma),
     _DRAWN,
 )
-HEAD = (
-    Row("colours", POSITION, "query.colours", DATA),
-    Row("order", POSITION, "query.order", DATA),
-    Row("upto", TRUTH, "query.upto", DATA),
-    Row("count", COUNT, "total", DATA),
-    Row("by_root", Kind(counts_of("root colour")), level=DATA),
+HEAD: Rows[TreeList] = (
+    Row("colours", POSITION, lambda x: x.query.colours, DATA),
+    Row("order", POSITION, lambda x: x.query.order, DATA),
+    Row("upto", TRUTH, lambda x: x.query.upto, DATA),
+    Row("count", COUNT, lambda x: x.total, DATA),
+    Row("by_root", counts("root colour"), lambda x: x.by_root, DATA),
 )
-LISTED = Section(
-    *HEAD,
-    Row("trees", stream(TREE, _heading), "rows"),
+LISTED: Section[TreeList] = Section(
+    HEAD,
+    Row("trees", stream(TREE, _heading), lambda x: x.rows),
     sentence(lambda x: counted(x.total, "tree") if x.known else ""),
 )
-COUNTS = Section(
-    *HEAD,
-    optional(
-        "by_order", Kind(counts_of("order")), lambda x: x.by_order if x.query.upto else None, DATA
-    ),
-    Row("counts", rows_of(lambda x, d: [*_count_rows(x, d)]), "."),
+COUNTS: Section[TreeList] = Section(
+    HEAD,
+    optional("by_order", counts("order"), lambda x: x.by_order if x.query.upto else None, DATA),
+    Row("counts", rows_of(_count_rows), lambda x: x),
 )
-COUNTED = Section(*(Row(key, COUNT) for key in ("order", "root", "count")))
 
 
 class Counted(Frozen):
@@ -188,7 +210,14 @@ class Counted(Frozen):
     count: int
 
 
-def _count_lines(found: TreeList) -> tuple[Section, Iterator[Counted]]:
+COUNTED: Section[Counted] = Section(
+    Row("order", COUNT, lambda x: x.order),
+    Row("root", COUNT, lambda x: x.root),
+    Row("count", COUNT, lambda x: x.count),
+)
+
+
+def _count_lines(found: TreeList) -> tuple[Section[Counted], Iterator[Counted]]:
     query = found.query
     lines = (Counted(n, *pair) for n, by_root in found.counts for pair in query.roots(by_root))
     return COUNTED, lines
@@ -199,7 +228,7 @@ REPORT: Report[TreeList] = Report(
     "report of gark trees",
     lambda: [LISTED, COUNTS],
     lambda x: COUNTS if x.rows is None else LISTED,
-    lambda x: {"colours": range(x.query.colours), "is_inserted": True},
+    lambda x: {"colours": [str(l + 1) for l in range(x.query.colours)], "is_inserted": True},
     key="",
     lines=_count_lines,
 )

@@ -6,14 +6,16 @@ import csv
 import io
 from collections.abc import Iterable, Iterator, Mapping
 from itertools import chain
-from typing import Any
+from typing import TypeVar
 
 from garkcli.page.plain import csv_cell
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Section
+from garkcli.tell.facts import Json, Section
+
+T = TypeVar("T")
 
 
-def csv_text(section: Section, parts: Iterable[Any]) -> str:
+def csv_text(section: Section[T], parts: Iterable[T]) -> str:
     """A line a part, below the keys of its rows; without a part the keys alone."""
     d = Plain()
     lines = [dict(_cells(section, part, d)) for part in parts]
@@ -27,8 +29,8 @@ def csv_text(section: Section, parts: Iterable[Any]) -> str:
     return text.getvalue()
 
 
-def csv_lines(section: Section, parts: Iterable[Any], d: Plain) -> Iterator[str]:
-    """The same of parts that all have the cells of the first one, while they are found."""
+def csv_lines(section: Section[T], parts: Iterable[T], d: Plain) -> Iterator[str]:
+    """Lines of parts that all have the cells of the first one, while they are found."""
     left = iter(parts)
     first = next(left, None)
     yield _line(dict(_cells(section, first, d)))
@@ -44,22 +46,22 @@ def _line(cells: Iterable[str]) -> str:
     return text.getvalue()
 
 
-def _cells(section: Section, part: Any, d: Plain) -> Iterator[tuple[str, str]]:
+def _cells(section: Section[T], part: T | None, d: Plain) -> Iterator[tuple[str, str]]:
     """Columns with their cells; all of these are empty where there is no part."""
     for row in section.rows:
-        kind = row.kind
-        if not kind.is_data:
-            continue
+        what = row.kind.what
         value = None if part is None else row.answer(part).value
-        if kind.section is not None:
-            yield from _cells(kind.section, value, d)
+        if isinstance(what, Section):
+            yield from _cells(what, value, d)
+        elif not isinstance(what, Json):
+            continue
         elif value is None:
-            yield from () if kind.schema.get("type") in ("object", "array") else [(row.key, "")]
+            yield from () if what.schema.get("type") in ("object", "array") else [(row.key, "")]
         else:
-            found = kind.data(value, d) if kind.csv is None else kind.csv(value)
+            found = what.data(value, d) if what.csv is None else what.csv(value)
             if isinstance(found, Mapping):
                 yield from found.items()
-            elif kind.schema == {"type": "string"}:  # words of strangers, or none
+            elif what.schema == {"type": "string"}:  # words of strangers, or none
                 yield row.key, csv_cell(str(found))
             else:
                 yield row.key, str(found).lower() if isinstance(found, bool) else str(found)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import islice, zip_longest
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, Self, TypeAlias
+from typing import TYPE_CHECKING, ClassVar, Literal, NamedTuple, Self, TypeAlias
 
 from flint import arb, fmpq
 
@@ -35,6 +35,7 @@ from garkcli.reason import Place, Reason
 
 if TYPE_CHECKING:
     from garkcli.exact.cells import Interval
+    from garkcli.exact.field import Number
     from garkcli.exact.multivariate import Multivariate
     from garkcli.exact.polynomial import Polynomial
     from garkcli.exact.roots import RealRoot
@@ -140,7 +141,7 @@ class Plain(Mutable):
     paint: Paint = field(default_factory=Paint)
     is_brief: bool = True
     places: int | None = None
-    told: list[Any] = field(default_factory=list)
+    told: list[tuple[str, str]] = field(default_factory=list)
     is_inserted: bool = False
 
     infinity = "∞"
@@ -200,7 +201,7 @@ class Plain(Mutable):
         """
         return text
 
-    def number(self, x: Any) -> str:
+    def number(self, x: Number) -> str:
         """An exact number."""
         text = shortest(x)
         is_number = isinstance(x, (fmpq, int, Algebraic))
@@ -208,7 +209,7 @@ class Plain(Mutable):
             return f"about {to_decimal(x, self.places or 8)}"
         return self.expression(text)
 
-    def short(self, x: Any) -> str:
+    def short(self, x: Number) -> str:
         """An exact number among many."""
         text = shortest(x)
         return self.expression(text) if len(text) <= 12 else to_decimal(x, 4)

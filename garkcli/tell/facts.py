@@ -1,25 +1,35 @@
-"""A result described once: rows declare what is found, kinds what a value is.
+"""A result described once: rows declare what is found, kinds what a value is and how it is shown.
 
-A ``Section`` is the one declaration of a result. Its JSON, its JSON Schema and everything that a
-person reads come from it. Rows are declared before there is a result, and asked when it is
-reported: what lies too deep is not computed.
+A ``Section`` is the one declaration of a result of a type, which mypy checks each row against. The
+JSON of the result, its JSON Schema and everything that a person reads come from it. Rows are
+declared before there is a result, and asked when it is reported: what lies too deep is not
+computed.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from copy import copy
 from enum import IntEnum
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeAlias, TypedDict, TypeVar, Unpack
 
 from flint import fmpq
 
-from garkcli.frozen import Frozen, replace
+from garkcli.frozen import Frozen
 from garkcli.page.schema import Schema, array, nullable, one_of
 from garkcli.reason import NO_REASON, Reason
+from garkcli.tell.shown import Below, Parts, Shown, Words
 
 if TYPE_CHECKING:
-    from garkcli.plots.scene import Scene
+    from garkcli.order.certificate import Witness
     from garkcli.tell.dialect import Plain
+
+T = TypeVar("T")
+U = TypeVar("U")
+V = TypeVar("V")
+T_in = TypeVar("T_in", contravariant=True)
+V_in = TypeVar("V_in", contravariant=True)
+V_out = TypeVar("V_out", covariant=True)
 
 
 class Level(IntEnum):
@@ -31,23 +41,6 @@ class Level(IntEnum):
     USUAL = 1
     DETAIL = 2
     DATA = 3
-
-
-class Said(Frozen):
-    """A value with its kind: what a reason is made of."""
-
-    kind: Kind
-    value: Any
-
-    def words(self, dialect: Plain) -> str:
-        """The value in the signs of a dialect."""
-        assert self.kind.words is not None
-        return self.kind.words(self.value, dialect)
-
-    def __str__(self) -> str:
-        from garkcli.tell.dialect import Plain
-
-        return self.words(Plain())
 
 
 class Status(Frozen):
@@ -67,7 +60,7 @@ class Status(Frozen):
 SURE = Status()
 
 
-class Answer(Frozen):
+class Answer(Frozen, Generic[V_out]):
     """A value that comes with more than itself.
 
     Attributes:
@@ -75,23 +68,30 @@ class Answer(Frozen):
         status: how it is known.
         reason: why it is so.
         level: where it is reported, if not where its row says.
-        more: what its kind needs besides, such as a witness.
+        witness: of an order whose value has none.
         names: of the colours in trees, where they are not numbers.
     """
 
-    value: Any
+    value: V_out | None
     status: Status = SURE
     reason: Reason = NO_REASON
     level: Level | None = None
-    more: Any = None
+    witness: Witness | None = None
     names: Sequence[str] = ()
 
 
-Words: TypeAlias = "Callable[[Any, Plain], str]"
-Getter: TypeAlias = "Callable[[Any], Any] | str | None"
+class Described(Protocol[V_in]):
+    """Makes JSON of values, such as a section."""
+
+    @property
+    def schema(self) -> Schema:
+        """The JSON Schema of its JSON."""
+
+    def data(self, value: V_in, dialect: Plain, /) -> object:
+        """Its JSON."""
 
 
-class Beside(Frozen):
+class Beside(Frozen, Generic[V]):
     """A field of JSON beside that of a row, from its answer.
 
     Attributes:
@@ -103,79 +103,107 @@ class Beside(Frozen):
 
     name: str
     schema: Schema
-    data: Callable[[Answer, Plain], Any]
+    data: Callable[[Answer[V], Plain], object]
     is_optional: bool = True
 
 
-class Kind(Frozen):
-    """What a value is: its schema, its JSON, its words in a dialect.
+class Json(Frozen, Generic[V_in]):
+    """A value whose JSON is declared.
 
     Attributes:
         schema: of its JSON.
-        data: the value for programs.
-        words: the value in the signs of a dialect; None for what only programs read.
-        answer_words: the whole answer in words, status and all, where words and status are one.
-        phrase: the same as a part of a sentence, from the label; None for label and words.
-        cell: the same in a table, where that is shorter.
-        lines: a picture of the value, for outputs with room.
-        draw: the value in finished lines of the output.
-        scene: a picture of the value, which each output draws in its way.
-        rows: the value as labels with words, among those of other facts.
-        is_data: whether programs get it; pictures and rows of words are for people alone.
-        beside: further fields of JSON.
-        section: of a value that has facts of its own.
-        is_list: whether the value is a list of such.
-        is_stream: whether that is reported while it is found.
-        by: the heading of a part of such a list, where parts have headings on a terminal.
-        is_never_empty: whether that has an entry at least.
-        most: of a list that is always a table, so many rows of it are usual; 0 for all.
-        absent: what a table has where there is no value.
-        csv: the value in CSV where that is not the one of JSON: a cell, or cells by their columns.
+        data: makes the JSON; without it the value is JSON already.
+        beside: further fields.
+        csv: a cell, or cells by their columns, if they are not made of the JSON.
     """
 
     schema: Schema
-    data: Callable[[Any, Plain], Any] = lambda value, _: value
-    words: Words | None = None
-    answer_words: Callable[[Answer, Plain], str] | None = None
-    phrase: Callable[[str, Answer, Plain], str] | None = None
-    cell: Words | None = None
-    lines: Callable[[Any, Plain], list[str]] | None = None
-    draw: Callable[[Any, Plain], list[str]] | None = None
-    scene: Callable[[Any], Scene] | None = None
-    rows: Callable[[Any, Plain], list[tuple[str, str]]] | None = None
-    is_data: bool = True
-    beside: tuple[Beside, ...] = ()
-    section: Section | None = None
-    is_list: bool = False
-    is_stream: bool = False
-    by: Callable[[Any, Plain], str] | None = None
+    data: Callable[[V_in, Plain], object] = lambda value, _: value
+    beside: tuple[Beside[V_in], ...] = ()
+    csv: Callable[[V_in], str | Mapping[str, str]] | None = None
+
+
+class Several(Frozen, Generic[T]):
+    """A list of values with facts of their own.
+
+    Attributes:
+        section: describes each.
+        is_never_empty: whether there is at least one.
+    """
+
+    section: Section[T]
     is_never_empty: bool = False
-    most: int | None = None
-    absent: str = ""
-    csv: Callable[[Any], str | Mapping[str, str]] | None = None
 
     @property
-    def is_below(self) -> bool:
-        """Whether it has lines of its own, below the other facts."""
-        shown = self.lines, self.draw, self.scene, self.most
-        return self.is_stream or any(x is not None for x in shown)
+    def schema(self) -> Schema:
+        """A list of what the section makes."""
+        least = {"minItems": 1} if self.is_never_empty else {}
+        return {**array(self.section.schema), **least}
 
-    def __call__(self, value: Any) -> Said:
+    def data(self, values: Iterable[T], dialect: Plain, /) -> object:
+        """The parts as plain data."""
+        return [self.section.data(x, dialect) for x in values]
+
+
+class Kind(Frozen, Generic[V_in]):
+    """A type of value, and how it is shown.
+
+    Attributes:
+        what: it is for programs; None for what people alone get.
+        shown: to people; None for what programs alone get.
+    """
+
+    what: Described[V_in] | None
+    shown: Shown[V_in] | None = None
+
+    def words(self, value: V_in, dialect: Plain) -> str:
+        """A value in the signs of a dialect."""
+        assert isinstance(self.shown, Words)
+        return self.shown.words(value, dialect)
+
+    def __call__(self: Kind[V], value: V) -> Said[V]:
         """A value of this kind in a reason."""
         return Said(self, value)
+
+
+class Said(Frozen, Generic[V]):
+    """A value with its kind, in a reason."""
+
+    kind: Kind[V]
+    value: V
+
+    def words(self, dialect: Plain) -> str:
+        """The value in the signs of a dialect."""
+        return self.kind.words(self.value, dialect)
+
+    def __str__(self) -> str:
+        from garkcli.tell.dialect import Plain
+
+        return self.words(Plain())
 
 
 class Fact(Frozen):
     """An answer under its row: all that an output gets."""
 
-    row: Row
-    answer: Answer
+    row: Row[Any]
+    answer: Answer[Any]
     level: Level
 
     @property
     def value(self) -> Any:
         """The value of the answer."""
         return self.answer.value
+
+    @property
+    def shown(self) -> Shown[Any] | None:
+        """How it is shown."""
+        return self.row.kind.shown
+
+    @property
+    def is_below(self) -> bool:
+        """Whether it has lines of its own, below the other facts."""
+        shown = self.shown
+        return isinstance(shown, Below) or (isinstance(shown, Parts) and shown.most is not None)
 
     @property
     def is_something(self) -> bool:
@@ -186,15 +214,21 @@ class Fact(Frozen):
         return not (isinstance(answer.value, (tuple, list, str)) and not answer.value)
 
 
-class Row(Frozen):
-    """What is declared of a fact.
+class Placed(TypedDict, total=False):
+    """Where a row is in a text, as ``Row`` takes it."""
+
+    label: str | None
+    line: str
+    is_short: bool
+
+
+class Row(Generic[T_in]):
+    """The declaration of a fact of a result.
 
     Attributes:
         key: its name in JSON; its label and its sentence are found by it.
-        kind: of its values.
-        get: the value, or an ``Answer``, of what the section describes; a text for a path of
-            attributes and places, such as ``rows.0.value``, along which None stays None, or a dot
-            for what is described itself; None for the attribute of the key.
+        kind: of its values; that it fits what ``get`` returns is checked where a row is made.
+        get: the value, or an ``Answer``, of a result.
         level: where it is reported, or that from its answer.
         has_null: whether there may be no value.
         is_optional: whether JSON leaves it out then.
@@ -203,113 +237,127 @@ class Row(Frozen):
         is_short: whether other rows tell it where everything is reported.
     """
 
-    key: str
-    kind: Kind
-    get: Getter = None
-    level: Level | Callable[[Answer], Level] = Level.USUAL
-    has_null: bool = False
-    is_optional: bool = False
-    label: str | None = None
-    line: str = ""
-    is_short: bool = False
+    def __init__(
+        self,
+        key: str,
+        kind: Kind[V],
+        get: Callable[[T_in], V | Answer[V] | None],
+        level: Level | Callable[[Answer[V]], Level] = Level.USUAL,
+        has_null: bool = False,
+        is_optional: bool = False,
+        label: str | None = None,
+        line: str = "",
+        is_short: bool = False,
+    ) -> None:
+        self.key = key
+        self.kind: Kind[Any] = kind
+        self.get: Callable[[T_in], Any] = get
+        self.level = level
+        self.has_null = has_null
+        self.is_optional = is_optional
+        self.label = label
+        self.line = line
+        self.is_short = is_short
 
-    def answer(self, whole: Any) -> Answer:
-        """What is so of a result."""
-        found = self.value(whole)
+    def but(self, **changes: object) -> Row[T_in]:
+        """The row with other attributes."""
+        found = copy(self)
+        vars(found).update(changes)
+        return found
+
+    def answer(self, whole: T_in) -> Answer[Any]:
+        """The answer for a result."""
+        found = self.get(whole)
         return found if isinstance(found, Answer) else Answer(found)
 
-    def value(self, whole: Any) -> Any:
-        """What ``get`` gets."""
-        if callable(self.get):
-            return self.get(whole)
-        path = self.get or self.key
-        if path.isidentifier():  # most are, and lists of trees are long
-            return getattr(whole, path)
-        for name in path.split("."):
-            if whole is not None and name:
-                whole = whole[int(name)] if name.isdecimal() else getattr(whole, name)
-        return whole
-
-    def fact(self, whole: Any) -> Fact:
-        """The same with the level where it is reported."""
+    def fact(self, whole: T_in) -> Fact:
+        """The answer with the level where it is reported."""
         answer = self.answer(whole)
         level = answer.level
         if level is None:
             level = self.level(answer) if callable(self.level) else self.level
         return Fact(self, answer, level)
 
-    def of(self, part: Callable[[Any], Any]) -> Row:
-        """The same of a part; none where there is no part."""
-
-        def get(whole: Any) -> Any:
-            one = part(whole)
-            return None if one is None else self.value(one)
-
-        return replace(self, get=get)
-
     def fields(self) -> Iterator[tuple[str, Schema, bool]]:
         """The fields of JSON: name, schema, whether it is always there."""
-        kind = self.kind
-        if not kind.is_data:
+        what = self.kind.what
+        if what is None:
             return
-        schema = kind.schema if kind.section is None else kind.section.schema
-        if kind.is_list:
-            schema = {**array(schema), **({"minItems": 1} if kind.is_never_empty else {})}
-        yield self.key, nullable(schema) if self.has_null else schema, not self.is_optional
-        for field in kind.beside:
-            yield field.name.replace("*", self._stem), field.schema, not field.is_optional
+        schema = nullable(what.schema) if self.has_null else what.schema
+        yield self.key, schema, not self.is_optional
+        for field in self._beside:
+            yield self._name(field), field.schema, not field.is_optional
 
-    def data(self, whole: Any, dialect: Plain) -> dict[str, Any]:
+    def data(self, whole: T_in, dialect: Plain) -> dict[str, object]:
         """Its fields for a result."""
-        kind = self.kind
-        if not kind.is_data:
+        what = self.kind.what
+        if what is None:
             return {}
         answer = self.answer(whole)
-        if answer.value is None and self.is_optional:
+        is_none = answer.value is None
+        if is_none and self.is_optional:
             return {}
-        found = {self.key: None if answer.value is None else self._plain(answer.value, dialect)}
-        for field in kind.beside:
-            value = None if answer.value is None else field.data(answer, dialect)
+        found = {self.key: None if is_none else what.data(answer.value, dialect)}
+        for field in self._beside:
+            value = None if is_none else field.data(answer, dialect)
             if value is not None or not field.is_optional:
-                found[field.name.replace("*", self._stem)] = value
+                found[self._name(field)] = value
         return found
 
     @property
-    def _stem(self) -> str:
-        return self.key.rpartition("order")[0]
+    def _beside(self) -> tuple[Beside[Any], ...]:
+        what = self.kind.what
+        return what.beside if isinstance(what, Json) else ()
 
-    def _plain(self, value: Any, dialect: Plain) -> Any:
-        kind, section = self.kind, self.kind.section
-        if section is None:
-            return (
-                [kind.data(x, dialect) for x in value]
-                if kind.is_list
-                else kind.data(value, dialect)
-            )
-        return (
-            [section.data(x, dialect) for x in value]
-            if kind.is_list
-            else section.data(value, dialect)
-        )
+    def _name(self, field: Beside[Any]) -> str:
+        return field.name.replace("*", self.key.rpartition("order")[0])
 
 
-def maybe(key: str, kind: Kind, get: Getter = None, level: Any = Level.USUAL, **more: Any) -> Row:
+Rows: TypeAlias = "Sequence[Row[T]]"
+
+
+def maybe(
+    key: str,
+    kind: Kind[V],
+    get: Callable[[T], V | Answer[V] | None],
+    level: Level | Callable[[Answer[V]], Level] = Level.USUAL,
+    **placed: Unpack[Placed],
+) -> Row[T]:
     """A row whose value may be none: null in JSON."""
-    return Row(key, kind, get, level, has_null=True, **more)
+    return Row(key, kind, get, level, has_null=True, **placed)
 
 
 def optional(
-    key: str, kind: Kind, get: Getter = None, level: Any = Level.USUAL, **more: Any
-) -> Row:
+    key: str,
+    kind: Kind[V],
+    get: Callable[[T], V | Answer[V] | None],
+    level: Level | Callable[[Answer[V]], Level] = Level.USUAL,
+    **placed: Unpack[Placed],
+) -> Row[T]:
     """A row that JSON leaves out where there is no value."""
-    return Row(key, kind, get, level, is_optional=True, **more)
+    return Row(key, kind, get, level, is_optional=True, **placed)
 
 
-class Section:
-    """Rows in order: all that is reported of a kind of result.
+def via(get: Callable[[T], U | None], rows: Iterable[Row[U]]) -> Rows[T]:
+    """Rows of a part as rows of its owner; they have no value where there is no part."""
+
+    def of(row: Row[U]) -> Callable[[T], Any]:
+        return lambda whole: None if (part := get(whole)) is None else row.get(part)
+
+    return [copied(row, of(row)) for row in rows]
+
+
+def copied(row: Row[U], get: Callable[[T], Any]) -> Row[T]:
+    """The row with another way to its value."""
+    found: Row[Any] = row.but(get=get)
+    return found
+
+
+class Section(Generic[T_in]):
+    """Rows in order: all that is reported of a type of result.
 
     Attributes:
-        rows: what is declared.
+        rows: what is declared; lists of rows among them are theirs.
         title: of a part among others, and of a result: what it is about, such as the file.
         columns: keys of the rows that tell it in a line of a table.
         is_cut: whether the last words of such a line may be cut.
@@ -317,37 +365,37 @@ class Section:
 
     def __init__(
         self,
-        *rows: Row,
-        title: Callable[[Any, Plain], str] | None = None,
+        *rows: Row[T_in] | Iterable[Row[T_in]],
+        title: Callable[[T_in, Plain], str] | None = None,
         columns: Sequence[str] = (),
         is_cut: bool = False,
     ) -> None:
-        self.rows = rows
+        self.rows = [row for x in rows for row in ([x] if isinstance(x, Row) else x)]
         self.title = title
         self.columns = columns
         self.is_cut = is_cut
 
-    def facts(self, whole: Any, level: Level = Level.DATA) -> Iterator[Fact]:
+    def facts(self, whole: T_in, level: Level = Level.DATA) -> Iterator[Fact]:
         """The facts down to a level; what lies deeper by its row is not asked for."""
         for row in self.rows:
             if callable(row.level) or row.level <= level:
                 yield row.fact(whole)
 
-    def named(self, whole: Any, keys: Iterable[str]) -> dict[str, Fact]:
+    def named(self, whole: T_in, keys: Iterable[str]) -> dict[str, Fact]:
         """The facts of some rows."""
         return {row.key: row.fact(whole) for row in self.rows if row.key in keys}
 
-    def data(self, whole: Any, dialect: Plain) -> dict[str, Any]:
+    def data(self, whole: T_in, dialect: Plain, /) -> dict[str, Any]:
         """The result as plain data."""
         found: dict[str, Any] = {}
         for row in self.rows:
             found.update(row.data(whole, dialect))
         return found
 
-    def columns_of(self, level: Level) -> list[Row]:
+    def columns_of(self, level: Level) -> Rows[T_in]:
         """The rows that a part of a stream has as columns, down to a level."""
         if level == Level.DATA:
-            return [row for row in self.rows if row.kind.is_data]
+            return [row for row in self.rows if row.kind.what is not None]
         is_deep = level >= Level.DETAIL
         found = [x for x in self.rows if not (x.is_short and is_deep)]
         return [x for x in found if not callable(x.level) and x.level <= level]
@@ -364,7 +412,7 @@ class Section:
         }
 
 
-class Choice(Section):
+class Choice(Section[T]):
     """One of several sections, by what it tells.
 
     Args:
@@ -372,22 +420,17 @@ class Choice(Section):
         sections: all of them.
     """
 
-    def __init__(self, of: Callable[[Any], Section], *sections: Section) -> None:
+    def __init__(self, of: Callable[[T], Section[T]], *sections: Section[T]) -> None:
         super().__init__()
         self._of = of
         self._sections = sections
 
-    def facts(self, whole: Any, level: Level = Level.DATA) -> Iterator[Fact]:
+    def facts(self, whole: T, level: Level = Level.DATA) -> Iterator[Fact]:
         return self._of(whole).facts(whole, level)
 
-    def data(self, whole: Any, dialect: Plain) -> dict[str, Any]:
+    def data(self, whole: T, dialect: Plain, /) -> dict[str, Any]:
         return self._of(whole).data(whole, dialect)
 
     @property
     def schema(self) -> Schema:
         return one_of(*(section.schema for section in self._sections))
-
-
-def via(get: Callable[[Any], Any], rows: Iterable[Row]) -> list[Row]:
-    """Rows of a part as rows of its owner."""
-    return [row.of(get) for row in rows]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from html import escape
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from garkcli.errors import printable
 from garkcli.exact.display import shortest, to_latex
@@ -15,6 +15,7 @@ from garkcli.tell.latex import expression_latex
 
 if TYPE_CHECKING:
     from garkcli.exact.cells import Interval
+    from garkcli.exact.field import Number
     from garkcli.exact.polynomial import Polynomial
     from garkcli.plots.scene import Scene
     from garkcli.tableau.pointwise import Entries
@@ -48,7 +49,7 @@ class Html(Plain):
     def strong(self, text: str) -> str:
         return f"<strong>{text}</strong>"
 
-    def number(self, x: Any) -> str:
+    def number(self, x: Number) -> str:
         text = shortest(x)
         return super().number(x) if len(text) > LONG else self.formula(to_latex(x), text)
 

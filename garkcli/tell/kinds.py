@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Protocol
 
 from flint import fmpq
 
 from garkcli.exact.display import decimal, decimal_latex, plain_decimal, to_decimal, to_text
-from garkcli.exact.field import Number
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import has_long_coefficients, integral, polynomial_text
 from garkcli.frozen import Frozen
@@ -18,13 +17,20 @@ from garkcli.page.exactly import ALGEBRAIC, ROOT_OF, root_data
 from garkcli.page.plain import csv_cell
 from garkcli.page.schema import Schema, array, nullable, one_of
 from garkcli.reason import NO_REASON, Reason
-from garkcli.tell.facts import Answer, Beside, Kind, Level, Row, Status
+from garkcli.tell.facts import Answer, Beside, Json, Kind, Level, Row, Rows, Status
+from garkcli.tell.shown import Words
 
 if TYPE_CHECKING:
+    from flint import arb
+
     from garkcli.exact.cells import Interval
+    from garkcli.exact.field import Number
+    from garkcli.exact.roots import RealRoot
+    from garkcli.ntrees.tree import Tree
     from garkcli.order.certificate import Witness
     from garkcli.order.deciding import AnyOrder
     from garkcli.stability.ball_polynomials import Bounds
+    from garkcli.stability.ssp import SspCoefficient
     from garkcli.tell.dialect import Plain
 
 
@@ -38,49 +44,56 @@ def record(**fields: Schema) -> Schema:
     }
 
 
-def constant(value: object) -> Kind:
-    """What is the same in every report; for programs."""
-    return Kind({"const": value})
+def constant(value: object) -> Kind[object]:
+    """A field that is the same in every report; for programs."""
+    return Kind(Json({"const": value}))
 
 
-def choice(*values: str | None) -> Kind:
+def choice(*values: str | None) -> Kind[str]:
     """One of a few words."""
-    return Kind({"enum": [*values]}, words=lambda x, d: d.prose(x))
+    return Kind(Json({"enum": [*values]}), TEXT.shown)
 
 
-def _truth_phrase(label: str, answer: Answer, d: Plain) -> str:
+def _truth_phrase(label: str, answer: Answer[bool], d: Plain) -> str:
     text = d.known(label if answer.value else f"not {label}", answer.status)
     return f"{text}: {d.reason(answer.reason)}" if answer.reason else text
 
 
-TRUTH = Kind(S.FLAG, words=lambda x, d: d.good("yes") if x else d.bad("no"), phrase=_truth_phrase)
-TRUE = Kind(S.TRUE)
-COUNT = Kind(S.COUNT, words=lambda x, d: str(x))
-INTEGER = Kind(S.INTEGER, words=lambda x, d: str(x))
-POSITION = Kind(S.POSITION, words=lambda x, d: str(x))
-INDEX = Kind(S.POSITION, lambda x, _: x + 1, lambda x, _: str(x + 1))
-"""What the program counts from 0, and people from 1."""
-TEXT = Kind(S.TEXT, words=lambda x, d: d.prose(x))
-TEXTS = Kind(
-    array(S.TEXT),
-    lambda x, _: list(x),
-    lambda x, d: ", ".join(map(d.prose, x)),
-    csv=lambda x: csv_cell("; ".join(x)),
-)
-FLOAT = Kind(S.SIZE, words=lambda x, d: f"{x:.6g}")
-UPPER = Kind(S.SIZE, lambda ball, _: float(ball.upper()), lambda x, d: d.size(x))
-"""The upper end of a ball."""
-EXACT = Kind(S.EXACT, lambda x, _: to_text(x), lambda x, d: d.number(x))
-EXACTS = Kind(
-    array(S.EXACT),
-    lambda xs, _: [to_text(x) for x in xs],
-    lambda xs, d: ", ".join(map(d.short, xs)),
-)
-TOLERANCE = Kind(S.TEXT, lambda x, _: decimal(x), lambda x, d: decimal(x))
-TREE = Kind(S.TEXT, lambda x, _: format_tree(x), lambda x, d: d.tree(x))
+def truth_words(value: bool, d: Plain) -> str:
+    """``yes`` or ``no``."""
+    return d.good("yes") if value else d.bad("no")
 
 
-def truth(value: bool | None, why: Reason | str = "", open_because: Reason | str = "") -> Answer:
+def counted(schema: Schema) -> Kind[int]:
+    """A number that is shown as it is."""
+    return Kind(Json(schema), Words(lambda x, _: str(x)))
+
+
+TRUTH: Kind[bool] = Kind(Json(S.FLAG), Words(truth_words, phrase=_truth_phrase))
+TRUE: Kind[bool] = Kind(Json(S.TRUE))
+COUNT = counted(S.COUNT)
+INTEGER = counted(S.INTEGER)
+POSITION = counted(S.POSITION)
+INDEX: Kind[int] = Kind(Json(S.POSITION, lambda x, _: x + 1), Words(lambda x, _: str(x + 1)))
+"""Counted from 0 by the program, and from 1 by people."""
+TEXT: Kind[str] = Kind(Json(S.TEXT), Words(lambda x, d: d.prose(x)))
+TEXTS: Kind[Sequence[str]] = Kind(
+    Json(array(S.TEXT), lambda x, _: list(x), csv=lambda x: csv_cell("; ".join(x))),
+    Words(lambda x, d: ", ".join(map(d.prose, x))),
+)
+FLOAT: Kind[float] = Kind(Json(S.SIZE), Words(lambda x, _: f"{x:.6g}"))
+EXACT: Kind[Number] = Kind(Json(S.EXACT, lambda x, _: to_text(x)), Words(lambda x, d: d.number(x)))
+EXACTS: Kind[Sequence[Number]] = Kind(
+    Json(array(S.EXACT), lambda xs, _: [to_text(x) for x in xs]),
+    Words(lambda xs, d: ", ".join(map(d.short, xs))),
+)
+TOLERANCE: Kind[fmpq] = Kind(Json(S.TEXT, lambda x, _: decimal(x)), Words(lambda x, _: decimal(x)))
+TREE: Kind[Tree] = Kind(Json(S.TEXT, lambda x, _: format_tree(x)), Words(lambda x, d: d.tree(x)))
+
+
+def truth(
+    value: bool | None, why: Reason | str = "", open_because: Reason | str = ""
+) -> Answer[bool]:
     """A truth that may be undecided.
 
     Args:
@@ -98,12 +111,27 @@ def as_reason(text: Reason | str) -> Reason:
     return Reason(text) if isinstance(text, str) else text
 
 
-def _named(x: Any) -> Answer:
+class Named(Protocol):
+    """A result of a file."""
+
+    @property
+    def file(self) -> str:
+        """The path as given."""
+
+    @property
+    def name(self) -> str:
+        """The name of its method."""
+
+
+def _name(x: Named) -> Answer[str]:
     """The name, told where it says more than the file."""
     return Answer(x.name, level=Level.DETAIL if x.name != x.file else Level.DATA)
 
 
-FILE_AND_NAME = (Row("file", TEXT, level=Level.DATA), Row("name", TEXT, _named, Level.DETAIL))
+FILE_AND_NAME: Rows[Named] = (
+    Row("file", TEXT, lambda x: x.file, Level.DATA),
+    Row("name", TEXT, _name, Level.DETAIL),
+)
 """Where a result is from, and what people call it."""
 
 
@@ -117,7 +145,7 @@ def _numeral(x: Number, d: Plain) -> str:
     return d.number(x) if d.places is None else d.formula(decimal_latex(text), text)
 
 
-NUMERAL = Kind(S.NUMERAL, numeral_text, _numeral)
+NUMERAL: Kind[Number] = Kind(Json(S.NUMERAL, numeral_text), Words(_numeral))
 
 # blocks and places
 
@@ -130,10 +158,9 @@ def numbers_from_one(places: Sequence[Sequence[int]]) -> list[list[int]]:
     return [[x + 1 for x in place] for place in places]
 
 
-BLOCKS = Kind(
-    array(BLOCK),
-    lambda x, _: numbers_from_one(x),
-    lambda x, d: d.few([d.block("A", place) for place in x]),
+BLOCKS: Kind[Sequence[Sequence[int]]] = Kind(
+    Json(array(BLOCK), lambda x, _: numbers_from_one(x)),
+    Words(lambda x, d: d.few([d.block("A", place) for place in x])),
 )
 
 
@@ -145,17 +172,16 @@ class Table(Frozen):
         limit: where the search stopped.
     """
 
-    rows: Sequence[Any]
+    rows: Sequence[Sequence[int | None]]
     limit: int
 
 
-ROW_OF_COUNTS = Kind(
-    array(S.COUNT), lambda x, _: list(x.rows), lambda x, d: d.table([x.rows], x.limit)
+ROW_OF_COUNTS: Kind[Table] = Kind(
+    Json(array(S.COUNT), lambda x, _: list(x.rows[0])), Words(lambda x, d: d.table(x.rows, x.limit))
 )
-TABLE = Kind(
-    array(array(nullable(S.INTEGER))),
-    lambda x, _: [list(row) for row in x.rows],
-    lambda x, d: d.table(x.rows, x.limit),
+TABLE: Kind[Table] = Kind(
+    Json(array(array(nullable(S.INTEGER))), lambda x, _: [list(row) for row in x.rows]),
+    ROW_OF_COUNTS.shown,
 )
 
 
@@ -166,7 +192,7 @@ WITNESS: Schema = record(
 )
 
 
-def witness_data(witness: Witness) -> dict[str, Any]:
+def witness_data(witness: Witness) -> dict[str, object]:
     """The condition that fails."""
     return {
         "order": witness.tree.order,
@@ -177,7 +203,7 @@ def witness_data(witness: Witness) -> dict[str, Any]:
     }
 
 
-def order_answer(found: AnyOrder | None) -> Answer:
+def order_answer(found: AnyOrder | None) -> Answer[AnyOrder]:
     """An order, exact or rounded, as a value with its status."""
     if found is None:
         return Answer(None)
@@ -186,15 +212,21 @@ def order_answer(found: AnyOrder | None) -> Answer:
     return Answer(found, Status(within, found.is_lower_bound, Reason(undecided)))
 
 
-def _order_words(answer: Answer, d: Plain) -> str:
+def _largest_residual(found: AnyOrder) -> arb | None:
+    """That of a rounded order."""
+    return getattr(found, "largest_residual", None)
+
+
+def _order_words(answer: Answer[AnyOrder], d: Plain) -> str:
     """``4, proved; order 5 fails at [[[[[]]]]] by -1/120``."""
     found, status = answer.value, answer.status
+    assert found is not None
     d = d.naming(answer.names)
     text = d.known(str(found.order), status)
     if status.within is None and not status.at_least:
         text += ", proved"
-    elif status.within is not None and not d.is_brief:
-        text += f", residuals up to {d.size(found.largest_residual)}"
+    elif (largest := _largest_residual(found)) is not None and not d.is_brief:
+        text += f", residuals up to {d.size(largest)}"
     if status.open:
         return f"{text}; order {found.order + 1} is not decided: {d.reason(status.open)}"
     if found.witness is None:
@@ -208,44 +240,55 @@ def order_cell(found: AnyOrder, d: Plain) -> str:
     return d.known(str(found.order), order_answer(found).status)
 
 
-def _within(answer: Answer, _: Plain) -> str | None:
+def _witness(answer: Answer[AnyOrder], _: Plain) -> dict[str, object] | None:
+    found = answer.value
+    return None if found is None or found.witness is None else witness_data(found.witness)
+
+
+def _within(answer: Answer[AnyOrder], _: Plain) -> str | None:
     return None if answer.status.within is None else decimal(answer.status.within)
 
 
-def _largest(answer: Answer, _: Plain) -> float | None:
-    return None if answer.status.within is None else float(answer.value.largest_residual.upper())
+def _largest(answer: Answer[AnyOrder], _: Plain) -> float | None:
+    largest = None if answer.value is None else _largest_residual(answer.value)
+    return None if largest is None else float(largest.upper())
 
 
-ORDER = Kind(
-    S.COUNT,
-    lambda found, _: found.order,
-    answer_words=_order_words,
-    cell=order_cell,
-    beside=(
-        Beside(
-            "*witness",
-            nullable(WITNESS),
-            lambda a, _: a.value.witness and witness_data(a.value.witness),
-            is_optional=False,
+ORDER: Kind[AnyOrder] = Kind(
+    Json(
+        S.COUNT,
+        lambda found, _: found.order,
+        beside=(
+            Beside("*witness", nullable(WITNESS), _witness, is_optional=False),
+            Beside("*order_is_lower_bound", S.TRUE, lambda a, _: a.status.at_least or None),
+            Beside("*order_largest_residual", S.SIZE, _largest),
+            Beside("*order_tolerance", S.TEXT, _within),
+            Beside("*order_undecided", S.TRUE, lambda a, _: bool(a.status.open) or None),
         ),
-        Beside("*order_is_lower_bound", S.TRUE, lambda a, _: a.status.at_least or None),
-        Beside("*order_largest_residual", S.SIZE, _largest),
-        Beside("*order_tolerance", S.TEXT, _within),
-        Beside("*order_undecided", S.TRUE, lambda a, _: bool(a.status.open) or None),
     ),
+    Words(lambda found, _: str(found.order), _order_words),
 )
-
-
-# numbers that a search bounds
 
 
 # polynomials, roots, intervals
 
 
-def ratio(variable: str) -> Kind:
+class Quotient(Protocol):
     """A rational function."""
 
-    def data(found: Any, _: Plain) -> dict[str, str]:
+    @property
+    def numerator(self) -> Polynomial:
+        """Above."""
+
+    @property
+    def denominator(self) -> Polynomial:
+        """Below."""
+
+
+def ratio(variable: str) -> Kind[Quotient]:
+    """A rational function."""
+
+    def data(found: Quotient, _: Plain) -> dict[str, str]:
         over, under = integral([found.numerator, found.denominator])
         return {
             "numerator": polynomial_text(over, variable),
@@ -253,55 +296,48 @@ def ratio(variable: str) -> Kind:
         }
 
     return Kind(
-        record(numerator=S.TEXT, denominator=S.TEXT),
-        data,
-        lambda x, d: d.quotient(x.numerator, x.denominator, variable),
+        Json(record(numerator=S.TEXT, denominator=S.TEXT), data),
+        Words(lambda x, d: d.quotient(x.numerator, x.denominator, variable)),
     )
 
 
-def term(variable: str, power: int) -> Kind:
+def term(variable: str, power: int) -> Kind[Number]:
     """A number times a power of a variable."""
 
-    def words(x: Any, d: Plain) -> str:
+    def words(x: Number, d: Plain) -> str:
         return d.polynomial(Polynomial([fmpq(0)] * power + [x]), variable)
 
-    return Kind(S.EXACT, words=words)
+    return Kind(None, Words(words))
 
 
-def polynomial(variable: str) -> Kind:
+def polynomial(variable: str) -> Kind[Polynomial]:
     """A polynomial, told with whole coefficients; in decimals, where these are long, as it is."""
 
     def words(p: Polynomial, d: Plain) -> str:
         (whole,) = integral([p])
         return d.polynomial(p if d.is_brief and has_long_coefficients(whole) else whole, variable)
 
-    return Kind(S.TEXT, lambda p, _: polynomial_text(integral([p])[0], variable), words)
+    return Kind(
+        Json(S.TEXT, lambda p, _: polynomial_text(integral([p])[0], variable)), Words(words)
+    )
 
 
-def expression(text: Callable[[Any], str] = str, latex: Callable[[Any], str] | None = None) -> Kind:
-    """A symbolic expression: a polynomial in the unknowns of a file, a formula.
-
-    Args:
-        text: of a value, for programs too.
-        latex: of a value, where the text is not what method files write.
-    """
-
-    def words(x: Any, d: Plain) -> str:
-        return d.expression(text(x), None if latex is None else lambda: latex(x))
-
-    return Kind(S.TEXT, lambda x, _: text(x), words)
-
-
-EXPRESSION = expression()
-ROOTS = Kind(
-    array(ALGEBRAIC),
-    lambda xs, d: [root_data(x, d.digits) for x in xs],
-    lambda xs, d: ", ".join(map(d.root, xs)),
+EXPRESSION: Kind[str] = Kind(Json(S.TEXT), Words(lambda x, d: d.expression(x)))
+"""A polynomial in the unknowns of a file."""
+ROOTS: Kind[Sequence[RealRoot]] = Kind(
+    Json(array(ALGEBRAIC), lambda xs, d: [root_data(x, d.digits) for x in xs]),
+    Words(lambda xs, d: ", ".join(map(d.root, xs))),
 )
-RADIUS = Kind(
-    one_of(S.TEXT, ROOT_OF),
-    lambda x, d: "infinity" if x.value is None else root_data(x.value, d.digits),
-    lambda x, d: d.infinity if x.value is None else d.root(x.value),
+
+
+def radius_data(x: SspCoefficient, d: Plain) -> object:
+    """The end of a reach, or infinity."""
+    return "infinity" if x.value is None else root_data(x.value, d.digits)
+
+
+RADIUS: Kind[SspCoefficient] = Kind(
+    Json(one_of(S.TEXT, ROOT_OF), radius_data),
+    Words(lambda x, d: d.infinity if x.value is None else d.root(x.value)),
 )
 """How far something reaches, without end too."""
 
@@ -309,10 +345,10 @@ _END = nullable(ALGEBRAIC)
 INTERVAL: Schema = record(**{"from": _END, "to": _END}, from_included=S.FLAG, to_included=S.FLAG)
 
 
-def interval_data(x: Interval, d: Plain) -> dict[str, Any]:
+def interval_data(x: Interval, d: Plain) -> dict[str, object]:
     """An interval with algebraic ends."""
 
-    def end(root: Any) -> Any:
+    def end(root: RealRoot | None) -> object:
         return None if root is None else root_data(root, d.digits)
 
     return {
@@ -323,20 +359,16 @@ def interval_data(x: Interval, d: Plain) -> dict[str, Any]:
     }
 
 
-def intervals(variable: str) -> Kind:
+def intervals_data(found: Sequence[Interval], d: Plain) -> list[dict[str, object]]:
     """Where on a line something holds."""
-    return Kind(
-        array(INTERVAL),
-        lambda xs, d: [interval_data(x, d) for x in xs],
-        lambda xs, d: " or ".join(d.interval(x, variable) for x in xs) or "nowhere",
-    )
+    return [interval_data(x, d) for x in found]
 
 
 _PLACES = fmpq(10) ** 20
 BOUNDS: Schema = record(at_least=S.TEXT, at_most=nullable(S.TEXT))
 
 
-def bounds_data(found: Bounds) -> dict[str, Any]:
+def bounds_data(found: Bounds) -> dict[str, object]:
     """Bounds, rounded outwards."""
     if found.low is None:
         return {"at_least": "infinity", "at_most": None}
@@ -347,6 +379,9 @@ def bounds_data(found: Bounds) -> dict[str, Any]:
         "at_least": low,
         "at_most": plain_decimal(fmpq((found.high * _PLACES).ceil()) / _PLACES),
     }
+
+
+DERIVATION: Kind[str] = Kind(Json(S.DERIVATION))
 
 
 def claim_word(holds: bool | None, d: Plain) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from garkcli.errors import printable
 from garkcli.exact.display import to_latex
@@ -16,12 +16,14 @@ from garkcli.tell.dialect import WHOLE, Cells, Layout, Plain
 
 if TYPE_CHECKING:
     from garkcli.exact.cells import Interval
+    from garkcli.exact.field import Number
     from garkcli.exact.multivariate import Multivariate
     from garkcli.exact.polynomial import Polynomial
     from garkcli.exact.roots import RealRoot
     from garkcli.ntrees.tree import Tree
     from garkcli.plots.scene import Scene
     from garkcli.reason import Place
+    from garkcli.stability.ball_polynomials import Bounds
     from garkcli.tableau.pointwise import Entries
     from garkcli.tableau.tableau import Tableau
 
@@ -101,7 +103,7 @@ class Latex(Plain):
         found = expression_latex(text) if latex is None else latex()
         return rf"\texttt{{{self.prose(text)}}}" if found is None else f"${found}$"
 
-    def number(self, x: Any) -> str:
+    def number(self, x: Number) -> str:
         return f"${to_latex(x)}$"
 
     short = number
@@ -143,7 +145,7 @@ class Latex(Plain):
     def interval(self, x: Interval, variable: str) -> str:
         return super().interval(x, f"${variable}$").replace("≤", r"$\le$").replace("<", "$<$")
 
-    def bounds(self, found: Any, before: str = "") -> str:
+    def bounds(self, found: Bounds, before: str = "") -> str:
         return super().bounds(found, self.prose(before))
 
     def capped(self, number: int | None, limit: int) -> str:

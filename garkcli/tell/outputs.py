@@ -5,16 +5,16 @@ Nothing here knows a command or a kind.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from itertools import groupby
-from typing import Any, TypeAlias
+from typing import TypeVar
 
 from garkcli.glossary.labels import label_of
 from garkcli.tell.dialect import Layout, Plain
 from garkcli.tell.facts import Fact, Level, Row, Section
+from garkcli.tell.shown import Drawing, Labels, Part, Parts, Picture, Plot, Stream, Words
 
-Form: TypeAlias = Callable[[Any], Section]
-"""Which section tells a result: one of several where results differ in shape."""
+T = TypeVar("T")
 
 COLUMNS = {"terminal": Level.USUAL, "page": Level.DETAIL, "any": Level.DATA}
 """How deep the rows are that a part of a stream has as columns, by the breadth of the output."""
@@ -22,42 +22,42 @@ COLUMNS = {"terminal": Level.USUAL, "page": Level.DETAIL, "any": Level.DATA}
 
 def words(fact: Fact, d: Plain) -> str:
     """A fact in words: value, status and reason, in one place."""
-    answer, kind = fact.answer, fact.row.kind
+    answer, shown = fact.answer, fact.shown
     if answer.value is None:
         if answer.status.open:
             return f"not decided: {d.reason(answer.status.open)}"
         return d.reason(answer.reason) if answer.reason else "none"
-    if kind.answer_words is not None:
-        return kind.answer_words(answer, d)
-    if kind.words is None:
+    if isinstance(shown, Words) and shown.whole is not None:
+        return shown.whole(answer, d)
+    assert isinstance(shown, (Words, Part, Parts))
+    if shown.words is None:
         return gist(fact, d)
-    text = d.known(kind.words(answer.value, d), answer.status)
+    text = d.known(shown.words(answer.value, d), answer.status)
     return f"{text}: {d.reason(answer.reason)}" if answer.reason else text
 
 
 def gist(fact: Fact, d: Plain) -> str:
-    """What is usual in a part, or in each of several, in a line."""
-    section = fact.row.kind.section
-    assert section is not None
-    values = fact.value if fact.row.kind.is_list else [fact.value]
-    return "; ".join(", ".join(phrases(section, x, d, Level.USUAL)) for x in values)
+    """The usual facts of a part, or of each of several, in a line."""
+    shown = fact.shown
+    assert isinstance(shown, (Part, Parts))
+    values = shown.values(fact.value)
+    return "; ".join(", ".join(phrases(shown.section, x, d, Level.USUAL)) for x in values)
 
 
-def phrases(section: Section, whole: Any, d: Plain, level: Level) -> Iterator[str]:
+def phrases(section: Section[T], whole: T, d: Plain, level: Level) -> Iterator[str]:
     """The facts down to a level, each as a part of a sentence."""
     for fact in section.facts(whole, level):
-        kind = fact.row.kind
-        can_be_said = not kind.is_below and kind.rows is None
+        can_be_said = not fact.is_below and not isinstance(fact.shown, Labels)
         if fact.level <= level and fact.is_something and can_be_said:
             yield phrase(fact, d)
 
 
 def phrase(fact: Fact, d: Plain) -> str:
     """A fact as a part of a sentence: ``order 4, proved``; ``not A-stable: R is unbounded``."""
-    kind, name = fact.row.kind, label(fact, d)
-    if kind.phrase is not None and fact.value is not None:
-        return kind.phrase(name, fact.answer, d)
-    if kind.section is not None and kind.words is None and fact.row.line:
+    shown, name = fact.shown, label(fact, d)
+    if isinstance(shown, (Words, Part)) and shown.phrase is not None and fact.value is not None:
+        return shown.phrase(name, fact.answer, d)
+    if isinstance(shown, (Part, Parts)) and shown.words is None and fact.row.line:
         return gist(fact, d)
     return f"{name} {words(fact, d)}".strip()
 
@@ -67,24 +67,26 @@ def label(fact: Fact, d: Plain) -> str:
     return named(fact.row, d)
 
 
-def named(row: Row, d: Plain) -> str:
+def named(row: Row[T], d: Plain) -> str:
     """What the facts of a row are called."""
     return d.prose(label_of(row.key) if row.label is None else row.label)
 
 
 def cell(fact: Fact, d: Plain) -> str:
     """A fact in a table: its value as it is known, nothing besides."""
-    kind, answer = fact.row.kind, fact.answer
+    shown, answer = fact.shown, fact.answer
     if answer.value is None:
-        return "?" if answer.status.open else d.prose(kind.absent)
-    if kind.cell is not None:
-        return kind.cell(answer.value, d)
-    if kind.words is None:
-        return gist(fact, d) if kind.section else d.prose(str(kind.data(answer.value, d)))
-    return d.known(kind.words(answer.value, d), answer.status)
+        absent = shown.absent if isinstance(shown, Words) else ""
+        return "?" if answer.status.open else d.prose(absent)
+    if isinstance(shown, (Words, Part, Parts)) and shown.words is not None:
+        return d.known(shown.words(answer.value, d), answer.status)
+    if isinstance(shown, (Part, Parts)):
+        return gist(fact, d)
+    what = fact.row.kind.what
+    return d.prose(str(answer.value if what is None else what.data(answer.value, d)))
 
 
-def one(section: Section, whole: Any, d: Plain, level: Level = Level.USUAL) -> Iterator[str]:
+def one(section: Section[T], whole: T, d: Plain, level: Level = Level.USUAL) -> Iterator[str]:
     """A result: the answer first."""
     headline = "; ".join(phrases(section, whole, d, Level.HEADLINE))
     subject = section.title(whole, d) if section.title else ""
@@ -93,7 +95,7 @@ def one(section: Section, whole: Any, d: Plain, level: Level = Level.USUAL) -> I
     yield from body(section, whole, d, level, 1)
 
 
-def body(section: Section, whole: Any, d: Plain, level: Level, depth: int) -> Iterator[str]:
+def body(section: Section[T], whole: T, d: Plain, level: Level, depth: int) -> Iterator[str]:
     """The facts below the headline. Usually some share a line; with details each has its own, and
     parts are below under their titles.
     """
@@ -101,17 +103,16 @@ def body(section: Section, whole: Any, d: Plain, level: Level, depth: int) -> It
     rows: list[tuple[str, str]] = []
     below: list[Fact] = []
     for fact in section.facts(whole, level):
-        kind = fact.row.kind
         if fact.level > level or not fact.is_something:
             continue
         if fact.level == Level.HEADLINE and depth == 1:
             continue
         if fact.row.is_short and level >= Level.DETAIL:
             continue
-        if kind.is_below or _is_opened(fact, level):
+        if fact.is_below or _is_opened(fact, level):
             below.append(fact)
-        elif kind.rows is not None:
-            rows += kind.rows(fact.value, d)
+        elif isinstance(fact.shown, Labels):
+            rows += fact.shown.rows(fact.value, d)
         elif fact.row.line and level < Level.DETAIL:
             sentences.setdefault(fact.row.line, []).append(phrase(fact, d))
         elif text := words(fact, d):
@@ -127,26 +128,28 @@ def body(section: Section, whole: Any, d: Plain, level: Level, depth: int) -> It
 
 def _is_opened(fact: Fact, level: Level) -> bool:
     """Whether a part is reported fact by fact."""
-    return fact.row.kind.section is not None and fact.value is not None and level >= Level.DETAIL
+    is_part = isinstance(fact.shown, (Part, Parts))
+    return is_part and fact.value is not None and level >= Level.DETAIL
 
 
 def labelled(
-    section: Section, whole: Any, d: Plain, level: Level, without: Collection[str] = ()
+    section: Section[T], whole: T, d: Plain, level: Level, without: Collection[str] = ()
 ) -> Iterator[tuple[str, list[tuple[str, str]]]]:
     """The facts as labels with words, the parts behind them under their titles."""
     rows: list[tuple[str, str]] = []
     below: list[tuple[str, list[tuple[str, str]]]] = []
     for fact in section.facts(whole, level):
-        kind = fact.row.kind
+        shown = fact.shown
         if fact.level > level or not fact.is_something or fact.row.key in without:
             continue
-        if kind.section is not None and kind.section.title is not None and fact.value is not None:
-            for part in fact.value if kind.is_list else [fact.value]:
-                (_, part_rows), *_ = labelled(kind.section, part, d, level, without)
-                below.append((kind.section.title(part, d), part_rows))
-        elif kind.rows is not None:
-            rows += kind.rows(fact.value, d)
-        elif not kind.is_below or kind.most is not None:
+        titled = shown.section.title if isinstance(shown, (Part, Parts)) else None
+        if isinstance(shown, (Part, Parts)) and titled is not None and fact.value is not None:
+            for part in shown.values(fact.value):
+                (_, part_rows), *_ = labelled(shown.section, part, d, level, without)
+                below.append((titled(part, d), part_rows))
+        elif isinstance(shown, Labels):
+            rows += shown.rows(fact.value, d)
+        elif not fact.is_below or isinstance(shown, Parts):
             rows.append((label(fact, d), words(fact, d)))
     yield "", rows
     yield from below
@@ -154,51 +157,48 @@ def labelled(
 
 def block(fact: Fact, d: Plain, level: Level, depth: int) -> Iterator[str]:
     """A part under its title; a list of flat parts as a table; a picture."""
-    kind, value = fact.row.kind, fact.value
-    section = kind.section
-    if kind.draw is not None:
-        yield from kind.draw(value, d)
-    elif kind.scene is not None:
-        yield from d.scene(kind.scene(value), depth)
-    elif kind.is_stream:
-        yield from stream(fact, d, depth)
-    elif section is None:
-        assert kind.lines is not None
-        yield from d.picture(kind.lines(value, d), depth)
-    elif kind.is_list and section.title is None:
-        yield from table(fact, d, level, depth)
-    else:
-        values = value if kind.is_list else [value]
-        shown = values if level >= Level.DETAIL else values[: kind.most]
-        for part in shown:
-            lines = list(body(section, part, d, level, depth + 1))
-            if lines:
-                named = section.title(part, d) if section.title else label(fact, d)
-                yield from d.title(named, depth)
-                yield from lines
-        if more := len(values) - len(shown):
-            yield from d.more(more, depth)
+    shown, value = fact.shown, fact.value
+    match shown:
+        case Drawing():
+            yield from shown.draw(value, d)
+        case Plot():
+            yield from d.scene(shown.scene(value), depth)
+        case Picture():
+            yield from d.picture(shown.lines(value, d), depth)
+        case Stream():
+            yield from stream(shown, value, d, depth)
+        case Parts() if shown.section.title is None:
+            yield from table(fact, shown, d, level, depth)
+        case Part() | Parts():
+            section, values = shown.section, shown.values(value)
+            most = shown.most if isinstance(shown, Parts) and level < Level.DETAIL else None
+            for part in values[:most]:
+                lines = list(body(section, part, d, level, depth + 1))
+                if lines:
+                    named = section.title(part, d) if section.title else label(fact, d)
+                    yield from d.title(named, depth)
+                    yield from lines
+            if more := len(values) - len(values[:most]):
+                yield from d.more(more, depth)
 
 
-def stream(fact: Fact, d: Plain, depth: int) -> Iterator[str]:
+def stream(shown: Stream[T], parts: Iterable[T], d: Plain, depth: int) -> Iterator[str]:
     """A list of flat parts, a line each, while it is found."""
-    section, by = fact.row.kind.section, fact.row.kind.by
-    assert section is not None
+    section, by = shown.section, shown.by
     level = COLUMNS[d.breadth]
     rows = section.columns_of(level)
     heads = [named(row, d) for row in rows]
     is_grouped = level == Level.USUAL
-    for heading, parts in groupby(fact.value, lambda x: by(x, d) if by and is_grouped else ""):
+    for heading, same in groupby(parts, lambda x: by(x, d) if by and is_grouped else ""):
         if heading:
             yield from d.title(heading, depth - 1)
-        lines = ([cell(row.fact(part), d) for row in rows] for part in parts)
+        lines = ([cell(row.fact(part), d) for row in rows] for part in same)
         yield from d.grid(heads, lines, Layout(depth, is_stream=True))
 
 
-def table(fact: Fact, d: Plain, level: Level, depth: int) -> Iterator[str]:
+def table(fact: Fact, told: Parts[T], d: Plain, level: Level, depth: int) -> Iterator[str]:
     """A list of flat parts, a line each; of a long one usually the first."""
-    section, most = fact.row.kind.section, fact.row.kind.most
-    assert section is not None
+    section, most = told.section, told.most
     values = fact.value if level >= Level.DETAIL else fact.value[: most or None]
     shown = [dict(_cells(section, x, d, level)) for x in values]
     heads = [*dict.fromkeys(head for row in shown for head in row)]
@@ -212,18 +212,18 @@ def table(fact: Fact, d: Plain, level: Level, depth: int) -> Iterator[str]:
         yield from d.more(more, depth + 1)
 
 
-def _cells(section: Section, part: Any, d: Plain, level: Level) -> Iterator[tuple[str, str]]:
+def _cells(section: Section[T], part: T, d: Plain, level: Level) -> Iterator[tuple[str, str]]:
     """The heads and the cells of a line; a part of it and what is reported as rows have columns of
     their own.
     """
     for fact in section.facts(part, level):
-        kind, value = fact.row.kind, fact.value
+        shown, value = fact.shown, fact.value
         if fact.level > level:
             continue
-        if kind.rows is not None:
-            yield from () if value is None else kind.rows(value, d)
-        elif kind.section is not None and not kind.is_list and kind.words is None:
-            yield from () if value is None else _cells(kind.section, value, d, level)
+        if isinstance(shown, Labels):
+            yield from () if value is None else shown.rows(value, d)
+        elif isinstance(shown, Part) and shown.words is None:
+            yield from () if value is None else _cells(shown.section, value, d, level)
         else:
             yield label(fact, d), cell(fact, d)
 
@@ -236,7 +236,9 @@ def filled(
     return [heads[i] for i in kept], [[row[i] for i in kept] for row in rows]
 
 
-def many(form: Form, wholes: Sequence[Any], dialect: Callable[[Any], Plain]) -> Iterator[str]:
+def many(
+    form: Callable[[T], Section[T]], wholes: Sequence[T], dialect: Callable[[T], Plain]
+) -> Iterator[str]:
     """Several results, a line each; columns that nothing fills are left out."""
     keys = form(wholes[0]).columns
     heads = list(keys)

@@ -2,87 +2,46 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterable, Sequence
+from typing import TYPE_CHECKING, TypeVar
 
-from garkcli.tell.facts import Answer, Getter, Kind, Level, Row, Section, Words
+from garkcli.tell.facts import Kind, Level, Row, Section, Several
+from garkcli.tell.shown import Drawing, Labels, Part, Parts, Picture, Plot, Stream, Words
 
 if TYPE_CHECKING:
     from garkcli.plots.scene import Scene
     from garkcli.tell.dialect import Plain
+    from garkcli.tell.shown import Labelling, Phrasing, Wording
+
+T = TypeVar("T")
 
 
-def part(section: Section, words: Words | None = None) -> Kind:
+def part(
+    section: Section[T], words: Wording[T] | None = None, phrase: Phrasing[T] | None = None
+) -> Kind[T]:
     """A value with facts of its own; its words where its gist does not do."""
-    return Kind({}, section=section, words=words)
+    return Kind(section, Part(section, words, phrase))
 
 
-def told(words: Words, phrase: Callable[[str, Answer, Plain], str] | None = None) -> Kind:
-    """What is for people alone."""
-    return Kind({}, words=words, phrase=phrase, is_data=False)
-
-
-SAID = Kind({}, words=lambda text, d: d.prose(text), is_data=False)
-"""Words for people alone."""
-
-BESIDE = told(lambda text, d: "" if d.breadth == "page" else d.prose(text))
-"""Words for which documents have no room."""
-
-
-def answer(words: Words, get: Getter = ".") -> Row:
-    """The answer, in the first line."""
-    return Row("answer", told(words), get, Level.HEADLINE, label="")
-
-
-def rows_of(rows: Callable[[Any, Plain], list[tuple[str, str]]]) -> Kind:
-    """Labels with words, for people alone."""
-    return Kind({}, rows=rows, is_data=False)
-
-
-def picture(lines: Callable[[Any, Plain], list[str]]) -> Kind:
-    """A picture in signs, for people alone."""
-    return Kind({}, lines=lines, is_data=False)
-
-
-def drawing(draw: Callable[[Any, Plain], list[str]]) -> Kind:
-    """What each output draws in its way, for people alone."""
-    return Kind({}, draw=draw, is_data=False)
-
-
-def scene(make: Callable[[Any], Scene]) -> Kind:
-    """A picture of its axes, curves and areas, for people alone."""
-    return Kind({}, scene=make, is_data=False)
-
-
-def sentence(words: Callable[[Any], str]) -> Row:
-    """What is reported above or below a list, when it is its turn."""
-
-    def lines(x: Any, d: Plain) -> list[str]:
-        text = words(x)
-        return d.sentence(d.prose(text), 0) if text else []
-
-    return Row("sentence", drawing(lines), ".", label="")
-
-
-def parts(section: Section, words: Words | None = None) -> Kind:
+def parts(section: Section[T], words: Wording[Sequence[T]] | None = None) -> Kind[Sequence[T]]:
     """A list of such values."""
-    return Kind({}, section=section, is_list=True, words=words)
+    return Kind(Several(section), Parts(section, words))
 
 
-def table(section: Section, most: int, is_data: bool = True) -> Kind:
+def table(section: Section[T], most: int) -> Kind[Sequence[T]]:
     """A list of flat parts, a line each, of which so many are usual. Where the first column has no
     label of its own, that of the list is its head. A part of a line, and what is reported as rows,
     have columns of their own.
     """
-    return Kind({}, section=section, is_list=True, most=most, is_data=is_data)
+    return Kind(Several(section), Parts(section, most=most))
 
 
-def shown(section: Section, most: int) -> Kind:
-    """The same for people alone."""
-    return table(section, most, is_data=False)
+def shown(section: Section[T], most: int) -> Kind[Sequence[T]]:
+    """A table for people alone."""
+    return Kind(None, Parts(section, most=most))
 
 
-def stream(section: Section, by: Callable[[Any, Plain], str] | None = None) -> Kind:
+def stream(section: Section[T], by: Wording[T] | None = None) -> Kind[Iterable[T]]:
     """A list of flat parts that is reported while it is found; memory does not grow with it. A
     terminal shows the usual rows of a part, LaTeX those of details too, Markdown those that
     programs get.
@@ -91,4 +50,51 @@ def stream(section: Section, by: Callable[[Any, Plain], str] | None = None) -> K
         section: of a part.
         by: the heading above parts that have the same.
     """
-    return Kind({}, section=section, is_list=True, is_stream=True, by=by)
+    return Kind(Several(section), Stream(section, by))
+
+
+def told(words: Wording[T], phrase: Phrasing[T] | None = None) -> Kind[T]:
+    """Words for people alone."""
+    return Kind(None, Words(words, phrase=phrase))
+
+
+SAID: Kind[str] = told(lambda text, d: d.prose(text))
+"""Words for people alone."""
+
+BESIDE: Kind[str] = told(lambda text, d: "" if d.breadth == "page" else d.prose(text))
+"""Words for which documents have no room."""
+
+
+def answer(words: Wording[T]) -> Row[T]:
+    """The answer about a result, in the first line."""
+    return Row("answer", told(words), lambda x: x, Level.HEADLINE, label="")
+
+
+def rows_of(rows: Labelling[T]) -> Kind[T]:
+    """Labels with words, for people alone."""
+    return Kind(None, Labels(rows))
+
+
+def picture(lines: Callable[[T, Plain], Sequence[str]]) -> Kind[T]:
+    """A picture in signs, for people alone."""
+    return Kind(None, Picture(lines))
+
+
+def drawing(draw: Callable[[T, Plain], Iterable[str]]) -> Kind[T]:
+    """A drawing of each output, for people alone."""
+    return Kind(None, Drawing(draw))
+
+
+def scene(make: Callable[[T], Scene]) -> Kind[T]:
+    """A picture of its axes, curves and areas, for people alone."""
+    return Kind(None, Plot(make))
+
+
+def sentence(words: Callable[[T], str]) -> Row[T]:
+    """A sentence above or below a list, in its order among the rows."""
+
+    def lines(x: T, d: Plain) -> list[str]:
+        text = words(x)
+        return d.sentence(d.prose(text), 0) if text else []
+
+    return Row("sentence", drawing(lines), lambda x: x, label="")

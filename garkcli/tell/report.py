@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from itertools import chain
-from typing import Any, Generic, TypeAlias, TypeVar
+from typing import Any, Generic, Never, TypeAlias, TypedDict, TypeVar, Unpack
 
 from garkcli.frozen import Frozen
 from garkcli.page.json_text import to_json
@@ -14,15 +14,29 @@ from garkcli.page.schema import Schema, array, one_of, published
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Level, Section
 from garkcli.tell.outputs import body, labelled, many, one
+from garkcli.tell.shown import Plot, Stream
 
 Whole = TypeVar("Whole")
 Labelled: TypeAlias = "tuple[str, list[tuple[str, str]]]"
+Lines: TypeAlias = "tuple[Section[Any], Iterable[Any]]"
 TABLES = ("markdown", "latex")
 """The formats in which several results are a table, unless everything is requested."""
-NOTHING = Section()
+NOTHING: Section[object] = Section()
 PLAIN = Paint()
 CLOSED = {"additionalProperties": False}
 FORMATS = ("text", "json", "markdown", "latex")
+
+
+class Signs(TypedDict, total=False):
+    """Attributes of a dialect that a result or the command decides."""
+
+    digits: int
+    width: int
+    colours: Sequence[str]
+    names: Sequence[str]
+    parameter: str
+    places: int | None
+    is_inserted: bool
 
 
 def _dialect(format: str) -> type[Plain]:
@@ -43,7 +57,7 @@ def _dialect(format: str) -> type[Plain]:
 
 
 class Report(Frozen, Generic[Whole]):
-    """What a command tells: of each file a result, by the rows of its form.
+    """The report of a command: of each file a result, by the rows of its form.
 
     Attributes:
         schema_name: of its JSON.
@@ -54,27 +68,27 @@ class Report(Frozen, Generic[Whole]):
         key: of the list of results in JSON; empty where there is one, whose fields are at the top.
         tail: further fields of the document, of all results.
         is_open: whether the schema allows others.
-        lines: of a result what CSV has, with the section that tells it.
+        lines: the parts of a result that CSV has, with the section that tells them.
     """
 
     schema_name: str
     title: str
-    forms: Callable[[], Iterable[Section]]
-    form: Callable[[Whole], Section]
-    signs: Callable[[Whole], Mapping[str, Any]] = lambda _: {}
+    forms: Callable[[], Iterable[Section[Never]]]
+    form: Callable[[Whole], Section[Whole]]
+    signs: Callable[[Whole], Signs] = lambda _: {}
     key: str = "files"
-    tail: Section = NOTHING
+    tail: Section[Sequence[Whole]] = NOTHING
     is_open: bool = False
-    lines: Callable[[Whole], tuple[Section, Iterable[Any]]] | None = None
+    lines: Callable[[Whole], Lines] | None = None
 
     @classmethod
     def only(
         cls,
         schema_name: str,
         title: str,
-        section: Section,
-        signs: Callable[[Whole], Mapping[str, Any]] = lambda _: {},
-        lines: Callable[[Whole], tuple[Section, Iterable[Any]]] | None = None,
+        section: Section[Whole],
+        signs: Callable[[Whole], Signs] = lambda _: {},
+        lines: Callable[[Whole], Lines] | None = None,
     ) -> Report[Whole]:
         """A report of one result, whose fields are at the top, by one section."""
         return cls(
@@ -87,7 +101,7 @@ class Report(Frozen, Generic[Whole]):
         format: str = "text",
         paint: Paint = PLAIN,
         verbosity: int = 0,
-        **signs: Any,
+        **signs: Unpack[Signs],
     ) -> str:
         """All results in a format.
 
@@ -110,7 +124,7 @@ class Report(Frozen, Generic[Whole]):
             level = Level.HEADLINE
         if len(wholes) > 1 and verbosity == 0 and format in TABLES and self.columns(wholes[0]):
             return self.table(wholes, format)
-        texts = (self._told(x, format, level, paint=paint, **signs) for x in wholes)
+        texts = (self._told(x, format, paint, level, **signs) for x in wholes)
         return ("" if level == Level.HEADLINE and format == "text" else "\n").join(texts)
 
     def pieces(
@@ -119,7 +133,7 @@ class Report(Frozen, Generic[Whole]):
         format: str = "text",
         paint: Paint = PLAIN,
         verbosity: int = 0,
-        **signs: Any,
+        **signs: Unpack[Signs],
     ) -> Iterator[str]:
         """A result with a stream in pieces, while it is found, also as JSON a line a part.
 
@@ -131,7 +145,7 @@ class Report(Frozen, Generic[Whole]):
             signs: as in ``render``.
         """
         form = self.form(whole)
-        streams = [row for row in form.rows if row.kind.is_stream]
+        streams = [row for row in form.rows if isinstance(row.kind.shown, Stream)]
         if not streams and format == "ndjson":
             yield _json_line(self.document([whole])) + "\n"
         elif not streams:
@@ -143,47 +157,55 @@ class Report(Frozen, Generic[Whole]):
             from garkcli.tell.csv import csv_lines
 
             (row,) = streams
-            section, parts = row.kind.section, row.fact(whole).value
-            assert section is not None
+            shown, parts = row.kind.shown, row.fact(whole).value
+            assert isinstance(shown, Stream)
             d = Plain(**self.signs(whole))
             if format == "csv":
-                yield from csv_lines(section, parts, d)
+                yield from csv_lines(shown.section, parts, d)
             else:
-                yield from (_json_line(section.data(x, d)) + "\n" for x in parts)
+                yield from (_json_line(shown.section.data(x, d)) + "\n" for x in parts)
         else:
             if verbosity < 0:  # the stream is counted and not shown
                 for row in streams:
                     deque(row.fact(whole).value, 0)
-                form = Section(*(row for row in form.rows if not row.kind.is_stream))
+                form = Section([row for row in form.rows if row not in streams])
             level = Level.DETAIL if verbosity > 0 or format == "latex" else Level.USUAL
-            d = self.dialect(whole, format, paint=paint, is_brief=level < Level.DETAIL, **signs)
+            d = self.dialect(whole, format, paint, level < Level.DETAIL, **signs)
             yield from d.page(one(form, whole, d, level))
 
-    def _json_pieces(self, form: Section, whole: Whole) -> Iterator[str]:
+    def _json_pieces(self, form: Section[Whole], whole: Whole) -> Iterator[str]:
         """The document, a line a part of its stream."""
         d = Plain(**self.signs(whole))
         yield f'{{"schema": "{self.schema_name}"'
         for row in form.rows:
-            if not row.kind.is_stream:
+            if not isinstance(row.kind.shown, Stream):
                 if fields := row.data(whole, d):
                     yield f", {_json_line(fields)[1:-1]}"
                 continue
-            section = row.kind.section
-            assert section is not None
             yield f', "{row.key}": ['
             separator = "\n"
             for part in row.fact(whole).value:
-                yield separator + _json_line(section.data(part, d))
+                yield separator + _json_line(row.kind.shown.section.data(part, d))
                 separator = ",\n"
             yield "\n]"
         yield "}\n"
 
-    def dialect(self, whole: Whole, format: str, **signs: Any) -> Plain:
+    def dialect(
+        self,
+        whole: Whole,
+        format: str,
+        paint: Paint = PLAIN,
+        is_brief: bool = True,
+        **signs: Unpack[Signs],
+    ) -> Plain:
         """The signs of a format for a result."""
-        return _dialect(format)(**{**self.signs(whole), **signs})
+        merged: Signs = {**self.signs(whole), **signs}
+        return _dialect(format)(paint=paint, is_brief=is_brief, **merged)
 
-    def _told(self, whole: Whole, format: str, level: Level, **signs: Any) -> str:
-        d = self.dialect(whole, format, is_brief=level < Level.DETAIL, **signs)
+    def _told(
+        self, whole: Whole, format: str, paint: Paint, level: Level, **signs: Unpack[Signs]
+    ) -> str:
+        d = self.dialect(whole, format, paint, level < Level.DETAIL, **signs)
         return "".join(d.page(one(self.form(whole), whole, d, level)))
 
     def columns(self, whole: Whole) -> Sequence[str]:
@@ -198,7 +220,7 @@ class Report(Frozen, Generic[Whole]):
     def html(self, whole: Whole) -> str:
         """A fragment of a page with its pictures, for notebooks."""
         form, d = self.form(whole), self.dialect(whole, "html", is_brief=True)
-        pictures = Section(*(row for row in form.rows if row.kind.scene is not None))
+        pictures = Section([row for row in form.rows if isinstance(row.kind.shown, Plot)])
         lines = one(form, whole, d), body(pictures, whole, d, Level.DETAIL, 1)
         return "".join(d.page(chain(*lines)))
 

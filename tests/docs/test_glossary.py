@@ -20,6 +20,7 @@ from garkcli.tell.facts import Level, Row, Section
 from garkcli.tell.kinds import COUNT
 from garkcli.tell.parts import part
 from garkcli.tell.report import Report
+from garkcli.tell.shown import Labels, Part, Parts, Picture, Plot, Stream
 from tests.cli.harness import gark
 from tests.docs.tables import terms_tables
 from tests.whole import in_whole
@@ -141,13 +142,13 @@ def row_labels(section: Section) -> Iterator[str]:
     """What people read in front of the rows of a report and of its parts, and above columns."""
     for row in section.rows:
         is_seen = callable(row.level) or row.level < Level.DATA or row.key in section.columns
-        kind = row.kind
+        shown = row.kind.shown
         if not is_seen:
             continue
-        if kind.rows is None and kind.lines is None and kind.scene is None:
+        if not isinstance(shown, (Labels, Picture, Plot)):
             yield label_of(row.key) if row.label is None else row.label
-        if kind.section is not None:
-            yield from row_labels(kind.section)
+        if isinstance(shown, (Part, Parts, Stream)):
+            yield from row_labels(shown.section)
 
 
 def declared_forms() -> Iterator[Section]:
@@ -174,8 +175,8 @@ def test_every_label_of_the_renderers_is_explained() -> None:
 
 def test_a_row_that_nobody_explains_is_found() -> None:
     """A new row with a label that is no word fails, in a part too; one for programs alone does not."""
-    inner = Section(Row("wibble", COUNT), Row("wobble", COUNT, level=Level.DATA))
-    whole = Section(Row("order", COUNT), Row("all", part(inner)))
+    inner = Section(Row("wibble", COUNT, len), Row("wobble", COUNT, len, Level.DATA))
+    whole = Section(Row("order", COUNT, len), Row("all", part(inner), lambda x: x))
     assert [x for x in row_labels(whole) if not known(x)] == ["wibble"]
 
 

@@ -24,7 +24,7 @@ from garkcli.page.paint import Paint
 from garkcli.report.check_text import render
 from garkcli.report.checked import REPORT
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Row, Section, maybe, optional
+from garkcli.tell.facts import Row, Section, maybe, optional, via
 from garkcli.tell.kinds import COUNT, EXPRESSION, INDEX, TEXT
 from garkcli.tell.parts import part, rows_of, table
 from garkcli.tell.report import Report
@@ -200,7 +200,10 @@ def test_a_row_is_in_every_format() -> None:
         return Report("gark/wobble/1", "wobbles", lambda: [section], lambda _: section, key="")
 
     without = report()
-    rows = Row("wibbles", COUNT), Row("inner_part", part(INNER), lambda x: x.inner)
+    rows = (
+        Row("wibbles", COUNT, lambda x: x.wibbles),
+        Row("inner_part", part(INNER), lambda x: x.inner),
+    )
     added = report(*rows)
     assert "wibbles" not in str(without.schema)
     found: dict[str, Any] = json.loads(added.json([whole]))
@@ -452,23 +455,17 @@ def test_conjugate_and_pair_of_a_family_of_one_colour_are_details(tmp_path: Path
     assert "pair order" in gark("check", str(two)).out
 
 
-def test_a_row_takes_its_value_by_a_path() -> None:
-    """A path leads through attributes and places, stops at None, and a dot is the whole; without
-    one the key is the attribute. What may be missing says so in the schema.
-    """
-    inner = SimpleNamespace(count=3, text="x")
-    whole = SimpleNamespace(count=1, pair=(None, inner), nothing=None)
-    assert Row("count", COUNT).answer(whole).value == 1
-    assert Row("n", COUNT, "pair.1.count").answer(whole).value == 3
-    assert maybe("n", COUNT, "pair.0.count").answer(whole).value is None
-    assert maybe("n", COUNT, "nothing.count.more").answer(whole).value is None
-    assert Row("n", COUNT, ".").answer(whole).value is whole
-    assert Row("n", COUNT, "count").of(lambda x: x.pair[1]).answer(whole).value == 3
-    assert Row("n", COUNT, "count").of(lambda x: x.nothing).answer(whole).value is None
-    with pytest.raises(AttributeError):
-        Row("n", COUNT, "pair.1.size").answer(whole)
-    section = Section(
-        maybe("null", COUNT, "nothing"), optional("left", COUNT, "nothing"), Row("count", COUNT)
+def test_rows_of_a_part_are_rows_of_its_owner() -> None:
+    """Without a part they have no value. What may be missing says so in the schema."""
+    whole = SimpleNamespace(count=1, part=SimpleNamespace(count=3), nothing=None)
+    count: Row[Any] = Row("n", COUNT, lambda x: x.count)
+    assert count.answer(whole).value == 1
+    assert [row.answer(whole).value for row in via(lambda x: x.part, [count])] == [3]
+    assert [row.answer(whole).value for row in via(lambda x: x.nothing, [count])] == [None]
+    section: Section[Any] = Section(
+        maybe("null", COUNT, lambda x: x.nothing),
+        optional("left", COUNT, lambda x: x.nothing),
+        [Row("count", COUNT, lambda x: x.count)],
     )
     assert section.data(whole, Plain()) == {"null": None, "count": 1}
     assert section.schema["required"] == ["null", "count"]
@@ -477,9 +474,10 @@ def test_a_row_takes_its_value_by_a_path() -> None:
 
 def test_what_counts_from_0_is_told_from_1() -> None:
     """People and programs get the number of a stage or colour from 1."""
-    section = Section(Row("entry", INDEX), maybe("row", INDEX))
-    whole = SimpleNamespace(entry=0, row=None)
-    assert section.data(whole, Plain()) == {"entry": 1, "row": None}
+    section: Section[tuple[int, int | None]] = Section(
+        Row("entry", INDEX, lambda x: x[0]), maybe("row", INDEX, lambda x: x[1])
+    )
+    assert section.data((0, None), Plain()) == {"entry": 1, "row": None}
     assert INDEX(0).words(Plain()) == "1"
 
 

@@ -67,7 +67,7 @@ def _orders(outcome: Outcome) -> Iterator[Content]:
             problem = typeset("y'=f(t,y)", "y' = f(t, y)")
             text = Markup("On {} with the nodes as printed; the last colour is time.")
             notes.append(text.format(problem))
-        witness = fact.answer.more or getattr(fact.value, "witness", None)
+        witness = fact.answer.witness or getattr(fact.value, "witness", None)
         has_colours: bool | Sequence[str] = len(d.colours) > 1
         if d.names:
             has_colours = fact.answer.names or d.names

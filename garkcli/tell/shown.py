@@ -1,0 +1,116 @@
+"""How values are shown to people: in words, as labels, as pictures, in parts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from typing import TYPE_CHECKING, Generic, TypeAlias, TypeVar
+
+from garkcli.frozen import Frozen
+
+if TYPE_CHECKING:
+    from garkcli.plots.scene import Scene
+    from garkcli.tell.dialect import Plain
+    from garkcli.tell.facts import Answer, Section
+
+V = TypeVar("V", contravariant=True)
+T = TypeVar("T")
+Wording: TypeAlias = "Callable[[T, Plain], str]"
+Labelling: TypeAlias = "Callable[[T, Plain], Iterable[tuple[str, str]]]"
+Phrasing: TypeAlias = "Callable[[str, Answer[T], Plain], str]"
+"""Makes a part of a sentence of a label and an answer."""
+
+
+class Shown(Frozen, Generic[V]):
+    """A way to show a value."""
+
+
+class Words(Shown[V]):
+    """In a line.
+
+    Attributes:
+        words: the value in the signs of a dialect.
+        whole: the answer in words, if its status and its reason are not added after those.
+        phrase: a part of a sentence, if that is not the label with the words.
+        absent: the cell of a table if there is no value.
+    """
+
+    words: Wording[V]
+    whole: Callable[[Answer[V], Plain], str] | None = None
+    phrase: Phrasing[V] | None = None
+    absent: str = ""
+
+
+class Labels(Shown[V]):
+    """As rows among those of other facts."""
+
+    rows: Labelling[V]
+
+
+class Below(Shown[V]):
+    """In lines of its own, below the other facts."""
+
+
+class Picture(Below[V]):
+    """A picture in signs, which only some outputs have room for."""
+
+    lines: Callable[[V, Plain], Sequence[str]]
+
+
+class Drawing(Below[V]):
+    """Finished lines of the output."""
+
+    draw: Callable[[V, Plain], Iterable[str]]
+
+
+class Plot(Below[V]):
+    """Axes, curves and areas, which each output draws in its way."""
+
+    scene: Callable[[V], Scene]
+
+
+class Part(Shown[T]):
+    """By the facts of a section: the usual ones in a line, with details each in its own.
+
+    Attributes:
+        section: tells the value.
+        words: the line, if the usual facts do not make it.
+        phrase: as in ``Words``.
+    """
+
+    section: Section[T]
+    words: Wording[T] | None = None
+    phrase: Phrasing[T] | None = None
+
+    def values(self, value: T) -> Sequence[T]:
+        """The parts."""
+        return [value]
+
+
+class Parts(Shown[Sequence[T]]):
+    """The parts of a list, each by the facts of a section.
+
+    Attributes:
+        section: tells a part.
+        words: the line of all of them, if the usual facts do not make it.
+        most: so many rows of a table are usual, 0 for all; None if a line is usual.
+    """
+
+    section: Section[T]
+    words: Wording[Sequence[T]] | None = None
+    most: int | None = None
+
+    def values(self, value: Sequence[T]) -> Sequence[T]:
+        """The parts."""
+        return value
+
+
+class Stream(Below[Iterable[T]]):
+    """A line for each part, while the parts are found.
+
+    Attributes:
+        section: tells a part.
+        by: the heading of a part; a terminal shows it above parts that share it.
+    """
+
+    section: Section[T]
+    by: Wording[T] | None = None
