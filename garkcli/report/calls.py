@@ -1,4 +1,4 @@
-"""What commands print, as calls: references, certificates, sweeps, names."""
+"""Commands as calls: references, certificates, sweeps, names."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ WORKS = (
 
 
 def certificate(method: AnyMethod, format: Literal["json", "coq"] = "json") -> str:
-    """What proves the orders of a method, as JSON text or for Coq: ``gark certificate``.
+    """A proof of the orders of a method, as JSON text or for Coq: ``gark certificate``.
 
     Args:
         method: whatever ``method_of`` takes.

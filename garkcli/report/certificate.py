@@ -32,7 +32,7 @@ from garkcli.reason import NO_REASON
 from garkcli.tableau.polynomial_space import PolynomialSpace
 from garkcli.tableau.stages import StageSpace
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Json, Kind, Level, Row, Rows, Section, maybe, optional, via
+from garkcli.tell.facts import Json, Kind, Level, Row, Rows, Section, itself, maybe, optional, via
 from garkcli.tell.kinds import COUNT, INDEX, POSITION, TEXT, TREE, TRUTH, choice, order_answer
 from garkcli.tell.parts import SAID, part, parts, rows_of, told
 from garkcli.tell.report import Report
@@ -63,12 +63,12 @@ class In(NamedTuple, Generic[P]):
 
 
 def _signs(proof: Proof | ExistenceProof, d: Plain) -> Plain:
-    """The signs for the trees of a method, its conjugate or its pair."""
+    """The dialect with the colours of a method, its conjugate or its pair."""
     return replace(d, colours=[colour.name for colour in proof.tableau.colours])
 
 
 def _proved(proof: Proof, d: Plain) -> str:
-    """An order, by how many trees it is proved, and the tree that fails."""
+    """``4, proved by 8 trees; order 5 fails at …``."""
     found = proof.order
     count = sum(len(trees) for by_colour in proof.spanning for trees in by_colour)
     order = d.known(str(found.order), order_answer(found).status)
@@ -77,7 +77,6 @@ def _proved(proof: Proof, d: Plain) -> str:
 
 
 def _tree_rows(proof: Proof, d: Plain) -> list[tuple[str, str]]:
-    """The trees that span those of each order, colour after colour."""
     d = _signs(proof, d)
     return [
         (f"order {k}", ", ".join(d.tree(tree) for trees in by_colour for tree in trees))
@@ -89,7 +88,7 @@ def _tree_rows(proof: Proof, d: Plain) -> list[tuple[str, str]]:
 
 
 def _texts(polynomial: fmpq_poly) -> list[str]:
-    """The coefficients of a polynomial, lowest first."""
+    """Coefficients, lowest first."""
     return [str(a) for a in polynomial.coeffs()]
 
 
@@ -188,7 +187,6 @@ def _blocks(tableau: Tableau) -> list[Block]:
 
 
 def _all(found: Iterable[P], tableau: Tableau) -> list[In[P]]:
-    """Parts of a tableau with the degree of its numbers."""
     return [In(x, tableau.degree) for x in found]
 
 
@@ -210,7 +208,7 @@ TRUE_OF: Rows[Proof] = [
     Row("order", COUNT, lambda x: x.order.order, DATA),
     Row("spanning", TREES, lambda x: x.spanning, DATA),
     maybe("witness", part(WITNESS), _witness, DATA),
-    Row("spanning_in_words", rows_of(_tree_rows), lambda x: x, DETAIL),
+    itself("spanning_in_words", rows_of(_tree_rows), DETAIL),
 ]
 TRUTH_OF = Section(TRUE_OF)
 PROOF: Section[Proof] = Section(
@@ -222,7 +220,7 @@ PROOF: Section[Proof] = Section(
 
 
 def _pair(proof: MethodProof) -> Proof | None:
-    """The pair where a reader can make it, of the method and its conjugate."""
+    """The pair, if the method has the conjugate that it is made with."""
     return None if proof.conjugate is None else proof.pair
 
 
@@ -245,7 +243,7 @@ EXACT: Section[MethodProof] = Section(
 
 
 def _exists(proof: ExistenceProof, d: Plain) -> str:
-    """The order, and by how many conditions a method with it is proved to exist."""
+    """``4: a method is proved to exist by 8 conditions``."""
     found = proof.order
     status = replace(order_answer(found).status, open=NO_REASON, at_least=proof.witness is None)
     order = d.known(str(found.order), status)
@@ -254,7 +252,7 @@ def _exists(proof: ExistenceProof, d: Plain) -> str:
 
 
 def _excluded(proof: ExistenceProof) -> str | None:
-    """By how many conditions the next order is excluded."""
+    """The proof that no method within the tolerance has the next order."""
     order, count = proof.order.order + 1, len(proof.witness or ())
     if count:
         how = "a condition excludes" if count == 1 else f"{count} conditions together exclude"
@@ -265,7 +263,6 @@ def _excluded(proof: ExistenceProof) -> str | None:
 
 
 def _condition_rows(proof: ExistenceProof, d: Plain) -> list[tuple[str, str]]:
-    """The conditions of each order."""
     d = _signs(proof, d)
     trees = [tree for tree, _ in proof.conditions]
     orders = range(1, proof.order.order + 1)
@@ -311,17 +308,16 @@ EXISTING: Section[ExistenceProof] = Section(
 WITHIN: Section[ExistenceProof] = Section(
     Row("name", TEXT, lambda x: x.name, DATA),
     Row("version", TEXT, lambda _: __version__, DATA),
-    Row("order", told(_exists), lambda x: x, HEADLINE),
+    itself("order", told(_exists), HEADLINE),
     Row("excluded", SAID, _excluded, label="next order"),
     Row("numbers", parts(PRINTED), lambda x: x.numbers, DATA),
-    Row("method", part(EXISTING), lambda x: x, DATA),
-    Row("spanning_in_words", rows_of(_condition_rows), lambda x: x, DETAIL),
+    itself("method", part(EXISTING), DATA),
+    itself("spanning_in_words", rows_of(_condition_rows), DETAIL),
     title=lambda x, d: d.prose(x.name),
 )
 
 
 def form(proof: MethodProof | ExistenceProof) -> Section[Any]:
-    """The rows of a proof."""
     return EXACT if isinstance(proof, MethodProof) else WITHIN
 
 
@@ -331,5 +327,4 @@ REPORT: Report[MethodProof | ExistenceProof] = Report(
 
 
 def whole(proof: MethodProof | ExistenceProof, _: str) -> MethodProof | ExistenceProof:
-    """The proof, which has a name."""
     return proof

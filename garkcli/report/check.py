@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING, Literal, NamedTuple, Protocol, TypeAlias, TypedDict, TypeVar
+from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias, TypedDict, TypeVar
 
 from garkcli.check.findings import (
     BOUND,
@@ -38,6 +38,7 @@ from garkcli.tell.facts import (
     Section,
     Several,
     Status,
+    itself,
     maybe,
     optional,
     via,
@@ -52,7 +53,7 @@ if TYPE_CHECKING:
     from garkcli.check.analysis import Analysis
     from garkcli.check.every_family import EveryFamily
     from garkcli.check.further import DenseFacts
-    from garkcli.check.outcome import Claim, Outcome
+    from garkcli.check.outcome import Claim, OtherAnalysis, Outcome
     from garkcli.check.remark import Remark
     from garkcli.exact.field import Number
     from garkcli.ntrees.tree import Tree
@@ -70,70 +71,13 @@ if TYPE_CHECKING:
     from garkcli.properties.property import Verdict
     from garkcli.tableau.tableau import Colour, Tableau
     from garkcli.tell.dialect import Plain
-    from garkcli.tell.shown import Wording
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 V = TypeVar("V", bound="bool | int | Size")
+AnyAnalysis: TypeAlias = "Analysis | OtherAnalysis"
 Edge: TypeAlias = "tuple[int, int]"
 Failing: TypeAlias = "tuple[Witness, Tableau]"
 """A condition that fails, with the tableau that misses it."""
-
-
-class HasVerdicts(Protocol):
-    """Decides properties of a method."""
-
-    def verdict(self, key: str, /) -> Verdict:
-        """What is true of a property."""
-
-
-class Judged(Protocol):
-    """An analysis that decides properties."""
-
-    @property
-    def subject(self) -> HasVerdicts:
-        """The method."""
-
-    @property
-    def tolerance(self) -> fmpq | None:
-        """The rounding of its coefficients."""
-
-
-class Analysed(Protocol):
-    """An analysis of a method."""
-
-    @property
-    def tableau(self) -> Tableau:
-        """Of the method."""
-
-    @property
-    def tolerance(self) -> fmpq | None:
-        """The rounding of its coefficients."""
-
-
-class Viewed(Analysed, Protocol):
-    """An analysis with an order for each claim."""
-
-    def view(self, claim: str, /) -> tuple[AnyOrder, Tableau] | None:
-        """The order that a claim is on, with the tableau that has it."""
-
-
-class Estimating(Protocol):
-    """Facts about embedded weights."""
-
-    @property
-    def estimator(self) -> Estimator:
-        """The estimate of the error that they give."""
-
-
-class HasEmbedded(Protocol):
-    """An analysis of a method that may have embedded weights."""
-
-    @property
-    def embedded(self) -> Estimating | None:
-        """Facts about these."""
-
-
-OfOtherKind = TypeVar("OfOtherKind", bound=Viewed)
 
 
 # the method
@@ -157,7 +101,7 @@ def stages_text(tableau: Tableau) -> str:
 
 
 def _shape_words(shape: Shape, tolerance: fmpq | None, d: Plain) -> str:
-    """``ESDIRK within 1e-9``: equal entries that are not zero are so within the rounding."""
+    """``ESDIRK within 1e-9``: zeros are exact, equal entries are so within the rounding."""
     return d.known(shape.name, Status(tolerance if shape.singly else None))
 
 
@@ -183,8 +127,8 @@ def _method_words(outcome: Outcome, d: Plain) -> str:
     return text if outcome.analysis is None else with_arithmetic(text, outcome.analysis)
 
 
-def with_arithmetic(text: str, a: Analysed) -> str:
-    """A method in words, with the numbers that its orders are decided in."""
+def with_arithmetic(text: str, a: AnyAnalysis) -> str:
+    """The method, with the arithmetic that decides its orders."""
     if a.tolerance is not None:
         return f"{text}; coefficients rounded"
     degree = a.tableau.degree
@@ -192,32 +136,8 @@ def with_arithmetic(text: str, a: Analysed) -> str:
     return f"{text}; decided in {field}"
 
 
-def viewed_order(key: str, level: Level = USUAL, label: str | None = None) -> Row[Viewed]:
-    """An order of an analysis with a ``view`` for each claim."""
-    claim = key.replace("_", "-")
-
-    def get(a: Viewed) -> Answer[AnyOrder]:
-        view = a.view(claim)
-        if view is None:
-            return Answer(None)
-        order, tableau = view
-        names = [x.name for x in tableau.colours] if tableau.size > 1 else []
-        return replace(kinds.order_answer(order), names=names)
-
-    return Row(key, kinds.ORDER, get, level, has_null=key != "order", label=label)
-
-
-def failing(*claims: str) -> Row[Viewed]:
-    """The trees at which the orders of some claims end, each with its tableau, drawn."""
-
-    def get(a: Viewed) -> list[Failing]:
-        return each_once(view for view in map(a.view, claims) if view is not None)
-
-    return Row("trees_that_fail", picture(drawn), get, DETAIL)
-
-
 def each_once(views: Iterable[tuple[AnyOrder, Tableau]]) -> list[Failing]:
-    """The conditions at which orders end, each once, with the tableau that misses it."""
+    """The failing conditions of some orders, each once."""
     found: list[Failing] = []
     for order, tableau in views:
         if order.witness and order.witness not in [x for x, _ in found]:
@@ -225,13 +145,10 @@ def each_once(views: Iterable[tuple[AnyOrder, Tableau]]) -> list[Failing]:
     return found
 
 
-METHOD: Row[Outcome] = Row(
-    "method", told(_method_words, _method_phrase), lambda x: x, line="method"
-)
+METHOD: Row[Outcome] = itself("method", told(_method_words, _method_phrase), line="method")
 
 
 def title(outcome: Outcome, d: Plain) -> str:
-    """What a report is about."""
     name = d.prose(outcome.file or outcome.name)
     if outcome.every is None:
         return name
@@ -239,9 +156,7 @@ def title(outcome: Outcome, d: Plain) -> str:
 
 
 def every_value(family: EveryFamily, d: Plain) -> str:
-    """Which values are meant by every value: those where there is a method, and which the file
-    admits.
-    """
+    """``every value of a where a ≠ 0``."""
     from garkcli.report.design_values import conditions, where  # of families alone
 
     of = d.prose(_some(family.family.parameters))
@@ -270,7 +185,7 @@ def of_several(key: str, get: Callable[[Analysis], AnyOrder | None]) -> Row[Anal
 
 
 def _pair_in_brief(a: Analysis) -> Answer[AnyOrder]:
-    """For one colour that is not symplectic, in a part of a sentence."""
+    """The order of the pair of a method of one colour that is not symplectic."""
     is_told = a.tableau.size == 1 and a.pair_order is not None and not a.symplectic
     return replace(kinds.order_answer(a.pair_order), level=USUAL if is_told else DATA)
 
@@ -286,14 +201,13 @@ def with_time(key: str, get: Callable[[Analysis], AnyOrder | None]) -> Row[Analy
 
 
 def witnesses(a: Analysis) -> list[Failing]:
-    """The conditions at which the orders of a method end."""
     claims = ("order", "conjugate-order", "pair-order", "embedded-order")
     views = (order_of(a, claim) for claim in claims)
     return each_once((order, tableau) for order, tableau in views if order and tableau)
 
 
 def drawn(found: Sequence[Failing], d: Plain) -> list[str]:
-    """Trees with the values of their conditions."""
+    """Trees with the values of their conditions, drawn."""
     lines = []
     room = d.width - 2
     for witness, tableau in found:
@@ -321,7 +235,7 @@ def table(
     kind: Kind[kinds.Table],
     rows: Callable[[Simplifying], Sequence[Sequence[int | None]]],
 ) -> Row[Analysis]:
-    """B, C or D of all blocks."""
+    """B, C or D, a number for each block."""
 
     def get(a: Analysis) -> Answer[kinds.Table]:
         found = kinds.Table(rows(a.simplifying), a.simplifying.limit)
@@ -331,7 +245,7 @@ def table(
 
 
 def bound(a: Analysis, is_sharp: bool, is_of_pair: bool = False) -> Answer[int] | None:
-    """A bound of the order, from what it is made."""
+    """A lower bound of the order, with the numbers that it is made of."""
     whose = a.pair_simplifying if is_of_pair else a.simplifying
     value = a.pair_bound if is_of_pair else a.bound
     if is_sharp:
@@ -347,7 +261,6 @@ def bound(a: Analysis, is_sharp: bool, is_of_pair: bool = False) -> Answer[int] 
 
 
 def pair_criterion(a: Analysis) -> Answer[int] | None:
-    """The order of the pair by B, C, D and the even condition."""
     found = pair_reason(a)
     if found is None:
         return None
@@ -355,7 +268,6 @@ def pair_criterion(a: Analysis) -> Answer[int] | None:
 
 
 def pair_criterion_why(a: Analysis) -> list[str]:
-    """The parts of that reason."""
     found = pair_reason(a)
     return [] if found is None else [*found.parts]
 
@@ -397,7 +309,7 @@ MOST_ROWS = 3
 
 
 def wrong(found: Sequence[Edge], letter: str, within: fmpq | None) -> Answer[bool]:
-    """Whether the nodes are the row sums."""
+    """Whether no block has other row sums than nodes."""
 
     def words(found: Sequence[Edge], d: Plain) -> str:
         return d.few([d.block(letter, edge) + d.prose("𝟙") for edge in found])
@@ -408,7 +320,7 @@ def wrong(found: Sequence[Edge], letter: str, within: fmpq | None) -> Answer[boo
 
 
 def consistent(a: Analysis) -> Answer[bool]:
-    """Whether those of the method are, told where they are not."""
+    """Whether the nodes are the row sums; told if they are not."""
     answer = wrong(a.inconsistent, "A", a.tolerance)
     if rows := a.wrong_rows:
         names = [colour.name for colour in a.tableau.colours]
@@ -419,7 +331,7 @@ def consistent(a: Analysis) -> Answer[bool]:
 
 
 def conjugate_consistent(a: Analysis) -> Answer[bool] | None:
-    """Whether those of the conjugate are, told of several colours."""
+    """Whether the nodes of the conjugate are its row sums; told of several colours."""
     if a.conjugate is None:
         return None
     is_told = a.conjugate_inconsistent and a.tableau.size > 1
@@ -436,18 +348,16 @@ there, or are undecided.
 """
 
 
-def within(a: Judged, key: str) -> fmpq | None:
+def within(a: AnyAnalysis, key: str) -> fmpq | None:
     """The rounding within which a method has a property; None for exactly, or for none."""
     return rounding(key, a.subject.verdict(key).value, a.tolerance)
 
 
 def rounding(key: str, value: object, tolerance: fmpq | None) -> fmpq | None:
-    """The rounding within which a property has a value."""
     return tolerance if value and key in OF_EQUATIONS else None
 
 
 def verdict_answer(a: Analysis, key: str, kind: type[V]) -> Answer[V]:
-    """A property whose values are of a type."""
     v = a.subject.verdict(key)
     assert v.value is None or isinstance(v.value, kind)
     status = Status(within(a, key), v.is_at_least, v.reason if v.is_undecided else NO_REASON)
@@ -468,7 +378,7 @@ WORTH_A_WORD = {
 
 
 def truth(key: str) -> Row[Analysis]:
-    """A property that every check decides."""
+    """A property that is true, false or undecided."""
     worthy, words = WORTH_A_WORD.get(key, (None, ""))
 
     def phrase(label: str, answer: Answer[bool], d: Plain) -> str:
@@ -544,8 +454,6 @@ RENUMBERED = kinds.record(
 
 
 class OfColour(NamedTuple):
-    """The shape of a colour, and its stage order within a rounding."""
-
     name: str
     shape: Shape | None
     stage_order: int
@@ -559,7 +467,6 @@ class OfColour(NamedTuple):
 
 
 def by_colour(a: Analysis) -> list[OfColour]:
-    """All colours."""
     names = [colour.name for colour in a.tableau.colours]
     found = zip(names, a.subject.shapes, a.subject.simplifying.stage_orders, strict=True)
     return [OfColour(*x, a.subject.limit, a.tolerance) for x in found]
@@ -584,12 +491,11 @@ COLOUR: Section[OfColour] = Section(
 
 
 def whole_number(a: Analysis, key: str) -> Answer[int]:
-    """A property that is a whole number, and may be a lower bound."""
     return replace(verdict_answer(a, key, int), reason=NO_REASON)
 
 
 def count_rows(key: str) -> Rows[Analysis]:
-    """Its number, and in JSON whether that is a lower bound."""
+    """The number, and in JSON whether it is a lower bound."""
     field = find(key).field
     return (
         Row(field, kinds.COUNT, lambda a: whole_number(a, key), DETAIL),
@@ -647,7 +553,7 @@ OWN_ROWS: dict[str, Rows[Analysis]] = {
 
 
 def property_rows() -> Iterator[Row[Analysis]]:
-    """Those that every check decides; what linear stability needs is decided where it is asked."""
+    """The properties that every check decides; ``gark stability`` decides the others."""
     for key, file in KEYS.items():
         if file != "stability":
             yield from OWN_ROWS.get(key) or (truth(key),)
@@ -724,8 +630,6 @@ REMARK: Section[Remark] = Section(
 
 
 class Placed(NamedTuple):
-    """An entry of a tableau."""
-
     entry: Entry
     tableau: Tableau
 
@@ -811,7 +715,6 @@ def hints(o: Outcome) -> list[Reason]:
 
 
 def hint_rows(found: Sequence[Reason], d: Plain) -> list[tuple[str, str]]:
-    """A row for each hint."""
     return [(d.note("hint"), d.reason(x)) for x in found]
 
 
@@ -879,11 +782,6 @@ ESTIMATE: Section[Estimator] = Section(
     Row("sums", kinds.EXACTS, lambda x: x.sums),
     maybe("leading_term", part(CONSTANTS, constants_words), lambda x: x.constants),
 )
-ERROR_ESTIMATE: Row[HasEmbedded] = maybe(
-    "error_estimate",
-    part(ESTIMATE, estimate_phrase),
-    lambda a: None if a.embedded is None else a.embedded.estimator,
-)
 DENSE_WITNESS: Section[DenseWitness] = Section(
     Row("order", kinds.POSITION, lambda x: x.witness.tree.order),
     Row("tree", kinds.TREE, lambda x: x.witness.tree),
@@ -895,7 +793,7 @@ DENSE_WITNESS: Section[DenseWitness] = Section(
 
 
 def dense_words(x: DenseFacts, _: Plain) -> str:
-    """How the pieces of single steps fit together."""
+    """Whether the steps of dense output fit together."""
     if not x.ends_at_step:
         return "does not end where the step does: b(1) is not b"
     slope = {True: "its slope too", False: "its slope is not", None: "its slope is not decided"}
@@ -903,7 +801,6 @@ def dense_words(x: DenseFacts, _: Plain) -> str:
 
 
 def dense_order(a: Analysis) -> Answer[int] | None:
-    """The order of dense output for every θ."""
     return None if a.dense is None else dense_answer(a.dense.order, a.tableau.size > 1)
 
 
@@ -935,8 +832,6 @@ DENSE: Section[DenseFacts] = Section(
 
 
 class InTableau(NamedTuple):
-    """A colour of a tableau."""
-
     colour: Colour
     tableau: Tableau
 
@@ -948,7 +843,6 @@ COLOURS: Section[InTableau] = Section(
 
 
 def colours_of(tableau: Tableau) -> list[InTableau]:
-    """The colours with their tableau."""
     return [InTableau(colour, tableau) for colour in tableau.colours]
 
 
@@ -960,12 +854,12 @@ def _pair_phrase(_: str, answer: Answer[AnyOrder], d: Plain) -> str:
     return f"the symplectic pair has order {kinds.order_cell(answer.value, d)}"
 
 
-OF_ALL_KINDS: Rows[Analysed] = (
+OF_ALL_KINDS: Rows[AnyAnalysis] = (
     Row("exact", kinds.TRUTH, lambda a: a.tolerance is None, DATA),
     maybe("tolerance", kinds.TOLERANCE, lambda a: a.tolerance, DATA),
 )
 """The first rows of every analysis."""
-COLOURS_OF: Row[Analysed] = Row("colours", parts(COLOURS), lambda a: colours_of(a.tableau), DATA)
+COLOURS_OF: Row[AnyAnalysis] = Row("colours", parts(COLOURS), lambda a: colours_of(a.tableau), DATA)
 COUNTED: Kind[int] = told(lambda x, _: str(x))
 ANALYSIS: Rows[Analysis] = [
     *OF_ALL_KINDS,
@@ -980,7 +874,7 @@ ANALYSIS: Rows[Analysis] = [
         line="method",
         is_short=True,
     ),
-    Row("simplifying", part(SIMPLIFYING, phrase=_simplifying_phrase), lambda a: a, line="method"),
+    itself("simplifying", part(SIMPLIFYING, phrase=_simplifying_phrase), line="method"),
     of_several("conjugate_order", lambda a: a.conjugate_order),
     of_several("pair_order", lambda a: a.pair_order),
     with_time("nonautonomous_order", lambda a: a.nonautonomous_order),
@@ -1031,7 +925,7 @@ ANALYSIS: Rows[Analysis] = [
         line="symplectic",
         is_short=True,
     ),
-    Row("properties", part(PROPERTIES), lambda a: a, line="symplectic"),
+    itself("properties", part(PROPERTIES), line="symplectic"),
     Row("by_colour", told(_colours_words), colours_apart, label="colours", is_short=True),
     Row("trees_that_fail", picture(drawn), witnesses, DETAIL),
 ]
@@ -1081,9 +975,7 @@ def _claims_cell(o: Outcome, d: Plain) -> str:
     return held if o.claims else "none"
 
 
-IN_BRIEF: Row[Outcome] = Row(
-    "claims_in_brief", told(_claims_cell), lambda o: o, DATA, label="claims"
-)
+IN_BRIEF: Row[Outcome] = itself("claims_in_brief", told(_claims_cell), DATA, label="claims")
 CLAIMS_IN_WORDS: Row[Outcome] = Row(
     "claims_in_words", rows_of(claim_rows), lambda o: o if o.claims or o.lacks else None
 )
@@ -1096,14 +988,14 @@ VALUE = S.one_of({"type": ["boolean", "integer", "string", "null"]}, ROOT_OF)
 
 
 def verdict_data(v: Verdict, _: Plain) -> object:
-    """A value for programs; null where there is none."""
+    """The value in JSON; null if there is none."""
     if not isinstance(v.value, Size):
         return v.value
     return "infinity" if v.value.root is None else root_data(v.value.root)
 
 
 def verdict_words(v: Verdict) -> Reason:
-    """A property in a word or a number."""
+    """``yes``, ``at least 2``."""
     if v.value is None:
         return Reason("not decided" if v.is_undecided else "no meaning")
     if isinstance(v.value, bool):
@@ -1113,8 +1005,6 @@ def verdict_words(v: Verdict) -> Reason:
 
 
 class PropertyVerdict(NamedTuple):
-    """A verdict on a property, and the rounding within which it holds."""
-
     key: str
     verdict: Verdict
     tolerance: fmpq | None
@@ -1128,13 +1018,11 @@ VERDICT: Section[PropertyVerdict] = Section(
 )
 
 
-def property_verdict(a: Judged, key: str) -> PropertyVerdict:
-    """The verdict on a property."""
+def property_verdict(a: AnyAnalysis, key: str) -> PropertyVerdict:
     return PropertyVerdict(key, a.subject.verdict(key), within(a, key))
 
 
 def every_property(o: Outcome) -> list[PropertyVerdict] | None:
-    """All properties with what decides them, where they were requested."""
     if not o.wants_properties or o.analysis is None:
         return None
     return [property_verdict(o.analysis, key) for key in KEYS]
@@ -1167,7 +1055,7 @@ SENTENCES: Kind[Sequence[str]] = Kind(
 
 
 def known(o: Outcome, is_same: bool) -> Known | None:
-    """The method of the catalogue that was checked, or one that it differs from by little."""
+    """The method of the catalogue that is the same, or that differs by little."""
     # most files are in no catalogue, and quiet reports do not ask
     from garkcli.catalogue.known import find_known
 
@@ -1176,7 +1064,7 @@ def known(o: Outcome, is_same: bool) -> Known | None:
 
 
 def of_catalogue(within: Row[Known]) -> Section[Known]:
-    """A method of the catalogue that is the same within a rounding, or differs by that."""
+    """A method of the catalogue, with how much entries differ."""
     return Section(
         Row("method", kinds.TEXT, lambda x: x.method),
         within,
@@ -1237,33 +1125,3 @@ SUMMARY: Section[Sequence[Outcome]] = Section(
     Row("undecided", kinds.COUNT, lambda xs: sum(x.is_open for x in xs)),
     Row("without_claims", kinds.COUNT, lambda xs: sum(x.makes_no_claim for x in xs)),
 )
-
-
-def of_other_kind(
-    get: Callable[[Outcome], OfOtherKind | None],
-    flag: str,
-    words: Wording[OfOtherKind],
-    analysis: Rows[OfOtherKind],
-) -> Section[Outcome]:
-    """The rows of a method that is no GARK method.
-
-    Args:
-        get: the analysis of an outcome.
-        flag: the field of JSON that says of which kind it is.
-        words: what the method is, of an analysis.
-        analysis: the rows of its analysis after those of all kinds.
-    """
-    return Section(
-        kinds.FILE_AND_NAME,
-        IS_OK,
-        Row(flag, kinds.TRUE, lambda _: True, DATA),
-        via(get, [Row("method", told(words), lambda a: a)]),
-        via(get, OF_ALL_KINDS),
-        via(get, [COLOURS_OF]),
-        via(get, analysis),
-        LEFT_BEHIND,
-        IN_FULL,
-        CLAIMS,
-        title=title,
-        columns=COLUMNS,
-    )

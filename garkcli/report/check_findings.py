@@ -1,4 +1,4 @@
-"""What is wrong with files in the forms of CI: Markdown, GitHub, JUnit, SARIF; what got worse."""
+"""Findings in the formats of CI: Markdown, GitHub, JUnit, SARIF; regressions."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from garkcli.version import __version__
 
 
 def markdown_findings(outcomes: Sequence[Outcome]) -> str:
-    """What fails, with places and cures."""
+    """Findings as a list, with places and cures."""
     lines = []
     for finding in (x for outcome in outcomes for x in findings(outcome)):
         place = f"`{_code(finding.file)}:{finding.line}:{finding.column}`"
@@ -36,7 +36,7 @@ def markdown_findings(outcomes: Sequence[Outcome]) -> str:
 
 
 def table_cell(text: str) -> str:
-    """A text that stays in its cell of a table."""
+    """A text that does not end its cell of a table."""
     text = printable(text.replace("\n", " "))
     return text.replace("\\", "\\\\").replace("|", "\\|").replace("<", "&lt;")
 
@@ -62,7 +62,6 @@ def commands_off(text: str) -> str:
 
 
 def annotation(finding: Finding) -> str:
-    """The workflow command of a finding."""
     place = f"file={_property_of_command(finding.file)},line={finding.line},col={finding.column}"
     title = _property_of_command(f"gark: {finding.rule}")
     text = finding.message
@@ -137,13 +136,12 @@ def _clean(text: str) -> str:
 
 
 def sarif(outcomes: Sequence[Outcome]) -> str:
-    """One run with a result for each finding."""
     found = [x for outcome in outcomes for x in findings(outcome)]
     return log_of(found, {key: kind.text for key, kind in KINDS.items()})
 
 
 def log_of(found: Sequence[Finding], kinds: Mapping[str, str]) -> str:
-    """A log with one run.
+    """A SARIF log with one run.
 
     Args:
         found: its results.

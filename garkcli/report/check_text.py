@@ -52,7 +52,7 @@ def render(
 
 
 def _short(outcome: Outcome, d: Plain, is_quiet: bool) -> Iterator[str]:
-    """A file on a line; what fails it below."""
+    """A file in a line, with failed claims below."""
     if not (is_quiet and outcome.ok):
         third = "pair_order" if outcome.of_other_kind is None else "w_order"
         keys = ("order", "embedded_order", third)
@@ -89,12 +89,12 @@ def _summary(outcomes: Sequence[Outcome], paint: Paint) -> str:
 
 
 def no_claims(files: int) -> str:
-    """How many files make no claim."""
+    """``2 files make no claim``."""
     return f"{counted(files, 'file')} {'makes' if files == 1 else 'make'} no claim"
 
 
 def faults_lines(outcome: Outcome, paint: Paint) -> Iterator[str]:
-    """Every fault of a file that cannot be read, with a caret under the text."""
+    """Every fault of a file, with a caret under its place."""
     source = outcome.text.splitlines()
     for fault in outcome.faults:
         place = printable(outcome.file)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from garkcli.check.outcome import Outcome
 from garkcli.frozen import replace
 from garkcli.report.check import CHECKED, SUMMARY, UNREADABLE
-from garkcli.tell.facts import Row, Section
+from garkcli.tell.facts import Section, itself
 from garkcli.tell.parts import part
 from garkcli.tell.report import Report, Signs
 
@@ -30,45 +30,23 @@ def _signs(outcome: Outcome) -> Signs:
 
 
 def form(outcome: Outcome) -> Section[Outcome]:
-    """The rows of a file: of a method, of a family, of one that cannot be read."""
+    """The rows for a file, by the kind of its method."""
     if outcome.every is not None:
         from garkcli.report.every import EVERY
 
         return EVERY
-    if outcome.rosenbrock is not None:
-        from garkcli.report.rosenbrock import ROSENBROCK
+    if outcome.of_other_kind is not None:
+        from garkcli.report.other_methods import FORMS
 
-        return ROSENBROCK
-    if outcome.nystrom is not None:
-        from garkcli.report.nystrom import NYSTROM
-
-        return NYSTROM
-    if outcome.nprk is not None:
-        from garkcli.report.nprk import NPRK
-
-        return NPRK
-    if outcome.derivatives is not None:
-        from garkcli.report.derivatives import DERIVATIVES
-
-        return DERIVATIVES
-    if outcome.infinitesimal is not None:
-        from garkcli.report.infinitesimal import INFINITESIMAL
-
-        return INFINITESIMAL
+        return FORMS[type(outcome.of_other_kind).__name__]
     return UNREADABLE if outcome.analysis is None else CHECKED
 
 
 def forms() -> Iterator[Section[Outcome]]:
-    """The rows of every kind of file."""
-    from garkcli.report.derivatives import DERIVATIVES
     from garkcli.report.every import EVERY
-    from garkcli.report.infinitesimal import INFINITESIMAL
-    from garkcli.report.nprk import NPRK
-    from garkcli.report.nystrom import NYSTROM
-    from garkcli.report.rosenbrock import ROSENBROCK
+    from garkcli.report.other_methods import FORMS
 
-    yield from (UNREADABLE, CHECKED, EVERY)
-    yield from (ROSENBROCK, NYSTROM, NPRK, DERIVATIVES, INFINITESIMAL)
+    yield from (UNREADABLE, CHECKED, EVERY, *FORMS.values())
 
 
 REPORT: Report[Outcome] = Report(
@@ -77,7 +55,7 @@ REPORT: Report[Outcome] = Report(
     forms,
     form,
     _signs,
-    tail=Section(Row("summary", part(SUMMARY), lambda xs: xs)),
+    tail=Section(itself("summary", part(SUMMARY))),
     is_open=True,
 )
 
@@ -94,7 +72,7 @@ OF_ANALYSES = {
 
 
 def whole(found: Outcome | Analysis | OtherAnalysis, name: str) -> Outcome:
-    """The outcome that the report tells: itself, or of an analysis by a name."""
+    """The outcome itself, or one made of an analysis and a name."""
     if isinstance(found, Outcome):
         return found
     return replace(Outcome(name, name), **{OF_ANALYSES[type(found).__name__]: found})

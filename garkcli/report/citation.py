@@ -10,7 +10,7 @@ from garkcli.errors import counted, printable
 from garkcli.frozen import Frozen, fields
 from garkcli.page.latex_letters import ascii_letters, letters
 from garkcli.reference import ARXIV, Reference
-from garkcli.tell.facts import Level, Row, Section, maybe, optional
+from garkcli.tell.facts import Level, Row, Section, itself, maybe, optional
 from garkcli.tell.kinds import TEXT, TEXTS
 from garkcli.tell.parts import BESIDE, part, parts, shown
 from garkcli.tell.report import FORMATS as TOLD
@@ -69,7 +69,7 @@ def _work(cited: Cited) -> object:
 
 
 def keys(cited: Sequence[Cited]) -> list[str]:
-    """A key for each publication, no two the same: ``Dormand1980``, a letter behind it if need be.
+    """A key for each publication, all different: ``Dormand1980``, with a letter if need be.
 
     The same publications have the same keys in whatever order they come.
     """
@@ -97,12 +97,12 @@ def _key(cited: Cited) -> str:
 
 
 def _key_of_method(name: str) -> str:
-    """A method that has no authors, by the name of its file without folders."""
+    """The name of the file without folders and endings."""
     return ascii_letters(re.split(r"[\\/]", name)[-1].partition(".")[0]) or "method"
 
 
 def last_name(name: str) -> str:
-    """What comes last in a name, or before its comma.
+    """The last word of a name, or the words before its comma.
 
     >>> last_name("J. C. Butcher"), last_name("Butcher, John C."), last_name("G. Vanden Berghe")
     ('Butcher', 'Butcher', 'Berghe')
@@ -150,7 +150,7 @@ def _entry(names: str, kind: str, key: str, lines: Sequence[str]) -> str:
 
 
 def _entry_type(reference: Reference) -> str:
-    """By what the file says of the publication, or else by the fields that it has."""
+    """The kind of BibTeX entry: as the file says, or by the fields that it has."""
     if reference.type == "thesis":
         is_master = "master" in reference.note.lower()
         return "mastersthesis" if is_master else "phdthesis"
@@ -166,7 +166,7 @@ def _entry_type(reference: Reference) -> str:
 
 
 def _fields(reference: Reference) -> Iterator[tuple[str, str]]:
-    """The fields of an entry with their values, those that there are."""
+    """The fields of a BibTeX entry with their values."""
     home = "school" if _entry_type(reference).endswith("thesis") else "institution"
     note = "; ".join(letters(x) for x in [reference.where, reference.note] if x)
     found = {
@@ -195,7 +195,7 @@ def _fields(reference: Reference) -> Iterator[tuple[str, str]]:
 
 
 def _people(names: Sequence[str]) -> str:
-    """Names as BibTeX has them; one whose last word is small is a group, and stays whole."""
+    """Names for BibTeX; one whose last word is small is a group, and stays whole."""
     written = []
     for name in names:
         is_whole = not last_name(name)[:1].isupper()
@@ -204,7 +204,7 @@ def _people(names: Sequence[str]) -> str:
 
 
 def title(text: str) -> str:
-    """A title whose capitals stay what they are: styles write all letters but the first small.
+    """A title in which braces keep capitals: styles turn others into small letters.
 
     >>> print(title("Embedded Runge–Kutta formulae of order 5"))
     Embedded {Runge}--{Kutta} formulae of order 5
@@ -218,7 +218,6 @@ def title(text: str) -> str:
 
 
 def _kept(piece: str) -> str:
-    """A word of a title, in braces where it has capitals."""
     spelt = letters(piece)
     return f"{{{spelt}}}" if _has_capital(piece) else spelt
 
@@ -228,7 +227,6 @@ def _has_capital(word: str) -> bool:
 
 
 def _of(field: str) -> Row[Reference]:
-    """A field of a publication, where it has it."""
     if field in {"authors", "editors"}:
         return optional(field, TEXTS, lambda x: getattr(x, field) or None)
     return optional(field, TEXT, lambda x: getattr(x, field) or None)
@@ -259,7 +257,7 @@ REPORT: Report[Sequence[Cited]] = Report.only(
     "report of gark cite",
     Section(
         Row("references", parts(CITED), lambda x: [*zip(x, keys(x), strict=True)], Level.DATA),
-        Row("methods", shown(LINE, 0), lambda x: x),
+        itself("methods", shown(LINE, 0)),
         title=lambda x, _: counted(sum(bool(one.text) for one in x), "publication"),
     ),
 )
@@ -267,5 +265,4 @@ FORMATS = ("bibtex", *TOLD)
 
 
 def render(cited: Sequence[Cited], format: str) -> str:
-    """The publications, each once, in one of ``FORMATS``."""
     return bibliography(cited) if format == "bibtex" else REPORT.render([cited], format)

@@ -6,19 +6,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from garkcli.check.analysis import Analysis
-from garkcli.check.derivatives import DerivativesAnalysis
-from garkcli.check.infinitesimal import InfinitesimalAnalysis
-from garkcli.check.nprk import NprkAnalysis
-from garkcli.check.nystrom import NystromAnalysis
-from garkcli.check.rosenbrock import RosenbrockAnalysis
 from garkcli.check.true_claims import TrueClaims
 from garkcli.errors import printable
 from garkcli.page.paint import folded
 from garkcli.properties.registry import KEYS
-from garkcli.report import derivatives, infinitesimal, nprk, nystrom, rosenbrock
 from garkcli.report.check import ANALYSIS, SIMPLIFYING, property_rows_of, property_verdict
+from garkcli.report.other_methods import ROWS
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Level, Row, Rows, Section, via
+from garkcli.tell.facts import Level, Row, Rows, Section, itself, via
 from garkcli.tell.kinds import TEXT, TEXTS, TRUTH
 from garkcli.tell.outputs import words
 from garkcli.tell.parts import parts, rows_of
@@ -28,8 +23,6 @@ DATA = Level.DATA
 
 
 class Claims(NamedTuple):
-    """What the report says of a file."""
-
     found: TrueClaims
     is_written: bool
 
@@ -42,23 +35,16 @@ def _claim_rows(found: TrueClaims, d: Plain) -> list[tuple[str, str]]:
 
 _ROWS = {row.key: row for row in (*ANALYSIS, *SIMPLIFYING.rows)}
 _ROWS_OF_OTHER_KINDS: dict[str, dict[str, Row[Any]]] = {
-    analysis.kind: {row.key: row for row in rows}
-    for analysis, rows in (
-        (RosenbrockAnalysis, rosenbrock.ANALYSIS),
-        (NystromAnalysis, nystrom.ANALYSIS),
-        (NprkAnalysis, nprk.ANALYSIS),
-        (DerivativesAnalysis, derivatives.ANALYSIS),
-        (InfinitesimalAnalysis, infinitesimal.ANALYSIS),
-    )
+    kind: {row.key: row for row in rows} for kind, rows in ROWS.items()
 }
 
 
 def _how(found: TrueClaims, d: Plain) -> Iterator[tuple[str, str]]:
-    """The value of each claim with what decides it."""
+    """Each claim with its value and the reason for it."""
     a = found.analysis
     known: Mapping[str, Row[Any]] = _ROWS
     if not isinstance(a, Analysis):
-        known = _ROWS_OF_OTHER_KINDS[a.kind]
+        known = _ROWS_OF_OTHER_KINDS[type(a).__name__]
     for key, value in found.claims.items():
         row = known.get(key.replace("-", "_"))
         if key in KEYS:
@@ -73,7 +59,7 @@ CLAIM: Section[tuple[str, str]] = Section(
 OF_METHOD: Rows[TrueClaims] = (
     Row("file", TEXT, lambda x: x.file, DATA),
     Row("claims", parts(CLAIM), lambda x: list(x.claims.items()), DATA),
-    Row("claims_in_words", rows_of(_claim_rows), lambda x: x),
+    itself("claims_in_words", rows_of(_claim_rows)),
     Row("not_claimed", TEXTS, lambda x: list(x.left)),
 )
 FILE: Section[Claims] = Section(

@@ -22,13 +22,12 @@ from garkcli.report import convergence as alone
 from garkcli.report.costs import Tested, at_equal_errors
 from garkcli.report.failure import FAULT
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Choice, Level, Row, Rows, Section, maybe, via
+from garkcli.tell.facts import Choice, Level, Row, Rows, Section, itself, maybe, via
 from garkcli.tell.kinds import COUNT, TEXT, TRUTH, constant
-from garkcli.tell.parts import SAID, answer, part, parts, rows_of, scene, shown, told
+from garkcli.tell.parts import SAID, answer, part, parts, plot, rows_of, shown, told
 from garkcli.tell.report import Report
 
 if TYPE_CHECKING:
-    from garkcli.plots.scene import Scene
     from garkcli.report.problem import Stepped
 
 HEADLINE, USUAL, DETAIL, DATA = Level
@@ -57,7 +56,7 @@ class Entry(Frozen):
 
 
 class Compared(Frozen):
-    """What the report says of several methods.
+    """Several methods that are compared.
 
     Attributes:
         entries: at least one.
@@ -71,7 +70,7 @@ class Compared(Frozen):
 
     @property
     def named(self) -> list[Named]:
-        """The methods by their letters; one with its file where another has the same name."""
+        """The methods by their letters; with the file if two have the same name."""
         names = Counter(x.name for x in self.entries)
         return [
             Named(letter, f"{x.name} ({x.file})" if names[x.name] > 1 else x.name, x, self.has_work)
@@ -80,7 +79,6 @@ class Compared(Frozen):
 
     @property
     def tested(self) -> Tested:
-        """Those with a result."""
         return [(x.letter, x.entry.result) for x in self.named if x.entry.result is not None]
 
 
@@ -94,7 +92,6 @@ class Named(NamedTuple):
 
     @property
     def test(self) -> alone.ConvergenceReport | None:
-        """Its test, where there is one."""
         result, name = self.entry.result, self.entry.name
         return None if result is None else alone.ConvergenceReport(result, name, self.has_work)
 
@@ -115,25 +112,21 @@ def _verdict(x: Named, d: Plain) -> str:
     return d.note(verdict) if verdict == "reduced" else alone.verdict_words(verdict, d)
 
 
-def _observed(x: Convergence, _: Plain) -> str:
-    return order_text(x.observed_order)
-
-
 OF_TEST: Rows[Convergence] = (
-    Row("observed", told(_observed), lambda x: x),
+    itself("observed", told(lambda x, _: order_text(x.observed_order))),
     Row("visible", COUNT, alone.visible),
     Row("predicted", COUNT, alone.predicted),
 )
 METHOD: Section[Named] = Section(
     Row("letter", TEXT, lambda x: x.letter, label=""),
     via(lambda x: x.entry.result, OF_TEST),
-    Row("verdict", told(_verdict), lambda x: x),
+    itself("verdict", told(_verdict)),
     Row("method", TEXT, lambda x: x.name),
 )
 
 
 def _remarks(compared: Compared) -> list[tuple[str, str]]:
-    """What there is to say about each method, then what the problem sees of several, once."""
+    """Remarks on single methods, then those that several share."""
     said: list[tuple[str, str]] = []
     seen: dict[str, list[str]] = {}
     for x in compared.named:
@@ -161,8 +154,6 @@ def _remarks(compared: Compared) -> list[tuple[str, str]]:
 
 
 class Sizes(NamedTuple):
-    """A step size with the rows of the methods that have it."""
-
     h: fmpq
     rows: dict[str, Step]
 
@@ -183,37 +174,27 @@ def _errors(x: Sizes, d: Plain) -> Iterator[tuple[str, str]]:
 
 
 SIZE: Section[Sizes] = Section(
-    Row("h", alone.STEP_SIZE, lambda x: x.h), Row("errors", rows_of(_errors), lambda x: x)
+    Row("h", alone.STEP_SIZE, lambda x: x.h), itself("errors", rows_of(_errors))
 )
 
 # the costs
 
 
 class Work(NamedTuple):
-    """What a row of a method has cost."""
-
     letter: str
     row: Step
-
-
-def _error(x: Work, d: Plain) -> str:
-    return d.prose(scientific(x.row.error))
 
 
 WORK: Section[Work] = Section(
     Row("letter", TEXT, lambda x: x.letter, label=""),
     Row("h", alone.STEP_SIZE, lambda x: x.row.h),
-    Row("error", told(_error), lambda x: x),
+    itself("error", told(lambda x, d: d.prose(scientific(x.row.error)))),
     maybe("cost", part(alone.COST), lambda x: x.row.cost),
 )
 
 
-def _cost_rows(costs: Sequence[tuple[str, str]], _: Plain) -> Sequence[tuple[str, str]]:
-    return costs
-
-
 EQUAL: Section[tuple[str, list[tuple[str, str]]]] = Section(
-    Row("letter", TEXT, lambda x: x[0], label=""), Row("costs", rows_of(_cost_rows), lambda x: x[1])
+    Row("letter", TEXT, lambda x: x[0], label=""), itself("costs", rows_of(lambda x, _: x[1]))
 )
 
 
@@ -240,20 +221,11 @@ def _remark_rows(remarks: Sequence[tuple[str, str]], d: Plain) -> list[tuple[str
     return [(x, d.prose(text)) for x, text in remarks]
 
 
-def _scene(compared: Compared) -> Scene:
-    return errors_scene(compared.tested, compared.against)
-
-
-def _drawn(compared: Compared) -> Compared | None:
-    curves = (list(curve(x, compared.against)) for _, x in compared.tested)
-    return compared if any(curves) else None
-
-
 # the report
 
 
 def _problem(compared: Compared) -> str:
-    """What all of them have solved, without its split."""
+    """The problem that all solve, without its split."""
     if not compared.tested:
         return ""
     _, first = compared.tested[0]
@@ -272,7 +244,7 @@ def _about(result: Convergence) -> str:
 
 
 def _answer(compared: Compared, d: Plain) -> str:
-    """How many have which verdict."""
+    """``3 methods: 2 agree, 1 DISAGREES``."""
     found = Counter(x.result.verdict if x.result else "failed" for x in compared.entries)
     good, bad = found["agree"], found["disagree"]
     texts = [
@@ -314,8 +286,6 @@ RESULT: Section[Named] = Choice(
 
 
 class Line(NamedTuple):
-    """A step size of a method of a comparison."""
-
     entry: Entry
     step: alone.StepTold
 
@@ -348,9 +318,12 @@ REPORT: Report[Compared] = Report.only(
         Row("work", shown(WORK, MOST_METHODS), _work),
         _equal("evaluations"),
         _equal("seconds"),
-        Row("plot", scene(_scene), _drawn, DETAIL),
+        plot(
+            lambda c: errors_scene(c.tested, c.against),
+            lambda c: any([*curve(x, c.against)] for _, x in c.tested),
+        ),
         Row("results", parts(RESULT), lambda x: x.named, DATA),
-        Row("summary", part(SUMMARY), lambda x: x, DATA),
+        itself("summary", part(SUMMARY), DATA),
     ),
     lines=_lines,
 )

@@ -21,12 +21,12 @@ from garkcli.order.conditions import Condition
 from garkcli.order.meant import AnyTableau, printed, tolerance_of
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.paint import numbered
-from garkcli.report import nprk, nystrom
+from garkcli.report.other_methods import OF_NPRK_TREES, OF_NYSTROM_TREES
 from garkcli.report.symplectic_subject import SUBJECT, Subject
-from garkcli.report.trees import DATA, DETAIL, SIZES, TREES, pictures
+from garkcli.report.trees import DATA, DETAIL, SIZES, TREES, picture
 from garkcli.tableau.tableau import Tableau
 from garkcli.tell.dialect import LONG, Plain
-from garkcli.tell.facts import Json, Kind, Level, Row, Rows, Section, maybe, optional, via
+from garkcli.tell.facts import Json, Kind, Level, Row, Rows, Section, itself, maybe, optional, via
 from garkcli.tell.kinds import (
     DERIVATION,
     INDEX,
@@ -78,7 +78,7 @@ class ConditionRow(Frozen):
 
 
 class Valued(Frozen):
-    """What a table with values is about.
+    """The method whose values a table of conditions has.
 
     Attributes:
         method: its tableau, with its rounding where it is rounded.
@@ -94,7 +94,6 @@ class Valued(Frozen):
 
     @property
     def tableau(self) -> Tableau:
-        """As it is printed."""
         return printed(self.method)
 
     @property
@@ -104,11 +103,9 @@ class Valued(Frozen):
 
     @property
     def names(self) -> list[str]:
-        """The names of the colours."""
         return [colour.name for colour in self.tableau.colours]
 
     def shows(self, row: ConditionRow) -> bool:
-        """Whether a row is in the table."""
         fails = row.condition is not None and not row.condition.holds
         return fails or row.condition is None or not self.only_failing
 
@@ -145,14 +142,14 @@ class Conditions(Mutable):
 
     @property
     def form(self) -> Section[Conditions]:
-        """What tells the table: the keys that no row has are left out."""
+        """The rows of the table, without keys that no condition has."""
         is_shapes = not (self.subject or self.valued or self.coloured)
         left_out = {"for_all": not is_shapes, "multiplicity": self.subject is not None}
         left_out |= {"stands_for": self.subject is None, "members": not self.with_members}
         return _form(self.valued is not None, frozenset(k for k, out in left_out.items() if out))
 
     def shown(self) -> Iterator[ConditionRow]:
-        """The rows of the table, while all are counted."""
+        """The conditions of the table; all conditions are counted meanwhile."""
         for row in self.rows:
             self.count += 1
             self.failed += row.condition is not None and not row.condition.holds
@@ -161,7 +158,6 @@ class Conditions(Mutable):
 
     @property
     def legend(self) -> str:
-        """The names of the colours, where their numbers are not their names."""
         if self.subject is not None:
             return self.subject.legend
         if self.valued is not None:
@@ -196,12 +192,12 @@ def _about_colours(tableau: Tableau) -> Iterator[str]:
         else:
             yield "blocks of f are α, those of f' are β = α + γ"
     elif is_nprk(tableau):
-        yield nprk.IN_THE_TREES
+        yield OF_NPRK_TREES
         yield "a stage is a pair (j, k); A{1,1} has the rows a_j, A{1,2} the rows a_k"
     elif is_derivatives(tableau):
         yield "A and b are of stages on the exact solutions whose derivatives are used"
     elif is_nystrom(tableau):
-        yield nystrom.IN_THE_TREES
+        yield OF_NYSTROM_TREES
         blocks = "A{1,1} = A{2,1} is Ā", "A{1,2} = A{2,2} is A", "A{1,3} = A{2,3} is c"
         has_A = (0, 1) in tableau.blocks
         yield ", ".join(blocks if has_A else blocks[::2])
@@ -222,7 +218,6 @@ def _verdict(failed: int, valued: Valued) -> str:
 
 
 def is_parametric(number: object) -> bool:
-    """Whether a number depends on free parameters."""
     return isinstance(number, Parametric)
 
 
@@ -251,7 +246,6 @@ def _numeral(key: str, level: Level) -> Row[Condition]:
 
 
 def _state(condition: Condition, d: Plain) -> str:
-    """Whether a condition holds, exactly or within the tolerance."""
     if is_parametric(condition.residual):
         return d.note("varies")
     if not condition.holds:
@@ -279,14 +273,13 @@ def _in_words(row: ConditionRow, d: Plain) -> str:
 
 
 def _kind(condition: Condition) -> str | None:
-    """Whether colours are coupled; None where they are no vector fields of their own."""
     if not condition.tree.is_of_fields:
         return None
     return "coupling" if condition.is_coupling else "diagonal"
 
 
 def _multiplicity(row: ConditionRow) -> str:
-    """How many conditions the row is, or for which colours it is one."""
+    """How many conditions a row stands for, or for which colours it is one."""
     if row.stands_for:
         return f"stands for {row.stands_for}"
     if row.condition is not None and row.condition.twins:
@@ -299,11 +292,6 @@ def _for_all(letters: Sequence[str], d: Plain) -> str:
     return d.formula(rf"\forall\, {text}", text)
 
 
-def _tree(x: ConditionRow) -> Tree:
-    return x.tree
-
-
-_PICTURE, _ = pictures(_tree)
 TREE: Kind[ConditionRow] = Kind(
     Json(S.TEXT, lambda x, _: format_tree(x.tree, not x.is_shape)),
     Words(lambda x, d: d.tree(x.tree)),
@@ -314,18 +302,18 @@ FOR_ALL: Kind[Sequence[str]] = Kind(
 )
 HOLDS: Kind[Condition] = Kind(Json(S.FLAG, lambda x, _: x.holds), Words(_state))
 _TREE: Rows[ConditionRow] = (
-    _PICTURE,
-    Row("tree", TREE, lambda x: x),
+    picture(lambda x: x.tree),
+    itself("tree", TREE),
     maybe("root", INDEX, lambda x: None if x.is_shape else x.tree.root, DATA),
     *SIZES[1:],
-    Row("condition", FORMULA, lambda x: x, DETAIL),
+    itself("condition", FORMULA, DETAIL),
     optional("for_all", FOR_ALL, lambda x: x.letters, DETAIL),
 )
 _OF_CONDITION: Rows[Condition] = (
     _numeral("value", DETAIL),
     _numeral("required", DATA),
     _numeral("residual", DETAIL),
-    Row("holds", HOLDS, lambda x: x),
+    itself("holds", HOLDS),
     maybe("kind", choice("coupling", "diagonal"), _kind, DATA),
     optional("multiplicity", POSITION, lambda x: len(x.trees), DATA),
 )
@@ -333,7 +321,7 @@ _VALUES: Rows[ConditionRow] = via(lambda x: x.condition, _OF_CONDITION)
 _CLASS: Rows[ConditionRow] = (
     optional("stands_for", POSITION, lambda x: x.stands_for or None, DETAIL),
     optional("members", TREES, lambda x: [format_tree(u) for u in x.members] or None, DATA),
-    Row("condition", told(_in_words), lambda x: x, is_short=True),
+    itself("condition", told(_in_words), is_short=True),
 )
 _OF_METHOD: Rows[Valued] = (
     Row("derivation", DERIVATION, lambda x: x.derivation, DATA),
@@ -344,7 +332,7 @@ _OF_METHOD: Rows[Valued] = (
 
 @cache
 def row_of(has_values: bool, left_out: frozenset[str] = frozenset()) -> Section[ConditionRow]:
-    """A line of the table, without the rows of some keys."""
+    """A line of the table without the rows of some keys."""
     rows = (*_TREE, *(_VALUES if has_values else ()), *_CLASS)
     return Section(row for row in rows if row.key not in left_out)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple, get_args
+from typing import Any, NamedTuple, get_args
 
 from flint import arb, fmpq
 
@@ -44,12 +44,9 @@ from garkcli.tell.facts import (
     via,
 )
 from garkcli.tell.kinds import COUNT, DERIVATION, EXACT, POSITION, TEXT, TEXTS, TRUTH, choice
-from garkcli.tell.parts import answer, part, rows_of, scene, table
+from garkcli.tell.parts import answer, part, plot, rows_of, table
 from garkcli.tell.report import Report
 from garkcli.tell.shown import Labels, Words
-
-if TYPE_CHECKING:
-    from garkcli.plots.scene import Scene
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 MOST_STEPS = 10
@@ -59,7 +56,7 @@ NO_TIME = "no seconds where floats do not reach the error: the counts are for mo
 
 
 class ConvergenceReport(Frozen):
-    """What the report says of one method.
+    """The test of one method.
 
     Attributes:
         result: its test.
@@ -82,7 +79,6 @@ class StepTold(NamedTuple):
 
     @property
     def invariant_errors(self) -> dict[str, arb]:
-        """The errors of the invariants besides the energy, by their names."""
         problem = self.test.result.problem
         names = [] if isinstance(problem, Oscillator) else names_of(problem.invariants)
         return dict(zip(names, self.row.invariant_errors, strict=True))
@@ -103,13 +99,13 @@ def _is_below(x: arb) -> bool:
 
 
 def _number(ball: arb) -> float | None:
-    """A measured number in the digits of reports; None where it is unknown."""
+    """A measured number, rounded for programs; None if it is unknown."""
     text = for_programs(ball)
     return float(text) if text else None
 
 
 def _place(order: float) -> float:
-    """An order or slope in as many decimal places as say something; never −0."""
+    """An order or a slope, rounded to four decimals; never −0."""
     return round(order, 4) + 0.0
 
 
@@ -171,12 +167,11 @@ _STEPS: Section[StepTold] = Choice(lambda x: WORKED if x.test.has_work else STEP
 
 
 def steps(test: ConvergenceReport) -> list[StepTold]:
-    """The rows of the table."""
     return [StepTold(row, test) for row in test.result.rows]
 
 
 def lines(x: ConvergenceReport | Failure) -> tuple[Section[StepTold], list[StepTold]]:
-    """The rows for CSV; no column where there is no energy."""
+    """The rows for CSV, without the column of energies if the problem has none."""
     if isinstance(x, Failure):
         return STEP, []
     section, found = WORKED if x.has_work else STEP, steps(x)
@@ -189,14 +184,14 @@ def lines(x: ConvergenceReport | Failure) -> tuple[Section[StepTold], list[StepT
 
 
 def visible(x: Convergence) -> Answer[int]:
-    """The order that is to be observed: at least that where the problem may hide some trees."""
+    """The order to observe; a lower bound if the problem may hide some trees."""
     return Answer(
         x.visible_order, Status(at_least=not x.visible.is_sharp), Reason("{}", x.visible.trees)
     )
 
 
 def predicted(x: Convergence) -> Answer[int]:
-    """The order of the method; what the problem hides of it."""
+    """The order of the method, with the part that the problem hides."""
     hidden = f"its failing trees of order {x.predicted_order + 1} are not seen here"
     return Answer(
         x.predicted_order,
@@ -206,7 +201,6 @@ def predicted(x: Convergence) -> Answer[int]:
 
 
 def verdict_words(verdict: str, d: Plain) -> str:
-    """Whether observed and visible order are the same."""
     if verdict == "reduced":
         return d.note("reduced by stiffness")
     if verdict == "undecided":
@@ -221,7 +215,7 @@ def _answer(x: Convergence, d: Plain) -> str:
 
 
 def remarks(result: Convergence) -> list[str]:
-    """What there is to say about the verdict."""
+    """Remarks on the verdict."""
     said = []
     if result.plateau:
         said.append(
@@ -250,7 +244,6 @@ def remarks(result: Convergence) -> list[str]:
 
 
 def _stage_orders(stiff: Stiffness) -> str:
-    """The stage order and the weak one, where the method has them."""
     if stiff.stage_order is None:
         return ""
     weak = stiff.weak_stage_order or 0
@@ -274,14 +267,9 @@ def _of_short_time(result: Convergence) -> str:
 
 
 def notes(test: ConvergenceReport) -> list[str]:
-    """The remarks, also on costs."""
     rows = test.result.rows
     is_timed = all(row.cost is not None and row.cost.seconds is not None for row in rows)
     return [*remarks(test.result), *([NO_TIME] if test.has_work and not is_timed else [])]
-
-
-def _drawn(test: ConvergenceReport) -> ConvergenceReport | None:
-    return test if len(list(curve(test.result, test.against))) > 1 else None
 
 
 # reports
@@ -333,7 +321,10 @@ def _form(problem: Rows[Run]) -> Section[ConvergenceReport]:
         via(lambda x: x.result, _RESULT),
         Row("notes", rows_of(_notes_rows), notes),
         Row("steps", table(_STEPS, MOST_STEPS), steps),
-        Row("plot", scene(_scene), _drawn, DETAIL),
+        plot(
+            lambda x: errors_scene([(x.name, x.result)], x.against),
+            lambda x: len([*curve(x.result, x.against)]) > 1,
+        ),
         title=lambda x, d: d.prose(x.name),
     )
 
@@ -342,16 +333,11 @@ def _notes_rows(texts: Sequence[str], d: Plain) -> list[tuple[str, str]]:
     return [("note", d.prose(x)) for x in texts]
 
 
-def _scene(x: ConvergenceReport) -> Scene:
-    return errors_scene([(x.name, x.result)], x.against)
-
-
 FORMS = {kind: _form(problem) for kind, problem in STEPPED.items()}
 """By the kind of the problem."""
 
 
 def form(x: ConvergenceReport | Failure) -> Section[Any]:
-    """The rows of a test, or of one without a result."""
     return FAILURE if isinstance(x, Failure) else FORMS[type(x.result.problem)]
 
 
@@ -366,5 +352,5 @@ REPORT: Report[ConvergenceReport | Failure] = Report(
 
 
 def whole(result: Convergence, name: str) -> ConvergenceReport:
-    """What the report says of a test, by the name of its method where there is no other."""
+    """A test under the name of its method if there is no other."""
     return ConvergenceReport(result, name or ("" if result.method is None else result.method.name))

@@ -164,7 +164,7 @@ def _data(name: str, tableau: Tableau) -> str:
 
 
 def _order_of(label: str, name: str, proof: Proof) -> str:
-    """That a method has its order, and no higher one."""
+    """Statement and proof of an order, and that there is no higher one."""
     order: Order = proof.order
     basis = _Basis(proof.tableau)
     found = hulls(proof.tableau, order.order)

@@ -1,4 +1,4 @@
-"""What equal errors cost."""
+"""The costs of equal errors."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _GOALS = 6  # errors at which costs are compared
 
 
 def at_equal_errors(tested: Tested, what: str) -> list[tuple[str, list[tuple[str, str]]]]:
-    """For each method what errors of 10^k cost, where it has larger and smaller ones."""
+    """The cost of errors of 10^k for each method, interpolated between its steps."""
     curves = {
         letter: [(log10(error), log10(x)) for x, error in curve(result, what)]
         for letter, result in tested
@@ -33,7 +33,7 @@ def at_equal_errors(tested: Tested, what: str) -> list[tuple[str, list[tuple[str
 
 
 def _amount(decades: float | None, what: str) -> str:
-    """What an error costs, by its decimal logarithm; empty where that is not known."""
+    """10 to that power, in the digits of its kind; empty if it is unknown."""
     if decades is None:
         return ""
     x = 10**decades

@@ -27,7 +27,19 @@ from garkcli.reason import Reason
 from garkcli.report.design_values import AnyPolynomial, conditions, equation, where, zeros
 from garkcli.report.stable_values import VALUES, ends, number, stability
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Choice, Json, Kind, Level, Row, Rows, Section, maybe, optional, via
+from garkcli.tell.facts import (
+    Choice,
+    Json,
+    Kind,
+    Level,
+    Row,
+    Rows,
+    Section,
+    itself,
+    maybe,
+    optional,
+    via,
+)
 from garkcli.tell.kinds import COUNT, INTEGER, POSITION, TEXT, TEXTS, TREE, TRUTH, choice, constant
 from garkcli.tell.parts import answer, part, parts, rows_of, told
 from garkcli.tell.report import Report
@@ -49,7 +61,7 @@ LONG = 2000
 
 
 class DesignReport(NamedTuple):
-    """What is reported.
+    """The values for which a method has its orders.
 
     Attributes:
         file: its path.
@@ -69,19 +81,18 @@ class DesignReport(NamedTuple):
 
 
 class Order(NamedTuple):
-    """What one order asks."""
+    """The demands of an order."""
 
     design: Design
     step: Step
 
     @property
     def zeros(self) -> list[str]:
-        """The polynomials that are zero."""
         return zeros(self.design.family, self.step.polynomials)
 
     @property
     def conditions(self) -> list[Reason]:
-        """What else is true of the values."""
+        """Further restrictions on the values."""
         return conditions(self.design.family, self.step.nonzero)
 
     @property
@@ -96,7 +107,7 @@ class Order(NamedTuple):
 
     @property
     def likeness(self) -> tuple[object, ...]:
-        """What steps have in common that are reported as one."""
+        """Steps with the same one are reported together."""
         return self.step.kind, self.step.is_real, self.zeros, self.conditions
 
 
@@ -111,7 +122,6 @@ class Solutions(NamedTuple):
 
     @property
     def values(self) -> dict[str, RealRoot] | None:
-        """The parameters."""
         if self.number is None:
             return None
         values = self.found.solution.real_values[self.number]
@@ -119,7 +129,6 @@ class Solutions(NamedTuple):
 
     @property
     def others(self) -> int:
-        """How many are not real."""
         return self.found.solution.degree - len(self.found.solution.real)
 
 
@@ -182,7 +191,7 @@ def _undecided(found: Order) -> Iterator[str]:
 
 
 def _real(found: Order, d: Plain) -> Iterator[str]:
-    """What is known of the real values of a family, where these are not a family too."""
+    """The real values of a family, unless these are a family too."""
     step = found.step
     if step.real is not None and step.real.is_everything:
         yield "none of them is real"
@@ -196,7 +205,7 @@ def _real(found: Order, d: Plain) -> Iterator[str]:
 
 
 def _values(found: Order, d: Plain, is_whole: bool) -> Iterator[str]:
-    """For which values an order is reached.
+    """The values with which an order is reached.
 
     Args:
         found: what the order asks.
@@ -240,7 +249,7 @@ def _values(found: Order, d: Plain, is_whole: bool) -> Iterator[str]:
 
 
 def certified(order: AnyOrder, whose: str) -> str:
-    """The order of a solution."""
+    """``order at least 4 of the pair``."""
     return f"order {'at least ' * order.is_lower_bound}{order.order} of the {whose}"
 
 
@@ -260,7 +269,7 @@ def _further(found: Found, root: RealRoot, d: Plain) -> list[str]:
 
 
 def _verdict(x: Solutions, d: Plain) -> str:
-    """What a real solution is."""
+    """Order, stability and further facts of a real solution."""
     design, found, index = x.design, x.found, x.number
     if found.order is None:
         return "no method: a weight or a denominator is zero there"
@@ -294,7 +303,7 @@ def groups(design: Design) -> list[list[Order]]:
 
 
 def order_rows(x: DesignReport, d: Plain) -> Texts:
-    """What each order asks; usually only the highest that is reached with its polynomials."""
+    """The demands of each order, with polynomials for the highest that is reached."""
     if not x.design.family.parameters:
         return single_rows(x.design, d)
     rows: Texts = []
@@ -309,7 +318,7 @@ def order_rows(x: DesignReport, d: Plain) -> Texts:
 
 
 def single_rows(design: Design, d: Plain) -> Texts:
-    """Which condition stops a method without unknowns."""
+    """The condition that stops a method without unknowns."""
     last = design.last
     if last.witness is None:
         return []
@@ -318,14 +327,12 @@ def single_rows(design: Design, d: Plain) -> Texts:
 
 
 def _tree(design: Design, tree: Tree, d: Plain) -> str:
-    """A tree, its colours by name where they are kinds of vertices."""
     if design.tableau.has_fields_alone:
         return d.tree(tree)
     return d.naming([colour.name for colour in design.tableau.colours]).tree(tree)
 
 
 def choice_rows(choices: Sequence[Choices], d: Plain) -> Texts:
-    """What each choice leaves."""
     rows = []
     for x in choices:
         left = "no method" if x.after < 0 else f"dimension {x.after}"
@@ -337,13 +344,12 @@ def choice_rows(choices: Sequence[Choices], d: Plain) -> Texts:
 
 
 def _best(design: Design) -> Step | None:
-    """The highest order that is reached."""
     reached = [step for step in design.steps if step.may_have_methods]
     return reached[-1] if reached else None
 
 
 def _answer(x: DesignReport, d: Plain) -> str:
-    """The highest order and its values; what stops the next one."""
+    """The highest order with its values, then why the next one is not reached."""
     design, last, best = x.design, x.design.last, _best(x.design)
     if not design.family.parameters:
         return _of_single(design, best)
@@ -370,7 +376,7 @@ def _answer(x: DesignReport, d: Plain) -> str:
 
 
 def _of_single(design: Design, best: Step | None) -> str:
-    """What is known of a method without unknowns."""
+    """The answer for a method without unknowns."""
     last = design.last
     if best is not None and (best is last or last.kind == "none"):
         return f"order {best.order} of the {design.whose}"
@@ -382,7 +388,7 @@ def _of_single(design: Design, best: Step | None) -> str:
 
 
 def _briefly(step: Step) -> str:
-    """For which values an order is reached, in a few words."""
+    """``a family of dimension 2``; ``3 of 4 solutions``."""
     if step.kind == "every-value":
         return "every value"
     if step.kind == "family" and step.ideal is not None:
@@ -393,7 +399,7 @@ def _briefly(step: Step) -> str:
 
 
 def embedded_rows(x: DesignReport, d: Plain) -> Texts:
-    """That there is nothing to estimate errors with, and what helps."""
+    """A warning that the embedded weights estimate no error."""
     best = _best(x.design)
     if best is None or not estimates_nothing(x.design, best):
         return []
@@ -405,7 +411,7 @@ def embedded_rows(x: DesignReport, d: Plain) -> Texts:
 
 
 def stable_rows(x: DesignReport, d: Plain) -> Texts:
-    """What the ends of the stable values are; how stability is decided where it is not."""
+    """The ends of the stable values, or the way to decide stability."""
     family, best = x.design.family, _best(x.design)
     kinds = ", ".join(map(str, family.stable))
     if not family.parameters:
@@ -447,7 +453,7 @@ def _least(minimum: Minimum, d: Plain) -> str:
 
 
 def _number(value: RealRoot, d: Plain) -> str:
-    """Radicals where there are simple ones, and decimals."""
+    """Radicals if they are simple, and decimals."""
     simple, decimals = root_text(value), root_decimal(value, d.digits)
     if simple is None or len(simple) > 40:
         return d.prose(f"{decimals}…")
@@ -458,7 +464,7 @@ def _number(value: RealRoot, d: Plain) -> str:
 
 
 def _among(minimum: Minimum) -> str:
-    """What was compared."""
+    """The methods that were compared."""
     order = minimum.step.order
     stable = " and ".join(dict.fromkeys(map(str, minimum.design.family.stable)))
     match minimum.extent:
@@ -487,7 +493,6 @@ def _parameters(minimum: Minimum, candidate: Candidate) -> dict[str, RealRoot]:
 
 
 def _candidate(minimum: Minimum, candidate: Candidate, d: Plain) -> str:
-    """A best method and what is known of it."""
     said = []
     if candidate.proof == "exists":
         said.append(f"within 1e-{DECIMALS} of a critical point that exists, by Krawczyk's test")
@@ -509,7 +514,7 @@ def _toward(limit: Limit, d: Plain) -> str:
 
 
 def best_rows(minimum: Minimum, d: Plain) -> Texts:
-    """What is made small, its value, and where it is reached or approached."""
+    """The objective, its value, and the methods with it."""
     what = minimum.objective.summary.format(next=minimum.step.order + 1)
     if not minimum.design.family.parameters:
         return [(d.prose(minimum.objective.key.removeprefix("-")), d.prose(what))]
@@ -540,7 +545,7 @@ END: Kind[RealRoot | str] = Kind(
 
 
 def _accepted(x: Solutions) -> bool | None:
-    """Whether it is as stable as is wanted; None where nothing is, or it is not decided."""
+    """Whether a solution is as stable as wanted; None if nothing is wanted or decided."""
     if not x.design.family.stable:
         return None
     if x.number in x.found.unstable:
@@ -593,7 +598,6 @@ CONDITIONS: Kind[Sequence[Reason]] = Kind(Json(S.array(S.TEXT), lambda xs, _: li
 
 
 def _ideal(x: Order) -> Ideal | Pieces | None:
-    """The ideal of an order that is decided."""
     return None if x.step.kind == "undecided" else x.step.ideal
 
 
@@ -658,8 +662,6 @@ def _end(limit: Limit) -> RealRoot | str:
 
 
 class Minimiser(NamedTuple):
-    """One of the best methods."""
-
     minimum: Minimum
     candidate: Candidate
 
@@ -705,12 +707,12 @@ WHOLE: Section[DesignReport] = Section(
         lambda x: [Order(x.design, step) for step in x.design.steps],
         DATA,
     ),
-    Row("orders_in_words", rows_of(order_rows), lambda x: x),
-    Row("embedded_in_words", rows_of(embedded_rows), lambda x: x),
+    itself("orders_in_words", rows_of(order_rows)),
+    itself("embedded_in_words", rows_of(embedded_rows)),
     optional("objective", part(OBJECTIVE), lambda x: x.minimum, DATA),
     Row("best_in_words", rows_of(best_rows), lambda x: x.minimum),
     optional("stable", parts(VALUES), lambda x: x.sets or None, DATA),
-    Row("stable_in_words", rows_of(stable_rows), lambda x: x),
+    itself("stable_in_words", rows_of(stable_rows)),
     title=lambda x, d: d.prose(x.file),
 )
 REPORT: Report[DesignReport] = Report.only(
@@ -722,9 +724,7 @@ REPORT: Report[DesignReport] = Report.only(
 
 
 def whole(found: Design | Minimum, name: str) -> DesignReport:
-    """What the report says of a design, or of a minimum, by the name of its family where there is
-    no other.
-    """
+    """A design or a minimum, under the name of its family if there is no other."""
     if isinstance(found, Minimum):
         return DesignReport(name or found.design.family.name, found.design, minimum=found)
     return DesignReport(name or found.family.name, found)

@@ -34,7 +34,7 @@ def zeros(family: Family, polynomials: Sequence[AnyPolynomial]) -> list[str]:
 
 
 def equation(family: Family, p: fmpq_mpoly) -> str:
-    """That a polynomial is zero, solved for its first unknown where that is alone."""
+    """The polynomial as an equation, solved for its first unknown if that is alone."""
     exponents = [int(k) for k in p.monoms()[0]]
     if sum(exponents) > 1:
         return f"{_text(family, p)} = 0"
@@ -43,7 +43,7 @@ def equation(family: Family, p: fmpq_mpoly) -> str:
 
 
 def conditions(family: Family, nonzero: Iterable[fmpq_mpoly]) -> list[Reason]:
-    """What else is true of the values: where there is a method, and which the file admits.
+    """Restrictions on values: no denominator vanishes, and those of the file.
 
     Args:
         family: of methods.
@@ -77,12 +77,11 @@ def conditions(family: Family, nonzero: Iterable[fmpq_mpoly]) -> list[Reason]:
 
 
 def _names(names: Sequence[str], p: fmpq_mpoly) -> list[str]:
-    """The unknowns in a polynomial."""
     return [name for name, degree in zip(names, p.degrees(), strict=True) if degree]
 
 
 def where(texts: Sequence[Reason], d: Plain) -> str:
-    """What else is true of values, in words; nothing where nothing is."""
+    """`` where a ≠ 0 and b > 0``; empty without conditions."""
     if not texts:
         return ""
     *others, last = map(d.reason, texts)
@@ -113,14 +112,14 @@ def _bounds(family: Family) -> tuple[dict[str, list[str]], list[fmpq_mpoly]]:
 
 
 def _terms(p: AnyPolynomial) -> dict[tuple[int, ...], fmpq]:
-    """A polynomial but for a factor."""
+    """The coefficients of a polynomial, normed to have 1 as the leading one."""
     terms = {tuple(map(int, e)): fmpq(a) for e, a in p.to_dict().items()}
     highest = terms[max(terms)]
     return {e: a / highest for e, a in terms.items()}
 
 
 def _text(family: Family, p: AnyPolynomial) -> str:
-    """A multiple with whole coefficients, by a positive number."""
+    """The polynomial times a positive number, with whole coefficients."""
     if isinstance(p, fmpq_mpoly):
         p = p * integral_scale(p)
     return _written(family, p)

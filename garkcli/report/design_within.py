@@ -13,7 +13,7 @@ from garkcli.exact.display import decimal
 from garkcli.exact.rounding import in_decimals
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Json, Kind, Level, Row, Section, maybe
+from garkcli.tell.facts import Json, Kind, Level, Row, Section, itself, maybe
 from garkcli.tell.kinds import COUNT, INTEGER, POSITION, TEXT, TEXTS, TOLERANCE, TREE, TRUTH, choice
 from garkcli.tell.parts import answer, parts, rows_of
 from garkcli.tell.report import Report
@@ -36,7 +36,6 @@ class _Found(NamedTuple):
 
     @property
     def texts(self) -> dict[str, str]:
-        """The values."""
         return {name: self.values.text(name, self.digits) for name in self.values.values}
 
     @property
@@ -49,7 +48,6 @@ class _Found(NamedTuple):
         ]
 
     def text(self, x: fmpq) -> str:
-        """A number in so many digits."""
         return in_decimals(x, self.digits)
 
 
@@ -58,7 +56,7 @@ def _of(design: DesignWithin, step: StepWithin) -> list[_Found]:
 
 
 def _briefly(step: StepWithin) -> str:
-    """The solutions, in a few words."""
+    """``2 solutions``; ``a family of dimension 1``."""
     [first, *_] = step.found
     if first.dimension:
         return f"a family of dimension {first.dimension}"
@@ -67,7 +65,7 @@ def _briefly(step: StepWithin) -> str:
 
 
 def _answer(x: WithinReport, d: Plain) -> str:
-    """The highest order with values; what is known of the next."""
+    """The highest order with values, then the next one."""
     design, best, last = x.design, x.design.best, x.design.steps[-1]
     whose = "" if design.whose == "method" else f" of the {design.whose}"
     within = f"within {decimal(design.tolerance)}"
@@ -82,7 +80,7 @@ def _answer(x: WithinReport, d: Plain) -> str:
 
 
 def _printed(step: StepWithin) -> str:
-    """The solutions of the conditions with the digits as they are printed."""
+    """The freedom that the printed digits leave."""
     if step.printed is None:
         return ""
     if step.printed < 0:
@@ -92,7 +90,7 @@ def _printed(step: StepWithin) -> str:
 
 
 def _open(x: DesignWithin, step: StepWithin, d: Plain) -> str:
-    """Why an order is not decided, or why no value has it."""
+    """The reason why an order is not decided or has no value."""
     if x.family.impossible:
         return d.prose(x.family.impossible[0])
     if step.witness is not None:
@@ -126,7 +124,6 @@ def _at_zero(values: ValuesWithin, name: str) -> fmpq:
 
 
 def _solution(found: _Found, d: Plain) -> str:
-    """The values, and what is known of the method with them."""
     values = found.values
     texts = [f"{d.expression(k)} = {d.expression(x)}" for k, x in found.texts.items()]
     said = [] if values.embedded is None else [f"embedded order {values.embedded}"]
@@ -136,7 +133,6 @@ def _solution(found: _Found, d: Plain) -> str:
 
 
 def rows(x: WithinReport, d: Plain) -> list[tuple[str, str]]:
-    """Each order with the values for it and their method."""
     design = x.design
     told: list[tuple[str, str]] = []
     for step in design.steps:
@@ -192,8 +188,6 @@ SOLUTION: Section[_Found] = Section(
 
 
 class _Order(NamedTuple):
-    """A step of a design."""
-
     design: DesignWithin
     step: StepWithin
 
@@ -214,7 +208,7 @@ WHOLE: Section[WithinReport] = Section(
     Row("unknowns", TEXTS, lambda x: list(x.design.family.parameters)),
     Row("tolerance", TOLERANCE, lambda x: x.design.tolerance, DATA),
     Row("orders", parts(STEP), lambda x: [_Order(x.design, step) for step in x.design.steps], DATA),
-    Row("orders_in_words", rows_of(rows), lambda x: x),
+    itself("orders_in_words", rows_of(rows)),
     title=lambda x, d: d.prose(x.file),
 )
 REPORT: Report[WithinReport] = Report.only(
@@ -226,5 +220,5 @@ REPORT: Report[WithinReport] = Report.only(
 
 
 def whole(found: DesignWithin, name: str) -> WithinReport:
-    """Values with the name of their file, or that of their family where there is none."""
+    """Values under the name of their family if there is no other."""
     return WithinReport(name or found.family.name, found)

@@ -19,13 +19,13 @@ from garkcli.page import schema as S  # noqa: N812 -- its names are those of kin
 from garkcli.properties.property import Size, Verdict
 from garkcli.properties.registry import KEYS
 from garkcli.reason import Reason
-from garkcli.report import rosenbrock
 from garkcli.report.check import rounding, verdict_words
+from garkcli.report.other_methods import rosenbrock_words
 from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.tableau import Tableau
 from garkcli.tell import kinds
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Answer, Json, Kind, Level, Row, Rows, Section, Status, maybe
+from garkcli.tell.facts import Answer, Json, Kind, Level, Row, Rows, Section, Status, itself, maybe
 from garkcli.tell.parts import SAID, part, parts, shown
 from garkcli.tell.parts import told as told_kind
 from garkcli.tell.report import Report, Signs
@@ -58,7 +58,7 @@ RELATIONS = {
     "different": "different methods",
     "undecided": "not decided",
 }
-"""What methods are to each other."""
+"""How methods are related."""
 SAME_STEP = "the same step"
 """Of different ones, where only embedded weights or dense output differ."""
 
@@ -72,13 +72,12 @@ class Method(NamedTuple):
 
 
 class Compared(NamedTuple):
-    """A comparison, and by what names its methods were given."""
+    """A comparison, with the names that its methods were given by."""
 
     found: Comparison
     files: tuple[str, str]
 
     def method(self, index: int) -> Method:
-        """The first one or the second."""
         method = (self.found.one, self.found.other)[index]
         return Method(method, self.files[index], self.found.forms[index])
 
@@ -103,7 +102,7 @@ def _entry_data(x: Cell, _: Plain) -> str:
 
 
 def _entry_words(x: Cell, d: Plain) -> str:
-    """An entry: exact where it is short."""
+    """An entry, exact if that is short."""
     if isinstance(x, arb):
         return d.prose(str(x.str(12, radius=False)))
     found = value_text(x, 12)
@@ -155,7 +154,7 @@ def relation(x: Compared) -> Answer[str]:
 
 
 def told(x: Compared) -> str:
-    """What turns one method into the other."""
+    """The changes that turn one method into the other."""
     return "; ".join(_turns(x.found))
 
 
@@ -185,7 +184,7 @@ def _numbers(images: Sequence[int]) -> str:
 
 
 def tolerances(x: Compared) -> str | None:
-    """The tolerances of the files where they are not the same."""
+    """The tolerances of the files if they differ."""
     one, other = x.found.one.tolerance, x.found.other.tolerance
     if one == other:
         return None
@@ -193,7 +192,7 @@ def tolerances(x: Compared) -> str | None:
 
 
 def _orders_words(x: Compared, d: Plain) -> str:
-    """Each order of both methods: one number where it is the same."""
+    """Each order of both methods, once if both have the same."""
     texts = []
     for pair in x.found.orders:
         if not pair.exists or (pair.name == WITH_TIME and not pair.is_different):
@@ -220,12 +219,10 @@ class Gap(NamedTuple):
 
 
 def largest_gaps(x: Compared) -> list[Gap]:
-    """The blocks that differ, each with its largest difference."""
     return [] if x.found.relation == "same" else [Gap(b, b.largest) for b in x.found.gaps]
 
 
 def every_gap(x: Compared) -> list[Gap]:
-    """Every entry that differs."""
     return [Gap(b, entry) for b in x.found.gaps for entry in b.gaps or (None,)]
 
 
@@ -271,20 +268,19 @@ def _side(index: int) -> Row[Gap]:
 
 
 GAP: Rows[Gap] = (
-    Row("block", told_kind(_block_words), lambda x: x, label=""),
-    Row("largest", told_kind(_place_words), lambda x: x, label="largest"),
+    itself("block", told_kind(_block_words), label=""),
+    itself("largest", told_kind(_place_words), label="largest"),
     _side(0),
     _side(1),
     Row("difference", ENTRY, lambda x: None if x.entry is None else x.entry.gap, label="off by"),
 )
 
 
-def _of_entries(gap: Gap, _: Plain) -> str:
-    return f"{len(gap.block.gaps)} of {gap.block.entries}"
-
-
 COUNTED: Row[Gap] = Row(
-    "of_entries", told_kind(_of_entries), lambda gap: gap if gap.entry else None, label="entries"
+    "of_entries",
+    told_kind(lambda gap, _: f"{len(gap.block.gaps)} of {gap.block.entries}"),
+    lambda gap: gap if gap.entry else None,
+    label="entries",
 )
 ENTRIES: Section[EntryGap] = Section(
     maybe("row", kinds.INDEX, lambda x: x.row),
@@ -349,7 +345,7 @@ def _method_words(x: Method, d: Plain) -> str:
     stages = ", ".join(map(str, x.method.stages))
     about = f"{counted(x.method.tableau.size, 'colour')}, stages {stages}"
     if x.form == "row":
-        about = rosenbrock.words_of(x.method.tableau)
+        about = rosenbrock_words(x.method.tableau)
     elif x.form == "rkn":
         about = f"Nyström, {counted(x.method.stages[0], 'stage')}"
     elif x.form == "nprk":
@@ -379,7 +375,7 @@ REPORT: Report[Compared] = Report.only(
         Row("same", SAID, told),
         maybe("same", part(SAME), lambda x: x.found.sameness, DATA),
         Row("tolerance", SAID, tolerances),
-        Row("orders", told_kind(_orders_words), lambda x: x),
+        itself("orders", told_kind(_orders_words)),
         Row("conditions", told_kind(_conditions_words), lambda x: x.found.met),
         Row("differences", parts(BLOCK), lambda x: x.found.gaps, DATA),
         Row(
@@ -430,5 +426,5 @@ def _signs(tableau: Tableau) -> Signs:
 
 
 def whole(found: Comparison, _: str) -> Compared:
-    """What the report says of a comparison; its methods have names."""
+    """A comparison; its methods have names."""
     return Compared(found, (found.one.name or "first", found.other.name or "second"))

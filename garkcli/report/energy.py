@@ -23,9 +23,9 @@ from garkcli.report.failure import FAILURE, Failure
 from garkcli.report.problem import STEPPED, Run
 from garkcli.tableau.garkmethod import derivation_of, word_for
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Json, Kind, Level, Row, Rows, Section, maybe, optional, via
+from garkcli.tell.facts import Json, Kind, Level, Row, Rows, Section, itself, maybe, optional, via
 from garkcli.tell.kinds import COUNT, DERIVATION, EXACT, POSITION, TEXT, TRUTH, choice, claim_word
-from garkcli.tell.parts import SAID, answer, part, parts, rows_of, scene, table
+from garkcli.tell.parts import SAID, answer, part, parts, plot, rows_of, table
 from garkcli.tell.report import Report
 from garkcli.tell.shown import Words
 
@@ -38,13 +38,13 @@ FATES = {
     "contractive": "the energy decays for ever",
     "marginal": "energy is lost, but not all of it",
 }
-"""What becomes of the energy of the oscillator."""
+"""The fate of the energy of the oscillator."""
 _NEARLY = 2.0
 """How many times round-off an uncertainty is that is nothing but round-off."""
 
 
 class Claim(Frozen):
-    """What is claimed of a run, what was found, and whether the claim holds; None: undecided."""
+    """A claim about a run, the finding, and whether the claim holds; None: undecided."""
 
     claim: str
     found: str
@@ -52,7 +52,7 @@ class Claim(Frozen):
 
 
 class EnergyReport(Frozen):
-    """A long run and what is said about it.
+    """A long run.
 
     Attributes:
         name: of the method.
@@ -68,8 +68,6 @@ class EnergyReport(Frozen):
 
 
 class Quantity(NamedTuple):
-    """What became of one quantity, and the run."""
-
     history: InvariantHistory
     run: LongRun
 
@@ -78,13 +76,12 @@ class Quantity(NamedTuple):
 
 
 def _word(history: InvariantHistory, d: Plain) -> str:
-    """The verdict."""
     news, word = WORDS[history.verdict]
     return str(getattr(d, news)(word))
 
 
 def _because(history: InvariantHistory, run: LongRun) -> str:
-    """What a verdict rests on, and what decides an undecided run."""
+    """The reason for a verdict, and how an undecided run can be decided."""
     match history.verdict:
         case "exact":
             return " by every step, exactly"
@@ -120,7 +117,7 @@ def _verdicts(run: LongRun, d: Plain) -> list[tuple[str, str]]:
 
 
 def _undecided(history: InvariantHistory, run: LongRun) -> tuple[str, str]:
-    """Why, and what decides it."""
+    """The reason, and the cure."""
     longer = f"--t-end {history.longer}"
     can_tell = f"{longer} can tell"
     if history.longer is None:
@@ -156,14 +153,14 @@ def _undecided(history: InvariantHistory, run: LongRun) -> tuple[str, str]:
 
 
 def _direction(history: InvariantHistory) -> str:
-    """Where a trend goes: by its slope, or by its end where no line fits it."""
+    """Whether a trend rises or falls, by its slope or, without one, by its end."""
     drift = history.drift or 0.0
     went = drift if history.shape == "line" else history.errors[-1]
     return "rises" if went > 0 else "falls"
 
 
 def _times(history: InvariantHistory) -> str:
-    """How many times its uncertainty the drift is, to one digit."""
+    """The drift over its uncertainty, in one digit."""
     drift = history.drift or 0.0
     uncertainty = history.uncertainty or 1.0
     times = abs(drift) / uncertainty
@@ -172,7 +169,6 @@ def _times(history: InvariantHistory) -> str:
 
 
 def _determinant(stability: Stability) -> str:
-    """Det R(h) − 1."""
     return to_decimal(stability.determinant - 1, 4)
 
 
@@ -199,7 +195,7 @@ def _oscillation(history: InvariantHistory) -> str | None:
 
 
 def _drift(x: Quantity) -> str | None:
-    """Per unit of time and in all; digits below the uncertainty say nothing."""
+    """Per unit of time and in all, in as many digits as are certain."""
     history, run = x
     if not _oscillates(history) or history.drift is None:
         return None
@@ -281,10 +277,9 @@ def _claims(claims: tuple[Claim, ...], d: Plain) -> list[tuple[str, str]]:
     ]
 
 
-def _drawn(report: EnergyReport) -> LongRun | None:
-    """The run with the errors that are more than noise, which is different on every machine."""
-    seen = tuple(x for x in report.run.invariants if x.max_error > x.round_off)
-    return replace(report.run, invariants=seen) if seen else None
+def _seen(run: LongRun) -> tuple[InvariantHistory, ...]:
+    """Errors that are more than noise, which is different on every machine."""
+    return tuple(x for x in run.invariants if x.max_error > x.round_off)
 
 
 SIZE: Kind[float] = Kind(Json(S.SIZE))
@@ -338,7 +333,7 @@ RUN: Rows[LongRun] = [
     Row("escaped_at", TIME, lambda x: x.escaped, DATA),
     Row("drifts", TRUTH, lambda x: x.drifts, DATA),
     answer(_answer),
-    Row("verdicts", rows_of(_verdicts), lambda x: x),
+    itself("verdicts", rows_of(_verdicts)),
     Row(
         "quantities",
         table(QUANTITY, MOST_QUANTITIES),
@@ -379,7 +374,10 @@ def _form(problem: Rows[Run]) -> Section[EnergyReport]:
         via(lambda x: x.run, RUN),
         Row("symplectic_in_words", SAID, lambda x: "; ".join(_symplectic(x)), label="symplectic"),
         Row("claims_in_words", rows_of(_claims), lambda x: x.claims),
-        Row("plot", scene(energy_scene), _drawn, DETAIL),
+        plot(
+            lambda x: energy_scene(replace(x.run, invariants=_seen(x.run))),
+            lambda x: bool(_seen(x.run)),
+        ),
         maybe(
             "symplectic", part(SYMPLECTIC), lambda x: None if x.symplecticity is None else x, DATA
         ),
@@ -420,7 +418,6 @@ def _moments(report: EnergyReport) -> Iterator[Moment]:
 
 
 def form(x: EnergyReport | Failure) -> Section[Any]:
-    """The rows of a run, or of one without a result."""
     return FAILURE if isinstance(x, Failure) else FORMS[type(x.run.problem)]
 
 
@@ -435,5 +432,5 @@ REPORT: Report[EnergyReport | Failure] = Report(
 
 
 def whole(run: LongRun, name: str) -> EnergyReport:
-    """What the report says of a run, by the name of its method where there is no other."""
+    """A run under the name of its method if there is no other."""
     return EnergyReport(name or ("" if run.method is None else run.method.name), run)

@@ -31,6 +31,7 @@ from garkcli.tell.facts import (
     Rows,
     Section,
     Status,
+    itself,
     maybe,
     optional,
     via,
@@ -70,7 +71,7 @@ FACT["required"] = FACT["required"][:-2]
 
 
 def fact_data(f: Fact, inner: Kind[V], d: Plain) -> dict[str, object]:
-    """An answer for every value, its exceptions, what is open."""
+    """A value for almost all parameters, with exceptions and open cases."""
 
     def data(x: V | None) -> object:
         return None if x is None or inner.what is None else inner.what.data(x, d)
@@ -91,7 +92,7 @@ def fact_data(f: Fact, inner: Kind[V], d: Plain) -> dict[str, object]:
 
 
 def lifted(inner: Kind[V]) -> Kind[Fact]:
-    """A kind of value for a family: only the exceptions are new."""
+    """The kind for families: a value with exceptions."""
 
     def words(f: Fact, d: Plain) -> str:
         from garkcli.tell.dialect import Plain
@@ -127,7 +128,6 @@ ORDER_PARTS: Section[EveryOrder] = Section(
 
 
 def _higher(o: EveryOrder, name: str) -> Reason:
-    """For which values the order is higher."""
     higher = o.order + 1
     if o.dimension is not None and o.dimension < 0:
         return Reason(f"; no value has order {higher}")
@@ -162,8 +162,6 @@ BLOCK_LISTS: Kind[Sequence[tuple[int, int]]] = Kind(
 
 
 def of_blocks(name: str, kind: Kind[kinds.Table]) -> Row[EveryValue]:
-    """B, C or D as a table."""
-
     def get(e: EveryValue) -> Fact:
         rows = (lambda x: [x]) if name == "B" else (lambda x: x)
         return e.simplifying(name).of(lambda x: kinds.Table(rows(x), e.limit))
@@ -224,7 +222,6 @@ FAMILY: Rows[EveryValue] = [
 
 
 def verdicts(o: Outcome) -> dict[str, Fact] | None:
-    """All properties, where they were requested."""
     if not o.wants_properties or o.every is None:
         return None
     return {key: o.every.verdict(key) for key in KEYS}
@@ -256,12 +253,12 @@ EVERY: Section[Outcome] = Section(
 # stability
 
 STABILITIES = ("a-stable", "l-stable", "p-stable", "i-stable", "algebraically-stable")
-"""What is decided, of one parameter."""
+"""The kinds of stability that are decided for one parameter."""
 LIMIT = 60
 
 
 class EveryStability(Frozen):
-    """What is known of the stability of a family.
+    """The stability of a family.
 
     Attributes:
         file: its path.
@@ -277,12 +274,10 @@ class EveryStability(Frozen):
 
     @property
     def facts(self) -> dict[str, Fact]:
-        """The kinds of stability."""
         return {key: find_property(self.family, key, LIMIT) for key in STABILITIES}
 
 
 def every_stability(file: str, name: str, family: EveryFamily) -> EveryStability:
-    """The stability of a family."""
     return EveryStability(file, name, family, family_functions(family.tableau, family.ring))
 
 
@@ -312,7 +307,7 @@ FUNCTION: Section[FamilyFunction] = Section(
 
 
 def _variable(preferred: str, parameters: Sequence[str]) -> str:
-    """The letter of a polynomial whose coefficients have parameters: none of these."""
+    """A letter that is no parameter."""
     others = (x for x in f"{preferred}wuvsxyzabcdefghijklmnopqrt" if x not in parameters)
     return next(others, f"{preferred}_")
 
@@ -339,7 +334,7 @@ def _function_rows(found: EveryStability, d: Plain) -> list[tuple[str, str]]:
 
 
 def _stability_rows(x: EveryStability, d: Plain) -> list[tuple[str, str]]:
-    """For which values each kind of stability holds, or what decides it."""
+    """Each kind of stability with its values, or the way to decide it."""
     rows = []
     for key, fact in x.facts.items():
         text = fact_reason(fact, d.parameter, told_value)
@@ -361,9 +356,9 @@ EVERY_STABILITY: Section[EveryStability] = Section(
     Row("unknowns", kinds.TEXTS, lambda x: list(x.family.family.parameters), DATA),
     Row("restrictions", RESTRICTIONS, lambda x: x.family, DATA),
     Row("functions", parts(FUNCTION), lambda x: x.functions, DATA),
-    Row("stability", part(STABLE), lambda x: x, DATA),
-    Row("functions_in_words", rows_of(_function_rows), lambda x: x),
-    Row("stability_in_words", rows_of(_stability_rows), lambda x: x),
+    itself("stability", part(STABLE), DATA),
+    itself("functions_in_words", rows_of(_function_rows)),
+    itself("stability_in_words", rows_of(_stability_rows)),
     title=lambda x, d: f"{d.prose(x.file)}: {c.every_value(x.family, d)}",
 )
 STABILITY: Report[EveryStability] = Report(

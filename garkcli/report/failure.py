@@ -21,7 +21,7 @@ FAULT: Section[Fault] = Section(
 
 
 class Failure(NamedTuple):
-    """A run that has no result: of which method, and why."""
+    """A run without a result."""
 
     name: str
     faults: Sequence[Fault]

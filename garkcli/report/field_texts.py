@@ -15,7 +15,7 @@ REFERENCES = (("publication",), ("reference",))
 
 
 def told(schema: Schema, report: str) -> Schema:
-    """A schema of a report in which each field says what it holds."""
+    """The schema with a description of each field."""
     found: Schema = _walked(schema, (report,))
     return found
 
@@ -35,7 +35,7 @@ def _walked(node: Any, path: tuple[str, ...]) -> Any:
 
 
 def _field(schema: Any, path: tuple[str, ...]) -> Any:
-    """What a field may be, and what it holds; the words on its numbers stay."""
+    """The schema of a field with its description; words on its numbers stay."""
     inner = _walked(schema, path)
     text = text_of(path)
     if not (text and isinstance(inner, dict)):
@@ -45,7 +45,7 @@ def _field(schema: Any, path: tuple[str, ...]) -> Any:
 
 
 def text_of(path: tuple[str, ...]) -> str:
-    """What a field holds: by its entry, or as the claim, the column or the key that it is."""
+    """The description of a field: its own, or that of the claim, column or key it is."""
     name = path[-1]
     if path[-2:-1] in REFERENCES:
         return _elsewhere().get(name, "")
@@ -54,7 +54,7 @@ def text_of(path: tuple[str, ...]) -> str:
 
 @lru_cache(maxsize=1)
 def _elsewhere() -> Mapping[str, str]:
-    """The texts of names in other places: claims, columns of sweeps, parts of references."""
+    """Descriptions of claims, columns of sweeps and parts of references."""
     from garkcli.properties.definitions import every_definition
 
     found = {}

@@ -1,4 +1,4 @@
-"""What failing conditions tell, in words: the likely culprit, a possible repair, a tolerance."""
+"""Hints of failing conditions in words: the likely culprit, a possible repair, a tolerance."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ MOST_REPAIRS = 3
 
 
 def blame_text(blame: Blame, own: Sequence[str]) -> Reason:
-    """Which conditions fail, which block takes part in all of them, and what would mend them.
+    """The conditions that fail, the block in all of them, and repairs.
 
     Args:
         blame: what was found.
@@ -36,9 +36,7 @@ def blame_text(blame: Blame, own: Sequence[str]) -> Reason:
 
 
 def _conditions(blame: Blame, own: Sequence[str]) -> list[Reason]:
-    """Which conditions fail, and the blocks that take part; of the sum of weights there is no more
-    to say.
-    """
+    """The conditions that fail, and their blocks; the sum of weights needs no more."""
     names = blame.names or own
     letter = "Â" if blame.of == "conjugate-order" else "A"
     fail = f"{blame.failing} of the {blame.total} conditions of order {blame.order} fail"
@@ -62,7 +60,6 @@ def _conditions(blame: Blame, own: Sequence[str]) -> list[Reason]:
 def _take_part(
     letter: str, blocks: Sequence[tuple[int, int]], names: Sequence[str], which: str
 ) -> Reason:
-    """Which blocks take part in all of the conditions that fail, or in none."""
     places = joined(", ", [Place(letter, names_of(block, names)) for block in blocks])
     return Reason(f"{{}} {'takes' if len(blocks) == 1 else 'take'} part in {which} of them", places)
 
@@ -72,7 +69,7 @@ def _repairs(repairs: Sequence[Repair], names: Sequence[str]) -> Reason:
 
 
 def remark_text(found: Remark, names: Sequence[str], tolerance: fmpq | None) -> Reason:
-    """How many digits the numbers have, which order they would have, and which entry is off.
+    """The digits of the numbers, the order with these, and the entry that is off.
 
     Args:
         found: what the digits say.

@@ -12,7 +12,7 @@ from garkcli.bridges.subject import Subject
 from garkcli.errors import counted
 from garkcli.report.audited import FINDING, MOST, WRONG
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Answer, Kind, Level, Row, Rows, Section, Status, maybe
+from garkcli.tell.facts import Answer, Kind, Level, Row, Rows, Section, Status, itself, maybe
 from garkcli.tell.kinds import COUNT, POSITION, TEXT, TEXTS
 from garkcli.tell.parts import parts, picture, shown
 from garkcli.tell.report import Report
@@ -30,11 +30,10 @@ class Found(NamedTuple):
 
     @property
     def name(self) -> str:
-        """What people call it."""
         return self.result.table.name or self.result.stem
 
     def order(self, get: Callable[[Subject], Judged | None]) -> Answer[int]:
-        """An order of its method, as its digits let it be known."""
+        """An order, as well as the digits of the method let it be known."""
         method = self.result.method
         found = None if method is None else get(method)
         if method is None or found is None:
@@ -43,30 +42,25 @@ class Found(NamedTuple):
 
 
 def all_found(results: Sequence[Result], files: Mapping[int, str]) -> list[Found]:
-    """Results in order, with where each was written, by its number from 0."""
     return [Found(x, files.get(k)) for k, x in enumerate(results)]
 
 
 def _notes(found: Sequence[Found]) -> list[tuple[str, str]]:
-    """What people should know of each."""
     return [(x.name, note) for x in found for note in x.result.notes()]
 
 
 def _wrong(found: Sequence[Found]) -> list[tuple[Subject, Sequence[AuditFinding]]]:
-    """The methods that are not what their sources declare."""
     results = (x.result for x in found)
     return [(x.method, x.errors) for x in results if x.method is not None and x.errors]
 
 
 def _title(found: Sequence[Found], _: Plain) -> str:
-    """How many methods there are, and how many are wrong."""
     told = counted(sum(x.result.method is not None for x in found), "method")
     wrong = len(_wrong(found))
     return f"{told}, {wrong} wrong" if wrong else told
 
 
 def _texts(found: Sequence[Found], _: Plain) -> list[str]:
-    """The method files."""
     return [line for x in found if x.result.method for line in x.result.method.text.splitlines()]
 
 
@@ -99,11 +93,11 @@ REPORT: Report[Sequence[Found]] = Report.only(
     "gark/import/1",
     "report of gark import",
     Section(
-        Row("methods", parts(METHOD), lambda x: x, DATA),
-        Row("name", shown(LINE, 0), lambda x: x),
+        itself("methods", parts(METHOD), DATA),
+        itself("name", shown(LINE, 0)),
         Row("name", shown(NOTE, 0), _notes),
         Row("wrong_methods", shown(WRONG, MOST), _wrong, label="methods", is_short=True),
-        Row("texts", picture(_texts), lambda x: x, DETAIL),
+        itself("texts", picture(_texts), DETAIL),
         title=_title,
     ),
 )

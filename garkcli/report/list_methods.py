@@ -14,7 +14,7 @@ from garkcli.page import schema as S  # noqa: N812 -- its names are those of kin
 from garkcli.properties.registry import every_property
 from garkcli.report.citation import short_name
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Answer, Json, Kind, Level, Row, Rows, Section, Status, maybe
+from garkcli.tell.facts import Answer, Json, Kind, Level, Row, Rows, Section, Status, itself, maybe
 from garkcli.tell.kinds import COUNT, POSITION, TEXT, TEXTS, TRUTH, choice
 from garkcli.tell.parts import parts, shown, told
 from garkcli.tell.report import ListReport, Report
@@ -30,17 +30,15 @@ ORDER = "order"
 def _field(
     key: str, kind: Kind[V], level: Level = DATA, has_null: bool = True, line: str = ""
 ) -> Row[Entry]:
-    """A row of the field of that name; what nobody knows is null."""
+    """The field of that name; null if nobody knows it."""
     return Row(key, kind, lambda entry: entry[key], level, has_null, line=line)
 
 
 def rounding(entry: Entry) -> fmpq | None:
-    """Within which rounding a method is what it is."""
     return None if entry["tolerance"] is None else read_decimal(entry["tolerance"])
 
 
 def order(key: str) -> Callable[[Entry], Answer[int]]:
-    """An order as it is known."""
     return lambda entry: Answer(entry[key], Status(rounding(entry)))
 
 
@@ -49,7 +47,7 @@ def _order(key: str, level: Level = USUAL, label: str | None = None) -> Row[Entr
 
 
 def _size_words(text: str, d: Plain) -> str:
-    """A number of the index; a long fraction in decimals."""
+    """A number of the index; decimals for a long fraction."""
     over, _, under = text.partition("/")
     is_fraction = over.lstrip("-").isdecimal() and under.isdecimal()
     return d.prose(shortest(fmpq(int(over), int(under))) if is_fraction else text)
@@ -124,7 +122,6 @@ TYPES = {
 
 
 def marks(entry: Entry) -> list[str]:
-    """The letters of a method."""
     found = [mark for mark, (key, _) in MARKS.items() if key and entry[key]]
     if entry["nonautonomous_order"] not in {None, entry["order"]}:
         found.append("t")
@@ -132,7 +129,7 @@ def marks(entry: Entry) -> list[str]:
 
 
 def _order_words(entry: Entry, _: Plain) -> str:
-    """The order with that of embedded weights, marked where it is a claim."""
+    """``5(4)``, with a star if it is a claim."""
     if entry["order"] is None:
         return ""
     inner = "" if entry["embedded_order"] is None else f"({entry['embedded_order']})"
@@ -140,7 +137,7 @@ def _order_words(entry: Entry, _: Plain) -> str:
 
 
 def _stages_words(entry: Entry, _: Plain) -> str:
-    """How many, a number per colour where colours have stages of their own."""
+    """``3+2`` if colours have stages of their own."""
     own = [entry["stages"]] if entry["kind"] == "ark" else entry["stages_by_colour"]
     return "+".join(map(str, own))
 
@@ -170,19 +167,19 @@ def _type(entry: Entry) -> str:
 
 LINE: Section[Entry] = Section(
     Row("name", TEXT, lambda x: x["name"], label=""),
-    Row("order", told(_order_words), lambda x: x),
-    Row("stages", told(_stages_words), lambda x: x),
+    itself("order", told(_order_words)),
+    itself("stages", told(_stages_words)),
     Row("kind", TEXT, lambda x: x["kind"] or "unread"),
     Row("explicit", TEXT, _type, label="type"),
-    Row("properties", told(_marks_words), lambda x: x, label="is"),
-    Row("reference", told(_reference_words), lambda x: x),
+    itself("properties", told(_marks_words), label="is"),
+    itself("reference", told(_reference_words)),
     is_cut=True,
 )
 """A method in a line."""
 
 
 def _title(entries: Sequence[Entry], d: Plain) -> str:
-    """How many there are, and what the letters mean."""
+    """The number of methods, and the meaning of the letters."""
     if not entries:
         return "no method of the catalogue matches"
     present = {mark for entry in entries for mark in marks(entry)} if d.is_brief else set()
@@ -196,8 +193,8 @@ REPORT: Report[Sequence[Entry]] = ListReport.only(
     "",
     "list of gark list methods",
     Section(
-        Row("methods", parts(Section(METHOD)), lambda x: x, DATA),
-        Row("name", shown(LINE, 0), lambda x: x),
+        itself("methods", parts(Section(METHOD)), DATA),
+        itself("name", shown(LINE, 0)),
         title=_title,
     ),
     lines=lambda entries: (Section(METHOD), entries),

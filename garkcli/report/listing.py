@@ -23,7 +23,7 @@ DETAIL, DATA = Level.DETAIL, Level.DATA
 
 
 class Lists(NamedTuple):
-    """Families, schemes and splittings by their names, and summaries of the others by theirs."""
+    """Families, schemes, splittings and problems by name, and summaries of rules."""
 
     families: Mapping[str, Family]
     rules: Mapping[str, str]
@@ -33,7 +33,6 @@ class Lists(NamedTuple):
 
 
 def all_lists() -> Lists:
-    """What method files and commands can name."""
     return Lists(FAMILIES, SUMMARIES, SCHEMES, SPLITTINGS, PROBLEMS)
 
 
@@ -42,7 +41,7 @@ def _sizes(family: Family) -> str:
 
 
 def chosen_by(family: Family) -> Iterator[tuple[str, str]]:
-    """The keys of a family besides its stages, with what they may be."""
+    """The keys of a family besides its stages, with their values."""
     if family.size != "stages":
         yield family.size, _sizes(family)
     for option in family.options:
@@ -97,7 +96,7 @@ SCHEME: Section[Scheme | Splitting] = Section(
 
 
 def _topics(lists: Lists) -> list[tuple[str, str, str]]:
-    """What can be listed, how much there is of it, and the command."""
+    """The lists, the number of their entries, and the command for each."""
     counts = {"methods": len(method_names())}
     counts |= {name: len(x) for x, name in zip(lists, ROWS, strict=True)}
     return [(name, str(count), f"gark list {name}") for name, count in counts.items()]
@@ -114,7 +113,7 @@ ROWS: dict[str, Row[Lists]] = {
 
 
 def _counted(row: Row[Lists], lists: Lists) -> str:
-    """How many a list has of what, above it."""
+    """``25 families``."""
     return f"{len(row.get(lists))} {'transfer rules' if row.key == 'transfer' else row.key}"
 
 
@@ -135,7 +134,6 @@ REPORT: Report[Lists] = Report.only(
 
 
 def only(what: str) -> Report[Lists]:
-    """The report of one of the lists."""
     row = ROWS[what]
     section = Section(row, title=lambda x, _: _counted(row, x))
     return Report.only("gark/list/1", f"report of gark list {what}", section)

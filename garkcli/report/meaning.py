@@ -16,19 +16,15 @@ from garkcli.tell.shown import Labels
 
 
 class Told(NamedTuple):
-    """A meaning of a word."""
-
     word: str
     meaning: Meaning
 
 
 def _optional(key: str, get: Callable[[Meaning], str]) -> Row[Meaning]:
-    """A part of a meaning that some have."""
     return optional(key, TEXT, lambda x: get(x) or None)
 
 
 def _example_rows(text: str, d: Plain) -> list[tuple[str, str]]:
-    """Lines of a file or a command, as they are written."""
     return [("" if i else "example", d.prose(x)) for i, x in enumerate(text.splitlines())]
 
 
@@ -63,12 +59,10 @@ REPORT: Report[Told] = Report(
 
 
 def told(word: str, found: Sequence[Meaning]) -> list[Told]:
-    """The meanings of a word."""
     return [Told(word, meaning) for meaning in found]
 
 
 def every_term() -> list[Told]:
-    """The terms, each with its meaning."""
     return told("", [term_meaning(x) for topic in TOPICS for x in terms_of(topic)])
 
 

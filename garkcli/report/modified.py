@@ -42,7 +42,7 @@ _FORMLESS = Reason("no Hamiltonian problem has its form")
 
 
 class ModifiedReport(Frozen):
-    """What the report says of one file.
+    """The modified equation of one method.
 
     Attributes:
         file: its path as given.
@@ -64,7 +64,6 @@ class ModifiedReport(Frozen):
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The names of the colours."""
         return tuple(x.name for x in self.found.equation.tableau.colours)
 
 
@@ -83,7 +82,7 @@ class Term(NamedTuple):
 
 
 def _size(factor: Number, d: Plain) -> str:
-    """How large a factor is; the tables of documents are wide without it."""
+    """A factor in decimals; tables of documents have no room for it."""
     return "" if d.breadth == "page" else to_decimal(factor, 4)
 
 
@@ -120,7 +119,6 @@ def _equation(report: ModifiedReport) -> Answer[list[Term]]:
 
 
 def _hamiltonian(report: ModifiedReport) -> Answer[list[Term]]:
-    """The terms of the modified Hamiltonian; None where there is none."""
     found = report.found.hamiltonian
     terms = (
         None
@@ -134,13 +132,11 @@ def _hamiltonian(report: ModifiedReport) -> Answer[list[Term]]:
 
 
 def unknowns_of(formula: ModifiedFormula) -> list[str]:
-    """The names of positions and momenta."""
     positions = list(formula.problem.variables)
     return [*positions, *(f"p{name}" for name in positions)]
 
 
 def _text(formula: object) -> str:
-    """A formula as problem files write it."""
     return str(formula).replace("**", "^")
 
 
@@ -151,7 +147,7 @@ def _latex(formula: object) -> str:
 
 
 def _formula_rows(formula: ModifiedFormula, d: Plain) -> Iterator[tuple[str, str]]:
-    """What is added with each power of h; of an equation for each unknown."""
+    """The terms of each power of h; of an equation for each unknown."""
     is_hamiltonian = formula.of == "hamiltonian"
     unknowns = ["H"] if is_hamiltonian else [f"{x}'" for x in unknowns_of(formula)]
     highest = d.formula(f"h^{{{formula.max_order - 1}}}", f"h^{formula.max_order - 1}")
@@ -216,8 +212,6 @@ REACHED: Kind[int] = Kind(
 def _order(
     key: str, get: Callable[[BackwardAnalysis], Reached | None], level: Level = HEADLINE
 ) -> Row[BackwardAnalysis]:
-    """An order, and whether it is a lower bound."""
-
     def answer(x: BackwardAnalysis) -> Answer[int]:
         reached = get(x)
         if reached is None:
@@ -289,5 +283,4 @@ REPORT: Report[ModifiedReport] = Report.only(
 
 
 def whole(found: BackwardAnalysis, name: str) -> ModifiedReport:
-    """What the report says of the value that a call returns."""
     return ModifiedReport(name, name, found)

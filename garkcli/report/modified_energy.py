@@ -29,19 +29,17 @@ MOST = 12
 
 
 class ModifiedEnergyReport(Frozen):
-    """A measurement with the name of the method."""
-
     name: str
     run: ModifiedRun
 
 
 def _error(row: Step) -> float:
-    """The middle of an error, as it is shown."""
+    """The middle of an error, in the digits that are shown."""
     return float(row.error.mid().str(6, radius=False))
 
 
 def _terms(energy: ModifiedEnergy) -> str:
-    """Up to which power of h the modified Hamiltonian is taken."""
+    """``to h^2``, or ``H`` alone."""
     return f"to h^{energy.power}" if energy.power else "H"
 
 
@@ -62,7 +60,7 @@ def _verdict(verdict: str, d: Plain) -> str:
 
 
 def _answer(energies: Sequence[ModifiedEnergy], d: Plain) -> str:
-    """The verdicts, with what they are of."""
+    """The verdicts, each with the Hamiltonians it is on."""
     found: dict[str, list[str]] = {}
     for energy in energies:
         found.setdefault(energy.verdict, []).append(_terms(energy))
@@ -71,8 +69,6 @@ def _answer(energies: Sequence[ModifiedEnergy], d: Plain) -> str:
 
 
 class Errors(NamedTuple):
-    """The errors of a step size."""
-
     h: fmpq
     errors: list[tuple[ModifiedEnergy, Step]]
 
@@ -148,7 +144,6 @@ LINE: Section[Errors] = Section(
 
 
 def form(x: ModifiedEnergyReport | Failure) -> Section[Any]:
-    """The rows of a measurement, or of one without a result."""
     return FAILURE if isinstance(x, Failure) else MEASURED
 
 
@@ -163,5 +158,5 @@ REPORT: Report[ModifiedEnergyReport | Failure] = Report(
 
 
 def whole(run: ModifiedRun, name: str) -> ModifiedEnergyReport:
-    """What the report says of a run, by the name of its method where there is no other."""
+    """A run under the name of its method if there is no other."""
     return ModifiedEnergyReport(name or ("" if run.method is None else run.method.name), run)

@@ -99,7 +99,6 @@ def condition_html(condition: Condition) -> str:
 
 
 def _text(text: str) -> str:
-    """A text without controls, as it is in HTML."""
     return escape(printable(text))
 
 

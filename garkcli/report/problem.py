@@ -62,7 +62,7 @@ def _energy(k: object, v: object) -> str:
 
 
 def _formula(text: str) -> str:
-    """An expression of sympy with powers as people write them."""
+    """An expression of sympy with ^ for powers."""
     return text.replace("**", "^")
 
 
@@ -77,8 +77,6 @@ _FORMULAS: Kind[Sequence[object]] = Kind(Json(S.array(S.TEXT), lambda xs, _: [st
 
 
 class Run(Protocol):
-    """Steps of a method on a problem."""
-
     @property
     def method(self) -> GarkMethod | None:
         """The method; None without one."""
@@ -93,7 +91,7 @@ class Run(Protocol):
 
 
 def _stepped(kind: type[P], terms: Rows[P]) -> Rows[Run]:
-    """What the report says of the problem of a run: in words, and its terms for programs."""
+    """The problem of a run: in words, and its terms for programs."""
 
     def problem(x: Run) -> P | None:
         return x.problem if isinstance(x.problem, kind) else None
@@ -112,9 +110,7 @@ def _stepped(kind: type[P], terms: Rows[P]) -> Rows[Run]:
 
 
 def driving(run: Run) -> str:
-    """What the colours of a method do with the terms of a Hamiltonian, where its file does not say
-    it by a partition; empty where there is nothing to say.
-    """
+    """The part of the Hamiltonian that each colour steps; empty if the file says it."""
     method = run.method
     if method is None or isinstance(run.problem, RightHandSide):
         return ""

@@ -1,4 +1,4 @@
-"""What commands tell, of values that calls return: by rows, or by a writer of their own."""
+"""Values of calls in the formats of commands: by rows, or by a writer of their own."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ makes of the value and a name what that tells.
 
 
 def render(value: object, format: str = "text", name: str = "") -> str:
-    """What a command prints of a value, in one of its formats.
+    """The output of a command for a value, in one of its formats.
 
     Args:
         value: a method (``gark tableau``); what ``check_file``, ``analyse``, ``find_stability``,
@@ -93,13 +93,13 @@ def latex(method: GarkMethod) -> str:
 
 
 def html(value: Any) -> str:
-    """A value that rows tell, as notebooks show it."""
+    """A value as notebooks show it."""
     report, whole = _told_by(TOLD_BY[_kind(value, TOLD_BY)])
     return report.html(whole(value, ""))
 
 
 def _kind(value: object, known: Mapping[str, Any]) -> str:
-    """The room and the kind of a value, or of one that its kind is made from; else nothing."""
+    """The room and the class of a value, or of a base of its class; else empty."""
     rooms = ((kind, kind.__module__.split(".")) for kind in type(value).__mro__)
     kinds = (f"{''.join(room[1:2])}.{kind.__name__}" for kind, room in rooms)
     return next((x for x in kinds if x in known), "")
@@ -111,7 +111,7 @@ def _told_by(file: str) -> tuple[Report[Any], Callable[[Any, str], Any]]:
 
 
 def _writer_of(value: object) -> tuple[str, Writer, Sequence[str]]:
-    """The kind of a value, what writes it, and in which formats.
+    """The class of a value, its writer, and the formats.
 
     Raises:
         MethodError: nothing does.
@@ -169,4 +169,4 @@ WRITERS: Mapping[str, tuple[Writer, Sequence[str]]] = {
     "sweep.SweepReport": (_sweeps, (*FORMATS, "csv", "jsonl")),
     "tableau.GarkMethod": (_methods, FORMATS),
 }
-"""The same of values that have formats besides, or no rows: what writes them, in which formats."""
+"""By room and class the writers of values that have further formats, or no rows; the formats."""

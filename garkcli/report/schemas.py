@@ -50,7 +50,7 @@ REPORTS = {
 
 
 def report_schema(command: str) -> dict[str, Any]:
-    """The JSON Schema of what ``gark COMMAND --format json`` writes, as plain data.
+    """The JSON Schema of the output of ``gark COMMAND --format json``, as plain data.
 
     Args:
         command: such as ``"check"``.

@@ -20,7 +20,7 @@ from garkcli.exact.expression import parse
 from garkcli.exact.rewriting import names_in
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Json, Kind, Level, Row, Rows, Section, maybe, optional, via
+from garkcli.tell.facts import Json, Kind, Level, Row, Rows, Section, itself, maybe, optional, via
 from garkcli.tell.kinds import COUNT, POSITION, TEXT, TEXTS, TRUTH, choice
 from garkcli.tell.parts import answer, parts, rows_of
 from garkcli.tell.report import Report
@@ -41,7 +41,7 @@ ENDINGS: dict[Ending, str] = {
 
 
 class SearchReport(NamedTuple):
-    """What is reported.
+    """The methods that a search found.
 
     Attributes:
         file: with the unknowns.
@@ -57,12 +57,11 @@ class SearchReport(NamedTuple):
 
     @property
     def methods(self) -> list[tuple[Method, str | None]]:
-        """The methods with their files."""
         return list(zip(self.result.methods, self.files, strict=True))
 
 
 def _found(x: SearchReport, d: Plain) -> str:
-    """What was found, and of how many starts."""
+    """The number of methods, or the best value, and of how many starts."""
     search, result = x.search, x.result
     order = f"order {search.order}" + f" of the {search.whose}" * (search.whose != "method")
     found = f"{counted(len(result.methods), 'method')} of {order} found"
@@ -88,7 +87,7 @@ def _verdict(method: Method) -> str:
 
 
 def with_root(values: Mapping[str, str]) -> Mapping[str, str]:
-    """Values in which the one long root among them has a name of its own.
+    """Values that name the one long root in them ``r``.
 
     >>> with_root({"a": "root_of(x**3 - 2, 1.25)", "b": "1 - root_of(x**3 - 2, 1.25)"})
     {'r': 'root_of(x**3 - 2, 1.25)', 'a': 'r', 'b': '1 - r'}
@@ -101,7 +100,6 @@ def with_root(values: Mapping[str, str]) -> Mapping[str, str]:
 
 
 def _values(method: Method, d: Plain) -> Iterator[str]:
-    """The parameters; a long root that is in them has a name of its own."""
     if not method.is_exact:
         for name, value in method.values.items():
             whole, _, decimals = value.partition(".")
@@ -112,7 +110,7 @@ def _values(method: Method, d: Plain) -> Iterator[str]:
 
 
 def _shown(value: str, d: Plain) -> str:
-    """A number; what nobody reads in decimals. The long root has a name, and stays."""
+    """A number; decimals if it is long, unless it has a root with a name."""
     if len(value) < LONG or ROOT.search(value):
         return d.expression(value)
     try:
@@ -128,7 +126,7 @@ def _shown(value: str, d: Plain) -> str:
 
 
 def method_rows(report: SearchReport, d: Plain) -> list[tuple[str, str]]:
-    """Each method: what is known of it, where it is, its values."""
+    """Each method with its proof, its file and its values."""
     objective = report.result.objective
     rows = []
     for number, (method, path) in enumerate(report.methods, start=1):
@@ -140,7 +138,7 @@ def method_rows(report: SearchReport, d: Plain) -> list[tuple[str, str]]:
 
 
 def _of(objective: Single | Sum) -> str:
-    """The name of an objective without the sign that says that it is to be large."""
+    """The name of an objective without its sign."""
     return objective.key if isinstance(objective, Sum) else objective.key.removeprefix("-")
 
 
@@ -185,7 +183,7 @@ WHOLE: Section[SearchReport] = Section(
     Row("unknowns", TEXTS, lambda x: list(x.search.family.parameters)),
     Row("order", POSITION, lambda x: x.search.order, DATA),
     optional("objective", TEXT, lambda x: _key(x.result.objective), DATA),
-    Row("objective_in_words", rows_of(_objective_rows), lambda x: x),
+    itself("objective_in_words", rows_of(_objective_rows)),
     via(
         lambda x: x.result,
         [
@@ -205,7 +203,7 @@ WHOLE: Section[SearchReport] = Section(
         ],
     ),
     Row("methods", parts(METHOD), lambda x: x.methods, DATA),
-    Row("methods_in_words", rows_of(method_rows), lambda x: x),
+    itself("methods_in_words", rows_of(method_rows)),
     title=lambda x, d: d.prose(x.file),
 )
 REPORT: Report[SearchReport] = Report.only(

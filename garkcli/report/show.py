@@ -20,7 +20,7 @@ DETAIL, DATA = Level.DETAIL, Level.DATA
 
 
 class Shown(Frozen):
-    """A method.
+    """A method of the catalogue or of a file.
 
     Attributes:
         entry: as the list of methods has it.
@@ -38,18 +38,16 @@ class Shown(Frozen):
 
     @property
     def whole(self) -> ShownTableau:
-        """Its tableau."""
         rounded = self.entry["exact"] is False
         return ShownTableau(self.tableau, self.entries, self.title, is_rounded=rounded)
 
     @property
     def title(self) -> str:
-        """What people call it."""
         return printable(self.entry["title"] or self.entry["name"])
 
 
 def kind(x: Shown) -> str:
-    """What kind of method, of how many stages and colours."""
+    """``rk, 1 colour, stages 4``."""
     entry = x.entry
     about = [
         entry["kind"],
@@ -64,15 +62,12 @@ def kind(x: Shown) -> str:
 
 
 def such(x: Shown, value: bool) -> str:
-    """The properties that the method has, or that it has not; what it has says which kinds of
-    stages it has not.
-    """
+    """The properties that the method has, or lacks, without the kinds of stages that it lacks."""
     told = [key for key in TRUTHS if value or key not in TYPES]
     return ", ".join(key.replace("_", "-") for key in told if x.entry[key] is value)
 
 
 def undecided(x: Shown) -> str:
-    """The properties that are open."""
     return ", ".join(key.replace("_", "-") for key in x.entry["undecided"])
 
 

@@ -32,14 +32,25 @@ from garkcli.stability.summary import AtPoint, Colours, LinearStability, Stabili
 from garkcli.stability.two_frequencies import SlowInterval, TwoFrequencies
 from garkcli.tableau.garkmethod import Derivation, derived_name
 from garkcli.tell import kinds
-from garkcli.tell.facts import Answer, Json, Kind, Level, Row, Rows, Section, Status, maybe, via
-from garkcli.tell.parts import part, parts, scene, told
+from garkcli.tell.facts import (
+    Answer,
+    Json,
+    Kind,
+    Level,
+    Row,
+    Rows,
+    Section,
+    Status,
+    itself,
+    maybe,
+    via,
+)
+from garkcli.tell.parts import part, parts, plot, told
 from garkcli.tell.report import Report
 from garkcli.tell.shown import Words
 
 if TYPE_CHECKING:
     from garkcli.exact.cells import Interval
-    from garkcli.plots.scene import Scene
     from garkcli.stability.damping import ImexPair, Ray
     from garkcli.stability.oscillator import OscillatorStability
     from garkcli.stability.springs_plane import SpringsPlane
@@ -63,7 +74,7 @@ class Timed(Protocol):
 
 
 class StabilityReport(Frozen):
-    """What the report says of one file.
+    """The stability of one method.
 
     Attributes:
         file: its path as given.
@@ -92,7 +103,6 @@ class StabilityReport(Frozen):
 
 
 def _decimals(value: Callable[[int], arb], digits: int) -> str:
-    """A number in decimals, from its balls."""
     bits, before = int(digits * BITS_OF_A_DIGIT) + 64, ctx.prec
     try:
         ctx.prec = bits
@@ -102,7 +112,6 @@ def _decimals(value: Callable[[int], arb], digits: int) -> str:
 
 
 def _degrees(cosine: RealRoot, digits: int) -> str:
-    """The angle of a cosine."""
     return _decimals(lambda bits: cosine.ball(bits).acos() * 180 / arb.pi(), digits)
 
 
@@ -113,7 +122,7 @@ def _square_root(root: RealRoot, digits: int) -> str:
 def _around_zero(
     bounds: str, nowhere: str, everywhere: str, end: Callable[[RealRoot, Plain], str]
 ) -> Wording[Extent]:
-    """The interval of an axis that begins at 0: of −z on the real one, of y² on the imaginary."""
+    """Words for the interval that begins at 0: of −z on the real axis, of y² on the imaginary."""
 
     def words(found: Extent, d: Plain) -> str:
         if isinstance(found, Bounds):
@@ -171,7 +180,7 @@ SECTOR: Kind[RealRoot] = Kind(
 
 
 def integral_parts(R: Fraction) -> tuple[Multivariate, Multivariate]:
-    """Numerator and denominator with integers as coefficients, where they are rational."""
+    """Numerator and denominator, with whole coefficients if these are rational."""
     P, Q = R.numerator, R.denominator
     scale = integral_scale([coefficient for _, coefficient in (*P.terms, *Q.terms)])
     constant_term = Multivariate.of(P.variables, {(0,) * P.variables: scale})
@@ -235,12 +244,12 @@ LATE = Reason("it takes longer than --seconds")
 
 
 def _open(x: Timed, name: str) -> Answer[Never] | None:
-    """The answer where the time was not enough for an attribute; None where it was."""
+    """An answer that is left open because the time was over; None if it was not."""
     return Answer(None, Status(open=LATE)) if name in x.late else None
 
 
 def a_stable(x: LinearStability) -> Answer[bool]:
-    """Whether |R| ≤ 1 in the left half plane, and why not."""
+    """Whether |R| ≤ 1 in the left half plane, or why not."""
     if x.a_stable is not False or x.within is not None:
         return _open(x, "a_stable") or kinds.truth(x.a_stable, open_because=ROUNDED)
     if x.R.at_infinity() is None:
@@ -252,7 +261,6 @@ def a_stable(x: LinearStability) -> Answer[bool]:
 
 
 def sector(x: LinearStability) -> RealRoot | Answer[RealRoot] | None:
-    """A(α)-stability."""
     if x.within is not None:
         return None
     if x.sector is None:
@@ -261,7 +269,7 @@ def sector(x: LinearStability) -> RealRoot | Answer[RealRoot] | None:
 
 
 def _less_than_all(answer: Answer[RealRoot]) -> Level:
-    """A sector is reported where it is not the left half plane, which A-stable says."""
+    """A sector is told unless A-stability says it."""
     if answer.value is None:
         return USUAL if answer.status.open else DETAIL
     return USUAL if answer.value.exact != 0 else DETAIL
@@ -271,7 +279,6 @@ PRINTED = Reason("of the digits as printed, not of all methods within the tolera
 
 
 def limit(x: LinearStability) -> Answer[Number]:
-    """R(∞)."""
     found = x.R.at_infinity()
     if found is None:
         return Answer(None, reason=Reason("unbounded"))
@@ -281,17 +288,14 @@ def limit(x: LinearStability) -> Answer[Number]:
 
 
 def real(x: LinearStability) -> Extent | Answer[Extent] | None:
-    """The interval of the real axis, of exact or of rounded coefficients."""
     return _open(x, "real") or (x.real if x.within is None else x.within.real)
 
 
 def imaginary(x: LinearStability) -> Extent | Answer[Extent] | None:
-    """The interval of the imaginary axis."""
     return _open(x, "imaginary") or (x.imaginary if x.within is None else x.within.imaginary)
 
 
 def ssp(x: LinearStability) -> SspCoefficient | Bounds | Answer[Never] | None:
-    """The SSP coefficient."""
     if x.is_linear_alone:
         return None
     found = x.ssp if x.within is None else x.within.ssp
@@ -309,7 +313,7 @@ def _complex_words(d: Plain, real: str, imaginary: str) -> str:
 
 
 def _points_words(points: Sequence[AtPoint], d: Plain) -> str:
-    """R and |R| at each point, and whether that is bounded by 1."""
+    """R and |R| at each point, compared with 1."""
     said = []
     for x in points:
         z = f"z = {_complex_words(d, *map(to_text, x.z))}"
@@ -394,7 +398,6 @@ EMBEDDED: Row[StabilityReport] = maybe(
 
 
 def conserved(o: OscillatorStability) -> Answer[Form]:
-    """The quadratic form that a step keeps."""
     if not o.determinant.is_one:
         return Answer(None, reason=Reason("none: the determinant is not 1"))
     if o.conserved is None:
@@ -424,7 +427,6 @@ ROOT_ALONE: Kind[RealRoot] = told(lambda x, d: d.root(x))
 
 
 def phase(o: OscillatorStability) -> Answer[int]:
-    """The order of the phase lag, and its sign."""
     if o.phase.order is None:
         return Answer(None, reason=Reason("none: the frequency is exact"))
     if o.phase.constant is None:
@@ -451,7 +453,7 @@ def _zone(x: Interval, d: Plain) -> str:
 
 
 def discriminant(o: OscillatorStability) -> Answer[Polynomial]:
-    """4D² − N², and what that is."""
+    """4D² − N², with its meaning."""
     meaning = "tr M = N/D for a step M"
     if o.determinant.is_one:
         meaning += ", which is stable where this is positive"
@@ -473,7 +475,6 @@ OSCILLATOR: Rows[OscillatorStability] = [
 
 
 def algebraic(x: StabilityReport) -> Answer[bool]:
-    """Algebraic stability, and why not."""
     found = x.found
     if found.algebraic is None:
         late = _open(found, "algebraic")
@@ -491,7 +492,6 @@ def algebraic(x: StabilityReport) -> Answer[bool]:
 
 
 def title(x: StabilityReport, d: Plain) -> str:
-    """What a report is about."""
     within = x.found.tolerance
     given = x.file or x.name
     name = d.prose(derived_name(x.derivation, given) if x.derivation else given)
@@ -499,7 +499,6 @@ def title(x: StabilityReport, d: Plain) -> str:
 
 
 def head(kind: str) -> Rows[StabilityReport]:
-    """The first fields of every report."""
     return [
         *kinds.FILE_AND_NAME,
         Row("derivation", kinds.DERIVATION, lambda x: x.derivation, DATA),
@@ -539,14 +538,11 @@ def _ray(sign: str) -> Kind[Ray]:
 
 
 class Imex(NamedTuple):
-    """The colours of an implicit-explicit pair."""
-
     colours: Colours
     pair: ImexPair
 
 
 def imex(x: StabilityReport) -> Imex | None:
-    """The pair among the colours, if they are one."""
     colours = x.found.colours
     return Imex(colours, colours.pair) if colours is not None and colours.pair else None
 
@@ -567,15 +563,9 @@ IMEX: Section[Imex] = Section(
 )
 
 
-def _scene(x: StabilityReport) -> Scene:
-    return stability_scene([(x.name, x.found)], x.is_order_star, x.plane)
-
-
-PLOT: Row[StabilityReport] = Row(
-    "plot",
-    scene(_scene),
-    lambda x: x if x.found.linear or x.found.oscillator or x.plane else None,
-    DETAIL,
+PLOT: Row[StabilityReport] = plot(
+    lambda x: stability_scene([(x.name, x.found)], x.is_order_star, x.plane),
+    lambda x: bool(x.found.linear or x.found.oscillator or x.plane),
 )
 
 
@@ -668,7 +658,7 @@ OF_SPRINGS: Rows[TwoFrequencies] = (
     Row("stable", STABLE, lambda x: x.stable),
 )
 OF_SLOW: Rows[SlowInterval] = (
-    Row("slow", FROM_TO, lambda x: x, label="two springs, x = (hω_fast)²"),
+    itself("slow", FROM_TO, label="two springs, x = (hω_fast)²"),
     Row("stable", STABLE, lambda x: x.stable),
     maybe(
         "stable_for_every_fast",
@@ -706,7 +696,6 @@ REPORT: Report[StabilityReport] = Report(
 
 
 def whole(found: Stability, name: str) -> StabilityReport:
-    """What the report says of a stability by a name."""
     return StabilityReport(name, name, found)
 
 

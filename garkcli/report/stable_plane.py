@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from flint import fmpq
 
@@ -18,19 +18,16 @@ from garkcli.page.exactly import ALGEBRAIC, root_data
 from garkcli.plots.stable_plane import stable_plane_scene
 from garkcli.tableau.family import Stability
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Json, Kind, Level, Row, Rows, Section, maybe, via
+from garkcli.tell.facts import Json, Kind, Level, Row, Rows, Section, itself, maybe, via
 from garkcli.tell.kinds import INDEX, INTERVAL, ROOTS, TEXT, TEXTS, choice, interval_data, record
-from garkcli.tell.parts import answer, rows_of, scene
+from garkcli.tell.parts import answer, plot, rows_of
 from garkcli.tell.report import Report
-
-if TYPE_CHECKING:
-    from garkcli.plots.scene import Scene
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 
 
 class PlaneReport(NamedTuple):
-    """What is reported: the values, their file, and how many digits algebraic numbers have."""
+    """A set of values, with its file and the digits of algebraic numbers."""
 
     file: str
     values: StablePlane
@@ -152,19 +149,15 @@ STRIPS: Kind[StablePlane] = Kind(
 )
 
 
-def _scene(x: StablePlane) -> Scene:
-    return stable_plane_scene(x, x.family.name)
-
-
 OF_VALUES: Rows[StablePlane] = (
     Row("unknowns", TEXTS, lambda x: list(x.family.ring.names), DATA),
     Row("wanted", choice("a-stable"), lambda _: "a-stable", DATA),
     maybe("colour", INDEX, lambda x: x.colour, DATA),
     answer(_answer),
-    Row("ends", rows_of(strips), lambda x: x),
-    Row("strips", STRIPS, lambda x: x, DATA),
+    itself("ends", rows_of(strips)),
+    itself("strips", STRIPS, DATA),
     Row("undecided", ROOTS, lambda x: x.undecided, DATA),
-    Row("plot", scene(_scene), lambda x: x, DETAIL),
+    plot(lambda x: stable_plane_scene(x, x.family.name)),
 )
 WHOLE: Section[PlaneReport] = Section(
     Row("file", TEXT, lambda x: x.file, DATA),
@@ -181,7 +174,5 @@ REPORT: Report[PlaneReport] = Report.only(
 
 
 def whole(found: StablePlane, name: str) -> PlaneReport:
-    """What the report says of a set of values, by the name of its family where there is no
-    other.
-    """
+    """Values under the name of their family if there is no other."""
     return PlaneReport(name or found.family.name, found)

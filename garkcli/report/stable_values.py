@@ -16,7 +16,7 @@ from garkcli.page import schema as S  # noqa: N812 -- its names are those of kin
 from garkcli.page.exactly import ALGEBRAIC, root_data
 from garkcli.tableau.family import Stability
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Json, Kind, Level, Row, Rows, Section, maybe, optional, via
+from garkcli.tell.facts import Json, Kind, Level, Row, Rows, Section, itself, maybe, optional, via
 from garkcli.tell.kinds import (
     INDEX,
     INTERVAL,
@@ -35,7 +35,7 @@ HEADLINE, USUAL, DETAIL, DATA = Level
 
 
 class StableReport(NamedTuple):
-    """What is reported: the values, their file, and how many digits algebraic numbers have."""
+    """A set of values, with its file and the digits of algebraic numbers."""
 
     file: str
     values: StableValues
@@ -68,7 +68,7 @@ def stability(values: StableValues, d: Plain) -> str:
 
 
 def _part(values: StableValues, x: Interval, d: Plain) -> str:
-    """A part of the set; a value of several parameters' form is reported of the first of these."""
+    """A part of the set; a value of a linear form is told of its first parameter."""
     if values.form is not None and x.is_point and x.start is not None:
         value = root_text(x.start) or f"{root_decimal(x.start, d.digits)}…"
         return " = ".join(map(d.expression, values.form.solved(value)))
@@ -76,7 +76,7 @@ def _part(values: StableValues, x: Interval, d: Plain) -> str:
 
 
 def ends(values: StableValues, d: Plain) -> list[tuple[str, str]]:
-    """What the irrational ends of intervals are, and the values that are undecided."""
+    """The irrational ends of intervals, and the values that are undecided."""
     brief = replace(d, is_brief=True)
     roots = [x for interval in values.found for x in (interval.start, interval.end)]
     rows = {
@@ -94,7 +94,6 @@ def ends(values: StableValues, d: Plain) -> list[tuple[str, str]]:
 
 
 def _springs_words(springs: TwoSprings, d: Plain) -> str:
-    """What is asked of the method."""
     end = "" if springs.greatest is None else f" up to {springs.greatest}"
     return d.prose(f"(hω_slow)² = {springs.slow}, every (hω_fast)²{end}")
 
@@ -139,7 +138,7 @@ OF_VALUES: Rows[StableValues] = (
     COLOUR,
     maybe("springs", part(SPRINGS, _springs_words), lambda x: x.two_springs, label="two springs"),
     answer(_answer),
-    Row("ends", rows_of(ends), lambda x: x),
+    itself("ends", rows_of(ends)),
     *FOUND,
 )
 WHOLE: Section[StableReport] = Section(
@@ -157,7 +156,5 @@ REPORT: Report[StableReport] = Report.only(
 
 
 def whole(found: StableValues, name: str) -> StableReport:
-    """What the report says of a set of values, by the name of its family where there is no
-    other.
-    """
+    """Values under the name of their family if there is no other."""
     return StableReport(name or found.family.name, found)

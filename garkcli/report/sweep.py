@@ -18,20 +18,20 @@ from garkcli.sweep.row import Row as Judged
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Json, Kind, Level, Row, Section, via
 from garkcli.tell.kinds import COUNT, TEXT, TEXTS, record
-from garkcli.tell.parts import answer, scene, shown, told
+from garkcli.tell.parts import answer, plot, shown, told
 from garkcli.tell.report import Report
 from garkcli.tell.shown import Words
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 WORDS = {"exact": "exact", "exists": "proved to exist", "numerical": "numerical"}
-"""What is known of a find, as rows and as people have it."""
+"""The proof of a find, in rows and for people."""
 
 
 # for people
 
 
 def _answer(report: SweepReport, _: Plain) -> str:
-    """How many methods there are, and how many are kept."""
+    """``12 methods, 5 kept``."""
     again = f", {report.repeated} found again" if report.repeated else ""
     return f"{counted(len(report.plan), 'method')}, {len(report.best)} kept{again}"
 
@@ -48,7 +48,6 @@ def _value_words(value: Value, d: Plain) -> str:
 
 
 def _values(row: Judged, form: Callable[[Any], Any] = dict) -> str | None:
-    """The values of the unknowns that were found, in a form."""
     values = row.get("values")
     if not isinstance(values, dict):
         return None
@@ -56,7 +55,7 @@ def _values(row: Judged, form: Callable[[Any], Any] = dict) -> str | None:
 
 
 def _method(row: Judged) -> str:
-    """Which method it is, and what is known of a find."""
+    """The key of a method, with the values and the proof of a find."""
     proof = f"; {WORDS[str(row['proof'])]}: {_values(row, with_root)}" if "proof" in row else ""
     return f"{row['key']}{proof}"
 
@@ -78,7 +77,7 @@ def _column(name: str) -> Row[Judged]:
 def _table(
     plan: Plan | None, label: str, get: Callable[[SweepReport], Sequence[Judged]], most: int = 10
 ) -> Row[SweepReport]:
-    """Methods, a line each: the criteria, and which method it is."""
+    """Methods in lines: the criteria, and the method."""
     criteria = [] if plan is None else [_column(name) for name in plan.criteria.columns]
     line: Section[tuple[int, Judged]] = Section(
         Row("number", COUNT, lambda x: x[0]),
@@ -106,7 +105,7 @@ ROWS: Kind[Sequence[Judged]] = Kind(Json(S.array(ROW), lambda rows, _: list(rows
 
 
 def section(report: SweepReport | None = None) -> Section[SweepReport]:
-    """The rows that tell a sweep, by its criteria."""
+    """The rows of a sweep, by its criteria."""
     plan = None if report is None else report.plan
     by, front = ("", "") if plan is None else (", ".join(plan.best), ", ".join(plan.pareto))
     most = 10 if report is None else report.top
@@ -129,18 +128,13 @@ def section(report: SweepReport | None = None) -> Section[SweepReport]:
             lambda x: x.front if x.plan.pareto else [],
             most,
         ),
-        Row(
-            "plot",
-            scene(sweep_scene),
-            lambda x: x if len(x.plan.pareto) > 1 and drawn(x) else None,
-            DETAIL,
-        ),
+        plot(sweep_scene, lambda x: len(x.plan.pareto) > 1 and bool(drawn(x))),
         title=lambda x, d: d.prose(x.plan.name),
     )
 
 
 def flat(plan: Plan) -> Section[Judged]:
-    """A row without nesting: what CSV and Parquet have of it."""
+    """A row without nesting, for CSV and Parquet."""
 
     def setting(name: str) -> Row[Judged]:
         def get(row: Judged) -> str | None:
@@ -169,7 +163,6 @@ REPORT: Report[SweepReport] = Report(
 
 
 def json_lines(report: SweepReport) -> str:
-    """The kept rows as JSON lines, best first."""
     return "".join(f"{json.dumps(row, ensure_ascii=False)}\n" for row in report.best)
 
 
@@ -219,5 +212,4 @@ def _without_text(name: str, values: list[Value], plan: Plan) -> list[Value]:
 
 
 def whole(report: SweepReport, _: str) -> SweepReport:
-    """What the report says of a sweep, which has a name."""
     return report

@@ -11,7 +11,7 @@ from garkcli.ntrees.tree import Tree
 from garkcli.page.schema import Schema, one_of, published
 from garkcli.report import trees
 from garkcli.report.symplectic_subject import SUBJECT, Subject
-from garkcli.report.trees import BRACKETS, DATA, SIZES, TREES, counts, pictures
+from garkcli.report.trees import BRACKETS, DATA, SIZES, TREES, counts, drawn, picture
 from garkcli.tell.facts import Row, Rows, Section, optional, via
 from garkcli.tell.kinds import COUNT, POSITION, TRUTH, choice
 from garkcli.tell.parts import rows_of, sentence, stream
@@ -19,7 +19,7 @@ from garkcli.tell.report import Report
 
 
 class FreeList(Frozen):
-    """The classes that were requested.
+    """Free trees, a class of conditions each.
 
     Attributes:
         subject: what they are independent for.
@@ -40,18 +40,14 @@ class FreeTree(NamedTuple):
 
     @property
     def tree(self) -> Tree:
-        """The representative."""
         return self.found.representative
 
     @property
     def order(self) -> int:
-        """The number of vertices."""
         return self.found.order
 
 
 class Counted(Frozen):
-    """How many conditions of an order are independent, and how many there are."""
-
     kind: str
     order: int
     count: int
@@ -59,7 +55,7 @@ class Counted(Frozen):
 
 
 def _by_order(x: FreeList) -> dict[str, int] | None:
-    """The classes of each order, where there are several."""
+    """The classes of each order if there are several orders."""
     counts = x.subject.counts
     return {str(n): few for n, few, _ in counts} if len(counts) > 1 else None
 
@@ -76,22 +72,15 @@ HEAD: Rows[FreeList] = (
 END: Row[FreeList] = sentence(lambda x: x.subject.summary)
 
 
-def _tree(x: FreeTree) -> Tree:
-    return x.tree
-
-
-_PICTURE, _DRAWN = pictures(_tree)
-
-
 def _listing(*members: Row[FreeTree]) -> Section[FreeList]:
-    """A line a class, with its members where they are requested."""
+    """A class in a line, with its members if they are requested."""
     part: Section[FreeTree] = Section(
-        _PICTURE,
+        picture(lambda x: x.tree),
         Row("kind", choice(*KINDS), lambda x: x.subject.kind, DATA),
         Row("representative", BRACKETS, lambda x: x.tree, label="tree"),
         SIZES,
         Row("stands_for", POSITION, lambda x: len(x.found.members)),
-        _DRAWN,
+        drawn(lambda x: x.tree),
         members,
     )
     classes: Row[FreeList] = Row(

@@ -32,7 +32,7 @@ _PROBLEMS = {
 
 
 class Subject(Frozen):
-    """What the report is about: the symplectic methods of a kind, or one of them.
+    """Symplectic methods of a kind, or one of them.
 
     Attributes:
         kind: the kind; ``pair`` also where a method's structure has no name.
@@ -74,7 +74,6 @@ class Subject(Frozen):
         return coupling_graph(tableau)
 
     def classes(self) -> Iterator[ConditionClass]:
-        """The classes of all orders."""
         for n in self.orders:
             yield from self._of_order(n)
 
@@ -89,7 +88,6 @@ class Subject(Frozen):
 
     @property
     def independent(self) -> int:
-        """The independent conditions of all orders."""
         return sum(k for _, k, _ in self.counts)
 
     @property
@@ -98,12 +96,11 @@ class Subject(Frozen):
         return len(self.names) > 1
 
     def members(self, tree: ConditionClass) -> list[str]:
-        """The rooted trees of a class in bracket text."""
         return [format_tree(u, self.has_colours) for u in tree.members]
 
     @property
     def legend(self) -> str:
-        """What the numbers of the colours mean; empty where there is one colour."""
+        """The names of the colours; empty if there is one."""
         if not self.has_colours:
             return ""
         pairs = [f"{l} {name}" for l, name in enumerate(self.names, start=1)]
@@ -111,7 +108,7 @@ class Subject(Frozen):
 
     @property
     def summary(self) -> str:
-        """How many conditions are left, in words."""
+        """``7 independent conditions of order 4 for …``."""
         few, many = self.independent, self.all_conditions
         conditions = counted(few, "independent condition")
         which = "of order" if len(self.orders) == 1 else "up to order"
@@ -120,7 +117,7 @@ class Subject(Frozen):
 
     @property
     def all_conditions(self) -> int:
-        """The conditions of all orders, were the method not symplectic."""
+        """The conditions of all orders if the method were not symplectic."""
         return sum(k for _, _, k in self.counts)
 
     @property

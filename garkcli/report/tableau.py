@@ -32,7 +32,19 @@ from garkcli.tableau.garkmethod import Derivation, GarkMethod
 from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.tableau import Tableau
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Answer, Json, Kind, Level, Row, Rows, Section, Status, optional, via
+from garkcli.tell.facts import (
+    Answer,
+    Json,
+    Kind,
+    Level,
+    Row,
+    Rows,
+    Section,
+    Status,
+    itself,
+    optional,
+    via,
+)
 from garkcli.tell.kinds import DERIVATION, TEXT, TRUTH, constant
 from garkcli.tell.outputs import labelled
 from garkcli.tell.parts import SAID, drawing, part, parts, rows_of, sentence, told
@@ -62,12 +74,11 @@ class Shown(NamedTuple):
 
     @property
     def readable(self) -> Entries:
-        """The entries for people."""
         return readable(self.entries) if self.is_rounded else self.entries
 
 
 def of_method(method: GarkMethod, digits: int | None = None) -> Shown:
-    """A method, its entries in decimals of so many digits where these are named."""
+    """A method, its entries in decimals if digits are named."""
     entries = method.entries
     if digits is not None:
         entries = pointwise.entries(method.tableau, digits).beside(method.further)
@@ -122,7 +133,7 @@ def _symplectic(x: GarkMethod) -> Answer[bool]:
 
 
 def _sums(x: Shown, _: Plain) -> str:
-    """What the weights of each colour add up to."""
+    """The sum of the weights of each colour."""
     sums = (sum(row[1:], row[0]) for row in x.readable.b)
     return ", ".join(cell_text(total, x.entries.digits) for total in sums)
 
@@ -137,7 +148,7 @@ FORMULAS = {
 
 OF_ENTRIES: Rows[Shown] = (
     Row("made_by", SAID, lambda x: FORMULAS[x.derivation]),
-    Row("weights_sum", told(_sums), lambda x: x),
+    itself("weights_sum", told(_sums)),
 )
 OF_METHOD: Rows[GarkMethod] = (
     Row("consistent", TRUTH, _consistent),
@@ -147,7 +158,6 @@ ABOUT: Section[Shown] = Section(OF_ENTRIES, via(lambda x: x.method, OF_METHOD))
 
 
 def _about(x: Shown, d: Plain) -> list[tuple[str, str]]:
-    """The properties of a tableau; a document takes the tableau alone."""
     if d.breadth == "page" or x.method is None or not x.tableau.is_gark:
         return []
     # what a method of a family is depends on its parameters
@@ -157,7 +167,7 @@ def _about(x: Shown, d: Plain) -> list[tuple[str, str]]:
 
 
 def _decimals(x: Shown, d: Plain) -> list[str]:
-    """The tableau once more in decimals, where it has other numbers."""
+    """The tableau in decimals, if that differs."""
     entries = x.entries
     numbers = [*chain(*entries.c, *entries.b, *chain(*(y for row in entries.A for y in row if y)))]
     is_told = d.breadth == "terminal" and not d.is_brief and not x.is_rounded
@@ -175,10 +185,7 @@ OF_POSITIONS = OF_NYSTROM[0], "b, with 0 in place of A: g depends on q alone"
 
 
 def shown_parts(tableau: Tableau, whole: Entries) -> list[tuple[str, Tableau, Entries]]:
-    """The tableaus that people see of a method, each with what it is: of a Rosenbrock method the
-    arrays of α and of γ, of a Nyström method those of Ā and of A, of a multirate one with the exact
-    fast solution that of the slow method.
-    """
+    """The tableaus of a method with titles: α and γ, Ā and A, or the slow method."""
     if is_derivatives(tableau):
         return [*_of_derivatives(tableau, whole)]
     if tableau.exact_to is not None:
@@ -217,7 +224,6 @@ def _of_derivatives(tableau: Tableau, whole: Entries) -> Iterator[tuple[str, Tab
 
 
 def drawn(x: Shown, d: Plain) -> list[str]:
-    """The tableaus of a method."""
     lines = []
     for text, tableau, entries in shown_parts(x.tableau, x.entries):
         lines += d.sentence(d.prose(text), 0) if text else []
@@ -231,12 +237,12 @@ TABLEAU: Section[Shown] = Section(
     Row("derivation", DERIVATION, lambda x: x.derivation, DATA),
     Row("exact", TRUTH, lambda x: x.entries.is_exact, DATA),
     sentence(lambda x: remark(x.readable)),
-    Row("about", rows_of(_about), lambda x: x, DETAIL),
+    itself("about", rows_of(_about), DETAIL),
     Row("colours", parts(COLOURS), lambda x: colours_of(x.tableau), DATA),
     via(lambda x: x.entries, _entries(NUMERAL, _numeral)),
     Row("float", part(FLOATS), lambda x: x.entries, DATA),
-    Row("tableau", drawing(drawn), lambda x: x),
-    Row("decimals", drawing(_decimals), lambda x: x, DETAIL, label=""),
+    itself("tableau", drawing(drawn)),
+    itself("decimals", drawing(_decimals), DETAIL, label=""),
     title=lambda x, d: d.prose(x.name),
 )
 SCHEMA = "gark/tableau/1"

@@ -12,7 +12,7 @@ from garkcli.ntrees.notation import parse_tree
 from garkcli.ntrees.tree import Tree
 from garkcli.page.schema import TEXT, array, counts_of
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Json, Kind, Level, Row, Rows, Section, optional
+from garkcli.tell.facts import Json, Kind, Level, Row, Rows, Section, itself, optional
 from garkcli.tell.kinds import COUNT, INDEX, POSITION, TRUTH
 from garkcli.tell.parts import rows_of, sentence, stream, told
 from garkcli.tell.report import Report
@@ -27,7 +27,7 @@ T = TypeVar("T")
 
 
 class Query(Frozen):
-    """What was requested: colours count from 1 in ``root`` and from 0 in ``used``."""
+    """The request: colours count from 1 in ``root`` and from 0 in ``used``."""
 
     colours: int
     order: int
@@ -36,11 +36,10 @@ class Query(Frozen):
     used: tuple[int, ...] = ()
 
     def roots(self, by_root: Sequence[int]) -> list[tuple[int, int]]:
-        """The root colours that were requested, from 1, with their numbers of trees."""
+        """The root colours in question, from 1, with their numbers of trees."""
         return [(l, count) for l, count in enumerate(by_root, start=1) if self.root in {None, l}]
 
     def total(self, by_root: Sequence[int]) -> int:
-        """The trees of all these root colours."""
         return sum(count for _, count in self.roots(by_root))
 
 
@@ -69,7 +68,7 @@ class TreeList(Mutable):
 
     @property
     def counts(self) -> Counts:
-        """The numbers of trees, of those listed where nothing else tells them."""
+        """The numbers of trees; of those listed if nothing else tells them."""
         if self.known is None:
             assert self.rows is not None
             self.rows = [*self.rows]
@@ -82,7 +81,6 @@ class TreeList(Mutable):
 
     @property
     def by_root(self) -> dict[str, int]:
-        """The trees of each root colour."""
         total: dict[str, int] = {}
         for _, by_root in self.counts:
             for root, count in self.query.roots(by_root):
@@ -91,20 +89,23 @@ class TreeList(Mutable):
 
     @property
     def by_order(self) -> dict[str, int]:
-        """The trees of each order."""
         return {str(n): self.query.total(by_root) for n, by_root in self.counts}
 
     @property
     def total(self) -> int:
-        """All trees."""
         return sum(self.by_order.values())
 
 
 # the rows of any list of trees
 
 
-def pictures(tree: Callable[[T], Tree]) -> tuple[Row[T], Row[T]]:
-    """The drawn tree of a part: in LaTeX, and on a terminal where it is small."""
+def picture(tree: Callable[[T], Tree]) -> Row[T]:
+    """The tree in LaTeX."""
+    return itself("picture", told(lambda x, d: d.sketch(tree(x))), DETAIL, label="")
+
+
+def drawn(tree: Callable[[T], Tree]) -> Row[T]:
+    """The tree on a terminal, if it is small."""
 
     def small(x: T, d: Plain) -> str:
         found = tree(x)
@@ -112,13 +113,7 @@ def pictures(tree: Callable[[T], Tree]) -> tuple[Row[T], Row[T]]:
             return ""
         return "\n".join(d.drawing(draw_text(found, d.has_colours(found), d.width // 2)))
 
-    def sketch(x: T, d: Plain) -> str:
-        return d.sketch(tree(x))
-
-    return (
-        Row("picture", told(sketch), lambda x: x, DETAIL, label=""),
-        Row("drawn", told(small), lambda x: x, label="", is_short=True),
-    )
+    return itself("drawn", told(small), label="", is_short=True)
 
 
 BRACKETS: Kind[Tree | str] = Kind(
@@ -132,7 +127,6 @@ TREES: Kind[Sequence[Tree | str]] = Kind(
 
 
 def counts(what: str) -> Kind[dict[str, int]]:
-    """Numbers by what they are of."""
     return Kind(Json(counts_of(what)))
 
 
@@ -169,19 +163,14 @@ def _count_rows(found: TreeList, _: Plain) -> Iterator[tuple[str, str]]:
         yield f"order {n}", text
 
 
-def _tree(x: TreeRow) -> Tree:
-    return parse_tree(x.tree)
-
-
-_PICTURE, _DRAWN = pictures(_tree)
 TREE: Section[TreeRow] = Section(
-    _PICTURE,
+    picture(lambda x: parse_tree(x.tree)),
     Row("tree", BRACKETS, lambda x: x.tree),
     Row("root", INDEX, lambda x: x.root, DATA),
     Row("order", POSITION, lambda x: x.order, DETAIL),
     Row("sigma", POSITION, lambda x: x.sigma),
     Row("gamma", POSITION, lambda x: x.gamma),
-    _DRAWN,
+    drawn(lambda x: parse_tree(x.tree)),
 )
 HEAD: Rows[TreeList] = (
     Row("colours", POSITION, lambda x: x.query.colours, DATA),
@@ -198,13 +187,11 @@ LISTED: Section[TreeList] = Section(
 COUNTS: Section[TreeList] = Section(
     HEAD,
     optional("by_order", counts("order"), lambda x: x.by_order if x.query.upto else None, DATA),
-    Row("counts", rows_of(_count_rows), lambda x: x),
+    itself("counts", rows_of(_count_rows)),
 )
 
 
 class Counted(Frozen):
-    """How many trees an order and a root colour have."""
-
     order: int
     root: int
     count: int

@@ -171,17 +171,17 @@ class Plain(Mutable):
         return [self.paint.dots(line) for line in lines]
 
     def strong(self, text: str) -> str:
-        """What is sought first."""
+        """The most important part."""
         return self.paint("strong", text)
 
     def reason(self, reason: Reason) -> str:
-        """Why something is so, its values in the signs of this dialect."""
+        """A reason with its values in the signs of this dialect."""
         return reason.told(
             self.prose, lambda x: self.prose(x) if isinstance(x, str) else x.words(self)
         )
 
     def known(self, text: str, status: Status) -> str:
-        """A value as it is known: no output can leave that out."""
+        """A value with its rounding, or with the remark that it is a lower bound."""
         if status.at_least:
             text = f"at least {text}"
         return text if status.within is None else f"{text} within {decimal(status.within)}"
@@ -202,7 +202,6 @@ class Plain(Mutable):
         return text
 
     def number(self, x: Number) -> str:
-        """An exact number."""
         text = shortest(x)
         is_number = isinstance(x, (fmpq, int, Algebraic))
         if is_number and (self.places is not None or len(text) > LONG):
@@ -215,7 +214,6 @@ class Plain(Mutable):
         return self.expression(text) if len(text) <= 12 else to_decimal(x, 4)
 
     def size(self, ball: arb) -> str:
-        """A bound, in two digits."""
         return "0" if ball == 0 else str(ball.upper().str(2, radius=False))
 
     def root(self, root: RealRoot) -> str:
@@ -232,7 +230,6 @@ class Plain(Mutable):
         return text if root.exact is not None or self.is_brief else f"{text} = {decimals}…"
 
     def minimal(self, root: RealRoot) -> str:
-        """The polynomial of a root."""
         from garkcli.exact.polynomial import Polynomial
 
         return self.polynomial(Polynomial.from_flint(root.polynomial), "x")
@@ -247,7 +244,6 @@ class Plain(Mutable):
         return self.expression(text)
 
     def over(self, top: str, bottom: str) -> str:
-        """A fraction."""
         if bottom == "1":
             return top
         top, bottom = (f"({x})" if " " in x else x for x in (top, bottom))
@@ -260,7 +256,6 @@ class Plain(Mutable):
         return self.over(*(self.polynomial(x, variable) for x in integral([p, q])))
 
     def fraction(self, p: Multivariate, q: Multivariate) -> str:
-        """A rational function of z1, z2, …"""
         names = [f"z{k + 1}" for k in range(p.variables)]
         text = self.over(multivariate_text(p, names), multivariate_text(q, names))
         if len(text) > 2 * LONG_POLYNOMIAL:
@@ -293,7 +288,7 @@ class Plain(Mutable):
         return len(self.colours) > 1 or bool({*tree.colours} - {0})
 
     def code(self, text: str) -> str:
-        """What is quoted, such as a tree."""
+        """A quoted text, such as a tree."""
         return text
 
     def sketch(self, tree: Tree) -> str:
@@ -301,9 +296,7 @@ class Plain(Mutable):
         return ""
 
     def failure(self, witness: Witness, is_rounded: bool = False, order: int | None = None) -> str:
-        """The tree whose condition fails, and by how much, told once; with the order that asks for
-        it, where that is not the tree's.
-        """
+        """The tree whose condition fails, and by how much; ``as above`` the second time."""
         order = order or witness.tree.order
         condition = (format_tree(witness.tree, self.names or True), to_text(witness.residual))
         if condition in self.told:
@@ -363,11 +356,11 @@ class Plain(Mutable):
         return text if text.isascii() else plain_text(text, self.paint.encoding)
 
     def headline(self, text: str) -> list[str]:
-        """The answer."""
+        """The first line."""
         return [self.strong(line) for line in folded(self.spelt(text), self.width, "  ")]
 
     def title(self, text: str, depth: int) -> list[str]:
-        """Above a part."""
+        """The title of a part."""
         return [f"{'  ' * depth}{self.strong(self.spelt(text))}"]
 
     def sentence(self, text: str, depth: int = 1) -> list[str]:
@@ -465,7 +458,7 @@ class Plain(Mutable):
             heads = []
 
     def _columns(self, rows: Iterable[Cells]) -> list[tuple[str, ...]]:
-        """The columns of a table in the signs of the output."""
+        """Columns in the signs of the output."""
         return [*zip(*([self.spelt(x) for x in row] for row in rows), strict=True)]
 
     def more(self, count: int, depth: int) -> list[str]:
@@ -473,7 +466,6 @@ class Plain(Mutable):
         return [self.spelt(f"{'  ' * depth}… {count} more with -v")]
 
     def tableau(self, tableau: Tableau, entries: Entries) -> list[str]:
-        """A tableau."""
         from garkcli.page.tableau_text import tableau_lines
 
         return ["", *tableau_lines(tableau, entries, self.width)]

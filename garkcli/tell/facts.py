@@ -33,9 +33,7 @@ V_out = TypeVar("V_out", covariant=True)
 
 
 class Level(IntEnum):
-    """How far down a fact is reported: in the first sentence, usually, with -v, to programs
-    alone.
-    """
+    """Where a fact is reported: first, usually, with -v, to programs alone."""
 
     HEADLINE = 0
     USUAL = 1
@@ -61,7 +59,7 @@ SURE = Status()
 
 
 class Answer(Frozen, Generic[V_out]):
-    """A value that comes with more than itself.
+    """A value with its status and its reason.
 
     Attributes:
         value: None where there is none, or none is decided.
@@ -84,11 +82,9 @@ class Described(Protocol[V_in]):
     """Makes JSON of values, such as a section."""
 
     @property
-    def schema(self) -> Schema:
-        """The JSON Schema of its JSON."""
+    def schema(self) -> Schema: ...
 
-    def data(self, value: V_in, dialect: Plain, /) -> object:
-        """Its JSON."""
+    def data(self, value: V_in, dialect: Plain, /) -> object: ...
 
 
 class Beside(Frozen, Generic[V]):
@@ -124,7 +120,7 @@ class Json(Frozen, Generic[V_in]):
 
 
 class Several(Frozen, Generic[T]):
-    """A list of values with facts of their own.
+    """A list of values that a section describes.
 
     Attributes:
         section: describes each.
@@ -136,12 +132,10 @@ class Several(Frozen, Generic[T]):
 
     @property
     def schema(self) -> Schema:
-        """A list of what the section makes."""
         least = {"minItems": 1} if self.is_never_empty else {}
         return {**array(self.section.schema), **least}
 
     def data(self, values: Iterable[T], dialect: Plain, /) -> object:
-        """The parts as plain data."""
         return [self.section.data(x, dialect) for x in values]
 
 
@@ -157,7 +151,6 @@ class Kind(Frozen, Generic[V_in]):
     shown: Shown[V_in] | None = None
 
     def words(self, value: V_in, dialect: Plain) -> str:
-        """A value in the signs of a dialect."""
         assert isinstance(self.shown, Words)
         return self.shown.words(value, dialect)
 
@@ -173,7 +166,6 @@ class Said(Frozen, Generic[V]):
     value: V
 
     def words(self, dialect: Plain) -> str:
-        """The value in the signs of a dialect."""
         return self.kind.words(self.value, dialect)
 
     def __str__(self) -> str:
@@ -191,12 +183,10 @@ class Fact(Frozen):
 
     @property
     def value(self) -> Any:
-        """The value of the answer."""
         return self.answer.value
 
     @property
     def shown(self) -> Shown[Any] | None:
-        """How it is shown."""
         return self.row.kind.shown
 
     @property
@@ -260,13 +250,11 @@ class Row(Generic[T_in]):
         self.is_short = is_short
 
     def but(self, **changes: object) -> Row[T_in]:
-        """The row with other attributes."""
         found = copy(self)
         vars(found).update(changes)
         return found
 
     def answer(self, whole: T_in) -> Answer[Any]:
-        """The answer for a result."""
         found = self.get(whole)
         return found if isinstance(found, Answer) else Answer(found)
 
@@ -338,6 +326,11 @@ def optional(
     return Row(key, kind, get, level, is_optional=True, **placed)
 
 
+def itself(key: str, kind: Kind[T], level: Level = Level.USUAL, **placed: Unpack[Placed]) -> Row[T]:
+    """A row whose value is the result."""
+    return Row(key, kind, lambda whole: whole, level, **placed)
+
+
 def via(get: Callable[[T], U | None], rows: Iterable[Row[U]]) -> Rows[T]:
     """Rows of a part as rows of its owner; they have no value where there is no part."""
 
@@ -348,7 +341,6 @@ def via(get: Callable[[T], U | None], rows: Iterable[Row[U]]) -> Rows[T]:
 
 
 def copied(row: Row[U], get: Callable[[T], Any]) -> Row[T]:
-    """The row with another way to its value."""
     found: Row[Any] = row.but(get=get)
     return found
 
@@ -382,11 +374,9 @@ class Section(Generic[T_in]):
                 yield row.fact(whole)
 
     def named(self, whole: T_in, keys: Iterable[str]) -> dict[str, Fact]:
-        """The facts of some rows."""
         return {row.key: row.fact(whole) for row in self.rows if row.key in keys}
 
     def data(self, whole: T_in, dialect: Plain, /) -> dict[str, Any]:
-        """The result as plain data."""
         found: dict[str, Any] = {}
         for row in self.rows:
             found.update(row.data(whole, dialect))

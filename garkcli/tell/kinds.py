@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
 
 def record(**fields: Schema) -> Schema:
-    """An object with just these fields."""
+    """An object with these fields and no others."""
     return {
         "type": "object",
         "required": [*fields],
@@ -45,7 +45,7 @@ def record(**fields: Schema) -> Schema:
 
 
 def constant(value: object) -> Kind[object]:
-    """A field that is the same in every report; for programs."""
+    """A field with the same value in every report; for programs."""
     return Kind(Json({"const": value}))
 
 
@@ -65,7 +65,7 @@ def truth_words(value: bool, d: Plain) -> str:
 
 
 def counted(schema: Schema) -> Kind[int]:
-    """A number that is shown as it is."""
+    """A number that is shown without change."""
     return Kind(Json(schema), Words(lambda x, _: str(x)))
 
 
@@ -107,7 +107,6 @@ def truth(
 
 
 def as_reason(text: Reason | str) -> Reason:
-    """Words as a reason without values."""
     return Reason(text) if isinstance(text, str) else text
 
 
@@ -115,16 +114,14 @@ class Named(Protocol):
     """A result of a file."""
 
     @property
-    def file(self) -> str:
-        """The path as given."""
+    def file(self) -> str: ...
 
     @property
-    def name(self) -> str:
-        """The name of its method."""
+    def name(self) -> str: ...
 
 
 def _name(x: Named) -> Answer[str]:
-    """The name, told where it says more than the file."""
+    """The name; usual reports have it if it is not the file."""
     return Answer(x.name, level=Level.DETAIL if x.name != x.file else Level.DATA)
 
 
@@ -154,7 +151,6 @@ BLOCK: Schema = {**array(S.POSITION), "minItems": 1, "maxItems": 2}
 
 
 def numbers_from_one(places: Sequence[Sequence[int]]) -> list[list[int]]:
-    """Blocks as people number them."""
     return [[x + 1 for x in place] for place in places]
 
 
@@ -193,7 +189,6 @@ WITNESS: Schema = record(
 
 
 def witness_data(witness: Witness) -> dict[str, object]:
-    """The condition that fails."""
     return {
         "order": witness.tree.order,
         "tree": format_tree(witness.tree),
@@ -213,7 +208,6 @@ def order_answer(found: AnyOrder | None) -> Answer[AnyOrder]:
 
 
 def _largest_residual(found: AnyOrder) -> arb | None:
-    """That of a rounded order."""
     return getattr(found, "largest_residual", None)
 
 
@@ -236,7 +230,6 @@ def _order_words(answer: Answer[AnyOrder], d: Plain) -> str:
 
 
 def order_cell(found: AnyOrder, d: Plain) -> str:
-    """An order as it is known: ``4 within 1e-9``."""
     return d.known(str(found.order), order_answer(found).status)
 
 
@@ -277,17 +270,13 @@ class Quotient(Protocol):
     """A rational function."""
 
     @property
-    def numerator(self) -> Polynomial:
-        """Above."""
+    def numerator(self) -> Polynomial: ...
 
     @property
-    def denominator(self) -> Polynomial:
-        """Below."""
+    def denominator(self) -> Polynomial: ...
 
 
 def ratio(variable: str) -> Kind[Quotient]:
-    """A rational function."""
-
     def data(found: Quotient, _: Plain) -> dict[str, str]:
         over, under = integral([found.numerator, found.denominator])
         return {
@@ -302,8 +291,6 @@ def ratio(variable: str) -> Kind[Quotient]:
 
 
 def term(variable: str, power: int) -> Kind[Number]:
-    """A number times a power of a variable."""
-
     def words(x: Number, d: Plain) -> str:
         return d.polynomial(Polynomial([fmpq(0)] * power + [x]), variable)
 
@@ -311,7 +298,7 @@ def term(variable: str, power: int) -> Kind[Number]:
 
 
 def polynomial(variable: str) -> Kind[Polynomial]:
-    """A polynomial, told with whole coefficients; in decimals, where these are long, as it is."""
+    """With whole coefficients; in decimals if these are long."""
 
     def words(p: Polynomial, d: Plain) -> str:
         (whole,) = integral([p])
@@ -331,7 +318,6 @@ ROOTS: Kind[Sequence[RealRoot]] = Kind(
 
 
 def radius_data(x: SspCoefficient, d: Plain) -> object:
-    """The end of a reach, or infinity."""
     return "infinity" if x.value is None else root_data(x.value, d.digits)
 
 
@@ -360,7 +346,6 @@ def interval_data(x: Interval, d: Plain) -> dict[str, object]:
 
 
 def intervals_data(found: Sequence[Interval], d: Plain) -> list[dict[str, object]]:
-    """Where on a line something holds."""
     return [interval_data(x, d) for x in found]
 
 
@@ -369,7 +354,6 @@ BOUNDS: Schema = record(at_least=S.TEXT, at_most=nullable(S.TEXT))
 
 
 def bounds_data(found: Bounds) -> dict[str, object]:
-    """Bounds, rounded outwards."""
     if found.low is None:
         return {"at_least": "infinity", "at_most": None}
     low = plain_decimal(fmpq((found.low * _PLACES).floor()) / _PLACES)
@@ -385,7 +369,7 @@ DERIVATION: Kind[str] = Kind(Json(S.DERIVATION))
 
 
 def claim_word(holds: bool | None, d: Plain) -> str:
-    """What became of a claim: None stands for one that is undecided."""
+    """``claim holds``, ``CLAIM FAILS`` or, of None, ``claim undecided``."""
     if holds:
         return d.good("claim holds")
     return d.note("claim undecided") if holds is None else d.bad("CLAIM FAILS")

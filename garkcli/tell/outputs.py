@@ -21,7 +21,7 @@ COLUMNS = {"terminal": Level.USUAL, "page": Level.DETAIL, "any": Level.DATA}
 
 
 def words(fact: Fact, d: Plain) -> str:
-    """A fact in words: value, status and reason, in one place."""
+    """A fact in words: value, status and reason."""
     answer, shown = fact.answer, fact.shown
     if answer.value is None:
         if answer.status.open:
@@ -63,17 +63,15 @@ def phrase(fact: Fact, d: Plain) -> str:
 
 
 def label(fact: Fact, d: Plain) -> str:
-    """What a fact is called."""
     return named(fact.row, d)
 
 
 def named(row: Row[T], d: Plain) -> str:
-    """What the facts of a row are called."""
     return d.prose(label_of(row.key) if row.label is None else row.label)
 
 
 def cell(fact: Fact, d: Plain) -> str:
-    """A fact in a table: its value as it is known, nothing besides."""
+    """The value in a table, with its status."""
     shown, answer = fact.shown, fact.answer
     if answer.value is None:
         absent = shown.absent if isinstance(shown, Words) else ""
@@ -213,9 +211,7 @@ def table(fact: Fact, told: Parts[T], d: Plain, level: Level, depth: int) -> Ite
 
 
 def _cells(section: Section[T], part: T, d: Plain, level: Level) -> Iterator[tuple[str, str]]:
-    """The heads and the cells of a line; a part of it and what is reported as rows have columns of
-    their own.
-    """
+    """The cells of a line by their heads; parts have columns of their own."""
     for fact in section.facts(part, level):
         shown, value = fact.shown, fact.value
         if fact.level > level:
@@ -231,7 +227,7 @@ def _cells(section: Section[T], part: T, d: Plain, level: Level) -> Iterator[tup
 def filled(
     heads: Sequence[str], rows: Sequence[Sequence[str]]
 ) -> tuple[list[str], list[list[str]]]:
-    """A table without the columns that nothing fills."""
+    """The table without empty columns."""
     kept = [i for i in range(len(heads)) if any(row[i] for row in rows)]
     return [heads[i] for i in kept], [[row[i] for i in kept] for row in rows]
 
@@ -239,7 +235,7 @@ def filled(
 def many(
     form: Callable[[T], Section[T]], wholes: Sequence[T], dialect: Callable[[T], Plain]
 ) -> Iterator[str]:
-    """Several results, a line each; columns that nothing fills are left out."""
+    """Several results, a line each."""
     keys = form(wholes[0]).columns
     heads = list(keys)
     rows = []

@@ -19,12 +19,11 @@ T = TypeVar("T")
 def part(
     section: Section[T], words: Wording[T] | None = None, phrase: Phrasing[T] | None = None
 ) -> Kind[T]:
-    """A value with facts of its own; its words where its gist does not do."""
+    """A value with facts of its own; ``words`` replaces the line of the usual ones."""
     return Kind(section, Part(section, words, phrase))
 
 
 def parts(section: Section[T], words: Wording[Sequence[T]] | None = None) -> Kind[Sequence[T]]:
-    """A list of such values."""
     return Kind(Several(section), Parts(section, words))
 
 
@@ -37,7 +36,6 @@ def table(section: Section[T], most: int) -> Kind[Sequence[T]]:
 
 
 def shown(section: Section[T], most: int) -> Kind[Sequence[T]]:
-    """A table for people alone."""
     return Kind(None, Parts(section, most=most))
 
 
@@ -54,7 +52,6 @@ def stream(section: Section[T], by: Wording[T] | None = None) -> Kind[Iterable[T
 
 
 def told(words: Wording[T], phrase: Phrasing[T] | None = None) -> Kind[T]:
-    """Words for people alone."""
     return Kind(None, Words(words, phrase=phrase))
 
 
@@ -71,23 +68,20 @@ def answer(words: Wording[T]) -> Row[T]:
 
 
 def rows_of(rows: Labelling[T]) -> Kind[T]:
-    """Labels with words, for people alone."""
     return Kind(None, Labels(rows))
 
 
 def picture(lines: Callable[[T, Plain], Sequence[str]]) -> Kind[T]:
-    """A picture in signs, for people alone."""
     return Kind(None, Picture(lines))
 
 
 def drawing(draw: Callable[[T, Plain], Iterable[str]]) -> Kind[T]:
-    """A drawing of each output, for people alone."""
     return Kind(None, Drawing(draw))
 
 
-def scene(make: Callable[[T], Scene]) -> Kind[T]:
-    """A picture of its axes, curves and areas, for people alone."""
-    return Kind(None, Plot(make))
+def plot(make: Callable[[T], Scene], when: Callable[[T], bool] = lambda _: True) -> Row[T]:
+    """A picture of a result, with -v, for people alone."""
+    return Row("plot", Kind(None, Plot(make)), lambda x: x if when(x) else None, Level.DETAIL)
 
 
 def sentence(words: Callable[[T], str]) -> Row[T]:

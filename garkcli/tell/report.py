@@ -40,7 +40,6 @@ class Signs(TypedDict, total=False):
 
 
 def _dialect(format: str) -> type[Plain]:
-    """The signs of a format."""
     if format == "latex":
         from garkcli.tell.latex import Latex
 
@@ -174,7 +173,7 @@ class Report(Frozen, Generic[Whole]):
             yield from d.page(one(form, whole, d, level))
 
     def _json_pieces(self, form: Section[Whole], whole: Whole) -> Iterator[str]:
-        """The document, a line a part of its stream."""
+        """The document, with a line for each part of its stream."""
         d = Plain(**self.signs(whole))
         yield f'{{"schema": "{self.schema_name}"'
         for row in form.rows:
@@ -198,7 +197,6 @@ class Report(Frozen, Generic[Whole]):
         is_brief: bool = True,
         **signs: Unpack[Signs],
     ) -> Plain:
-        """The signs of a format for a result."""
         merged: Signs = {**self.signs(whole), **signs}
         return _dialect(format)(paint=paint, is_brief=is_brief, **merged)
 
@@ -209,11 +207,9 @@ class Report(Frozen, Generic[Whole]):
         return "".join(d.page(one(self.form(whole), whole, d, level)))
 
     def columns(self, whole: Whole) -> Sequence[str]:
-        """The keys that tell a result in a line of a table."""
         return self.form(whole).columns
 
     def table(self, wholes: Sequence[Whole], format: str) -> str:
-        """A line a result."""
         signs = self.dialect(wholes[0], format)
         return "".join(signs.page(many(self.form, wholes, lambda x: self.dialect(x, format))))
 
@@ -227,33 +223,29 @@ class Report(Frozen, Generic[Whole]):
     def labelled(
         self, whole: Whole, signs: type[Plain], without: Collection[str] = ()
     ) -> list[Labelled]:
-        """Titles of parts, each with labels and words, for pages with a look of their own."""
+        """Titles of parts, each with labels and words, for pages with their own look."""
         d = signs(**self.signs(whole))
         return list(labelled(self.form(whole), whole, d, Level.DETAIL, without))
 
     def data(self, whole: Whole) -> dict[str, Any]:
-        """A result as plain data."""
         return self.form(whole).data(whole, Plain(**self.signs(whole)))
 
     def document(self, wholes: Sequence[Whole]) -> dict[str, Any]:
-        """All results as plain data."""
         results = [self.data(x) for x in wholes]
         if not self.key:
             return {"schema": self.schema_name, **results[0]}
         return {"schema": self.schema_name, self.key: results, **self.tail.data(wholes, Plain())}
 
     def json(self, wholes: Sequence[Whole]) -> str:
-        """All results as a JSON document."""
         return to_json(self.document(wholes)) + "\n"
 
     @property
     def schema(self) -> Schema:
-        """The JSON Schema of such documents."""
         return published(self.title, one_or_more(self.documents))
 
     @property
     def documents(self) -> list[Schema]:
-        """What a document may be: of one result, what each form of it makes."""
+        """The schemas of documents: one for each form if a document has one result."""
         results = [section.schema for section in self.forms()]
         if not self.key:
             return [self._document(x) for x in results]
@@ -276,21 +268,18 @@ def _json_line(data: dict[str, Any]) -> str:
 
 
 def one_or_more(schemas: Sequence[Schema]) -> Schema:
-    """The schema, or one of several."""
     return schemas[0] if len(schemas) == 1 else one_of(*schemas)
 
 
 class ListReport(Report[Whole]):
-    """A report of one result whose document is a bare list, what it has for programs."""
+    """A report of one result whose JSON is a bare list."""
 
     def json(self, wholes: Sequence[Whole]) -> str:
-        """The list as a JSON document."""
         (found,) = self.data(wholes[0]).values()
         return to_json(found) + "\n"
 
     @property
     def schema(self) -> Schema:
-        """The JSON Schema of such lists."""
         (section,) = self.forms()
         (schema,) = section.schema["properties"].values()
         return published(self.title, schema)

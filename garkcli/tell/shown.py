@@ -82,7 +82,6 @@ class Part(Shown[T]):
     phrase: Phrasing[T] | None = None
 
     def values(self, value: T) -> Sequence[T]:
-        """The parts."""
         return [value]
 
 
@@ -100,7 +99,6 @@ class Parts(Shown[Sequence[T]]):
     most: int | None = None
 
     def values(self, value: Sequence[T]) -> Sequence[T]:
-        """The parts."""
         return value
 
 
