@@ -805,12 +805,7 @@ def dense_order(a: Analysis) -> Answer[int] | None:
 
 
 def dense_answer(found: DenseOrder, colours: bool | Sequence[str]) -> Answer[int]:
-    """An order of dense output as a value with its status.
-
-    Args:
-        found: the order.
-        colours: whether trees have colours, or the names of these.
-    """
+    """An order of dense output; of trees with colours, or with names of these."""
     is_open = Reason(found.undecided) if found.undecided else NO_REASON
     status = Status(found.tolerance, found.is_lower_bound, is_open)
     if found.witness is None:

@@ -141,12 +141,7 @@ def sarif(outcomes: Sequence[Outcome]) -> str:
 
 
 def log_of(found: Sequence[Finding], kinds: Mapping[str, str]) -> str:
-    """A SARIF log with one run.
-
-    Args:
-        found: its results.
-        kinds: every rule, in words.
-    """
+    """A SARIF log of findings, with every rule in words."""
     rules = [
         {
             "id": key,

@@ -37,16 +37,7 @@ MOST_METHODS = 20
 
 
 class Entry(Frozen):
-    """One method of a comparison.
-
-    Attributes:
-        file: its path.
-        name: of the method, or the path again.
-        result: None where there is none.
-        faults: why there is none.
-        exit_code: 0 no disagreement, 1 it disagrees or a step fails, 2 it cannot be tested, 3 it is
-            undecided.
-    """
+    """One method of a comparison; the exit code is that of its test."""
 
     file: str
     name: str
@@ -59,9 +50,8 @@ class Compared(Frozen):
     """Several methods that are compared.
 
     Attributes:
-        entries: at least one.
         has_work: whether costs are reported.
-        against: what the plot has below.
+        against: the axis of the plot: step sizes, evaluations or seconds.
     """
 
     entries: Sequence[Entry]

@@ -49,12 +49,10 @@ class ConditionRow(Frozen):
     """One line of the table.
 
     Attributes:
-        tree: the tree; its colours mean nothing where ``is_shape``.
-        is_shape: whether the row stands for all colourings of the tree.
-        condition: its value for a method, where there is one.
-        stands_for: how many conditions are equivalent to it in a symplectic method; 0 where nobody
-            asked.
-        members: the trees of these conditions, where asked for.
+        is_shape: whether the row stands for all colourings of the tree, whose colours mean nothing.
+        condition: its value for a method.
+        stands_for: how many conditions are equivalent to it in a symplectic method; 0 if unasked.
+        members: the trees of these conditions.
     """
 
     tree: Tree
@@ -81,10 +79,8 @@ class Valued(Frozen):
     """The method whose values a table of conditions has.
 
     Attributes:
-        method: its tableau, with its rounding where it is rounded.
         only_failing: whether conditions that hold are counted but not shown.
         parameters: the free ones, of which values are rational functions.
-        derivation: whether the method is the conjugate or the pair of what a file gives.
     """
 
     method: AnyTableau
@@ -114,15 +110,11 @@ class Conditions(Mutable):
     """The conditions that were requested.
 
     Attributes:
-        rows: a condition each, also those that ``valued`` does not show.
-        coloured: of how many colours the trees are; 0 where rows are for all colourings, or are
-            about what follows.
-        subject: where the rows are the independent conditions alone, what they are independent for.
-        valued: where the rows have values, of what.
+        coloured: how many colours trees have; 0 for all colourings, a subject or a method.
+        subject: the methods for which the rows are independent conditions.
         with_members: whether all trees of a class are listed.
         digits: of values in decimals; None for exact ones.
-        count: the rows so far.
-        failed: those among them whose conditions fail.
+        count: the rows so far; ``failed``: those whose conditions fail.
     """
 
     rows: Iterable[ConditionRow]

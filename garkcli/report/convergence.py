@@ -56,14 +56,7 @@ NO_TIME = "no seconds where floats do not reach the error: the counts are for mo
 
 
 class ConvergenceReport(Frozen):
-    """The test of one method.
-
-    Attributes:
-        result: its test.
-        name: of the method.
-        has_work: whether costs are reported.
-        against: what the plot has below.
-    """
+    """The test of one method; attributes as in ``Compared``."""
 
     result: Convergence
     name: str

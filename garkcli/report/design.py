@@ -64,12 +64,8 @@ class DesignReport(NamedTuple):
     """The values for which a method has its orders.
 
     Attributes:
-        file: its path.
-        design: for which values the method has the order.
-        digits: of numbers without simple radicals.
-        choices: what each value of --choose leaves.
-        minimum: of an objective, where one was requested.
-        sets: the values that are as stable as is wanted, where all have the order.
+        choices: the methods that each value of --choose leaves.
+        sets: the values that are as stable as wanted, if all values have the order.
     """
 
     file: str
@@ -205,13 +201,7 @@ def _real(found: Order, d: Plain) -> Iterator[str]:
 
 
 def _values(found: Order, d: Plain, is_whole: bool) -> Iterator[str]:
-    """The values with which an order is reached.
-
-    Args:
-        found: what the order asks.
-        d: the signs of the output.
-        is_whole: whether the polynomials are reported too.
-    """
+    """The values with which an order is reached; ``is_whole``: with their polynomials."""
     step = found.step
     match step.kind:
         case "none":

@@ -43,12 +43,7 @@ def equation(family: Family, p: fmpq_mpoly) -> str:
 
 
 def conditions(family: Family, nonzero: Iterable[fmpq_mpoly]) -> list[Reason]:
-    """Restrictions on values: no denominator vanishes, and those of the file.
-
-    Args:
-        family: of methods.
-        nonzero: where one of these is zero there is none.
-    """
+    """Restrictions on values: those of the file, and that no polynomial of ``nonzero`` vanishes."""
 
     def holds(p: fmpq_mpoly, relation: str) -> Reason:
         return Reason(f"{{}} {relation} 0", EXPRESSION(_text(family, p)))

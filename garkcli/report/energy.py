@@ -52,14 +52,7 @@ class Claim(Frozen):
 
 
 class EnergyReport(Frozen):
-    """A long run.
-
-    Attributes:
-        name: of the method.
-        run: what became of the conserved quantities.
-        symplecticity: of the steps; None where the problem is not Hamiltonian.
-        claims: that the command was given.
-    """
+    """A long run; symplecticity is None if the problem is not Hamiltonian."""
 
     name: str
     run: LongRun

@@ -45,6 +45,7 @@ if TYPE_CHECKING:
     from garkcli.check.every_value import EveryValue
     from garkcli.check.outcome import Outcome
     from garkcli.design.stability_functions import Coefficients
+    from garkcli.order.certificate import Witness
     from garkcli.tell.dialect import Plain
 
 HEADLINE, USUAL, DETAIL, DATA = Level
@@ -64,7 +65,7 @@ FACT: S.Schema = kinds.record(
     zeros=S.array(S.TEXT),
     open=S.array(S.TEXT),
     unknown=S.array(ALGEBRAIC),
-    where=S.array(kinds.INTERVAL),
+    where=S.array(kinds.INTERVAL.schema),
     why=S.TEXT,
 )
 FACT["required"] = FACT["required"][:-2]
@@ -87,7 +88,7 @@ def fact_data(f: Fact, inner: Kind[V], d: Plain) -> dict[str, object]:
         "unknown": [root_data(x) for x in f.unknown],
     }
     if f.where is not None:
-        found["where"] = [kinds.interval_data(x, d) for x in f.where]
+        found["where"] = [kinds.INTERVAL.data(x, d) for x in f.where]
     return {**found, "why": str(f.why)} if f.why else found
 
 
@@ -107,20 +108,14 @@ def lifted(inner: Kind[V]) -> Kind[Fact]:
 
 
 ANY: Kind[object] = Kind(Json(VALUE), Words(lambda x, d: d.reason(Reason("{}", told_value(x)))))
-WITNESS = kinds.record(order=S.POSITION, tree=S.TEXT, residual=S.TEXT)
 
 
-def _witness(o: EveryOrder) -> dict[str, object] | None:
-    if o.witness is None:
-        return None
-    data = kinds.witness_data(o.witness)
-    return {key: data[key] for key in WITNESS["properties"]}
-
-
-FAILS: Kind[dict[str, object]] = Kind(Json(WITNESS))
+WITNESS: Section[Witness] = Section(
+    *kinds.WITNESS.rows[:2], Row("residual", kinds.TEXT, lambda x: str(x.residual))
+)
 ORDER_PARTS: Section[EveryOrder] = Section(
     Row("order", kinds.COUNT, lambda x: x.order),
-    maybe("witness", FAILS, _witness),
+    maybe("witness", part(WITNESS), lambda x: x.witness),
     Row("fact", lifted(kinds.COUNT), lambda x: x.fact),
     maybe("dimension", kinds.INTEGER, lambda x: x.dimension),
     Row("weights", kinds.TEXTS, lambda o: list(o.poles)),
@@ -258,14 +253,7 @@ LIMIT = 60
 
 
 class EveryStability(Frozen):
-    """The stability of a family.
-
-    Attributes:
-        file: its path.
-        name: what people call it.
-        family: of methods.
-        functions: R for all colours together, and for each.
-    """
+    """The stability of a family: R of all colours together, and of each."""
 
     file: str
     name: str

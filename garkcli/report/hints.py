@@ -18,12 +18,7 @@ MOST_REPAIRS = 3
 
 
 def blame_text(blame: Blame, own: Sequence[str]) -> Reason:
-    """The conditions that fail, the block in all of them, and repairs.
-
-    Args:
-        blame: what was found.
-        own: names of the colours of the method in the file.
-    """
+    """The conditions that fail, the block in all of them, and repairs, with names of colours."""
     texts = [] if blame.order == 1 or blame.restored is not None else _conditions(blame, own)
     if blame.repairs:
         also = f", and so would {', '.join(blame.restores)}" if blame.restores else ""
@@ -69,13 +64,7 @@ def _repairs(repairs: Sequence[Repair], names: Sequence[str]) -> Reason:
 
 
 def remark_text(found: Remark, names: Sequence[str], tolerance: fmpq | None) -> Reason:
-    """The digits of the numbers, the order with these, and the entry that is off.
-
-    Args:
-        found: what the digits say.
-        names: of the colours.
-        tolerance: of the file.
-    """
+    """The digits of the numbers, the order with these, and the entry that is off."""
     order = f"{found.of.replace('-', ' ')} {found.order}"
     if found.repairs:
         mended = _repairs(found.repairs, names)

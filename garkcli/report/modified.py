@@ -45,13 +45,8 @@ class ModifiedReport(Frozen):
     """The modified equation of one method.
 
     Attributes:
-        file: its path as given.
-        name: the name of the method.
-        found: its modified equation.
-        derivation: "pair" or "conjugate" where it was made of the file; else empty.
-        digits: of decimals; None for exact numbers.
-        with_equation: whether rooted trees are shown where there is a Hamiltonian.
-        formula: on a problem, where one was requested; multiplied out.
+        with_equation: whether rooted trees are shown although there is a Hamiltonian.
+        formula: on a problem, multiplied out.
     """
 
     file: str
@@ -68,13 +63,7 @@ class ModifiedReport(Frozen):
 
 
 class Term(NamedTuple):
-    """One term of the modified equation or Hamiltonian.
-
-    Attributes:
-        tree: the rooted tree u, or the representative of a free tree.
-        symmetry: σ(u), or |Aut T|.
-        coefficient: b(u).
-    """
+    """A term of the modified equation or Hamiltonian: b(u)/σ(u), or over |Aut T| of a free tree."""
 
     tree: Tree
     symmetry: int

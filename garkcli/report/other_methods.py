@@ -134,14 +134,7 @@ STABILITY: Rows[Linear] = (
 def _form(
     get: Callable[[Outcome], A | None], flag: str, words: Wording[A], analysis: Rows[A]
 ) -> Section[Outcome]:
-    """The rows of a kind of method.
-
-    Args:
-        get: its analysis.
-        flag: the field of JSON that says of which kind it is.
-        words: its kind and its sizes.
-        analysis: the rows of the analysis after those of all kinds.
-    """
+    """The rows of a kind of method; ``flag`` is the field of JSON that names the kind."""
 
     def method(a: A, d: Plain) -> str:
         return c.with_arithmetic(words(a, d), a)

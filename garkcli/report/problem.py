@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Protocol, TypeAlias, TypeVar
-
-from flint import fmpq
+from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.problems.hamiltonian import Hamiltonian
 from garkcli.problems.oscillator import Oscillator
 from garkcli.problems.problem import Problem, texts_of
 from garkcli.problems.righthandside import RightHandSide
-from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tell.facts import Json, Kind, Level, Row, Rows, maybe, via
 from garkcli.tell.kinds import EXACT, TEXT
 from garkcli.tell.parts import SAID
+
+if TYPE_CHECKING:
+    from garkcli.backward.energy import ModifiedRun
+    from garkcli.convergence.result import Convergence
+    from garkcli.longtime.history import LongRun
 
 Stepped: TypeAlias = Oscillator | Problem
 P = TypeVar("P", Oscillator, Hamiltonian, RightHandSide)
@@ -76,18 +78,7 @@ _LISTS: Kind[Sequence[Sequence[object]]] = Kind(
 _FORMULAS: Kind[Sequence[object]] = Kind(Json(S.array(S.TEXT), lambda xs, _: [str(x) for x in xs]))
 
 
-class Run(Protocol):
-    @property
-    def method(self) -> GarkMethod | None:
-        """The method; None without one."""
-
-    @property
-    def problem(self) -> Stepped:
-        """The problem."""
-
-    @property
-    def t_end(self) -> fmpq:
-        """The end of the run."""
+Run: TypeAlias = "Convergence | LongRun | ModifiedRun"
 
 
 def _stepped(kind: type[P], terms: Rows[P]) -> Rows[Run]:

@@ -41,14 +41,7 @@ ENDINGS: dict[Ending, str] = {
 
 
 class SearchReport(NamedTuple):
-    """The methods that a search found.
-
-    Attributes:
-        file: with the unknowns.
-        search: what was sought.
-        result: what was found.
-        files: where each method was written, if it was.
-    """
+    """The methods that a search found, with the files that they were written to."""
 
     file: str
     search: Search

@@ -20,15 +20,7 @@ DETAIL, DATA = Level.DETAIL, Level.DATA
 
 
 class Shown(Frozen):
-    """A method of the catalogue or of a file.
-
-    Attributes:
-        entry: as the list of methods has it.
-        tableau: its blocks.
-        entries: what is shown of them.
-        description: of its file.
-        reference: its fields; None where it is plain text.
-    """
+    """A method of the catalogue or of a file, with its entry in the list of methods."""
 
     entry: Entry
     tableau: Tableau

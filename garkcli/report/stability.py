@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from itertools import product
-from typing import TYPE_CHECKING, NamedTuple, Never, Protocol, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, Never, TypeAlias
 
 from flint import arb, ctx, fmpq
 
@@ -40,6 +40,7 @@ from garkcli.tell.facts import (
     Row,
     Rows,
     Section,
+    Several,
     Status,
     itself,
     maybe,
@@ -65,26 +66,12 @@ Form: TypeAlias = "tuple[Polynomial, Polynomial, Polynomial]"
 """A quadratic form of (ωq, p)."""
 
 
-class Timed(Protocol):
-    """Facts for which the time may not be enough."""
-
-    @property
-    def late(self) -> frozenset[str]:
-        """Their attributes that it was not enough for."""
-
-
 class StabilityReport(Frozen):
     """The stability of one method.
 
     Attributes:
-        file: its path as given.
-        name: the name of the method.
-        found: its stability.
-        springs: the two-frequency problem where it was requested.
-        digits: decimals of algebraic numbers.
+        springs: the two-frequency problem for a slow frequency; ``slow``: for an interval of them.
         plane: both frequencies in floats, for a picture.
-        slow: the two-frequency problem for an interval of slow frequencies.
-        derivation: whether the method is the pair or the conjugate of what the file gives.
         is_order_star: whether the picture is |R(z)| > |e^z|.
     """
 
@@ -144,7 +131,7 @@ def _height(end: RealRoot, d: Plain) -> str:
 def _end_data(found: Extent, d: Plain) -> dict[str, object]:
     """The first interval, by its end: in −z on the real axis, in y² on the imaginary one."""
     if isinstance(found, Bounds):
-        return kinds.bounds_data(found)
+        return kinds.BOUNDS.data(found, d)
     if not found:
         return {"to": "0"}
     return {"to": None if found[0].end is None else root_data(found[0].end, d.digits)}
@@ -152,7 +139,7 @@ def _end_data(found: Extent, d: Plain) -> dict[str, object]:
 
 _END = kinds.record(to=S.nullable(ALGEBRAIC))
 REAL: Kind[Extent] = Kind(
-    Json(S.one_of(_END, kinds.BOUNDS), _end_data),
+    Json(S.one_of(_END, kinds.BOUNDS.schema), _end_data),
     Words(_around_zero("−z ≤ ", "z = 0 only", "z ≤ 0", lambda end, d: d.upto("−z", end))),
 )
 IMAGINARY: Kind[Extent] = Kind(
@@ -161,14 +148,14 @@ IMAGINARY: Kind[Extent] = Kind(
 
 
 def _ssp_data(x: SspCoefficient | Bounds, d: Plain) -> object:
-    return kinds.bounds_data(x) if isinstance(x, Bounds) else kinds.radius_data(x, d)
+    return kinds.BOUNDS.data(x, d) if isinstance(x, Bounds) else kinds.radius_data(x, d)
 
 
 def _ssp_words(x: SspCoefficient | Bounds, d: Plain) -> str:
     return d.bounds(x) if isinstance(x, Bounds) else kinds.RADIUS.words(x, d)
 
 
-SSP = Kind(Json(S.one_of(S.TEXT, ROOT_OF, kinds.BOUNDS), _ssp_data), Words(_ssp_words))
+SSP = Kind(Json(S.one_of(S.TEXT, ROOT_OF, kinds.BOUNDS.schema), _ssp_data), Words(_ssp_words))
 SECTOR: Kind[RealRoot] = Kind(
     Json(
         kinds.record(degrees=S.TEXT, cosine=ALGEBRAIC),
@@ -243,7 +230,7 @@ ROUNDED = Reason("coefficients are rounded")
 LATE = Reason("it takes longer than --seconds")
 
 
-def _open(x: Timed, name: str) -> Answer[Never] | None:
+def _open(x: Stability | LinearStability | Colours, name: str) -> Answer[Never] | None:
     """An answer that is left open because the time was over; None if it was not."""
     return Answer(None, Status(open=LATE)) if name in x.late else None
 
@@ -439,7 +426,7 @@ def phase(o: OscillatorStability) -> Answer[int]:
 
 PHASE: Kind[int] = Kind(Json(S.COUNT), Words(lambda n, _: f"of order {n}"))
 STABLE: Kind[Sequence[Interval]] = Kind(
-    Json(S.array(kinds.INTERVAL), kinds.intervals_data),
+    Several(kinds.INTERVAL),
     Words(lambda xs, d: " or ".join(_zone(x, d) for x in xs) if xs else "for no x"),
 )
 

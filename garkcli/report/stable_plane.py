@@ -19,7 +19,7 @@ from garkcli.plots.stable_plane import stable_plane_scene
 from garkcli.tableau.family import Stability
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Json, Kind, Level, Row, Rows, Section, itself, maybe, via
-from garkcli.tell.kinds import INDEX, INTERVAL, ROOTS, TEXT, TEXTS, choice, interval_data, record
+from garkcli.tell.kinds import INDEX, INTERVAL, ROOTS, TEXT, TEXTS, choice, record
 from garkcli.tell.parts import answer, plot, rows_of
 from garkcli.tell.report import Report
 
@@ -131,7 +131,7 @@ def _strip_data(strip: Strip, names: tuple[str, ...], d: Plain) -> dict[str, obj
         }
         for part in strip.parts
     ]
-    return {"base": interval_data(base, d), "parts": parts}
+    return {"base": INTERVAL.data(base, d), "parts": parts}
 
 
 _END = S.nullable(
@@ -143,7 +143,7 @@ _END = S.nullable(
 _PART = record(**{"from": _END, "to": _END}, from_included=S.FLAG, to_included=S.FLAG)
 STRIPS: Kind[StablePlane] = Kind(
     Json(
-        S.array(record(base=INTERVAL, parts=S.array(_PART))),
+        S.array(record(base=INTERVAL.schema, parts=S.array(_PART))),
         lambda x, d: [_strip_data(strip, x.family.ring.names, d) for strip in x.strips],
     )
 )

@@ -17,17 +17,7 @@ from garkcli.page.exactly import ALGEBRAIC, root_data
 from garkcli.tableau.family import Stability
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Json, Kind, Level, Row, Rows, Section, itself, maybe, optional, via
-from garkcli.tell.kinds import (
-    INDEX,
-    INTERVAL,
-    ROOTS,
-    TEXT,
-    TEXTS,
-    TRUTH,
-    choice,
-    interval_data,
-    record,
-)
+from garkcli.tell.kinds import INDEX, INTERVAL, ROOTS, TEXT, TEXTS, TRUTH, choice, record
 from garkcli.tell.parts import answer, part, rows_of
 from garkcli.tell.report import Report
 
@@ -101,12 +91,12 @@ def _springs_words(springs: TwoSprings, d: Plain) -> str:
 def _interval(x: Interval, d: Plain) -> dict[str, object]:
     if x.is_point and x.start is not None:
         return {"point": root_data(x.start, d.digits)}
-    return interval_data(x, d)
+    return INTERVAL.data(x, d)
 
 
 SET: Kind[Sequence[Interval]] = Kind(
     Json(
-        S.array(S.one_of(record(point=ALGEBRAIC), INTERVAL)),
+        S.array(S.one_of(record(point=ALGEBRAIC), INTERVAL.schema)),
         lambda found, d: [_interval(x, d) for x in found],
     )
 )

@@ -19,13 +19,7 @@ from garkcli.tell.report import Report
 
 
 class FreeList(Frozen):
-    """Free trees, a class of conditions each.
-
-    Attributes:
-        subject: what they are independent for.
-        classes: a free tree each; None where they are counted alone.
-        with_members: whether all rooted trees of each are listed.
-    """
+    """Free trees, a class of conditions each; None if they are only counted."""
 
     subject: Subject
     classes: Iterable[ConditionClass] | None

@@ -58,12 +58,7 @@ Grid: TypeAlias = "Sequence[Sequence[Cell]]"
 
 
 class Shown(NamedTuple):
-    """A tableau with the entries that are shown of it.
-
-    Attributes:
-        is_rounded: whether people read long fractions as decimals.
-        method: the one that it is of, for its properties.
-    """
+    """A tableau with the entries that are shown; rounded ones have long fractions as decimals."""
 
     tableau: Tableau
     entries: Entries

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import NamedTuple, Protocol, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias, TypeVar
 
 from garkcli.errors import counted
 from garkcli.frozen import Frozen, Mutable
@@ -17,6 +17,10 @@ from garkcli.tell.kinds import COUNT, INDEX, POSITION, TRUTH
 from garkcli.tell.parts import rows_of, sentence, stream, told
 from garkcli.tell.report import Report
 from garkcli.tell.shown import Words
+
+if TYPE_CHECKING:
+    from garkcli.report.conditions import ConditionRow
+    from garkcli.report.symplectic import FreeTree
 
 Counts: TypeAlias = Sequence[tuple[int, tuple[int, ...]]]
 """For each order, the numbers of trees by root colour."""
@@ -54,13 +58,7 @@ class TreeRow(NamedTuple):
 
 
 class TreeList(Mutable):
-    """The trees that were requested.
-
-    Attributes:
-        query: what was requested.
-        rows: the trees; None where they are counted alone.
-        known: their numbers; None where these are not known before the trees.
-    """
+    """Trees, and their numbers if these are known before; no rows if they are only counted."""
 
     query: Query
     rows: Iterable[TreeRow] | None
@@ -130,15 +128,7 @@ def counts(what: str) -> Kind[dict[str, int]]:
     return Kind(Json(counts_of(what)))
 
 
-class HasTree(Protocol):
-    """A line about a tree."""
-
-    @property
-    def tree(self) -> Tree:
-        """The tree."""
-
-
-SIZES: Rows[HasTree] = (
+SIZES: Rows[ConditionRow | FreeTree] = (
     Row("root", INDEX, lambda x: x.tree.root, DATA),
     Row("order", POSITION, lambda x: x.tree.order, DETAIL),
     Row("sigma", POSITION, lambda x: x.tree.symmetry),

@@ -193,12 +193,7 @@ class Plain(Mutable):
         return text
 
     def expression(self, text: str, latex: Callable[[], str] | None = None) -> str:
-        """A symbolic expression.
-
-        Args:
-            text: as method files write it.
-            latex: what makes it in LaTeX, where the text is no expression of method files.
-        """
+        """A symbolic expression; ``latex`` makes its LaTeX if method files do not write it so."""
         return text
 
     def number(self, x: Number) -> str:

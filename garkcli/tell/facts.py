@@ -88,13 +88,9 @@ class Described(Protocol[V_in]):
 
 
 class Beside(Frozen, Generic[V]):
-    """A field of JSON beside that of a row, from its answer.
+    """A field of JSON beside that of a row, from its answer; None is left out if it is optional.
 
-    Attributes:
-        name: ``*`` in it is what is before the last word of the row's key.
-        schema: of its values.
-        data: from the answer; None where there is none.
-        is_optional: whether it is left out then; otherwise it is null.
+    In its name ``*`` is the key of the row up to the last ``order``.
     """
 
     name: str
@@ -120,12 +116,7 @@ class Json(Frozen, Generic[V_in]):
 
 
 class Several(Frozen, Generic[T]):
-    """A list of values that a section describes.
-
-    Attributes:
-        section: describes each.
-        is_never_empty: whether there is at least one.
-    """
+    """A list of values that a section describes."""
 
     section: Section[T]
     is_never_empty: bool = False
@@ -140,12 +131,7 @@ class Several(Frozen, Generic[T]):
 
 
 class Kind(Frozen, Generic[V_in]):
-    """A type of value, and how it is shown.
-
-    Attributes:
-        what: it is for programs; None for what people alone get.
-        shown: to people; None for what programs alone get.
-    """
+    """A type of value: what it is for programs, or None, and how it is shown to people, or None."""
 
     what: Described[V_in] | None
     shown: Shown[V_in] | None = None
@@ -349,8 +335,7 @@ class Section(Generic[T_in]):
     """Rows in order: all that is reported of a type of result.
 
     Attributes:
-        rows: what is declared; lists of rows among them are theirs.
-        title: of a part among others, and of a result: what it is about, such as the file.
+        title: of a part among others, or of a result, such as its file.
         columns: keys of the rows that tell it in a line of a table.
         is_cut: whether the last words of such a line may be cut.
     """
@@ -403,12 +388,7 @@ class Section(Generic[T_in]):
 
 
 class Choice(Section[T]):
-    """One of several sections, by what it tells.
-
-    Args:
-        of: the one for a value.
-        sections: all of them.
-    """
+    """One of several sections, which ``of`` chooses for a value."""
 
     def __init__(self, of: Callable[[T], Section[T]], *sections: Section[T]) -> None:
         super().__init__()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 from flint import fmpq
 
@@ -17,7 +17,7 @@ from garkcli.page.exactly import ALGEBRAIC, ROOT_OF, root_data
 from garkcli.page.plain import csv_cell
 from garkcli.page.schema import Schema, array, nullable, one_of
 from garkcli.reason import NO_REASON, Reason
-from garkcli.tell.facts import Answer, Beside, Json, Kind, Level, Row, Rows, Status
+from garkcli.tell.facts import Answer, Beside, Json, Kind, Level, Row, Rows, Section, Status, maybe
 from garkcli.tell.shown import Words
 
 if TYPE_CHECKING:
@@ -30,6 +30,8 @@ if TYPE_CHECKING:
     from garkcli.order.certificate import Witness
     from garkcli.order.deciding import AnyOrder
     from garkcli.stability.ball_polynomials import Bounds
+    from garkcli.stability.linear import StabilityFunction
+    from garkcli.stability.oscillator import Ratio
     from garkcli.stability.ssp import SspCoefficient
     from garkcli.tell.dialect import Plain
 
@@ -94,13 +96,7 @@ TREE: Kind[Tree] = Kind(Json(S.TEXT, lambda x, _: format_tree(x)), Words(lambda 
 def truth(
     value: bool | None, why: Reason | str = "", open_because: Reason | str = ""
 ) -> Answer[bool]:
-    """A truth that may be undecided.
-
-    Args:
-        value: None for open.
-        why: it is not so.
-        open_because: it is not decided.
-    """
+    """A truth, with the reason why it is not so; None is left open with its reason."""
     if value is None:
         return Answer(None, Status(open=as_reason(open_because or "it is open")))
     return Answer(value, reason=NO_REASON if value else as_reason(why))
@@ -161,12 +157,7 @@ BLOCKS: Kind[Sequence[Sequence[int]]] = Kind(
 
 
 class Table(Frozen):
-    """How many conditions hold, one number per block; none where there is no block.
-
-    Attributes:
-        rows: of blocks, or a single one.
-        limit: where the search stopped.
-    """
+    """How many conditions hold, a number for each block that exists, up to a limit."""
 
     rows: Sequence[Sequence[int | None]]
     limit: int
@@ -183,19 +174,13 @@ TABLE: Kind[Table] = Kind(
 
 # orders
 
-WITNESS: Schema = record(
-    order=S.POSITION, tree=S.TEXT, value=S.EXACT, required=S.EXACT, residual=S.EXACT
+WITNESS: Section[Witness] = Section(
+    Row("order", POSITION, lambda x: x.tree.order),
+    Row("tree", TREE, lambda x: x.tree),
+    Row("value", EXACT, lambda x: x.value),
+    Row("required", EXACT, lambda x: x.required),
+    Row("residual", EXACT, lambda x: x.residual),
 )
-
-
-def witness_data(witness: Witness) -> dict[str, object]:
-    return {
-        "order": witness.tree.order,
-        "tree": format_tree(witness.tree),
-        "value": to_text(witness.value),
-        "required": to_text(witness.required),
-        "residual": to_text(witness.residual),
-    }
 
 
 def order_answer(found: AnyOrder | None) -> Answer[AnyOrder]:
@@ -233,9 +218,9 @@ def order_cell(found: AnyOrder, d: Plain) -> str:
     return d.known(str(found.order), order_answer(found).status)
 
 
-def _witness(answer: Answer[AnyOrder], _: Plain) -> dict[str, object] | None:
-    found = answer.value
-    return None if found is None or found.witness is None else witness_data(found.witness)
+def _witness(answer: Answer[AnyOrder], d: Plain) -> object:
+    witness = None if answer.value is None else answer.value.witness
+    return None if witness is None else WITNESS.data(witness, d)
 
 
 def _within(answer: Answer[AnyOrder], _: Plain) -> str | None:
@@ -252,7 +237,7 @@ ORDER: Kind[AnyOrder] = Kind(
         S.COUNT,
         lambda found, _: found.order,
         beside=(
-            Beside("*witness", nullable(WITNESS), _witness, is_optional=False),
+            Beside("*witness", nullable(WITNESS.schema), _witness, is_optional=False),
             Beside("*order_is_lower_bound", S.TRUE, lambda a, _: a.status.at_least or None),
             Beside("*order_largest_residual", S.SIZE, _largest),
             Beside("*order_tolerance", S.TEXT, _within),
@@ -266,14 +251,7 @@ ORDER: Kind[AnyOrder] = Kind(
 # polynomials, roots, intervals
 
 
-class Quotient(Protocol):
-    """A rational function."""
-
-    @property
-    def numerator(self) -> Polynomial: ...
-
-    @property
-    def denominator(self) -> Polynomial: ...
+Quotient: TypeAlias = "StabilityFunction | Ratio"
 
 
 def ratio(variable: str) -> Kind[Quotient]:
@@ -327,44 +305,35 @@ RADIUS: Kind[SspCoefficient] = Kind(
 )
 """How far something reaches, without end too."""
 
-_END = nullable(ALGEBRAIC)
-INTERVAL: Schema = record(**{"from": _END, "to": _END}, from_included=S.FLAG, to_included=S.FLAG)
-
-
-def interval_data(x: Interval, d: Plain) -> dict[str, object]:
-    """An interval with algebraic ends."""
-
-    def end(root: RealRoot | None) -> object:
-        return None if root is None else root_data(root, d.digits)
-
-    return {
-        "from": end(x.start),
-        "to": end(x.end),
-        "from_included": x.has_start,
-        "to_included": x.has_end,
-    }
-
-
-def intervals_data(found: Sequence[Interval], d: Plain) -> list[dict[str, object]]:
-    return [interval_data(x, d) for x in found]
-
-
+END: Kind[RealRoot] = Kind(Json(ALGEBRAIC, lambda x, d: root_data(x, d.digits)))
+INTERVAL: Section[Interval] = Section(
+    maybe("from", END, lambda x: x.start),
+    maybe("to", END, lambda x: x.end),
+    Row("from_included", TRUTH, lambda x: x.has_start),
+    Row("to_included", TRUTH, lambda x: x.has_end),
+)
 _PLACES = fmpq(10) ** 20
-BOUNDS: Schema = record(at_least=S.TEXT, at_most=nullable(S.TEXT))
-
-
-def bounds_data(found: Bounds) -> dict[str, object]:
-    if found.low is None:
-        return {"at_least": "infinity", "at_most": None}
-    low = plain_decimal(fmpq((found.low * _PLACES).floor()) / _PLACES)
-    if found.high is None:
-        return {"at_least": low, "at_most": None}
-    return {
-        "at_least": low,
-        "at_most": plain_decimal(fmpq((found.high * _PLACES).ceil()) / _PLACES),
-    }
-
-
+BOUNDS: Section[Bounds] = Section(
+    Row(
+        "at_least",
+        TEXT,
+        lambda x: (
+            "infinity"
+            if x.low is None
+            else plain_decimal(fmpq((x.low * _PLACES).floor()) / _PLACES)
+        ),
+    ),
+    maybe(
+        "at_most",
+        TEXT,
+        lambda x: (
+            None
+            if x.low is None or x.high is None
+            else plain_decimal(fmpq((x.high * _PLACES).ceil()) / _PLACES)
+        ),
+    ),
+)
+"""Rounded outwards."""
 DERIVATION: Kind[str] = Kind(Json(S.DERIVATION))
 
 

@@ -40,13 +40,9 @@ def shown(section: Section[T], most: int) -> Kind[Sequence[T]]:
 
 
 def stream(section: Section[T], by: Wording[T] | None = None) -> Kind[Iterable[T]]:
-    """A list of flat parts that is reported while it is found; memory does not grow with it. A
-    terminal shows the usual rows of a part, LaTeX those of details too, Markdown those that
-    programs get.
-
-    Args:
-        section: of a part.
-        by: the heading above parts that have the same.
+    """A list of flat parts that is reported while it is found, below headings of ``by``: memory
+    does not grow with it. A terminal shows the usual rows of a part, LaTeX those of details too,
+    Markdown those that programs get.
     """
     return Kind(Several(section), Stream(section, by))
 

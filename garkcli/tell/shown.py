@@ -28,8 +28,7 @@ class Words(Shown[V]):
     """In a line.
 
     Attributes:
-        words: the value in the signs of a dialect.
-        whole: the answer in words, if its status and its reason are not added after those.
+        whole: the answer in words, if its status and its reason are not added after ``words``.
         phrase: a part of a sentence, if that is not the label with the words.
         absent: the cell of a table if there is no value.
     """
@@ -69,13 +68,7 @@ class Plot(Below[V]):
 
 
 class Part(Shown[T]):
-    """By the facts of a section: the usual ones in a line, with details each in its own.
-
-    Attributes:
-        section: tells the value.
-        words: the line, if the usual facts do not make it.
-        phrase: as in ``Words``.
-    """
+    """By the facts of a section: usually some in a line, or ``words``; with details each alone."""
 
     section: Section[T]
     words: Wording[T] | None = None
@@ -86,11 +79,10 @@ class Part(Shown[T]):
 
 
 class Parts(Shown[Sequence[T]]):
-    """The parts of a list, each by the facts of a section.
+    """A list, by the facts of a section.
 
     Attributes:
-        section: tells a part.
-        words: the line of all of them, if the usual facts do not make it.
+        words: the line of all parts, if the usual facts do not make it.
         most: so many rows of a table are usual, 0 for all; None if a line is usual.
     """
 
@@ -103,12 +95,7 @@ class Parts(Shown[Sequence[T]]):
 
 
 class Stream(Below[Iterable[T]]):
-    """A line for each part, while the parts are found.
-
-    Attributes:
-        section: tells a part.
-        by: the heading of a part; a terminal shows it above parts that share it.
-    """
+    """A line for each part, while the parts are found, below headings of ``by`` on a terminal."""
 
     section: Section[T]
     by: Wording[T] | None = None
