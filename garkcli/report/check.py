@@ -760,7 +760,7 @@ CONSTANTS: Section[ErrorConstants] = Section(
     Row("order", kinds.POSITION, lambda x: x.order),
     Row("exact", kinds.TRUTH, lambda x: x.is_exact, DATA),
     Row("all", part(NORMS), lambda x: x.all),
-    Row("coupling", part(NORMS), lambda c: c.coupling if of_fields(c) else None, has_null=True),
+    maybe("coupling", part(NORMS), lambda c: c.coupling if of_fields(c) else None),
 )
 
 
@@ -934,7 +934,7 @@ CLAIM: Section[Claim] = Section(
     Row("claim", kinds.TEXT, lambda x: x.claim),
     Row("expected", kinds.TEXT, lambda x: x.expected),
     Row("found", kinds.TEXT, lambda x: x.found),
-    Row("holds", kinds.TRUTH, lambda x: x.holds, has_null=True),
+    maybe("holds", kinds.TRUTH, lambda x: x.holds),
     Row("line", kinds.POSITION, lambda x: x.line),
     optional("why", kinds.TEXT, lambda c: c.why or None),
 )

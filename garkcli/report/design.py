@@ -569,7 +569,7 @@ REAL: Section[Solutions] = Section(
     Row("values", VALUES_OF, lambda x: x.values),
     Row("real", constant(value=True), lambda _: True),
     Row("admissible", TRUTH, lambda x: x.number in x.found.accepted),
-    Row("stable", TRUTH, _accepted, has_null=True, is_optional=True),
+    maybe("stable", TRUTH, _accepted).but(is_optional=True),
     via(lambda x: x.found, FURTHER[:1]),
     optional("embedded_error", END, lambda x: _embedded_error(x.found, x.number)),
     via(lambda x: x.found, FURTHER[1:]),

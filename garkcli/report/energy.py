@@ -355,7 +355,7 @@ SYMPLECTIC: Section[EnergyReport] = Section(
 CLAIM: Section[Claim] = Section(
     Row("claim", TEXT, lambda x: x.claim),
     Row("found", TEXT, lambda x: x.found),
-    Row("holds", TRUTH, lambda x: x.holds, has_null=True),
+    maybe("holds", TRUTH, lambda x: x.holds),
 )
 
 

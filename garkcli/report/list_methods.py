@@ -31,7 +31,8 @@ def _field(
     key: str, kind: Kind[V], level: Level = DATA, has_null: bool = True, line: str = ""
 ) -> Row[Entry]:
     """The field of that name; null if nobody knows it."""
-    return Row(key, kind, lambda entry: entry[key], level, has_null, line=line)
+    row = maybe if has_null else Row
+    return row(key, kind, lambda entry: entry[key], level, line=line)
 
 
 def rounding(entry: Entry) -> fmpq | None:

@@ -66,7 +66,8 @@ def _order(key: str, level: Level = USUAL, label: str | None = None) -> Row[Othe
         names = [x.name for x in tableau.colours] if tableau.size > 1 else []
         return replace(kinds.order_answer(order), names=names)
 
-    return Row(key, kinds.ORDER, get, level, has_null=key != "order", label=label)
+    row = Row if key == "order" else maybe
+    return row(key, kinds.ORDER, get, level, label=label)
 
 
 def _trees_that_fail(*claims: str) -> Row[OtherAnalysis]:

@@ -213,14 +213,15 @@ class Row(Generic[T_in]):
         is_short: whether other rows tell it where everything is reported.
     """
 
+    has_null: bool = False
+    is_optional: bool = False
+
     def __init__(
         self,
         key: str,
         kind: Kind[V],
         get: Callable[[T_in], V | Answer[V] | None],
         level: Level | Callable[[Answer[V]], Level] = Level.USUAL,
-        has_null: bool = False,
-        is_optional: bool = False,
         label: str | None = None,
         line: str = "",
         is_short: bool = False,
@@ -229,8 +230,6 @@ class Row(Generic[T_in]):
         self.kind: Kind[Any] = kind
         self.get: Callable[[T_in], Any] = get
         self.level = level
-        self.has_null = has_null
-        self.is_optional = is_optional
         self.label = label
         self.line = line
         self.is_short = is_short
@@ -290,26 +289,16 @@ class Row(Generic[T_in]):
 Rows: TypeAlias = "Sequence[Row[T]]"
 
 
-def maybe(
-    key: str,
-    kind: Kind[V],
-    get: Callable[[T], V | Answer[V] | None],
-    level: Level | Callable[[Answer[V]], Level] = Level.USUAL,
-    **placed: Unpack[Placed],
-) -> Row[T]:
+class maybe(Row[T_in]):  # noqa: N801 -- it is called like a function
     """A row whose value may be none: null in JSON."""
-    return Row(key, kind, get, level, has_null=True, **placed)
+
+    has_null = True
 
 
-def optional(
-    key: str,
-    kind: Kind[V],
-    get: Callable[[T], V | Answer[V] | None],
-    level: Level | Callable[[Answer[V]], Level] = Level.USUAL,
-    **placed: Unpack[Placed],
-) -> Row[T]:
+class optional(Row[T_in]):  # noqa: N801
     """A row that JSON leaves out where there is no value."""
-    return Row(key, kind, get, level, is_optional=True, **placed)
+
+    is_optional = True
 
 
 def itself(key: str, kind: Kind[T], level: Level = Level.USUAL, **placed: Unpack[Placed]) -> Row[T]:
