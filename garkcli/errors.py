@@ -21,10 +21,10 @@ GarkError                     what is wrong, and the cure
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import lru_cache
 from itertools import pairwise
-from typing import Any
+from typing import Any, Literal, TypeAlias
 
 from garkcli.frozen import Frozen
 
@@ -180,15 +180,21 @@ class UsageProblem(GarkError):
     """The options of a command do not fit the method or each other."""
 
 
-class Fault(Frozen):
-    """One fault of a method or problem file.
+Severity: TypeAlias = Literal["error", "warning", "note"]
+"""Errors fail a check or an audit; warnings and notes are reported."""
+
+
+class Remark(Frozen):
+    """Something that is wrong with a file, a claim, a table or a call, or worth saying.
 
     Attributes:
         message: what is wrong.
         help: the cure, or empty.
         line: from 1; 0 if unknown.
         column: from 1; 0 if unknown.
-        code: the kind of fault, as ``gark explain`` knows it.
+        code: as ``gark explain`` knows it.
+        level: how bad it is.
+        claims: of a table, the declarations that are not true, as claims of a method file.
     """
 
     message: str
@@ -196,6 +202,8 @@ class Fault(Frozen):
     line: int = 0
     column: int = 0
     code: str = UNKNOWN
+    level: Severity = "error"
+    claims: Mapping[str, str] | None = None
 
 
 MANY_WORDS = 50
@@ -320,7 +328,7 @@ class MethodFileError(GarkError):
         text: of the file.
     """
 
-    def __init__(self, source: str, faults: Sequence[Fault], text: str = "") -> None:
+    def __init__(self, source: str, faults: Sequence[Remark], text: str = "") -> None:
         message = "; ".join(fault.message for fault in faults)
         super().__init__(message, code=faults[0].code if faults else UNKNOWN)
         self.source = source

@@ -153,10 +153,10 @@ class GarkItem(pytest.Item):
             # told of the method file, not of this one
             raise pytest.skip.Exception("the file cannot be read", _use_item_location=True)
         found = list(filter(self._is_about, findings(outcome)))
-        if any(finding.level == "error" for finding in found):
+        if any(finding.remark.level == "error" for finding in found):
             raise ClaimFails("\n".join(self._text(finding, outcome) for finding in found))
         if found:
-            reason = "; ".join(finding.message for finding in found)
+            reason = "; ".join(finding.remark.message for finding in found)
             raise pytest.skip.Exception(f"undecided: {reason}", _use_item_location=True)
 
     def _is_about(self, finding: Finding) -> bool:
@@ -165,7 +165,7 @@ class GarkItem(pytest.Item):
         return (
             is_whole
             or finding.rule not in {"claim", "undecided"}
-            or (finding.line, finding.column) == self.place
+            or (finding.remark.line, finding.remark.column) == self.place
         )
 
     def _text(self, finding: Finding, outcome: Outcome) -> str:
@@ -173,12 +173,13 @@ class GarkItem(pytest.Item):
         from garkcli.errors import excerpt, printable
 
         place = printable(_shown(self.path, self.config))
-        lines = [f"{place}:{finding.line}:{finding.column}: {finding.message}"]
+        remark = finding.remark
+        lines = [f"{place}:{remark.line}:{remark.column}: {remark.message}"]
         source = outcome.text.splitlines()
-        if 0 < finding.line <= len(source):
-            lines += excerpt(source[finding.line - 1], finding.line, finding.column)
-        if finding.help:
-            lines.append(f"      help: {finding.help}")
+        if 0 < remark.line <= len(source):
+            lines += excerpt(source[remark.line - 1], remark.line, remark.column)
+        if remark.help:
+            lines.append(f"      help: {remark.help}")
         return "\n".join(lines)
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:

@@ -10,14 +10,14 @@ from flint import fmpq
 
 from garkcli.bridges.elsewhere import declared_orders, with_bases, with_declared
 from garkcli.bridges.estimates import with_orders
-from garkcli.bridges.finding import EXPLAINED, AuditFinding, Level
+from garkcli.bridges.finding import EXPLAINED
 from garkcli.bridges.judging import Judged, at_least
 from garkcli.bridges.limited import judged_within_limits
 from garkcli.bridges.plausible import is_plausible, speaks
 from garkcli.bridges.readers.registry import demand_grammars, find_tables, readers_for
 from garkcli.bridges.subject import HIGH, Subject, read
 from garkcli.check.findings import repair_text, total_text, witness_text
-from garkcli.errors import MethodFileError, counted
+from garkcli.errors import MethodFileError, Remark, Severity, counted
 from garkcli.exact.field import ZERO
 from garkcli.exact.matrix import dot
 from garkcli.frozen import Frozen, replace
@@ -61,7 +61,7 @@ class Audited(Frozen, eq=False):
     order: Judged | None = None
     embedded_order: Judged | None = None
     nonautonomous_order: Judged | None = None
-    findings: tuple[AuditFinding, ...] = ()
+    findings: tuple[Remark, ...] = ()
 
     @property
     def is_read(self) -> bool:
@@ -162,7 +162,7 @@ def _transposed(found: Audited, other: Audited) -> Audited:
     assert other.order is not None
     order = other.order.order
     message = f"with the matrix transposed the order is {order}"
-    finding = AuditFinding("transposed", message, claims={"order": str(order)})
+    finding = Remark(message, code="transposed", claims={"order": str(order)})
     others = (x for x in other.findings if x.code != "stored")
     return replace(found, findings=(finding, *others))
 
@@ -198,7 +198,7 @@ def _audit(table: FoundTable) -> Audited | None:
         message = f"a {table.kind} table, which is not judged as one of Runge–Kutta"
         return _noted(table, message, "other-kind")
     if table.is_misshapen:
-        return Audited(table, findings=(AuditFinding("shape", table.trouble),))
+        return Audited(table, findings=(Remark(table.trouble, code="shape"),))
     if table.trouble:
         return _noted(table, table.trouble, level="warning" if table.is_source else "note")
     if table.form is not None:
@@ -252,7 +252,7 @@ def _of_rosenbrock(table: FoundTable) -> Audited:
     return Audited(found.table, found.method, *orders, tuple(row_findings(found)))
 
 
-def findings_of(subject: Subject) -> tuple[AuditFinding, ...]:
+def findings_of(subject: Subject) -> tuple[Remark, ...]:
     """Every finding of a table, in the order in which an audit reports them."""
     return tuple(_weighed(x, subject) for check in CHECKS for x in check(subject))
 
@@ -265,12 +265,14 @@ def is_unrecognised(subject: Subject) -> bool:
     return subject.table.is_assembled and (is_far_off or len(subject.wrong_rows) > 1)
 
 
-def _noted(table: FoundTable, message: str, code: str = "unread", level: Level = "note") -> Audited:
+def _noted(
+    table: FoundTable, message: str, code: str = "unread", level: Severity = "note"
+) -> Audited:
     """A table that is not judged, and why."""
-    return Audited(table, findings=(AuditFinding(code, message, level=level),))
+    return Audited(table, findings=(Remark(message, code=code, level=level),))
 
 
-def _weighed(finding: AuditFinding, subject: Subject) -> AuditFinding:
+def _weighed(finding: Remark, subject: Subject) -> Remark:
     """An error as what it is: a doubt where the table was put together from single numbers, or read
     off its numbers and no one of them mends it; a note where careless rounding explains it.
     """
@@ -278,7 +280,7 @@ def _weighed(finding: AuditFinding, subject: Subject) -> AuditFinding:
         return finding
     if _is_explained(finding.code, subject):
         code = "nodes" if finding.code == "nodes" else "open"
-        return AuditFinding(code, f"{finding.message}: {EXPLAINED}", level="note")
+        return Remark(f"{finding.message}: {EXPLAINED}", code=code, level="note")
     if subject.table.is_assembled:
         message = f"{finding.message}; in doubt, as the table is put together from single numbers"
         return replace(finding, message=message, level="warning")
@@ -287,7 +289,7 @@ def _weighed(finding: AuditFinding, subject: Subject) -> AuditFinding:
     return finding
 
 
-def _is_mended(finding: AuditFinding, subject: Subject) -> bool:
+def _is_mended(finding: Remark, subject: Subject) -> bool:
     """Whether one entry is known that makes a method of a table."""
     if finding.code != "nodes":
         return bool(finding.help)
@@ -323,7 +325,7 @@ def _is_explained(code: str, subject: Subject) -> bool:
     return subject.is_careless(embedded, wanted or 1)
 
 
-def _order(subject: Subject) -> Iterator[AuditFinding]:
+def _order(subject: Subject) -> Iterator[Remark]:
     """The declared order against the true one."""
     declared = subject.table.order
     finding = _held(subject.order, declared, "order", subject.tableau)
@@ -335,24 +337,22 @@ def _order(subject: Subject) -> Iterator[AuditFinding]:
         yield replace(finding, help=_culprit(subject, declared))
 
 
-def _held(
-    found: Judged | None, declared: int | None, what: str, tableau: Tableau
-) -> AuditFinding | None:
+def _held(found: Judged | None, declared: int | None, what: str, tableau: Tableau) -> Remark | None:
     """What is wrong with a declared order; None where it holds or is not decided."""
     if found is None or declared is None or found.is_limited or found.order == declared:
         return None
     code, message = what.replace(" ", "-"), f"{what} {found.order}, declared {declared}"
     if found.order > declared:
-        return AuditFinding(f"{code}-higher", message, level="warning")
+        return Remark(message, code=f"{code}-higher", level="warning")
     if not found.is_open:
         claims = {code: str(declared)}
-        return AuditFinding(code, message + _witness(found, tableau), claims=claims)
+        return Remark(message + _witness(found, tableau), code=code, claims=claims)
     known = f"{what} {declared} is declared, {found.order} is proved"
     why = f"rounding may be why the conditions of {found.order + 1} fail"
-    return AuditFinding("open", f"{known}: {why}", level="note")
+    return Remark(f"{known}: {why}", code="open", level="note")
 
 
-def _said(subject: Subject) -> Iterator[AuditFinding]:
+def _said(subject: Subject) -> Iterator[Remark]:
     """The order that words say against the true one: they may speak of something else."""
     said, found = subject.table.said_order or 0, subject.order
     is_known = not (subject.table.order or found.is_limited or found.is_open)
@@ -360,7 +360,7 @@ def _said(subject: Subject) -> Iterator[AuditFinding]:
         return
     if not subject.is_careless(subject.tableau, said):
         message = f"order {found.order}, a comment or docstring says {said}"
-        yield AuditFinding("order", message + _witness(found, subject.tableau), level="warning")
+        yield Remark(message + _witness(found, subject.tableau), code="order", level="warning")
 
 
 def _witness(found: Judged, tableau: Tableau) -> str:
@@ -388,7 +388,7 @@ def _culprit(subject: Subject, declared: int) -> str:
     return f"order {declared} would hold with {repair}"
 
 
-def _embedded(subject: Subject) -> Iterator[AuditFinding]:
+def _embedded(subject: Subject) -> Iterator[Remark]:
     """The declared order of the embedded weights against the true one."""
     found, embedded = subject.embedded_order, subject.method.embedded
     if found is None or embedded is None:
@@ -402,29 +402,29 @@ def _embedded(subject: Subject) -> Iterator[AuditFinding]:
         total = " and ".join(str(total_text(sum(b, ZERO))) for b in embedded)
         claims = {"embedded-order": ONE if declared is None else str(declared)}
         message = f"the embedded weights have the sum {total}"
-        yield AuditFinding("embedded-weights", message, claims=claims)
+        yield Remark(message, code="embedded-weights", claims=claims)
     elif not is_known:
         tableau = with_weights(subject.tableau, embedded)
         finding = _held(found, declared, "embedded order", tableau)
         yield from [] if finding is None else [finding]
 
 
-def _sign(subject: Subject) -> Iterator[AuditFinding]:
+def _sign(subject: Subject) -> Iterator[Remark]:
     """An error estimate that may be b − b̂ or b̂ − b."""
     if subject.is_sign_open:
-        yield AuditFinding("sign", subject.sign, level="note")
+        yield Remark(subject.sign, code="sign", level="note")
 
 
-def _weights(subject: Subject) -> Iterator[AuditFinding]:
+def _weights(subject: Subject) -> Iterator[Remark]:
     """Weights whose sum is not 1, where no declared order tells."""
     found = subject.order
     if not (found.order or found.is_open) and subject.table.order is None:
         sums = (sum(colour.b, ZERO) for colour in subject.tableau.colours)
         message = f"the weights have the sum {' and '.join(str(total_text(x)) for x in sums)}"
-        yield AuditFinding("weights", message, claims={"order": ONE})
+        yield Remark(message, code="weights", claims={"order": ONE})
 
 
-def _nodes(subject: Subject) -> Iterator[AuditFinding]:
+def _nodes(subject: Subject) -> Iterator[Remark]:
     """Nodes that are no row sums, as far as they cost an order."""
     rows, declared = subject.wrong_rows, subject.table.order
     if subject.misses_order or all(x is None for x in subject.table.c):
@@ -432,7 +432,7 @@ def _nodes(subject: Subject) -> Iterator[AuditFinding]:
     if not rows:
         careless = subject.careless_rows
         if careless:
-            yield AuditFinding("nodes", f"{_listed(careless)}: {EXPLAINED}", level="note")
+            yield Remark(f"{_listed(careless)}: {EXPLAINED}", code="nodes", level="note")
         return
     timed = subject.nonautonomous
     wanted = subject.order.order if declared is None else declared
@@ -440,11 +440,11 @@ def _nodes(subject: Subject) -> Iterator[AuditFinding]:
     if loses and timed is not None:
         message = f"order {timed.order} where f depends on t, and else {wanted}: {_listed(rows)}"
         claims = {"nonautonomous-order": at_least(min(wanted, subject.order.order))}
-        yield AuditFinding("nodes", message, claims=claims)
+        yield Remark(message, code="nodes", claims=claims)
     elif declared is None or subject.is_misprinted or is_one_row(subject):
-        yield AuditFinding("nodes", _listed(rows), claims=ROW_SUMS)
+        yield Remark(_listed(rows), code="nodes", claims=ROW_SUMS)
     else:
-        yield AuditFinding("nodes", _listed(rows), level="note")
+        yield Remark(_listed(rows), code="nodes", level="note")
 
 
 def _listed(rows: Sequence[str]) -> str:
@@ -452,7 +452,7 @@ def _listed(rows: Sequence[str]) -> str:
     return f"{text}; and {len(rows) - 3} more" if len(rows) > 3 else text
 
 
-def _flags(subject: Subject) -> Iterator[AuditFinding]:
+def _flags(subject: Subject) -> Iterator[Remark]:
     """Properties that the source declares."""
     if not subject.table.flags.get("fsal") or not subject.block:
         return
@@ -460,25 +460,25 @@ def _flags(subject: Subject) -> Iterator[AuditFinding]:
     pairs = zip(subject.block[-1], subject.tableau.colours[0].b, strict=True)
     if not all(within(x - y, tolerance) for x, y in pairs):
         message = "declared first same as last, and the last row is not b"
-        yield AuditFinding("fsal", message, claims={"fsal": "true"})
+        yield Remark(message, code="fsal", claims={"fsal": "true"})
 
 
-def _stored(subject: Subject) -> Iterator[AuditFinding]:
+def _stored(subject: Subject) -> Iterator[Remark]:
     """How the numbers are stored, where that was read off them."""
     if subject.table.how:
-        yield AuditFinding("stored", f"as its numbers say: {subject.table.how}", level="note")
+        yield Remark(f"as its numbers say: {subject.table.how}", code="stored", level="note")
     for name in subject.table.idle:
         message = f"{name} has the name of nodes or weights, and fits no row of them"
-        yield AuditFinding("idle", message, level="warning")
+        yield Remark(message, code="idle", level="warning")
 
 
-def _unread(subject: Subject) -> Iterator[AuditFinding]:
+def _unread(subject: Subject) -> Iterator[Remark]:
     """Nodes and embedded weights that are not known."""
     lost = (x for x in subject.table.notes if " not read: " in x)
-    yield from (AuditFinding("unread", x, level="note") for x in lost)
+    yield from (Remark(x, code="unread", level="note") for x in lost)
 
 
-_Check: TypeAlias = Callable[[Subject], Iterator[AuditFinding]]
+_Check: TypeAlias = Callable[[Subject], Iterator[Remark]]
 CHECKS: tuple[_Check, ...] = (
     *(_order, _said, _weights, _nodes, _embedded, _sign, _flags, _stored, _unread),
 )

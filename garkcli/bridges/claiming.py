@@ -49,7 +49,7 @@ def declared_claims(found: Subject) -> Mapping[str, str]:
 
     A declared order that is too low is a bound; one that the digits leave open is not claimed.
     """
-    false = {key: claim for x in found.findings for key, claim in x.claims.items()}
+    false = {key: claim for x in found.findings for key, claim in (x.claims or {}).items()}
     is_spoilt = bool(_OF_TABLE & false.keys())
     true, claims = true_claims(found), {}
     for key, order, declared in _orders(found):

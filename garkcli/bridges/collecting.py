@@ -11,14 +11,13 @@ from pathlib import PurePath
 from garkcli.bridges.audit import is_unrecognised, settled
 from garkcli.bridges.claiming import imported
 from garkcli.bridges.elsewhere import declared_orders, with_bases, with_declared
-from garkcli.bridges.finding import AuditFinding
 from garkcli.bridges.limited import read_within_limits
 from garkcli.bridges.plausible import is_plausible
 from garkcli.bridges.readers.registry import demand_grammars, find_tables, reader_named, readers_for
 from garkcli.bridges.recognising import Recognised, recognised
 from garkcli.bridges.sources import STDIN_NAME
 from garkcli.bridges.subject import Subject
-from garkcli.errors import MethodFileError
+from garkcli.errors import MethodFileError, Remark
 from garkcli.exact.display import decimal
 from garkcli.frozen import Frozen, replace
 from garkcli.methodfile.reading import no_one
@@ -50,7 +49,7 @@ class Result(Frozen, eq=False):
     trouble: str = ""
 
     @property
-    def errors(self) -> Sequence[AuditFinding]:
+    def errors(self) -> Sequence[Remark]:
         """Findings that contradict its source, or that no method can have."""
         findings = () if self.method is None else self.method.findings
         return [x for x in findings if x.level == "error" or x.claims]

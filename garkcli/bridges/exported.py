@@ -167,6 +167,6 @@ def judged_export(table: FoundTable, name: str = "", is_as_found: bool = False) 
     if embedded is not None and embedded.order:
         claims["embedded-order"] = embedded.claim
     if not is_as_found:
-        claims |= {key: claim for x in found.findings for key, claim in x.claims.items()}
+        claims |= {key: claim for x in found.findings for key, claim in (x.claims or {}).items()}
     text = written(table, name, None, claims)
     return replace(found, method=loads(text, place_of(table)), text=text)

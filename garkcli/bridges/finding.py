@@ -1,35 +1,6 @@
-"""Every kind of finding about a table."""
+"""Every kind of remark about a table."""
 
-from __future__ import annotations
-
-from collections.abc import Mapping
-from typing import Literal, TypeAlias
-
-from garkcli.frozen import Frozen, field
-
-Level: TypeAlias = Literal["error", "warning", "note"]
-"""Errors fail an audit; warnings and notes are reported."""
 EXPLAINED = "careless rounding explains it"
-
-
-class AuditFinding(Frozen):
-    """A fault of a table, or a doubt about it.
-
-    Attributes:
-        code: a key of ``CODES``.
-        message: what is wrong.
-        help: which entry may be the culprit; empty where none is known.
-        level: how bad it is.
-        claims: what the source declares and is not true, as a method file claims it.
-    """
-
-    code: str
-    message: str
-    help: str = ""
-    level: Level = "error"
-    claims: Mapping[str, str] = field(default_factory=dict)
-
-
 CODES = {
     "order": "the order is lower than the source declares",
     "transposed": "the matrix is transposed",
@@ -49,4 +20,4 @@ CODES = {
     "unjudged": "judging a table takes too long",
     "other-kind": "the table is not one of a Runge–Kutta method",
 }
-"""Every kind of finding."""
+"""Every kind of remark, in words."""

@@ -10,12 +10,13 @@ from typing import Any, TypeGuard
 
 from flint import fmpq
 
-from garkcli.bridges.finding import EXPLAINED, AuditFinding
+from garkcli.bridges.finding import EXPLAINED
 from garkcli.bridges.importing import place_of, written
 from garkcli.bridges.judging import Digits, Judged, judged
 from garkcli.bridges.subject import Subject, read
 from garkcli.check.findings import witness_text
 from garkcli.constructions.rosenbrock import seen
+from garkcli.errors import Remark
 from garkcli.exact.display import decimal, to_ball, to_float
 from garkcli.frozen import replace
 from garkcli.methodfile.build import MethodFile
@@ -67,7 +68,7 @@ class RowSubject(Subject):
     """
 
     timed: Judged | None = None
-    careless: tuple[AuditFinding, ...] = ()
+    careless: tuple[Remark, ...] = ()
 
     @property
     def judged_orders(self) -> tuple[Judged | None, ...]:
@@ -125,7 +126,7 @@ def _subject(table: FoundTable, method: MethodFile) -> RowSubject:
     return replace(again, careless=said) if said else found
 
 
-def _explained(found: RowSubject, again: RowSubject) -> Iterator[AuditFinding]:
+def _explained(found: RowSubject, again: RowSubject) -> Iterator[Remark]:
     """The orders that careless rounding alone gives: a digit may be wrong as well."""
     what = ("order", "order where f depends on t", "embedded order")
     orders = None
@@ -137,7 +138,7 @@ def _explained(found: RowSubject, again: RowSubject) -> Iterator[AuditFinding]:
         orders = one.order, other.order
         off = "" if other.rounded is None else f" by {_digits(other.rounded[1])}"
         message = f"{name} {other.order} if decimals are off{off}, {one.order} as they are printed"
-        yield AuditFinding("open", f"{message}{_why(one)}: {EXPLAINED}", level="note")
+        yield Remark(f"{message}{_why(one)}: {EXPLAINED}", code="open", level="note")
 
 
 def _digits(off: fmpq) -> str:
@@ -194,7 +195,7 @@ def _are_many(method: AnyTableau) -> TypeGuard[RoundedTableau]:
     return isinstance(method, RoundedTableau) and len(method.search.box.numbers) > MANY
 
 
-def row_findings(subject: RowSubject) -> Iterator[AuditFinding]:
+def row_findings(subject: RowSubject) -> Iterator[Remark]:
     """What is wrong with such a method."""
     yield from subject.careless
     table, order = subject.table, subject.order
@@ -206,7 +207,7 @@ def row_findings(subject: RowSubject) -> Iterator[AuditFinding]:
         by = "by c and d" if table.gamma is not None else "by its nodes"
         message = f"order {timed.order} where f depends on t, {by}, and else {order.order}"
         claims = {"nonautonomous-order": str(order.order)}
-        yield AuditFinding("nodes", message + _why(timed), claims=claims)
+        yield Remark(message + _why(timed), code="nodes", claims=claims)
     embedded, local = subject.embedded_order, table.embedded_order
     if embedded is not None and local is not None:
         # without an order of the method KPP declares the smaller one of both
@@ -215,18 +216,18 @@ def row_findings(subject: RowSubject) -> Iterator[AuditFinding]:
             yield _differing("embedded order", least, local)
     elif embedded is not None and not embedded.order and not embedded.is_open:
         message = f"the embedded weights have order 0{_why(embedded)}"
-        yield AuditFinding("embedded-weights", message, claims={"embedded-order": '">= 1"'})
+        yield Remark(message, code="embedded-weights", claims={"embedded-order": '">= 1"'})
 
 
-def _differing(what: str, found: Judged, declared: int) -> AuditFinding:
+def _differing(what: str, found: Judged, declared: int) -> Remark:
     """A declared order that is not the true one."""
     code, message = what.replace(" ", "-"), f"{what} {found.order}, declared {declared}"
     if found.order > declared:
-        return AuditFinding(f"{code}-higher", message, level="warning")
+        return Remark(message, code=f"{code}-higher", level="warning")
     if found.is_open:
         message = f"{what} {declared} is declared, {found.order} is proved: rounding may be why"
-        return AuditFinding("open", message, level="note")
-    return AuditFinding(code, message + _why(found), claims={code: str(declared)})
+        return Remark(message, code="open", level="note")
+    return Remark(message + _why(found), code=code, claims={code: str(declared)})
 
 
 def _why(found: Judged) -> str:
@@ -247,7 +248,7 @@ def imported_row(table: FoundTable, name: str, is_as_found: bool) -> RowSubject:
     if found.embedded_order is not None and found.embedded_order.order:
         claims["embedded-order"] = found.embedded_order.claim
     if not is_as_found:
-        claims |= {key: claim for x in found.findings for key, claim in x.claims.items()}
+        claims |= {key: claim for x in found.findings for key, claim in (x.claims or {}).items()}
     text = written(found.table, name, _tolerance(found), claims)
     return replace(found, method=loads(text, place_of(table)), text=text)
 

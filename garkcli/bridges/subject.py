@@ -9,10 +9,10 @@ from functools import cached_property
 
 from flint import fmpq
 
-from garkcli.bridges.finding import AuditFinding
 from garkcli.bridges.importing import fmpq_of, fraction_of, numbers_of, place_of, written
 from garkcli.bridges.judging import Digits, Judged, judged
 from garkcli.check.findings import NEAR, sum_text
+from garkcli.errors import Remark
 from garkcli.exact.display import to_ball
 from garkcli.exact.expression import parse
 from garkcli.exact.field import Number
@@ -55,7 +55,7 @@ class Subject(Frozen, eq=False):
     text: str = ""
     sign: str = ""
     is_sign_open: bool = False
-    findings: tuple[AuditFinding, ...] = ()
+    findings: tuple[Remark, ...] = ()
 
     @property
     def tolerance(self) -> fmpq | None:

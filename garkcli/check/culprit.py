@@ -20,7 +20,7 @@ from garkcli.tableau.tableau import Tableau
 if TYPE_CHECKING:
     from garkcli.check.analysis import Analysis
     from garkcli.check.outcome import Claim
-    from garkcli.check.remark import Remark
+    from garkcli.check.remark import RoundingHint
     from garkcli.methodfile.build import MethodFile
     from garkcli.order.blame import Blame
 
@@ -35,7 +35,7 @@ def culprit(
     analysis: Analysis,
     claims: tuple[Claim, ...],
     limit: int,
-    remark: Remark | None = None,
+    remark: RoundingHint | None = None,
 ) -> Blame | None:
     """Returns the likely cause of the first order below its claim, or of the order of a method
     without one.
@@ -44,7 +44,7 @@ def culprit(
     return _with_consequences(method, claims, blame, limit)
 
 
-def _of_claims(method: MethodFile, analysis: Analysis, remark: Remark | None) -> Blame | None:
+def _of_claims(method: MethodFile, analysis: Analysis, remark: RoundingHint | None) -> Blame | None:
     """Returns the cause of the first order below its claim; None if the next order is not known to
     fail, or rounding explains the failure.
     """
@@ -73,7 +73,7 @@ def _of_claims(method: MethodFile, analysis: Analysis, remark: Remark | None) ->
     return None
 
 
-def _is_explained(method: MethodFile, remark: Remark | None, claimed: int) -> bool:
+def _is_explained(method: MethodFile, remark: RoundingHint | None, claimed: int) -> bool:
     """Returns whether a wider tolerance than the file gives would yield the claimed order."""
     if method.tolerance is None or remark is None:
         return False
@@ -93,7 +93,7 @@ def _orders(method: MethodFile, analysis: Analysis) -> Iterator[tuple[str, Table
         yield "embedded-order", analysis.embedded.tableau, analysis.embedded.order
 
 
-def _unclaimed(method: MethodFile, analysis: Analysis, remark: Remark | None) -> Blame | None:
+def _unclaimed(method: MethodFile, analysis: Analysis, remark: RoundingHint | None) -> Blame | None:
     """Returns the entry that seems wrong in a method, or embedded weights, without claimed
     order.
     """
@@ -112,7 +112,7 @@ def _unclaimed(method: MethodFile, analysis: Analysis, remark: Remark | None) ->
 
 
 def _ways(
-    method: MethodFile, tableau: Tableau, found: AnyOrder, key: str, remark: Remark | None
+    method: MethodFile, tableau: Tableau, found: AnyOrder, key: str, remark: RoundingHint | None
 ) -> Iterator[tuple[AnyTableau, AnyOrder]]:
     """Yields the method and its order: exactly or within the tolerance of the file; for decimals
     declared exact also as if they were rounded.

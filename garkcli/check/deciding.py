@@ -26,7 +26,7 @@ from garkcli.tableau.tableau import Tableau
 
 if TYPE_CHECKING:
     from garkcli.check.claims import AnyAnalysis
-    from garkcli.check.remark import Remark
+    from garkcli.check.remark import RoundingHint
     from garkcli.methodfile.build import MethodFile
     from garkcli.tableau.garkmethod import GarkMethod
 
@@ -139,7 +139,7 @@ def analyse(
     return replace(found, embedded=embedded, dense=dense, further=further)
 
 
-def looks_rounded(method: MethodFile) -> Remark | None:
+def looks_rounded(method: MethodFile) -> RoundingHint | None:
     """Returns the remark on the missing tolerance of a file; None if it has one, is exact or has a
     misprint.
     """
@@ -154,7 +154,7 @@ def looks_rounded(method: MethodFile) -> Remark | None:
     return found if found is not None and found.line else None
 
 
-def remark_of(method: MethodFile, analysis: Analysis) -> Remark | None:
+def remark_of(method: MethodFile, analysis: Analysis) -> RoundingHint | None:
     """Returns the remark on the digits of a file: on the method or on its embedded weights."""
     asked = [("order", analysis.order)]
     if analysis.embedded is not None:

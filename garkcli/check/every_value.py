@@ -15,7 +15,7 @@ from garkcli.check.every_properties import find_property
 from garkcli.check.outcome import Claim, Outcome
 from garkcli.design.ideal import Ideal
 from garkcli.doing import doing
-from garkcli.errors import Fault, GarkError, HasFreeParameters, MethodFileError, ZeroWeight
+from garkcli.errors import GarkError, HasFreeParameters, MethodFileError, Remark, ZeroWeight
 from garkcli.exact.parametric import Parametric
 from garkcli.frozen import Frozen, field, replace
 from garkcli.methodfile.description import ClaimText
@@ -238,7 +238,7 @@ def check_every(
 
 def _refused(file: HasFreeParameters, message: str, cure: str, code: str) -> Outcome:
     """Returns the outcome for a file that cannot be decided for all values."""
-    faults = (Fault(message, cure, code=code),)
+    faults = (Remark(message, cure, code=code),)
     return Outcome(file.source, file.source, faults=faults, text=file.text)
 
 

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
+from pathlib import PurePath
 from typing import TYPE_CHECKING
 
 from flint import fmpq
 
 from garkcli.check.outcome import Claim, Outcome
+from garkcli.errors import Remark
 from garkcli.exact.display import shortest, to_ball, to_decimal, to_text
 from garkcli.exact.field import Number
-from garkcli.frozen import Frozen
+from garkcli.frozen import Frozen, replace
 from garkcli.ntrees.notation import format_tree
 from garkcli.order.certificate import Witness
 from garkcli.reason import NO_REASON, Code, Formula, Place, Reason
@@ -231,101 +233,61 @@ CLAIM = "write what holds under expect: gark claims FILE --write"
 
 
 class Finding(Frozen):
-    """A fault or a failed claim.
+    """A remark on a file, as formats for machines have it.
 
     Attributes:
-        rule: a key of ``KINDS``.
+        remark: on line 1 and column 1 where the place is unknown.
+        rule: a key of ``KINDS``, or the code of a remark on a table.
         file: the path as given, with forward slashes.
-        line: from 1; 1 where unknown.
-        column: from 1; 1 where unknown.
-        message: what is wrong, of an order with the tree whose condition fails.
-        help: the cure or a hint, where there is one.
         fingerprint: the same as long as the same thing is wrong with the same file, wherever it
             is in it.
-        level: ``error``, ``warning`` or ``note``.
-        code: of a file that cannot be read, the code of what is wrong with it.
     """
 
+    remark: Remark
     rule: str
     file: str
-    line: int
-    column: int
-    message: str
-    help: str
     fingerprint: str
-    level: str = "error"
-    code: str = ""
-
-
-class Part(Frozen):
-    """A finding from its kind; ``key`` identifies it from run to run."""
-
-    message: str
-    help: str
-    key: str
-    line: int = 1
-    column: int = 1
-    code: str = ""
-
-
-class Kind(Frozen):
-    """A kind of finding."""
-
-    text: str
-    find: Callable[[Outcome], Iterator[Part]]
-    level: str = "error"
-
-
-def _unreadable(outcome: Outcome) -> Iterator[Part]:
-    seen: Counter[str] = Counter()
-    for fault in outcome.faults:
-        key = f"{fault.message}\0{seen[fault.message]}"
-        seen[fault.message] += 1
-        yield Part(fault.message, fault.help, key, fault.line or 1, fault.column or 1, fault.code)
-
-
-def _unmet(outcome: Outcome, claims: Sequence[Claim]) -> Iterator[Part]:
-    for claim in claims:
-        difference = f"expected {claim.expected}, found {claim.found}"
-        message = f"{claim.claim}: {difference}"
-        witness = claim_witness(outcome, claim.claim)
-        if witness:
-            message = f"{message}; {witness}"
-        hint = claim_hint(outcome, claim.claim)
-        yield Part(message, str(hint), claim.claim, claim.line, claim.column)
-
-
-def _missing_claims(outcome: Outcome) -> Iterator[Part]:
-    for message in outcome.lacks:
-        is_any = outcome.makes_no_claim and outcome.needs_claims
-        yield Part(message, CLAIM, "" if is_any else message)
 
 
 KINDS = {
-    "unreadable": Kind("the file cannot be read as a method", _unreadable),
-    "claim": Kind("a claim under expect does not hold", lambda o: _unmet(o, o.failed_claims)),
-    "undecided": Kind(
-        "a claim under expect neither holds nor fails",
-        lambda o: _unmet(o, o.undecided_claims),
-        "warning",
-    ),
-    "no-claim": Kind("the file lacks a claim that is required", _missing_claims),
+    "unreadable": "the file cannot be read as a method",
+    "claim": "a claim under expect does not hold",
+    "undecided": "a claim under expect neither holds nor fails",
+    "no-claim": "the file lacks a claim that is required",
 }
-"""All kinds of findings; formats and their documentation are made from it."""
+"""Every kind of remark on a method file, in words."""
+
+
+def _unmet(outcome: Outcome, claim: Claim) -> Remark:
+    message = f"{claim.claim}: expected {claim.expected}, found {claim.found}"
+    if witness := claim_witness(outcome, claim.claim):
+        message = f"{message}; {witness}"
+    hint, place = str(claim_hint(outcome, claim.claim)), (claim.line, claim.column)
+    if claim.holds is None:
+        return Remark(message, hint, *place, "undecided", "warning")
+    return Remark(message, hint, *place, "claim")
+
+
+def _remarks(outcome: Outcome) -> Iterator[tuple[str, Remark, str]]:
+    """Rules and remarks, with keys that stay the same as long as the same is wrong."""
+    seen: Counter[str] = Counter()
+    for fault in outcome.faults:
+        yield "unreadable", fault, f"{fault.message}\0{seen[fault.message]}"
+        seen[fault.message] += 1
+    for claim in (*outcome.failed_claims, *outcome.undecided_claims):
+        remark = _unmet(outcome, claim)
+        yield remark.code, remark, claim.claim
+    for message in outcome.lacks:
+        is_any = outcome.makes_no_claim and outcome.needs_claims
+        yield "no-claim", Remark(message, CLAIM, code="no-claim"), "" if is_any else message
 
 
 def findings(outcome: Outcome) -> Iterator[Finding]:
-    """Yields the findings of a file, kind by kind in the order of the file."""
-    from pathlib import PurePath
-
+    """All findings of one file, kind by kind in file order."""
     file = PurePath(outcome.file).as_posix()
-    for rule, kind in KINDS.items():
-        for part in kind.find(outcome):
-            digest = fingerprint(f"{file}\0{rule}\0{part.key}")
-            place = part.line, part.column
-            yield Finding(
-                rule, file, *place, part.message, part.help, digest, kind.level, part.code
-            )
+    for rule, remark, key in _remarks(outcome):
+        placed = replace(remark, line=remark.line or 1, column=remark.column or 1)
+        yield Finding(placed, rule, file, fingerprint(f"{file}\0{rule}\0{key}"))
 
 
 def fingerprint(key: str) -> str:

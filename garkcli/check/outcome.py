@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, TypeAlias
 
 from garkcli.check.analysis import Analysis
-from garkcli.errors import Fault, counted, printable
+from garkcli.errors import Remark, counted, printable
 from garkcli.frozen import Frozen
 from garkcli.reason import NO_REASON, Reason
 from garkcli.upward import Shown
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from garkcli.check.infinitesimal import InfinitesimalAnalysis
     from garkcli.check.nprk import NprkAnalysis
     from garkcli.check.nystrom import NystromAnalysis
-    from garkcli.check.remark import Remark
+    from garkcli.check.remark import RoundingHint
     from garkcli.check.rosenbrock import RosenbrockAnalysis
     from garkcli.methodfile.description import BlockRule
     from garkcli.order.blame import Blame
@@ -91,10 +91,10 @@ class Outcome(Shown, Frozen):
     structure: str = "general"
     analysis: Analysis | None = None
     claims: tuple[Claim, ...] = ()
-    faults: tuple[Fault, ...] = ()
+    faults: tuple[Remark, ...] = ()
     text: str = ""
     blame: Blame | None = None
-    remark: Remark | None = None
+    remark: RoundingHint | None = None
     constants: ErrorConstants | None = None
     is_crash: bool = False
     needs_claims: bool = False

@@ -31,7 +31,7 @@ COARSEST = -1
 """Only tolerances below ten to this power are proposed."""
 
 
-class Remark(Frozen):
+class RoundingHint(Frozen):
     """A remark on the digits of a file: its missing tolerance, or its wrong entry.
 
     Attributes:
@@ -59,7 +59,7 @@ def remark_on(
     tolerance: fmpq | None,
     of: str = "order",
     limit: int = DEFAULT_LIMIT,
-) -> Remark | None:
+) -> RoundingHint | None:
     """Returns the remark on the digits of a method; None if they add nothing to the file.
 
     ``found`` is its order, or that of its embedded weights, as ``of`` says, with the tolerance of
@@ -84,11 +84,11 @@ def remark_on(
             break
         off = _off(judged, max(goal, reached + 1), limit, units)
         if off:
-            return Remark(max(off.values()), of, None, _most(off))
+            return RoundingHint(max(off.values()), of, None, _most(off))
     if best is None:
         return None
     exponent = enough(best.off, order, lambda t: derived(meant(tableau, t), of), tolerance or ZERO)
-    return None if exponent is None else Remark(order, of, exponent)
+    return None if exponent is None else RoundingHint(order, of, exponent)
 
 
 def _is_rounding(found: AnyOrder) -> bool:

@@ -17,7 +17,7 @@ from garkcli.cli.project import Project, find_project
 from garkcli.crew.hiring import hired
 from garkcli.crew.work import in_order
 from garkcli.doing import counting, doing
-from garkcli.errors import Fault
+from garkcli.errors import Remark
 from garkcli.files import is_stream
 from garkcli.frozen import replace
 from garkcli.report.check_formats import FORMATS
@@ -139,7 +139,7 @@ def _checked(check: Callable[[str], Outcome], path: str) -> Outcome:
 
 
 def _crashed(path: str, what: str, cure: str, code: str) -> Outcome:
-    return Outcome(path, path, faults=(Fault(what, cure, code=code),), is_crash=True)
+    return Outcome(path, path, faults=(Remark(what, cure, code=code),), is_crash=True)
 
 
 def _ended(path: str, why: str) -> Outcome:

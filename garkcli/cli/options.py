@@ -21,7 +21,7 @@ from garkcli.cli.endings import AUTO, settled
 from garkcli.cli.streams import complain, put, put_exactly, safe_pieces, say, wants_colour
 from garkcli.cli.table import COMMANDS, HIDDEN, Option, Rule, option_of, options_of, rules_of
 from garkcli.doing import hush
-from garkcli.errors import Fault, GarkError, MethodFileError, UsageProblem
+from garkcli.errors import GarkError, MethodFileError, Remark, UsageProblem
 from garkcli.files import STDIN, note_input
 
 if TYPE_CHECKING:
@@ -586,7 +586,7 @@ class Output:
             name: of the method.
             report: of the command.
         """
-        from garkcli.report.failure import Failure
+        from garkcli.report.remarks import Failure
 
         complain(error)
         if self.format in ("json", "csv"):
@@ -601,11 +601,11 @@ def _chosen(format: str) -> str | None:
     return format if is_said and format != AUTO else None
 
 
-def faults_of(error: GarkError) -> tuple[Fault, ...]:
+def faults_of(error: GarkError) -> tuple[Remark, ...]:
     """What is wrong: the faults of a file, or one fault."""
     if isinstance(error, MethodFileError):
         return error.faults
-    return (Fault(error.message, error.help, code=error.code),)
+    return (Remark(error.message, error.help, code=error.code),)
 
 
 def failure_code(error: GarkError) -> int:

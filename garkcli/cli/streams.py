@@ -159,10 +159,10 @@ def complain(error: GarkError) -> None:
 def say_faults(outcome: Outcome) -> None:
     """Say every fault of a file that cannot be read."""
     from garkcli.page.paint import Paint
-    from garkcli.report.check_text import faults_lines
+    from garkcli.report import remarks
 
     paint = Paint(wants_colour(sys.stderr))
-    say("\n".join(faults_lines(outcome, paint)), paint.color)
+    say("\n".join(remarks.lines(outcome.faults, outcome.file, outcome.text, paint)), paint.color)
 
 
 def drop(stream: io.TextIOBase | object) -> None:

@@ -10,7 +10,7 @@ from typing import TypeAlias
 import yaml
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
-from garkcli.errors import Fault, MethodFileError
+from garkcli.errors import MethodFileError, Remark
 from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.description import BESIDE
 from garkcli.methodfile.nodes import extent
@@ -161,7 +161,7 @@ def _with_block(
 ) -> str:
     """A file without claims: they are at its end."""
     if root.flow_style or empty is not None:
-        fault = Fault(
+        fault = Remark(
             "the claims have no place in this file",
             "write keys below one another, without braces, and no expect: {}",
             code="no-place-for-claims",

@@ -15,7 +15,7 @@ from typing import Any
 import yaml
 from yaml.nodes import MappingNode, Node, ScalarNode
 
-from garkcli.errors import Fault, printable
+from garkcli.errors import Remark, printable
 
 MAX_NODES = 50_000
 """Most YAML values in one file, with aliases counted each time they are used."""
@@ -84,7 +84,7 @@ _YAML_CURES = (
 """What is behind the words of PyYAML."""
 
 
-def yaml_fault(error: yaml.MarkedYAMLError) -> Fault:
+def yaml_fault(error: yaml.MarkedYAMLError) -> Remark:
     """What PyYAML complains about, where, and its cure."""
     mark = error.problem_mark or error.context_mark
     context = str(error.context or "")
@@ -98,15 +98,15 @@ def yaml_fault(error: yaml.MarkedYAMLError) -> Fault:
             f"the bracket at {line}:{column} is open: close it, and put commas between its values"
         )
     message = printable(f"this is not YAML: {problem}")
-    return Fault(message, printable(cure), *position(mark), code="not-yaml")
+    return Remark(message, printable(cure), *position(mark), code="not-yaml")
 
 
-def composed(text: str) -> Node | Fault | None:
+def composed(text: str) -> Node | Remark | None:
     """The one document of a text, or what is wrong with it; None where there is nothing in it."""
     try:
         return compose(text)
     except TooLargeError as error:
-        return Fault(error.message, error.cure, error.line, error.column, code="file-too-large")
+        return Remark(error.message, error.cure, error.line, error.column, code="file-too-large")
     except yaml.MarkedYAMLError as error:
         return yaml_fault(error)
     except yaml.YAMLError as error:
@@ -117,7 +117,7 @@ def composed(text: str) -> Node | Fault | None:
         else:
             message = f"this is not YAML: {str(error).splitlines()[0]}"
             cure, code = "leave the control character out", "not-yaml"
-        return Fault(message, cure, *place_of_sign(text, sign), code=code)
+        return Remark(message, cure, *place_of_sign(text, sign), code=code)
 
 
 def compose(text: str) -> Node | None:

@@ -9,7 +9,7 @@ from contextvars import ContextVar
 from typing import TYPE_CHECKING, Any
 
 from garkcli.doing import doing
-from garkcli.errors import Fault, HasFreeParameters, MethodFileError
+from garkcli.errors import HasFreeParameters, MethodFileError, Remark
 from garkcli.files import STDIN
 from garkcli.frozen import replace
 from garkcli.methodfile.bibliography import reference_of
@@ -82,19 +82,19 @@ def read_method_text(path: str) -> tuple[str, str]:
     return read_argument(path)
 
 
-def _of_folder(path: str) -> Fault:
+def _of_folder(path: str) -> Remark:
     """Why a folder is no method."""
     try:
         os.scandir(path).close()
     except OSError as error:
         message = f"this folder cannot be read: {error.strerror}"
-        return Fault(message, "name the files", code="cannot-read")
+        return Remark(message, "name the files", code="cannot-read")
     first = next(find_files([path]))
     if first == path:
         message, cure = f"no {SUFFIX} files in this directory", "name the files, or rename them"
-        return Fault(message, cure, code="folder")
+        return Remark(message, cure, code="folder")
     message = "a directory, where one method file is expected"
-    return Fault(message, f"name one, such as {first}", code="folder")
+    return Remark(message, f"name one, such as {first}", code="folder")
 
 
 def loads(

@@ -15,7 +15,7 @@ from contextlib import suppress
 from itertools import chain
 from typing import TYPE_CHECKING
 
-from garkcli.errors import MAX_WORD, Fault, MethodFileError, nearest, printable
+from garkcli.errors import MAX_WORD, MethodFileError, Remark, nearest, printable
 from garkcli.files import STDIN
 from garkcli.frozen import fields
 from garkcli.methodfile.reading import read_text
@@ -82,7 +82,7 @@ def find_named(argument: str, path: str = "") -> Shelved | None:
     if method is not None and is_file:
         both = f"there is a file of this name here, and the method {method.name} in the catalogue"
         cure = f"write .{os.sep}{argument} for the file, {PREFIX}{argument} for the method"
-        raise MethodFileError(argument, [Fault(both, cure, code="name-in-doubt")])
+        raise MethodFileError(argument, [Remark(both, cure, code="name-in-doubt")])
     return method
 
 
@@ -194,10 +194,10 @@ def _only(name: str, methods: Sequence[Shelved]) -> Shelved:
     names = dict.fromkeys(method.name for method in methods)
     several = list(names) if len(names) > 1 else [x.place for x in methods]
     message = f"{printable(name)!r} means {len(several)} methods: {_first(several)}"
-    raise MethodFileError(name, [Fault(message, "name one of them", code="name-in-doubt")])
+    raise MethodFileError(name, [Remark(message, "name one of them", code="name-in-doubt")])
 
 
-def _unknown(name: str) -> Fault:
+def _unknown(name: str) -> Remark:
     """Neither file nor name."""
     message = "no such file, and no method of this name in the catalogue"
     known = [
@@ -211,7 +211,7 @@ def _unknown(name: str) -> Fault:
         cure = f"did you mean {near!r}?"
     elif begun := names_beginning(name):
         cure = f"names that begin so: {_first(begun)}"
-    return Fault(message, cure, code="no-such-file")
+    return Remark(message, cure, code="no-such-file")
 
 
 def _first(names: Sequence[str]) -> str:

@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable
 from itertools import islice
 
-from garkcli.errors import Fault, MethodFileError, nearest, printable
+from garkcli.errors import MethodFileError, Remark, nearest, printable
 from garkcli.files import STDIN, NotAFile, is_elsewhere, is_stream, leads_away, read_bytes
 from garkcli.methodfile.source import MAX_BYTES, FileKind
 
@@ -27,18 +27,18 @@ def read_text(path: str, kind: FileKind) -> tuple[str, str]:
     try:
         data = read_bytes(path, MAX_BYTES)
     except FileNotFoundError:
-        fault = Fault("no such file", _cure_of_missing(path), code="no-such-file")
+        fault = Remark("no such file", _cure_of_missing(path), code="no-such-file")
         raise MethodFileError(path, [fault]) from None
     except ValueError:
-        fault = Fault("no file has such a name", "leave out what is no text", code="no-such-file")
+        fault = Remark("no file has such a name", "leave out what is no text", code="no-such-file")
         raise MethodFileError(path, [fault]) from None
     except NotAFile:
         cure = f"give a {kind.name}, or - for standard input"
-        fault = Fault("not a regular file", cure, code="cannot-read")
+        fault = Remark("not a regular file", cure, code="cannot-read")
         raise MethodFileError(path, [fault]) from None
     except OSError as error:  # among them names that are too long, and links in a circle
         message, cure = f"cannot be read: {error.strerror}", "give another file, or its text by -"
-        fault = Fault(message, cure, code="cannot-read")
+        fault = Remark(message, cure, code="cannot-read")
         raise MethodFileError(name, [fault]) from None
     text = decoded(name, data)
     if not is_stream(path) and not _may_be_quoted(path, text, kind):
@@ -46,13 +46,13 @@ def read_text(path: str, kind: FileKind) -> tuple[str, str]:
     return text, name
 
 
-def _not_quoted(path: str, kind: FileKind) -> Fault:
+def _not_quoted(path: str, kind: FileKind) -> Remark:
     """The message for a file that may hold anything."""
     if is_elsewhere(path):
         message = f"a link to a file elsewhere, which has no key of a {kind.name}"
-        return Fault(message, "name the file that is meant", code="elsewhere")
+        return Remark(message, "name the file that is meant", code="elsewhere")
     message = f"no key of a {kind.name} is in this file, and its name has no ending"
-    return Fault(message, f"{kind.start} or call it something.yaml", code="elsewhere")
+    return Remark(message, f"{kind.start} or call it something.yaml", code="elsewhere")
 
 
 def _may_be_quoted(path: str, text: str, kind: FileKind) -> bool:
@@ -104,12 +104,12 @@ def decoded(name: str, data: bytes) -> str:
     """
     if len(data) > MAX_BYTES:
         message = f"a file of more than {MAX_BYTES} bytes"
-        raise MethodFileError(name, [Fault(message, "split it", 1, 1, code="file-too-large")])
+        raise MethodFileError(name, [Remark(message, "split it", 1, 1, code="file-too-large")])
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = data[: error.start].count(b"\n") + 1
-        fault = Fault("not UTF-8 text", "save the file as UTF-8", line, 1, code="not-utf8")
+        fault = Remark("not UTF-8 text", "save the file as UTF-8", line, 1, code="not-utf8")
         raise MethodFileError(name, [fault]) from None
 
 

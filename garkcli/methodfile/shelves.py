@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 from msgspec import json
 
-from garkcli.errors import Fault, MethodFileError
+from garkcli.errors import MethodFileError, Remark
 from garkcli.frozen import Frozen
 from garkcli.methodfile.bibliography import aliases_of
 from garkcli.methodfile.reading import SUFFIX, decoded, files_below, read_text
@@ -268,7 +268,7 @@ def others() -> list[Shelf]:
             what = f"{type(error).__name__}: {error}".splitlines()[0]
             message = f"{point.value} cannot be imported: {what}"
             cure = f"it has an entry point of the group {GROUP}: mend it, or remove it"
-            fault = Fault(message, cure, code="missing-package")
+            fault = Remark(message, cure, code="missing-package")
             raise MethodFileError(point.name, [fault]) from None
         shelves.append(OtherPackage(point.name, root))
     return shelves

@@ -9,7 +9,14 @@ from typing import TypeAlias
 
 from yaml.nodes import MappingNode, Node, ScalarNode, SequenceNode
 
-from garkcli.errors import ExpressionError, Fault, MethodFileError, counted, did_you_mean, printable
+from garkcli.errors import (
+    ExpressionError,
+    MethodFileError,
+    Remark,
+    counted,
+    did_you_mean,
+    printable,
+)
 from garkcli.frozen import Frozen, replace
 from garkcli.methodfile.composing import composed, cure_of_foreign, folded_place, position
 from garkcli.methodfile.nodes import keys_of, meant_key, shortened
@@ -29,7 +36,7 @@ class Found(Frozen):
         is_one: whether faults of this cause are reported once, however few there are.
     """
 
-    fault: Fault
+    fault: Remark
     cause: str = ""
     is_one: bool = False
 
@@ -39,14 +46,14 @@ def place_of(found: Found) -> Place:
     return found.fault.line, found.fault.column
 
 
-def told_once(found: Sequence[Found]) -> list[Fault]:
+def told_once(found: Sequence[Found]) -> list[Remark]:
     """The faults in file order; those of one cause at their first place, which names the others."""
     causes = Counter(one.cause for one in found)
     together: dict[object, list[Found]] = {}
     for number, one in enumerate(found):
         is_shared = one.cause and (one.is_one or causes[one.cause] > MAX_PLACES)
         together.setdefault(one.cause if is_shared else number, []).append(one)
-    told: list[Fault] = []
+    told: list[Remark] = []
     for group in together.values():
         _, *others = dict.fromkeys(map(place_of, group))
         fault = group[0].fault
@@ -169,7 +176,7 @@ class Source:
         self._found: list[Found] = []
 
     @property
-    def faults(self) -> list[Fault]:
+    def faults(self) -> list[Remark]:
         """What was noted so far, in the order of reading."""
         return [found.fault for found in self._found]
 
@@ -204,9 +211,9 @@ class Source:
         text = f"{where}: {message}" if where else message
         is_one = bool(cause) or "'" in message
         cause = cause or (f"{message}: {cure}" if where else "")
-        self._note(Fault(printable(text), printable(cure), line, column, code=code), cause, is_one)
+        self._note(Remark(printable(text), printable(cure), line, column, code=code), cause, is_one)
 
-    def _note(self, fault: Fault, cause: str = "", is_one: bool = False) -> None:
+    def _note(self, fault: Remark, cause: str = "", is_one: bool = False) -> None:
         self._found.append(Found(fault, cause, is_one))
         if len(self._found) >= MAX_FAULTS_READ:
             raise self.error()
@@ -246,7 +253,7 @@ class Source:
         if len(faults) > MAX_FAULTS:
             last = faults[MAX_FAULTS]
             more = f"and {len(faults) - MAX_FAULTS} more faults"
-            rest = Fault(more, "mend these first", last.line, last.column, code="more-faults")
+            rest = Remark(more, "mend these first", last.line, last.column, code="more-faults")
             faults = [*faults[:MAX_FAULTS], rest]
         return MethodFileError(self.name, faults, self.text)
 
@@ -265,7 +272,7 @@ class Source:
             self.fault(None, message, "split it", code="file-too-large")
             return None
         root = composed(self.text)
-        if isinstance(root, Fault):
+        if isinstance(root, Remark):
             self._note(replace(root, help=self._foreign(False) or root.help))
             return None
         if root is None:

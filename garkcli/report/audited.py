@@ -8,13 +8,14 @@ from pathlib import PurePath
 from typing import TYPE_CHECKING, NamedTuple
 
 from garkcli.bridges.audit import Audited
-from garkcli.bridges.finding import CODES, AuditFinding
+from garkcli.bridges.finding import CODES
 from garkcli.check.findings import Finding, fingerprint
-from garkcli.errors import counted
+from garkcli.errors import Remark, counted
+from garkcli.frozen import replace
 from garkcli.page.paint import Paint
-from garkcli.report.check_findings import annotation, commands_off, log_of
+from garkcli.report.remarks import OF_TABLE, annotation, commands_off, log_of, rows
 from garkcli.tell.facts import Level, Row, Section, maybe
-from garkcli.tell.kinds import COUNT, POSITION, TEXT, choice
+from garkcli.tell.kinds import COUNT, POSITION, TEXT
 from garkcli.tell.parts import answer, part, parts, rows_of, shown
 from garkcli.tell.report import FORMATS as TOLD
 from garkcli.tell.report import Report
@@ -37,7 +38,7 @@ class Audit(NamedTuple):
     errors_alone: bool = False
 
     @property
-    def wrong(self) -> list[tuple[Audited, Sequence[AuditFinding]]]:
+    def wrong(self) -> list[tuple[Audited, Sequence[Remark]]]:
         """The tables with errors or doubts, and what is found of them."""
         if self.errors_alone:
             found = ((x, [y for y in x.findings if y.level == "error"]) for x in self.tables)
@@ -63,14 +64,6 @@ def place_and_orders(found: Audited | Subject, d: Plain) -> str:
 
 def _least(order: Judged) -> str:
     return f"at least {order.order}" if order.is_limited else str(order.order)
-
-
-def _finding_rows(findings: Sequence[AuditFinding], d: Plain) -> list[tuple[str, str]]:
-    rows: list[tuple[str, str]] = []
-    for x in findings:
-        rows.append((x.level, d.prose(x.message)))
-        rows += [("help", d.prose(x.help))] if x.help else []
-    return rows
 
 
 def _answer(x: Audit, _: Plain) -> str:
@@ -115,14 +108,6 @@ def _number(order: Judged | None) -> int | None:
     return None if order is None else order.order
 
 
-FINDING: Section[AuditFinding] = Section(
-    Row("code", choice(*CODES), lambda x: x.code),
-    Row("level", choice("error", "warning", "note"), lambda x: x.level),
-    Row("message", TEXT, lambda x: x.message),
-    Row("help", TEXT, lambda x: x.help),
-)
-
-
 def _count(key: str, get: Callable[[Audited], int | None]) -> Row[Audited]:
     return maybe(key, COUNT, get, DETAIL)
 
@@ -137,12 +122,12 @@ TABLE: Section[Audited] = Section(
     maybe("embedded_order", COUNT, lambda x: _number(x.embedded_order), DATA),
     _count("declared_embedded", lambda x: x.table.embedded_order),
     _count("nonautonomous_order", lambda x: _number(x.nonautonomous_order)),
-    Row("findings", parts(FINDING), lambda x: x.findings, DATA),
-    Row("findings_in_words", rows_of(_finding_rows), lambda x: x.findings, DETAIL),
+    Row("findings", parts(OF_TABLE), lambda x: x.findings, DATA),
+    Row("findings_in_words", rows_of(rows), lambda x: x.findings, DETAIL),
     title=place_and_orders,
 )
-WRONG: Section[tuple[Audited | Subject, Sequence[AuditFinding]]] = Section(
-    Row("findings_in_words", rows_of(_finding_rows), lambda x: x[1]),
+WRONG: Section[tuple[Audited | Subject, Sequence[Remark]]] = Section(
+    Row("findings_in_words", rows_of(rows), lambda x: x[1]),
     title=lambda x, d: place_and_orders(x[0], d),
 )
 SUMMARY: Section[Sequence[Audited]] = Section(
@@ -168,7 +153,8 @@ def _findings(tables: Sequence[Audited]) -> Iterator[Finding]:
         for x in found.findings:
             key = fingerprint(f"{file}\0{name}\0{x.code}")
             message = f"{name or 'a table'}: {x.message}"
-            yield Finding(x.code, file, found.table.line, 1, message, x.help, key, x.level)
+            remark = replace(x, message=message, line=found.table.line, column=1)
+            yield Finding(remark, x.code, file, key)
 
 
 def _told(

@@ -26,7 +26,7 @@ from garkcli.page.paint import folded
 from garkcli.properties.property import Size
 from garkcli.properties.registry import KEYS, find
 from garkcli.reason import NO_REASON, Place, Reason, joined
-from garkcli.report.failure import FAULT
+from garkcli.report.remarks import FAULT
 from garkcli.tell import kinds
 from garkcli.tell.facts import (
     Answer,
@@ -54,7 +54,7 @@ if TYPE_CHECKING:
     from garkcli.check.every_family import EveryFamily
     from garkcli.check.further import DenseFacts
     from garkcli.check.outcome import Claim, OtherAnalysis, Outcome
-    from garkcli.check.remark import Remark
+    from garkcli.check.remark import RoundingHint
     from garkcli.exact.field import Number
     from garkcli.ntrees.tree import Tree
     from garkcli.order.blame import Blame
@@ -621,7 +621,7 @@ WRONG_SUM: Section[WrongSum] = Section(
     Row("sum", kinds.EXACT, lambda x: x.total),
     Row("required", kinds.EXACT, lambda x: x.wanted),
 )
-REMARK: Section[Remark] = Section(
+ROUNDING_HINT: Section[RoundingHint] = Section(
     Row("of", kinds.choice("order", "embedded-order"), lambda x: x.of),
     Row("order", kinds.COUNT, lambda x: x.order),
     optional("line", kinds.TEXT, lambda r: r.line or None),
@@ -1097,7 +1097,7 @@ CHECKED: Section[Outcome] = Section(
     optional("every_property", parts(VERDICT), every_property, DATA),
     optional("blame", part(BLAME), lambda o: o.blame, DATA),
     IN_FULL,
-    optional("remark", part(REMARK), lambda o: o.remark, DATA),
+    optional("remark", part(ROUNDING_HINT), lambda o: o.remark, DATA),
     optional("same_as", part(SAME_AS, _known_words), lambda o: known(o, is_same=True)),
     optional("differs_from", part(DIFFERS_FROM, _known_words), lambda o: known(o, is_same=False)),
     CLAIMS,

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from garkcli.check.outcome import Outcome
-from garkcli.errors import counted, excerpt, printable
+from garkcli.errors import counted
 from garkcli.page.paint import Paint
 from garkcli.page.plain import inert
+from garkcli.report import remarks
 from garkcli.report.check import claim_rows, hint_rows, hints
 from garkcli.report.checked import REPORT
 from garkcli.tell.dialect import Plain
@@ -38,7 +39,7 @@ def render(
     for outcome in outcomes:
         d = REPORT.dialect(outcome, "text", paint, verbosity <= 0, width=width, places=digits)
         if not outcome.is_read:
-            lines = faults_lines(outcome, paint)
+            lines = remarks.lines(outcome.faults, outcome.file, outcome.text, paint)
         elif is_full:
             lines = one(REPORT.form(outcome), outcome, d, level)
         else:
@@ -91,18 +92,3 @@ def _summary(outcomes: Sequence[Outcome], paint: Paint) -> str:
 def no_claims(files: int) -> str:
     """``2 files make no claim``."""
     return f"{counted(files, 'file')} {'makes' if files == 1 else 'make'} no claim"
-
-
-def faults_lines(outcome: Outcome, paint: Paint) -> Iterator[str]:
-    """Every fault of a file, with a caret under its place."""
-    source = outcome.text.splitlines()
-    for fault in outcome.faults:
-        place = printable(outcome.file)
-        if fault.line:
-            place += f":{fault.line}:{fault.column}"
-        kind = f"{paint('bad', 'error')}[{fault.code}]"
-        yield f"{place}: {kind}: {printable(fault.message)}"
-        if 0 < fault.line <= len(source):
-            yield from excerpt(source[fault.line - 1], fault.line, fault.column, paint("bad", "^"))
-        if fault.help:
-            yield f"      {paint('note', 'help')}: {printable(fault.help)}"

@@ -11,7 +11,7 @@ from flint import fmpq
 
 from garkcli.convergence.result import Convergence, curve
 from garkcli.convergence.result import Row as Step
-from garkcli.errors import Fault, counted
+from garkcli.errors import Remark, counted
 from garkcli.frozen import Frozen
 from garkcli.page.figures import order_text, scientific
 from garkcli.page.schema import Schema, one_of, published
@@ -20,7 +20,7 @@ from garkcli.problems.oscillator import Oscillator
 from garkcli.problems.righthandside import RightHandSide
 from garkcli.report import convergence as alone
 from garkcli.report.costs import Tested, at_equal_errors
-from garkcli.report.failure import FAULT
+from garkcli.report.remarks import FAULT
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Choice, Level, Row, Rows, Section, itself, maybe, via
 from garkcli.tell.kinds import COUNT, TEXT, TRUTH, constant
@@ -42,7 +42,7 @@ class Entry(Frozen):
     file: str
     name: str
     result: Convergence | None
-    faults: tuple[Fault, ...]
+    faults: tuple[Remark, ...]
     exit_code: int
 
 

@@ -25,8 +25,8 @@ from garkcli.plots.convergence import errors_scene
 from garkcli.problems.deferred import names_of
 from garkcli.problems.oscillator import Oscillator
 from garkcli.reason import Reason
-from garkcli.report.failure import FAILURE, Failure
 from garkcli.report.problem import STEPPED, Run
+from garkcli.report.remarks import FAILURE, Failure
 from garkcli.tableau.garkmethod import derivation_of
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import (

@@ -19,8 +19,8 @@ from garkcli.page import schema as S  # noqa: N812 -- its names are those of kin
 from garkcli.page.figures import measured
 from garkcli.plots.energy import energy_scene
 from garkcli.problems.hamiltonian import FLOAT_DIGITS
-from garkcli.report.failure import FAILURE, Failure
 from garkcli.report.problem import STEPPED, Run
+from garkcli.report.remarks import FAILURE, Failure
 from garkcli.tableau.garkmethod import derivation_of, word_for
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Json, Kind, Level, Row, Rows, Section, itself, maybe, optional, via

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from flint import fmpq
 
 from garkcli.check.findings import names_of, repair_text
-from garkcli.check.remark import Remark
+from garkcli.check.remark import RoundingHint
 from garkcli.errors import counted
 from garkcli.exact.display import decimal
 from garkcli.order.blame import Blame
@@ -63,7 +63,7 @@ def _repairs(repairs: Sequence[Repair], names: Sequence[str]) -> Reason:
     return joined(", or ", [repair_text(x, names) for x in repairs[:MOST_REPAIRS]])
 
 
-def remark_text(found: Remark, names: Sequence[str], tolerance: fmpq | None) -> Reason:
+def remark_text(found: RoundingHint, names: Sequence[str], tolerance: fmpq | None) -> Reason:
     """The digits of the numbers, the order with these, and the entry that is off."""
     order = f"{found.of.replace('-', ' ')} {found.order}"
     if found.repairs:

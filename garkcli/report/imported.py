@@ -6,11 +6,11 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
 from garkcli.bridges.collecting import Result
-from garkcli.bridges.finding import AuditFinding
 from garkcli.bridges.judging import Judged
 from garkcli.bridges.subject import Subject
-from garkcli.errors import counted
-from garkcli.report.audited import FINDING, MOST, WRONG
+from garkcli.errors import Remark, counted
+from garkcli.report.audited import MOST, WRONG
+from garkcli.report.remarks import OF_TABLE
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Answer, Kind, Level, Row, Rows, Section, Status, itself, maybe
 from garkcli.tell.kinds import COUNT, POSITION, TEXT, TEXTS
@@ -49,7 +49,7 @@ def _notes(found: Sequence[Found]) -> list[tuple[str, str]]:
     return [(x.name, note) for x in found for note in x.result.notes()]
 
 
-def _wrong(found: Sequence[Found]) -> list[tuple[Subject, Sequence[AuditFinding]]]:
+def _wrong(found: Sequence[Found]) -> list[tuple[Subject, Sequence[Remark]]]:
     results = (x.result for x in found)
     return [(x.method, x.errors) for x in results if x.method is not None and x.errors]
 
@@ -78,7 +78,7 @@ METHOD: Section[Found] = Section(
     maybe("file", TEXT, lambda x: x.file),
     SIZES,
     Row("notes", TEXTS, lambda x: [*x.result.notes()]),
-    Row("findings", parts(FINDING), lambda x: x.result.errors),
+    Row("findings", parts(OF_TABLE), lambda x: x.result.errors),
 )
 LINE: Section[Found] = Section(
     Row("name", TEXT, lambda x: x.name, label=""),

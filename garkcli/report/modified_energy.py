@@ -13,8 +13,8 @@ from garkcli.convergence.result import Row as Step
 from garkcli.frozen import Frozen
 from garkcli.page.figures import scientific
 from garkcli.report.convergence import STEP_SIZE
-from garkcli.report.failure import FAILURE, Failure
 from garkcli.report.problem import describe, driving
+from garkcli.report.remarks import FAILURE, Failure
 from garkcli.tableau.garkmethod import derivation_of
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Answer, Json, Kind, Level, Row, Rows, Section, Status, maybe, via

@@ -231,7 +231,7 @@ LATE = Reason("it takes longer than --seconds")
 
 
 def _open(x: Stability | LinearStability | Colours, name: str) -> Answer[Never] | None:
-    """An answer that is left open because the time was over; None if it was not."""
+    """An open answer if the time was over; else None."""
     return Answer(None, Status(open=LATE)) if name in x.late else None
 
 
@@ -256,7 +256,7 @@ def sector(x: LinearStability) -> RealRoot | Answer[RealRoot] | None:
 
 
 def _less_than_all(answer: Answer[RealRoot]) -> Level:
-    """A sector is told unless A-stability says it."""
+    """Usual reports have a sector unless A-stability says it."""
     if answer.value is None:
         return USUAL if answer.status.open else DETAIL
     return USUAL if answer.value.exact != 0 else DETAIL

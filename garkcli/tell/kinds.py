@@ -96,7 +96,7 @@ TREE: Kind[Tree] = Kind(Json(S.TEXT, lambda x, _: format_tree(x)), Words(lambda 
 def truth(
     value: bool | None, why: Reason | str = "", open_because: Reason | str = ""
 ) -> Answer[bool]:
-    """A truth, with the reason why it is not so; None is left open with its reason."""
+    """A truth with the reason against it, or, of None, the reason why it is open."""
     if value is None:
         return Answer(None, Status(open=as_reason(open_because or "it is open")))
     return Answer(value, reason=NO_REASON if value else as_reason(why))

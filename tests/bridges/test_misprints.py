@@ -11,9 +11,9 @@ import pytest
 
 from garkcli import catalogue
 from garkcli.bridges.audit import audit
-from garkcli.bridges.finding import AuditFinding
 from garkcli.bridges.readers.registry import find_tables, readers_for
 from garkcli.bridges.rounding import rounded
+from garkcli.errors import Remark
 from garkcli.exact.field import Number
 from tests.whole import IS_WHOLE, in_whole, sample
 
@@ -90,9 +90,7 @@ def _fortran(A: Sequence[Texts], b: Texts, c: Texts, order: int) -> str:
 WRITERS = {"c": _c, "jl": _julia, "py": _python, "f90": _fortran}
 
 
-def _findings(
-    A: Sequence[Texts], b: Texts, c: Texts, order: int, suffix: str
-) -> list[AuditFinding]:
+def _findings(A: Sequence[Texts], b: Texts, c: Texts, order: int, suffix: str) -> list[Remark]:
     name = f"m.{suffix}"
     found = find_tables(WRITERS[suffix](A, b, c, order), name, readers_for(name))
     audited = [audit(table) for table in found]

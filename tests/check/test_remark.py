@@ -12,7 +12,7 @@ from flint import fmpq
 
 from garkcli.check.check_file import check_method
 from garkcli.check.outcome import Outcome
-from garkcli.check.remark import Remark, remark_on
+from garkcli.check.remark import RoundingHint, remark_on
 from garkcli.methodfile.load import loads
 from garkcli.ntrees.tree import Tree
 from garkcli.order.certificate import Order, Witness
@@ -32,7 +32,7 @@ def checked(text: str, limit: int = LIMIT) -> Outcome:
     return check_method(loads(text), limit)
 
 
-def remark(text: str, limit: int = LIMIT) -> Remark | None:
+def remark(text: str, limit: int = LIMIT) -> RoundingHint | None:
     """What it says of the digits."""
     return checked(text, limit).remark
 

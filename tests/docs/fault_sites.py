@@ -12,7 +12,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = ROOT / "garkcli"
 ERRORS = {
-    *("Fault", "GarkError", "MethodError", "UsageProblem", "ShapeMismatch"),
+    *("Remark", "GarkError", "MethodError", "UsageProblem", "ShapeMismatch"),
     *("CoincidingNodes", "BlockTooLarge", "ZeroWeight", "UnknownFamily"),
     *("VanishingDenominator", "NoLegendreTransform", "ExpressionError"),
     *("LimitExceeded", "UndefinedValue", "CannotExport", "CannotConvert"),

@@ -69,7 +69,7 @@ VALUES = (
     "order.conditions:Condition",
     "check.outcome:Outcome",
     "check.outcome:Claim",
-    "errors:Fault",
+    "errors:Remark",
     "properties.property:Verdict",
     "stability.summary:Stability",
     "stability.summary:LinearStability",

@@ -17,7 +17,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from garkcli.constructions.schemes import SCHEMES, SPLITTINGS
-from garkcli.errors import ExpressionError, Fault, MethodFileError
+from garkcli.errors import ExpressionError, MethodFileError, Remark
 from garkcli.exact.domain import Domain
 from garkcli.exact.expression import parse
 from garkcli.exact.rewriting import substitute
@@ -247,7 +247,7 @@ def _files() -> st.SearchStrategy[dict[Any, Any]]:
     )
 
 
-def faults_of(text: str, load: Callable[[str], object] = loads) -> tuple[Fault, ...]:
+def faults_of(text: str, load: Callable[[str], object] = loads) -> tuple[Remark, ...]:
     """The faults of a file; none where it is good. Any other exception is what fuzzing looks for,
     or much time.
     """
@@ -255,7 +255,7 @@ def faults_of(text: str, load: Callable[[str], object] = loads) -> tuple[Fault, 
     try:
         load(text)
     except MethodFileError as error:
-        return error.faults or (Fault("an error without faults"),)
+        return error.faults or (Remark("an error without faults"),)
     finally:
         assert process_time() - start < SLOWEST, text
     return ()

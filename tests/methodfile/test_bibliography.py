@@ -6,7 +6,7 @@ import jsonschema
 import pytest
 import yaml
 
-from garkcli.errors import Fault, MethodFileError
+from garkcli.errors import MethodFileError, Remark
 from garkcli.frozen import fields
 from garkcli.methodfile.bibliography import REFERENCE
 from garkcli.methodfile.carried import write_conjugate_of
@@ -28,7 +28,7 @@ reference:
 """
 
 
-def faults(text: str) -> list[Fault]:
+def faults(text: str) -> list[Remark]:
     """What a file is refused for."""
     with pytest.raises(MethodFileError) as caught:
         loads(METHOD + text)

@@ -17,7 +17,7 @@ from garkcli.methodfile.file_keys import KEYS
 from garkcli.methodfile.load import load
 from garkcli.methodfile.transfers import ALL_RULES
 from garkcli.page.paint import Paint
-from garkcli.report.check_text import faults_lines
+from garkcli.report import remarks
 from tests.examples.snapshots import assert_recorded
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
@@ -64,7 +64,8 @@ def test_an_invalid_file_is_refused_with_its_faults(
     assert max(line for line, _ in places) <= max(1, error.text.count("\n") + 1)
     outcome = Outcome(error.source, error.source, faults=error.faults, text=error.text)
     assert_recorded(
-        path.with_name(f"{stem(path)}.txt"), "\n".join(faults_lines(outcome, Paint())) + "\n"
+        path.with_name(f"{stem(path)}.txt"),
+        "\n".join(remarks.lines(outcome.faults, outcome.file, outcome.text, Paint())) + "\n",
     )
 
 

@@ -9,7 +9,7 @@ from time import process_time
 import pytest
 from flint import fmpq
 
-from garkcli.errors import Fault, MethodFileError
+from garkcli.errors import MethodFileError, Remark
 from garkcli.methodfile.file_keys import KEYS, elsewhere
 from garkcli.methodfile.load import loads
 from garkcli.order.certificate import find_order
@@ -28,7 +28,7 @@ def tableau(text: str) -> Tableau:
     return loads(text).tableau
 
 
-def faults(text: str) -> tuple[Fault, ...]:
+def faults(text: str) -> tuple[Remark, ...]:
     """What is wrong with a file."""
     with pytest.raises(MethodFileError) as caught:
         loads(text)

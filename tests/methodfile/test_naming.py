@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from garkcli import catalogue
-from garkcli.errors import Fault, MethodFileError, nearest
+from garkcli.errors import MethodFileError, Remark, nearest
 from garkcli.methodfile.finding import find_files
 from garkcli.methodfile.load import load
 from garkcli.methodfile.naming import expanded, find_named, hidden_by, look_up
@@ -40,7 +40,7 @@ def put(folder: Path, name: str, text: str = ONE) -> Path:
     return path
 
 
-def fault(argument: str) -> Fault:
+def fault(argument: str) -> Remark:
     """Why an argument is no method."""
     with pytest.raises(MethodFileError) as caught:
         load(argument)

@@ -6,16 +6,15 @@ from pathlib import Path
 
 import pytest
 
-from garkcli.check.outcome import Outcome
-from garkcli.errors import Fault, MethodFileError
+from garkcli.errors import MethodFileError, Remark
 from garkcli.methodfile.load import load, loads
 from garkcli.methodfile.source import Source
 from garkcli.page.paint import Paint
-from garkcli.report.check_text import faults_lines
+from garkcli.report import remarks
 from tests.whole import in_whole
 
 
-def faults(text: str) -> tuple[Fault, ...]:
+def faults(text: str) -> tuple[Remark, ...]:
     """What is wrong with the text of a method file."""
     with pytest.raises(MethodFileError) as caught:
         loads(text, "m")
@@ -27,7 +26,7 @@ def under_caret(text: str) -> list[str]:
     report.
     """
     found = faults(text)
-    lines = list(faults_lines(Outcome("m", "m", faults=found, text=text), Paint()))
+    lines = list(remarks.lines(found, "m", text, Paint()))
     carets = [i for i, line in enumerate(lines) if line.lstrip(" |") == "^"]
     return [lines[i - 1][lines[i].index("^") :] for i in carets]
 

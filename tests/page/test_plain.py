@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from garkcli.check.outcome import Outcome
-from garkcli.errors import Fault, printable
+from garkcli.errors import Remark, printable
 from garkcli.page.paint import Paint
 from garkcli.page.plain import csv_cell, inert
 from garkcli.report import check_findings, check_text
@@ -44,7 +44,7 @@ def test_no_cell_is_a_formula(text: str) -> None:
 
 def test_every_format_writes_faults_without_controls() -> None:
     """The name of the file, the line that is shown, the message and its cure."""
-    fault = Fault(f"no {TURNED}", f"not {TURNED}", 1, 2)
+    fault = Remark(f"no {TURNED}", f"not {TURNED}", 1, 2)
     outcome = Outcome(f"::error::{TURNED}", "m", faults=(fault,), text=f"x{TURNED}")
     texts = [
         check_text.render([outcome], Paint()),
@@ -60,6 +60,6 @@ def test_every_format_writes_faults_without_controls() -> None:
 
 def test_the_caret_stands_under_the_text_as_it_is_shown() -> None:
     """What is written out before the column moves the caret."""
-    outcome = Outcome("f", "f", faults=(Fault("wrong", "", 1, 3),), text="a\x1bb")
+    outcome = Outcome("f", "f", faults=(Remark("wrong", "", 1, 3),), text="a\x1bb")
     _, line, caret = check_text.render([outcome], Paint()).splitlines()
     assert line.index("b", line.index("x1b") + 3) == caret.index("^")

@@ -14,7 +14,7 @@ from flint import arb, fmpq
 
 from garkcli.convergence.convergence import converge
 from garkcli.convergence.result import Convergence, Cost, Row, curve
-from garkcli.errors import Fault
+from garkcli.errors import Remark
 from garkcli.families.registry import diagonal_method
 from garkcli.frozen import replace
 from garkcli.page.figures import rounded, scientific
@@ -76,7 +76,7 @@ FAILED = Entry(
     "bad.gark.yaml",
     "bad.gark.yaml",
     None,
-    (Fault("no such file", "look elsewhere", 3, 4, "no-such-file"),),
+    (Remark("no such file", "look elsewhere", 3, 4, "no-such-file"),),
     2,
 )
 

@@ -9,7 +9,7 @@ from flint import arb, fmpq
 
 from garkcli.convergence.convergence import converge
 from garkcli.convergence.result import Convergence, Cost, Visible
-from garkcli.errors import Fault
+from garkcli.errors import Remark
 from garkcli.families.registry import diagonal_method
 from garkcli.frozen import replace
 from garkcli.problems.builtin import hamiltonian
@@ -78,7 +78,7 @@ def test_several_methods(count: int, with_work: bool) -> None:
         file = f"folder/{'deep/' * 30}{k}.gark.yaml"
         name = NAMES[k % len(NAMES)]
         if k == 1:
-            made.append(Entry(file, name, None, (Fault("no such thing " * 20),), 2))
+            made.append(Entry(file, name, None, (Remark("no such thing " * 20),), 2))
         else:
             made.append(Entry(file, name, result_with(1), (), 0))
     compared = Compared(made, with_work, "evaluations" if with_work else "h")

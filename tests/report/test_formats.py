@@ -24,7 +24,7 @@ from garkcli.check.findings import KINDS, findings
 from garkcli.check.outcome import Outcome
 from garkcli.cli.main import gark as commands
 from garkcli.cli.options import command_of
-from garkcli.errors import Fault, MethodFileError
+from garkcli.errors import MethodFileError, Remark
 from garkcli.frozen import replace
 from garkcli.methodfile.load import loads
 from garkcli.page.paint import Paint
@@ -224,7 +224,7 @@ def test_sarif_points_at_the_claim() -> None:
 
 def test_a_region_starts_at_one_where_no_place_is_known() -> None:
     """A file that is not there has no line; the region is still one of the standard."""
-    fault = Outcome("nowhere.gark.yaml", "nowhere", faults=(Fault("no such file"),))
+    fault = Outcome("nowhere.gark.yaml", "nowhere", faults=(Remark("no such file"),))
     (result,) = sarif(fault)["results"]
     assert result["locations"][0]["physicalLocation"]["region"] == {
         "startLine": 1,
@@ -246,7 +246,7 @@ def test_fingerprints_tell_findings_apart() -> None:
     """Two claims, two files, and two faults with the same words have different fingerprints."""
     assert len(set(fingerprints(WRONG))) == 3
     assert not set(fingerprints(WRONG)) & set(fingerprints(WRONG, "n.gark.yaml"))
-    same = Outcome("m", "m", faults=(Fault("no", "", 1, 1), Fault("no", "", 2, 1)))
+    same = Outcome("m", "m", faults=(Remark("no", "", 1, 1), Remark("no", "", 2, 1)))
     assert len({x.fingerprint for x in findings(same)}) == 2
 
 
@@ -345,7 +345,7 @@ def test_junit_of_real_files() -> None:
 def test_junit_parses_whatever_a_file_is_called(sign: str) -> None:
     """What XML cannot write is replaced, other control characters are written out, all else stays."""
     file = f"a{sign}b.gark.yaml"
-    faulty = Outcome(file, file, faults=(Fault(f"unknown {sign}", f"no {sign}", 1, 1),))
+    faulty = Outcome(file, file, faults=(Remark(f"unknown {sign}", f"no {sign}", 1, 1),))
     (suite, broken) = junit(outcome(WRONG, file), faulty)
     allowed = sign not in {"\0", "\x07", "\x1b", "\ud800", "\uffff"}
     assert (
@@ -408,7 +408,7 @@ def test_claims_that_fail_for_one_reason_say_so(tmp_path: Path) -> None:
     assert found.blame.restores == ("conjugate-order", "symplectic")
     repair = "a[2,2] = 1/4 instead of 1/3"
     consequence = f"it fails with order, and would hold with {repair}"
-    assert [(x.message.partition(":")[0], x.help) for x in findings(found)] == [
+    assert [(x.remark.message.partition(":")[0], x.remark.help) for x in findings(found)] == [
         ("order", f"the claimed order would hold with {repair}"),
         ("conjugate-order", consequence),
         ("pair-order", ""),
@@ -451,7 +451,7 @@ def test_annotations_escape_file_names(file: str) -> None:
 
 def test_annotations_escape_messages() -> None:
     """Percent signs and line ends in messages and cures come back as they were."""
-    fault = Fault("100%\nof %0A, a: b\r", "cure %25", 3, 4)
+    fault = Remark("100%\nof %0A, a: b\r", "cure %25", 3, 4)
     ((place, text),) = annotations(Outcome("m", "m", faults=(fault,)))
     assert text == "100%\nof %0A, a: b\r; cure %25"
     assert (place["line"], place["col"]) == ("3", "4")
@@ -531,7 +531,7 @@ def test_markdown_cells_hold_any_file_name(file: str) -> None:
 def test_markdown_escapes_messages() -> None:
     """A message cannot start a tag or a column, and is one line."""
     text = FORMATS["markdown"](
-        [Outcome("m", "m", faults=(Fault("a <b> | c\nd \\", "", 1, 1),))], Paint(), 0, None, 80
+        [Outcome("m", "m", faults=(Remark("a <b> | c\nd \\", "", 1, 1),))], Paint(), 0, None, 80
     )
     assert text.endswith("- `m:1:1`: a &lt;b> \\| c d \\\\\n")
 
@@ -542,7 +542,7 @@ def test_no_format_forgets_a_finding() -> None:
         outcome(WRONG),
         outcome("methods: [{family: gaus, stages: 2}]\ncolour: red\n", "n.gark.yaml"),
     ]
-    messages = [x.message for each in outcomes for x in findings(each)]
+    messages = [x.remark.message for each in outcomes for x in findings(each)]
     assert len(messages) >= 4
     cases = [x for x in junit(*outcomes).iter() if x.tag in {"failure", "error"}]
     in_junit = " ".join(f"{case.get('message')} {case.text}" for case in cases)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from garkcli.errors import Fault
+from garkcli.errors import Remark
 from garkcli.webpage.reported import Content, Reported
 
 
@@ -15,7 +15,7 @@ def content(method: Reported) -> Content | None:
     return {"faults": [_shown(fault, lines) for fault in outcome.faults]}
 
 
-def _shown(fault: Fault, lines: list[str]) -> Content:
+def _shown(fault: Remark, lines: list[str]) -> Content:
     """A fault with the line that it is in."""
     line = lines[fault.line - 1] if 0 < fault.line <= len(lines) else ""
     return {

@@ -1,0 +1,182 @@
+"""Remarks in every format: rows for JSON, labels for people, excerpts, Markdown, GitHub, SARIF."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, NamedTuple, get_args
+
+from garkcli.bridges.finding import CODES
+from garkcli.errors import Remark, Severity, excerpt, printable
+from garkcli.page.json_text import to_json
+from garkcli.tell.facts import Row, Section, maybe
+from garkcli.tell.kinds import POSITION, TEXT, choice
+from garkcli.tell.parts import parts
+from garkcli.version import __version__
+
+if TYPE_CHECKING:
+    from garkcli.check.findings import Finding
+    from garkcli.page.paint import Paint
+    from garkcli.tell.dialect import Plain
+
+MESSAGE: Row[Remark] = Row("message", TEXT, lambda x: x.message)
+HELP: Row[Remark] = Row("help", TEXT, lambda x: x.help)
+FAULT: Section[Remark] = Section(
+    maybe("line", POSITION, lambda x: x.line or None),
+    maybe("column", POSITION, lambda x: x.column or None),
+    Row("code", TEXT, lambda x: x.code),
+    MESSAGE,
+    HELP,
+)
+"""A remark on a file; the place is null where the whole file is meant."""
+OF_TABLE: Section[Remark] = Section(
+    Row("code", choice(*CODES), lambda x: x.code),
+    Row("level", choice(*get_args(Severity)), lambda x: x.level),
+    MESSAGE,
+    HELP,
+)
+
+
+class Failure(NamedTuple):
+    """A run without a result."""
+
+    name: str
+    faults: Sequence[Remark]
+
+
+FAILURE: Section[Failure] = Section(
+    Row("name", TEXT, lambda x: x.name), Row("errors", parts(FAULT), lambda x: x.faults)
+)
+"""The report of such a run, for programs; people read it elsewhere."""
+
+
+def rows(remarks: Sequence[Remark], d: Plain) -> list[tuple[str, str]]:
+    """Remarks with their levels, cures below."""
+    found: list[tuple[str, str]] = []
+    for x in remarks:
+        found.append((x.level, d.prose(x.message)))
+        found += [("help", d.prose(x.help))] if x.help else []
+    return found
+
+
+def lines(remarks: Sequence[Remark], file: str, text: str, paint: Paint) -> Iterator[str]:
+    """Remarks on the text of a file, each with a caret under its place."""
+    source = text.splitlines()
+    for x in remarks:
+        place = printable(file)
+        if x.line:
+            place += f":{x.line}:{x.column}"
+        yield f"{place}: {paint('bad', 'error')}[{x.code}]: {printable(x.message)}"
+        if 0 < x.line <= len(source):
+            yield from excerpt(source[x.line - 1], x.line, x.column, paint("bad", "^"))
+        if x.help:
+            yield f"      {paint('note', 'help')}: {printable(x.help)}"
+
+
+def items(finding: Finding) -> Iterator[str]:
+    """A finding as an item of a list in Markdown, with the cure."""
+    x = finding.remark
+    yield f"- `{_code(finding.file)}:{x.line}:{x.column}`: {table_cell(x.message)}"
+    if x.help:
+        yield f"  - {table_cell(x.help)}"
+
+
+def table_cell(text: str) -> str:
+    """A text that does not end its cell of a table."""
+    text = printable(text.replace("\n", " "))
+    return text.replace("\\", "\\\\").replace("|", "\\|").replace("<", "&lt;")
+
+
+def _code(text: str) -> str:
+    text = printable(text.replace("\n", " "))
+    return text.replace("`", "'").replace("|", "\\|")
+
+
+def _with_cure(remark: Remark) -> str:
+    return f"{remark.message}; {remark.help}" if remark.help else remark.message
+
+
+_COMMANDS = {"error": "error", "warning": "warning", "note": "notice"}
+
+
+def annotation(finding: Finding) -> str:
+    x = finding.remark
+    place = f"file={_property_of_command(finding.file)},line={x.line},col={x.column}"
+    title = _property_of_command(f"gark: {finding.rule}")
+    return f"::{_COMMANDS[x.level]} {place},title={title}::{_text_of_command(_with_cure(x))}"
+
+
+def commands_off(text: str) -> str:
+    """The text with workflow commands switched off: names of files come from strangers."""
+    from hashlib import sha256  # few runs
+
+    token = sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
+    return f"::stop-commands::{token}\n{text}::{token}::\n"
+
+
+def _text_of_command(text: str) -> str:
+    """The text of a command: what ends a line is written by its number, other signs by name."""
+    return printable(text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A"))
+
+
+def _property_of_command(text: str) -> str:
+    """A property of a command: colons and commas end it."""
+    return _text_of_command(text).replace(":", "%3A").replace(",", "%2C")
+
+
+def log_of(found: Sequence[Finding], kinds: Mapping[str, str]) -> str:
+    """A SARIF log of findings, with every rule in words."""
+    rules = [
+        {
+            "id": key,
+            "shortDescription": {"text": text},
+            "help": {"text": f"gark explain {key} says what it means."},
+        }
+        for key, text in kinds.items()
+    ]
+    places = list(kinds)
+    log = {
+        "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
+        "version": "2.1.0",
+        "runs": [
+            {
+                "tool": {"driver": {"name": "gark", "version": __version__, "rules": rules}},
+                "columnKind": "unicodeCodePoints",
+                "results": [_result(x, places.index(x.rule)) for x in found],
+            }
+        ],
+    }
+    return to_json(log) + "\n"
+
+
+def _result(finding: Finding, place: int) -> dict[str, object]:
+    x = finding.remark
+    region = {"startLine": x.line, "startColumn": x.column}
+    code = {"properties": {"code": x.code}} if x.code != finding.rule else {}
+    return {
+        "ruleId": finding.rule,
+        "ruleIndex": place,
+        "level": x.level,
+        "message": {"text": printable(_with_cure(x))},
+        "locations": [
+            {
+                "physicalLocation": {
+                    "artifactLocation": {"uri": _uri(finding.file)},
+                    "region": region,
+                }
+            }
+        ],
+        "partialFingerprints": {"gark/v1": finding.fingerprint},
+        **code,
+    }
+
+
+def _uri(path: str, separator: str = os.sep) -> str:
+    r"""A path as SARIF wants it, with slashes on every system.
+
+    >>> _uri(r"tables\my rk.gark.yaml", "\\")
+    'tables/my%20rk.gark.yaml'
+    """
+    from urllib.parse import quote
+
+    return quote(path.replace(separator, "/"), safe="/", errors="replace")
