@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 HEADLINE, USUAL, DETAIL, DATA = Level
 PLAIN = Paint()
 MOST = 100
-"""So many tables with findings are usual."""
+"""Tables with findings that usual reports have at most."""
 
 
 class Audit(NamedTuple):
@@ -52,7 +52,7 @@ def _is_doubtful(found: Audited) -> bool:
 
 
 def place_and_orders(found: Audited | Subject, d: Plain) -> str:
-    """Where a table is, and its orders."""
+    """``a.py:3 rk4: order 4``."""
     words = [] if found.order is None else [f"order {_least(found.order)}"]
     if words and found.embedded_order is not None:
         words.append(f"embedded order {_least(found.embedded_order)}")

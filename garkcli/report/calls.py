@@ -27,7 +27,7 @@ from garkcli.version import __version__
 
 
 def cite(*methods: AnyMethod, format: str = "bibtex") -> str:
-    """Where methods were published, each publication once: ``gark cite``.
+    """The publications of methods, each once: ``gark cite``.
 
     Args:
         methods: from files, texts or the catalogue; or paths and names.

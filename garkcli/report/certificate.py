@@ -191,7 +191,7 @@ def _all(found: Iterable[P], tableau: Tableau) -> list[In[P]]:
 
 
 def _witness(proof: Proof) -> In[Witness] | None:
-    """The tree that fails; None where the search ended at its limit."""
+    """The tree that fails; None if the search ended at its limit."""
     witness = proof.order.witness
     return None if witness is None else In(witness, proof.tableau.degree)
 
@@ -272,7 +272,7 @@ def _condition_rows(proof: ExistenceProof, d: Plain) -> list[tuple[str, str]]:
 DECIMAL: S.Schema = {"type": "string", "pattern": r"^-?\d+([/.]\d+)?$"}
 """A rational number, also in decimals."""
 MADE: S.Schema = S.one_of(DECIMAL, {"type": "integer"}, {"type": "array"})
-"""How an entry is made: a rational number, the number of a printed one, or [sign, one, other]."""
+"""An entry: a rational number, the number of a printed one, or [sign, one, other]."""
 SHORT: Kind[fmpq] = Kind(Json(DECIMAL, lambda x, _: rational_text(x)))
 SHORTS: Kind[Sequence[fmpq]] = Kind(
     Json(S.array(DECIMAL), lambda row, _: [rational_text(x) for x in row])

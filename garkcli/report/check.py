@@ -426,7 +426,7 @@ def _systems_words(found: Sequence[Sequence[Staged]], d: Plain) -> str:
 
 
 def renumbering(a: Analysis) -> list[Staged] | None:
-    """How the stages of a symmetric method are renumbered, space by space."""
+    """The new numbers of the stages of a symmetric method, space by space."""
     return [
         {
             "colours": _names(a.tableau, space),
@@ -635,7 +635,7 @@ class Placed(NamedTuple):
 
 
 class Recovered(NamedTuple):
-    """How far the print of a method is from the method that it is taken to mean."""
+    """The distance of a printed method from the method that it is taken to mean."""
 
     near: Nearness
     analysis: Analysis
@@ -1038,7 +1038,7 @@ OK: Rows[Outcome] = (IS_OK, Row("structure", STRUCTURES, lambda o: o.structure, 
 
 
 def transfer(o: Outcome) -> Answer[list[str]] | None:
-    """Which rules keep the order of the pair; told where the file takes a degree that does not."""
+    """Whether rules keep the order of the pair; usual if the file takes a degree that does not."""
     found = [] if o.analysis is None else [*rule_reasons(o.analysis, o.rules)]
     is_told = any(x.startswith("legendre") and " loses " in x for x in found)
     return Answer(found, level=USUAL if is_told else DETAIL) if found else None

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 Renderer: TypeAlias = "Callable[[Sequence[Outcome], Paint, int, int | None, int], str]"
 MACHINES = ("sarif", "junit", "github")
-"""Those that no option changes: the functions of ``check_findings`` that write them."""
+"""Formats that no option changes, by the functions of ``check_findings`` that write them."""
 
 
 def _render(

@@ -68,7 +68,7 @@ OF_ANALYSES = {
     "DerivativesAnalysis": "derivatives",
     "InfinitesimalAnalysis": "infinitesimal",
 }
-"""Where an outcome has the analysis of a method."""
+"""The attribute of an outcome for each class of analyses."""
 
 
 def whole(found: Outcome | Analysis | OtherAnalysis, name: str) -> Outcome:

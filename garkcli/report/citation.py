@@ -36,8 +36,8 @@ class Cited(Frozen):
 
     Attributes:
         methods: their names.
-        text: the reference in one line; empty where there is none.
-        reference: its fields; None where it is plain text.
+        text: the reference in one line; empty without one.
+        reference: its fields; None if it is plain text.
     """
 
     methods: tuple[str, ...]

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 HEADLINE, USUAL, DETAIL, DATA = Level
 _LONGEST = 60  # characters of a Hamiltonian that are still shown
 MOST_METHODS = 20
-"""Of a table in a terminal, usually."""
+"""Rows of a usual table in a terminal."""
 
 
 class Entry(Frozen):

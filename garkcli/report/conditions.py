@@ -42,7 +42,7 @@ from garkcli.tell.report import Report
 from garkcli.tell.shown import Words
 
 MOST_DECIMALS = 20
-"""Of a value; longer ones are rounded."""
+"""Decimals of a value; longer ones are rounded."""
 
 
 class ConditionRow(Frozen):
@@ -94,7 +94,7 @@ class Valued(Frozen):
 
     @property
     def tolerance(self) -> fmpq | None:
-        """The rounding of its coefficients; None where they are exact."""
+        """The rounding of its coefficients; None if they are exact."""
         return tolerance_of(self.method)
 
     @property
@@ -159,7 +159,7 @@ class Conditions(Mutable):
 
     @property
     def summary(self) -> str:
-        """How many conditions there are, and how many of them hold."""
+        """The number of conditions, and of those that hold."""
         verdict = (
             "" if self.valued is None or not self.count else _verdict(self.failed, self.valued)
         )
@@ -271,7 +271,7 @@ def _kind(condition: Condition) -> str | None:
 
 
 def _multiplicity(row: ConditionRow) -> str:
-    """How many conditions a row stands for, or for which colours it is one."""
+    """The number of conditions that a row stands for, or the colours that it is for."""
     if row.stands_for:
         return f"stands for {row.stands_for}"
     if row.condition is not None and row.condition.twins:

@@ -50,7 +50,7 @@ from garkcli.tell.shown import Labels, Words
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 MOST_STEPS = 10
-"""Of a table in a terminal, usually."""
+"""Rows of a usual table in a terminal."""
 _LONGEST_HEAD = 40  # characters of the name of an invariant above a column
 NO_TIME = "no seconds where floats do not reach the error: the counts are for more digits"
 
@@ -78,7 +78,7 @@ class StepTold(NamedTuple):
 
     @property
     def below_round_off(self) -> list[str] | None:
-        """The quantities whose error is below round-off; None where there are none."""
+        """The quantities whose error is below round-off; None without such."""
         energy = self.row.energy_error
         errors = {**({} if energy is None else {"energy": energy}), **self.invariant_errors}
         return [name for name, x in errors.items() if x.is_finite() and _is_below(x)] or None

@@ -53,9 +53,9 @@ if TYPE_CHECKING:
 HEADLINE, USUAL, DETAIL, DATA = Level
 Texts: TypeAlias = list[tuple[str, str]]
 ROOM = 400
-"""So many signs of polynomials are usual; with details all of them are reported."""
+"""Signs of polynomials in usual reports; with details there are all."""
 MOST = 4
-"""So many of the best methods are usual."""
+"""Best methods in usual reports."""
 LONG = 2000
 """A longer polynomial is for programs alone."""
 

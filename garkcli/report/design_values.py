@@ -1,4 +1,4 @@
-"""Which values of parameters are meant: polynomials that are zero, and what else holds."""
+"""Restrictions on values of parameters: polynomials that are zero, and inequalities."""
 
 from __future__ import annotations
 
@@ -88,8 +88,8 @@ LONG = 40
 
 
 def _bounds(family: Family) -> tuple[dict[str, list[str]], list[fmpq_mpoly]]:
-    """Between which numbers unknowns are, each with two ends, empty where there is none, by ranges
-    and by numbers that may not be negative; the rest of that.
+    """Least and greatest values of unknowns, empty if there is no limit, by ranges and by numbers
+    that may not be negative; and the rest of these numbers.
     """
     ends = {}
     others = list(family.not_negative)

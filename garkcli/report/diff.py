@@ -58,9 +58,9 @@ RELATIONS = {
     "different": "different methods",
     "undecided": "not decided",
 }
-"""How methods are related."""
+"""Relations between methods."""
 SAME_STEP = "the same step"
-"""Of different ones, where only embedded weights or dense output differ."""
+"""The relation of methods that differ in embedded weights or dense output alone."""
 
 
 class Method(NamedTuple):
@@ -212,7 +212,7 @@ def _conditions_words(met: Met, _: Plain) -> str:
 
 
 class Gap(NamedTuple):
-    """A block that differs, with one of its entries; None where the shapes differ."""
+    """A block that differs, with one of its entries; None if the shapes differ."""
 
     block: BlockGap
     entry: EntryGap | None

@@ -31,7 +31,7 @@ from garkcli.tell.shown import Words
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 MOST_QUANTITIES = 10
-"""Of a table in a terminal, usually."""
+"""Rows of a usual table in a terminal."""
 FATES = {
     "elliptic": "the energy error is bounded for all time",
     "unstable": "the energy grows for ever",
@@ -40,7 +40,7 @@ FATES = {
 }
 """The fate of the energy of the oscillator."""
 _NEARLY = 2.0
-"""How many times round-off an uncertainty is that is nothing but round-off."""
+"""The largest ratio of an uncertainty to round-off at which it is round-off alone."""
 
 
 class Claim(Frozen):

@@ -109,7 +109,7 @@ ROWS: dict[str, Row[Lists]] = {
     "splittings": Row("splittings", table(SCHEME, 0), lambda x: [*x.splittings.values()]),
     "problems": Row("problems", table(PROBLEM, 0), lambda x: [*x.problems.values()]),
 }
-"""By what gark list can list alone."""
+"""The rows of lists by their names."""
 
 
 def _counted(row: Row[Lists], lists: Lists) -> str:

@@ -37,7 +37,7 @@ from garkcli.tell.shown import Words
 
 HEADLINE, USUAL, DETAIL, DATA = Level
 MOST_TERMS = 10
-"""Of a table in a terminal, usually."""
+"""Rows of a usual table in a terminal."""
 _FORMLESS = Reason("no Hamiltonian problem has its form")
 
 
@@ -86,14 +86,13 @@ TERM: Section[Term] = Section(
     Row("factor", NUMERAL, lambda x: x.coefficient / x.symmetry),
     Row("value", told(_size), lambda x: x.coefficient / x.symmetry, Level.DETAIL),
 )
-"""Of the sum Σ h^(ρ−1) b(u)/σ F(u), or of Σ h^(ρ−1) b(u)/|Aut| H(u) over free trees."""
+"""A term of Σ h^(ρ−1) b(u)/σ F(u), or of Σ h^(ρ−1) b(u)/|Aut| H(u) over free trees."""
 
 
 def _equation(report: ModifiedReport) -> Answer[list[Term]]:
-    """The coefficients b(u) that are not zero; usual where there is no Hamiltonian.
+    """The nonzero coefficients b(u); usual if there is no Hamiltonian.
 
-    Of rounded coefficients those of the orders that the method has are left out but for order 1:
-    they are zero within the tolerance.
+    A rounded method has those of its orders above 1 left out: they are zero within the tolerance.
     """
     found = report.found
     zero = range(2, found.order.order + 1) if found.tolerance is not None else ()

@@ -1,4 +1,4 @@
-"""How a notebook shows methods and what is found of them: tables in plain HTML, and LaTeX.
+"""Methods and results in notebooks: tables in plain HTML, and LaTeX.
 
 Nothing is coloured, so that a page is readable whatever its background; all text is escaped.
 """
@@ -33,7 +33,7 @@ MAX_COLUMNS = 24
 
 
 def method_latex(method: GarkMethod) -> str | None:
-    """The tableau as arrays of LaTeX; None where it is too large to be examined."""
+    """The tableau as arrays of LaTeX; None if it is too large to be examined."""
     if _is_large(method):
         return None
     return "\n".join(displays(method.tableau, method.entries))

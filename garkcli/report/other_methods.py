@@ -44,7 +44,7 @@ if TYPE_CHECKING:
 HEADLINE, USUAL, DETAIL, DATA = Level
 A = TypeVar("A", bound="OtherAnalysis")
 Linear: TypeAlias = "RosenbrockAnalysis | DerivativesAnalysis"
-"""Of methods that are Runge–Kutta methods on linear problems."""
+"""Analyses of methods that are Runge–Kutta methods on linear problems."""
 
 
 # rows of several kinds

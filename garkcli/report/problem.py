@@ -1,4 +1,4 @@
-"""Which problem was stepped: in one line, and its rows."""
+"""The problem that was stepped, in one line and as rows."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from garkcli.tableau.garkmethod import GarkMethod
 
 Writer: TypeAlias = "Callable[[Sequence[Any], str, str], str]"
-"""Of values, a format, and what to call the method."""
+"""Writes values in a format; the text is the name of the method."""
 WIDTH = 80
 """Columns of texts."""
 _PLAIN = Paint()

@@ -46,7 +46,7 @@ REPORTS = {
     "import": "garkcli.report.imported:REPORT",
     "sweep": "garkcli.report.sweep:REPORT",
 }
-"""Where a report is declared, or the function is that makes its schema."""
+"""The place of a report, or of the function that makes its schema."""
 
 
 def report_schema(command: str) -> dict[str, Any]:

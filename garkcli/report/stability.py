@@ -501,7 +501,7 @@ RADII: Section[AdditiveRadius] = Section(
 
 
 def _radii_words(found: Sequence[AdditiveRadius], d: Plain) -> str:
-    """How far the region of absolute monotonicity reaches in each direction."""
+    """The reach of the region of absolute monotonicity in each direction."""
     texts = []
     for r in found:
         if r.radius is None:
@@ -600,14 +600,14 @@ WAVES: dict[str, Rows[StabilityReport]] = {
     "late": [maybe("stable", STABLE, lambda x: _open(x.found, "oscillator"), label=OF_WAVES)],
     "known": via(lambda x: x.found.oscillator, OSCILLATOR),
 }
-"""By what is known of the oscillator."""
+"""Rows about the oscillator, by the state of knowledge."""
 TAIL: Rows[StabilityReport] = [maybe("algebraically_stable", kinds.TRUTH, algebraic), PLOT]
 LINEARS: dict[str, Rows[StabilityReport]] = {
     "none": [*head("oscillator")],
     "alike": [*head("linear"), *ALIKE, ALONE, EMBEDDED],
     "several": [*head("linear"), *SEVERAL, EMBEDDED],
 }
-"""By what the colours do on the linear test equation: ``R`` has a z for each colour, or one."""
+"""Rows by the colours on the linear test equation: ``R`` has a z for each colour, or one."""
 COLUMNS = ("file", "a_stable", "l_stable", "real_interval", "imaginary_interval", "ssp")
 FORMS = {
     (linear, waves): Section(rows, _waves(linear, waves), TAIL, title=title, columns=COLUMNS)

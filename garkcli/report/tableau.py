@@ -83,7 +83,7 @@ def of_method(method: GarkMethod, digits: int | None = None) -> Shown:
 
 
 DIGITS = 12
-"""Of the decimals of a tableau."""
+"""Digits of the decimals of a tableau."""
 
 
 def _float(cell: Cell | Parametric) -> float | None:
@@ -138,7 +138,7 @@ FORMULAS = {
     "conjugate": "Â_ij = b_j − b_j a_ji / b_i; conjugated again it is the method",
     "pair": "A for positions, Â_ij = b_j − b_j a_ji / b_i for momenta",
 }
-"""How what is made of a method is made."""
+"""The formulas for conjugate and pair."""
 
 
 OF_ENTRIES: Rows[Shown] = (

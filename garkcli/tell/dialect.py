@@ -58,9 +58,9 @@ CUT = 8
 NAME = 26
 """Longer names have a line of their own where a table is wide."""
 AT_ONCE = 100
-"""So many rows of a stream are shown at a time."""
+"""Rows of a stream that are shown at a time."""
 FEW = 4
-"""So many of a list are named; the others are counted."""
+"""Names of a list that are shown; the others are counted."""
 
 
 Cells: TypeAlias = Sequence[str]
@@ -146,7 +146,7 @@ class Plain(Mutable):
 
     infinity = "∞"
     breadth: ClassVar[Literal["terminal", "page", "any"]] = "terminal"
-    """How wide a table may be."""
+    """The width of tables."""
 
     # words
 
@@ -311,7 +311,7 @@ class Plain(Mutable):
         return f"≥{number}" if number >= limit else str(number)
 
     def upto(self, sign: str, end: RealRoot) -> str:
-        """How far something holds from 0 on."""
+        """The range from 0 on in which something holds."""
         return f"{self.prose(sign)} ≤ {self.root(end)}"
 
     def interval(self, x: Interval, variable: str) -> str:
@@ -431,7 +431,7 @@ class Plain(Mutable):
             is_begun = True
 
     def _stream(self, head: Cells, rows: Iterable[Cells], how: Layout) -> Iterator[str]:
-        """Where a table is too wide, long names have lines of their own, and the last column is as
+        """If a table is too wide, long names have lines of their own, and the last column is as
         wide as words need.
         """
         room = self.width - 2 * how.depth - 2 * (len(head) - 1)
@@ -457,7 +457,7 @@ class Plain(Mutable):
         return [*zip(*([self.spelt(x) for x in row] for row in rows), strict=True)]
 
     def more(self, count: int, depth: int) -> list[str]:
-        """So many rows of a table are left out."""
+        """A line for the rows of a table that are left out."""
         return [self.spelt(f"{'  ' * depth}… {count} more with -v")]
 
     def tableau(self, tableau: Tableau, entries: Entries) -> list[str]:

@@ -33,7 +33,7 @@ V_out = TypeVar("V_out", covariant=True)
 
 
 class Level(IntEnum):
-    """Where a fact is reported: first, usually, with -v, to programs alone."""
+    """The reports that have a fact: first, usual ones, those with -v, those for programs."""
 
     HEADLINE = 0
     USUAL = 1
@@ -42,7 +42,7 @@ class Level(IntEnum):
 
 
 class Status(Frozen):
-    """How a value is known. These are no alternatives: a rounded order can be all three.
+    """The certainty of a value; a rounded order can be all three.
 
     Attributes:
         within: the rounding for which it holds; None for exactly.
@@ -62,7 +62,7 @@ class Answer(Frozen, Generic[V_out]):
     """A value with its status and its reason.
 
     Attributes:
-        value: None where there is none, or none is decided.
+        value: None if there is none, or none is decided.
         status: how it is known.
         reason: why it is so.
         level: where it is reported, if not where its row says.
@@ -191,7 +191,7 @@ class Fact(Frozen):
 
 
 class Placed(TypedDict, total=False):
-    """Where a row is in a text, as ``Row`` takes it."""
+    """The place of a row in a text, as ``Row`` takes it."""
 
     label: str | None
     line: str

@@ -125,7 +125,7 @@ FILE_AND_NAME: Rows[Named] = (
     Row("file", TEXT, lambda x: x.file, Level.DATA),
     Row("name", TEXT, _name, Level.DETAIL),
 )
-"""Where a result is from, and what people call it."""
+"""The file of a result, and the name of its method."""
 
 
 def numeral_text(x: Number, d: Plain) -> str:
@@ -157,7 +157,7 @@ BLOCKS: Kind[Sequence[Sequence[int]]] = Kind(
 
 
 class Table(Frozen):
-    """How many conditions hold, a number for each block that exists, up to a limit."""
+    """The number of conditions that hold, for each block that exists, up to a limit."""
 
     rows: Sequence[Sequence[int | None]]
     limit: int
@@ -303,7 +303,7 @@ RADIUS: Kind[SspCoefficient] = Kind(
     Json(one_of(S.TEXT, ROOT_OF), radius_data),
     Words(lambda x, d: d.infinity if x.value is None else d.root(x.value)),
 )
-"""How far something reaches, without end too."""
+"""The reach of something, which may be without end."""
 
 END: Kind[RealRoot] = Kind(Json(ALGEBRAIC, lambda x, d: root_data(x, d.digits)))
 INTERVAL: Section[Interval] = Section(

@@ -58,7 +58,7 @@ def _sign(found: re.Match[str]) -> str:
 
 
 def expression_latex(text: str) -> str | None:
-    """An expression of method files; None where it is none, or too large to be read."""
+    """An expression of method files; None if the text is another one, or too large."""
     from garkcli.errors import ExpressionError
     from garkcli.exact.expression import parse
     from garkcli.exact.rewriting import format_expression

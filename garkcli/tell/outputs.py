@@ -17,7 +17,7 @@ from garkcli.tell.shown import Drawing, Labels, Part, Parts, Picture, Plot, Stre
 T = TypeVar("T")
 
 COLUMNS = {"terminal": Level.USUAL, "page": Level.DETAIL, "any": Level.DATA}
-"""How deep the rows are that a part of a stream has as columns, by the breadth of the output."""
+"""The level of the rows that a stream has as columns, by the breadth of the output."""
 
 
 def words(fact: Fact, d: Plain) -> str:

@@ -1,4 +1,4 @@
-"""How values are shown to people: in words, as labels, as pictures, in parts."""
+"""Ways to show values to people: in words, as labels, as pictures, in parts."""
 
 from __future__ import annotations
 
