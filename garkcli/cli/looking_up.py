@@ -195,7 +195,7 @@ def show(given: Given, output: Output) -> None:
     from garkcli.catalogue.entries import entry_of_method, entry_on
     from garkcli.methodfile.load import load
     from garkcli.methodfile.naming import FAMILY, find_named, shelf_of
-    from garkcli.report.show import REPORT, Shown
+    from garkcli.report.show import REPORT, ShownMethod
 
     method = load(given.file, given.settings)
     named = find_named(given.file)
@@ -204,7 +204,9 @@ def show(given: Given, output: Output) -> None:
     else:
         entry = entry_of_method(method, given.file)
     tableau, description = method.tableau, method.description
-    output.tell(REPORT, Shown(entry, tableau, method.entries, description, method.bibliography))
+    output.tell(
+        REPORT, ShownMethod(entry, tableau, method.entries, description, method.bibliography)
+    )
 
 
 @declared("cite", ("bibtex", *FORMATS))

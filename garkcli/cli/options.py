@@ -586,11 +586,11 @@ class Output:
             name: of the method.
             report: of the command.
         """
-        from garkcli.report.remarks import Failure
+        from garkcli.report.remarks import FailedRun
 
         complain(error)
         if self.format in ("json", "csv"):
-            self.tell(report, Failure(name, faults_of(error)))
+            self.tell(report, FailedRun(name, faults_of(error)))
         return failure_code(error)
 
 

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from garkcli.longtime.symplecticity import Symplecticity
     from garkcli.problems.oscillator import Oscillator
     from garkcli.problems.problem import Problem
-    from garkcli.report.comparison import Entry
-    from garkcli.report.energy import Claim
+    from garkcli.report.comparison import TestedMethod
+    from garkcli.report.energy import RunClaim
     from garkcli.stepping.linearly_implicit import Taken
     from garkcli.tableau.garkmethod import GarkMethod
     from garkcli.tableau.tableau import Tableau
@@ -124,18 +124,20 @@ def _several(paths: Sequence[str], given: Given, output: Output) -> int:
     """
     from garkcli.methodfile.naming import called
     from garkcli.plots.convergence import errors_scene
-    from garkcli.report.comparison import REPORT, Compared, Entry
+    from garkcli.report.comparison import REPORT, TestedMethod, TestedMethods
 
     problems = Problems(given)
     methods = [_loaded(path, given) for path in paths]
     files = [called(path) for path in paths]
-    problems.prepare([x for x in methods if not isinstance(x, Entry)], output)
+    problems.prepare([x for x in methods if not isinstance(x, TestedMethod)], output)
     entries = []
     with doing("methods", len(files)) as work:
         for file, found in zip(files, methods, strict=True):
-            entries.append(found if isinstance(found, Entry) else _entry(file, found, problems))
+            entries.append(
+                found if isinstance(found, TestedMethod) else _entry(file, found, problems)
+            )
             work.reach(work.done + 1)
-    output.tell(REPORT, Compared(entries, given.work, given.against))
+    output.tell(REPORT, TestedMethods(entries, given.work, given.against))
     results = [(x.name, x.result) for x in entries if x.result is not None]
     if given.plot is not None and results:
         output.save_plot(errors_scene(results, given.against), given.plot)
@@ -144,7 +146,7 @@ def _several(paths: Sequence[str], given: Given, output: Output) -> int:
     return max(entry.exit_code for entry in entries)
 
 
-def _loaded(path: str, given: Given) -> GarkMethod | Entry:
+def _loaded(path: str, given: Given) -> GarkMethod | TestedMethod:
     """The method that steps, or what its failure leaves."""
     try:
         return given.method(path, is_any_kind=True)
@@ -152,26 +154,26 @@ def _loaded(path: str, given: Given) -> GarkMethod | Entry:
         return _failed(path, path, error)
 
 
-def _entry(path: str, method: GarkMethod, problems: Problems) -> Entry:
-    from garkcli.report.comparison import Entry
+def _entry(path: str, method: GarkMethod, problems: Problems) -> TestedMethod:
+    from garkcli.report.comparison import TestedMethod
 
     try:
         with doing(path):
             result = problems.tested(method)
     except GarkError as error:
         return _failed(path, method.name, error)
-    return Entry(path, method.name, result, (), result.exit_code)
+    return TestedMethod(path, method.name, result, (), result.exit_code)
 
 
-def _failed(path: str, name: str, error: GarkError) -> Entry:
+def _failed(path: str, name: str, error: GarkError) -> TestedMethod:
     """Tell an error with the name of the file."""
     from garkcli.check.outcome import Outcome
-    from garkcli.report.comparison import Entry
+    from garkcli.report.comparison import TestedMethod
 
     faults = faults_of(error)
     text = error.text if isinstance(error, MethodFileError) else ""
     say_faults(Outcome(path, name, faults=faults, text=text))
-    return Entry(path, name, None, faults, failure_code(error))
+    return TestedMethod(path, name, None, faults, failure_code(error))
 
 
 class Problems:
@@ -367,11 +369,11 @@ def _symplecticity(method: GarkMethod, run: LongRun, is_measured: bool) -> Sympl
     return Symplecticity(proved, symplecticity_defects(tableau, run.problem, run.step, run.states))
 
 
-def _claims(run: LongRun, given: Given) -> tuple[Claim, ...]:
+def _claims(run: LongRun, given: Given) -> tuple[RunClaim, ...]:
     """What the options claim. An undecided run is neither bounded nor drifting."""
     from garkcli.exact.display import decimal, to_float
     from garkcli.page.figures import measured
-    from garkcli.report.energy import Claim
+    from garkcli.report.energy import RunClaim
 
     claims = []
     if given.bounded:
@@ -379,7 +381,7 @@ def _claims(run: LongRun, given: Given) -> tuple[Claim, ...]:
         left = [x for x in run.invariants if x.verdict == "undecided"]
         found = ", ".join(f"{x.name} {x.verdict}" for x in (*wrong, *left))
         holds = False if wrong else None if left else True
-        claims.append(Claim("bounded", found or "bounded", holds))
+        claims.append(RunClaim("bounded", found or "bounded", holds))
     limit = given.max_error
     if limit is not None:
         # the energy, or of what else is conserved the one with the largest error
@@ -388,7 +390,7 @@ def _claims(run: LongRun, given: Given) -> tuple[Claim, ...]:
         if run.is_unstable:
             is_met = False
         found_error = measured(energy.max_error, energy.round_off)
-        claims.append(Claim(f"max-error: {decimal(limit)}", found_error, is_met))
+        claims.append(RunClaim(f"max-error: {decimal(limit)}", found_error, is_met))
     return tuple(claims)
 
 

@@ -319,10 +319,10 @@ def _against(first: MethodFile, second: GarkMethod, output: Output) -> str:
         return ""
     from garkcli.comparison.comparison import compare
     from garkcli.methodfile.naming import called
-    from garkcli.report.diff import REPORT, Compared
+    from garkcli.report.diff import REPORT, ComparedPair
 
     names = called(first.source), "the method below"
-    lines = REPORT.render([Compared(compare(first, second), names)], verbosity=-1).splitlines()
+    lines = REPORT.render([ComparedPair(compare(first, second), names)], verbosity=-1).splitlines()
     return "".join(f"# {line}\n" for line in lines)
 
 
@@ -336,11 +336,11 @@ def diff(given: Given, output: Output) -> int:
     """
     from garkcli.comparison.comparison import compare
     from garkcli.methodfile.naming import called
-    from garkcli.report.diff import REPORT, Compared
+    from garkcli.report.diff import REPORT, ComparedPair
 
     first, second = _loaded((given.first, given.second), given.settings)
     found = compare(first, second)
-    output.tell(REPORT, Compared(found, (called(given.first), called(given.second))))
+    output.tell(REPORT, ComparedPair(found, (called(given.first), called(given.second))))
     if given.strict and found.relation in {"same", "within-rounding"}:
         return 1
     return EXIT_CODES[found.relation]

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from garkcli.ntrees.tree import Tree
     from garkcli.order.conditions import Condition
     from garkcli.report.conditions import ConditionRow, Valued
-    from garkcli.report.symplectic_subject import Subject
+    from garkcli.report.symplectic_subject import SymplecticSubject
     from garkcli.report.trees import Query, TreeRow
 
 MANY = 1_000_000
@@ -228,7 +228,7 @@ def conditions(given: Given, output: Output) -> None:
     """
     from garkcli.order.conditions import all_conditions
     from garkcli.order.meant import printed
-    from garkcli.report.conditions import REPORT, ConditionRow, Conditions
+    from garkcli.report.conditions import REPORT, ConditionRow, ConditionTable
 
     valued = None if given.file is None else _valued(given)
     last: int = given.order
@@ -257,7 +257,7 @@ def conditions(given: Given, output: Output) -> None:
     if given.sort == "worst":
         rows = iter(sorted(rows, key=_badness, reverse=True))
     rows = counting("conditions", rows)
-    found = Conditions(rows, colours, subject, valued, given.members, given.digits)
+    found = ConditionTable(rows, colours, subject, valued, given.members, given.digits)
     output.stream(REPORT, found, given.document)
 
 
@@ -282,7 +282,7 @@ def _valued(given: Given) -> Valued:
     return Valued(derived(known_as, which), given.failing, parameters, which)
 
 
-def _subject(given: Given, orders: range, valued: Valued | None) -> Subject:
+def _subject(given: Given, orders: range, valued: Valued | None) -> SymplecticSubject:
     """What the conditions are independent for: a kind of methods, or the one of a file."""
     from garkcli.report.symplectic_subject import subject_of_kind, subject_of_method
 
@@ -291,7 +291,9 @@ def _subject(given: Given, orders: range, valued: Valued | None) -> Subject:
     return subject_of_method(valued.method, orders)
 
 
-def _independent(subject: Subject, members: bool, valued: Valued | None) -> Iterator[ConditionRow]:
+def _independent(
+    subject: SymplecticSubject, members: bool, valued: Valued | None
+) -> Iterator[ConditionRow]:
     """A row for each class, with its value where there is a method."""
     from garkcli.order.conditions import conditions
     from garkcli.report.conditions import ConditionRow

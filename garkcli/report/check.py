@@ -44,7 +44,7 @@ from garkcli.tell.facts import (
     via,
 )
 from garkcli.tell.parts import part, parts, picture, rows_of, told
-from garkcli.tell.shown import Parts, Words
+from garkcli.tell.shown import ManyParts, Words
 
 if TYPE_CHECKING:
     from flint import fmpq
@@ -232,13 +232,13 @@ def named_colours(tree: Tree, names: Sequence[str]) -> str:
 
 def table(
     letter: str,
-    kind: Kind[kinds.Table],
+    kind: Kind[kinds.BlockTable],
     rows: Callable[[Simplifying], Sequence[Sequence[int | None]]],
 ) -> Row[Analysis]:
     """B, C or D, a number for each block."""
 
-    def get(a: Analysis) -> Answer[kinds.Table]:
-        found = kinds.Table(rows(a.simplifying), a.simplifying.limit)
+    def get(a: Analysis) -> Answer[kinds.BlockTable]:
+        found = kinds.BlockTable(rows(a.simplifying), a.simplifying.limit)
         return Answer(found, Status(a.tolerance))
 
     return Row(letter, kind, get, DETAIL)
@@ -629,32 +629,32 @@ ROUNDING_HINT: Section[RoundingHint] = Section(
 )
 
 
-class Placed(NamedTuple):
+class EntryPlace(NamedTuple):
     entry: Entry
     tableau: Tableau
 
 
-class Recovered(NamedTuple):
+class PrintDistance(NamedTuple):
     """The distance of a printed method from the method that it is taken to mean."""
 
     near: Nearness
     analysis: Analysis
 
     @property
-    def entry(self) -> Placed | None:
+    def entry(self) -> EntryPlace | None:
         """The entry that is off the most."""
         return self._placed(self.near.entry)
 
     @property
-    def suspect(self) -> Placed | None:
+    def suspect(self) -> EntryPlace | None:
         """An entry that may be misprinted."""
         return self._placed(self.near.suspect)
 
-    def _placed(self, entry: Entry | None) -> Placed | None:
-        return None if entry is None else Placed(entry, self.analysis.tableau)
+    def _placed(self, entry: Entry | None) -> EntryPlace | None:
+        return None if entry is None else EntryPlace(entry, self.analysis.tableau)
 
 
-def _entry_words(found: Placed, d: Plain) -> str:
+def _entry_words(found: EntryPlace, d: Plain) -> str:
     """``a[3,2]``; of several colours ``a{1,2}[3,2]``."""
     x, tableau = found
     colours = [x.l] if x.m is None else [x.l, x.m]
@@ -662,7 +662,7 @@ def _entry_words(found: Placed, d: Plain) -> str:
     return d.place(Place(x.letter, tuple(names), (x.j,) if x.i is None else (x.i, x.j)))
 
 
-def _recovered_words(found: Recovered, d: Plain) -> str:
+def _recovered_words(found: PrintDistance, d: Plain) -> str:
     """``0.98 t from the print, at a[3,2]``."""
     near = found.near
     text = f"{plain_decimal(near.distance)} t from the print"
@@ -676,16 +676,16 @@ def _recovered_words(found: Recovered, d: Plain) -> str:
     return text if near.is_full else f"{text}; its conditions are met to second order"
 
 
-def _recovered(a: Analysis) -> Recovered | None:
-    return None if a.nearness is None else Recovered(a.nearness, a)
+def _recovered(a: Analysis) -> PrintDistance | None:
+    return None if a.nearness is None else PrintDistance(a.nearness, a)
 
 
-ENTRY: Section[Placed] = Section(
+ENTRY: Section[EntryPlace] = Section(
     Row("letter", kinds.choice("a", "b", "c", "embedded", "dense"), lambda x: x.entry.letter),
     Row("colours", PLACED, lambda x: _block(x.entry.l, x.entry.m)),
     Row("indices", PLACED, lambda x: _block(x.entry.i, x.entry.j)),
 )
-RECOVERED: Section[Recovered] = Section(
+RECOVERED: Section[PrintDistance] = Section(
     Row("distance", kinds.FLOAT, lambda x: to_float(x.near.distance)),
     maybe("entry", part(ENTRY), lambda x: x.entry),
     maybe("suspect", part(ENTRY), lambda x: x.suspect),
@@ -1109,7 +1109,7 @@ CHECKED: Section[Outcome] = Section(
 UNREADABLE: Section[Outcome] = Section(
     kinds.FILE_AND_NAME,
     Row("ok", kinds.constant(value=False), lambda o: o.ok, DATA),
-    Row("errors", Kind(Several(FAULT, is_never_empty=True), Parts(FAULT)), lambda o: o.faults),
+    Row("errors", Kind(Several(FAULT, is_never_empty=True), ManyParts(FAULT)), lambda o: o.faults),
     IN_BRIEF,
     title=lambda o, d: f"{d.prose(o.file)}: {d.bad('cannot be read as a method')}",
     columns=COLUMNS,

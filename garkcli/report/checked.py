@@ -10,18 +10,18 @@ from garkcli.frozen import replace
 from garkcli.report.check import CHECKED, SUMMARY, UNREADABLE
 from garkcli.tell.facts import Section, itself
 from garkcli.tell.parts import part
-from garkcli.tell.report import Report, Signs
+from garkcli.tell.report import DialectSigns, Report
 
 if TYPE_CHECKING:
     from garkcli.check.analysis import Analysis
     from garkcli.check.outcome import OtherAnalysis
 
 
-def _signs(outcome: Outcome) -> Signs:
+def _signs(outcome: Outcome) -> DialectSigns:
     found = outcome.found
     if found is None:
         return {}
-    names: Signs = {"colours": [colour.name for colour in found.tableau.colours]}
+    names: DialectSigns = {"colours": [colour.name for colour in found.tableau.colours]}
     if not found.tableau.has_fields_alone:
         names["names"] = names["colours"]
     if outcome.every is None:

@@ -22,7 +22,7 @@ from garkcli.report import convergence as alone
 from garkcli.report.costs import Tested, at_equal_errors
 from garkcli.report.remarks import FAULT
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Choice, Level, Row, Rows, Section, itself, maybe, via
+from garkcli.tell.facts import Level, Row, Rows, Section, SectionChoice, itself, maybe, via
 from garkcli.tell.kinds import COUNT, TEXT, TRUTH, constant
 from garkcli.tell.parts import SAID, answer, part, parts, plot, rows_of, shown, told
 from garkcli.tell.report import Report
@@ -36,7 +36,7 @@ MOST_METHODS = 20
 """Rows of a usual table in a terminal."""
 
 
-class Entry(Frozen):
+class TestedMethod(Frozen):
     """One method of a comparison; the exit code is that of its test."""
 
     file: str
@@ -46,7 +46,7 @@ class Entry(Frozen):
     exit_code: int
 
 
-class Compared(Frozen):
+class TestedMethods(Frozen):
     """Several methods that are compared.
 
     Attributes:
@@ -54,16 +54,18 @@ class Compared(Frozen):
         against: the axis of the plot: step sizes, evaluations or seconds.
     """
 
-    entries: Sequence[Entry]
+    entries: Sequence[TestedMethod]
     has_work: bool = False
     against: str = "h"
 
     @property
-    def named(self) -> list[Named]:
+    def named(self) -> list[LetteredMethod]:
         """The methods by their letters; with the file if two have the same name."""
         names = Counter(x.name for x in self.entries)
         return [
-            Named(letter, f"{x.name} ({x.file})" if names[x.name] > 1 else x.name, x, self.has_work)
+            LetteredMethod(
+                letter, f"{x.name} ({x.file})" if names[x.name] > 1 else x.name, x, self.has_work
+            )
             for letter, x in zip(letters(len(self.entries)), self.entries, strict=True)
         ]
 
@@ -72,12 +74,12 @@ class Compared(Frozen):
         return [(x.letter, x.entry.result) for x in self.named if x.entry.result is not None]
 
 
-class Named(NamedTuple):
+class LetteredMethod(NamedTuple):
     """A method of a comparison by its letter."""
 
     letter: str
     name: str
-    entry: Entry
+    entry: TestedMethod
     has_work: bool
 
     @property
@@ -95,7 +97,7 @@ def letters(count: int) -> list[str]:
 # the methods
 
 
-def _verdict(x: Named, d: Plain) -> str:
+def _verdict(x: LetteredMethod, d: Plain) -> str:
     if x.entry.result is None:
         return d.bad("FAILED")
     verdict = x.entry.result.verdict
@@ -107,7 +109,7 @@ OF_TEST: Rows[Convergence] = (
     Row("visible", COUNT, alone.visible),
     Row("predicted", COUNT, alone.predicted),
 )
-METHOD: Section[Named] = Section(
+METHOD: Section[LetteredMethod] = Section(
     Row("letter", TEXT, lambda x: x.letter, label=""),
     via(lambda x: x.entry.result, OF_TEST),
     itself("verdict", told(_verdict)),
@@ -115,7 +117,7 @@ METHOD: Section[Named] = Section(
 )
 
 
-def _remarks(compared: Compared) -> list[tuple[str, str]]:
+def _remarks(compared: TestedMethods) -> list[tuple[str, str]]:
     """Remarks on single methods, then those that several share."""
     said: list[tuple[str, str]] = []
     seen: dict[str, list[str]] = {}
@@ -143,39 +145,39 @@ def _remarks(compared: Compared) -> list[tuple[str, str]]:
 # the errors
 
 
-class Sizes(NamedTuple):
+class StepErrors(NamedTuple):
     h: fmpq
     rows: dict[str, Step]
 
 
-def _sizes(compared: Compared) -> list[Sizes]:
+def _sizes(compared: TestedMethods) -> list[StepErrors]:
     rows = {letter: {row.h: row for row in x.rows} for letter, x in compared.tested}
     found = {h for of_one in rows.values() for h in of_one}
     return [
-        Sizes(h, {letter: x[h] for letter, x in rows.items() if h in x})
+        StepErrors(h, {letter: x[h] for letter, x in rows.items() if h in x})
         for h in sorted(found, reverse=True)
     ]
 
 
-def _errors(x: Sizes, d: Plain) -> Iterator[tuple[str, str]]:
+def _errors(x: StepErrors, d: Plain) -> Iterator[tuple[str, str]]:
     for letter, row in x.rows.items():
         yield f"error {letter}", d.prose(scientific(row.error))
         yield f"slope {letter}", "" if row.slope is None else f"{row.slope:.2f}"
 
 
-SIZE: Section[Sizes] = Section(
+SIZE: Section[StepErrors] = Section(
     Row("h", alone.STEP_SIZE, lambda x: x.h), itself("errors", rows_of(_errors))
 )
 
 # the costs
 
 
-class Work(NamedTuple):
+class StepCost(NamedTuple):
     letter: str
     row: Step
 
 
-WORK: Section[Work] = Section(
+WORK: Section[StepCost] = Section(
     Row("letter", TEXT, lambda x: x.letter, label=""),
     Row("h", alone.STEP_SIZE, lambda x: x.row.h),
     itself("error", told(lambda x, d: d.prose(scientific(x.row.error)))),
@@ -188,16 +190,16 @@ EQUAL: Section[tuple[str, list[tuple[str, str]]]] = Section(
 )
 
 
-def _work(compared: Compared) -> list[Work]:
+def _work(compared: TestedMethods) -> list[StepCost]:
     return [
-        Work(letter, row)
+        StepCost(letter, row)
         for letter, result in compared.tested
         for row in result.rows
         if compared.has_work
     ]
 
 
-def _equal(what: str) -> Row[Compared]:
+def _equal(what: str) -> Row[TestedMethods]:
     """A table of what equal errors cost."""
     return Row(
         f"{what}_at_equal_errors",
@@ -214,7 +216,7 @@ def _remark_rows(remarks: Sequence[tuple[str, str]], d: Plain) -> list[tuple[str
 # the report
 
 
-def _problem(compared: Compared) -> str:
+def _problem(compared: TestedMethods) -> str:
     """The problem that all solve, without its split."""
     if not compared.tested:
         return ""
@@ -233,7 +235,7 @@ def _about(result: Convergence) -> str:
     return problem.name + (f"; H = {text}" if len(text) <= _LONGEST else "")
 
 
-def _answer(compared: Compared, d: Plain) -> str:
+def _answer(compared: TestedMethods, d: Plain) -> str:
     """``3 methods: 2 agree, 1 DISAGREES``."""
     found = Counter(x.result.verdict if x.result else "failed" for x in compared.entries)
     good, bad = found["agree"], found["disagree"]
@@ -247,7 +249,7 @@ def _answer(compared: Compared, d: Plain) -> str:
     return f"{counted(len(compared.entries), 'method')}: {', '.join(filter(None, texts))}"
 
 
-HEAD: Rows[Named] = (
+HEAD: Rows[LetteredMethod] = (
     Row("file", TEXT, lambda x: x.entry.file),
     Row("ok", TRUTH, lambda x: x.entry.exit_code == 0),
 )
@@ -256,47 +258,47 @@ SCHEMA: Row[object] = Row(
 )
 
 
-def _test(x: Named) -> alone.ConvergenceReport | None:
+def _test(x: LetteredMethod) -> alone.ConvergenceReport | None:
     return x.test
 
 
-TESTED: dict[type[Stepped], Section[Named]] = {
+TESTED: dict[type[Stepped], Section[LetteredMethod]] = {
     kind: Section(HEAD, SCHEMA, via(_test, section.rows)) for kind, section in alone.FORMS.items()
 }
-UNTESTED: Section[Named] = Section(
+UNTESTED: Section[LetteredMethod] = Section(
     HEAD,
     Row("name", TEXT, lambda x: x.entry.name),
     Row("errors", parts(FAULT), lambda x: x.entry.faults),
 )
-RESULT: Section[Named] = Choice(
+RESULT: Section[LetteredMethod] = SectionChoice(
     lambda x: UNTESTED if x.test is None else TESTED[type(x.test.result.problem)],
     UNTESTED,
     *TESTED.values(),
 )
 
 
-class Line(NamedTuple):
-    entry: Entry
+class StepLine(NamedTuple):
+    entry: TestedMethod
     step: alone.StepTold
 
 
-LINE: Rows[Line] = (
+LINE: Rows[StepLine] = (
     Row("file", TEXT, lambda x: x.entry.file),
     Row("method", TEXT, lambda x: x.entry.name),
 )
-SUMMARY: Section[Compared] = Section(
+SUMMARY: Section[TestedMethods] = Section(
     Row("files", COUNT, lambda c: len(c.entries)),
     Row("failed", COUNT, lambda c: sum(x.exit_code != 0 for x in c.entries)),
 )
 
 
-def _lines(c: Compared) -> tuple[Section[Line], list[Line]]:
+def _lines(c: TestedMethods) -> tuple[Section[StepLine], list[StepLine]]:
     steps = alone.WORKED if c.has_work else alone.STEP
-    found = [Line(x.entry, step) for x in c.named if x.test for step in alone.steps(x.test)]
+    found = [StepLine(x.entry, step) for x in c.named if x.test for step in alone.steps(x.test)]
     return Section(LINE, via(lambda x: x.step, steps.rows)), found
 
 
-REPORT: Report[Compared] = Report.only(
+REPORT: Report[TestedMethods] = Report.only(
     "gark/converge-comparison/1",
     "report of gark converge of several methods",
     Section(

@@ -22,7 +22,7 @@ from garkcli.order.meant import AnyTableau, printed, tolerance_of
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.paint import numbered
 from garkcli.report.other_methods import OF_NPRK_TREES, OF_NYSTROM_TREES
-from garkcli.report.symplectic_subject import SUBJECT, Subject
+from garkcli.report.symplectic_subject import SUBJECT, SymplecticSubject
 from garkcli.report.trees import DATA, DETAIL, SIZES, TREES, picture
 from garkcli.tableau.tableau import Tableau
 from garkcli.tell.dialect import LONG, Plain
@@ -106,7 +106,7 @@ class Valued(Frozen):
         return fails or row.condition is None or not self.only_failing
 
 
-class Conditions(Mutable):
+class ConditionTable(Mutable):
     """The conditions that were requested.
 
     Attributes:
@@ -119,7 +119,7 @@ class Conditions(Mutable):
 
     rows: Iterable[ConditionRow]
     coloured: int = 0
-    subject: Subject | None = None
+    subject: SymplecticSubject | None = None
     valued: Valued | None = None
     with_members: bool = False
     digits: int | None = None
@@ -133,7 +133,7 @@ class Conditions(Mutable):
         return about.names if about else [str(l + 1) for l in range(self.coloured or 1)]
 
     @property
-    def form(self) -> Section[Conditions]:
+    def form(self) -> Section[ConditionTable]:
         """The rows of the table, without keys that no condition has."""
         is_shapes = not (self.subject or self.valued or self.coloured)
         left_out = {"for_all": not is_shapes, "multiplicity": self.subject is not None}
@@ -330,7 +330,7 @@ def row_of(has_values: bool, left_out: frozenset[str] = frozenset()) -> Section[
 
 
 @cache
-def _form(has_values: bool, left_out: frozenset[str] = frozenset()) -> Section[Conditions]:
+def _form(has_values: bool, left_out: frozenset[str] = frozenset()) -> Section[ConditionTable]:
     return Section(
         via(lambda x: x.valued, _OF_METHOD if has_values else ()),
         sentence(lambda x: x.legend),
@@ -344,7 +344,7 @@ def _form(has_values: bool, left_out: frozenset[str] = frozenset()) -> Section[C
     )
 
 
-REPORT: Report[Conditions] = Report(
+REPORT: Report[ConditionTable] = Report(
     "gark/conditions/1",
     "report of gark conditions",
     lambda: [_form(False), _form(True)],

@@ -26,18 +26,18 @@ from garkcli.problems.deferred import names_of
 from garkcli.problems.oscillator import Oscillator
 from garkcli.reason import Reason
 from garkcli.report.problem import STEPPED, Run
-from garkcli.report.remarks import FAILURE, Failure
+from garkcli.report.remarks import FAILURE, FailedRun
 from garkcli.tableau.garkmethod import derivation_of
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import (
     Answer,
-    Choice,
     Json,
     Kind,
     Level,
     Row,
     Rows,
     Section,
+    SectionChoice,
     Status,
     maybe,
     optional,
@@ -156,16 +156,18 @@ STEP: Section[StepTold] = Section(
     optional("below_round_off", TEXTS, lambda x: x.below_round_off, DATA),
 )
 WORKED: Section[StepTold] = Section(STEP.rows, maybe("work", part(COST), lambda x: x.row.cost))
-_STEPS: Section[StepTold] = Choice(lambda x: WORKED if x.test.has_work else STEP, STEP, WORKED)
+_STEPS: Section[StepTold] = SectionChoice(
+    lambda x: WORKED if x.test.has_work else STEP, STEP, WORKED
+)
 
 
 def steps(test: ConvergenceReport) -> list[StepTold]:
     return [StepTold(row, test) for row in test.result.rows]
 
 
-def lines(x: ConvergenceReport | Failure) -> tuple[Section[StepTold], list[StepTold]]:
+def lines(x: ConvergenceReport | FailedRun) -> tuple[Section[StepTold], list[StepTold]]:
     """The rows for CSV, without the column of energies if the problem has none."""
-    if isinstance(x, Failure):
+    if isinstance(x, FailedRun):
         return STEP, []
     section, found = WORKED if x.has_work else STEP, steps(x)
     if all(step.row.energy_error is not None for step in found):
@@ -330,11 +332,11 @@ FORMS = {kind: _form(problem) for kind, problem in STEPPED.items()}
 """By the kind of the problem."""
 
 
-def form(x: ConvergenceReport | Failure) -> Section[Any]:
-    return FAILURE if isinstance(x, Failure) else FORMS[type(x.result.problem)]
+def form(x: ConvergenceReport | FailedRun) -> Section[Any]:
+    return FAILURE if isinstance(x, FailedRun) else FORMS[type(x.result.problem)]
 
 
-REPORT: Report[ConvergenceReport | Failure] = Report(
+REPORT: Report[ConvergenceReport | FailedRun] = Report(
     "gark/converge/1",
     "report of gark converge",
     lambda: (*FORMS.values(), FAILURE),

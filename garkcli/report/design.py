@@ -28,13 +28,13 @@ from garkcli.report.design_values import AnyPolynomial, conditions, equation, wh
 from garkcli.report.stable_values import VALUES, ends, number, stability
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import (
-    Choice,
     Json,
     Kind,
     Level,
     Row,
     Rows,
     Section,
+    SectionChoice,
     itself,
     maybe,
     optional,
@@ -76,7 +76,7 @@ class DesignReport(NamedTuple):
     sets: Sequence[StableValues] = ()
 
 
-class Order(NamedTuple):
+class OrderDemand(NamedTuple):
     """The demands of an order."""
 
     design: Design
@@ -168,7 +168,7 @@ UNDECIDED = (
 )
 
 
-def _undecided(found: Order) -> Iterator[str]:
+def _undecided(found: OrderDemand) -> Iterator[str]:
     """Why an order is not decided, and what helps."""
     limits = "in the time of --seconds" if found.step.is_late else "within the limits of gark"
     yield f"not decided {limits}"
@@ -186,7 +186,7 @@ def _undecided(found: Order) -> Iterator[str]:
         yield UNDECIDED
 
 
-def _real(found: Order, d: Plain) -> Iterator[str]:
+def _real(found: OrderDemand, d: Plain) -> Iterator[str]:
     """The real values of a family, unless these are a family too."""
     step = found.step
     if step.real is not None and step.real.is_everything:
@@ -200,7 +200,7 @@ def _real(found: Order, d: Plain) -> Iterator[str]:
         yield "whether a real value of them is a method that the file admits is not decided"
 
 
-def _values(found: Order, d: Plain, is_whole: bool) -> Iterator[str]:
+def _values(found: OrderDemand, d: Plain, is_whole: bool) -> Iterator[str]:
     """The values with which an order is reached; ``is_whole``: with their polynomials."""
     step = found.step
     match step.kind:
@@ -286,9 +286,9 @@ def _solution(x: Solutions, d: Plain) -> str:
     return f"{joined(x.values, d)}: {_verdict(x, d)}{often}"
 
 
-def groups(design: Design) -> list[list[Order]]:
+def groups(design: Design) -> list[list[OrderDemand]]:
     """Orders that ask the same, together."""
-    found = (Order(design, step) for step in design.steps)
+    found = (OrderDemand(design, step) for step in design.steps)
     return [list(group) for _, group in groupby(found, key=lambda x: x.likeness)]
 
 
@@ -581,28 +581,28 @@ NOT_REAL: Section[Solutions] = Section(
     Row("count", POSITION, lambda x: x.others),
     via(lambda x: x.found, OF_FOUND),
 )
-SOLUTION: Section[Solutions] = Choice(
+SOLUTION: Section[Solutions] = SectionChoice(
     lambda x: NOT_REAL if x.number is None else REAL, REAL, NOT_REAL
 )
 CONDITIONS: Kind[Sequence[Reason]] = Kind(Json(S.array(S.TEXT), lambda xs, _: list(map(str, xs))))
 
 
-def _ideal(x: Order) -> Ideal | Pieces | None:
+def _ideal(x: OrderDemand) -> Ideal | Pieces | None:
     return None if x.step.kind == "undecided" else x.step.ideal
 
 
-def _dimension(x: Order) -> int | None:
+def _dimension(x: OrderDemand) -> int | None:
     ideal = _ideal(x)
     return None if ideal is None else ideal.dimension
 
 
 def _zeros(
-    x: Order, ideal: Ideal | Pieces | None, polynomials: Sequence[AnyPolynomial]
+    x: OrderDemand, ideal: Ideal | Pieces | None, polynomials: Sequence[AnyPolynomial]
 ) -> list[str] | None:
     return None if ideal is None else zeros(x.design.family, polynomials)
 
 
-STEP: Rows[Order] = [
+STEP: Rows[OrderDemand] = [
     Row("order", POSITION, lambda x: x.step.order, DATA),
     Row("verdict", choice(*get_args(Verdict)), lambda x: x.step.kind, DATA),
     maybe("reached", TRUTH, lambda x: x.step.has_methods, DATA),
@@ -690,11 +690,11 @@ WHOLE: Section[DesignReport] = Section(
     Row("unknowns", TEXTS, lambda x: list(x.design.family.parameters)),
     Row("choices", parts(CHOICE), lambda x: x.choices, DATA),
     Row("choices_in_words", rows_of(choice_rows), lambda x: x.choices),
-    via(lambda x: Order(x.design, x.design.last), STEP),
+    via(lambda x: OrderDemand(x.design, x.design.last), STEP),
     Row(
         "orders",
         parts(Section(STEP)),
-        lambda x: [Order(x.design, step) for step in x.design.steps],
+        lambda x: [OrderDemand(x.design, step) for step in x.design.steps],
         DATA,
     ),
     itself("orders_in_words", rows_of(order_rows)),

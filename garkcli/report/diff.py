@@ -28,7 +28,7 @@ from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Answer, Json, Kind, Level, Row, Rows, Section, Status, itself, maybe
 from garkcli.tell.parts import SAID, part, parts, shown
 from garkcli.tell.parts import told as told_kind
-from garkcli.tell.report import Report, Signs
+from garkcli.tell.report import DialectSigns, Report
 from garkcli.tell.shown import Words
 
 if TYPE_CHECKING:
@@ -63,7 +63,7 @@ SAME_STEP = "the same step"
 """The relation of methods that differ in embedded weights or dense output alone."""
 
 
-class Method(NamedTuple):
+class ComparedMethod(NamedTuple):
     """One of two methods."""
 
     method: GarkMethod
@@ -71,15 +71,15 @@ class Method(NamedTuple):
     form: str
 
 
-class Compared(NamedTuple):
+class ComparedPair(NamedTuple):
     """A comparison, with the names that its methods were given by."""
 
     found: Comparison
     files: tuple[str, str]
 
-    def method(self, index: int) -> Method:
+    def method(self, index: int) -> ComparedMethod:
         method = (self.found.one, self.found.other)[index]
-        return Method(method, self.files[index], self.found.forms[index])
+        return ComparedMethod(method, self.files[index], self.found.forms[index])
 
 
 # kinds
@@ -144,7 +144,7 @@ STAGES: Kind[Sequence[int]] = Kind(
 # what is compared
 
 
-def relation(x: Compared) -> Answer[str]:
+def relation(x: ComparedPair) -> Answer[str]:
     """Whether the methods are the same, within which rounding, and why not."""
     found = x.found
     same = found.sameness
@@ -153,7 +153,7 @@ def relation(x: Compared) -> Answer[str]:
     return Answer(word, Status(allowed), Reason(found.remark or found.obstacle))
 
 
-def told(x: Compared) -> str:
+def told(x: ComparedPair) -> str:
     """The changes that turn one method into the other."""
     return "; ".join(_turns(x.found))
 
@@ -183,7 +183,7 @@ def _numbers(images: Sequence[int]) -> str:
     return ", ".join(str(i + 1) for i in images)
 
 
-def tolerances(x: Compared) -> str | None:
+def tolerances(x: ComparedPair) -> str | None:
     """The tolerances of the files if they differ."""
     one, other = x.found.one.tolerance, x.found.other.tolerance
     if one == other:
@@ -191,7 +191,7 @@ def tolerances(x: Compared) -> str | None:
     return " against ".join("none" if t is None else decimal(t) for t in (one, other))
 
 
-def _orders_words(x: Compared, d: Plain) -> str:
+def _orders_words(x: ComparedPair, d: Plain) -> str:
     """Each order of both methods, once if both have the same."""
     texts = []
     for pair in x.found.orders:
@@ -218,11 +218,11 @@ class Gap(NamedTuple):
     entry: EntryGap | None
 
 
-def largest_gaps(x: Compared) -> list[Gap]:
+def largest_gaps(x: ComparedPair) -> list[Gap]:
     return [] if x.found.relation == "same" else [Gap(b, b.largest) for b in x.found.gaps]
 
 
-def every_gap(x: Compared) -> list[Gap]:
+def every_gap(x: ComparedPair) -> list[Gap]:
     return [Gap(b, entry) for b in x.found.gaps for entry in b.gaps or (None,)]
 
 
@@ -332,7 +332,7 @@ PROPERTY: Section[PropertyPair] = Section(
     Row("second", VERDICT, lambda x: _known(x.key, x.other, x.tolerances[1])),
 )
 FORM: Kind[str] = Kind(Json({"enum": [*FORMS]}), Words(lambda x, d: d.prose(FORMS[x])))
-METHOD: Section[Method] = Section(
+METHOD: Section[ComparedMethod] = Section(
     Row("file", kinds.TEXT, lambda x: x.file),
     Row("name", kinds.TEXT, lambda x: x.method.name),
     Row("form", FORM, lambda x: x.form),
@@ -341,7 +341,7 @@ METHOD: Section[Method] = Section(
 )
 
 
-def _method_words(x: Method, d: Plain) -> str:
+def _method_words(x: ComparedMethod, d: Plain) -> str:
     stages = ", ".join(map(str, x.method.stages))
     about = f"{counted(x.method.tableau.size, 'colour')}, stages {stages}"
     if x.form == "row":
@@ -359,11 +359,11 @@ def _method_words(x: Method, d: Plain) -> str:
     return d.prose(f"{name}: {about}" if name and name != x.file else about)
 
 
-def _properties(x: Compared, is_known: bool) -> list[PropertyPair]:
+def _properties(x: ComparedPair, is_known: bool) -> list[PropertyPair]:
     return [p for p in x.found.properties if p.is_known is is_known]
 
 
-REPORT: Report[Compared] = Report.only(
+REPORT: Report[ComparedPair] = Report.only(
     "gark/diff/1",
     "two methods, by gark diff",
     Section(
@@ -419,12 +419,12 @@ REPORT: Report[Compared] = Report.only(
 )
 
 
-def _signs(tableau: Tableau) -> Signs:
+def _signs(tableau: Tableau) -> DialectSigns:
     names = [colour.name for colour in tableau.colours]
     is_plain = tableau.has_fields_alone or is_nprk(tableau)  # whose names are numbers
     return {"colours": names, "names": [] if is_plain else names}
 
 
-def whole(found: Comparison, _: str) -> Compared:
+def whole(found: Comparison, _: str) -> ComparedPair:
     """A comparison; its methods have names."""
-    return Compared(found, (found.one.name or "first", found.other.name or "second"))
+    return ComparedPair(found, (found.one.name or "first", found.other.name or "second"))

@@ -20,7 +20,7 @@ from garkcli.page.figures import measured
 from garkcli.plots.energy import energy_scene
 from garkcli.problems.hamiltonian import FLOAT_DIGITS
 from garkcli.report.problem import STEPPED, Run
-from garkcli.report.remarks import FAILURE, Failure
+from garkcli.report.remarks import FAILURE, FailedRun
 from garkcli.tableau.garkmethod import derivation_of, word_for
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Json, Kind, Level, Row, Rows, Section, itself, maybe, optional, via
@@ -43,7 +43,7 @@ _NEARLY = 2.0
 """The largest ratio of an uncertainty to round-off at which it is round-off alone."""
 
 
-class Claim(Frozen):
+class RunClaim(Frozen):
     """A claim about a run, the finding, and whether the claim holds; None: undecided."""
 
     claim: str
@@ -57,7 +57,7 @@ class EnergyReport(Frozen):
     name: str
     run: LongRun
     symplecticity: Symplecticity | None = None
-    claims: tuple[Claim, ...] = ()
+    claims: tuple[RunClaim, ...] = ()
 
 
 class Quantity(NamedTuple):
@@ -263,7 +263,7 @@ def _answer(run: LongRun, d: Plain) -> str:
     return ", ".join(f"{d.prose(x.name)} {_word(x, d)}" for x in run.invariants)
 
 
-def _claims(claims: tuple[Claim, ...], d: Plain) -> list[tuple[str, str]]:
+def _claims(claims: tuple[RunClaim, ...], d: Plain) -> list[tuple[str, str]]:
     return [
         (claim_word(x.holds, d), d.prose(x.claim if x.holds else f"{x.claim}, found: {x.found}"))
         for x in claims
@@ -352,7 +352,7 @@ SYMPLECTIC: Section[EnergyReport] = Section(
     ),
     via(lambda x: x.symplecticity, OF_STEPS[1:]),
 )
-CLAIM: Section[Claim] = Section(
+CLAIM: Section[RunClaim] = Section(
     Row("claim", TEXT, lambda x: x.claim),
     Row("found", TEXT, lambda x: x.found),
     maybe("holds", TRUTH, lambda x: x.holds),
@@ -410,17 +410,17 @@ def _moments(report: EnergyReport) -> Iterator[Moment]:
         yield Moment(t, {x.name: x.errors[k] for x in invariants})
 
 
-def form(x: EnergyReport | Failure) -> Section[Any]:
-    return FAILURE if isinstance(x, Failure) else FORMS[type(x.run.problem)]
+def form(x: EnergyReport | FailedRun) -> Section[Any]:
+    return FAILURE if isinstance(x, FailedRun) else FORMS[type(x.run.problem)]
 
 
-REPORT: Report[EnergyReport | Failure] = Report(
+REPORT: Report[EnergyReport | FailedRun] = Report(
     "gark/energy/1",
     "report of gark energy",
     lambda: (*FORMS.values(), FAILURE),
     form,
     key="",
-    lines=lambda x: (MOMENT, () if isinstance(x, Failure) else _moments(x)),
+    lines=lambda x: (MOMENT, () if isinstance(x, FailedRun) else _moments(x)),
 )
 
 

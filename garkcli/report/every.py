@@ -156,10 +156,10 @@ BLOCK_LISTS: Kind[Sequence[tuple[int, int]]] = Kind(
 )
 
 
-def of_blocks(name: str, kind: Kind[kinds.Table]) -> Row[EveryValue]:
+def of_blocks(name: str, kind: Kind[kinds.BlockTable]) -> Row[EveryValue]:
     def get(e: EveryValue) -> Fact:
         rows = (lambda x: [x]) if name == "B" else (lambda x: x)
-        return e.simplifying(name).of(lambda x: kinds.Table(rows(x), e.limit))
+        return e.simplifying(name).of(lambda x: kinds.BlockTable(rows(x), e.limit))
 
     return Row(name, lifted(kind), get)
 

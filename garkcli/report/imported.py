@@ -22,7 +22,7 @@ DETAIL, DATA = Level.DETAIL, Level.DATA
 ORDER: Kind[int] = Kind(COUNT.what, Words(lambda x, _: str(x), absent="no method"))
 
 
-class Found(NamedTuple):
+class ImportedMethod(NamedTuple):
     """A result with the file that it was written to."""
 
     result: Result
@@ -41,36 +41,36 @@ class Found(NamedTuple):
         return Answer(found.order, Status(method.tolerance or None, found.is_limited))
 
 
-def all_found(results: Sequence[Result], files: Mapping[int, str]) -> list[Found]:
-    return [Found(x, files.get(k)) for k, x in enumerate(results)]
+def all_found(results: Sequence[Result], files: Mapping[int, str]) -> list[ImportedMethod]:
+    return [ImportedMethod(x, files.get(k)) for k, x in enumerate(results)]
 
 
-def _notes(found: Sequence[Found]) -> list[tuple[str, str]]:
+def _notes(found: Sequence[ImportedMethod]) -> list[tuple[str, str]]:
     return [(x.name, note) for x in found for note in x.result.notes()]
 
 
-def _wrong(found: Sequence[Found]) -> list[tuple[Subject, Sequence[Remark]]]:
+def _wrong(found: Sequence[ImportedMethod]) -> list[tuple[Subject, Sequence[Remark]]]:
     results = (x.result for x in found)
     return [(x.method, x.errors) for x in results if x.method is not None and x.errors]
 
 
-def _title(found: Sequence[Found], _: Plain) -> str:
+def _title(found: Sequence[ImportedMethod], _: Plain) -> str:
     told = counted(sum(x.result.method is not None for x in found), "method")
     wrong = len(_wrong(found))
     return f"{told}, {wrong} wrong" if wrong else told
 
 
-def _texts(found: Sequence[Found], _: Plain) -> list[str]:
+def _texts(found: Sequence[ImportedMethod], _: Plain) -> list[str]:
     return [line for x in found if x.result.method for line in x.result.method.text.splitlines()]
 
 
-SIZES: Rows[Found] = (
+SIZES: Rows[ImportedMethod] = (
     Row("stages", COUNT, lambda x: x.result.table.stages),
     Row("colours", COUNT, lambda x: x.result.table.colours),
     maybe("order", ORDER, lambda x: x.order(lambda m: m.order)),
     maybe("embedded_order", COUNT, lambda x: x.order(lambda m: m.embedded_order)),
 )
-METHOD: Section[Found] = Section(
+METHOD: Section[ImportedMethod] = Section(
     Row("source", TEXT, lambda x: x.result.table.source),
     Row("line", POSITION, lambda x: x.result.table.line),
     Row("format", TEXT, lambda x: x.result.table.format),
@@ -80,7 +80,7 @@ METHOD: Section[Found] = Section(
     Row("notes", TEXTS, lambda x: [*x.result.notes()]),
     Row("findings", parts(OF_TABLE), lambda x: x.result.errors),
 )
-LINE: Section[Found] = Section(
+LINE: Section[ImportedMethod] = Section(
     Row("name", TEXT, lambda x: x.name, label=""),
     SIZES,
     Row("source", TEXT, lambda x: f"{x.result.table.source}:{x.result.table.line}"),
@@ -89,7 +89,7 @@ LINE: Section[Found] = Section(
 NOTE: Section[tuple[str, str]] = Section(
     Row("name", TEXT, lambda x: x[0], label=""), Row("notes", TEXT, lambda x: x[1])
 )
-REPORT: Report[Sequence[Found]] = Report.only(
+REPORT: Report[Sequence[ImportedMethod]] = Report.only(
     "gark/import/1",
     "report of gark import",
     Section(

@@ -17,7 +17,18 @@ from garkcli.page.paint import numbered
 from garkcli.reason import NO_REASON, Reason
 from garkcli.report.problem import describe
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Answer, Beside, Json, Kind, Level, Row, Section, Status, maybe, via
+from garkcli.tell.facts import (
+    Answer,
+    FieldBeside,
+    Json,
+    Kind,
+    Level,
+    Row,
+    Section,
+    Status,
+    maybe,
+    via,
+)
 from garkcli.tell.kinds import (
     COUNT,
     DERIVATION,
@@ -62,7 +73,7 @@ class ModifiedReport(Frozen):
         return tuple(x.name for x in self.found.equation.tableau.colours)
 
 
-class Term(NamedTuple):
+class ModifiedTerm(NamedTuple):
     """A term of the modified equation or Hamiltonian: b(u)/σ(u), or over |Aut T| of a free tree."""
 
     tree: Tree
@@ -75,7 +86,7 @@ def _size(factor: Number, d: Plain) -> str:
     return "" if d.breadth == "page" else to_decimal(factor, 4)
 
 
-TERM: Section[Term] = Section(
+TERM: Section[ModifiedTerm] = Section(
     Row("power", told(lambda x, d: d.formula(f"h^{{{x}}}", f"h^{x}")), lambda x: x.tree.order - 1),
     Row("picture", told(lambda x, d: d.sketch(x)), lambda x: x.tree, label=""),
     Row("tree", TREE, lambda x: x.tree),
@@ -89,7 +100,7 @@ TERM: Section[Term] = Section(
 """A term of Σ h^(ρ−1) b(u)/σ F(u), or of Σ h^(ρ−1) b(u)/|Aut| H(u) over free trees."""
 
 
-def _equation(report: ModifiedReport) -> Answer[list[Term]]:
+def _equation(report: ModifiedReport) -> Answer[list[ModifiedTerm]]:
     """The nonzero coefficients b(u); usual if there is no Hamiltonian.
 
     A rounded method has those of its orders above 1 left out: they are zero within the tolerance.
@@ -97,7 +108,7 @@ def _equation(report: ModifiedReport) -> Answer[list[Term]]:
     found = report.found
     zero = range(2, found.order.order + 1) if found.tolerance is not None else ()
     terms = [
-        Term(tree, tree.symmetry, coefficient)
+        ModifiedTerm(tree, tree.symmetry, coefficient)
         for n in range(1, found.equation.max_order + 1)
         if n not in zero
         for tree, coefficient in found.equation.terms(n)
@@ -106,12 +117,12 @@ def _equation(report: ModifiedReport) -> Answer[list[Term]]:
     return Answer(terms, level=USUAL if is_told else DATA)
 
 
-def _hamiltonian(report: ModifiedReport) -> Answer[list[Term]]:
+def _hamiltonian(report: ModifiedReport) -> Answer[list[ModifiedTerm]]:
     found = report.found.hamiltonian
     terms = (
         None
         if found is None
-        else [Term(x.tree.representative, x.tree.symmetry, x.coefficient) for x in found]
+        else [ModifiedTerm(x.tree.representative, x.tree.symmetry, x.coefficient) for x in found]
     )
     return Answer(terms, level=USUAL if report.formula is None else DATA)
 
@@ -185,7 +196,7 @@ REACHED: Kind[int] = Kind(
     Json(
         S.COUNT,
         beside=(
-            Beside(
+            FieldBeside(
                 "*order_is_lower_bound",
                 S.nullable(S.FLAG),
                 lambda a, _: a.status.at_least,

@@ -14,7 +14,7 @@ from garkcli.frozen import Frozen
 from garkcli.page.figures import scientific
 from garkcli.report.convergence import STEP_SIZE
 from garkcli.report.problem import describe, driving
-from garkcli.report.remarks import FAILURE, Failure
+from garkcli.report.remarks import FAILURE, FailedRun
 from garkcli.tableau.garkmethod import derivation_of
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Answer, Json, Kind, Level, Row, Rows, Section, Status, maybe, via
@@ -143,17 +143,17 @@ LINE: Section[Errors] = Section(
 )
 
 
-def form(x: ModifiedEnergyReport | Failure) -> Section[Any]:
-    return FAILURE if isinstance(x, Failure) else MEASURED
+def form(x: ModifiedEnergyReport | FailedRun) -> Section[Any]:
+    return FAILURE if isinstance(x, FailedRun) else MEASURED
 
 
-REPORT: Report[ModifiedEnergyReport | Failure] = Report(
+REPORT: Report[ModifiedEnergyReport | FailedRun] = Report(
     "gark/modified-energy/1",
     "report of gark energy --modified",
     lambda: (MEASURED, FAILURE),
     form,
     key="",
-    lines=lambda x: (LINE, () if isinstance(x, Failure) else _errors(x.run)),
+    lines=lambda x: (LINE, () if isinstance(x, FailedRun) else _errors(x.run)),
 )
 
 

@@ -37,14 +37,14 @@ OF_TABLE: Section[Remark] = Section(
 )
 
 
-class Failure(NamedTuple):
+class FailedRun(NamedTuple):
     """A run without a result."""
 
     name: str
     faults: Sequence[Remark]
 
 
-FAILURE: Section[Failure] = Section(
+FAILURE: Section[FailedRun] = Section(
     Row("name", TEXT, lambda x: x.name), Row("errors", parts(FAULT), lambda x: x.faults)
 )
 """The report of such a run, for programs; people read it elsewhere."""

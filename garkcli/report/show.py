@@ -7,8 +7,7 @@ from garkcli.frozen import Frozen
 from garkcli.reference import Reference
 from garkcli.report.citation import REFERENCE
 from garkcli.report.list_methods import METHOD, TRUTHS, TYPES, Entry
-from garkcli.report.tableau import DOCUMENT, drawn
-from garkcli.report.tableau import Shown as ShownTableau
+from garkcli.report.tableau import DOCUMENT, ShownTableau, drawn
 from garkcli.tableau.pointwise import Entries
 from garkcli.tableau.tableau import Tableau
 from garkcli.tell.facts import Level, Row, Section, maybe, via
@@ -19,7 +18,7 @@ from garkcli.tell.report import Report
 DETAIL, DATA = Level.DETAIL, Level.DATA
 
 
-class Shown(Frozen):
+class ShownMethod(Frozen):
     """A method of the catalogue or of a file, with its entry in the list of methods."""
 
     entry: Entry
@@ -38,7 +37,7 @@ class Shown(Frozen):
         return printable(self.entry["title"] or self.entry["name"])
 
 
-def kind(x: Shown) -> str:
+def kind(x: ShownMethod) -> str:
     """``rk, 1 colour, stages 4``."""
     entry = x.entry
     about = [
@@ -53,17 +52,17 @@ def kind(x: Shown) -> str:
     return ", ".join(about)
 
 
-def such(x: Shown, value: bool) -> str:
+def such(x: ShownMethod, value: bool) -> str:
     """The properties that the method has, or lacks, without the kinds of stages that it lacks."""
     told = [key for key in TRUTHS if value or key not in TYPES]
     return ", ".join(key.replace("_", "-") for key in told if x.entry[key] is value)
 
 
-def undecided(x: Shown) -> str:
+def undecided(x: ShownMethod) -> str:
     return ", ".join(key.replace("_", "-") for key in x.entry["undecided"])
 
 
-REPORT: Report[Shown] = Report.only(
+REPORT: Report[ShownMethod] = Report.only(
     "gark/show/1",
     "report of gark show",
     Section(

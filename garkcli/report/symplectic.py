@@ -10,7 +10,7 @@ from garkcli.ntrees.symplectic import KINDS, ConditionClass
 from garkcli.ntrees.tree import Tree
 from garkcli.page.schema import Schema, one_of, published
 from garkcli.report import trees
-from garkcli.report.symplectic_subject import SUBJECT, Subject
+from garkcli.report.symplectic_subject import SUBJECT, SymplecticSubject
 from garkcli.report.trees import BRACKETS, DATA, SIZES, TREES, counts, drawn, picture
 from garkcli.tell.facts import Row, Rows, Section, optional, via
 from garkcli.tell.kinds import COUNT, POSITION, TRUTH, choice
@@ -21,15 +21,15 @@ from garkcli.tell.report import Report
 class FreeList(Frozen):
     """Free trees, a class of conditions each; None if they are only counted."""
 
-    subject: Subject
+    subject: SymplecticSubject
     classes: Iterable[ConditionClass] | None
     with_members: bool = False
 
 
-class FreeTree(NamedTuple):
+class ListedClass(NamedTuple):
     """A class among those of a subject."""
 
-    subject: Subject
+    subject: SymplecticSubject
     found: ConditionClass
 
     @property
@@ -41,7 +41,7 @@ class FreeTree(NamedTuple):
         return self.found.order
 
 
-class Counted(Frozen):
+class ClassCount(Frozen):
     kind: str
     order: int
     count: int
@@ -54,7 +54,7 @@ def _by_order(x: FreeList) -> dict[str, int] | None:
     return {str(n): few for n, few, _ in counts} if len(counts) > 1 else None
 
 
-def _subject(x: FreeList) -> Subject:
+def _subject(x: FreeList) -> SymplecticSubject:
     return x.subject
 
 
@@ -66,9 +66,9 @@ HEAD: Rows[FreeList] = (
 END: Row[FreeList] = sentence(lambda x: x.subject.summary)
 
 
-def _listing(*members: Row[FreeTree]) -> Section[FreeList]:
+def _listing(*members: Row[ListedClass]) -> Section[FreeList]:
     """A class in a line, with its members if they are requested."""
-    part: Section[FreeTree] = Section(
+    part: Section[ListedClass] = Section(
         picture(lambda x: x.tree),
         Row("kind", choice(*KINDS), lambda x: x.subject.kind, DATA),
         Row("representative", BRACKETS, lambda x: x.tree, label="tree"),
@@ -80,7 +80,7 @@ def _listing(*members: Row[FreeTree]) -> Section[FreeList]:
     classes: Row[FreeList] = Row(
         "classes",
         stream(part, lambda x, _: f"order {x.tree.order}"),
-        lambda x: (FreeTree(x.subject, found) for found in x.classes or ()),
+        lambda x: (ListedClass(x.subject, found) for found in x.classes or ()),
     )
     return Section(HEAD, sentence(lambda x: x.subject.legend), classes, END)
 
@@ -97,7 +97,7 @@ COUNTS: Section[FreeList] = Section(
     ),
     END,
 )
-COUNTED: Section[Counted] = Section(
+COUNTED: Section[ClassCount] = Section(
     Row("kind", choice(*KINDS), lambda x: x.kind),
     Row("order", COUNT, lambda x: x.order),
     Row("count", COUNT, lambda x: x.count),
@@ -118,7 +118,7 @@ REPORT: Report[FreeList] = Report(
     _form,
     lambda x: {"colours": x.subject.names, "is_inserted": True},
     key="",
-    lines=lambda x: (COUNTED, [Counted(x.subject.kind, *counts) for counts in x.subject.counts]),
+    lines=lambda x: (COUNTED, [ClassCount(x.subject.kind, *counts) for counts in x.subject.counts]),
 )
 
 

@@ -31,7 +31,7 @@ _PROBLEMS = {
 }
 
 
-class Subject(Frozen):
+class SymplecticSubject(Frozen):
     """Symplectic methods of a kind, or one of them.
 
     Attributes:
@@ -130,7 +130,7 @@ class Subject(Frozen):
         return _PROBLEMS[self.kind]
 
 
-SUBJECT: Section[Subject] = Section(
+SUBJECT: Section[SymplecticSubject] = Section(
     Row("kind", choice(*KINDS), lambda x: x.kind, Level.DATA),
     Row("terms", POSITION, lambda x: len(x.structure.leaders), Level.DATA),
     Row("colours", TEXTS, lambda x: x.names, Level.DATA),
@@ -139,7 +139,7 @@ SUBJECT: Section[Subject] = Section(
 )
 
 
-def subject_of_kind(kind: Kind, terms: int | None, orders: range) -> Subject:
+def subject_of_kind(kind: Kind, terms: int | None, orders: range) -> SymplecticSubject:
     """The symplectic methods of a kind.
 
     Raises:
@@ -155,10 +155,10 @@ def subject_of_kind(kind: Kind, terms: int | None, orders: range) -> Subject:
     names = []
     for term, part in structure.colours:
         names.append(f"{_LETTERS[part]}{term + 1}")
-    return Subject(kind, structure, tuple(names), orders)
+    return SymplecticSubject(kind, structure, tuple(names), orders)
 
 
-def subject_of_method(method: AnyTableau, orders: range) -> Subject:
+def subject_of_method(method: AnyTableau, orders: range) -> SymplecticSubject:
     """One method: a partitioned one or its own conjugate as it is, of any other the symplectic
     pair.
 
@@ -187,7 +187,7 @@ def subject_of_method(method: AnyTableau, orders: range) -> Subject:
             raise UsageProblem(message, cure, code="tree-not-admissible")
     structure = Structure(tuple((term, x.part) for term, x in natures), quadratic)
     names = tuple(x.name for x in tableau.colours)
-    return Subject(_kind(structure), structure, names, orders, method)
+    return SymplecticSubject(_kind(structure), structure, names, orders, method)
 
 
 def _kind(structure: Structure) -> Kind:

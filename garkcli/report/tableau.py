@@ -57,7 +57,7 @@ DETAIL, DATA = Level.DETAIL, Level.DATA
 Grid: TypeAlias = "Sequence[Sequence[Cell]]"
 
 
-class Shown(NamedTuple):
+class ShownTableau(NamedTuple):
     """A tableau with the entries that are shown; rounded ones have long fractions as decimals."""
 
     tableau: Tableau
@@ -72,14 +72,14 @@ class Shown(NamedTuple):
         return readable(self.entries) if self.is_rounded else self.entries
 
 
-def of_method(method: GarkMethod, digits: int | None = None) -> Shown:
+def of_method(method: GarkMethod, digits: int | None = None) -> ShownTableau:
     """A method, its entries in decimals if digits are named."""
     entries = method.entries
     if digits is not None:
         entries = pointwise.entries(method.tableau, digits).beside(method.further)
         entries = entries.in_decimals(digits)
     is_rounded = method.tolerance is not None
-    return Shown(method.tableau, entries, method.name, method.derivation, is_rounded, method)
+    return ShownTableau(method.tableau, entries, method.name, method.derivation, is_rounded, method)
 
 
 DIGITS = 12
@@ -127,7 +127,7 @@ def _symplectic(x: GarkMethod) -> Answer[bool]:
     return Answer(found, Status(x.tolerance if found else None))
 
 
-def _sums(x: Shown, _: Plain) -> str:
+def _sums(x: ShownTableau, _: Plain) -> str:
     """The sum of the weights of each colour."""
     sums = (sum(row[1:], row[0]) for row in x.readable.b)
     return ", ".join(cell_text(total, x.entries.digits) for total in sums)
@@ -141,7 +141,7 @@ FORMULAS = {
 """The formulas for conjugate and pair."""
 
 
-OF_ENTRIES: Rows[Shown] = (
+OF_ENTRIES: Rows[ShownTableau] = (
     Row("made_by", SAID, lambda x: FORMULAS[x.derivation]),
     itself("weights_sum", told(_sums)),
 )
@@ -149,10 +149,10 @@ OF_METHOD: Rows[GarkMethod] = (
     Row("consistent", TRUTH, _consistent),
     Row("symplectic", TRUTH, _symplectic),
 )
-ABOUT: Section[Shown] = Section(OF_ENTRIES, via(lambda x: x.method, OF_METHOD))
+ABOUT: Section[ShownTableau] = Section(OF_ENTRIES, via(lambda x: x.method, OF_METHOD))
 
 
-def _about(x: Shown, d: Plain) -> list[tuple[str, str]]:
+def _about(x: ShownTableau, d: Plain) -> list[tuple[str, str]]:
     if d.breadth == "page" or x.method is None or not x.tableau.is_gark:
         return []
     # what a method of a family is depends on its parameters
@@ -161,7 +161,7 @@ def _about(x: Shown, d: Plain) -> list[tuple[str, str]]:
     return rows
 
 
-def _decimals(x: Shown, d: Plain) -> list[str]:
+def _decimals(x: ShownTableau, d: Plain) -> list[str]:
     """The tableau in decimals, if that differs."""
     entries = x.entries
     numbers = [*chain(*entries.c, *entries.b, *chain(*(y for row in entries.A for y in row if y)))]
@@ -218,7 +218,7 @@ def _of_derivatives(tableau: Tableau, whole: Entries) -> Iterator[tuple[str, Tab
         yield name, array_of, entries
 
 
-def drawn(x: Shown, d: Plain) -> list[str]:
+def drawn(x: ShownTableau, d: Plain) -> list[str]:
     lines = []
     for text, tableau, entries in shown_parts(x.tableau, x.entries):
         lines += d.sentence(d.prose(text), 0) if text else []
@@ -227,7 +227,7 @@ def drawn(x: Shown, d: Plain) -> list[str]:
 
 
 FLOATS: Section[Entries] = Section(_entries(NUMBER, lambda _, x: _float(x)))
-TABLEAU: Section[Shown] = Section(
+TABLEAU: Section[ShownTableau] = Section(
     Row("name", TEXT, lambda x: x.name, DATA),
     Row("derivation", DERIVATION, lambda x: x.derivation, DATA),
     Row("exact", TRUTH, lambda x: x.entries.is_exact, DATA),
@@ -241,11 +241,13 @@ TABLEAU: Section[Shown] = Section(
     title=lambda x, d: d.prose(x.name),
 )
 SCHEMA = "gark/tableau/1"
-REPORT: Report[Shown] = Report.only(
+REPORT: Report[ShownTableau] = Report.only(
     SCHEMA,
     "tableau of gark tableau, conjugate, convert and reduce",
     TABLEAU,
     lambda _: {"is_inserted": True},
 )
-DOCUMENT: Section[Shown] = Section(Row("schema", constant(SCHEMA), lambda _: SCHEMA), TABLEAU.rows)
+DOCUMENT: Section[ShownTableau] = Section(
+    Row("schema", constant(SCHEMA), lambda _: SCHEMA), TABLEAU.rows
+)
 """A tableau within another document."""

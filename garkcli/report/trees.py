@@ -20,7 +20,7 @@ from garkcli.tell.shown import Words
 
 if TYPE_CHECKING:
     from garkcli.report.conditions import ConditionRow
-    from garkcli.report.symplectic import FreeTree
+    from garkcli.report.symplectic import ListedClass
 
 Counts: TypeAlias = Sequence[tuple[int, tuple[int, ...]]]
 """For each order, the numbers of trees by root colour."""
@@ -128,7 +128,7 @@ def counts(what: str) -> Kind[dict[str, int]]:
     return Kind(Json(counts_of(what)))
 
 
-SIZES: Rows[ConditionRow | FreeTree] = (
+SIZES: Rows[ConditionRow | ListedClass] = (
     Row("root", INDEX, lambda x: x.tree.root, DATA),
     Row("order", POSITION, lambda x: x.tree.order, DETAIL),
     Row("sigma", POSITION, lambda x: x.tree.symmetry),
@@ -181,22 +181,22 @@ COUNTS: Section[TreeList] = Section(
 )
 
 
-class Counted(Frozen):
+class TreeCount(Frozen):
     order: int
     root: int
     count: int
 
 
-COUNTED: Section[Counted] = Section(
+COUNTED: Section[TreeCount] = Section(
     Row("order", COUNT, lambda x: x.order),
     Row("root", COUNT, lambda x: x.root),
     Row("count", COUNT, lambda x: x.count),
 )
 
 
-def _count_lines(found: TreeList) -> tuple[Section[Counted], Iterator[Counted]]:
+def _count_lines(found: TreeList) -> tuple[Section[TreeCount], Iterator[TreeCount]]:
     query = found.query
-    lines = (Counted(n, *pair) for n, by_root in found.counts for pair in query.roots(by_root))
+    lines = (TreeCount(n, *pair) for n, by_root in found.counts for pair in query.roots(by_root))
     return COUNTED, lines
 
 

@@ -67,7 +67,7 @@ Cells: TypeAlias = Sequence[str]
 _NUMBER = re.compile(r"[-−±<>≥≤~ ]*[0-9].{,20}$|$|unknown$")
 
 
-class Layout(NamedTuple):
+class GridLayout(NamedTuple):
     """The margin of a table, whether its last words may be cut, whether it is a stream."""
 
     depth: int = 0
@@ -75,7 +75,7 @@ class Layout(NamedTuple):
     is_stream: bool = False
 
 
-WHOLE = Layout()
+WHOLE = GridLayout()
 
 
 def _broken(text: str, width: int) -> list[str]:
@@ -376,7 +376,7 @@ class Plain(Mutable):
             lines += [margin + " " * room + line for line in rest]
         return lines
 
-    def grid(self, head: Cells, rows: Iterable[Cells], how: Layout = WHOLE) -> Iterator[str]:
+    def grid(self, head: Cells, rows: Iterable[Cells], how: GridLayout = WHOLE) -> Iterator[str]:
         """A table. A last column of words is folded where it does not fit, or cut where that may
         be; other columns that do not fit continue below, each time beside the first one. Of a
         stream columns are as wide as its rows so far ask for. With details a row of a table that
@@ -394,14 +394,14 @@ class Plain(Mutable):
         for line in find(head, rows, how):
             yield "  " * how.depth + line
 
-    def _is_wordy(self, head: Cells, rows: Sequence[Cells], how: Layout) -> bool:
+    def _is_wordy(self, head: Cells, rows: Sequence[Cells], how: GridLayout) -> bool:
         """Whether a table does not fit, and has words before its last column."""
         columns = self._columns([head, *rows])
         widths = [max(map(_cell_width, column)) for column in columns]
         room = self.width - 2 * how.depth - 2 * (len(columns) - 1)
         return sum(widths) > room and any(width > WORDS for width in widths[1:-1])
 
-    def _whole(self, head: Cells, rows: Iterable[Cells], how: Layout) -> Iterator[str]:
+    def _whole(self, head: Cells, rows: Iterable[Cells], how: GridLayout) -> Iterator[str]:
         columns = self._columns([head, *rows])
         widths = [max(map(_cell_width, column)) for column in columns]
         room = self.width - 2 * how.depth
@@ -430,7 +430,7 @@ class Plain(Mutable):
             start = end
             is_begun = True
 
-    def _stream(self, head: Cells, rows: Iterable[Cells], how: Layout) -> Iterator[str]:
+    def _stream(self, head: Cells, rows: Iterable[Cells], how: GridLayout) -> Iterator[str]:
         """If a table is too wide, long names have lines of their own, and the last column is as
         wide as words need.
         """

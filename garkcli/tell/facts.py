@@ -18,7 +18,7 @@ from flint import fmpq
 from garkcli.frozen import Frozen
 from garkcli.page.schema import Schema, array, nullable, one_of
 from garkcli.reason import NO_REASON, Reason
-from garkcli.tell.shown import Below, Parts, Shown, Words
+from garkcli.tell.shown import Below, Display, ManyParts, Words
 
 if TYPE_CHECKING:
     from garkcli.order.certificate import Witness
@@ -87,7 +87,7 @@ class Described(Protocol[V_in]):
     def data(self, value: V_in, dialect: Plain, /) -> object: ...
 
 
-class Beside(Frozen, Generic[V]):
+class FieldBeside(Frozen, Generic[V]):
     """A field of JSON beside that of a row, from its answer; None is left out if it is optional.
 
     In its name ``*`` is the key of the row up to the last ``order``.
@@ -111,7 +111,7 @@ class Json(Frozen, Generic[V_in]):
 
     schema: Schema
     data: Callable[[V_in, Plain], object] = lambda value, _: value
-    beside: tuple[Beside[V_in], ...] = ()
+    beside: tuple[FieldBeside[V_in], ...] = ()
     csv: Callable[[V_in], str | Mapping[str, str]] | None = None
 
 
@@ -134,7 +134,7 @@ class Kind(Frozen, Generic[V_in]):
     """A type of value: what it is for programs, or None, and how it is shown to people, or None."""
 
     what: Described[V_in] | None
-    shown: Shown[V_in] | None = None
+    shown: Display[V_in] | None = None
 
     def words(self, value: V_in, dialect: Plain) -> str:
         assert isinstance(self.shown, Words)
@@ -172,14 +172,14 @@ class Fact(Frozen):
         return self.answer.value
 
     @property
-    def shown(self) -> Shown[Any] | None:
+    def shown(self) -> Display[Any] | None:
         return self.row.kind.shown
 
     @property
     def is_below(self) -> bool:
         """Whether it has lines of its own, below the other facts."""
         shown = self.shown
-        return isinstance(shown, Below) or (isinstance(shown, Parts) and shown.most is not None)
+        return isinstance(shown, Below) or (isinstance(shown, ManyParts) and shown.most is not None)
 
     @property
     def is_something(self) -> bool:
@@ -190,7 +190,7 @@ class Fact(Frozen):
         return not (isinstance(answer.value, (tuple, list, str)) and not answer.value)
 
 
-class Placed(TypedDict, total=False):
+class RowOptions(TypedDict, total=False):
     """The place of a row in a text, as ``Row`` takes it."""
 
     label: str | None
@@ -278,11 +278,11 @@ class Row(Generic[T_in]):
         return found
 
     @property
-    def _beside(self) -> tuple[Beside[Any], ...]:
+    def _beside(self) -> tuple[FieldBeside[Any], ...]:
         what = self.kind.what
         return what.beside if isinstance(what, Json) else ()
 
-    def _name(self, field: Beside[Any]) -> str:
+    def _name(self, field: FieldBeside[Any]) -> str:
         return field.name.replace("*", self.key.rpartition("order")[0])
 
 
@@ -301,7 +301,9 @@ class optional(Row[T_in]):  # noqa: N801
     is_optional = True
 
 
-def itself(key: str, kind: Kind[T], level: Level = Level.USUAL, **placed: Unpack[Placed]) -> Row[T]:
+def itself(
+    key: str, kind: Kind[T], level: Level = Level.USUAL, **placed: Unpack[RowOptions]
+) -> Row[T]:
     """A row whose value is the result."""
     return Row(key, kind, lambda whole: whole, level, **placed)
 
@@ -376,7 +378,7 @@ class Section(Generic[T_in]):
         }
 
 
-class Choice(Section[T]):
+class SectionChoice(Section[T]):
     """One of several sections, which ``of`` chooses for a value."""
 
     def __init__(self, of: Callable[[T], Section[T]], *sections: Section[T]) -> None:

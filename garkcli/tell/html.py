@@ -10,7 +10,7 @@ from garkcli.errors import printable
 from garkcli.exact.display import shortest, to_latex
 from garkcli.exact.polynomial_text import has_long_coefficients, integral, polynomial_text
 from garkcli.page.exactly import polynomial_latex, quotient_latex
-from garkcli.tell.dialect import LONG, LONG_POLYNOMIAL, WHOLE, Cells, Layout, Plain
+from garkcli.tell.dialect import LONG, LONG_POLYNOMIAL, WHOLE, Cells, GridLayout, Plain
 from garkcli.tell.latex import expression_latex
 
 if TYPE_CHECKING:
@@ -83,7 +83,7 @@ class Html(Plain):
         body = [f"<tr><th>{label}</th><td>{text}</td></tr>" for label, text in rows]
         return ["<table>", *body, "</table>"]
 
-    def grid(self, head: Cells, rows: Iterable[Cells], how: Layout = WHOLE) -> Iterator[str]:
+    def grid(self, head: Cells, rows: Iterable[Cells], how: GridLayout = WHOLE) -> Iterator[str]:
         def row(cells: Sequence[str], tag: str) -> str:
             return f"<tr>{''.join(f'<{tag}>{x}</{tag}>' for x in cells)}</tr>"
 

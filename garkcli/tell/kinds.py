@@ -17,7 +17,18 @@ from garkcli.page.exactly import ALGEBRAIC, ROOT_OF, root_data
 from garkcli.page.plain import csv_cell
 from garkcli.page.schema import Schema, array, nullable, one_of
 from garkcli.reason import NO_REASON, Reason
-from garkcli.tell.facts import Answer, Beside, Json, Kind, Level, Row, Rows, Section, Status, maybe
+from garkcli.tell.facts import (
+    Answer,
+    FieldBeside,
+    Json,
+    Kind,
+    Level,
+    Row,
+    Rows,
+    Section,
+    Status,
+    maybe,
+)
 from garkcli.tell.shown import Words
 
 if TYPE_CHECKING:
@@ -106,7 +117,7 @@ def as_reason(text: Reason | str) -> Reason:
     return Reason(text) if isinstance(text, str) else text
 
 
-class Named(Protocol):
+class OfFile(Protocol):
     """A result of a file."""
 
     @property
@@ -116,12 +127,12 @@ class Named(Protocol):
     def name(self) -> str: ...
 
 
-def _name(x: Named) -> Answer[str]:
+def _name(x: OfFile) -> Answer[str]:
     """The name; usual reports have it if it is not the file."""
     return Answer(x.name, level=Level.DETAIL if x.name != x.file else Level.DATA)
 
 
-FILE_AND_NAME: Rows[Named] = (
+FILE_AND_NAME: Rows[OfFile] = (
     Row("file", TEXT, lambda x: x.file, Level.DATA),
     Row("name", TEXT, _name, Level.DETAIL),
 )
@@ -156,17 +167,17 @@ BLOCKS: Kind[Sequence[Sequence[int]]] = Kind(
 )
 
 
-class Table(Frozen):
+class BlockTable(Frozen):
     """The number of conditions that hold, for each block that exists, up to a limit."""
 
     rows: Sequence[Sequence[int | None]]
     limit: int
 
 
-ROW_OF_COUNTS: Kind[Table] = Kind(
+ROW_OF_COUNTS: Kind[BlockTable] = Kind(
     Json(array(S.COUNT), lambda x, _: list(x.rows[0])), Words(lambda x, d: d.table(x.rows, x.limit))
 )
-TABLE: Kind[Table] = Kind(
+TABLE: Kind[BlockTable] = Kind(
     Json(array(array(nullable(S.INTEGER))), lambda x, _: [list(row) for row in x.rows]),
     ROW_OF_COUNTS.shown,
 )
@@ -237,11 +248,11 @@ ORDER: Kind[AnyOrder] = Kind(
         S.COUNT,
         lambda found, _: found.order,
         beside=(
-            Beside("*witness", nullable(WITNESS.schema), _witness, is_optional=False),
-            Beside("*order_is_lower_bound", S.TRUE, lambda a, _: a.status.at_least or None),
-            Beside("*order_largest_residual", S.SIZE, _largest),
-            Beside("*order_tolerance", S.TEXT, _within),
-            Beside("*order_undecided", S.TRUE, lambda a, _: bool(a.status.open) or None),
+            FieldBeside("*witness", nullable(WITNESS.schema), _witness, is_optional=False),
+            FieldBeside("*order_is_lower_bound", S.TRUE, lambda a, _: a.status.at_least or None),
+            FieldBeside("*order_largest_residual", S.SIZE, _largest),
+            FieldBeside("*order_tolerance", S.TEXT, _within),
+            FieldBeside("*order_undecided", S.TRUE, lambda a, _: bool(a.status.open) or None),
         ),
     ),
     Words(lambda found, _: str(found.order), _order_words),

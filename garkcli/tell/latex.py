@@ -12,7 +12,7 @@ from garkcli.exact.polynomial_text import root_text
 from garkcli.ntrees.notation import format_latex, parse_tree
 from garkcli.page.exactly import multivariate_latex, polynomial_latex
 from garkcli.page.latex_letters import greek
-from garkcli.tell.dialect import WHOLE, Cells, Layout, Plain
+from garkcli.tell.dialect import WHOLE, Cells, GridLayout, Plain
 
 if TYPE_CHECKING:
     from garkcli.exact.cells import Interval
@@ -166,7 +166,7 @@ class Latex(Plain):
             r"\begin{tabular}{lp{.7\linewidth}}", r"\hline", *body, r"\hline", r"\end{tabular}", "",
         ]  # fmt: skip
 
-    def grid(self, head: Cells, rows: Iterable[Cells], how: Layout = WHOLE) -> Iterator[str]:
+    def grid(self, head: Cells, rows: Iterable[Cells], how: GridLayout = WHOLE) -> Iterator[str]:
         kind = "longtable" if how.is_stream else "tabular"
         yield rf"\begin{{{kind}}}{{{'l' * len(head)}}}"
         yield r"\hline"

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from garkcli.errors import printable
-from garkcli.tell.dialect import WHOLE, Cells, Layout, Plain
+from garkcli.tell.dialect import WHOLE, Cells, GridLayout, Plain
 
 if TYPE_CHECKING:
     from garkcli.tableau.pointwise import Entries
@@ -49,7 +49,7 @@ class Markdown(Plain):
     def rows(self, rows: Sequence[tuple[str, str]], depth: int = 1) -> list[str]:
         return ["| | |", "|---|---|", *(f"| {label} | {text} |" for label, text in rows), ""]
 
-    def grid(self, head: Cells, rows: Iterable[Cells], how: Layout = WHOLE) -> Iterator[str]:
+    def grid(self, head: Cells, rows: Iterable[Cells], how: GridLayout = WHOLE) -> Iterator[str]:
         yield f"| {' | '.join(head)} |"
         yield "|---" * len(head) + "|"
         for row in rows:

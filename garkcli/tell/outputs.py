@@ -10,9 +10,9 @@ from itertools import groupby
 from typing import TypeVar
 
 from garkcli.glossary.labels import label_of
-from garkcli.tell.dialect import Layout, Plain
+from garkcli.tell.dialect import GridLayout, Plain
 from garkcli.tell.facts import Fact, Level, Row, Section
-from garkcli.tell.shown import Drawing, Labels, Part, Parts, Picture, Plot, Stream, Words
+from garkcli.tell.shown import Drawing, Labels, ManyParts, OnePart, Plot, Stream, TextPicture, Words
 
 T = TypeVar("T")
 
@@ -29,7 +29,7 @@ def words(fact: Fact, d: Plain) -> str:
         return d.reason(answer.reason) if answer.reason else "none"
     if isinstance(shown, Words) and shown.whole is not None:
         return shown.whole(answer, d)
-    assert isinstance(shown, (Words, Part, Parts))
+    assert isinstance(shown, (Words, OnePart, ManyParts))
     if shown.words is None:
         return gist(fact, d)
     text = d.known(shown.words(answer.value, d), answer.status)
@@ -39,7 +39,7 @@ def words(fact: Fact, d: Plain) -> str:
 def gist(fact: Fact, d: Plain) -> str:
     """The usual facts of a part, or of each of several, in a line."""
     shown = fact.shown
-    assert isinstance(shown, (Part, Parts))
+    assert isinstance(shown, (OnePart, ManyParts))
     values = shown.values(fact.value)
     return "; ".join(", ".join(phrases(shown.section, x, d, Level.USUAL)) for x in values)
 
@@ -55,9 +55,9 @@ def phrases(section: Section[T], whole: T, d: Plain, level: Level) -> Iterator[s
 def phrase(fact: Fact, d: Plain) -> str:
     """A fact as a part of a sentence: ``order 4, proved``; ``not A-stable: R is unbounded``."""
     shown, name = fact.shown, label(fact, d)
-    if isinstance(shown, (Words, Part)) and shown.phrase is not None and fact.value is not None:
+    if isinstance(shown, (Words, OnePart)) and shown.phrase is not None and fact.value is not None:
         return shown.phrase(name, fact.answer, d)
-    if isinstance(shown, (Part, Parts)) and shown.words is None and fact.row.line:
+    if isinstance(shown, (OnePart, ManyParts)) and shown.words is None and fact.row.line:
         return gist(fact, d)
     return f"{name} {words(fact, d)}".strip()
 
@@ -76,9 +76,9 @@ def cell(fact: Fact, d: Plain) -> str:
     if answer.value is None:
         absent = shown.absent if isinstance(shown, Words) else ""
         return "?" if answer.status.open else d.prose(absent)
-    if isinstance(shown, (Words, Part, Parts)) and shown.words is not None:
+    if isinstance(shown, (Words, OnePart, ManyParts)) and shown.words is not None:
         return d.known(shown.words(answer.value, d), answer.status)
-    if isinstance(shown, (Part, Parts)):
+    if isinstance(shown, (OnePart, ManyParts)):
         return gist(fact, d)
     what = fact.row.kind.what
     return d.prose(str(answer.value if what is None else what.data(answer.value, d)))
@@ -126,7 +126,7 @@ def body(section: Section[T], whole: T, d: Plain, level: Level, depth: int) -> I
 
 def _is_opened(fact: Fact, level: Level) -> bool:
     """Whether a part is reported fact by fact."""
-    is_part = isinstance(fact.shown, (Part, Parts))
+    is_part = isinstance(fact.shown, (OnePart, ManyParts))
     return is_part and fact.value is not None and level >= Level.DETAIL
 
 
@@ -140,14 +140,18 @@ def labelled(
         shown = fact.shown
         if fact.level > level or not fact.is_something or fact.row.key in without:
             continue
-        titled = shown.section.title if isinstance(shown, (Part, Parts)) else None
-        if isinstance(shown, (Part, Parts)) and titled is not None and fact.value is not None:
+        titled = shown.section.title if isinstance(shown, (OnePart, ManyParts)) else None
+        if (
+            isinstance(shown, (OnePart, ManyParts))
+            and titled is not None
+            and fact.value is not None
+        ):
             for part in shown.values(fact.value):
                 (_, part_rows), *_ = labelled(shown.section, part, d, level, without)
                 below.append((titled(part, d), part_rows))
         elif isinstance(shown, Labels):
             rows += shown.rows(fact.value, d)
-        elif not fact.is_below or isinstance(shown, Parts):
+        elif not fact.is_below or isinstance(shown, ManyParts):
             rows.append((label(fact, d), words(fact, d)))
     yield "", rows
     yield from below
@@ -161,15 +165,15 @@ def block(fact: Fact, d: Plain, level: Level, depth: int) -> Iterator[str]:
             yield from shown.draw(value, d)
         case Plot():
             yield from d.scene(shown.scene(value), depth)
-        case Picture():
+        case TextPicture():
             yield from d.picture(shown.lines(value, d), depth)
         case Stream():
             yield from stream(shown, value, d, depth)
-        case Parts() if shown.section.title is None:
+        case ManyParts() if shown.section.title is None:
             yield from table(fact, shown, d, level, depth)
-        case Part() | Parts():
+        case OnePart() | ManyParts():
             section, values = shown.section, shown.values(value)
-            most = shown.most if isinstance(shown, Parts) and level < Level.DETAIL else None
+            most = shown.most if isinstance(shown, ManyParts) and level < Level.DETAIL else None
             for part in values[:most]:
                 lines = list(body(section, part, d, level, depth + 1))
                 if lines:
@@ -191,10 +195,10 @@ def stream(shown: Stream[T], parts: Iterable[T], d: Plain, depth: int) -> Iterat
         if heading:
             yield from d.title(heading, depth - 1)
         lines = ([cell(row.fact(part), d) for row in rows] for part in same)
-        yield from d.grid(heads, lines, Layout(depth, is_stream=True))
+        yield from d.grid(heads, lines, GridLayout(depth, is_stream=True))
 
 
-def table(fact: Fact, told: Parts[T], d: Plain, level: Level, depth: int) -> Iterator[str]:
+def table(fact: Fact, told: ManyParts[T], d: Plain, level: Level, depth: int) -> Iterator[str]:
     """A list of flat parts, a line each; of a long one usually the first."""
     section, most = told.section, told.most
     values = fact.value if level >= Level.DETAIL else fact.value[: most or None]
@@ -205,7 +209,7 @@ def table(fact: Fact, told: Parts[T], d: Plain, level: Level, depth: int) -> Ite
         yield from d.title(label(fact, d), depth)
         depth += 1
     heads[0] = heads[0] or label(fact, d)
-    yield from d.grid(*filled(heads, rows), Layout(depth, section.is_cut))
+    yield from d.grid(*filled(heads, rows), GridLayout(depth, section.is_cut))
     if more := len(fact.value) - len(values):
         yield from d.more(more, depth + 1)
 
@@ -218,7 +222,7 @@ def _cells(section: Section[T], part: T, d: Plain, level: Level) -> Iterator[tup
             continue
         if isinstance(shown, Labels):
             yield from () if value is None else shown.rows(value, d)
-        elif isinstance(shown, Part) and shown.words is None:
+        elif isinstance(shown, OnePart) and shown.words is None:
             yield from () if value is None else _cells(shown.section, value, d, level)
         else:
             yield label(fact, d), cell(fact, d)

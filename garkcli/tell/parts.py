@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING, TypeVar
 
 from garkcli.tell.facts import Kind, Level, Row, Section, Several
-from garkcli.tell.shown import Drawing, Labels, Part, Parts, Picture, Plot, Stream, Words
+from garkcli.tell.shown import Drawing, Labels, ManyParts, OnePart, Plot, Stream, TextPicture, Words
 
 if TYPE_CHECKING:
     from garkcli.plots.scene import Scene
@@ -20,11 +20,11 @@ def part(
     section: Section[T], words: Wording[T] | None = None, phrase: Phrasing[T] | None = None
 ) -> Kind[T]:
     """A value with facts of its own; ``words`` replaces the line of the usual ones."""
-    return Kind(section, Part(section, words, phrase))
+    return Kind(section, OnePart(section, words, phrase))
 
 
 def parts(section: Section[T], words: Wording[Sequence[T]] | None = None) -> Kind[Sequence[T]]:
-    return Kind(Several(section), Parts(section, words))
+    return Kind(Several(section), ManyParts(section, words))
 
 
 def table(section: Section[T], most: int) -> Kind[Sequence[T]]:
@@ -32,11 +32,11 @@ def table(section: Section[T], most: int) -> Kind[Sequence[T]]:
     label of its own, that of the list is its head. A part of a line, and what is reported as rows,
     have columns of their own.
     """
-    return Kind(Several(section), Parts(section, most=most))
+    return Kind(Several(section), ManyParts(section, most=most))
 
 
 def shown(section: Section[T], most: int) -> Kind[Sequence[T]]:
-    return Kind(None, Parts(section, most=most))
+    return Kind(None, ManyParts(section, most=most))
 
 
 def stream(section: Section[T], by: Wording[T] | None = None) -> Kind[Iterable[T]]:
@@ -68,7 +68,7 @@ def rows_of(rows: Labelling[T]) -> Kind[T]:
 
 
 def picture(lines: Callable[[T, Plain], Sequence[str]]) -> Kind[T]:
-    return Kind(None, Picture(lines))
+    return Kind(None, TextPicture(lines))
 
 
 def drawing(draw: Callable[[T, Plain], Iterable[str]]) -> Kind[T]:

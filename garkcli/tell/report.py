@@ -27,7 +27,7 @@ CLOSED = {"additionalProperties": False}
 FORMATS = ("text", "json", "markdown", "latex")
 
 
-class Signs(TypedDict, total=False):
+class DialectSigns(TypedDict, total=False):
     """Attributes of a dialect that a result or the command decides."""
 
     digits: int
@@ -74,7 +74,7 @@ class Report(Frozen, Generic[Whole]):
     title: str
     forms: Callable[[], Iterable[Section[Never]]]
     form: Callable[[Whole], Section[Whole]]
-    signs: Callable[[Whole], Signs] = lambda _: {}
+    signs: Callable[[Whole], DialectSigns] = lambda _: {}
     key: str = "files"
     tail: Section[Sequence[Whole]] = NOTHING
     is_open: bool = False
@@ -86,7 +86,7 @@ class Report(Frozen, Generic[Whole]):
         schema_name: str,
         title: str,
         section: Section[Whole],
-        signs: Callable[[Whole], Signs] = lambda _: {},
+        signs: Callable[[Whole], DialectSigns] = lambda _: {},
         lines: Callable[[Whole], Lines] | None = None,
     ) -> Report[Whole]:
         """A report of one result, whose fields are at the top, by one section."""
@@ -100,7 +100,7 @@ class Report(Frozen, Generic[Whole]):
         format: str = "text",
         paint: Paint = PLAIN,
         verbosity: int = 0,
-        **signs: Unpack[Signs],
+        **signs: Unpack[DialectSigns],
     ) -> str:
         """All results in a format.
 
@@ -132,7 +132,7 @@ class Report(Frozen, Generic[Whole]):
         format: str = "text",
         paint: Paint = PLAIN,
         verbosity: int = 0,
-        **signs: Unpack[Signs],
+        **signs: Unpack[DialectSigns],
     ) -> Iterator[str]:
         """A result with a stream in pieces, while it is found, also as JSON a line a part.
 
@@ -195,13 +195,13 @@ class Report(Frozen, Generic[Whole]):
         format: str,
         paint: Paint = PLAIN,
         is_brief: bool = True,
-        **signs: Unpack[Signs],
+        **signs: Unpack[DialectSigns],
     ) -> Plain:
-        merged: Signs = {**self.signs(whole), **signs}
+        merged: DialectSigns = {**self.signs(whole), **signs}
         return _dialect(format)(paint=paint, is_brief=is_brief, **merged)
 
     def _told(
-        self, whole: Whole, format: str, paint: Paint, level: Level, **signs: Unpack[Signs]
+        self, whole: Whole, format: str, paint: Paint, level: Level, **signs: Unpack[DialectSigns]
     ) -> str:
         d = self.dialect(whole, format, paint, level < Level.DETAIL, **signs)
         return "".join(d.page(one(self.form(whole), whole, d, level)))

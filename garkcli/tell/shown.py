@@ -20,11 +20,11 @@ Phrasing: TypeAlias = "Callable[[str, Answer[T], Plain], str]"
 """Makes a part of a sentence of a label and an answer."""
 
 
-class Shown(Frozen, Generic[V]):
+class Display(Frozen, Generic[V]):
     """A way to show a value."""
 
 
-class Words(Shown[V]):
+class Words(Display[V]):
     """In a line.
 
     Attributes:
@@ -39,17 +39,17 @@ class Words(Shown[V]):
     absent: str = ""
 
 
-class Labels(Shown[V]):
+class Labels(Display[V]):
     """As rows among those of other facts."""
 
     rows: Labelling[V]
 
 
-class Below(Shown[V]):
+class Below(Display[V]):
     """In lines of its own, below the other facts."""
 
 
-class Picture(Below[V]):
+class TextPicture(Below[V]):
     """A picture in signs, which only some outputs have room for."""
 
     lines: Callable[[V, Plain], Sequence[str]]
@@ -67,7 +67,7 @@ class Plot(Below[V]):
     scene: Callable[[V], Scene]
 
 
-class Part(Shown[T]):
+class OnePart(Display[T]):
     """By the facts of a section: usually some in a line, or ``words``; with details each alone."""
 
     section: Section[T]
@@ -78,7 +78,7 @@ class Part(Shown[T]):
         return [value]
 
 
-class Parts(Shown[Sequence[T]]):
+class ManyParts(Display[Sequence[T]]):
     """A list, by the facts of a section.
 
     Attributes:

@@ -27,7 +27,7 @@ from garkcli.methodfile.load import load, loads
 from garkcli.methodfile.writer import write_tableau_file
 from garkcli.order.conditions import elementary_weight
 from garkcli.properties.reduction import reduced
-from garkcli.report.diff import REPORT, Compared
+from garkcli.report.diff import REPORT, ComparedPair
 from garkcli.report.schemas import report_schema
 from garkcli.tableau.garkmethod import GarkMethod
 from tests.cli.harness import ROOT, gark
@@ -295,7 +295,7 @@ def test_few_conditions_are_compared_of_many() -> None:
 
 def shown(found: Comparison, format: str = "text", verbosity: int = 0) -> str:
     """A report of gark diff."""
-    compared = Compared(found, ("first.gark.yaml", "second.gark.yaml"))
+    compared = ComparedPair(found, ("first.gark.yaml", "second.gark.yaml"))
     return REPORT.render([compared], format, verbosity=verbosity)
 
 
@@ -380,7 +380,7 @@ def test_trees_and_entries_in_words() -> None:
     assert ["", "[[]]", "2", "1/2", "1/2", "2/3"] in rows
     assert "to order 5 the first alone meets 7, the second none" in run.out
     found = compare(RK4, loads(MISPRINT))
-    text = REPORT.render([Compared(found, ("a|b", "second"))], "markdown")
+    text = REPORT.render([ComparedPair(found, ("a|b", "second"))], "markdown")
     assert r"**a\|b against second: different methods**" in text
     assert "| `[[]]` | 2 | 1/2 | 1/2 | 2/3 |" in text
     everything = gark("diff", "methods/rk4.gark.yaml", "-", "-v", stdin=MISPRINT).out

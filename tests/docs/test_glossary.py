@@ -20,7 +20,7 @@ from garkcli.tell.facts import Level, Row, Section
 from garkcli.tell.kinds import COUNT
 from garkcli.tell.parts import part
 from garkcli.tell.report import Report
-from garkcli.tell.shown import Labels, Part, Parts, Picture, Plot, Stream
+from garkcli.tell.shown import Labels, ManyParts, OnePart, Plot, Stream, TextPicture
 from tests.cli.harness import gark
 from tests.docs.tables import terms_tables
 from tests.whole import in_whole
@@ -145,9 +145,9 @@ def row_labels(section: Section) -> Iterator[str]:
         shown = row.kind.shown
         if not is_seen:
             continue
-        if not isinstance(shown, (Labels, Picture, Plot)):
+        if not isinstance(shown, (Labels, TextPicture, Plot)):
             yield label_of(row.key) if row.label is None else row.label
-        if isinstance(shown, (Part, Parts, Stream)):
+        if isinstance(shown, (OnePart, ManyParts, Stream)):
             yield from row_labels(shown.section)
 
 

@@ -23,7 +23,7 @@ from garkcli.plots.figure import figure as draw
 from garkcli.plots.saving import save_scene
 from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.oscillator import Oscillator, terms_of
-from garkcli.report.energy import REPORT, Claim, EnergyReport
+from garkcli.report.energy import REPORT, EnergyReport, RunClaim
 from garkcli.stepping.fields import with_joined_terms
 from tests.whole import in_whole
 
@@ -60,7 +60,7 @@ def falling() -> LongRun:
 
 
 def text(
-    run: LongRun, symplecticity: Symplecticity | None = None, claims: tuple[Claim, ...] = ()
+    run: LongRun, symplecticity: Symplecticity | None = None, claims: tuple[RunClaim, ...] = ()
 ) -> str:
     """The report for people, with everything."""
     report = EnergyReport("m", run, symplecticity or Symplecticity(True), claims)
@@ -148,7 +148,7 @@ def test_claims() -> None:
     """Each with its verdict, and what was found where it fails."""
     found = text(
         falling(),
-        claims=(Claim("bounded", "energy drifts", False), Claim("max-error: 1", "", True)),
+        claims=(RunClaim("bounded", "energy drifts", False), RunClaim("max-error: 1", "", True)),
     )
     assert "CLAIM FAILS bounded, found: energy drifts" in joined(found)
     assert "claim holds max-error: 1 " in joined(found)
@@ -169,7 +169,7 @@ def test_the_plot_is_a_detail() -> None:
 def test_json(make: Callable[[], LongRun]) -> None:
     """The same numbers, under names that stay."""
     run = make()
-    claims = (Claim("bounded", "bounded", True),)
+    claims = (RunClaim("bounded", "bounded", True),)
     measured = Symplecticity(False, (Defect(fmpq(1, 2), 0.25, 1e-55),))
     data = json.loads(REPORT.render([EnergyReport("m", run, measured, claims)], "json"))
     assert data["schema"] == "gark/energy/1"

@@ -22,7 +22,7 @@ from garkcli.report.check_formats import FORMATS
 from garkcli.report.check_text import render
 from garkcli.report.checked import REPORT
 from garkcli.report.tableau import REPORT as TABLEAU
-from garkcli.report.tableau import Shown
+from garkcli.report.tableau import ShownTableau
 from garkcli.tableau.pointwise import entries
 from tests.cli.harness import gark
 from tests.whole import in_whole, sample
@@ -197,7 +197,7 @@ def test_tableaus_show_them_in_every_format() -> None:
     """
     method = load(str(FILE))
     found = entries(method.tableau).beside(method.further)
-    shown = Shown(method.tableau, found, "it")
+    shown = ShownTableau(method.tableau, found, "it")
     text = TABLEAU.render([shown])
     assert "embedded | 7/24  1/4  1/3  1/8" in text
     assert "    0  4/3   -8/9" in text
