@@ -142,7 +142,7 @@ def _objective_rows(report: SearchReport, d: Plain) -> list[tuple[str, str]]:
     return [("objective", d.prose(objective.summary.format(next=report.search.order + 1)))]
 
 
-def _key(objective: Objective | LevelObjective | None) -> str | None:
+def _key(objective: Single | Sum | None) -> str | None:
     return None if objective is None else objective.key
 
 

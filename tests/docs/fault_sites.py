@@ -22,6 +22,11 @@ ERRORS = {
 }
 """Errors whose first argument is the message."""
 READERS = (PACKAGE / "bridges" / "readers", PACKAGE / "sources")
+FINDINGS = {
+    *(PACKAGE / "check" / "findings.py", PACKAGE / "bridges" / "audit.py"),
+    PACKAGE / "bridges" / "rosenbrock.py",
+}
+"""Files whose remarks are findings, which ``findings.toml`` explains by their codes."""
 METHODS = {"fault": 1, "error": 0, "__init__": 0}
 """Methods that make faults, with the place of the message among their arguments."""
 DECLARED = {"Beside": (1, "not-together"), "Ways": (2, "missing-key")}
@@ -123,7 +128,8 @@ def sites() -> list[Site]:
         for node in file.around:
             assert isinstance(node, ast.Call)
             place = _message_place(node)
-            if place is None:
+            is_finding = file.path in FINDINGS and _name(node.func) == "Remark"
+            if place is None or is_finding:
                 continue
             message = _argument(node, place, "message")
             if message is None:

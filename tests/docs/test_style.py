@@ -70,9 +70,7 @@ NOT_CLEAN = {
     "page",
     "plots",
     "recognise",
-    "report",
     "sources",
-    "tell",
     "webpage",
 }
 """Rooms, and files beside them, whose docstrings and comments are still to be rewritten."""
