@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from garkcli.longtime.symplecticity import Symplecticity
     from garkcli.problems.oscillator import Oscillator
     from garkcli.problems.problem import Problem
-    from garkcli.report.comparison import TestedMethod
+    from garkcli.report.comparison import ConvergedMethod
     from garkcli.report.energy import RunClaim
     from garkcli.stepping.linearly_implicit import Taken
     from garkcli.tableau.garkmethod import GarkMethod
@@ -124,20 +124,20 @@ def _several(paths: Sequence[str], given: Given, output: Output) -> int:
     """
     from garkcli.methodfile.naming import called
     from garkcli.plots.convergence import errors_scene
-    from garkcli.report.comparison import REPORT, TestedMethod, TestedMethods
+    from garkcli.report.comparison import REPORT, ConvergedMethod, ConvergedMethods
 
     problems = Problems(given)
     methods = [_loaded(path, given) for path in paths]
     files = [called(path) for path in paths]
-    problems.prepare([x for x in methods if not isinstance(x, TestedMethod)], output)
+    problems.prepare([x for x in methods if not isinstance(x, ConvergedMethod)], output)
     entries = []
     with doing("methods", len(files)) as work:
         for file, found in zip(files, methods, strict=True):
             entries.append(
-                found if isinstance(found, TestedMethod) else _entry(file, found, problems)
+                found if isinstance(found, ConvergedMethod) else _entry(file, found, problems)
             )
             work.reach(work.done + 1)
-    output.tell(REPORT, TestedMethods(entries, given.work, given.against))
+    output.tell(REPORT, ConvergedMethods(entries, given.work, given.against))
     results = [(x.name, x.result) for x in entries if x.result is not None]
     if given.plot is not None and results:
         output.save_plot(errors_scene(results, given.against), given.plot)
@@ -146,7 +146,7 @@ def _several(paths: Sequence[str], given: Given, output: Output) -> int:
     return max(entry.exit_code for entry in entries)
 
 
-def _loaded(path: str, given: Given) -> GarkMethod | TestedMethod:
+def _loaded(path: str, given: Given) -> GarkMethod | ConvergedMethod:
     """The method that steps, or what its failure leaves."""
     try:
         return given.method(path, is_any_kind=True)
@@ -154,26 +154,26 @@ def _loaded(path: str, given: Given) -> GarkMethod | TestedMethod:
         return _failed(path, path, error)
 
 
-def _entry(path: str, method: GarkMethod, problems: Problems) -> TestedMethod:
-    from garkcli.report.comparison import TestedMethod
+def _entry(path: str, method: GarkMethod, problems: Problems) -> ConvergedMethod:
+    from garkcli.report.comparison import ConvergedMethod
 
     try:
         with doing(path):
             result = problems.tested(method)
     except GarkError as error:
         return _failed(path, method.name, error)
-    return TestedMethod(path, method.name, result, (), result.exit_code)
+    return ConvergedMethod(path, method.name, result, (), result.exit_code)
 
 
-def _failed(path: str, name: str, error: GarkError) -> TestedMethod:
+def _failed(path: str, name: str, error: GarkError) -> ConvergedMethod:
     """Tell an error with the name of the file."""
     from garkcli.check.outcome import Outcome
-    from garkcli.report.comparison import TestedMethod
+    from garkcli.report.comparison import ConvergedMethod
 
     faults = faults_of(error)
     text = error.text if isinstance(error, MethodFileError) else ""
     say_faults(Outcome(path, name, faults=faults, text=text))
-    return TestedMethod(path, name, None, faults, failure_code(error))
+    return ConvergedMethod(path, name, None, faults, failure_code(error))
 
 
 class Problems:

@@ -36,7 +36,7 @@ MOST_METHODS = 20
 """Rows of a usual table in a terminal."""
 
 
-class TestedMethod(Frozen):
+class ConvergedMethod(Frozen):
     """One method of a comparison; the exit code is that of its test."""
 
     file: str
@@ -46,7 +46,7 @@ class TestedMethod(Frozen):
     exit_code: int
 
 
-class TestedMethods(Frozen):
+class ConvergedMethods(Frozen):
     """Several methods that are compared.
 
     Attributes:
@@ -54,7 +54,7 @@ class TestedMethods(Frozen):
         against: the axis of the plot: step sizes, evaluations or seconds.
     """
 
-    entries: Sequence[TestedMethod]
+    entries: Sequence[ConvergedMethod]
     has_work: bool = False
     against: str = "h"
 
@@ -79,7 +79,7 @@ class LetteredMethod(NamedTuple):
 
     letter: str
     name: str
-    entry: TestedMethod
+    entry: ConvergedMethod
     has_work: bool
 
     @property
@@ -117,7 +117,7 @@ METHOD: Section[LetteredMethod] = Section(
 )
 
 
-def _remarks(compared: TestedMethods) -> list[tuple[str, str]]:
+def _remarks(compared: ConvergedMethods) -> list[tuple[str, str]]:
     """Remarks on single methods, then those that several share."""
     said: list[tuple[str, str]] = []
     seen: dict[str, list[str]] = {}
@@ -150,7 +150,7 @@ class StepErrors(NamedTuple):
     rows: dict[str, Step]
 
 
-def _sizes(compared: TestedMethods) -> list[StepErrors]:
+def _sizes(compared: ConvergedMethods) -> list[StepErrors]:
     rows = {letter: {row.h: row for row in x.rows} for letter, x in compared.tested}
     found = {h for of_one in rows.values() for h in of_one}
     return [
@@ -190,7 +190,7 @@ EQUAL: Section[tuple[str, list[tuple[str, str]]]] = Section(
 )
 
 
-def _work(compared: TestedMethods) -> list[StepCost]:
+def _work(compared: ConvergedMethods) -> list[StepCost]:
     return [
         StepCost(letter, row)
         for letter, result in compared.tested
@@ -199,7 +199,7 @@ def _work(compared: TestedMethods) -> list[StepCost]:
     ]
 
 
-def _equal(what: str) -> Row[TestedMethods]:
+def _equal(what: str) -> Row[ConvergedMethods]:
     """A table of what equal errors cost."""
     return Row(
         f"{what}_at_equal_errors",
@@ -216,7 +216,7 @@ def _remark_rows(remarks: Sequence[tuple[str, str]], d: Plain) -> list[tuple[str
 # the report
 
 
-def _problem(compared: TestedMethods) -> str:
+def _problem(compared: ConvergedMethods) -> str:
     """The problem that all solve, without its split."""
     if not compared.tested:
         return ""
@@ -235,7 +235,7 @@ def _about(result: Convergence) -> str:
     return problem.name + (f"; H = {text}" if len(text) <= _LONGEST else "")
 
 
-def _answer(compared: TestedMethods, d: Plain) -> str:
+def _answer(compared: ConvergedMethods, d: Plain) -> str:
     """``3 methods: 2 agree, 1 DISAGREES``."""
     found = Counter(x.result.verdict if x.result else "failed" for x in compared.entries)
     good, bad = found["agree"], found["disagree"]
@@ -278,7 +278,7 @@ RESULT: Section[LetteredMethod] = SectionChoice(
 
 
 class StepLine(NamedTuple):
-    entry: TestedMethod
+    entry: ConvergedMethod
     step: alone.StepTold
 
 
@@ -286,19 +286,19 @@ LINE: Rows[StepLine] = (
     Row("file", TEXT, lambda x: x.entry.file),
     Row("method", TEXT, lambda x: x.entry.name),
 )
-SUMMARY: Section[TestedMethods] = Section(
+SUMMARY: Section[ConvergedMethods] = Section(
     Row("files", COUNT, lambda c: len(c.entries)),
     Row("failed", COUNT, lambda c: sum(x.exit_code != 0 for x in c.entries)),
 )
 
 
-def _lines(c: TestedMethods) -> tuple[Section[StepLine], list[StepLine]]:
+def _lines(c: ConvergedMethods) -> tuple[Section[StepLine], list[StepLine]]:
     steps = alone.WORKED if c.has_work else alone.STEP
     found = [StepLine(x.entry, step) for x in c.named if x.test for step in alone.steps(x.test)]
     return Section(LINE, via(lambda x: x.step, steps.rows)), found
 
 
-REPORT: Report[TestedMethods] = Report.only(
+REPORT: Report[ConvergedMethods] = Report.only(
     "gark/converge-comparison/1",
     "report of gark converge of several methods",
     Section(

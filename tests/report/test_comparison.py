@@ -20,7 +20,7 @@ from garkcli.frozen import replace
 from garkcli.page.figures import rounded, scientific
 from garkcli.problems.builtin import hamiltonian
 from garkcli.problems.oscillator import Oscillator
-from garkcli.report.comparison import REPORT, TestedMethod, TestedMethods, letters
+from garkcli.report.comparison import REPORT, ConvergedMethod, ConvergedMethods, letters
 from garkcli.report.convergence import REPORT as OF_ONE
 from garkcli.report.convergence import ConvergenceReport
 from garkcli.tableau.forms import gark
@@ -30,10 +30,10 @@ NAMES = ("explicit-euler", "heun", "kutta", "rk4")
 
 
 def render(
-    entries: list[TestedMethod], format: str, with_work: bool = False, against: str = "h"
+    entries: list[ConvergedMethod], format: str, with_work: bool = False, against: str = "h"
 ) -> str:
     """The report of several tests."""
-    return REPORT.render([TestedMethods(entries, with_work, against)], format)
+    return REPORT.render([ConvergedMethods(entries, with_work, against)], format)
 
 
 def render_one(result: Convergence, name: str, format: str, with_work: bool = False) -> str:
@@ -65,16 +65,16 @@ def on_oscillator(name: str) -> Convergence:
     )
 
 
-def entries(count: int) -> list[TestedMethod]:
+def entries(count: int) -> list[ConvergedMethod]:
     """As many methods on the oscillator."""
     made = [on_oscillator(NAMES[k % len(NAMES)]) for k in range(count)]
     return [
-        TestedMethod(f"{k}.gark.yaml", f"method {k}", result, (), int(not result.agrees))
+        ConvergedMethod(f"{k}.gark.yaml", f"method {k}", result, (), int(not result.agrees))
         for k, result in enumerate(made)
     ]
 
 
-FAILED = TestedMethod(
+FAILED = ConvergedMethod(
     "bad.gark.yaml",
     "bad.gark.yaml",
     None,
@@ -149,7 +149,7 @@ def test_same_names_are_told_apart() -> None:
 def test_results_in_json_are_those_of_single_tests() -> None:
     """A comparison has for each method the very fields of its own report, and which file it is."""
     alone = json.loads(render_one(on_kepler("rk4"), "rk4", "json"))
-    entry = TestedMethod("x.gark.yaml", "rk4", on_kepler("rk4"), (), 0)
+    entry = ConvergedMethod("x.gark.yaml", "rk4", on_kepler("rk4"), (), 0)
     (among,) = json.loads(render([entry], "json"))["results"]
     assert among == {"file": "x.gark.yaml", "ok": True, **alone}
 
@@ -159,7 +159,7 @@ def test_csv_has_every_column() -> None:
     it has to be.
     """
     name = 'say "rk4", the classical one'
-    entry = TestedMethod("a,b.gark.yaml", name, on_kepler("rk4", True), (), 0)
+    entry = ConvergedMethod("a,b.gark.yaml", name, on_kepler("rk4", True), (), 0)
     rows = list(csv.DictReader(io.StringIO(render([entry], "csv", with_work=True))))
     assert list(rows[0]) == [
         *(
@@ -190,13 +190,15 @@ def test_csv_has_every_column() -> None:
     assert alone == [{k: row[k] for k in alone[0]} for row in rows]
 
 
-def with_costs(name: str, costs: list[Cost | None], errors: list[float]) -> TestedMethod:
+def with_costs(name: str, costs: list[Cost | None], errors: list[float]) -> ConvergedMethod:
     """A method with these errors and costs."""
     rows = tuple(
         Row(fmpq(1, 2**k), arb(e), None, arb(0), cost=c)
         for k, (e, c) in enumerate(zip(errors, costs, strict=True))
     )
-    return TestedMethod(f"{name}.gark.yaml", name, replace(on_oscillator("rk4"), rows=rows), (), 0)
+    return ConvergedMethod(
+        f"{name}.gark.yaml", name, replace(on_oscillator("rk4"), rows=rows), (), 0
+    )
 
 
 def test_costs_of_equal_errors() -> None:

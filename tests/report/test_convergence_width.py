@@ -14,7 +14,7 @@ from garkcli.families.registry import diagonal_method
 from garkcli.frozen import replace
 from garkcli.problems.builtin import hamiltonian
 from garkcli.report.comparison import REPORT as SEVERAL
-from garkcli.report.comparison import TestedMethod, TestedMethods
+from garkcli.report.comparison import ConvergedMethod, ConvergedMethods
 from garkcli.report.convergence import REPORT, ConvergenceReport
 from garkcli.tableau.forms import gark
 
@@ -78,10 +78,10 @@ def test_several_methods(count: int, with_work: bool) -> None:
         file = f"folder/{'deep/' * 30}{k}.gark.yaml"
         name = NAMES[k % len(NAMES)]
         if k == 1:
-            made.append(TestedMethod(file, name, None, (Remark("no such thing " * 20),), 2))
+            made.append(ConvergedMethod(file, name, None, (Remark("no such thing " * 20),), 2))
         else:
-            made.append(TestedMethod(file, name, result_with(1), (), 0))
-    compared = TestedMethods(made, with_work, "evaluations" if with_work else "h")
+            made.append(ConvergedMethod(file, name, result_with(1), (), 0))
+    compared = ConvergedMethods(made, with_work, "evaluations" if with_work else "h")
     assert width(SEVERAL.render([compared], verbosity=1)) <= 80
 
 
@@ -93,8 +93,8 @@ def test_plots_fit_narrow_terminals() -> None:
         lines = REPORT.render([test], verbosity=1).splitlines()
         start = next(k for k, line in enumerate(lines) if line.strip() == "error")
         assert max(map(len, lines[start:])) <= 60
-    entries = [TestedMethod("a", "a", result, (), 0), TestedMethod("b", "b", result, (), 0)]
+    entries = [ConvergedMethod("a", "a", result, (), 0), ConvergedMethod("b", "b", result, (), 0)]
     for against in ("h", "evaluations", "seconds"):
-        lines = SEVERAL.render([TestedMethods(entries, True, against)], verbosity=1).splitlines()
+        lines = SEVERAL.render([ConvergedMethods(entries, True, against)], verbosity=1).splitlines()
         start = next(k for k, line in enumerate(lines) if line.strip() == "error")
         assert max(map(len, lines[start:])) <= 60
