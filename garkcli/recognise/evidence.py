@@ -87,15 +87,23 @@ def order_of(A: Floats, b: Floats, unit: float, highest: int = HIGHEST) -> int:
     return HIGHEST
 
 
-def row_sums(A: Floats, c: Floats, power: int = 1) -> tuple[Floats, Floats, Floats]:
+def sums_of_rows(A: Floats) -> tuple[Floats, Floats, Floats]:
+    """The sums of rows, of sizes, and of units in them."""
+    values = A[..., VALUE]
+    return values.sum(1), np.abs(values).sum(1), A[..., UNIT].sum(1)
+
+
+def row_sums(
+    A: Floats, c: Floats, power: int = 1, sums: tuple[Floats, Floats, Floats] | None = None
+) -> tuple[Floats, Floats, Floats]:
     """By how much the sums of rows are not c, or c²/2, the sizes of what is in them, and what
-    their digits explain.
+    their digits explain; ``sums`` are those of A where they are known.
     """
     nodes = c[:, VALUE]
-    off = A[..., VALUE].sum(1) - (nodes if power == 1 else nodes**2 / 2)
-    sizes = np.abs(A[..., VALUE]).sum(1) + np.abs(nodes)
-    explained = 12 * (A[..., UNIT].sum(1) + c[:, UNIT]) + 1e-14 * sizes
-    return off, sizes, explained
+    total, sizes, units = sums_of_rows(A) if sums is None else sums
+    off = total - (nodes if power == 1 else nodes**2 / 2)
+    sizes = sizes + np.abs(nodes)
+    return off, sizes, 12 * (units + c[:, UNIT]) + 1e-14 * sizes
 
 
 class Evidence(Frozen, eq=False):

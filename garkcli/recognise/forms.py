@@ -23,7 +23,7 @@ from garkcli.recognise.evidence import (
     unit_of,
 )
 from garkcli.recognise.given import ALL, LENGTH, UNIT, VALUE, Given
-from garkcli.recognise.hypotheses import is_lower, padded, parts_of
+from garkcli.recognise.hypotheses import is_lower, lower_triangle, padded, parts_of
 from garkcli.recognise.names import ALPHA, BETA, EMBEDDED, MATRIX, NODES, WEIGHTS
 from garkcli.recognise.readings import Reading
 from garkcli.recognise.vectors import Vector, fitted, nodes_in
@@ -119,8 +119,9 @@ def _registers(
 def _nodes(A: Floats, unit: float, rows: Iterable[Given]) -> tuple[float, int, Vector | None]:
     """The nodes that fit most rows of a tableau that was derived: bits, how many are wrong."""
     best, wrong, nodes = 0.0, 0, None
-    for c in (c for x in rows for c in nodes_in(Vector(x, x.numbers), A)):
-        off = np.abs(A.sum(1) - c.numbers[:, VALUE])
+    sums = A.sum(1)
+    for c in (c for x in rows for c in nodes_in(Vector(x, x.numbers), sums)):
+        off = np.abs(sums - c.numbers[:, VALUE])
         is_met = off <= 1e-12 + 30 * (unit * len(A) + c.numbers[:, UNIT])
         met = float(np.minimum(c.numbers[is_met, LENGTH], MOST).sum())
         if (~is_met).sum() <= len(A) // 3 and met > best and not c.is_incomplete:
@@ -209,8 +210,11 @@ def _shu_osher(x: Given, y: Given, rows: Sequence[Given]) -> Reading | None:
     """Convex combinations: α with row sums 1, and β. In a row of single numbers that has no α the
     value before it is meant.
     """
-    alpha, beta = (z.numbers if z.is_matrix else _triangle(z.numbers) for z in (x, y))
-    if alpha is None or beta is None:
+    alpha = x.numbers if x.is_matrix else _triangle(x.numbers)
+    if alpha is None or (not x.is_made and not _are_ones(alpha)):
+        return None
+    beta = y.numbers if y.is_matrix else _triangle(y.numbers)
+    if beta is None:
         return None
     n = len(alpha)
     if x.is_made and y.is_made:
@@ -253,13 +257,19 @@ def _shu_osher(x: Given, y: Given, rows: Sequence[Given]) -> Reading | None:
     )
 
 
+def _are_ones(alpha: Floats) -> bool:
+    """Whether the rows have the sum 1, all but the first one."""
+    sums = alpha[1:, :, VALUE].sum(1)
+    return bool((np.abs(sums - 1) <= 1e-10 + 12 * alpha[..., UNIT].sum(1).max()).all())
+
+
 def _triangle(row: Floats) -> Floats | None:
     """A lower triangle, its diagonal in it, that is stored row by row."""
     n = (math.isqrt(1 + 8 * len(row)) - 1) // 2
     if n < 2 or n * (n + 1) != 2 * len(row):
         return None
     found = np.zeros((n, n, row.shape[-1]))
-    found[np.tril_indices(n)] = row
+    found[lower_triangle(n)] = row
     return found
 
 

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from functools import partial
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from functools import lru_cache, partial
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -48,6 +48,12 @@ Shape: TypeAlias = "Callable[[Floats], Parts | None]"
 def is_lower(M: Floats) -> bool:
     """Whether nothing is above the diagonal."""
     return len(M) > 0 and not np.triu(M[..., VALUE], 1).any()
+
+
+@lru_cache(maxsize=256)
+def lower_triangle(n: int, above: int = 0) -> tuple[Any, Any]:
+    """The indices of rows and columns up to a diagonal, row by row."""
+    return np.tril_indices(n, above)
 
 
 def padded(M: Floats, n: int) -> Floats:
@@ -220,10 +226,11 @@ def _packed(row: Floats, diagonal: int, by: str) -> Parts | None:
         return None
     A = np.zeros((s, s, row.shape[-1]))
     if by == "rows":
-        A[np.tril_indices(s, diagonal - 1)] = row
+        A[lower_triangle(s, diagonal - 1)] = row
         return Parts(A, how="the triangle row by row")
-    i, j = np.triu_indices(s, 1 - diagonal)
-    A[j, i] = row
+    j, i = lower_triangle(s, diagonal - 1)
+    by_columns = np.lexsort((j, i))
+    A[j[by_columns], i[by_columns]] = row
     return Parts(A, how="the triangle column by column", prior=-2)
 
 
@@ -240,8 +247,13 @@ ROWS: tuple[Shape, ...] = (
 """Of all numbers in one row."""
 
 
-def parts_of(given: Given) -> Iterator[Parts]:
+@lru_cache(maxsize=256)
+def parts_of(given: Given) -> tuple[Parts, ...]:
     """Every way in which an array is the matrix of a method, each matrix once."""
+    return tuple(_each_once(given))
+
+
+def _each_once(given: Given) -> Iterator[Parts]:
     seen: set[object] = set()
     for parts in _all_parts(given):
         A = parts.A[..., VALUE]

@@ -9,10 +9,11 @@ WEIGHTS = re.compile(
     rf"{_HEAD}(?:b|w|beta|weights?|bs|.*b_?(?:sol|high|coeffs?|array|values)|c_sol|gamma)\d*$", re.I
 )
 NODES = re.compile(
-    rf"{_HEAD}(?:c|c_?(?:values|array|coeffs?)|nodes?|rkc|gamma?m?|cs|eval_stages|alpha)\d*$", re.I
+    rf"{_HEAD}(?:c|c_?(?:hat|values|array|coeffs?)|nodes?|rkc|gamma?m?|cs|eval_stages|alpha)\d*$",
+    re.I,
 )
 MATRIX = re.compile(
-    rf"{_HEAD}(?:a|a_?(?:lower|values|matrix|coeffs?|array|explicit|implicit|ij)|rka|alpha?|bt"
+    rf"{_HEAD}(?:a|a_?(?:hat|lower|values|matrix|coeffs?|array|explicit|implicit|ij)|rka|alpha?|bt"
     r"|butcher\w*|tableau\w*|.*coeff\w*|as)\d*$",
     re.I,
 )

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from garkcli.frozen import Frozen, replace
-from garkcli.recognise.evidence import Evidence, evidence, order_of, row_sums, unit_of
+from garkcli.recognise.evidence import Evidence, evidence, order_of, row_sums, sums_of_rows, unit_of
 from garkcli.recognise.given import LENGTH, UNIT, VALUE, Given, Group
 from garkcli.recognise.hypotheses import Parts, is_lower, parts_of
 from garkcli.recognise.names import BETA, EMBEDDED, MATRIX, NODES, WEIGHTS
@@ -120,20 +120,28 @@ class _Search:
 
     def with_matrix(self, of: Given) -> Iterator[Reading]:
         """The readings whose matrix is in an array."""
+        all_near: dict[int, Sequence[Vector]] = {}
         for parts in parts_of(of):
             s = len(parts.A)
             if parts.needs_nodes and parts.c is not None:
                 off, _, explained = row_sums(parts.A, parts.c)
                 if (np.abs(off) > explained).any():
                     continue
-            near = [x for x in self._vectors if x.of is not of and s - 3 <= len(x.numbers) <= s + 8]
-            near = sorted(near, key=lambda x: abs(x.of.line - of.line))[:NEAREST]
+            near = all_near.get(s)
+            if near is None:
+                near = all_near[s] = self._near(of, s)
             weights = self._weights(of, parts, near)
             for c in self._nodes(of, parts, near) if weights else ():
                 for b in weights:
                     found = self._reading(of, parts, b, c)
                     if found is not None:
                         yield found
+
+    def _near(self, of: Given, stages: int) -> Sequence[Vector]:
+        """The vectors next to an array that may be those of a method."""
+        lengths = range(stages - 3, stages + 9)
+        near = [x for x in self._vectors if x.of is not of and len(x.numbers) in lengths]
+        return sorted(near, key=lambda x: abs(x.of.line - of.line))[:NEAREST]
 
     def _nodes(self, of: Given, parts: Parts, near: Sequence[Vector]) -> list[Vector | None]:
         """The vectors that may be the nodes, and that there are none."""
@@ -143,12 +151,15 @@ class _Search:
         sums = [x for x in self._sums if x.of is not of and len(x.numbers) == s > 2]
         sums = [x for x in sums if abs(x.of.line - of.line) < 80 and not _is_alike(x.of, parts.A)]
         found: list[tuple[int, Vector]] = []
+        if not (near or sums):
+            return [None]
+        row_sums_of = sums_of_rows(parts.A)
         for each in (*near, *sums):
-            for c in nodes_in(each, parts.A[..., VALUE]):
+            for c in nodes_in(each, row_sums_of[0]):
                 if c.is_cut_in_front and parts.A[-1, :, VALUE].any():
                     continue
                 self.tried += 1
-                off, sizes, explained = row_sums(parts.A, c.numbers)
+                off, sizes, explained = row_sums(parts.A, c.numbers, sums=row_sums_of)
                 wrong = int((np.abs(off) > explained).sum())
                 most = 0 if s <= 2 else max(1, int((sizes > 0).sum()) // 3)
                 is_named = s == 2 and wrong == 1 and not c.numbers[0, VALUE]
@@ -166,6 +177,8 @@ class _Search:
         found: list[Vector] = []
         for each in near:
             if each.is_behind_first and parts.c is None:
+                continue
+            if abs(each.total - 1) > max(FAR, each.rounding):
                 continue
             for b in fitted(each, s):
                 if b.is_behind_zero:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -49,12 +50,12 @@ class Vector(Frozen, eq=False):
     is_off: bool = False
     is_last_row: bool = False
 
-    @property
+    @cached_property
     def total(self) -> float:
         """The sum of its numbers."""
         return float(self.numbers[:, VALUE].sum())
 
-    @property
+    @cached_property
     def rounding(self) -> float:
         """By how much that may be off."""
         x = self.numbers
@@ -107,15 +108,15 @@ def fitted(vector: Vector, stages: int) -> Iterator[Vector]:
         yield replace(vector, numbers=numbers[:stages], is_fitted=True)
 
 
-def nodes_in(vector: Vector, A: Floats) -> Iterator[Vector]:
+def nodes_in(vector: Vector, sums: Floats) -> Iterator[Vector]:
     """A vector as nodes. Those that have names of their own may lack the last ones, which are 1,
     and the first one, which is 0; others that are left out are row sums.
 
     Args:
         vector: of them.
-        A: the matrix, shape (s, s).
+        sums: of the rows of the matrix, shape (s,).
     """
-    numbers, n, stages = vector.numbers, len(vector.numbers), len(A)
+    numbers, n, stages = vector.numbers, len(vector.numbers), len(sums)
     found = list(fitted(vector, stages))
     lacking = stages - n if vector.of.is_made and stages > 2 else 0
     for ones in (lacking - 1, lacking) if lacking <= MOST_LACKING else ():
@@ -123,10 +124,13 @@ def nodes_in(vector: Vector, A: Floats) -> Iterator[Vector]:
             parts = [np.zeros((lacking - ones, numbers.shape[1])), numbers, np.array([ALL] * ones)]
             found.append(replace(vector, numbers=np.concatenate(parts)))
     for each in found:
-        missing = (each.numbers[:, AT] == 0) & (A.sum(1) != 0) if vector.of.is_made else [False]
-        if np.any(missing):
+        if not vector.of.is_made:
+            yield each
+            continue
+        missing = (each.numbers[:, AT] == 0) & (sums != 0)
+        if missing.any():
             filled = each.numbers.copy()
-            filled[missing, VALUE] = A.sum(1)[missing]
+            filled[missing, VALUE] = sums[missing]
             each = replace(each, numbers=filled, is_incomplete=True)
-        if np.sum(missing) < 3:
+        if missing.sum() < 3:
             yield each

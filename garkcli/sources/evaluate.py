@@ -72,6 +72,7 @@ _EMPTYING = frozenset({"resize", "clear", "reinit"})
 _METHODS = _GROWING | _EMPTYING | {"reserve", "fill"}
 
 
+IN_A_BRANCH = "assigned in one of several branches"
 _NO_EXTENT = "an extent that is not known"
 
 
@@ -242,7 +243,7 @@ class Evaluator:
             self._run(arm, each)
             self.ended(replace(self._scopes[-1], kind="module", body=arm), each)
         for target, line in _targets([branch]):
-            self.spoil(target, space, "assigned in one of several branches", line)
+            self.spoil(target, space, IN_A_BRANCH, line)
 
     def _loop(self, loop: ir.Loop, space: Space) -> None:
         over = self.value(loop.over, space) if loop.name else self.unknown("a loop")

@@ -24,7 +24,12 @@ from garkcli.sources.couplings import FORM as COUPLING
 from garkcli.sources.evaluate import Space, shown
 from garkcli.sources.found import FoundTable, troubled
 from garkcli.sources.harvest import Harvester
-from garkcli.sources.linear_stages import roles_by_sums, roles_of_arguments, roles_of_kpp
+from garkcli.sources.linear_stages import (
+    roles_by_names,
+    roles_by_sums,
+    roles_of_arguments,
+    roles_of_kpp,
+)
 from garkcli.sources.naming import ROLES, role_of, roles_of_parts
 from garkcli.sources.overlooked import overlooked, sized
 from garkcli.sources.rklab import blocks_in
@@ -205,6 +210,8 @@ class TableFinder(Harvester):
         if stored is not None:
             self._of_kpp(stored, scope)
             return
+        if self._count() == count and self._of_rosenbrock(scope, space):
+            return
         rows = [x for x in self.rows if (role_of(x.name) or "")[1:] == ("A",)]
         values = {x.name: self.harvest.value(x) for x in rows} | dict(space)
         lines = {x.name: x.line for x in rows} | space.lines
@@ -228,6 +235,24 @@ class TableFinder(Harvester):
         """The Rosenbrock method of a scope as programs store it."""
         place = self._place(scope.title, scope.line)
         self._meant.append(Meant(place, dict(roles), SIGNATURES[KPP], KPP))
+
+    def _of_rosenbrock(self, scope: ir.Scope, space: Space) -> bool:
+        """Whether the arrays of a scope, or its single numbers, are a Rosenbrock method."""
+        kinds: tuple[dict[str, Value], ...] = ({}, {}, {})
+        made = {x.name: self.harvest.value(x) for x in self.made if not x.is_matrix}
+        blocks = {x.name: self.harvest.value(x) for x in self.made if x.is_matrix}
+        for name, value in (*space.items(), *made.items(), *blocks.items()):
+            plain = name.rpartition("::")[2].rpartition(".")[2].strip("_")
+            if is_matrix(value) and all(len(items_of(x)) == 1 for x in value.items):
+                value = Array([items_of(x)[0] for x in value.items])
+            kind = 2 if isinstance(value, Number) else int(not is_matrix(value))
+            kinds[kind].setdefault(plain, value)
+            kinds[kind].setdefault(plain.lower(), value)
+        roles, form = roles_by_names(*kinds)
+        if form:
+            place = self._place(scope.title, scope.line)
+            self._meant.append(Meant(place, dict(roles), Signature([], form), "Rosenbrock"))
+        return bool(form)
 
     def _count(self) -> int:
         return len(self._meant) + len(self._other)
@@ -323,6 +348,8 @@ class TableFinder(Harvester):
             return
         told = {x: x for x in fields} if record.kind == PRINTED else {**ROLES, **signature.named}
         roles = _roles_of({} if parts else fields, told) | roles
+        if signature is NAMED and _have_hats(roles):
+            signature = PARTS
         is_coupling = signature.form in {COUPLING, "slow"}
         if not (is_complete(roles) or signature.has_default_weights or is_coupling):
             return
@@ -393,8 +420,7 @@ class TableFinder(Harvester):
             roles = orders | roles
             title = roles.pop("title", None)
             name = title.text if isinstance(title, Word) else stem.strip() or scope.title
-            # with a hat it is the explicit part
-            are_parts = stem == _PARTS or {"A", "b", "A1", "embedded"} <= set(roles)
+            are_parts = stem == _PARTS or _have_hats(roles)
             bases = scope.bases if scope.kind == "class" else ()
             is_sure = "RungeKutta" in {x.rpartition(".")[2] for x in bases}
             begin = scope.line if is_sure else min(line for _, line in group.places)
@@ -500,6 +526,11 @@ def _matrices_beside_weights(values: Mapping[str, Value]) -> Mapping[str, tuple[
         and (told := _WHOLE.fullmatch(name)) is not None
         and counts.get((told["stem"] or "", "b")) == len(value.items)
     }
+
+
+def _have_hats(roles: Roles) -> bool:
+    """Whether matrix and weights are there with and without a hat, which the explicit part has."""
+    return {"A", "b", "A1", "embedded"} <= set(roles)
 
 
 def _matrix_and_weights(record: Record) -> dict[int, Value]:

@@ -21,7 +21,7 @@ from garkcli.recognise.given import (
 )
 from garkcli.sources import ir
 from garkcli.sources.allowance import Allowance
-from garkcli.sources.evaluate import Evaluator, Space
+from garkcli.sources.evaluate import IN_A_BRANCH, Evaluator, Space
 from garkcli.sources.naming import METHODS
 from garkcli.sources.values import (
     FILL,
@@ -41,6 +41,8 @@ MOST_ENTRIES = 2_000
 LARGEST = 1e12
 """No coefficient is larger."""
 MOST_LEVELS = 5
+MOST_ROOM = 40
+"""Longer rows have room for more numbers than there are."""
 _DECIMAL = re.compile(r"[-+]?(\d*)\.?(\d*)(?:e([-+]?\d+))?")
 _LONG = re.compile(r"\d+\.(\d{5,})")
 _FAMILY = re.compile(
@@ -225,8 +227,10 @@ class Harvest:
         if not inner:
             row = self._row(items)
             if row is not None:
-                if len(row) > 1 or row[0].value:
-                    yield Given(name, line, (row,))
+                # room for more that nobody wrote
+                count = len(row) if len(row) <= MOST_ROOM else 1 + max(_written(row), default=0)
+                if count > 1 or row[0].value:
+                    yield Given(name, line, (row[:count],))
                 return
         elif len(items) == 1:
             yield from self.arrays(name, items[0], line, level + 1)
@@ -380,6 +384,11 @@ def _is_moderate(x: Number) -> bool:
     return math.isfinite(x.near) and abs(x.near) < LARGEST
 
 
+def _written(row: Sequence[Entry]) -> Iterator[int]:
+    """The places of numbers in a row."""
+    return (i for i, x in enumerate(row) if x.value)
+
+
 def _is_lost(value: Array) -> bool:
     """Whether a row of numbers was written, and one of them is not known."""
     items = value.items
@@ -387,6 +396,8 @@ def _is_lost(value: Array) -> bool:
 
 
 def _is_empty(value: Value) -> bool:
-    """Whether nothing was written at a place."""
-    is_unset = isinstance(value, Unknown) and value.reason == "never assigned"
+    """Whether nothing was written at a place, but in another way through the program."""
+    is_unset = isinstance(value, Unknown) and (
+        value.reason == "never assigned" or (value.reason == IN_A_BRANCH and not value.was_written)
+    )
     return value is FILL or is_unset or isinstance(value, Null)

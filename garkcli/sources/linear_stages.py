@@ -11,6 +11,7 @@ from garkcli.sources.found import FoundTable, Misshapen, Row, Rows, Unreadable
 from garkcli.sources.shaping import ZERO, Texts, is_zero, weights
 from garkcli.sources.values import (
     FILL,
+    ONE,
     Array,
     Number,
     Value,
@@ -121,6 +122,119 @@ def roles_by_sums(values: Mapping[str, Value]) -> Mapping[str, Value] | None:
                     **({"error": _difference(*m[:2])} if len(m) > 1 else {}),
                 }
     return None
+
+
+CLOSE = 1e-6
+"""Conditions that hold so well say that numbers are a method."""
+_GAMMAS = ("gamma", "gam", "γ", "Gamma", "GAMMA", "GAM", "g")
+
+
+def roles_by_names(
+    matrices: Mapping[str, Value], vectors: Mapping[str, Value], numbers: Mapping[str, Value]
+) -> tuple[Mapping[str, Value], str]:
+    """The roles of arrays with the letters of papers, and the form of the method: a, c, γ as
+    programs store it, or α, γ as papers print it. Nothing where these do not have order 2.
+    """
+    given = next((numbers[x] for x in _GAMMAS if x in numbers), None)
+    A = matrices.get("a", matrices.get("alpha", matrices.get("α")))
+    b = next((vectors[x] for x in ("b", "m", "w") if x in vectors), None)
+    order = {x: numbers[x] for x in ("order",) if x in numbers}
+    G = matrices.get("gamma", matrices.get("γ"))
+    if isinstance(A, Array) and isinstance(G, Array) and isinstance(b, Array):
+        roles = _as_printed(A, G, b, given)
+        return ({**roles, **order}, "rosenbrock") if roles else ({}, "")
+    C = matrices.get("c")
+    if isinstance(A, Array) and isinstance(C, Array) and isinstance(given, Number):
+        roles = _as_stored(A, C, given, {**vectors, **({} if b is None else {"b": b})})
+        return ({**roles, **order}, "transformed") if roles else ({}, "")
+    return {}, ""
+
+
+def _as_printed(A: Array, G: Array, b: Array, gamma: Value | None) -> dict[str, Value]:
+    """A method by α, Γ and b, the diagonal of Γ apart; nothing where it has no order 2."""
+    stages = len(b.items)
+    low_A, low_G = (_triangle(_strict(x), stages) for x in (A, G))
+    own = items_of(_diagonal(G))
+    own = [*own, *[FILL] * (stages - len(own))]
+    if not (any(map(near, low_A)) and any(map(near, low_G))):
+        return {}
+    if gamma is not None and not any(map(near, own)):
+        own = [gamma] * stages
+    ones = [1.0] * stages
+    sums = [
+        _below(low_A, i, ones) + _below(low_G, i, ones) + near(x)
+        for i, x in enumerate(own[:stages])
+    ]
+    weights = [near(x) for x in b.items]
+    order_2 = sum(x * y for x, y in zip(weights, sums, strict=True)) - 0.5
+    if abs(sum(weights) - 1) > CLOSE or abs(order_2) > CLOSE or not any(map(near, own)):
+        return {}
+    rows_A, rows_G = (_rows(x, stages) for x in (low_A, low_G))
+    for i, row in enumerate(rows_G):
+        row.items[i] = own[i]
+    return {"A": Array([*rows_A]), "gamma": Array([*rows_G]), "b": b}
+
+
+def _rows(packed: Sequence[Value], stages: int) -> list[Array]:
+    """A triangle below the diagonal as a square."""
+    rows = [packed[i * (i - 1) // 2 : i * (i + 1) // 2] for i in range(stages)]
+    return [Array([*row, *[FILL] * (stages - len(row))]) for row in rows]
+
+
+def _as_stored(A: Array, C: Array, gamma: Number, vectors: Mapping[str, Value]) -> dict[str, Value]:
+    """A method by A, C and γ: where the last row of A and the weights are left out, the value of
+    the last stage with its increment is the step. Nothing without order 2.
+    """
+    stages = max(len(A.items), len(C.items))
+    low_A, low_C = (_triangle(x, stages) for x in (A, C))
+    if not (any(map(near, low_A)) and any(map(near, low_C))):
+        return {}
+    sums = _solved(low_C, gamma.near, [1.0] * stages)
+    first = (stages - 1) * (stages - 2) // 2
+    last, above = low_A[first:], low_A[first - stages + 2 : first]
+    if any(map(near, last)) and not is_written(last[-1]) and "b" not in vectors:
+        # either zero or 1, and no weights tell
+        return {}
+    ways = [last] if any(map(near, last)) or stages < 3 else [[*above, ONE], [*above, FILL]]
+    for last in ways:
+        low_A = [*low_A[:first], *last]
+        m = vectors.get("b", Array([*last, ONE]))
+        if not isinstance(m, Array) or len(m.items) != stages or abs(_dot(m, sums) - 1) > CLOSE:
+            continue
+        both = [_below(low_A, i, sums) + sums[i] for i in range(stages)]
+        if abs(_dot(m, _solved(low_C, gamma.near, both)) - 0.5) < CLOSE:
+            break
+    else:
+        return {}
+    nodes = [_below(low_A, i, sums) for i in range(stages)]
+    found: dict[str, Value] = {"A": Array([*_rows(low_A, stages)]), "b": m, "gamma": gamma}
+    found["C"] = Array([*_rows(low_C, stages)])
+    for role, name, known in (("c", "c", nodes), ("d", "d", sums)):
+        row = _completed(vectors.get(name), known)
+        found |= {} if row is None else {role: row}
+    return found
+
+
+def _solved(packed: Sequence[Value], gamma: float, given: Sequence[float]) -> list[float]:
+    """Γv, where Γ is the inverse of I/γ - C."""
+    found: list[float] = []
+    for i, x in enumerate(given):
+        found.append(gamma * (x + _below(packed, i, found)))
+    return found
+
+
+def _completed(row: Value | None, known: Sequence[float]) -> Array | None:
+    """Numbers that were written, with 0 and 1 where these were left out; None without others."""
+    items = items_of(row)[: len(known)]
+    items += [FILL] * (len(known) - len(items))
+    if not any(map(is_written, items)):
+        return None
+    for i, x in enumerate(items):
+        whole_one = abs(known[i] - 1) < NEAR
+        if not is_written(x) and not whole_one and abs(known[i]) > NEAR:
+            return None
+        items[i] = ONE if whole_one and not is_written(x) else x
+    return Array(items)
 
 
 _NAMED = {

@@ -40,7 +40,7 @@ _KINDS = {
     "return_statement": "giving",
 }
 """What nodes are in all grammars."""
-_SIGNS = {"**": "^", "//": "÷", "−": "-"}
+_SIGNS = {"**": "^", "//": "÷"}
 TOO_DEEP = ir.Opaque("an expression that is nested too deep")
 
 

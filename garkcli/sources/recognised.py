@@ -28,7 +28,7 @@ _BESIDE = frozenset(
     for role in ("b", "c", "b_q", "drifts", "kicks", "embedded", "error")
     for part in ("", "1", "2")
 )
-_TABLEAU = re.compile("tableau|butcher|table|^new$|^[0-9]*$", re.IGNORECASE)
+_TABLEAU = re.compile("tableau|butcher|table|^(?:new|obj|self|this|[0-9]*)$", re.IGNORECASE)
 """Names that many methods have."""
 _OTHERS = frozenset(
     ("Rosenbrock", "modified Patankar", "multirate", "general linear", "exponential", "stochastic")

@@ -8,7 +8,7 @@ import pytest
 
 from garkcli.bridges.audit import audit
 from garkcli.sources.found import FoundTable
-from garkcli.sources.languages import c, fortran, matlab, python
+from garkcli.sources.languages import c, fortran, julia, matlab, python
 
 RETURNED = """
 struct Tableau2 { std::vector<double> c; Eigen::MatrixXd a; std::vector<double> b; };
@@ -96,6 +96,100 @@ def ros2():
 PAPER = """
 t = RosenbrockTableau(A=((0, 0), (1, 0)), gamma=((1, 0), (-2, 1)), b=(1/2, 1/2), order=2)
 """
+RODAS = """
+struct Coefficients {{
+  Coefficients() : gamma(double(0.25)), d1(double(0.25)), d2(double(-0.1043)), d3(double(0.1035)),
+    d4(double({d4})), c2(double(0.386)), c3(double(0.21)), c4(double(0.63)),
+    a21(double(1.544)), a31(double(0.9466785280815826)), a32(double(0.2557011698983284)),
+    a41(double(3.314825187068521)), a42(double(2.896124015972201)), a43(double(0.9986419139977817)),
+    a51(double(1.221224509226641)), a52(double(6.019134481288629)), a53(double(12.53708332932087)),
+    a54(double(-0.687886036105895)),
+    c21(double(-5.6688)), c31(double(-2.430093356833875)), c32(double(-0.2063599157091915)),
+    c41(double(-0.1073529058151375)), c42(double(-9.594562251023355)), c43(double(-20.47028614809616)),
+    c51(double(7.496443313967647)), c52(double(-10.24680431464352)), c53(double(-33.99990352819905)),
+    c54(double(11.7089089320616)),
+    c61(double(8.083246795921522)), c62(double(-7.981132988064893)), c63(double(-31.52159432874371)),
+    c64(double(16.31930543123136)), c65(double(-6.058818238834054)) {{}}
+}};
+"""
+ROS2 = """
+function y = ROS2(f, J, y, h)
+gamma = 1 + 1/sqrt(2);
+gamma21 = -2*gamma;
+alpha21 = 1;
+b1 = 0.5;
+b2 = 0.5;
+end
+"""
+SHAMPINE = """
+namespace { const scalar
+    Ros::a21 = 2, Ros::a31 = 48.0/25.0, Ros::a32 = 6.0/25.0,
+    Ros::c21 = -8, Ros::c31 = 372.0/25.0, Ros::c32 = 12.0/5.0,
+    Ros::c41 = -112.0/125.0, Ros::c42 = -54.0/125.0, Ros::c43 = -2.0/5.0,
+    Ros::b1 = 19.0/9.0, Ros::b2 = 1.0/2.0, Ros::b3 = 25.0/108.0, Ros::b4 = 125.0/108.0,
+    Ros::gamma = 1.0/2.0, Ros::c2 = 1, Ros::c3 = 3.0/5.0, Ros::d1 = 1.0/2.0, Ros::d2 = -3.0/2.0,
+    Ros::d3 = 605.0/250.0, Ros::d4 = 29.0/250.0; }
+"""
+COMPOSITIONS = """
+      SUBROUTINE COMPCO (METHC, GAM)
+      REAL*8 GAM(100)
+      IF (METHC.EQ.43) THEN
+        QR2=2.0D0**(1.0D0/3.0D0)
+        GAM(1)=1.0D0/(2.0D0-QR2)
+        GAM(2)=-QR2*GAM(1)
+      END IF
+      IF (METHC.EQ.45) THEN
+        QR4=4.0D0**(1.0D0/3.0D0)
+        GAM(1)=1.0D0/(4.0D0-QR4)
+        GAM(2)=GAM(1)
+        GAM(3)=-QR4*GAM(1)
+      END IF
+      IF (METHC.EQ.67) THEN
+        GAM(1)= 0.78451361047755726381949763D0
+        GAM(2)= 0.23557321335935813368479318D0
+        GAM(3)=-1.17767998417887100694641568D0
+        GAM(4)= 1.31518632068391121888424973D0
+      END IF
+      END
+"""
+LABELS = """
+      subroutine step(f, n, y, t, h, yp, w, s)
+      do 10 k = 1, n
+   10   w(k) = y(k) + h*
+     1         yp(k)
+      call f(t + h, w, s)
+      do 20 k = 1, n
+        w(k) = y(k) + h/2*(yp(k) + s(k))
+   20 continue
+      end
+"""
+HATS = """
+classdef Methods
+  methods
+    function obj = Methods(name)
+      switch name
+        case 'ARS111'
+          obj.Ahat = [0 0; 1 0];
+          obj.A = [0 0; 0 1];
+          obj.bhat = [1 0];
+          obj.b = [0 1];
+        case 'SSP33'
+          obj.Ahat = [0 0 0; 1 0 0; 1/4 1/4 0];
+          obj.bhat = [1/6 1/6 2/3]; obj.chat = sum(obj.Ahat, 2)';
+      end
+    end
+  end
+end
+"""
+ROOTS = """
+function tableau()
+    g = 1 − √2 / 2
+    d = -2√2 / 3
+    A = [0 0 0; g 0 0; d 1-d 0]
+    b = [0, 1 - g, g]
+    return ButcherTableau(A, b)
+end
+"""
 Find = Callable[[str, str], list[FoundTable]]
 
 
@@ -110,6 +204,13 @@ Find = Callable[[str, str], list[FoundTable]]
         (matlab.find, GETTERS, [2]),
         (python.find, ROSENBROCK, [2]),
         (python.find, PAPER, [2]),
+        (c.find, RODAS.format(d4=-0.03620000000000023), [4]),
+        (c.find, SHAMPINE, [4]),
+        (matlab.find, ROS2, [2]),
+        (lambda text, _: fortran.find(text, "x.f"), COMPOSITIONS, [4, 4, 6]),
+        (lambda text, _: fortran.find(text, "x.f"), LABELS, [2]),
+        (matlab.find, HATS, [1, 3]),
+        (julia.find, ROOTS, [2]),
     ],
 )
 def test_the_order_of_each_table(find: Find, text: str, orders: list[int]) -> None:
@@ -160,3 +261,16 @@ def test_a_projection_is_no_block_with_a_misprint() -> None:
     """Half of (1, 0, 1, 0) and (0, 1, 0, 1): weights with the sum 1, and two of three rows fit."""
     text = "J40 = [[1/2, 0, 1/2, 0], [0, 1/2, 0, 1/2], [1/2, 0, 1/2, 0], [0, 1/2, 0, 1/2]]"
     assert not any(x.b for x in python.find(text, "x"))
+
+
+def test_a_wrong_sum_of_rosenbrock_is_found() -> None:
+    """RODAS as programs store it: the sign of d4 is that of the row sum of Γ."""
+    (found,) = map(audit, c.find(RODAS.format(d4=0.03620000000000023), "x"))
+    assert found is not None
+    assert found.has_errors
+
+
+def test_without_order_2_there_is_no_rosenbrock_method() -> None:
+    text = ROS2.replace("gamma21 = -2*gamma", "gamma21 = -3*gamma")
+    assert not any(x.gamma for x in matlab.find(text, "x"))
+    assert any(x.gamma for x in matlab.find(ROS2, "x"))

@@ -128,6 +128,9 @@ class CLowering(Lowering):
                 # Base(s, a, b, c) of a constructor
                 args = self.exprs(inside[1].named_children)
                 yield ir.Do(ir.Call(ir.Name(self.name(inside[0])), args), line)
+                if len(args) == 1:
+                    # or a member of it
+                    yield ir.Assign(ir.Name(self.name(inside[0])), args[0], line)
             case "comma_expression" | "binary_expression":
                 first, *more = self._parts(node)
                 to, value = part(first, "left"), part(first, "right")

@@ -281,9 +281,34 @@ def _free(text: str) -> str:
                 lines[last] = f"{code[0] if code else lines[last]} &"
         if lines[i].strip() and not lines[i].lstrip().startswith(("!", "#")):
             last = i
-    return "\n".join(lines)
+    return "\n".join(_with_ends(lines))
 
 
+def _with_ends(lines: list[str]) -> list[str]:
+    """Loops up to a label, ``do 10 i = 1, n``, with an end behind the statement that has it."""
+    open_loops: list[str] = []
+    ended = 0
+    for i, line in enumerate(lines):
+        if line.startswith("!"):
+            continue
+        if begun := _TO_LABEL.match(line):
+            open_loops.append(begun["label"])
+            lines[i] = f"{begun['head']}do {begun['rest']}"
+        elif (labelled := _LABEL.match(line)) and labelled["label"] in open_loops:
+            while open_loops and open_loops[-1] == labelled["label"]:
+                open_loops.pop()
+                ended += 1
+            lines[i] = f"      {labelled['rest']}"
+        if ended and not lines[i].rstrip().endswith("&"):
+            lines[i] += " ; end do" * ended
+            ended = 0
+    return lines
+
+
+_TO_LABEL = re.compile(
+    r"(?P<head>[ 0-9]*)do\s+(?P<label>\d+)\s*,?\s*(?P<rest>\w+\s*=.*)", re.IGNORECASE
+)
+_LABEL = re.compile(r" {0,4}(?P<label>\d+)\s+(?P<rest>\S.*)")
 _CODE = re.compile(r"(?:[^!'\"]|'[^']*'|\"[^\"]*\")*")
 """A line without its comment."""
 _IN_FIXED_FORM = re.compile(r"(?:(?:[cCdD*!#\t][^\n]*|[ 0-9]{5}[^\n]*|\s*)(?:\n|\Z))*")

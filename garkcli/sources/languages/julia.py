@@ -61,6 +61,9 @@ _FIELDS = frozenset({"identifier", "typed_expression"})
 _ARGUMENT = ir.Name("the argument")
 
 
+_ROOT = re.compile(r"(?<=[0-9)])√")
+
+
 class JuliaLowering(Lowering):
     """Functions, assignments, matrices and records of Julia."""
 
@@ -79,6 +82,10 @@ class JuliaLowering(Lowering):
         range="range_expression",
         transposed="adjoint_expression",
     )
+
+    def __init__(self, text: str) -> None:
+        # what its grammar lacks: 2√2, and the minus sign of Unicode
+        super().__init__(_ROOT.sub("*√", text).replace("−", "-"))
 
     def own(self, node: Node, inside: list[Node], line: int) -> Iterator[ir.Statement]:
         match node.type:
