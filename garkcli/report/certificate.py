@@ -59,9 +59,6 @@ class In(NamedTuple, Generic[P]):
     degree: int
 
 
-# for people
-
-
 def _signs(proof: Proof | ExistenceProof, d: Plain) -> Plain:
     """The dialect with the colours of a method, its conjugate or its pair."""
     return replace(d, colours=[colour.name for colour in proof.tableau.colours])
@@ -82,9 +79,6 @@ def _tree_rows(proof: Proof, d: Plain) -> list[tuple[str, str]]:
         (f"order {k}", ", ".join(d.tree(tree) for trees in by_colour for tree in trees))
         for k, by_colour in enumerate(proof.spanning, start=1)
     ]
-
-
-# for programs
 
 
 def _texts(polynomial: fmpq_poly) -> list[str]:
@@ -237,9 +231,6 @@ EXACT: Section[MethodProof] = Section(
     optional("no_conjugate", TEXT, lambda x: str(x.obstacle) or None),
     title=lambda x, d: d.prose(x.name),
 )
-
-
-# of rounded methods
 
 
 def _exists(proof: ExistenceProof, d: Plain) -> str:

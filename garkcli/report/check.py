@@ -80,9 +80,6 @@ Failing: TypeAlias = "tuple[Witness, Tableau]"
 """A condition that fails, with the tableau that misses it."""
 
 
-# the method
-
-
 def stages_text(tableau: Tableau) -> str:
     """``4 stages``; ``2 colours, 2 + 3 stages``; of many colours their sum.
 
@@ -168,9 +165,6 @@ def _some(names: Sequence[str], most: int = 8) -> str:
     return ", ".join(names[:most]) + more
 
 
-# orders
-
-
 def of_several(key: str, get: Callable[[Analysis], AnyOrder | None]) -> Row[Analysis]:
     """The order of the conjugate or the pair: usual where a method has several colours."""
 
@@ -225,9 +219,6 @@ def drawn(found: Sequence[Failing], d: Plain) -> list[str]:
 def named_colours(tree: Tree, names: Sequence[str]) -> str:
     """``colour 1 is f, 3 is g``, of a drawing with numbers."""
     return f"colour {', '.join(f'{l + 1} is {names[l]}' for l in sorted(tree.colours))}"
-
-
-# B, C, D and the bounds
 
 
 def table(
@@ -299,9 +290,6 @@ SIMPLIFYING: Section[Analysis] = Section(
         DATA,
     ),
 )
-
-
-# properties
 
 
 MOST_ROWS = 3
@@ -575,9 +563,6 @@ PROPERTIES: Section[Analysis] = Section(
 )
 
 
-# hints
-
-
 def _block(*colours: int | None) -> list[int]:
     return [x + 1 for x in colours if x is not None]
 
@@ -721,9 +706,6 @@ def hint_rows(found: Sequence[Reason], d: Plain) -> list[tuple[str, str]]:
 HINTS: Row[Outcome] = Row("hints", rows_of(hint_rows), hints)
 
 
-# error constants, further weights
-
-
 def _norms_words(n: Norms, d: Plain) -> str:
     text = f"2-norm {n.two:.6g}, largest {n.largest:.6g}"
     return (
@@ -841,9 +823,6 @@ def colours_of(tableau: Tableau) -> list[InTableau]:
     return [InTableau(colour, tableau) for colour in tableau.colours]
 
 
-# what is found of a method
-
-
 def _pair_phrase(_: str, answer: Answer[AnyOrder], d: Plain) -> str:
     assert answer.value is not None
     return f"the symplectic pair has order {kinds.order_cell(answer.value, d)}"
@@ -925,8 +904,6 @@ ANALYSIS: Rows[Analysis] = [
     Row("trees_that_fail", picture(drawn), witnesses, DETAIL),
 ]
 
-
-# claims
 
 MOST_CLAIMS = 6
 """More that hold are counted."""

@@ -94,9 +94,6 @@ def letters(count: int) -> list[str]:
     return [*single, *(str(k) for k in range(len(single) + 1, count + 1))][:count]
 
 
-# the methods
-
-
 def _verdict(x: LetteredMethod, d: Plain) -> str:
     if x.entry.result is None:
         return d.bad("FAILED")
@@ -142,9 +139,6 @@ def _remarks(compared: ConvergedMethods) -> list[tuple[str, str]]:
     return said
 
 
-# the errors
-
-
 class StepErrors(NamedTuple):
     h: fmpq
     rows: dict[str, Step]
@@ -168,8 +162,6 @@ def _errors(x: StepErrors, d: Plain) -> Iterator[tuple[str, str]]:
 SIZE: Section[StepErrors] = Section(
     Row("h", alone.STEP_SIZE, lambda x: x.h), itself("errors", rows_of(_errors))
 )
-
-# the costs
 
 
 class StepCost(NamedTuple):
@@ -211,9 +203,6 @@ def _equal(what: str) -> Row[ConvergedMethods]:
 
 def _remark_rows(remarks: Sequence[tuple[str, str]], d: Plain) -> list[tuple[str, str]]:
     return [(x, d.prose(text)) for x, text in remarks]
-
-
-# the report
 
 
 def _problem(compared: ConvergedMethods) -> str:

@@ -206,9 +206,6 @@ def _verdict(failed: int, valued: Valued) -> str:
     return f"all hold within {decimal(valued.tolerance)}"
 
 
-# the rows
-
-
 def is_parametric(number: object) -> bool:
     return isinstance(number, Parametric)
 

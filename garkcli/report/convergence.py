@@ -88,9 +88,6 @@ def _is_below(x: arb) -> bool:
     return bool(x.contains(0) and not x.is_zero())
 
 
-# kinds
-
-
 def _number(ball: arb) -> float | None:
     """A measured number, rounded for programs; None if it is unknown."""
     text = for_programs(ball)
@@ -136,8 +133,6 @@ INVARIANT_ERRORS: Kind[dict[str, arb]] = Kind(
     ),
 )
 
-# the table
-
 COST: Section[Cost] = Section(
     Row("steps", COUNT, lambda x: x.steps),
     Row("evaluations", COUNT, lambda x: x.evaluations),
@@ -173,9 +168,6 @@ def lines(x: ConvergenceReport | FailedRun) -> tuple[Section[StepTold], list[Ste
     if all(step.row.energy_error is not None for step in found):
         return section, found
     return Section(row for row in section.rows if row.key != "energy_error"), found
-
-
-# orders and the verdict
 
 
 def visible(x: Convergence) -> Answer[int]:
@@ -265,9 +257,6 @@ def notes(test: ConvergenceReport) -> list[str]:
     rows = test.result.rows
     is_timed = all(row.cost is not None and row.cost.seconds is not None for row in rows)
     return [*remarks(test.result), *([NO_TIME] if test.has_work and not is_timed else [])]
-
-
-# reports
 
 
 SHORT: Section[Convergence] = Section(

@@ -128,9 +128,6 @@ class Solutions(NamedTuple):
         return self.found.solution.degree - len(self.found.solution.real)
 
 
-# for people
-
-
 def joined(values: dict[str, RealRoot], d: Plain) -> str:
     """The values of parameters; usually decimals where their polynomials are long."""
     texts = [f"{d.expression(name)} = {number(x, d)}" for name, x in values.items()]
@@ -423,9 +420,6 @@ def stable_rows(x: DesignReport, d: Plain) -> Texts:
     return [row for values in x.sets for row in ends(values, d)]
 
 
-# the best methods
-
-
 def _least(minimum: Minimum, d: Plain) -> str:
     """The value: ``least error 1/2``."""
     is_level = isinstance(minimum.objective, LevelObjective)
@@ -518,8 +512,6 @@ def best_rows(minimum: Minimum, d: Plain) -> Texts:
         rows += [("", f"as {_toward(x, d)}") for x in minimum.limits]
     return rows
 
-
-# for programs
 
 VALUES_OF: Kind[dict[str, RealRoot]] = Kind(
     Json(

@@ -82,9 +82,6 @@ class ComparedPair(NamedTuple):
         return ComparedMethod(method, self.files[index], self.found.forms[index])
 
 
-# kinds
-
-
 def _relation_words(relation: str, d: Plain) -> str:
     return d.prose(RELATIONS.get(relation, relation))
 
@@ -139,9 +136,6 @@ SHAPES: Kind[Sequence[str]] = Kind(Json(S.array(S.TEXT), lambda x, _: list(x)))
 STAGES: Kind[Sequence[int]] = Kind(
     Json(S.array(S.POSITION), lambda x, _: list(x)), Words(lambda x, _: ", ".join(map(str, x)))
 )
-
-
-# what is compared
 
 
 def relation(x: ComparedPair) -> Answer[str]:

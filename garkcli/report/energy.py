@@ -65,9 +65,6 @@ class Quantity(NamedTuple):
     run: LongRun
 
 
-# verdicts
-
-
 def _word(history: InvariantHistory, d: Plain) -> str:
     news, word = WORDS[history.verdict]
     return str(getattr(d, news)(word))
@@ -165,9 +162,6 @@ def _determinant(stability: Stability) -> str:
     return to_decimal(stability.determinant - 1, 4)
 
 
-# numbers
-
-
 def _is_measured(history: InvariantHistory) -> bool:
     return history.verdict != "exact" and history.doubt not in ("rest", "value")
 
@@ -216,9 +210,6 @@ def _drift(x: Quantity) -> str | None:
     return f"none within {rate}, {uncertain_in_all:.0e} in all"
 
 
-# symplecticity
-
-
 def _symplectic(report: EnergyReport) -> Iterator[str]:
     found, stability = report.symplecticity, report.run.stability
     if found is None:
@@ -247,9 +238,6 @@ def _symplectic(report: EnergyReport) -> Iterator[str]:
         bound = power_of_ten(max(x.error for x in found.defects))
         size = f"is below {bound:.0e}, what it is measured to"
     yield f"MᵀJM − J {size}, at t = {times}"
-
-
-# the report
 
 
 def _steps(run: LongRun) -> str:

@@ -245,8 +245,6 @@ EVERY: Section[Outcome] = Section(
 )
 
 
-# stability
-
 STABILITIES = ("a-stable", "l-stable", "p-stable", "i-stable", "algebraically-stable")
 """The kinds of stability that are decided for one parameter."""
 LIMIT = 60

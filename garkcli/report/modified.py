@@ -127,9 +127,6 @@ def _hamiltonian(report: ModifiedReport) -> Answer[list[ModifiedTerm]]:
     return Answer(terms, level=USUAL if report.formula is None else DATA)
 
 
-# the formula on a problem
-
-
 def unknowns_of(formula: ModifiedFormula) -> list[str]:
     positions = list(formula.problem.variables)
     return [*positions, *(f"p{name}" for name in positions)]
@@ -187,9 +184,6 @@ FORMULA: Section[ModifiedFormula] = Section(
     Row("max_power", COUNT, lambda x: x.max_order - 1),
     Row("terms", parts(POWER), lambda x: x.terms),
 )
-
-
-# the report
 
 
 REACHED: Kind[int] = Kind(

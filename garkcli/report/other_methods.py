@@ -47,9 +47,6 @@ Linear: TypeAlias = "RosenbrockAnalysis | DerivativesAnalysis"
 """Analyses of methods that are Runge–Kutta methods on linear problems."""
 
 
-# rows of several kinds
-
-
 def _names(a: OtherAnalysis) -> list[str]:
     return [colour.name for colour in a.tableau.colours]
 
@@ -153,9 +150,6 @@ def _form(
     )
 
 
-# Rosenbrock and W-methods
-
-
 def rosenbrock_words(tableau: Tableau) -> str:
     """``Rosenbrock, 2 colours, stages 3, 4``."""
     colours = tableau.size // 2
@@ -202,8 +196,6 @@ OF_ROSENBROCK: Rows[RosenbrockAnalysis] = (
 ROSENBROCK = _form(lambda o: o.rosenbrock, "rosenbrock", _with_gamma, OF_ROSENBROCK)
 
 
-# Nyström methods
-
 OF_NYSTROM_TREES = "q is g in the step of q, q' is g in that of q′, q'0 is q′ as it begins"
 
 
@@ -244,8 +236,6 @@ OF_NYSTROM: Rows[NystromAnalysis] = (
 NYSTROM = _form(lambda o: o.nystrom, "nystrom", _nystrom_words, OF_NYSTROM)
 
 
-# nonlinearly partitioned methods
-
 OF_NPRK_TREES = "1 and 2 are the arguments of F that branches are in"
 
 
@@ -266,9 +256,6 @@ NPRK = _form(
 )
 
 
-# methods that use derivatives of f along the solution
-
-
 OF_DERIVATIVES: Rows[DerivativesAnalysis] = (
     EXACT_TO,
     _order("order", HEADLINE),
@@ -282,9 +269,6 @@ OF_DERIVATIVES: Rows[DerivativesAnalysis] = (
 DERIVATIVES = _form(
     lambda o: o.derivatives, "derivatives", lambda a, _: words_of(a.tableau), OF_DERIVATIVES
 )
-
-
-# multirate infinitesimal methods with the exact fast solution
 
 
 def _multirate_words(a: InfinitesimalAnalysis, _: Plain) -> str:

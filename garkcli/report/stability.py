@@ -86,9 +86,6 @@ class StabilityReport(Frozen):
     is_order_star: bool = False
 
 
-# kinds
-
-
 def _decimals(value: Callable[[int], arb], digits: int) -> str:
     bits, before = int(digits * BITS_OF_A_DIGIT) + 64, ctx.prec
     try:
@@ -223,8 +220,6 @@ SQUARE: Kind[fmpq] = Kind(
     Json(S.EXACT, lambda x, _: str(x)), Words(lambda x, d: f"a = (hω_slow)² = {d.number(x)}")
 )
 
-
-# what is found
 
 ROUNDED = Reason("coefficients are rounded")
 LATE = Reason("it takes longer than --seconds")

@@ -27,9 +27,6 @@ WORDS = {"exact": "exact", "exists": "proved to exist", "numerical": "numerical"
 """The proof of a find, in rows and for people."""
 
 
-# for people
-
-
 def _answer(report: SweepReport, _: Plain) -> str:
     """``12 methods, 5 kept``."""
     again = f", {report.repeated} found again" if report.repeated else ""
@@ -85,8 +82,6 @@ def _table(
     )
     return Row("lines", shown(line, most), lambda x: [*enumerate(get(x), start=1)], label=label)
 
-
-# for programs
 
 ROW: S.Schema = record(
     key=S.TEXT,

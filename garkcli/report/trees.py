@@ -94,9 +94,6 @@ class TreeList(Mutable):
         return sum(self.by_order.values())
 
 
-# the rows of any list of trees
-
-
 def picture(tree: Callable[[T], Tree]) -> Row[T]:
     """The tree in LaTeX."""
     return itself("picture", told(lambda x, d: d.sketch(tree(x))), DETAIL, label="")
@@ -134,9 +131,6 @@ SIZES: Rows[ConditionRow | ListedClass] = (
     Row("sigma", POSITION, lambda x: x.tree.symmetry),
     Row("gamma", POSITION, lambda x: x.tree.density),
 )
-
-
-# rooted trees
 
 
 def _heading(row: TreeRow, d: Plain) -> str:

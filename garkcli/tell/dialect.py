@@ -148,8 +148,6 @@ class Plain(Mutable):
     breadth: ClassVar[Literal["terminal", "page", "any"]] = "terminal"
     """The width of tables."""
 
-    # words
-
     def prose(self, text: str) -> str:
         """Words of ours, or of a file."""
         return printable(text)
@@ -185,8 +183,6 @@ class Plain(Mutable):
         if status.at_least:
             text = f"at least {text}"
         return text if status.within is None else f"{text} within {decimal(status.within)}"
-
-    # numbers
 
     def formula(self, latex: str, text: str) -> str:
         """A formula, in the signs that the output has."""
@@ -256,8 +252,6 @@ class Plain(Mutable):
         if len(text) > 2 * LONG_POLYNOMIAL:
             return f"{len(p.terms)} terms over {len(q.terms)}, in --format json and latex"
         return self.expression(text)
-
-    # places, trees, sets
 
     def place(self, place: Place) -> str:
         """An entry of a block or of weights: ``a[4,1]``; of several colours ``a{1,2}[4,1]``."""
@@ -343,8 +337,6 @@ class Plain(Mutable):
         """The first of a list, and how many more there are."""
         more = f" and {len(texts) - FEW} more" if len(texts) > FEW else ""
         return ", ".join(texts[:FEW]) + more
-
-    # pages
 
     def spelt(self, text: str) -> str:
         """A text in the signs that the output has: widths are those of what is written."""

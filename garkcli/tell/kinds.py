@@ -151,8 +151,6 @@ def _numeral(x: Number, d: Plain) -> str:
 
 NUMERAL: Kind[Number] = Kind(Json(S.NUMERAL, numeral_text), Words(_numeral))
 
-# blocks and places
-
 BLOCK: Schema = {**array(S.POSITION), "minItems": 1, "maxItems": 2}
 """The colours of a block of A, or of a row of weights."""
 
@@ -182,8 +180,6 @@ TABLE: Kind[BlockTable] = Kind(
     ROW_OF_COUNTS.shown,
 )
 
-
-# orders
 
 WITNESS: Section[Witness] = Section(
     Row("order", POSITION, lambda x: x.tree.order),
@@ -257,9 +253,6 @@ ORDER: Kind[AnyOrder] = Kind(
     ),
     Words(lambda found, _: str(found.order), _order_words),
 )
-
-
-# polynomials, roots, intervals
 
 
 Quotient: TypeAlias = "StabilityFunction | Ratio"
