@@ -270,13 +270,8 @@ TIME: Kind[fmpq] = Kind(Json(S.SIZE, lambda x, _: to_float(x)))
 QUANTITY: Section[Quantity] = Section(
     Row("name", TEXT, lambda x: x.history.name, label=""),
     Row("initial", INITIAL, lambda x: x.history.initial, label="at the start"),
-    via(
-        lambda x: x.history,
-        [
-            Row("largest", SAID, _largest, label="largest error"),
-            Row("oscillation_in_words", SAID, _oscillation, label="oscillation"),
-        ],
-    ),
+    Row("largest", SAID, lambda x: _largest(x.history), label="largest error"),
+    Row("oscillation_in_words", SAID, lambda x: _oscillation(x.history), label="oscillation"),
     Row("drift_in_words", SAID, _drift, label="drift"),
     Row("max_error", SIZE, lambda x: x.history.max_error, DATA),
     Row("drift", NUMBER, lambda x: x.history.drift, DATA),
@@ -287,19 +282,14 @@ QUANTITY: Section[Quantity] = Section(
         lambda x: None if x.history.drift is None else x.history.drift * x.run.end,
         DATA,
     ),
-    via(
-        lambda x: x.history,
-        [
-            Row("oscillation", SIZE, lambda x: x.amplitude, DATA),
-            Row("round_off", SIZE, lambda x: x.round_off, DATA),
-            Row("rounded_coefficients", SIZE, lambda x: x.coefficients, DATA),
-            Row("verdict", choice(*get_args(Verdict)), lambda x: x.verdict, DATA),
-            Row("trend", choice(*get_args(Shape)), lambda x: x.shape, DATA),
-            Row("t_end_to_decide", TIME, lambda x: x.longer, DATA),
-            Row("doubt", choice(*get_args(Doubt), None), lambda x: x.doubt, DATA),
-            Row("no_value_at", TIME, lambda x: x.no_value_at, DATA),
-        ],
-    ),
+    Row("oscillation", SIZE, lambda x: x.history.amplitude, DATA),
+    Row("round_off", SIZE, lambda x: x.history.round_off, DATA),
+    Row("rounded_coefficients", SIZE, lambda x: x.history.coefficients, DATA),
+    Row("verdict", choice(*get_args(Verdict)), lambda x: x.history.verdict, DATA),
+    Row("trend", choice(*get_args(Shape)), lambda x: x.history.shape, DATA),
+    Row("t_end_to_decide", TIME, lambda x: x.history.longer, DATA),
+    Row("doubt", choice(*get_args(Doubt), None), lambda x: x.history.doubt, DATA),
+    Row("no_value_at", TIME, lambda x: x.history.no_value_at, DATA),
 )
 RUN: Rows[LongRun] = [
     Row("steps_in_words", SAID, _steps, label="steps"),

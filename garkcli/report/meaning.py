@@ -9,7 +9,7 @@ from garkcli.check.meanings import Meaning, term_meaning
 from garkcli.glossary.term import TOPICS, terms_of
 from garkcli.page.paint import folded, indented
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Kind, Level, Row, Section, optional, via
+from garkcli.tell.facts import Kind, Level, Row, Rows, Section, optional, via
 from garkcli.tell.kinds import TEXT, TEXTS
 from garkcli.tell.report import Report
 from garkcli.tell.shown import Labels
@@ -29,23 +29,21 @@ def _example_rows(text: str, d: Plain) -> list[tuple[str, str]]:
 
 
 EXAMPLE: Kind[str] = Kind(TEXT.what, Labels(_example_rows))
+OF_MEANING: Rows[Meaning] = (
+    Row("kind", TEXT, lambda x: x.kind, Level.DATA),
+    Row("name", TEXT, lambda x: x.name, Level.DATA),
+    Row("text", TEXT, lambda x: x.text, label="", line="text"),
+    _optional("formula", lambda x: x.formula),
+    _optional("values", lambda x: x.values),
+    _optional("for", lambda x: x.scope),
+    _optional("default", lambda x: x.default),
+    optional("example", EXAMPLE, lambda x: x.example or None),
+    _optional("cure", lambda x: x.cure),
+    Row("source", TEXT, lambda x: x.source),
+    Row("see", TEXTS, lambda x: x.see),
+)
 MEANING: Section[Told] = Section(
-    via(
-        lambda x: x.meaning,
-        [
-            Row("kind", TEXT, lambda x: x.kind, Level.DATA),
-            Row("name", TEXT, lambda x: x.name, Level.DATA),
-            Row("text", TEXT, lambda x: x.text, label="", line="text"),
-            _optional("formula", lambda x: x.formula),
-            _optional("values", lambda x: x.values),
-            _optional("for", lambda x: x.scope),
-            _optional("default", lambda x: x.default),
-            optional("example", EXAMPLE, lambda x: x.example or None),
-            _optional("cure", lambda x: x.cure),
-            Row("source", TEXT, lambda x: x.source),
-            Row("see", TEXTS, lambda x: x.see),
-        ],
-    ),
+    via(lambda x: x.meaning, OF_MEANING),
     title=lambda x, d: d.prose(f"{x.meaning.name}: {x.meaning.kind}"),
 )
 REPORT: Report[Told] = Report(

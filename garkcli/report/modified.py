@@ -24,6 +24,7 @@ from garkcli.tell.facts import (
     Kind,
     Level,
     Row,
+    Rows,
     Section,
     Status,
     maybe,
@@ -231,21 +232,19 @@ def _note(report: ModifiedReport) -> str:
     return "coefficients of one method within the rounding" if is_rounded else ""
 
 
+OF_ANALYSIS: Rows[BackwardAnalysis] = (
+    _order("order", lambda x: x.order),
+    Row("symplectic", TRUTH, _symplectic, HEADLINE),
+    _order("symplectic_order", lambda x: x.symplectic, USUAL),
+    _order("energy_order", lambda x: x.energy),
+    _order("effective_order", lambda x: x.effective),
+)
 MODIFIED: Section[ModifiedReport] = Section(
     Row("file", TEXT, lambda x: x.file, DATA),
     Row("name", TEXT, lambda x: x.name, DATA),
     Row("derivation", DERIVATION, lambda x: x.derivation, DATA),
     maybe("tolerance", TOLERANCE, lambda x: x.found.tolerance, DATA),
-    via(
-        lambda x: x.found,
-        [
-            _order("order", lambda x: x.order),
-            Row("symplectic", TRUTH, _symplectic, HEADLINE),
-            _order("symplectic_order", lambda x: x.symplectic, USUAL),
-            _order("energy_order", lambda x: x.energy),
-            _order("effective_order", lambda x: x.effective),
-        ],
-    ),
+    via(lambda x: x.found, OF_ANALYSIS),
     Row("trees", SAID, _vertices),
     Row("colours_in_words", SAID, lambda x: numbered(x.names), label="colours"),
     Row("colours", TEXTS, lambda x: x.names, DATA),

@@ -177,24 +177,17 @@ WHOLE: Section[SearchReport] = Section(
     Row("order", POSITION, lambda x: x.search.order, DATA),
     optional("objective", TEXT, lambda x: _key(x.result.objective), DATA),
     itself("objective_in_words", rows_of(_objective_rows)),
-    via(
-        lambda x: x.result,
-        [
-            Row("starts", COUNT, lambda x: x.starts, DATA),
-            Row("successes", COUNT, lambda x: x.successes, DATA),
-            Row(
-                "degenerate",
-                COUNT,
-                lambda x: x.degenerate,
-                level=lambda a: USUAL if a.value else DATA,
-            ),
-            Row(
-                "unstable", COUNT, lambda x: x.unstable, level=lambda a: USUAL if a.value else DATA
-            ),
-            Row("interrupted", TRUTH, lambda x: x.is_interrupted, DATA),
-            Row("seconds", SECONDS, lambda x: round(x.seconds, 3), DATA),
-        ],
+    Row("starts", COUNT, lambda x: x.result.starts, DATA),
+    Row("successes", COUNT, lambda x: x.result.successes, DATA),
+    Row(
+        "degenerate",
+        COUNT,
+        lambda x: x.result.degenerate,
+        level=lambda a: USUAL if a.value else DATA,
     ),
+    Row("unstable", COUNT, lambda x: x.result.unstable, level=lambda a: USUAL if a.value else DATA),
+    Row("interrupted", TRUTH, lambda x: x.result.is_interrupted, DATA),
+    Row("seconds", SECONDS, lambda x: round(x.result.seconds, 3), DATA),
     Row("methods", parts(METHOD), lambda x: x.methods, DATA),
     itself("methods_in_words", rows_of(method_rows)),
     title=lambda x, d: d.prose(x.file),
