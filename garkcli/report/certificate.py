@@ -315,7 +315,3 @@ def form(proof: MethodProof | ExistenceProof) -> Section[Any]:
 REPORT: Report[MethodProof | ExistenceProof] = Report(
     "gark/certificate/1", "certificate of gark certificate", lambda: [EXACT, WITHIN], form, key=""
 )
-
-
-def whole(proof: MethodProof | ExistenceProof, _: str) -> MethodProof | ExistenceProof:
-    return proof

@@ -102,13 +102,8 @@ def _shape_words(shape: Shape, tolerance: fmpq | None, d: Plain) -> str:
     return d.known(shape.name, Status(tolerance if shape.singly else None))
 
 
-def _method_phrase(_: str, answer: Answer[Outcome], d: Plain) -> str:
+def _method_phrase(_: str, outcome: Outcome, answer: Answer[Outcome], d: Plain) -> str:
     """``explicit, 4 stages``."""
-    assert answer.value is not None
-    return _method_in_short(answer.value, d)
-
-
-def _method_in_short(outcome: Outcome, d: Plain) -> str:
     found = outcome.analysis or outcome.every
     assert found is not None
     structure = "" if outcome.structure == "general" else f"for {outcome.structure} problems, "
@@ -120,7 +115,7 @@ def _method_in_short(outcome: Outcome, d: Plain) -> str:
 
 
 def _method_words(outcome: Outcome, d: Plain) -> str:
-    text = _method_in_short(outcome, d)
+    text = _method_phrase("", outcome, Answer(outcome), d)
     return text if outcome.analysis is None else with_arithmetic(text, outcome.analysis)
 
 
@@ -263,10 +258,8 @@ def pair_criterion_why(a: Analysis) -> list[str]:
     return [] if found is None else [*found.parts]
 
 
-def _simplifying_phrase(_: str, answer: Answer[Analysis], d: Plain) -> str:
+def _simplifying_phrase(_: str, a: Analysis, answer: Answer[Analysis], d: Plain) -> str:
     """``B(4), C(1), D(1) give at least order 3``."""
-    a = answer.value
-    assert a is not None
     found = a.simplifying
     numbers = (("B", found.r), ("C", found.eta), ("D", found.zeta))
     said = ", ".join(f"{letter}({d.capped(x, found.limit)})" for letter, x in numbers)
@@ -369,7 +362,7 @@ def truth(key: str) -> Row[Analysis]:
     """A property that is true, false or undecided."""
     worthy, words = WORTH_A_WORD.get(key, (None, ""))
 
-    def phrase(label: str, answer: Answer[bool], d: Plain) -> str:
+    def phrase(label: str, _: bool, answer: Answer[bool], d: Plain) -> str:
         return d.known(d.prose(words or label), answer.status)
 
     def get(a: Analysis) -> Answer[bool]:
@@ -823,9 +816,8 @@ def colours_of(tableau: Tableau) -> list[InTableau]:
     return [InTableau(colour, tableau) for colour in tableau.colours]
 
 
-def _pair_phrase(_: str, answer: Answer[AnyOrder], d: Plain) -> str:
-    assert answer.value is not None
-    return f"the symplectic pair has order {kinds.order_cell(answer.value, d)}"
+def _pair_phrase(_: str, order: AnyOrder, answer: Answer[AnyOrder], d: Plain) -> str:
+    return f"the symplectic pair has order {kinds.order_cell(order, d)}"
 
 
 OF_ALL_KINDS: Rows[AnyAnalysis] = (

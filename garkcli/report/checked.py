@@ -36,17 +36,17 @@ def form(outcome: Outcome) -> Section[Outcome]:
 
         return EVERY
     if outcome.of_other_kind is not None:
-        from garkcli.report.other_methods import FORMS
+        from garkcli.report.other_methods import TOLD_BY
 
-        return FORMS[type(outcome.of_other_kind).__name__]
+        return TOLD_BY[type(outcome.of_other_kind).__name__][0]
     return UNREADABLE if outcome.analysis is None else CHECKED
 
 
 def forms() -> Iterator[Section[Outcome]]:
     from garkcli.report.every import EVERY
-    from garkcli.report.other_methods import FORMS
+    from garkcli.report.other_methods import TOLD_BY
 
-    yield from (UNREADABLE, CHECKED, EVERY, *FORMS.values())
+    yield from (UNREADABLE, CHECKED, EVERY, *(form for form, _ in TOLD_BY.values()))
 
 
 REPORT: Report[Outcome] = Report(

@@ -11,7 +11,7 @@ from garkcli.errors import printable
 from garkcli.page.paint import folded
 from garkcli.properties.registry import KEYS
 from garkcli.report.check import ANALYSIS, SIMPLIFYING, property_rows_of, property_verdict
-from garkcli.report.other_methods import ROWS
+from garkcli.report.other_methods import TOLD_BY
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Level, Row, Rows, Section, itself, via
 from garkcli.tell.kinds import TEXT, TEXTS, TRUTH
@@ -35,7 +35,7 @@ def _claim_rows(found: TrueClaims, d: Plain) -> list[tuple[str, str]]:
 
 _ROWS = {row.key: row for row in (*ANALYSIS, *SIMPLIFYING.rows)}
 _ROWS_OF_OTHER_KINDS: dict[str, dict[str, Row[Any]]] = {
-    kind: {row.key: row for row in rows} for kind, rows in ROWS.items()
+    kind: {row.key: row for row in rows} for kind, (_, rows) in TOLD_BY.items()
 }
 
 

@@ -4,22 +4,23 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
+from math import ceil, floor
 from string import ascii_lowercase, ascii_uppercase
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-from flint import fmpq
+from flint import arb, fmpq
 
 from garkcli.convergence.result import Convergence, curve
 from garkcli.convergence.result import Row as Step
 from garkcli.errors import Remark, counted
 from garkcli.frozen import Frozen
-from garkcli.page.figures import order_text, scientific
+from garkcli.page.figures import log10, order_text, scientific
 from garkcli.page.schema import Schema, one_of, published
 from garkcli.plots.convergence import errors_scene
 from garkcli.problems.oscillator import Oscillator
 from garkcli.problems.righthandside import RightHandSide
 from garkcli.report import convergence as alone
-from garkcli.report.costs import Tested, at_equal_errors
 from garkcli.report.remarks import FAULT
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import Level, Row, Rows, Section, SectionChoice, itself, maybe, via
@@ -31,6 +32,9 @@ if TYPE_CHECKING:
     from garkcli.report.problem import Stepped
 
 HEADLINE, USUAL, DETAIL, DATA = Level
+Tested: TypeAlias = Sequence[tuple[str, Convergence]]
+"""The results by the letters of their methods."""
+_GOALS = 6  # errors at which costs are compared
 _LONGEST = 60  # characters of a Hamiltonian that are still shown
 MOST_METHODS = 20
 """Rows of a usual table in a terminal."""
@@ -175,6 +179,50 @@ WORK: Section[StepCost] = Section(
     itself("error", told(lambda x, d: d.prose(scientific(x.row.error)))),
     maybe("cost", part(alone.COST), lambda x: x.row.cost),
 )
+
+
+def at_equal_errors(tested: Tested, what: str) -> list[tuple[str, list[tuple[str, str]]]]:
+    """The cost of errors of 10^k for each method, interpolated between its steps."""
+    curves = {
+        letter: [(log10(error), log10(x)) for x, error in curve(result, what)]
+        for letter, result in tested
+    }
+    goals = _goals([[error for error, _ in points] for points in curves.values()])
+    return [
+        (letter, [(f"1e{k}", _amount(_between(points, k), what)) for k in goals])
+        for letter, points in curves.items()
+        if goals
+    ]
+
+
+def _amount(decades: float | None, what: str) -> str:
+    """10 to that power, in the digits of its kind; empty if it is unknown."""
+    if decades is None:
+        return ""
+    x = 10**decades
+    return str(round(x)) if what == "evaluations" else scientific(arb(x), 2)
+
+
+def _goals(errors: Sequence[Sequence[float]]) -> list[int]:
+    """Whole decades, thinned out evenly, that at least two methods reach, or one where no two
+    do.
+    """
+    reached: Counter[int] = Counter()
+    for ys in errors:
+        if len(ys) > 1:
+            reached.update(range(ceil(min(ys)), floor(max(ys)) + 1))
+    shared = [k for k, count in reached.items() if count > 1]
+    decades = sorted(shared or reached, reverse=True)
+    return decades[:: max(1, ceil(len(decades) / _GOALS))]
+
+
+def _between(points: Sequence[tuple[float, float]], goal: float) -> float | None:
+    """The second coordinate where the first is ``goal``, on the line between two neighbours."""
+    for (a, x), (b, y) in pairwise(points):
+        is_between = min(a, b) <= goal <= max(a, b)
+        if is_between and a != b:
+            return x + (y - x) * (goal - a) / (b - a)
+    return None
 
 
 EQUAL: Section[tuple[str, list[tuple[str, str]]]] = Section(

@@ -86,12 +86,11 @@ def _relation_words(relation: str, d: Plain) -> str:
     return d.prose(RELATIONS.get(relation, relation))
 
 
-def _relation_phrase(_: str, answer: Answer[str], d: Plain) -> str:
-    assert answer.value is not None
-    text = d.known(_relation_words(answer.value, d), answer.status)
+def _relation_phrase(_: str, relation: str, answer: Answer[str], d: Plain) -> str:
+    text = d.known(_relation_words(relation, d), answer.status)
     if answer.reason:
         text += f": {d.reason(answer.reason)}"
-    return (d.bad if answer.value in {"different", "undecided", SAME_STEP} else d.good)(text)
+    return (d.bad if relation in {"different", "undecided", SAME_STEP} else d.good)(text)
 
 
 def _entry_data(x: Cell, _: Plain) -> str:

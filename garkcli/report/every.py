@@ -134,10 +134,8 @@ def _higher(o: EveryOrder, name: str) -> Reason:
     return Reason(f"; no real value of the file has order {higher}")
 
 
-def _order_words(answer: Answer[EveryOrder], d: Plain) -> str:
+def _order_words(o: EveryOrder, _: Answer[EveryOrder], d: Plain) -> str:
     """``2; order 3 is missed at [[]] by …; order 3 where …``."""
-    o = answer.value
-    assert o is not None
     if o.witness is None:
         return f"{d.known(str(o.order), Status(at_least=True))}: no further was looked"
     text = f"{o.order}; {d.failure(o.witness)}{d.reason(_higher(o, d.parameter))}"
@@ -347,14 +345,12 @@ EVERY_STABILITY: Section[EveryStability] = Section(
     itself("stability_in_words", rows_of(_stability_rows)),
     title=lambda x, d: f"{d.prose(x.file)}: {c.every_value(x.family, d)}",
 )
-STABILITY: Report[EveryStability] = Report(
+STABILITY: Report[EveryStability] = Report.only(
     "gark/stability-every/1",
     "report of gark stability for every value of parameters",
-    lambda: [EVERY_STABILITY],
-    lambda _: EVERY_STABILITY,
+    EVERY_STABILITY,
     lambda x: {
         "parameter": x.family.family.parameters[0],
         "colours": [colour.name for colour in x.family.tableau.colours],
     },
-    key="",
 )

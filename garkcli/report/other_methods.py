@@ -288,18 +288,11 @@ OF_MULTIRATE: Rows[InfinitesimalAnalysis] = (
     _trees_that_fail("order", "embedded-order"),
 )
 MULTIRATE = _form(lambda o: o.infinitesimal, "multirate", _multirate_words, OF_MULTIRATE)
-FORMS = {
-    "RosenbrockAnalysis": ROSENBROCK,
-    "NystromAnalysis": NYSTROM,
-    "NprkAnalysis": NPRK,
-    "DerivativesAnalysis": DERIVATIVES,
-    "InfinitesimalAnalysis": MULTIRATE,
+TOLD_BY: dict[str, tuple[Section[Outcome], Rows[Never]]] = {
+    "RosenbrockAnalysis": (ROSENBROCK, OF_ROSENBROCK),
+    "NystromAnalysis": (NYSTROM, OF_NYSTROM),
+    "NprkAnalysis": (NPRK, OF_NPRK),
+    "DerivativesAnalysis": (DERIVATIVES, OF_DERIVATIVES),
+    "InfinitesimalAnalysis": (MULTIRATE, OF_MULTIRATE),
 }
-"""By the classes of their analyses."""
-ROWS: dict[str, Rows[Never]] = {
-    "RosenbrockAnalysis": OF_ROSENBROCK,
-    "NystromAnalysis": OF_NYSTROM,
-    "NprkAnalysis": OF_NPRK,
-    "DerivativesAnalysis": OF_DERIVATIVES,
-    "InfinitesimalAnalysis": OF_MULTIRATE,
-}
+"""The rows of an outcome, and of its analysis, by the class of that."""

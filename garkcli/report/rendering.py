@@ -41,8 +41,8 @@ TOLD_BY = {
     "sweep.SweepReport": "sweep",
     "stability.Stability": "stability",
 }
-"""By room and kind of a value the file that tells it by rows: its ``REPORT``, and ``whole``, which
-makes of the value and a name what that tells.
+"""By room and class of a value the file that tells it by its ``REPORT``; ``whole`` there makes the
+result that this tells of the value and a name, if that is not the value.
 """
 
 
@@ -107,7 +107,7 @@ def _kind(value: object, known: Mapping[str, Any]) -> str:
 
 def _told_by(file: str) -> tuple[Report[Any], Callable[[Any, str], Any]]:
     module = import_module(f"garkcli.report.{file}")
-    return module.REPORT, module.whole
+    return module.REPORT, getattr(module, "whole", lambda value, _: value)
 
 
 def _writer_of(value: object) -> tuple[str, Writer, Sequence[str]]:

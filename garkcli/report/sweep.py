@@ -204,7 +204,3 @@ def _without_text(name: str, values: list[Value], plan: Plan) -> list[Value]:
     if name not in plan.criteria.columns or "infinity" not in values:
         return values
     return [None if value is None else float(value) for value in values]
-
-
-def whole(report: SweepReport, _: str) -> SweepReport:
-    return report

@@ -311,15 +311,12 @@ def itself(
 def via(get: Callable[[T], U | None], rows: Iterable[Row[U]]) -> Rows[T]:
     """Rows of a part as rows of its owner; they have no value where there is no part."""
 
-    def of(row: Row[U]) -> Callable[[T], Any]:
-        return lambda whole: None if (part := get(whole)) is None else row.get(part)
+    def of(row: Row[U]) -> Row[T]:
+        found: Row[Any] = copy(row)
+        found.get = lambda whole: None if (part := get(whole)) is None else row.get(part)
+        return found
 
-    return [copied(row, of(row)) for row in rows]
-
-
-def copied(row: Row[U], get: Callable[[T], Any]) -> Row[T]:
-    found: Row[Any] = row.but(get=get)
-    return found
+    return [*map(of, rows)]
 
 
 class Section(Generic[T_in]):

@@ -67,8 +67,8 @@ def choice(*values: str | None) -> Kind[str]:
     return Kind(Json({"enum": [*values]}), TEXT.shown)
 
 
-def _truth_phrase(label: str, answer: Answer[bool], d: Plain) -> str:
-    text = d.known(label if answer.value else f"not {label}", answer.status)
+def _truth_phrase(label: str, value: bool, answer: Answer[bool], d: Plain) -> str:
+    text = d.known(label if value else f"not {label}", answer.status)
     return f"{text}: {d.reason(answer.reason)}" if answer.reason else text
 
 
@@ -203,11 +203,9 @@ def _largest_residual(found: AnyOrder) -> arb | None:
     return getattr(found, "largest_residual", None)
 
 
-def _order_words(answer: Answer[AnyOrder], d: Plain) -> str:
+def _order_words(found: AnyOrder, answer: Answer[AnyOrder], d: Plain) -> str:
     """``4, proved; order 5 fails at [[[[[]]]]] by -1/120``."""
-    found, status = answer.value, answer.status
-    assert found is not None
-    d = d.naming(answer.names)
+    d, status = d.naming(answer.names), answer.status
     text = d.known(str(found.order), status)
     if status.within is None and not status.at_least:
         text += ", proved"

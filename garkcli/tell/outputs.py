@@ -28,7 +28,7 @@ def words(fact: Fact, d: Plain) -> str:
             return f"not decided: {d.reason(answer.status.open)}"
         return d.reason(answer.reason) if answer.reason else "none"
     if isinstance(shown, Words) and shown.whole is not None:
-        return shown.whole(answer, d)
+        return shown.whole(answer.value, answer, d)
     assert isinstance(shown, (Words, OnePart, ManyParts))
     if shown.words is None:
         return gist(fact, d)
@@ -56,7 +56,7 @@ def phrase(fact: Fact, d: Plain) -> str:
     """A fact as a part of a sentence: ``order 4, proved``; ``not A-stable: R is unbounded``."""
     shown, name = fact.shown, label(fact, d)
     if isinstance(shown, (Words, OnePart)) and shown.phrase is not None and fact.value is not None:
-        return shown.phrase(name, fact.answer, d)
+        return shown.phrase(name, fact.value, fact.answer, d)
     if isinstance(shown, (OnePart, ManyParts)) and shown.words is None and fact.row.line:
         return gist(fact, d)
     return f"{name} {words(fact, d)}".strip()

@@ -16,8 +16,8 @@ V = TypeVar("V", contravariant=True)
 T = TypeVar("T")
 Wording: TypeAlias = "Callable[[T, Plain], str]"
 Labelling: TypeAlias = "Callable[[T, Plain], Iterable[tuple[str, str]]]"
-Phrasing: TypeAlias = "Callable[[str, Answer[T], Plain], str]"
-"""Makes a part of a sentence of a label and an answer."""
+Phrasing: TypeAlias = "Callable[[str, T, Answer[T], Plain], str]"
+"""Makes a part of a sentence of a label, a value and its answer."""
 
 
 class Display(Frozen, Generic[V]):
@@ -34,7 +34,7 @@ class Words(Display[V]):
     """
 
     words: Wording[V]
-    whole: Callable[[Answer[V], Plain], str] | None = None
+    whole: Callable[[V, Answer[V], Plain], str] | None = None
     phrase: Phrasing[V] | None = None
     absent: str = ""
 
