@@ -12,6 +12,7 @@ from garkcli.design.ideal import Ideal
 from garkcli.exact.display import to_ball
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import root_text
+from garkcli.methodfile.family import FamilyFile
 from garkcli.order.certificate import find_order
 from garkcli.order.constants import error_constants
 from garkcli.problems.oscillator import Oscillator, terms_of
@@ -19,6 +20,7 @@ from garkcli.stability.oscillator import oscillator_stability
 from garkcli.tableau.forms import pair
 from garkcli.tableau.tableau import Tableau
 from tests.catalogue.catalogue import entries, tableau
+from tests.cli.harness import gark
 from tests.whole import in_whole
 
 FOUND = Path(__file__).resolve().parents[2] / "methods" / "found"
@@ -28,6 +30,19 @@ ASKS = FOUND / "asks"
 def tableau_of(name: str) -> Tableau:
     """The tableau of a find."""
     return load(FOUND / f"{name}.gark.yaml").tableau
+
+
+CHAIN = "parameters: {k: free}\nA: [[], [6*k], [0, 1/3], [0, 0, 1/2]]\nb: [0, 0, 0, 1]\n"
+
+
+def times_powers(tableau: Tableau, power: int) -> float:
+    """bᵀ A^power 𝟙 of the first part, in floats."""
+    matrix = [[float(to_ball(x, 80)) for x in row] for row in tableau.blocks[0, 0]]
+    v = [1.0] * len(matrix)
+    for _ in range(power):
+        v = [sum(a * x for a, x in zip(row, v, strict=True)) for row in matrix]
+    weights = tableau.colours[0].b
+    return sum(float(to_ball(b, 80)) * x for b, x in zip(weights, v, strict=True))
 
 
 def gauss_lobatto(stages: int, transfer: str) -> Tableau:
@@ -154,6 +169,8 @@ def test_the_error_is_less_than_that_of_published_pairs(
         ("methods/found/esdirk6-order4.gark.yaml", 1.450e-3, 8.46e-4),
         ("esdirk-436", 1.830e-3, 1.056e-3),
         ("esdirk-43i6", 2.254e-3, 1.039e-3),
+        ("methods/found/low-storage5-order4-imaginary.gark.yaml", 9.399e-3, None),
+        ("carpenter-kennedy-4", 5.733e-3, None),
     ],
 )
 def test_errors_of_methods_of_order_4(name: str, norm: float, largest: float | None) -> None:
@@ -166,6 +183,27 @@ def test_errors_of_methods_of_order_4(name: str, norm: float, largest: float | N
     below = error_constants(load(name).tableau, 4)
     assert below is not None
     assert float(below.all.two) < 1e-14
+
+
+@pytest.mark.parametrize(
+    ("name", "reach"),
+    [
+        ("methods/found/low-storage5-order4-imaginary.gark.yaml", 3.464101),
+        ("carpenter-kennedy-4", 3.340718),
+    ],
+)
+def test_imaginary_axes_of_five_stages(name: str, reach: float) -> None:
+    """The table of docs/found.md, by gark and in floats: with κ = bᵀA⁴𝟙 and Y = y²,
+    |R(iy)|² − 1 = Y³(2κ − 1/72 + (1/576 − κ/3)Y + κ²Y²).
+    """
+    kappa = times_powers(load(name).tableau, 4)
+    first, middle, last = 2 * kappa - 1 / 72, 1 / 576 - kappa / 3, kappa**2
+    assert first < 0
+    squared = (-middle + (middle**2 - 4 * last * first) ** 0.5) / (2 * last)
+    assert squared**0.5 == pytest.approx(reach, abs=6e-7)
+    assert f"imaginary axis y² ≤ {squared:.6f}"[:-1] in " ".join(
+        gark("stability", name).out.split()
+    )
 
 
 @pytest.mark.parametrize("name", ["imex6-order4", "imex4-order3", "imex4-order3-imaginary"])
@@ -198,26 +236,30 @@ def test_imaginary_axes_of_explicit_parts(name: str, norm: float, reach: float) 
     constants = error_constants(tableau, 4)
     assert constants is not None
     assert float(constants.all.two) == pytest.approx(norm, abs=6e-5)
-    matrix = [[float(to_ball(x, 80)) for x in row] for row in tableau.blocks[0, 0]]
-    v = [1.0] * 4
-    for _ in range(3):
-        v = [sum(a * x for a, x in zip(row, v, strict=True)) for row in matrix]
-    kappa = sum(float(to_ball(b, 80)) * x for b, x in zip(tableau.colours[0].b, v, strict=True))
+    kappa = times_powers(tableau, 3)
     middle, last = 1 / 36 - kappa, kappa**2
     first = min(2 * kappa - 1 / 12, 0.0)  # 0 but for rounding where κ = 1/24
     squared = (-middle + (middle**2 - 4 * last * first) ** 0.5) / (2 * last)
     assert squared**0.5 == pytest.approx(reach, abs=6e-4)
 
 
-def test_no_explicit_part_reaches_farther() -> None:
-    """2√2 at κ = 1/24, of all R = 1 + z + z²/2 + z³/6 + κz⁴, decided by gark."""
-    chain = "parameters: {k: free}\nA: [[], [6*k], [0, 1/3], [0, 0, 1/2]]\nb: [0, 0, 0, 1]\n"
-    found = minimise(loads_family(chain), "-imaginary-interval")
+@pytest.mark.parametrize(
+    ("family", "reach", "value"),
+    [
+        (loads_family(CHAIN), "2*sqrt(2)", {"k": fmpq(1, 24)}),
+        (load_family(ASKS / "imaginary-interval-5-stages.yaml"), "2*sqrt(3)", {"t": fmpq(1, 6)}),
+    ],
+)
+def test_no_explicit_part_reaches_farther(
+    family: FamilyFile, reach: str, value: dict[str, fmpq]
+) -> None:
+    """Of all R = 1 + z + z²/2 + z³/6 + κz⁴, and of all with z⁴/24 + κz⁵, decided by gark."""
+    found = minimise(family, "-imaginary-interval")
     assert found.extent == "all"
     assert found.value is not None
-    assert root_text(found.value) == "2*sqrt(2)"
+    assert root_text(found.value) == reach
     [best] = found.minimisers
-    assert best.found.solution.values["k"] == fmpq(1, 24)
+    assert best.found.solution.values == value
 
 
 def test_the_polynomials_of_the_family_of_transfers_are_all() -> None:
