@@ -11,13 +11,15 @@ decides no less.
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from time import monotonic
+from typing import TypeVar
 
 from garkcli.errors import NotDecided
 
+T = TypeVar("T")
 SECONDS = 10.0
 """Default limit for stability, in processor seconds."""
 FOR_EVER = 1e9
@@ -117,3 +119,14 @@ def check_time() -> None:
     """Raises ``NotDecided`` if the time is over."""
     if seconds_left() == 0:
         raise NotDecided(is_late=True)
+
+
+def checked(items: Iterable[T]) -> Iterator[T]:
+    """The same items, of which there may be very many, until the time is over.
+
+    Raises:
+        NotDecided: it is.
+    """
+    for item in items:
+        check_time()
+        yield item

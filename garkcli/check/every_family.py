@@ -17,6 +17,7 @@ from typing import TypeAlias, cast
 
 from flint import fmpq, fmpq_mpoly, fmpz_mpoly
 
+from garkcli.deadline import checked
 from garkcli.design.conditions import FamilyConditions
 from garkcli.design.member import admitted, member
 from garkcli.errors import MethodError
@@ -67,7 +68,9 @@ def _can_vanish(p: fmpq_mpoly, ring: Parameters, ranges: Mapping[str, Range]) ->
         # all of them are known
         roots = real_roots(in_one(p, used[0]))
         return any(is_within(root, inside[0]) for root, _ in roots)
-    return any(_may_vanish(p, used, inside, case) for case in product(*map(_charts, inside)))
+    return any(
+        _may_vanish(p, used, inside, case) for case in checked(product(*map(_charts, inside)))
+    )
 
 
 def is_within(value: RealRoot, ends: Range) -> bool:
@@ -105,7 +108,7 @@ def _may_vanish(
     for k, ends in zip(used, inside, strict=True):
         if None not in ends:
             corners[k] = (0, degrees[k])
-    at_corners = [found.get(corner, ZERO) for corner in product(*corners)]
+    at_corners = [found.get(corner, ZERO) for corner in checked(product(*corners))]
     one = at_corners[0]
     are_signed_alike = all(a * one > 0 for a in at_corners)
     opposes = any(a * one < 0 for a in found.values())
@@ -468,7 +471,7 @@ class EveryFamily(Frozen):
             rows = [
                 [c[(offset + k + i) % len(c)] for i in range(len(c))] for k, c in enumerate(choices)
             ]
-            for values in product(*(row[:2] for row in rows)):
+            for values in checked(product(*(row[:2] for row in rows))):
                 count += 1
                 if count > MOST_SAMPLES:
                     return

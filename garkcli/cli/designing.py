@@ -270,13 +270,13 @@ def _least(found: Design, given: Given) -> Minimum | None:
     try:
         with until(given.moment):
             return minimise(found, given.minimise)
-    except NotDecided:
-        problem = UsageProblem(
-            f"--minimise {given.minimise}: not decided, the solution set is too large or curved",
-            "choose values for some unknowns with --choose",
-            code="not-found",
-        )
-        say_problem(problem)
+    except NotDecided as error:
+        about, cure = "the solution set is too large or curved", ""
+        if error.is_late:
+            about, cure = "in the time of --seconds", "give it more, or "
+        message = f"--minimise {given.minimise}: not decided, {about}"
+        cure += "choose values for some unknowns with --choose"
+        say_problem(UsageProblem(message, cure, code="not-found"))
         return None
 
 

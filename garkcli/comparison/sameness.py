@@ -17,6 +17,7 @@ from garkcli.comparison.grid import (
     have_one_shape,
 )
 from garkcli.conversion.sheet import CannotConvert, Sheet, of_weights
+from garkcli.deadline import checked
 from garkcli.errors import LimitExceeded
 from garkcli.exact.field import ZERO
 from garkcli.frozen import Frozen, replace
@@ -271,6 +272,6 @@ def _orders(one: Grid, other: Grid) -> Iterator[tuple[int, ...]]:
     if one.size > MOST_COLOURS:
         yield colours
         return
-    for order in permutations(colours):
+    for order in checked(permutations(colours)):
         if tuple(other.stages[l] for l in order) == one.stages:
             yield order

@@ -349,11 +349,36 @@ class Ideal:
         """
         if self.is_everything:
             return -1
-        # a leading monomial by the unknowns in it
-        supports = {
-            frozenset(i for i, k in enumerate(groebner.leading(p)) if k) for p in self.basis
-        }
-        return self.variables - least_meeting(supports)
+        return self.variables - least_meeting(self._supports)
+
+    @property
+    def _supports(self) -> set[frozenset[int]]:
+        """The unknowns of each leading monomial."""
+        return {frozenset(i for i, k in enumerate(groebner.leading(p)) if k) for p in self.basis}
+
+    @property
+    def independent(self) -> tuple[int, ...] | None:
+        """As many unknowns as its dimension of which no monomial is a leading one, so that nothing
+        relates them: the first ones; None where UNIT is among all that there are so many of.
+
+        Raises:
+            NotDecided: the time is not enough.
+        """
+        size = len(self.ring.names)
+        left = {one for one in self._supports if size not in one}
+        others = size - self.dimension
+        if least_meeting(left) > others:
+            return None
+        chosen = []
+        for i in range(size):
+            without = {one - {i} for one in left}
+            if all(without) and least_meeting(without) <= others:
+                chosen.append(i)
+                left = without
+            else:
+                others -= 1
+                left = {one for one in left if i not in one}
+        return tuple(chosen)
 
     @cached_property
     def degree(self) -> int:

@@ -13,13 +13,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import suppress
-from itertools import combinations
 from typing import TypeAlias, cast
 
 from flint import fmpq, fmpq_mpoly
 
 from garkcli.deadline import check_time, only_small
-from garkcli.design.groebner import leading
 from garkcli.design.ideal import Ideal, rational
 from garkcli.design.member import not_negative, value_of
 from garkcli.design.minimise.line import Conditions
@@ -170,14 +168,7 @@ class _Search:
         """The ideal with rational values for as many unknowns as its dimension, which no polynomial
         of the ideal relates.
         """
-        supports = [{i for i, k in enumerate(leading(p)) if k} for p in self.real.basis]
-        places = range(len(self.ring.names))
-        independent = (
-            chosen
-            for chosen in combinations(places, self.real.dimension)
-            if not any(support <= set(chosen) for support in supports)
-        )
-        chosen = next(independent, None)
+        chosen = self.real.independent
         if chosen is None:
             return
         draw = Draw(0)

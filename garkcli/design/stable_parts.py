@@ -15,7 +15,7 @@ from typing import Any
 
 from flint import fmpq, fmpq_mpoly
 
-from garkcli.deadline import check_time
+from garkcli.deadline import check_time, checked
 from garkcli.design.fewer import step_polynomials
 from garkcli.design.member import (
     TABLEAUS,
@@ -355,7 +355,7 @@ def content_in(p: fmpq_mpoly, ring: Parameters, name: str) -> Polynomial:
 
 def points(size: int) -> Iterator[tuple[fmpq, ...]]:
     """Points with short coordinates."""
-    return islice(product(VALUES, repeat=size), MOST_POINTS)
+    return checked(islice(product(VALUES, repeat=size), MOST_POINTS))
 
 
 def methods_on(family: Family, whose: Whose, part: Part) -> Iterator[tuple[Solution, RealRoot]]:

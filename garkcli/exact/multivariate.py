@@ -15,6 +15,7 @@ from typing import TypeAlias
 
 from flint import fmpq
 
+from garkcli.deadline import checked
 from garkcli.exact.field import ONE, ZERO, Number
 from garkcli.exact.polynomial import Polynomial
 from garkcli.frozen import Frozen
@@ -167,7 +168,7 @@ def _interpolated(
     for point, difference in table.items():
         if not difference:
             continue
-        for chosen in product(*[enumerate(basis[i].coefficients) for i in point]):
+        for chosen in checked(product(*[enumerate(basis[i].coefficients) for i in point])):
             exponents = tuple(power for power, _ in chosen)
             a = prod([x for _, x in chosen], start=difference)
             terms[exponents] = terms.get(exponents, ZERO) + a

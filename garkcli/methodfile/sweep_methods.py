@@ -13,6 +13,7 @@ from typing import Any
 
 from yaml.nodes import Node, ScalarNode, SequenceNode
 
+from garkcli.deadline import checked
 from garkcli.errors import ExpressionError, UnknownFamily
 from garkcli.exact.expression import parse
 from garkcli.exact.nodes import Expression, Name
@@ -185,7 +186,7 @@ class MethodsReader:
         elif transfer is not None and choices:
             message = "one method has no transfer"
             self.source.fault(transfer, message, "leave it out", code="not-together")
-        for methods in product(*choices):
+        for methods in checked(product(*choices)):
             for rule, shown, names in rules:
                 self._add(methods, rule, shown, names)
 

@@ -11,6 +11,7 @@ from functools import cached_property
 from itertools import chain, combinations_with_replacement, groupby, product
 from typing import Literal, TypeAlias
 
+from garkcli.deadline import checked
 from garkcli.frozen import Frozen
 from garkcli.ntrees.count import Admissible
 from garkcli.ntrees.tree import Tree
@@ -258,8 +259,8 @@ class Grower(Frozen):
             for kind, alike in groupby(reversed(outline)):
                 order, colour = kind
                 trees = self.planted(colour, order)
-                choices.append(combinations_with_replacement(trees, len(list(alike))))
-            for parts in product(*choices):
+                choices.append(checked(combinations_with_replacement(trees, len(list(alike)))))
+            for parts in checked(product(*choices)):
                 yield tuple(chain.from_iterable(parts))
 
 

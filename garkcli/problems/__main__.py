@@ -8,6 +8,7 @@ from itertools import combinations
 
 from flint import arb
 
+from garkcli.deadline import checked
 from garkcli.problems.builtin import PROBLEMS, problem
 from garkcli.problems.deferred import KNOWN, Record, recorded
 from garkcli.problems.hamiltonian import Hamiltonian
@@ -68,7 +69,7 @@ def _ask_field(field: VectorField, layout: Layout) -> None:
     for is_for_balls in (False, True):
         code_of(field.components, field.arguments, is_for_balls)
     for count in range(1, len(field.depends) + 1):
-        for groups in combinations(field.depends, count):
+        for groups in checked(combinations(field.depends, count)):
             by = [(group, k) for group in groups for k in range(layout.size(group))]
             code_of(field.slopes(by), field.arguments, False)
 

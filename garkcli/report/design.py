@@ -163,6 +163,8 @@ UNDECIDED = (
     "fewer unknowns make it decidable: values for some by --set or design: fix, a shape with"
     " fewer such as palindromic; --search N looks for methods and decides nothing"
 )
+LATE = "give it more by --seconds; "
+"""Of what ends with its time, and of nothing that is beyond gark's limits whatever the time is."""
 
 
 def _undecided(found: OrderDemand) -> Iterator[str]:
@@ -180,7 +182,7 @@ def _undecided(found: OrderDemand) -> Iterator[str]:
             " a lower order of the pair, or fix unknowns by --set or design: fix"
         )
     else:
-        yield UNDECIDED
+        yield f"{LATE if found.step.is_late else ''}{UNDECIDED}"
 
 
 def _real(found: OrderDemand, d: Plain) -> Iterator[str]:

@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Callable, Iterator
 from contextlib import suppress
-from itertools import count
+from itertools import combinations, count, product
+from math import prod
+from pathlib import Path
+from random import Random
 
 import pytest
-from flint import Ordering, arb, fmpq, fmpq_mat, fmpz_mpoly_ctx
+from flint import Ordering, arb, fmpq, fmpq_mat, fmpq_mpoly, fmpz_mpoly_ctx
 
+import garkcli
 from garkcli import deadline, load, loads, search_methods
-from garkcli.deadline import check_time, only_small, spending, until, within
+from garkcli.deadline import check_time, checked, only_small, spending, until, within
 from garkcli.design.choices import walk_down
 from garkcli.design.conditions import FamilyConditions
 from garkcli.design.design import Design, find_parameters
-from garkcli.design.groebner import groebner_basis, grown_basis, unproved_basis
+from garkcli.design.groebner import groebner_basis, grown_basis, leading, unproved_basis
 from garkcli.design.ideal import Ideal, characteristic_polynomial, least_meeting
 from garkcli.design.minimise.climbing import climbed
 from garkcli.design.minimise.minimise import minimise
@@ -163,6 +168,95 @@ def engines() -> Iterator[tuple[str, Callable[[], object]]]:
     yield "certificate", lambda: find_order(method.tableau)
     yield "process", lambda: apart(sorted, [2, 1])
     yield "processes", lambda: first_of((sorted, ([2, 1],)))
+
+
+def itertools_without_clock() -> Iterator[str]:
+    """Calls of itertools that have very many items and are not looked at the clock for: all whose
+    number of factors is not written down.
+    """
+    many = {"combinations", "combinations_with_replacement", "permutations", "product"}
+    for path in sorted(Path(garkcli.__file__).parent.rglob("*.py")):
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+        imported = {
+            x.asname or x.name
+            for node in ast.walk(tree)
+            if isinstance(node, ast.ImportFrom) and node.module == "itertools"
+            for x in node.names
+            if x.name in many
+        }
+        whole = [x for node in ast.walk(tree) if isinstance(node, ast.Import) for x in node.names]
+        assert "itertools" not in {x.name for x in whole}, path
+        calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call)]
+        within_checked = {
+            id(inner)
+            for call in calls
+            if isinstance(call.func, ast.Name) and call.func.id == "checked"
+            for inner in ast.walk(call)
+        }
+        for call in calls:
+            is_many = isinstance(call.func, ast.Name) and call.func.id in imported
+            if is_many and not has_few_factors(call) and id(call) not in within_checked:
+                yield f"{path}:{call.lineno}: {ast.unparse(call)}"
+
+
+def has_few_factors(call: ast.Call) -> bool:
+    """Whether the number of factors of a product, or the size of a choice, is written down."""
+    assert isinstance(call.func, ast.Name)
+    if call.func.id == "product":
+        is_open = any(isinstance(x, ast.Starred) for x in call.args)
+        return not is_open and all(isinstance(x.value, ast.Constant) for x in call.keywords)
+    return len(call.args) == 2 and isinstance(call.args[1], ast.Constant)
+
+
+def test_every_loop_over_very_many_looks_at_the_clock() -> None:
+    """No combination or product of any size is gone through without."""
+    assert list(itertools_without_clock()) == []
+
+
+def test_a_loop_over_very_many_ends_with_its_time() -> None:
+    """The items are made one by one, and none after the deadline."""
+    with within(0.05), pytest.raises(NotDecided) as raised:
+        for _ in checked(product((0, 1), repeat=100)):
+            pass
+    assert raised.value.is_late
+
+
+MANY_UNKNOWNS = """methods: [gauss-2, lobatto-iiia-3, lobatto-iiib-3]
+transfer: "?"
+"""
+
+
+def test_real_points_of_many_unknowns() -> None:
+    """Of forty unknowns those that nothing relates are chosen by covering, not one choice after
+    the other, of which there are millions.
+    """
+    family = loads_family(MANY_UNKNOWNS)
+    step = find_parameters(family, 2, seconds=1e3).last
+    assert isinstance(step.ideal, Ideal)
+    chosen = step.ideal.independent
+    assert chosen is not None
+    supports = [{i for i, k in enumerate(leading(p)) if k} for p in step.ideal.basis]
+    assert len(chosen) == step.ideal.dimension > 30
+    assert not any(x <= set(chosen) for x in supports)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_the_first_independent_unknowns(seed: int) -> None:
+    """They are the first of all choices of so many that have no leading monomial."""
+    random = Random(seed)
+    names = [f"x{k}" for k in range(random.randint(2, 5))]
+    ring = Parameters(names)
+    gens = list(ring.context.gens())
+
+    def monomial() -> fmpq_mpoly:
+        return prod(random.sample(gens, random.randint(1, 2)), start=ring.constant(fmpq(1)))
+
+    nonzero = [monomial()] * random.randint(0, 1)
+    ideal = Ideal(ring, nonzero).with_zeros(monomial() - monomial() for _ in range(2))
+    supports = [{i for i, k in enumerate(leading(p)) if k} for p in ideal.basis]
+    choices = combinations(range(len(names)), ideal.dimension)
+    free = (x for x in choices if not any(support <= set(x) for support in supports))
+    assert ideal.independent == next(free, None)
 
 
 def decided(found: Design) -> None:

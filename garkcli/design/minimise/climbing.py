@@ -14,7 +14,7 @@ from typing import Any, TypeAlias
 
 from flint import fmpq
 
-from garkcli.deadline import check_time
+from garkcli.deadline import check_time, checked
 
 Point: TypeAlias = tuple[fmpq, ...]
 Rank: TypeAlias = Callable[[Point], Any]
@@ -57,7 +57,7 @@ def climbed(rank: Rank, coordinates: int) -> Point | None:
         return rank(point)
 
     values = [_rational(x) for x in GRID[coordinates]]
-    starts = [x for x in product(values, repeat=coordinates) if known(x)]
+    starts = [x for x in checked(product(values, repeat=coordinates)) if known(x)]
     starts.sort(key=known, reverse=True)
     best = max((_climbed(known, x) for x in starts[:BEST]), key=known, default=None)
     return None if best is None else _shortened(known, best)
@@ -107,7 +107,7 @@ def _climbed(known: Rank, point: Point) -> Point:
 def _neighbours(point: Point, step: fmpq) -> Iterator[Point]:
     """The points around a point, with one or two coordinates changed."""
     size = len(point)
-    for signs in product((-1, 0, 1), repeat=size):
+    for signs in checked(product((-1, 0, 1), repeat=size)):
         if size - signs.count(0) in {1, 2}:
             yield tuple(x + k * step for x, k in zip(point, signs, strict=True))
 

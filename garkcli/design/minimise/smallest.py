@@ -10,7 +10,7 @@ from typing import cast
 
 from flint import fmpq, fmpq_mpoly
 
-from garkcli.deadline import check_time, until
+from garkcli.deadline import check_time, checked, until
 from garkcli.design.design import Found
 from garkcli.design.member import member
 from garkcli.design.minimise.comparison import Comparison
@@ -55,12 +55,13 @@ def critical_equations(
     if minors * comb(size, codimension + 1) > MOST_MINORS:
         raise NotDecided
     zeros = []
-    for chosen in combinations(equations, codimension):
+    for chosen in checked(combinations(equations, codimension)):
         rows = [gradient]
         rows += [[p.derivative(i) for i in range(size)] for p in chosen]
-        for columns in combinations(range(size), codimension + 1):
-            check_time()
-            zeros.append(_determinant([[row[j] for j in columns] for row in rows]))
+        zeros += [
+            _determinant([[row[j] for j in columns] for row in rows])
+            for columns in checked(combinations(range(size), codimension + 1))
+        ]
     return zeros
 
 
@@ -341,7 +342,7 @@ class Smallest(Comparison):
         names = part.ring.names
         gens = part.ring.context.gens()
         for value in CUTS:
-            for chosen in combinations(range(len(names)), part.dimension):
+            for chosen in checked(combinations(range(len(names)), part.dimension)):
                 cuts = [gens[i] - value for i in chosen]
                 before = len(self.candidates)
                 for smaller in parts_within(part, cuts):
