@@ -7,21 +7,24 @@ of P-stability 1 − det M is zero.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
 from typing import Protocol
 
 from flint import fmpq, fmpq_mpoly
 
-from garkcli.design.member import TABLEAUS, Whose, member, shares_of
-from garkcli.design.step_plane import StepPlane, step_plane
-from garkcli.errors import UsageProblem, ZeroWeight
+from garkcli.design.ideal import Ideal
+from garkcli.design.member import MOST_DEGREE, TABLEAUS, Whose, member, shares_of
+from garkcli.design.solutions import Solution, solutions, value_at
+from garkcli.design.step_plane import Line, StepPlane, step_plane
+from garkcli.errors import NotDecided, UsageProblem, ZeroWeight
 from garkcli.exact import projection
 from garkcli.exact.cells import Interval, Point, between, contains, first_end, sign_of
-from garkcli.exact.field import ZERO, Number
+from garkcli.exact.field import ZERO, Number, poly_of
 from garkcli.exact.matrix import Matrix
-from garkcli.exact.parametric import factors
+from garkcli.exact.parametric import Parameters
 from garkcli.exact.polynomial import Polynomial
-from garkcli.exact.roots import RealRoot
+from garkcli.exact.roots import RealRoot, number_of
 from garkcli.frozen import Frozen
 from garkcli.problems.oscillator import Oscillator, check_structure, terms_of
 from garkcli.stability.linear import imaginary_set, is_a_stable, stability_function
@@ -39,24 +42,87 @@ from garkcli.tableau.tableau import Tableau
 _RIGHT = "the linear test equation has no meaning for it: some stages do not see every vector field"
 
 
+MOST_POINTS = 60
+"""Values of all unknowns together, with their conjugates, among which those meant are sought."""
+
+
 class Members(Frozen):
-    """The methods of a family."""
+    """The methods of a family of one parameter; roots among its coefficients are numbers."""
 
     family: Family
     whose: Whose
 
-    def at(self, value: Number) -> Tableau | None:
-        """The method for a value; None where a weight or a denominator is zero."""
+    @cached_property
+    def constants(self) -> Mapping[str, Number] | None:
+        """The roots among the coefficients; None where no field that is small enough has them."""
+        return self._numbers({}) if self.family.radicals else {}
+
+    def at(self, t: Point) -> Tableau | None:
+        """The method for a value; None where a weight or a denominator is zero.
+
+        Raises:
+            NotDecided: its field is too large.
+        """
+        rational = t.exact if isinstance(t, RealRoot) else t
+        [name] = self.family.parameters
+        if rational is None:
+            assert isinstance(t, RealRoot)
+            numbers = self._numbers({name: t})
+        else:
+            numbers = None if self.constants is None else {name: rational, **self.constants}
+        if numbers is None:
+            raise NotDecided
         family = self.family
         try:
-            [name] = family.ring.names
-            return TABLEAUS[self.whose](member(family.tableau, family.ring, {name: value}))
+            return TABLEAUS[self.whose](member(family.tableau, family.ring, numbers))
         except (ZeroDivisionError, ZeroWeight):
             return None
 
+    def _numbers(self, values: Mapping[str, RealRoot]) -> dict[str, Number] | None:
+        """The roots among the coefficients and other values as numbers of one field; None where
+        that is too large.
+        """
+        family = self.family
+        meant = dict(values)
+        for radical in family.radicals:
+            if radical.meant is not None:
+                meant[radical.name] = radical.meant
+        even = [x.name for x in family.radicals if x.is_even]
+        zero = RealRoot.rational(ZERO)
+        for solution, root in self._conjugates(values):
+            at = {key: value_at(x, root) for key, x in solution.values.items()}
+            if all(at[x] == y for x, y in meant.items()) and not any(at[x] < zero for x in even):
+                u = number_of(root, MOST_DEGREE)
+                if u is None:
+                    return None
+                elements = solution.values.items()
+                return {key: Polynomial.from_flint(poly_of(x))(u) for key, x in elements}
+        return None
+
+    def _conjugates(self, values: Mapping[str, RealRoot]) -> Iterator[tuple[Solution, RealRoot]]:
+        """The values and roots with all that are conjugate to them."""
+        ring = Parameters([*values, *(x.name for x in self.family.radicals)])
+        zeros = [x.relation.project_to_context(ring.context) for x in self.family.radicals]
+        for name, t in values.items():
+            x = ring.context.gen(ring.names.index(name))
+            zeros.append(sum((x**k * fmpq(a) for k, a in enumerate(t.polynomial.coeffs())), x * 0))
+        ideal = Ideal(ring).with_zeros(zeros)
+        if ideal.degree <= MOST_POINTS:
+            yield from ((x, root) for x in solutions(ideal) for root in x.real)
+
+    def line(self, tableau: Tableau) -> Line:
+        """They, or others made of them, along the parameter.
+
+        Raises:
+            NotDecided: the field of the roots among the coefficients is too large.
+        """
+        if self.constants is None:
+            raise NotDecided
+        return Line(tableau, self.family.ring, self.constants)
+
     def plane(self, tableau: Tableau, fields: Sequence[Matrix]) -> StepPlane:
         """Their step for every value."""
-        return step_plane(tableau, self.family.ring, fields)
+        return step_plane(self.line(tableau), fields)
 
 
 class Kind(Protocol):
@@ -73,8 +139,12 @@ class Kind(Protocol):
     critical: list[Polynomial]
     essential: list[Polynomial]
 
-    def decide(self, value: Number) -> bool:
-        """By the ordinary engine."""
+    def decide(self, value: Point) -> bool:
+        """By the ordinary engine.
+
+        Raises:
+            NotDecided: the field of the method is too large.
+        """
 
     def witness(self, value: fmpq) -> fmpq | None:
         """An x at which a condition is violated for a value that has been decided in vain."""
@@ -116,14 +186,15 @@ class AStability:
         self.E = squared_modulus(self.Q) - squared_modulus(self.P)
         u, v = real_and_imaginary(self.Q)
         self.essential: list[Polynomial] = []
-        self.critical = projection.projected(factors([self.E]), [ZERO])
         # a pole at infinity or on the axis, another degree of R, other lowest terms
-        common = projection.resultant(self.P, self.Q)
-        on_axis = projection.resultant(u, v)
-        for p in (projection.leading(self.Q), projection.leading(self.P), on_axis, common):
-            self.critical.append(projection.in_t(p))
+        self.critical = [
+            *self.plane.projected([self.E], [ZERO]),
+            *(self.plane.in_t(projection.leading(p)) for p in (self.Q, self.P)),
+            *self.plane.meeting(u, v),
+            *self.plane.meeting(self.P, self.Q),
+        ]
 
-    def decide(self, value: Number) -> bool:
+    def decide(self, value: Point) -> bool:
         tableau = self.members.at(value)
         return tableau is not None and is_a_stable(stability_function(tableau, self.shares))
 
@@ -134,11 +205,16 @@ class AStability:
         return first_gap(imaginary_set(stability_function(tableau, self.shares)))
 
     def conditions(self, x: fmpq) -> list[Polynomial]:
-        return [projection.at_y(self.E, x)]
+        return [self.plane.at_y(self.E, x)]
 
     def is_damped(self, t: Point) -> bool:
         """Whether R(∞) = 0; common factors of P and Q change both degrees alike."""
-        return _degree_at(self.P, t) < _degree_at(self.Q, t)
+        return self._degree_at(self.P, t) < self._degree_at(self.Q, t)
+
+    def _degree_at(self, p: fmpq_mpoly, t: Point) -> int:
+        """The degree in y of p(y, t)."""
+        coefficients = self.plane.coefficients(p)
+        return max((k for k, a in enumerate(coefficients) if sign_of(a, t)), default=-1)
 
 
 class IStability:
@@ -150,14 +226,14 @@ class IStability:
         self.plane = members.plane(tableau, driven(tableau, "i-stable"))
         self.signs, others = oscillator_curves(self.plane)
         poles = in_square(self.plane.denominator)
-        self.essential = projection.projected(factors([poles, *self.signs]), [ZERO])
-        self.critical = projection.projected(factors([*self.signs, *others]), [ZERO])
+        self.essential = self.plane.projected([poles, *self.signs], [ZERO])
+        self.critical = self.plane.projected([*self.signs, *others], [ZERO])
 
-    def _at(self, value: Number) -> OscillatorStability | None:
+    def _at(self, value: Point) -> OscillatorStability | None:
         tableau = self.members.at(value)
         return None if tableau is None else oscillator_stability(tableau, self.problem)
 
-    def decide(self, value: Number) -> bool:
+    def decide(self, value: Point) -> bool:
         found = self._at(value)
         return found is not None and found.is_i_stable
 
@@ -166,7 +242,7 @@ class IStability:
         return None if found is None else first_gap(found.stable)
 
     def conditions(self, x: fmpq) -> list[Polynomial]:
-        return [projection.at_y(p, x) for p in self.signs]
+        return [self.plane.at_y(p, x) for p in self.signs]
 
 
 def oscillator_curves(plane: StepPlane) -> tuple[list[fmpq_mpoly], list[fmpq_mpoly]]:
@@ -179,7 +255,7 @@ def oscillator_curves(plane: StepPlane) -> tuple[list[fmpq_mpoly], list[fmpq_mpo
     D = plane.denominator
     (a, b), (c, d) = plane.numerators
     # b and c are odd in z, all others even
-    z, _ = projection.PLANE.gens()
+    z, *_ = D.context().gens()
     others = [D, a + d, a * d - b * c, z * b, z * c]
     conditions = eigenvalue_conditions(D, a, b, c, d)
     return list(map(in_square, conditions)), list(map(in_square, others))
@@ -197,15 +273,6 @@ def first_gap(intervals: Sequence[Interval]) -> fmpq | None:
     return None if end is None else between(end, None)
 
 
-def _degree_at(p: fmpq_mpoly, t: Point) -> int:
-    """The degree in y of p(y, t)."""
-    for k in range(p.degrees()[0], -1, -1):
-        coefficient = projection.in_t(projection.coefficient_of(p, k))
-        if sign_of(coefficient, t):
-            return k
-    return -1
-
-
 def real_and_imaginary(p: fmpq_mpoly) -> tuple[fmpq_mpoly, fmpq_mpoly]:
     """The polynomials u and v in x = y² with p(iy) = u(y²) + i y v(y²); y is the first unknown."""
     parts: tuple[dict[tuple[int, ...], fmpq], ...] = {}, {}
@@ -219,17 +286,17 @@ def real_and_imaginary(p: fmpq_mpoly) -> tuple[fmpq_mpoly, fmpq_mpoly]:
 def squared_modulus(p: fmpq_mpoly) -> fmpq_mpoly:
     """|p(iy)|² in x = y²."""
     u, v = real_and_imaginary(p)
-    x, _ = projection.PLANE.gens()
+    x, *_ = p.context().gens()
     return u * u + x * v * v
 
 
 def in_square(p: fmpq_mpoly) -> fmpq_mpoly:
     """A polynomial with even powers of z only, in x = z²."""
     terms: dict[tuple[int, ...], fmpq] = {}
-    for (j, k), a in p.to_dict().items():
+    for (j, *others), a in p.to_dict().items():
         assert j % 2 == 0
-        terms[j // 2, k] = a
-    return projection.PLANE.from_dict(terms)
+        terms[int(j) // 2, *map(int, others)] = a
+    return p.context().from_dict(terms)
 
 
 class TwoSprings(Frozen):
@@ -256,8 +323,7 @@ class SpringStability:
         self.wanted = wanted
         split = self.split = springs(tableau, wanted.fast)
         self.plane = StepPlane.of(
-            tableau,
-            members.family.ring,
+            members.line(tableau),
             unknowns_of(tableau, split),
             lambda method: line_of_determinants(method, split, wanted.slow),
         )
@@ -267,11 +333,11 @@ class SpringStability:
         ends = [ZERO]
         if wanted.greatest is not None:
             ends.append(wanted.greatest)
-        self.essential = projection.projected(factors([D, *self.signs]), ends)
+        self.essential = self.plane.projected([D, *self.signs], ends)
         deciding = [*self.signs, D, a + d, a * d - b * c, b, c]
-        self.critical = projection.projected(factors(deciding), ends)
+        self.critical = self.plane.projected(deciding, ends)
 
-    def decide(self, value: Number) -> bool:
+    def decide(self, value: Point) -> bool:
         found = self._stable(value)
         greatest = self.wanted.greatest
         if greatest is None:
@@ -287,9 +353,9 @@ class SpringStability:
         return x
 
     def conditions(self, x: fmpq) -> list[Polynomial]:
-        return [projection.at_y(p, x) for p in self.signs]
+        return [self.plane.at_y(p, x) for p in self.signs]
 
-    def _stable(self, value: Number) -> tuple[Interval, ...]:
+    def _stable(self, value: Point) -> tuple[Interval, ...]:
         tableau = self.members.at(value)
         if tableau is None:
             return ()

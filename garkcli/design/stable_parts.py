@@ -18,6 +18,7 @@ from flint import fmpq, fmpq_mpoly
 from garkcli.deadline import check_time, checked
 from garkcli.design.fewer import step_polynomials
 from garkcli.design.member import (
+    MOST_DEGREE,
     TABLEAUS,
     Whose,
     is_admissible,
@@ -39,11 +40,10 @@ from garkcli.design.parts import (
 )
 from garkcli.design.solutions import Solution, value_at
 from garkcli.design.stability_kinds import Members, driven
-from garkcli.design.stable_values import MOST_DEGREE, StableValues, stable_values
-from garkcli.design.step_plane import StepPlane, step_plane
+from garkcli.design.stable_values import StableValues, stable_values
+from garkcli.design.step_plane import Line, StepPlane
 from garkcli.errors import NotDecided, ZeroWeight
 from garkcli.exact.cells import Interval, Point, between, ends_of, has, sign_of, where
-from garkcli.exact.field import Number
 from garkcli.exact.matrix import Matrix
 from garkcli.exact.parametric import Parameters, common_denominator, fraction
 from garkcli.exact.polynomial import Polynomial, in_one
@@ -201,16 +201,16 @@ class _Line:
         if self.root is None:
             kind: Any = self.wanted.kind
             found = stable_values(
-                members.line, kind, self.whose, colour=self.wanted.colour, members=members
+                members.alone, kind, self.whose, colour=self.wanted.colour, members=members
             )
             return found.found, found.undecided
         stable, undecided = [], []
         for t, _ in real_roots(in_one(self.root)):
-            number = number_of(t, MOST_DEGREE)
-            tableau = None if number is None else members.at(number)
-            if number is None:
+            if number_of(t, MOST_DEGREE) is None:
                 undecided.append(t)
-            elif tableau is not None and is_stable(self.wanted, tableau):
+                continue
+            tableau = members.at(t)
+            if tableau is not None and is_stable(self.wanted, tableau):
                 stable.append(point_of(t))
         return tuple(stable), tuple(undecided)
 
@@ -221,7 +221,7 @@ class _Line:
         is_same = not found or found == (Interval(None, None),)
         name, a, b = self._shown(is_same)
         kind: Any = self.wanted.kind
-        family = replace(self.members.line, parameters=(name,))
+        family = replace(self.members.alone, parameters=(name,))
 
         def moved(x: RealRoot) -> RealRoot:
             return value_at(at_root(self.name, x).values[self.name] * a + b, x)
@@ -285,12 +285,15 @@ class PartMembers(Members):
     name: str
     tableau: Tableau
 
-    def at(self, value: Number) -> Tableau | None:
+    def at(self, t: Point) -> Tableau | None:
         """A method with a value of the coordinate; None where there is none.
 
         Raises:
-            NotDecided: no tried value is one.
+            NotDecided: no tried value is one, or its field is too large.
         """
+        value = number_of(t, MOST_DEGREE) if isinstance(t, RealRoot) else t
+        if value is None:
+            raise NotDecided
         if not all(p(value) for p in self.poles):
             return None
         others = len(self.part.ring.names) - 1
@@ -303,7 +306,7 @@ class PartMembers(Members):
         return None
 
     @property
-    def line(self) -> Family:
+    def alone(self) -> Family:
         """The family of the one coordinate."""
         ring = Parameters([self.name])
         for others in points(len(self.part.ring.names) - 1):
@@ -321,10 +324,11 @@ class PartMembers(Members):
                 )
         raise NotDecided
 
+    def line(self, tableau: Tableau) -> Line:
+        return Line(tableau, Parameters([self.name]))
+
     def plane(self, tableau: Tableau, fields: Sequence[Matrix]) -> StepPlane:
-        """Their step for every value of the coordinate."""
-        plane = step_plane(tableau, Parameters([self.name]), fields)
-        return replace(plane, poles=self.poles)
+        return replace(super().plane(tableau, fields), poles=self.poles)
 
     def _with(self, value: Any, others: Sequence[fmpq]) -> dict[str, Any]:
         names = [name for name in self.part.ring.names if name != self.name]

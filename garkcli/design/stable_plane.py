@@ -6,11 +6,8 @@ projected once more, onto t. Between two critical t nothing changes but where th
 that one rational t decides a strip, by the set of values of the one parameter that is left; its
 ends are branches of the curves.
 
-A-stability is |P| ≤ |Q| on the left half plane, with coefficients that are polynomials in the
-parameters: limits of A-stable methods are A-stable. So on the line over a critical t, where that is
-no curve itself, only the points where curves meet it are open, and of these only those that are no
-limits: there some z with |P(z)| > |Q(z)| decides. Over a rational t the engine for one parameter
-does.
+Over every t, an irrational one too, the engine for one parameter decides; numbers among the
+coefficients, such as sqrt(2), are like t for it.
 """
 
 from __future__ import annotations
@@ -19,13 +16,13 @@ from collections.abc import Sequence
 from itertools import combinations, pairwise
 from typing import Any, TypeAlias
 
-from flint import acb, acb_poly, arb, ctx, fmpq, fmpq_mpoly
+from flint import arb, ctx, fmpq, fmpq_mpoly
 
 from garkcli.deadline import check_time
 from garkcli.design.fewer import fewest
 from garkcli.design.member import TABLEAUS, Whose, member, shares_of
 from garkcli.design.stability_functions import FamilyFunction, function_of, joined
-from garkcli.design.stability_kinds import TwoSprings, driven, real_and_imaginary
+from garkcli.design.stability_kinds import Members, TwoSprings, driven, real_and_imaginary
 from garkcli.design.stable_values import (
     StableValues,
     Wanted,
@@ -34,20 +31,16 @@ from garkcli.design.stable_values import (
     stable_values,
     too_many,
 )
-from garkcli.errors import UsageProblem
+from garkcli.errors import NotDecided, UsageProblem
 from garkcli.exact import projection
-from garkcli.exact.cells import Interval, between, roots_of
-from garkcli.exact.enclosing import value
+from garkcli.exact.cells import Interval, Point, between, roots_of
 from garkcli.exact.parametric import Parameters, common_denominator, evaluated, factors
 from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.roots import RealRoot, real_roots, sign_at
 from garkcli.frozen import Frozen, replace
-from garkcli.tableau.family import Family
+from garkcli.tableau.family import Family, Radical
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
-
-BITS = 512
-"""Precision of the balls in which a value of |R| above 1 is proved."""
 
 
 class Branch(Frozen, eq=False):
@@ -196,9 +189,9 @@ def stable_set(
         ZeroWeight: a weight is zero for every value, and there is no conjugate.
         NotDecided: the time is not enough.
     """
-    refuse_radicals(family, wanted, whose)
     if len(family.parameters) == 1:
         return stable_values(family, wanted, whose, two_springs, colour)
+    refuse_radicals(Members(family, whose), wanted, two_springs)
     found = None if two_springs else form_values(family, wanted, whose, colour)
     if found is not None:
         return found
@@ -250,9 +243,7 @@ class _Plane:
         self.family, self.colour = family, colour
         driven(family.tableau, "a-stable", colour)
         R = function_of(family.tableau, family.ring, "", shares_of(family.tableau, colour))
-        self.R = R
-        self.curves = _deciding(R, family.ring)
-        self.vertical = [projection.in_t(p) for p in self.curves if p.degrees()[0] == 0]
+        self.curves = _deciding(R, family)
         self.undecided: list[RealRoot] = []
 
     def run(self) -> StablePlane:
@@ -268,28 +259,44 @@ class _Plane:
             strips += [self._over(t, strips[-1], following), following]
         return StablePlane(self.family, tuple(_joined(strips)), tuple(self.undecided), self.colour)
 
-    def _stable(self, t: fmpq) -> tuple[Interval, ...]:
+    def _stable(self, t: Point) -> StableValues:
         """The values of the second parameter for one of the first."""
-        first, second = self.family.ring.names
-        ring = Parameters([second])
-        values: dict[str, Any] = {first: t, second: ring.parameter(second)}
+        first, second = self.family.parameters
+        family = self.family
+        radicals = family.radicals
+        rational = t.exact if isinstance(t, RealRoot) else t
+        others = [x.name for x in radicals]
+        ring = Parameters([second, *others, *([] if rational is not None else [first])])
+        values: dict[str, Any] = {name: ring.parameter(name) for name in ring.names}
+        if rational is not None:
+            values[first] = rational
+        relations = [(x, x.relation.project_to_context(ring.context)) for x in radicals]
+        radicals = tuple(replace(x, relation=p) for x, p in relations)
+        if rational is None:
+            assert isinstance(t, RealRoot)
+            x = ring.context.gen(ring.names.index(first))
+            powers = enumerate(t.polynomial.coeffs())
+            relation = sum((x**k * fmpq(a) for k, a in powers), start=x * 0)
+            radicals = (*radicals, Radical(first, relation, meant=t))
         line = replace(
-            self.family,
-            tableau=member(self.family.tableau, self.family.ring, values),
+            family,
+            tableau=member(family.tableau, family.ring, values),
             ring=ring,
             parameters=(second,),
             ranges={second: (None, None)},
+            radicals=radicals,
         )
-        found = stable_values(line, "a-stable", colour=self.colour)
-        if found.undecided:
-            message = f"over {first} = {t} not every value of {second} is decided"
-            cure = f"fix one of the parameters, such as --set {first}={t}"
-            raise UsageProblem(message, cure, code="free-parameters")
-        return found.found
+        return stable_values(line, "a-stable", colour=self.colour)
 
     def _parts(self, t: fmpq) -> tuple[Part, ...]:
-        """The set over an open strip, from one t inside."""
+        """The set over an open strip, from one t inside.
+
+        Raises:
+            NotDecided: it has values that are undecided.
+        """
         found = self._stable(t)
+        if found.undecided:
+            raise NotDecided
         branches: list[tuple[RealRoot, Branch]] = []
         for curve in self.curves:
             if curve.degrees()[0]:
@@ -299,53 +306,28 @@ class _Plane:
         def end(y: RealRoot | None) -> Branch | None:
             return None if y is None else next(x for root, x in branches if root == y)
 
-        return tuple(Part(end(x.start), end(x.end), x.has_start, x.has_end) for x in found)
+        return tuple(Part(end(x.start), end(x.end), x.has_start, x.has_end) for x in found.found)
 
     def _over(self, t: RealRoot, left: Strip, right: Strip) -> Strip:
         """The set over a critical t."""
         base = Interval(t, t, has_start=True, has_end=True)
-        if t.exact is not None:
-            found = self._stable(t.exact)
-            for side in (left, right):
-                if _over(side, t) == list(found):
-                    return Strip(base, side.parts)
-            return Strip(base, tuple(Part(x.start, x.end, x.has_start, x.has_end) for x in found))
-        is_curve = any(sign_at(p, t) == 0 for p in self.vertical)
-        sides = [(side, _over(side, t)) for side in (left, right)]
-        for side, mine in sides:
-            others = [x for other, x in sides if other is not side]
-            if mine is None or is_curve or None in others:
-                continue
-            if all(_contain(mine, x) for x in others[0] or []) and self._nothing_else(t, mine):
+        try:
+            found = self._stable(t)
+        except UsageProblem:  # it is in no field that is small enough
+            self.undecided.append(t)
+            return Strip(base, ())
+        if found.undecided:
+            self.undecided.append(t)
+        for side in (left, right):
+            if not found.undecided and _over(side, t) == list(found.found):
                 return Strip(base, side.parts)
-        self.undecided.append(t)
-        return Strip(base, ())
-
-    def _nothing_else(self, t: RealRoot, found: Sequence[Interval]) -> bool:
-        """Whether |P| > |Q| for some z where curves meet the line outside of a set."""
-        for curve in self.curves:
-            if not curve.degrees()[0]:
-                continue
-            for y, _ in real_roots(in_one(projection.resultant(curve, projection.of_root(t), "t"))):
-                inside = _contain(found, Interval(y, y, has_start=True, has_end=True))
-                if not inside and not self._is_violated(t, y):
-                    return False
-        return True
-
-    def _is_violated(self, t: RealRoot, y: RealRoot) -> bool:
-        """Whether |P| > |Q| for a simple z, Re z ≤ 0, proved in balls."""
-        with ctx.workprec(BITS):
-            at = [t.ball(BITS), y.ball(BITS)]
-            P, Q = ([_value(x, at) for x in p] for p in (self.R.numerator, self.R.denominator))
-            sizes = [arb(0), *(arb(fmpq(4) ** k) for k in range(-6, 7))]
-            points = [acb(-x, z) for x in sizes for z in sizes]
-            # next to a pole too
-            points += [z for z in _roots([x.mid() for x in Q]) if z.real < 0]
-            return any(abs(value(P, z)) > abs(value(Q, z)) for z in points)
+        parts = (Part(x.start, x.end, x.has_start, x.has_end) for x in found.found)
+        return Strip(base, () if found.undecided else tuple(parts))
 
 
-def _deciding(R: FamilyFunction, ring: Parameters) -> list[fmpq_mpoly]:
+def _deciding(R: FamilyFunction, family: Family) -> list[fmpq_mpoly]:
     """The irreducible curves in the plane of the parameters that decide."""
+    ring = family.ring
     P, Q, E = (
         joined(x, common_denominator(list(x), ring), ring)
         for x in (R.numerator, R.denominator, R.e_polynomial or (fmpq(0),))
@@ -361,12 +343,12 @@ def _deciding(R: FamilyFunction, ring: Parameters) -> list[fmpq_mpoly]:
         crossing.append(factor)
         found += [projection.leading(factor), factor.compose(zero, *P.context().gens()[1:])]
         if degree > 1:
-            found.append(factor.discriminant("_z"))
-    found += [p.resultant(q, "_z") for p, q in combinations(crossing, 2)]
+            found.append(projection.discriminant(factor, "_z"))
+    found += [projection.resultant(p, q, "_z") for p, q in combinations(crossing, 2)]
     found += [projection.leading(P), projection.leading(Q)]
     for p, q in ((P, Q), real_and_imaginary(Q)):
         if p and q and (p.degrees()[0] or q.degrees()[0]):
-            found.append(p.resultant(q, "_z"))
+            found.append(projection.resultant(p, q, "_z"))
     return factors(projection.in_plane(p, y=2, t=1) for p in found)
 
 
@@ -374,16 +356,6 @@ def _over(strip: Strip, t: RealRoot) -> list[Interval] | None:
     """The set of a strip over an end of it, as limits; None where one is not known."""
     found = [part.over(t) for part in strip.parts]
     return None if None in found else [x for x in found if x is not None]
-
-
-def _contain(parts: Sequence[Interval], x: Interval) -> bool:
-    """Whether an interval is in one of some closed ones."""
-    for part in parts:
-        begins = part.start is None or (x.start is not None and not x.start < part.start)
-        ends = part.end is None or (x.end is not None and not part.end < x.end)
-        if begins and ends:
-            return True
-    return False
 
 
 def _joined(strips: Sequence[Strip]) -> list[Strip]:
@@ -397,14 +369,6 @@ def _joined(strips: Sequence[Strip]) -> list[Strip]:
         else:
             found.append(strip)
     return [strip for strip in found if strip.parts]
-
-
-def _roots(coefficients: Sequence[arb]) -> list[acb]:
-    """Numbers near the roots of a polynomial; none where they are multiple."""
-    try:
-        return [z.mid() for z in acb_poly(coefficients).roots()]
-    except ValueError:
-        return []
 
 
 def _value(x: Any, at: Sequence[arb]) -> arb:

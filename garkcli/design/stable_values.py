@@ -10,7 +10,7 @@ one rational t decides by the ordinary engine. A critical t is decided by itself
   contradict the first unless it cancels;
 * I-stability at the end of an interval of it where the zeros of D and of the three conditions on
   the eigenvalues stay as they are: no pole and no double eigenvalue appears;
-* otherwise by the ordinary engine over ℚ(t).
+* otherwise by the ordinary engine over ℚ(t), with the roots among the coefficients.
 
 Of the I-stable values those are P-stable for which the coefficients of 1 − det M in x are zero.
 Both often hold at isolated points, which no sampling finds.
@@ -18,10 +18,10 @@ Both often hold at isolated points, which no sampling finds.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Literal, TypeAlias
 
-from flint import fmpq
+from flint import fmpq, fmpq_mpoly
 
 from garkcli.design.fewer import Form
 from garkcli.design.member import TABLEAUS, Whose
@@ -33,19 +33,15 @@ from garkcli.design.stability_kinds import (
     SpringStability,
     TwoSprings,
 )
-from garkcli.errors import UsageProblem, counted
-from garkcli.exact import projection
+from garkcli.errors import NotDecided, UsageProblem, counted
 from garkcli.exact.cells import Interval, Point, ends_of, has, sign_of, where
-from garkcli.exact.polynomial import Polynomial, in_one
-from garkcli.exact.roots import RealRoot, number_of, sign_at
+from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.roots import RealRoot, sign_at
 from garkcli.frozen import Frozen
 from garkcli.tableau.family import OSCILLATING, Family
 from garkcli.upward import Shown
 
 Wanted: TypeAlias = Literal["p-stable", "i-stable", "a-stable", "l-stable"]
-
-MOST_DEGREE = 6
-"""Critical values of a larger degree are not decided over their number field."""
 
 
 class StableValues(Shown, Frozen):
@@ -120,7 +116,7 @@ def stable_values(
     """The set of values of the one free parameter, restricted to what the file wants.
 
     Args:
-        family: of methods, with one free parameter and rational coefficients otherwise.
+        family: of methods, with one free parameter and numbers otherwise.
         wanted: P-stability or I-stability on the oscillator that is split as usual, A-stability or
             L-stability with all vector fields equal.
         whose: of the method, its symplectic conjugate, or its symplectic pair.
@@ -130,15 +126,16 @@ def stable_values(
 
     Raises:
         UsageProblem: the stability has no meaning for the method, there are several parameters, or
-            coefficients are irrational.
+            roots of a parameter among the coefficients.
         ZeroWeight: a weight is zero for every value, and there is no conjugate.
         NotDecided: the time is not enough.
     """
-    refuse_radicals(family, wanted, whose)
+    members = members or Members(family, whose)
+    refuse_radicals(members, wanted, two_springs)
     if len(family.parameters) > 1:
         raise too_many(family)
     tableau = TABLEAUS[whose](family.tableau)
-    members = members or Members(family, whose)
+    along = members.line(family.tableau).along
     (ends,) = family.ranges.values()
     if wanted in OSCILLATING:
         oscillating: IStability | SpringStability
@@ -149,7 +146,7 @@ def stable_values(
         found, undecided = decided(oscillating, ends)
         if wanted == "p-stable":
             found, undecided = _conservative(oscillating, found, undecided)
-        found, undecided = _wanted(family, found, undecided)
+        found, undecided = _wanted(family, along, found, undecided)
         return StableValues(family, whose, wanted, found, undecided, two_springs)
     kind = AStability(members, tableau, colour)
     found, undecided = decided(kind, ends)
@@ -158,7 +155,7 @@ def stable_values(
         stable = found
         found = where(lambda t: has(stable, t) and kind.is_damped(t), critical)
         undecided = tuple(t for t in undecided if kind.is_damped(t))
-    found, undecided = _wanted(family, found, undecided)
+    found, undecided = _wanted(family, along, found, undecided)
     return StableValues(family, whose, wanted, found, undecided, colour=colour)
 
 
@@ -176,7 +173,7 @@ def _conservative(
     kind: IStability | SpringStability, found: tuple[Interval, ...], undecided: tuple[RealRoot, ...]
 ) -> tuple[tuple[Interval, ...], tuple[RealRoot, ...]]:
     """The values of a set for which a step has the determinant 1, and the undecided ones."""
-    damping = projection.coefficients(kind.signs[0])  # of 1 − det M, times D²
+    damping = kind.plane.coefficients(kind.signs[0])  # of 1 − det M, times D²
 
     def is_conservative(t: Point) -> bool:
         return all(sign_of(p, t) == 0 for p in damping)
@@ -195,7 +192,10 @@ def _without(found: Sequence[Interval], undecided: Sequence[RealRoot]) -> tuple[
 
 
 def _wanted(
-    family: Family, found: tuple[Interval, ...], undecided: tuple[RealRoot, ...]
+    family: Family,
+    along: Callable[[fmpq_mpoly], Polynomial],
+    found: tuple[Interval, ...],
+    undecided: tuple[RealRoot, ...],
 ) -> tuple[tuple[Interval, ...], tuple[RealRoot, ...]]:
     """The values of a set that the file wants, and the undecided ones among them."""
     asked: list[tuple[Polynomial, frozenset[int]]] = []
@@ -205,7 +205,7 @@ def _wanted(
         (family.positive, {1}),
         (family.not_negative, {0, 1}),
     ):
-        asked += [(in_one(p), frozenset(signs)) for p in polynomials]
+        asked += [(along(p), frozenset(signs)) for p in polynomials]
     if not asked:
         return found, undecided
 
@@ -228,15 +228,20 @@ def too_many(family: Family) -> UsageProblem:
     )
 
 
-def refuse_radicals(family: Family, wanted: Wanted, whose: Whose) -> None:
-    """Refuse a family with roots among its coefficients."""
-    if family.radicals:
-        name = family.parameters[0]
-        message = f"there are roots among the coefficients, beside {name}"
-        cure = "write the method as a family by name, whose nodes are not needed"
-        if wanted in OSCILLATING and whose == "pair":
-            cure = "add --order P, which takes roots"
-        raise UsageProblem(message, cure, code="no-radicals")
+def refuse_radicals(members: Members, wanted: Wanted, two_springs: TwoSprings | None) -> None:
+    """Refuse a family with roots of its parameters among its coefficients, or of large degrees."""
+    family = members.family
+    places = range(len(family.parameters))
+    is_number = not any(x.relation.degrees()[k] for x in family.radicals for k in places)
+    is_on_springs = bool(family.radicals) and two_springs is not None
+    if is_number and not is_on_springs and members.constants is not None:
+        return
+    name = family.parameters[0]
+    message = f"there are roots among the coefficients, beside {name}"
+    cure = "write the method as a family by name, whose nodes are not needed"
+    if wanted in OSCILLATING and members.whose == "pair":
+        cure = "add --order P, which takes roots"
+    raise UsageProblem(message, cure, code="no-radicals")
 
 
 class _Decision:
@@ -275,11 +280,13 @@ class _Decision:
         is_limit = any(t in (x.start, x.end) for x in self._interior)
         if is_limit and all(sign_at(p, t) for p in self.kind.essential):
             return True
-        number = number_of(t, MOST_DEGREE)
-        if number is None:
+        try:
+            return self.kind.decide(t)
+        except NotDecided as error:
+            if error.is_late:
+                raise
             self.undecided.append(t)
             return True
-        return self.kind.decide(number)
 
     def _is_outside(self, t: Point) -> bool:
         root = t if isinstance(t, RealRoot) else RealRoot.rational(t)

@@ -8,8 +8,9 @@ Collins 1975). Between two such t every sign in the plane is that of one sample.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import combinations
+from math import prod
 from operator import methodcaller
 
 from flint import Ordering, fmpq, fmpq_mpoly, fmpq_mpoly_ctx
@@ -57,36 +58,38 @@ def projected(irreducible: Sequence[fmpq_mpoly], ends: Sequence[fmpq]) -> list[P
 
 
 LARGE = 30_000
-"""Larger problems, by the cubed degree in the eliminated variable times the other degree, run in a
+"""Larger problems, by the cubed degree in the eliminated variable times the others, run in a
 process apart.
 """
 
 
-def discriminant(p: fmpq_mpoly) -> fmpq_mpoly:
-    """The discriminant with respect to y.
+def discriminant(p: fmpq_mpoly, variable: str = "y") -> fmpq_mpoly:
+    """The discriminant with respect to y, or to another unknown.
 
     Raises:
         NotDecided: the time limit has passed.
     """
-    check_time()
-    y, t = p.degrees()
-    work = methodcaller("discriminant", "y")
-    found: fmpq_mpoly = work(p) if y**3 * t <= LARGE else apart(work, p)
-    return found
+    return _without(variable, p, p, methodcaller("discriminant", variable))
 
 
 def resultant(p: fmpq_mpoly, q: fmpq_mpoly, variable: str = "y") -> fmpq_mpoly:
-    """The resultant with respect to y or t.
+    """The resultant with respect to y, or to another unknown.
 
     Raises:
         NotDecided: the time limit has passed.
     """
+    return _without(variable, p, q, methodcaller("resultant", q, variable))
+
+
+def _without(
+    variable: str, p: fmpq_mpoly, q: fmpq_mpoly, work: Callable[[fmpq_mpoly], fmpq_mpoly]
+) -> fmpq_mpoly:
+    """What is made of p where an unknown goes, in a process of its own where that is large."""
     check_time()
-    largest = [max(degrees) for degrees in zip(p.degrees(), q.degrees(), strict=True)]
-    gone, left = largest if variable == "y" else reversed(largest)
-    work = methodcaller("resultant", q, variable)
-    found: fmpq_mpoly = work(p) if gone**3 * left <= LARGE else apart(work, p)
-    return found
+    place = p.context().variable_to_index(variable)
+    degrees = [max(x) for x in zip(p.degrees(), q.degrees(), strict=True)]
+    others = prod(max(1, x) for k, x in enumerate(degrees) if k != place)
+    return work(p) if degrees[place] ** 3 * others <= LARGE else apart(work, p)
 
 
 def of_root(t: RealRoot) -> fmpq_mpoly:

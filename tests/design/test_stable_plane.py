@@ -12,8 +12,10 @@ from flint import fmpq
 from garkcli import loads
 from garkcli.design.fewer import step_polynomials
 from garkcli.design.stable_plane import StablePlane, stable_set
+from garkcli.design.stable_values import StableValues
 from garkcli.exact.cells import has
-from garkcli.exact.roots import RealRoot
+from garkcli.exact.polynomial import Polynomial
+from garkcli.exact.roots import RealRoot, real_roots
 from garkcli.methodfile.family import loads_family
 from garkcli.plots.scene import Area
 from garkcli.plots.stable_plane import stable_plane_scene
@@ -145,6 +147,59 @@ def test_no_values_and_explicit_methods() -> None:
     run = gark("design", "-", "--a-stable", stdin=text)
     assert run.code == 1
     assert "A-stable for no value of g and d" in run.out
+
+
+IRRATIONAL = "parameters: {g: free, h: free}\nA: [[1/2]]\nb: ['1 + (g^2 - 2)^2 + (h - g)^2']\n"
+
+
+def test_single_irrational_points() -> None:
+    """R(z) = (1 + z (b − 1/2))/(1 − z/2) is A-stable for |b − 1/2| ≤ 1/2 and b ≥ 1: for b = 1, so
+    at (±√2, ±√2) with one sign, over which alone g is stable.
+    """
+    values = plane(IRRATIONAL)
+    assert values.undecided == ()
+    points = [(strip.base, part) for strip in values.strips for part in strip.parts]
+    assert len(points) == 2
+    for sign, (base, part) in zip((-1, 1), points, strict=True):
+        assert base.is_point
+        assert base.start is not None
+        over = part.over(base.start)
+        assert over is not None
+        assert over.is_point
+        assert base.start == over.start
+        assert float(base.start) == pytest.approx(sign * 2**0.5)
+    run = gark("design", "-", "--a-stable", stdin=IRRATIONAL)
+    assert (run.code, "h = -sqrt(2)" in run.out, "h = sqrt(2)" in run.out) == (0, True, True)
+    # the other sign of the factor is stable nowhere, at the points too
+    none = plane(IRRATIONAL.replace("A: [[1/2]]", "A: [[1/4]]"))
+    assert none.strips == none.undecided == ()
+
+
+@pytest.mark.parametrize("text", [DIRK, pytest.param(SDIRK, marks=in_whole)])
+@pytest.mark.parametrize(
+    ("g", "p", "near"),
+    [
+        ("sqrt(2)/2", Polynomial([-1, 0, 2]), 0.7071067811865476),
+        ("2 - sqrt(3)", Polynomial([1, -4, 1]), 0.2679491924311227),
+        ("sqrt(2)", Polynomial([-2, 0, 1]), 1.4142135623730951),
+    ],
+)
+def test_an_irrational_value_beside_a_free_parameter(
+    text: str, g: str, p: Polynomial, near: float
+) -> None:
+    """With g set to a number the values of d are those of the plane over it, and single methods
+    are as stable as they say.
+    """
+    line = stable_set(loads_family(text, settings={"g": g}), "a-stable")
+    assert isinstance(line, StableValues)
+    assert line.undecided == ()
+    [root] = [x for x, _ in real_roots(p) if abs(float(x) - near) < 1e-9]
+    values = plane(text)
+    over = [x.over(root) for s in values.strips if has([s.base], root) for x in s.parts]
+    assert list(line.found) == over
+    for d in (fmpq(-1), fmpq(1, 8), fmpq(1, 2), fmpq(7, 5), fmpq(4)):
+        method = loads(text, settings={"g": g, "d": str(d)})
+        assert has(line.found, d) is is_a_stable(stability_function(method.tableau))
 
 
 @in_whole

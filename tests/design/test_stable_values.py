@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -246,9 +247,53 @@ def test_as_a_command(tmp_path: Path) -> None:
     path.write_text("parameters: {t: free, u: free}\nA: [[t]]\nb: [u]\n", encoding="utf-8")
     two = gark("design", str(path), "--l-stable")
     assert (two.code, "--set u=1/2" in two.err) == (2, True)
-    path.write_text("parameters: {t: free}\nA: [[t + sqrt(2)]]\nb: [1]\n", encoding="utf-8")
+    path.write_text("parameters: {t: free}\nA: [[sqrt(t)]]\nb: [1]\n", encoding="utf-8")
     roots = gark("design", str(path), "--a-stable")
     assert (roots.code, "roots among the coefficients" in roots.err) == (2, True)
+
+
+@pytest.mark.parametrize(
+    ("text", "wanted"),
+    [
+        (THETA, "a-stable"),
+        (SDIRK2, "l-stable"),
+        pytest.param(STIFF2, "a-stable", marks=in_whole),
+        (CONSISTENT.replace("1/8", "3/4"), "a-stable"),
+        (TAU.format("lobatto-iiia", 2, "gauss", 1), "i-stable"),
+        (TAU.format("lobatto-iiia", 2, "gauss", 1), "p-stable"),
+    ],
+)
+def test_a_root_among_the_coefficients(text: str, wanted: Wanted) -> None:
+    """With t + √2 in place of t every end of the set is √2 less, and what is within stays so."""
+    head, _, body = text.partition("\n")
+    shifted = re.sub(r"\bt\b", "(t + sqrt(2))", body)
+    moved = found(f"{head}\n{shifted}", wanted)
+    values = found(text, wanted)
+    assert values.found
+    assert (moved.undecided, values.undecided) == ((), ())
+    for x, y in zip(moved.found, values.found, strict=True):
+        assert (x.has_start, x.has_end) == (y.has_start, y.has_end)
+        for mine, other in ((x.start, y.start), (x.end, y.end)):
+            assert (mine is None) == (other is None)
+            if mine is not None and other is not None:
+                assert abs(float(mine) + 2**0.5 - float(other)) < 1e-12
+
+
+def test_several_roots_among_the_coefficients() -> None:
+    """A root of a root, and a root of a polynomial: the values are those of the sum of the roots;
+    of two square roots the positive ones are meant.
+    """
+    for text, root in (
+        ("sqrt(2) + sqrt(3)", 2**0.5 + 3**0.5),
+        ("sqrt(1 + sqrt(2))", (1 + 2**0.5) ** 0.5),
+        ("root_of(x^3 - x - 1, 1.32)", 1.324717957244746),
+        ("sqrt(8) - sqrt(2)", 2**0.5),
+    ):
+        values = found(f"parameters: {{t: free}}\nA: [['t - ({text})']]\nb: [1]\n", "a-stable")
+        ((x,), open_values) = values.found, values.undecided
+        assert (x.end, x.has_start, open_values) == (None, True, ())
+        assert x.start is not None
+        assert float(x.start) == pytest.approx(0.5 + root, abs=1e-12)
 
 
 def test_other_wishes_are_not_passed_over(tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ from garkcli.design.minimise.measures import MEASURES
 from garkcli.design.minimise.objective import Either, Level, Measure, Objective, Signs, Size
 from garkcli.design.minimise.squared_error import Quotient, squared_coupling_error, squared_error
 from garkcli.design.stability_kinds import oscillator_curves, squared_modulus
-from garkcli.design.step_plane import over_line, step_plane
+from garkcli.design.step_plane import Line, over_line, step_plane
 from garkcli.errors import UsageProblem
 from garkcli.exact.cells import first_end
 from garkcli.exact.field import ONE
@@ -48,7 +48,7 @@ def fraction_in_plane(tableau: Tableau, ring: Parameters) -> tuple[fmpq_mpoly, f
     refuse_partitioned(tableau)
     tableau = on_linear_problems(tableau)
     fields: list[Matrix] = [((ONE,),)] * tableau.size
-    plane = step_plane(tableau, ring, fields)
+    plane = step_plane(Line(tableau, ring), fields)
     return plane.numerators[0][0], plane.denominator
 
 
@@ -149,7 +149,7 @@ def _ssp_signs(tableau: Tableau, ring: Parameters) -> Signs:
         message = "-ssp: families by name have no rational entries"
         raise UsageProblem(message, "spell the tableau out, stage by stage", code="no-radicals")
     size = 2 + sum(space.stages for space in tableau.spaces)
-    return Signs([p for p in over_line(tableau, ring, size, conditions_at) if p])
+    return Signs([p for p in over_line(Line(tableau, ring), size, conditions_at) if p])
 
 
 def _real(tableau: Tableau) -> Size:
@@ -191,7 +191,7 @@ def _oscillator_signs(tableau: Tableau, ring: Parameters) -> Signs:
     """The denominator, the conditions on the eigenvalues, and the entries off the diagonal."""
     problem = oscillator_of(tableau)
     fields = [problem.matrix(colour) for colour in tableau.colours]
-    conditions, others = oscillator_curves(step_plane(tableau, ring, fields))
+    conditions, others = oscillator_curves(step_plane(Line(tableau, ring), fields))
     poles, _, _, upper, lower = others
     return Signs([poles, *conditions, upper, lower], _is_bounded, is_closed=False, common=others)
 
