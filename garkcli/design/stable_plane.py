@@ -196,6 +196,7 @@ def stable_set(
     if found is not None:
         return found
     is_plane = len(family.parameters) == 2 and wanted == "a-stable" and whose == "method"
+    is_plane = is_plane and not family.radicals
     if is_plane and _is_plain(family, family.tableau):
         return stable_plane(family, colour)
     raise too_many(family)
@@ -243,7 +244,7 @@ class _Plane:
         self.family, self.colour = family, colour
         driven(family.tableau, "a-stable", colour)
         R = function_of(family.tableau, family.ring, "", shares_of(family.tableau, colour))
-        self.curves = _deciding(R, family)
+        self.curves = _deciding(R, family.ring)
         self.undecided: list[RealRoot] = []
 
     def run(self) -> StablePlane:
@@ -262,25 +263,21 @@ class _Plane:
     def _stable(self, t: Point) -> StableValues:
         """The values of the second parameter for one of the first."""
         first, second = self.family.parameters
-        family = self.family
-        radicals = family.radicals
         rational = t.exact if isinstance(t, RealRoot) else t
-        others = [x.name for x in radicals]
-        ring = Parameters([second, *others, *([] if rational is not None else [first])])
-        values: dict[str, Any] = {name: ring.parameter(name) for name in ring.names}
-        if rational is not None:
-            values[first] = rational
-        relations = [(x, x.relation.project_to_context(ring.context)) for x in radicals]
-        radicals = tuple(replace(x, relation=p) for x, p in relations)
+        ring = Parameters([second])
+        radicals: tuple[Radical, ...] = ()
+        values: dict[str, Any] = {first: rational}
         if rational is None:
             assert isinstance(t, RealRoot)
-            x = ring.context.gen(ring.names.index(first))
-            powers = enumerate(t.polynomial.coeffs())
-            relation = sum((x**k * fmpq(a) for k, a in powers), start=x * 0)
-            radicals = (*radicals, Radical(first, relation, meant=t))
+            ring = Parameters([second, first])
+            relation = ring.context.from_dict(
+                {(0, k): fmpq(a) for k, a in enumerate(t.polynomial.coeffs()) if a}
+            )
+            radicals = (Radical(first, relation, meant=t),)
+        values |= {name: ring.parameter(name) for name in ring.names}
         line = replace(
-            family,
-            tableau=member(family.tableau, family.ring, values),
+            self.family,
+            tableau=member(self.family.tableau, self.family.ring, values),
             ring=ring,
             parameters=(second,),
             ranges={second: (None, None)},
@@ -325,27 +322,20 @@ class _Plane:
         return Strip(base, () if found.undecided else tuple(parts))
 
 
-def _deciding(R: FamilyFunction, family: Family) -> list[fmpq_mpoly]:
+def _deciding(R: FamilyFunction, ring: Parameters) -> list[fmpq_mpoly]:
     """The irreducible curves in the plane of the parameters that decide."""
-    ring = family.ring
     P, Q, E = (
         joined(x, common_denominator(list(x), ring), ring)
         for x in (R.numerator, R.denominator, R.e_polynomial or (fmpq(0),))
     )
-    zero = P.context().constant(fmpq(0))
-    found: list[fmpq_mpoly] = []
-    crossing = []
-    for factor, _ in E.factor()[1] if E else ():
-        degree = int(factor.degrees()[0])
-        if degree == 0:
-            found.append(factor)
-            continue
-        crossing.append(factor)
-        found += [projection.leading(factor), factor.compose(zero, *P.context().gens()[1:])]
-        if degree > 1:
-            found.append(projection.discriminant(factor, "_z"))
+    found = [projection.leading(P), projection.leading(Q)]
+    crossing = factors([E])
+    for curve in crossing:
+        z, *others = curve.context().gens()
+        found += [projection.leading(curve), curve.compose(z * 0, *others)]
+        if curve.degrees()[0] > 1:
+            found.append(projection.discriminant(curve, "_z"))
     found += [projection.resultant(p, q, "_z") for p, q in combinations(crossing, 2)]
-    found += [projection.leading(P), projection.leading(Q)]
     for p, q in ((P, Q), real_and_imaginary(Q)):
         if p and q and (p.degrees()[0] or q.degrees()[0]):
             found.append(projection.resultant(p, q, "_z"))
