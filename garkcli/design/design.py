@@ -13,8 +13,17 @@ from flint import fmpq_mpoly, fmpz_mpoly
 
 from garkcli.deadline import check_time, only_small, seconds_left, until, within
 from garkcli.design.conditions import Condition, FamilyConditions
+from garkcli.design.critical import smooth_points
 from garkcli.design.ideal import Ideal, without_multiples
-from garkcli.design.member import TABLEAUS, Whose, dense_member, is_admissible, is_as_stable, member
+from garkcli.design.member import (
+    TABLEAUS,
+    Whose,
+    dense_member,
+    is_admissible,
+    is_as_stable,
+    member,
+    value_of,
+)
 from garkcli.design.minimise.squared_error import squared_error
 from garkcli.design.msolve import find_msolve
 from garkcli.design.pairs import PairConditions, pair_conditions
@@ -420,15 +429,20 @@ class _Finding(Frozen):
             return self._with_real(step, ideal)
         return step
 
-    def _with_real(self, step: Step, ideal: Ideal) -> Step:
+    def _with_real(self, step: Step, ideal: Ideal, real: Ideal | None = None) -> Step:
         """A family with what is known of its real values.
+
+        Args:
+            step: the family.
+            ideal: of its values.
+            real: an ideal with the same real zeros; None for that one.
 
         Raises:
             NotDecided: the time is not enough.
         """
         if self.criterion is not None and self._has_point(self.criterion, ideal):
             return replace(step, is_real=True)
-        real = without_complex(ideal)
+        real = without_complex(real or ideal)
         if real.basis != ideal.basis:
             polynomials, _ = _described(real)
             step = replace(step, real=real, polynomials_of_real=tuple(polynomials))
@@ -446,7 +460,30 @@ class _Finding(Frozen):
             have = [x.has_values for x in step.stable]
             if False in have or have == [True]:
                 return replace(step, is_real=False not in have)
-        return replace(step, is_real=has_methods(self.family, ideal, real, self._is_method))
+        step = replace(step, is_real=has_methods(self.family, ideal, real, self._is_method))
+        if step.is_real is None:
+            with suppress(NotDecided), only_small():
+                return self._with_smooth(step, ideal, real)
+        return step
+
+    def _with_smooth(self, step: Step, ideal: Ideal, real: Ideal) -> Step:
+        """A family with what critical points tell of its real values: one of them is a method, or
+        there are none but where the gradients of its equations are dependent.
+
+        Raises:
+            NotDecided: the time is not enough.
+        """
+        smooth = smooth_points(real)
+        if smooth is None:
+            return step
+        ring = self.family.ring
+        for point in smooth.points:
+            is_defined = all(value_of(p, ring, point.values) for p in ideal.nonzero)
+            if is_defined and any(self._is_method(point, root) for root in point.real):
+                return replace(step, is_real=True)
+        if smooth.points:
+            return step
+        return self._with_real(step, ideal, real.with_zeros(smooth.others))
 
     def _with_real_pieces(self, step: Step, pieces: Pieces) -> Step:
         """A family in parts with what is known of its real values.

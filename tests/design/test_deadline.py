@@ -18,6 +18,7 @@ from garkcli import deadline, load, loads, search_methods
 from garkcli.deadline import check_time, checked, only_small, spending, until, within
 from garkcli.design.choices import walk_down
 from garkcli.design.conditions import FamilyConditions
+from garkcli.design.critical import smooth_points
 from garkcli.design.design import Design, find_parameters
 from garkcli.design.groebner import groebner_basis, grown_basis, leading, unproved_basis
 from garkcli.design.ideal import Ideal, characteristic_polynomial, least_meeting
@@ -117,6 +118,7 @@ def engines() -> Iterator[tuple[str, Callable[[], object]]]:
     yield "solutions", lambda: solutions(gauss)
     yield "real methods", lambda: has_methods(explicit, family, family, lambda *_: True)
     yield "definite forms", lambda: without_complex(square)
+    yield "critical points", lambda: smooth_points(Ideal(PAIR).with_zeros([P**2 + Q**2 - 1]))
     yield "signs in the plane", lambda: kept_sign(P**2 + P * Q + Q**2)
     yield "cells of the plane", lambda: is_nowhere_negative(CURVE)
     yield "parameters", lambda: decided(find_parameters(sdirk, 3))
@@ -176,7 +178,10 @@ def itertools_without_clock() -> Iterator[str]:
     """
     many = {"combinations", "combinations_with_replacement", "permutations", "product"}
     for path in sorted(Path(garkcli.__file__).parent.rglob("*.py")):
-        tree = ast.parse(path.read_text(encoding="utf-8"))
+        text = path.read_text(encoding="utf-8")
+        if "itertools" not in text:
+            continue
+        tree = ast.parse(text)
         imported = {
             x.asname or x.name
             for node in ast.walk(tree)

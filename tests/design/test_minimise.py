@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from fractions import Fraction
 from itertools import product
+from math import cos, pi, sin
 from pathlib import Path
 from typing import cast
 
@@ -887,3 +889,49 @@ design: {order: 3, R-infinity: {2: 0}, stage-order: {2: 2}, range: {gamma: [2/5,
     ]
     for run in runs:
         assert (run.code, "least error found 0.026730736" in run.out) == (0, True)
+
+
+CIRCLE = """parameters: {{g: free, h: free}}
+tableau:
+  A:
+    - [[["{}"]], [["{}"]]]
+    - [[[0]], [[0]]]
+  b: [["(g - 2)^2 + (h - 1)^2"], [1]]
+"""
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "further", "extent", "entries"),
+    [
+        ("g", "h", "", "all", lambda g, h: (g, h)),
+        ("g - 1", "h^3 + g^2", "", "all", lambda g, h: (g - 1, h**3 + g * g)),
+        ("g", "g*h", "", "critical-points", lambda g, h: (g, g * h)),
+        (
+            "g",
+            "h",
+            "design: {positive-weights: true, order: 1}\n",
+            "critical-points",
+            lambda g, h: (g, h),
+        ),
+    ],
+)
+def test_a_sum_of_squares_over_a_closed_curve(
+    first: str,
+    second: str,
+    further: str,
+    extent: str,
+    entries: Callable[[float, float], tuple[float, float]],
+) -> None:
+    """Order 1 asks for the circle of radius 1 about (2, 1). Where g and h are bounded as the sum
+    is, and all limits are methods, the least critical point is the minimum; a grid of the circle
+    has none less.
+    """
+    text = CIRCLE.format(first, second) + further
+    found = minimise(find_parameters(loads_family(text), 1), "coefficients")
+    assert found.extent == extent
+    assert found.value is not None
+    values = []
+    for k in range(2000):
+        g, h = 2 + cos(k * pi / 1000), 1 + sin(k * pi / 1000)
+        values.append(sum(x * x for x in entries(g, h)) + 2)
+    assert 0 <= min(values) - float(found.value) < 1e-3

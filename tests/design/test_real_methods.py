@@ -22,6 +22,15 @@ def family(entry: str, *names: str) -> str:
     return f"parameters: {{{parameters}}}\n" + TWO.format(f'"{entry}"')
 
 
+SURFACES = """parameters: {{x: free, y: free, z: free}}
+tableau:
+  A:
+    - [[[1/2]], [[1/2]]]
+    - [[[1/2]], [[1/2]]]
+  b: [["1 + {}"], ["1 + {}"]]
+"""
+
+
 def reached(text: str, order: int) -> bool | None:
     """Whether real methods have an order."""
     return find_parameters(loads_family(text), order).reaches(order)
@@ -201,3 +210,42 @@ def test_exit_codes(tmp_path: Path) -> None:
         path.write_text(text, encoding="utf-8")
         run = gark("design", str(path), *options)
         assert run.code == code, (text, run.out, run.err)
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "squares"),
+    [
+        ("x**2 + y**2 + z**2 - 1", "(x + y + z)**2 - 3", (1 / 3, 1 / 3, 1 / 3)),
+        ("x**2 + 2*y**2 + 3*z**2 - 1", "(x + 2*y + 3*z)**2 - 6", (1 / 6, 1 / 6, 1 / 6)),
+        ("x**2 + 4*y**2 + z**2 - 1", "(x - 2*y + z)**2 - 3", (1 / 3, 1 / 12, 1 / 3)),
+    ],
+)
+def test_planes_that_touch(first: str, second: str, squares: tuple[float, ...]) -> None:
+    """Two planes touch an ellipsoid: of the curve in which they meet it two points are real, at
+    which the gradients are dependent.
+    """
+    step = find_parameters(loads_family(SURFACES.format(first, second)), 1).last
+    assert (step.kind, step.has_methods) == ("family", True)
+    assert step.real is not None
+    assert step.real.dimension == 0
+    points = [x for one in step.found for x in one.solution.real_values]
+    assert len(points) == 2
+    for point in points:
+        assert [float(point[x]) ** 2 for x in "xyz"] == pytest.approx(list(squares))
+
+
+def test_planes_that_miss() -> None:
+    """A plane further off meets the ellipsoid in no real point, one nearer in some."""
+    for square, is_met in ((7, False), (5, True)):
+        plane = f"(x + 2*y + 3*z)**2 - {square}"
+        assert reached(SURFACES.format("x**2 + 2*y**2 + 3*z**2 - 1", plane), 1) is is_met
+
+
+def test_a_small_surface_is_met_by_critical_points() -> None:
+    """A sphere of radius 1/1000 that no short rational value meets has a point nearest to another;
+    a denominator or a sign that is wanted may exclude it.
+    """
+    sphere = "(x - 5/7)**2 + (y - 3/11)**2 + (z - 2/13)**2 - 1/1000000"
+    assert reached(family(f"1/2 + {sphere}", "x", "y", "z"), 2) is True
+    far = family(f"1/2 + {sphere}", "x", "y", "z: {free: true, range: [1, 2]}")
+    assert reached(far, 2) is None

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import TypeAlias
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, TypeAlias
 
 from flint import fmpq, fmpq_mpoly
 
@@ -34,11 +34,13 @@ class Objective(Frozen):
         key: its name.
         summary: what it is, in words.
         formula: a rational function of the coefficients.
+        bounded: numbers that are bounded wherever it is.
     """
 
     key: str
     summary: str
     formula: Formula
+    bounded: Callable[[Tableau], Iterable[Any]] = lambda _: ()
 
 
 def none_is_negative(signs: Sequence[int]) -> bool:

@@ -243,6 +243,7 @@ OBJECTIVES: dict[str, Objective | Level | Measure | Either] = {
             "coefficients",
             "Σ a² + Σ b² over all coefficients of all blocks and weights",
             _squared_coefficients,
+            lambda tableau: tableau.entries,
         ),
         # J. F. B. M. Kraaijevanger, *Contractivity of Runge–Kutta methods*, BIT 31, 1991
         Level("-ssp", "the SSP coefficient", _ssp, _ssp_signs, claim="ssp-coefficient"),

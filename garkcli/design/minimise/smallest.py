@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import cmp_to_key
 from itertools import combinations
-from math import comb
 from typing import cast
 
 from flint import fmpq, fmpq_mpoly
 
 from garkcli.deadline import check_time, checked, until
+from garkcli.design.critical import minors, slopes
 from garkcli.design.design import Found
 from garkcli.design.member import member
 from garkcli.design.minimise.comparison import Comparison
@@ -29,9 +29,6 @@ from garkcli.exact.polynomial import in_one
 from garkcli.exact.projection import MOST_DEGREE, in_plane, is_nowhere_negative
 from garkcli.exact.roots import RealRoot
 
-MOST_MINORS = 200
-"""Equations that are written down at most."""
-
 
 def critical_equations(
     part: Part, numerator: fmpq_mpoly, denominator: fmpq_mpoly
@@ -49,20 +46,8 @@ def critical_equations(
     gradient = gradient_of(numerator, denominator, size)
     if part.is_free:
         return gradient
-    equations = part.equations
-    codimension = size - part.dimension
-    minors = comb(len(equations), codimension)
-    if minors * comb(size, codimension + 1) > MOST_MINORS:
-        raise NotDecided
-    zeros = []
-    for chosen in checked(combinations(equations, codimension)):
-        rows = [gradient]
-        rows += [[p.derivative(i) for i in range(size)] for p in chosen]
-        zeros += [
-            _determinant([[row[j] for j in columns] for row in rows])
-            for columns in checked(combinations(range(size), codimension + 1))
-        ]
-    return zeros
+    rows = [gradient, *slopes(part.equations, size)]
+    return minors(rows, size - part.dimension + 1)
 
 
 def gradient_of(numerator: fmpq_mpoly, denominator: fmpq_mpoly, size: int) -> list[fmpq_mpoly]:
@@ -88,19 +73,6 @@ def without_factors(p: fmpq_mpoly, denominator: fmpq_mpoly) -> fmpq_mpoly:
         if common.is_constant() or not p:
             return p
         p = p // common
-
-
-def _determinant(rows: Sequence[Sequence[fmpq_mpoly]]) -> fmpq_mpoly:
-    """By the first row."""
-    if len(rows) == 1:
-        return rows[0][0]
-    total = rows[0][0] * 0
-    for j, a in enumerate(rows[0]):
-        if a:
-            smaller = [[*row[:j], *row[j + 1 :]] for row in rows[1:]]
-            minor = a * _determinant(smaller)
-            total = total - minor if j % 2 else total + minor
-    return total
 
 
 BITS = 256
@@ -175,6 +147,28 @@ CUTS = (fmpq(1, 2), fmpq(1, 3), fmpq(2, 3), fmpq(1), fmpq(1, 4), fmpq(3, 4))
 """Values of coordinates at which methods are sought."""
 
 
+def are_bounded(ring: Parameters, numbers: Iterable[object]) -> bool:
+    """Whether all unknowns are bounded where some polynomials in them are: a power of each in turn,
+    times a number, is left of one of these without the terms in those that are bounded already.
+
+    >>> ring = Parameters(["x", "y"])
+    >>> x, y = map(ring.parameter, ring.names)
+    >>> are_bounded(ring, [x - 1, x * x + 2 * y]), are_bounded(ring, [x, x * y])
+    (True, False)
+    """
+    polynomials = [p for p, q in (fraction(x, ring) for x in numbers) if q.is_constant()]
+    terms = [[tuple(map(int, e)) for e in p.monoms()] for p in polynomials]
+    bounded: set[int] = set()
+    while True:
+        before = len(bounded)
+        for exponents in terms:
+            left = [e for e in exponents if any(k and i not in bounded for i, k in enumerate(e))]
+            if len(left) == 1 and max(left[0]) == sum(left[0]):
+                bounded.add(left[0].index(max(left[0])))
+        if len(bounded) == before:
+            return before == len(ring.names)
+
+
 SLACK = fmpq(1, 10**9)
 """By how much of it an irrational least value may be missed."""
 MOST_COORDINATES = 4
@@ -219,11 +213,20 @@ class Smallest(Comparison):
         assert best is not None
         if self.is_open:
             return "found"
-        if self.extent == "all":
+        if self.extent == "all" or (self.extent == "critical-points" and self._is_coercive):
             return "all"
         if not all(self._is_bounded(part, best) for part in self.parts):
             return self.extent
         return "all" if _is_short(best) else "nearly"
+
+    @property
+    def _is_coercive(self) -> bool:
+        """Whether all methods with a value below any bound are in a bounded set, which is closed:
+        one of them has the least value, and it is a critical point of its part.
+        """
+        family = self.design.family
+        is_closed = not (self.step.nonzero or family.positive or family.stable or family.radicals)
+        return is_closed and are_bounded(family.ring, self.objective.bounded(self.design.tableau))
 
     def _is_bounded(self, part: Part, best: RealRoot) -> bool:
         """Whether no method of a part has a smaller value, of irrational ones by more than
