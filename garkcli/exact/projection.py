@@ -84,7 +84,7 @@ def resultant(p: fmpq_mpoly, q: fmpq_mpoly, variable: str = "y") -> fmpq_mpoly:
 def _without(
     variable: str, p: fmpq_mpoly, q: fmpq_mpoly, work: Callable[[fmpq_mpoly], fmpq_mpoly]
 ) -> fmpq_mpoly:
-    """What is made of p where an unknown goes, in a process of its own where that is large."""
+    """The result of eliminating an unknown, in a process of its own where that is large."""
     check_time()
     place = p.context().variable_to_index(variable)
     degrees = [max(x) for x in zip(p.degrees(), q.degrees(), strict=True)]
