@@ -122,7 +122,7 @@ def check_time() -> None:
 
 
 def checked(items: Iterable[T]) -> Iterator[T]:
-    """The same items, of which there may be very many, until the time is over.
+    """Items, of which there may be very many, until the time is over.
 
     Raises:
         NotDecided: it is.

@@ -8,8 +8,9 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from flint import fmpq, fmpq_mat, fmpq_poly
 
-from garkcli.design.design import Design, Found
+from garkcli.design.design import Design
 from garkcli.design.solutions import value_at
+from garkcli.design.steps import Found
 from garkcli.errors import MethodError
 from garkcli.exact.field import Algebraic, Number, NumberField, coordinates
 from garkcli.exact.polynomial import Polynomial

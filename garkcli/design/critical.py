@@ -97,7 +97,7 @@ def smooth_points(ideal: Ideal) -> Smooth | None:
         return None
     ring, size = ideal.ring, len(ideal.ring.names)
     generators = _generators(ideal.closure)
-    if generators is None:
+    if not generators:
         return None
     gradients = slopes(generators, size)
     others = [m for m in minors(gradients, len(gradients)) if m]

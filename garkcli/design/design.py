@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from functools import partial
 from time import monotonic
-from typing import Any, Literal, TypeAlias, cast, get_args
+from typing import Any, cast, get_args
 
 from flint import fmpq_mpoly, fmpz_mpoly
 
@@ -31,125 +31,35 @@ from garkcli.design.parts import Part, Pieces, diagonal_unknowns, nodes_as_coord
 from garkcli.design.real_points import has_methods, has_point, without_complex
 from garkcli.design.solutions import Solution, solutions
 from garkcli.design.stable_parts import has_stable_method, joined, stable_part
-from garkcli.design.stable_plane import form_values
+from garkcli.design.stable_plane import values_of_one
 from garkcli.design.stable_transfers import stable_zeros
-from garkcli.design.stable_values import StableValues, Wanted, stable_values
+from garkcli.design.stable_values import StableValues, Wanted
+from garkcli.design.steps import (
+    Decided,
+    EveryValue,
+    Found,
+    Known,
+    Many,
+    NoValue,
+    Solutions,
+    Step,
+    Undecided,
+    Variety,
+    Zeros,
+)
 from garkcli.design.want import numerators
 from garkcli.errors import NotDecided, ZeroWeight
-from garkcli.exact.field import Number
 from garkcli.exact.parametric import fraction
 from garkcli.exact.roots import RealRoot
 from garkcli.frozen import Frozen, replace
 from garkcli.ntrees.tree import Tree
 from garkcli.order.certificate import DEFAULT_LIMIT, Order, find_order
-from garkcli.order.dense import DenseOrder, dense_order
+from garkcli.order.dense import dense_order
 from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.family import Family
 from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
-
-Kind: TypeAlias = Literal["every-value", "solutions", "family", "none", "undecided"]
-
-
-class Found(Frozen):
-    """A solution with what the ordinary certificate says of it.
-
-    Attributes:
-        solution: the values of the parameters, with their conjugates over ℚ.
-        order: the exact order of the method that they make; None where a weight or a denominator is
-            zero, and then there is no such method.
-        accepted: which of the real roots of the solution are within the ranges of the file, and as
-            stable as is wanted.
-        unstable: which of them would be, but are not stable.
-        open: which of them are not decided to be stable, as their field is too large.
-        embedded: the order of the embedded weights, and Σ ê(u)² over the trees of the next order;
-            None where there are none.
-        dense: the order of the dense output; None where there is none.
-    """
-
-    solution: Solution
-    order: Order | None
-    accepted: tuple[int, ...]
-    unstable: tuple[int, ...] = ()
-    open: tuple[int, ...] = ()
-    embedded: tuple[Order, Number] | None = None
-    dense: DenseOrder | None = None
-
-
-class Step(Frozen):
-    """What an order asks of the parameters.
-
-    Attributes:
-        order: the order.
-        kind: for which values it is reached.
-        ideal: the ideal of its conditions and of all lower ones, or its zeros in parts where its
-            basis is large; None where neither was found. Where it is not proved it is msolve's:
-            each zero has the order, that there are no others is not proved.
-        witness: the first tree whose condition no value meets together with those before it; None
-            where what is wanted besides the order cannot be met.
-        polynomials: that are zero at these values and, but for zeros of ``nonzero``, nowhere else.
-        nonzero: polynomials of which none is zero at a method, as far as ``polynomials`` do not say
-            it already.
-        real: of a family, where its real values satisfy more: an ideal with these alone.
-        polynomials_of_real: a basis of that, square-free as ``polynomials``.
-        found: the solutions, where there are finitely many; of a family the real ones.
-        is_real: of a family and of every value, whether a real value is a method of the file; None
-            where that is not decided.
-        criterion: by which the real values were found; None where all conditions were examined.
-        is_of_real_values: whether complex values may have the order and not be among these: up to
-            order 2 the criterion asks for the same.
-        stable: where stability is wanted of a family and of every value, and depends on one
-            unknown: the values of that, for each kind.
-        of_stable: where P-stability is wanted of all transfers of a pair and decided, the ideal
-            whose real zeros are the stable methods.
-        polynomials_of_stable: of its basis those that are not in the ideal of the order.
-        is_late: whether an undecided step ended with its time.
-    """
-
-    order: int
-    kind: Kind
-    ideal: Ideal | Pieces | None
-    witness: Tree | None = None
-    polynomials: tuple[fmpq_mpoly | fmpz_mpoly, ...] = ()
-    nonzero: tuple[fmpq_mpoly, ...] = ()
-    real: Ideal | None = None
-    polynomials_of_real: tuple[fmpq_mpoly | fmpz_mpoly, ...] = ()
-    found: tuple[Found, ...] = ()
-    is_real: bool | None = None
-    criterion: PairConditions | None = None
-    is_of_real_values: bool = False
-    stable: tuple[StableValues, ...] = ()
-    of_stable: Ideal | None = None
-    polynomials_of_stable: tuple[fmpq_mpoly, ...] = ()
-    is_late: bool = True
-
-    @property
-    def has_methods(self) -> bool | None:
-        """Whether methods of the file have the order; None where that is not decided."""
-        if self.kind == "undecided":
-            return None
-        if self.kind in {"every-value", "family"}:
-            return self.is_real
-        if any(x.accepted and x.order is not None for x in self.found):
-            return True
-        is_open = any(x.open for x in self.found) or (self.kind == "solutions" and not self.is_all)
-        return None if is_open else False
-
-    @property
-    def may_have_methods(self) -> bool:
-        """Whether there may be values to go on with."""
-        return self.kind != "undecided" and self.has_methods is not False
-
-    @property
-    def is_all(self) -> bool:
-        """Whether there are no other values, not even complex ones unless a criterion for real
-        ones was taken: that is proved.
-        """
-        return self.ideal is not None and self.ideal.is_proved
-
-    def __repr__(self) -> str:
-        return f"<Step order {self.order}: {self.kind}>"
 
 
 class Design(Shown, Frozen):
@@ -160,17 +70,31 @@ class Design(Shown, Frozen):
         whose: which order is meant.
         tableau: the tableau of it, its entries rational functions.
         steps: one an order, from 1 on.
+        criterion: by which the real values were found; None where all conditions were examined.
     """
 
     family: Family
     whose: Whose
     tableau: Tableau
     steps: tuple[Step, ...]
+    criterion: PairConditions | None = None
 
     @property
     def last(self) -> Step:
         """The step of the highest order."""
         return self.steps[-1]
+
+    def criterion_of(self, step: Step) -> PairConditions | None:
+        """The criterion by which the values of a step were found; msolve takes all conditions."""
+        return self.criterion if step.is_all else None
+
+    def is_of_real_values(self, step: Step) -> bool:
+        """Whether complex values may have the order and not be among those of a step: up to order 2
+        the criterion asks for the same.
+        """
+        if self.criterion_of(step) is not None:
+            return step.order > 2
+        return step.is_all and bool(self.family.real)
 
     def parts(self, step: Step) -> list[Part]:
         """The solution set of a step in parts, nodes among the coordinates; where stability is
@@ -192,7 +116,7 @@ class Design(Shown, Frozen):
             for k in range(1, step.order + 1):
                 yield from (x.polynomial for x in conditions.of_order(k) if x.polynomial)
 
-        is_of_trees = step.criterion is None and ideal.is_proved
+        is_of_trees = self.criterion is None and ideal.is_proved
         nodes = nodes_as_coordinates(self.tableau, ideal.ring)
         return list(parts_of(ideal, nodes, kept, generators if is_of_trees else None))
 
@@ -238,7 +162,7 @@ def find_parameters(
         criterion = pair_conditions(family) if whose == "pair" else None
         conditions = FamilyConditions(tableau, family.ring)
         finding = _Finding(family, whose, conditions, criterion, order or family.order)
-        return Design(family, whose, tableau, tuple(finding.steps()))
+        return Design(family, whose, tableau, tuple(finding.steps()), criterion)
 
 
 class _Finding(Frozen):
@@ -257,23 +181,23 @@ class _Finding(Frozen):
         """
         wanted = self.wanted
         if self.family.unsettled:
-            return [Step(wanted or 1, "undecided", None)]
+            return [Undecided(wanted or 1, None)]
         left = seconds_left()
         first = None
         if wanted is not None and left is not None and find_msolve() is not None:
             first = monotonic() + SHARE * left
         steps: list[Step] = []
         for k in range(1, (wanted or DEFAULT_LIMIT) + 1):
-            step = Step(wanted or k, "undecided", None)
+            step: Step
             try:
                 with until(first):
                     step = self._step(k, steps[-1].ideal if steps else None)
             except NotDecided as error:
-                step = replace(step, is_late=error.is_late)
+                step = Undecided(wanted or k, None, error.is_late)
                 if first is not None:
                     with suppress(NotDecided):
                         step = self._at_once(step.order)
-            if step.kind == "none" and self.criterion is not None and steps:
+            if isinstance(step, NoValue) and self.criterion is not None and steps:
                 steps[-1] = self._looked_into(steps[-1], is_last=True)
             is_last = self.criterion is None or wanted is None or k == wanted
             steps.append(self._looked_into(step, is_last))
@@ -316,9 +240,7 @@ class _Finding(Frozen):
             lower = lower or start.with_zeros(relations)
         if criterion is not None:
             assert isinstance(lower, Ideal)
-            ideal = lower.with_zeros(criterion.of_order(order))
-            kind: Kind = "none" if ideal.is_everything else _kind(ideal, start)
-            return Step(order, kind, ideal, criterion=criterion, is_of_real_values=order > 2)
+            return _reached(order, lower.with_zeros(criterion.of_order(order)), start)
         if isinstance(lower, Pieces):
             return self._in_pieces(order, self._conditions(order), start)
         coming = (x for x in self.conditions.of_order(order) if x.polynomial)
@@ -336,11 +258,7 @@ class _Finding(Frozen):
             check_time()
             ideal, taken = ideal.with_zeros_in_turn([x.polynomial for x in new], known)
             done += new[:taken]
-        is_of_real = bool(self.family.real)
-        if ideal.is_everything:
-            witness = done[-1].tree if done else None
-            return Step(order, "none", ideal, witness, is_of_real_values=is_of_real)
-        return Step(order, _kind(ideal, start), ideal, is_of_real_values=is_of_real)
+        return _reached(order, ideal, start, done[-1].tree if done else None)
 
     def _in_pieces(self, order: int, new: Sequence[Condition], start: Ideal) -> Step:
         """The zeros of the conditions of an order in parts, all that is linear solved first.
@@ -363,14 +281,13 @@ class _Finding(Frozen):
             zeros = [*known, *(x.polynomial for x in new[:count])]
             return Pieces.of(zeros, start.nonzero, changes, kept)
 
-        found, is_of_real = pieces(len(new)), bool(self.family.real)
+        found = pieces(len(new))
         if not found.is_everything:
             if found.dimension > 0:
-                return Step(order, "family", found, is_of_real_values=is_of_real)
-            return Step(order, "solutions", found.ideal(start), is_of_real_values=is_of_real)
+                return Variety(order, found)
+            return Solutions(order, found.ideal(start))
         few = bisect_left(range(len(new)), x=True, key=lambda k: pieces(k).is_everything)
-        witness = new[few - 1].tree if few else None
-        return Step(order, "none", found, witness, is_of_real_values=is_of_real)
+        return NoValue(order, found, witness=new[few - 1].tree if few else None)
 
     @property
     def _relations(self) -> list[fmpq_mpoly]:
@@ -394,43 +311,47 @@ class _Finding(Frozen):
         polynomials = (*self._relations, *self._conditions_below(order + 1))
         ideal = self._start().with_zeros_unproved(polynomials)
         if ideal.is_everything:
-            return Step(order, "undecided", ideal)
-        return Step(order, "family" if ideal.dimension > 0 else "solutions", ideal)
+            return Undecided(order, ideal)
+        return Variety(order, ideal) if ideal.dimension > 0 else Solutions(order, ideal)
 
     def _looked_into(self, step: Step, is_last: bool) -> Step:
         """A step with its polynomials, its solutions, and what is known of real ones, unless a
         higher order tells it; not decided where its solutions take too long.
         """
-        ideal = step.ideal
-        if ideal is None:
+        if not isinstance(step, Decided):
             return step
+        ideal = step.ideal
         try:
             solved = None
             if self.criterion is not None and isinstance(ideal, Ideal):
                 solved = self.criterion.solved(ideal)
             polynomials, nonzero = _described(ideal) if solved is None else (solved, [])
             step = replace(step, polynomials=tuple(polynomials), nonzero=tuple(nonzero))
-            if step.kind == "solutions" and isinstance(ideal, Ideal):
+            if isinstance(step, Solutions) and isinstance(ideal, Ideal):
                 step = replace(step, found=self._found(ideal))
         except NotDecided as error:
-            return replace(step, kind="undecided", is_late=error.is_late)
-        if not is_last or step.kind not in {"every-value", "family"}:
-            return step
-        left = seconds_left()
-        if isinstance(ideal, Pieces):
-            with suppress(NotDecided), within(None if left is None else PART * left):
-                return self._with_real_pieces(step, ideal)
-            return step
-        if self.criterion is not None and self.family.stable:
-            with suppress(NotDecided), within(None if left is None else STABLE * left):
-                return self._with_stable_transfers(step, ideal, self.criterion)
-            left = seconds_left()
-        with suppress(NotDecided), within(None if left is None else PART * left):
-            return self._with_real(step, ideal)
+            return Undecided(step.order, ideal, error.is_late)
+        if is_last and isinstance(step, Many):
+            return replace(step, known=self._known(step))
         return step
 
-    def _with_real(self, step: Step, ideal: Ideal, real: Ideal | None = None) -> Step:
-        """A family with what is known of its real values.
+    def _known(self, step: Many) -> Known:
+        """Knowledge of the real values of a family, as far as there is time."""
+        ideal, left = step.ideal, seconds_left()
+        if isinstance(ideal, Pieces):
+            with suppress(NotDecided), within(None if left is None else PART * left):
+                return self._known_of_pieces(step, ideal)
+            return Known()
+        if self.criterion is not None and self.family.stable:
+            with suppress(NotDecided), within(None if left is None else STABLE * left):
+                return self._stable_transfers(step.order, ideal, self.criterion)
+            left = seconds_left()
+        with suppress(NotDecided), within(None if left is None else PART * left):
+            return self._known_of(step, ideal)
+        return Known()
+
+    def _known_of(self, step: Many, ideal: Ideal, real: Ideal | None = None) -> Known:
+        """Knowledge of the real values of a family with an ideal.
 
         Args:
             step: the family.
@@ -441,69 +362,69 @@ class _Finding(Frozen):
             NotDecided: the time is not enough.
         """
         if self.criterion is not None and self._has_point(self.criterion, ideal):
-            return replace(step, is_real=True)
+            return Known(is_real=True)
         real = without_complex(real or ideal)
+        known = Known()
         if real.basis != ideal.basis:
-            polynomials, _ = _described(real)
-            step = replace(step, real=real, polynomials_of_real=tuple(polynomials))
+            known = Known(within=Zeros(real, tuple(_described(real)[0])))
         if real.is_everything and ideal.is_proved:
-            return replace(step, is_real=False)
+            return replace(known, is_real=False)
         if real.dimension == 0:
             found = self._found(real)
             is_open = any(x.open for x in found)
             is_real = True if any(x.accepted for x in found) else None if is_open else False
-            return replace(step, found=found, is_real=is_real)
-        if self.family.stable and step.kind == "family":
-            return self._with_stable(step)
+            return replace(known, found=found, is_real=is_real)
+        if self.family.stable and isinstance(step, Variety):
+            return self._with_stable(step, known)
         if len(self.family.parameters) > 1:
-            step = replace(step, stable=_sets(self.family, self.whose))
-            have = [x.has_values for x in step.stable]
+            known = replace(known, stable=_sets(self.family, self.whose))
+            have = [x.has_values for x in known.stable]
             if False in have or have == [True]:
-                return replace(step, is_real=False not in have)
-        step = replace(step, is_real=has_methods(self.family, ideal, real, self._is_method))
-        if step.is_real is None:
+                return replace(known, is_real=False not in have)
+        known = replace(known, is_real=has_methods(self.family, ideal, real, self._is_method))
+        if known.is_real is None:
             with suppress(NotDecided), only_small():
-                return self._with_smooth(step, ideal, real)
-        return step
+                return self._by_smooth_points(step, ideal, real, known)
+        return known
 
-    def _with_smooth(self, step: Step, ideal: Ideal, real: Ideal) -> Step:
-        """A family with what critical points tell of its real values: one of them is a method, or
-        there are none but where the gradients of its equations are dependent.
+    def _by_smooth_points(self, step: Many, ideal: Ideal, real: Ideal, known: Known) -> Known:
+        """Knowledge by critical points: one of them is a method, or there are none but where the
+        gradients of the equations are dependent.
 
         Raises:
             NotDecided: the time is not enough.
         """
         smooth = smooth_points(real)
         if smooth is None:
-            return step
+            return known
         ring = self.family.ring
         for point in smooth.points:
             is_defined = all(value_of(p, ring, point.values) for p in ideal.nonzero)
             if is_defined and any(self._is_method(point, root) for root in point.real):
-                return replace(step, is_real=True)
+                return replace(known, is_real=True)
         if smooth.points:
-            return step
-        return self._with_real(step, ideal, real.with_zeros(smooth.others))
+            return known
+        return self._known_of(step, ideal, real.with_zeros(smooth.others))
 
-    def _with_real_pieces(self, step: Step, pieces: Pieces) -> Step:
-        """A family in parts with what is known of its real values.
+    def _known_of_pieces(self, step: Many, pieces: Pieces) -> Known:
+        """Knowledge of the real values of a family in parts.
 
         Raises:
             NotDecided: the time is not enough.
         """
         if self.family.stable:
-            return self._with_stable(step)
+            return self._with_stable(step, Known())
         found = (has_point(self.family, part, self._is_method) for part in pieces.parts)
-        return replace(step, is_real=any(found) or None)
+        return Known(is_real=any(found) or None)
 
-    def _with_stable(self, step: Step) -> Step:
-        """A family of which stable methods are wanted with what is known of them.
+    def _with_stable(self, step: Many, known: Known) -> Known:
+        """Knowledge of a family with the methods that are as stable as is wanted.
 
         Raises:
             NotDecided: the time is not enough, or stability depends on several unknowns.
         """
         tableau = TABLEAUS[self.whose](self.family.tableau)
-        parts = Design(self.family, self.whose, tableau, (step,)).parts(step)
+        parts = Design(self.family, self.whose, tableau, (step,), self.criterion).parts(step)
         found = []
         for part in parts:
             with suppress(NotDecided):
@@ -515,15 +436,15 @@ class _Finding(Frozen):
             is_real = None
         if is_real is None and any(not x.found and not x.undecided for x in stable):
             is_real = False
-        return replace(step, is_real=is_real, stable=stable)
+        return replace(known, is_real=is_real, stable=stable)
 
-    def _with_stable_transfers(self, step: Step, ideal: Ideal, criterion: PairConditions) -> Step:
-        """All transfers of a pair with the ideal of the P-stable ones.
+    def _stable_transfers(self, order: int, ideal: Ideal, criterion: PairConditions) -> Known:
+        """Knowledge of all transfers of a pair, with the ideal of the P-stable ones.
 
         Raises:
             NotDecided: it is not known.
         """
-        stable = without_complex(ideal.with_zeros(stable_zeros(criterion, ideal, step.order)))
+        stable = without_complex(ideal.with_zeros(stable_zeros(criterion, ideal, order)))
         solved, is_real = criterion.solved(stable), None
         if solved is None:
             raise NotDecided
@@ -533,7 +454,7 @@ class _Finding(Frozen):
             free = replace(self.family, stable=())
             is_real = has_methods(free, stable, stable, partial(is_admissible, free))
         new = tuple(p for p in solved if not ideal.contains(p))
-        return replace(step, is_real=is_real, of_stable=stable, polynomials_of_stable=new)
+        return Known(is_real=is_real, of_stable=Zeros(stable, new))
 
     def _has_point(self, criterion: PairConditions, ideal: Ideal) -> bool:
         """Whether there is a method where the unknowns that are free are 0."""
@@ -583,11 +504,13 @@ class _Finding(Frozen):
         return bool(stable)
 
 
-def _kind(ideal: Ideal, start: Ideal) -> Kind:
-    """For which values an order is reached that some values reach."""
+def _reached(order: int, ideal: Ideal, start: Ideal, witness: Tree | None = None) -> Step:
+    """For which values an order is reached; those of ``start`` are all there are."""
+    if ideal.is_everything:
+        return NoValue(order, ideal, witness=witness)
     if ideal.basis == start.basis:
-        return "every-value"
-    return "family" if ideal.dimension > 0 else "solutions"
+        return EveryValue(order, ideal)
+    return Variety(order, ideal) if ideal.dimension > 0 else Solutions(order, ideal)
 
 
 def _as_long_as_small(
@@ -641,8 +564,8 @@ def _with_lower(steps: Sequence[Step]) -> list[Step]:
     found: list[Step] = []
     is_reached = False
     for step in reversed(steps):
-        if is_reached and step.kind in {"every-value", "family"}:
-            step = replace(step, is_real=True)
+        if is_reached and isinstance(step, Many):
+            step = replace(step, known=replace(step.known, is_real=True))
         is_reached = is_reached or step.has_methods is True
         found.insert(0, step)
     return found
@@ -697,9 +620,9 @@ def stable_sets(design: Design) -> tuple[StableValues, ...]:
     order that is reached; nothing where solutions are examined one by one.
     """
     family = design.family
-    if any(step.stable for step in design.steps):
+    if any(step.known.stable for step in design.steps):
         *_, best = [design.last, *(step for step in design.steps if step.may_have_methods)]
-        return best.stable
+        return best.known.stable
     if design.last.kind != "every-value" or len(family.ring.names) > 1 or not family.parameters:
         return ()
     return _sets(family, design.whose)
@@ -711,10 +634,6 @@ def _sets(family: Family, whose: Whose) -> tuple[StableValues, ...]:
     wanted = [
         x for kind in get_args(Wanted) for x in dict.fromkeys(family.stable) if x.kind == kind
     ]
-    sets: list[StableValues] = []
-    for kind, colour in ((cast("Wanted", x.kind), x.colour) for x in wanted):
-        if len(family.parameters) == 1:
-            sets.append(stable_values(family, kind, whose, colour=colour))
-        elif (found := form_values(family, kind, whose, colour)) is not None:
-            sets.append(found)
-    return tuple(sets) if len(sets) == len(wanted) else ()
+    found = (values_of_one(family, cast("Wanted", x.kind), whose, colour=x.colour) for x in wanted)
+    sets = tuple(x for x in found if x is not None)
+    return sets if len(sets) == len(wanted) else ()

@@ -7,9 +7,9 @@ of P-stability 1 − det M is zero.
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
-from typing import Protocol
 
 from flint import fmpq, fmpq_mpoly
 
@@ -28,7 +28,7 @@ from garkcli.exact.roots import RealRoot, number_of
 from garkcli.frozen import Frozen
 from garkcli.problems.oscillator import Oscillator, check_structure, terms_of
 from garkcli.stability.linear import imaginary_set, is_a_stable, stability_function
-from garkcli.stability.oscillator import OscillatorStability, oscillator_stability
+from garkcli.stability.oscillator import oscillator_stability
 from garkcli.stability.two_frequencies import (
     eigenvalue_conditions,
     line_of_determinants,
@@ -125,32 +125,53 @@ class Members(Frozen):
         return step_plane(self.line(tableau), fields)
 
 
-class Kind(Protocol):
-    """A kind of stability of a family.
+class Kind(ABC):
+    """A kind of stability of a family: for each method a set of x ≥ 0 that is to be everything.
 
     Attributes:
+        members: the methods.
         plane: the step of the family.
+        signs: polynomials in x and t: where one is negative the method is not stable at x.
         critical: polynomials between whose roots one t decides.
         essential: polynomials of which one is zero where the limit of methods that have it may not
             have it.
+        greatest: the bound on x; None where there is none.
     """
 
+    members: Members
     plane: StepPlane
+    signs: list[fmpq_mpoly]
     critical: list[Polynomial]
     essential: list[Polynomial]
+    greatest: fmpq | None = None
 
-    def decide(self, value: Point) -> bool:
-        """By the ordinary engine.
+    @abstractmethod
+    def holds(self, tableau: Tableau) -> bool:
+        """Whether a method has it, by the ordinary engine."""
+
+    @abstractmethod
+    def stable(self, tableau: Tableau) -> tuple[Interval, ...]:
+        """The x ≥ 0 at which a method is stable, by the ordinary engine."""
+
+    def decide(self, t: Point) -> bool:
+        """Whether the method for a value has it; not where there is none.
 
         Raises:
             NotDecided: the field of the method is too large.
         """
+        tableau = self.members.at(t)
+        return tableau is not None and self.holds(tableau)
 
-    def witness(self, value: fmpq) -> fmpq | None:
+    def witness(self, t: fmpq) -> fmpq | None:
         """An x at which a condition is violated for a value that has been decided in vain."""
+        tableau = self.members.at(t)
+        x = None if tableau is None else first_gap(self.stable(tableau))
+        is_beyond = x is not None and self.greatest is not None and x > self.greatest
+        return None if is_beyond else x
 
     def conditions(self, x: fmpq) -> list[Polynomial]:
         """Polynomials in t: where one is negative the method is not stable at x."""
+        return [self.plane.at_y(p, x) for p in self.signs]
 
 
 def driven(tableau: Tableau, wanted: str, colour: int | None = None) -> list[Matrix]:
@@ -173,7 +194,7 @@ def driven(tableau: Tableau, wanted: str, colour: int | None = None) -> list[Mat
     return [((share,),) for share in shares_of(tableau, colour)]
 
 
-class AStability:
+class AStability(Kind):
     """|R(z)| ≤ 1 for Re z ≤ 0, of all colours alike or of one alone."""
 
     def __init__(self, members: Members, tableau: Tableau, colour: int | None = None) -> None:
@@ -183,29 +204,22 @@ class AStability:
         self.plane = members.plane(tableau, fields)
         self.Q = self.plane.denominator
         self.P = self.plane.numerators[0][0]
-        self.E = squared_modulus(self.Q) - squared_modulus(self.P)
+        self.signs = [squared_modulus(self.Q) - squared_modulus(self.P)]
         u, v = real_and_imaginary(self.Q)
-        self.essential: list[Polynomial] = []
+        self.essential = []
         # a pole at infinity or on the axis, another degree of R, other lowest terms
         self.critical = [
-            *self.plane.projected([self.E], [ZERO]),
+            *self.plane.projected(self.signs, [ZERO]),
             *(self.plane.in_t(projection.leading(p)) for p in (self.Q, self.P)),
             *self.plane.meeting(u, v),
             *self.plane.meeting(self.P, self.Q),
         ]
 
-    def decide(self, value: Point) -> bool:
-        tableau = self.members.at(value)
-        return tableau is not None and is_a_stable(stability_function(tableau, self.shares))
+    def holds(self, tableau: Tableau) -> bool:
+        return is_a_stable(stability_function(tableau, self.shares))
 
-    def witness(self, value: fmpq) -> fmpq | None:
-        tableau = self.members.at(value)
-        if tableau is None:
-            return None
-        return first_gap(imaginary_set(stability_function(tableau, self.shares)))
-
-    def conditions(self, x: fmpq) -> list[Polynomial]:
-        return [self.plane.at_y(self.E, x)]
+    def stable(self, tableau: Tableau) -> tuple[Interval, ...]:
+        return imaginary_set(stability_function(tableau, self.shares))
 
     def is_damped(self, t: Point) -> bool:
         """Whether R(∞) = 0; common factors of P and Q change both degrees alike."""
@@ -217,7 +231,7 @@ class AStability:
         return max((k for k, a in enumerate(coefficients) if sign_of(a, t)), default=-1)
 
 
-class IStability:
+class IStability(Kind):
     """All powers of the step matrix on the oscillator are bounded for every step size."""
 
     def __init__(self, members: Members, tableau: Tableau) -> None:
@@ -229,20 +243,11 @@ class IStability:
         self.essential = self.plane.projected([poles, *self.signs], [ZERO])
         self.critical = self.plane.projected([*self.signs, *others], [ZERO])
 
-    def _at(self, value: Point) -> OscillatorStability | None:
-        tableau = self.members.at(value)
-        return None if tableau is None else oscillator_stability(tableau, self.problem)
+    def holds(self, tableau: Tableau) -> bool:
+        return oscillator_stability(tableau, self.problem).is_i_stable
 
-    def decide(self, value: Point) -> bool:
-        found = self._at(value)
-        return found is not None and found.is_i_stable
-
-    def witness(self, value: fmpq) -> fmpq | None:
-        found = self._at(value)
-        return None if found is None else first_gap(found.stable)
-
-    def conditions(self, x: fmpq) -> list[Polynomial]:
-        return [self.plane.at_y(p, x) for p in self.signs]
+    def stable(self, tableau: Tableau) -> tuple[Interval, ...]:
+        return oscillator_stability(tableau, self.problem).stable
 
 
 def oscillator_curves(plane: StepPlane) -> tuple[list[fmpq_mpoly], list[fmpq_mpoly]]:
@@ -313,14 +318,15 @@ class TwoSprings(Frozen):
     greatest: fmpq | None = None
 
 
-class SpringStability:
+class SpringStability(Kind):
     """All powers of the step matrix on a slow and a fast spring are bounded for all fast
     frequencies: for one slow frequency the step is a function of x = (hω_f)² and of t.
     """
 
     def __init__(self, members: Members, tableau: Tableau, wanted: TwoSprings) -> None:
         self.members = members
-        self.wanted = wanted
+        self.greatest = wanted.greatest
+        self.slow = wanted.slow
         split = self.split = springs(tableau, wanted.fast)
         self.plane = StepPlane.of(
             members.line(tableau),
@@ -330,33 +336,17 @@ class SpringStability:
         D = self.plane.denominator
         (a, b), (c, d) = self.plane.numerators
         self.signs = eigenvalue_conditions(D, a, b, c, d)
-        ends = [ZERO]
-        if wanted.greatest is not None:
-            ends.append(wanted.greatest)
+        ends = [x for x in (ZERO, wanted.greatest) if x is not None]
         self.essential = self.plane.projected([D, *self.signs], ends)
         deciding = [*self.signs, D, a + d, a * d - b * c, b, c]
         self.critical = self.plane.projected(deciding, ends)
 
-    def decide(self, value: Point) -> bool:
-        found = self._stable(value)
-        greatest = self.wanted.greatest
-        if greatest is None:
+    def holds(self, tableau: Tableau) -> bool:
+        found = self.stable(tableau)
+        if self.greatest is None:
             return first_end(found) is None and found[0].has_start
-        ends = RealRoot.rational(ZERO), RealRoot.rational(greatest)
+        ends = RealRoot.rational(ZERO), RealRoot.rational(self.greatest)
         return any(contains(x, *ends) for x in found)
 
-    def witness(self, value: fmpq) -> fmpq | None:
-        x = first_gap(self._stable(value))
-        greatest = self.wanted.greatest
-        if x is not None and greatest is not None and x > greatest:
-            return None
-        return x
-
-    def conditions(self, x: fmpq) -> list[Polynomial]:
-        return [self.plane.at_y(p, x) for p in self.signs]
-
-    def _stable(self, value: Point) -> tuple[Interval, ...]:
-        tableau = self.members.at(value)
-        if tableau is None:
-            return ()
-        return two_frequencies(tableau, self.split, self.wanted.slow).stable
+    def stable(self, tableau: Tableau) -> tuple[Interval, ...]:
+        return two_frequencies(tableau, self.split, self.slow).stable

@@ -16,7 +16,7 @@ whatever the degree of t. Where that leaves anything open, the engine for one pa
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import combinations, pairwise
+from itertools import pairwise
 from typing import Any, TypeAlias
 
 from flint import acb, acb_poly, arb, ctx, fmpq, fmpq_mpoly
@@ -25,12 +25,12 @@ from garkcli.deadline import check_time
 from garkcli.design.fewer import fewest
 from garkcli.design.member import TABLEAUS, Whose, member, shares_of
 from garkcli.design.stability_functions import FamilyFunction, function_of, joined
-from garkcli.design.stability_kinds import Members, TwoSprings, driven, real_and_imaginary
+from garkcli.design.stability_kinds import TwoSprings, driven, real_and_imaginary
 from garkcli.design.stable_values import (
     StableValues,
     Wanted,
+    beside_roots,
     has_wishes,
-    refuse_radicals,
     stable_values,
     too_many,
 )
@@ -192,31 +192,35 @@ def stable_set(
 
     Raises:
         UsageProblem: the stability has no meaning for the method, there are other parameters, or
-            coefficients are irrational.
+            roots among the coefficients.
         ZeroWeight: a weight is zero for every value, and there is no conjugate.
         NotDecided: the time is not enough.
     """
-    if len(family.parameters) == 1:
-        return stable_values(family, wanted, whose, two_springs, colour)
-    refuse_radicals(Members(family, whose), wanted, two_springs)
-    found = None if two_springs else form_values(family, wanted, whose, colour)
+    found = values_of_one(family, wanted, whose, two_springs, colour)
     if found is not None:
         return found
+    if family.radicals:
+        raise beside_roots(family, wanted, whose)
     is_plane = len(family.parameters) == 2 and wanted == "a-stable" and whose == "method"
-    is_plane = is_plane and not family.radicals
     if is_plane and _is_plain(family, family.tableau):
         return stable_plane(family, colour)
     raise too_many(family)
 
 
-def form_values(
-    family: Family, wanted: Wanted, whose: Whose, colour: int | None
+def values_of_one(
+    family: Family,
+    wanted: Wanted,
+    whose: Whose,
+    two_springs: TwoSprings | None = None,
+    colour: int | None = None,
 ) -> StableValues | None:
-    """The set of values of one linear form in several parameters; None where the step depends on
-    more, or there are other wishes, radicals, or denominators.
+    """The set of values of one parameter, or of one linear form in several; None where the step
+    depends on more, or there are other wishes, radicals, or denominators.
     """
+    if len(family.parameters) == 1:
+        return stable_values(family, wanted, whose, two_springs, colour)
     tableau = TABLEAUS[whose](family.tableau)
-    if family.radicals or not _is_plain(family, tableau):
+    if two_springs or family.radicals or not _is_plain(family, tableau):
         return None
     smaller, forms = fewest(family, tableau, driven(tableau, wanted, colour))
     if len(forms) > 1:
@@ -374,17 +378,10 @@ def _deciding(R: FamilyFunction, ring: Parameters) -> list[fmpq_mpoly]:
         joined(x, common_denominator(list(x), ring), ring)
         for x in (R.numerator, R.denominator, R.e_polynomial or (fmpq(0),))
     )
-    found = [projection.leading(P), projection.leading(Q)]
-    crossing = factors([E])
-    for curve in crossing:
-        z, *others = curve.context().gens()
-        found += [projection.leading(curve), curve.compose(z * 0, *others)]
-        if curve.degrees()[0] > 1:
-            found.append(projection.discriminant(curve, "_z"))
-    found += [projection.resultant(p, q, "_z") for p, q in combinations(crossing, 2)]
+    found = [*projection.seen_along(factors([E]), [fmpq(0)]), *map(projection.leading, (P, Q))]
     for p, q in ((P, Q), real_and_imaginary(Q)):
         if p and q and (p.degrees()[0] or q.degrees()[0]):
-            found.append(projection.resultant(p, q, "_z"))
+            found.append(projection.resultant(p, q))
     return factors(projection.in_plane(p, y=2, t=1) for p in found)
 
 

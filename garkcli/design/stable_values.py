@@ -131,9 +131,9 @@ def stable_values(
         NotDecided: the time is not enough.
     """
     members = members or Members(family, whose)
-    refuse_radicals(members, wanted, two_springs)
     if len(family.parameters) > 1:
         raise too_many(family)
+    _refuse_radicals(members, wanted, two_springs)
     tableau = TABLEAUS[whose](family.tableau)
     along = members.line(family.tableau).along
     (ends,) = family.ranges.values()
@@ -228,20 +228,22 @@ def too_many(family: Family) -> UsageProblem:
     )
 
 
-def refuse_radicals(members: Members, wanted: Wanted, two_springs: TwoSprings | None) -> None:
-    """Refuse a family with roots of its parameters among its coefficients, or of large degrees."""
-    family = members.family
-    places = range(len(family.parameters))
-    is_number = not any(x.relation.degrees()[k] for x in family.radicals for k in places)
-    is_on_springs = bool(family.radicals) and two_springs is not None
-    if is_number and not is_on_springs and members.constants is not None:
-        return
-    name = family.parameters[0]
-    message = f"there are roots among the coefficients, beside {name}"
+def beside_roots(family: Family, wanted: Wanted, whose: Whose) -> UsageProblem:
+    """That there are roots among the coefficients that the set is not found with."""
+    message = f"there are roots among the coefficients, beside {family.parameters[0]}"
     cure = "write the method as a family by name, whose nodes are not needed"
-    if wanted in OSCILLATING and members.whose == "pair":
+    if wanted in OSCILLATING and whose == "pair":
         cure = "add --order P, which takes roots"
-    raise UsageProblem(message, cure, code="no-radicals")
+    return UsageProblem(message, cure, code="no-radicals")
+
+
+def _refuse_radicals(members: Members, wanted: Wanted, two_springs: TwoSprings | None) -> None:
+    """Refuse a family with roots of its parameter among its coefficients, or of large degrees."""
+    family = members.family
+    is_number = not any(x.relation.degrees()[0] for x in family.radicals)
+    is_on_springs = bool(family.radicals) and two_springs is not None
+    if not is_number or is_on_springs or members.constants is None:
+        raise beside_roots(family, wanted, members.whose)
 
 
 class _Decision:

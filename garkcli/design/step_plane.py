@@ -50,13 +50,13 @@ class Line(Frozen):
 
     @property
     def name(self) -> str:
-        """That of the parameter."""
+        """The name of the parameter."""
         [name] = (x for x in self.ring.names if x not in self.constants)
         return name
 
     @property
     def field(self) -> NumberField | None:
-        """That of the constants; None for ℚ."""
+        """The field of the constants; None for ℚ."""
         fields = (x.field for x in self.constants.values() if isinstance(x, Algebraic))
         return next(fields, None)
 

@@ -39,22 +39,33 @@ def projected(irreducible: Sequence[fmpq_mpoly], ends: Sequence[fmpq]) -> list[P
         irreducible: distinct irreducible curves.
         ends: the ends of the interval of y.
     """
-    _, t = PLANE.gens()
-    critical: list[fmpq_mpoly] = []
+    return [in_t(p) for p in seen_along(irreducible, ends)]
+
+
+def seen_along(irreducible: Sequence[fmpq_mpoly], ends: Sequence[fmpq]) -> list[fmpq_mpoly]:
+    """The nonzero polynomials without the first variable, between whose zeros the zeros of others
+    in it keep their order and number.
+
+    Args:
+        irreducible: distinct irreducible polynomials.
+        ends: the ends of the interval of the first variable.
+    """
+    found: list[fmpq_mpoly] = []
     crossing = []
     for curve in irreducible:
         check_time()
-        degree, _ = curve.degrees()
+        degree = curve.degrees()[0]
         if degree == 0:
-            critical.append(curve)
+            found.append(curve)
             continue
         crossing.append(curve)
-        critical.append(leading(curve))
-        critical.extend(curve.compose(PLANE.constant(end), t) for end in ends)
+        first, *others = curve.context().gens()
+        found.append(leading(curve))
+        found.extend(curve.compose(first * 0 + end, *others) for end in ends)
         if degree > 1:
-            critical.append(discriminant(curve))
-    critical += [resultant(f, g) for f, g in combinations(crossing, 2)]
-    return [in_t(p) for p in critical if p]
+            found.append(discriminant(curve))
+    found += [resultant(f, g) for f, g in combinations(crossing, 2)]
+    return [p for p in found if p]
 
 
 LARGE = 30_000
@@ -63,21 +74,23 @@ process apart.
 """
 
 
-def discriminant(p: fmpq_mpoly, variable: str = "y") -> fmpq_mpoly:
-    """The discriminant with respect to y, or to another unknown.
+def discriminant(p: fmpq_mpoly) -> fmpq_mpoly:
+    """The discriminant with respect to the first variable, y in the plane.
 
     Raises:
         NotDecided: the time limit has passed.
     """
+    variable = p.context().name(0)
     return _without(variable, p, p, methodcaller("discriminant", variable))
 
 
-def resultant(p: fmpq_mpoly, q: fmpq_mpoly, variable: str = "y") -> fmpq_mpoly:
-    """The resultant with respect to y, or to another unknown.
+def resultant(p: fmpq_mpoly, q: fmpq_mpoly, variable: str | None = None) -> fmpq_mpoly:
+    """The resultant with respect to a variable, the first one where none is named.
 
     Raises:
         NotDecided: the time limit has passed.
     """
+    variable = variable or p.context().name(0)
     return _without(variable, p, q, methodcaller("resultant", q, variable))
 
 

@@ -8,14 +8,25 @@ from itertools import groupby
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias, get_args
 
 from garkcli.design.choices import Choice as Choices
-from garkcli.design.design import Design, Found, Step, estimates_nothing
-from garkcli.design.design import Kind as Verdict
+from garkcli.design.design import Design, estimates_nothing
 from garkcli.design.member import Whose
 from garkcli.design.minimise.objective import Level as LevelObjective
 from garkcli.design.minimise.result import Candidate, Extent, Limit, Minimum, Proof
 from garkcli.design.minimise.smallest import DECIMALS
 from garkcli.design.solutions import value_at
 from garkcli.design.stable_values import StableValues
+from garkcli.design.steps import (
+    Decided,
+    EveryValue,
+    Found,
+    Many,
+    NoValue,
+    Step,
+    Undecided,
+    Variety,
+    Zeros,
+)
+from garkcli.design.steps import Kind as Verdict
 from garkcli.errors import counted
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.polynomial_text import integral, polynomial_text, root_decimal, root_text
@@ -24,7 +35,7 @@ from garkcli.ntrees.tree import Tree
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
 from garkcli.page.exactly import ALGEBRAIC, root_data
 from garkcli.reason import Reason
-from garkcli.report.design_values import AnyPolynomial, conditions, equation, where, zeros
+from garkcli.report.design_values import conditions, equation, where, zeros
 from garkcli.report.stable_values import VALUES, ends, number, stability
 from garkcli.tell.dialect import Plain
 from garkcli.tell.facts import (
@@ -46,8 +57,6 @@ from garkcli.tell.report import Report
 from garkcli.tell.shown import Words
 
 if TYPE_CHECKING:
-    from garkcli.design.ideal import Ideal
-    from garkcli.design.parts import Pieces
     from garkcli.order.deciding import AnyOrder
 
 HEADLINE, USUAL, DETAIL, DATA = Level
@@ -84,12 +93,14 @@ class OrderDemand(NamedTuple):
 
     @property
     def zeros(self) -> list[str]:
-        return zeros(self.design.family, self.step.polynomials)
+        step = self.step
+        return zeros(self.design.family, step.polynomials) if isinstance(step, Decided) else []
 
     @property
     def conditions(self) -> list[Reason]:
         """Further restrictions on the values."""
-        return conditions(self.design.family, self.step.nonzero)
+        nonzero = self.step.nonzero if isinstance(self.step, Decided) else ()
+        return conditions(self.design.family, nonzero)
 
     @property
     def solutions(self) -> list[Solutions]:
@@ -104,7 +115,7 @@ class OrderDemand(NamedTuple):
     @property
     def likeness(self) -> tuple[object, ...]:
         """Steps with the same one are reported together."""
-        return self.step.kind, self.step.is_real, self.zeros, self.conditions
+        return self.step.kind, self.step.known.is_real, self.zeros, self.conditions
 
 
 class Solutions(NamedTuple):
@@ -167,11 +178,11 @@ LATE = "give it more by --seconds; "
 """Of what ends with its time, and of nothing that is beyond gark's limits whatever the time is."""
 
 
-def _undecided(found: OrderDemand) -> Iterator[str]:
+def _undecided(design: Design, step: Undecided) -> Iterator[str]:
     """Why an order is not decided, and what helps."""
-    limits = "in the time of --seconds" if found.step.is_late else "within the limits of gark"
+    limits = "in the time of --seconds" if step.is_late else "within the limits of gark"
     yield f"not decided {limits}"
-    ideal, keys = found.step.ideal, found.design.family.unsettled
+    ideal, keys = step.ideal, design.family.unsettled
     if ideal is not None and ideal.is_everything:
         yield "msolve finds that no value has it, which is no proof"
     elif ideal is not None:
@@ -182,58 +193,58 @@ def _undecided(found: OrderDemand) -> Iterator[str]:
             " a lower order of the pair, or fix unknowns by --set or design: fix"
         )
     else:
-        yield f"{LATE if found.step.is_late else ''}{UNDECIDED}"
+        yield f"{LATE if step.is_late else ''}{UNDECIDED}"
 
 
 def _real(found: OrderDemand, d: Plain) -> Iterator[str]:
     """The real values of a family, unless these are a family too."""
-    step = found.step
-    if step.real is not None and step.real.is_everything:
+    known = found.step.known
+    if known.within is not None and known.within.ideal.is_everything:
         yield "none of them is real"
-    elif step.real is not None:
-        texts = zeros(found.design.family, step.polynomials_of_real)
+    elif known.within is not None:
+        texts = zeros(found.design.family, known.within.polynomials)
         yield f"the real ones are among {_polynomials(texts, d)}"
-    elif step.is_real is False:
+    elif known.is_real is False:
         yield "no real value of them is a method that the file admits"
-    if step.is_real is None:
+    if known.is_real is None:
         yield "whether a real value of them is a method that the file admits is not decided"
 
 
 def _values(found: OrderDemand, d: Plain, is_whole: bool) -> Iterator[str]:
     """The values with which an order is reached; ``is_whole``: with their polynomials."""
-    step = found.step
-    match step.kind:
-        case "none":
-            which = "no real value" if step.is_of_real_values else "no value"
-            if found.design.family.impossible:
-                yield d.prose(found.design.family.impossible[0])
+    design, step = found.design, found.step
+    is_of_real, criterion = design.is_of_real_values(step), design.criterion_of(step)
+    match step:
+        case NoValue():
+            which = "no real value" if is_of_real else "no value"
+            if design.family.impossible:
+                yield d.prose(design.family.impossible[0])
                 return
-            if step.criterion is not None:
-                why = step.criterion.obstacle(step.order)
+            if criterion is not None:
+                why = criterion.obstacle(step.order)
                 yield d.prose(f"{which}: {why}") if why else f"{which}, by {CRITERION}"
                 return
             wish, how = "what is wanted besides", f", by {CRITERION}"
             if step.witness is not None:
-                tree = _tree(found.design, step.witness, d)
+                tree = _tree(design, step.witness, d)
                 wish, how = f"with the conditions before it, that of {tree}", ""
-            if not step.is_of_real_values:
+            if not is_of_real:
                 how = ", not even by complex values"
             yield f"{which}: {wish} cannot be met{how}"
-        case "undecided":
-            yield from map(d.prose, _undecided(found))
-        case "every-value":
+        case Undecided():
+            yield from map(d.prose, _undecided(design, step))
+        case EveryValue():
             yield f"every value{where(found.conditions, d)}"
             yield from _real(found, d)
-        case kind:
-            assert step.ideal is not None
+        case Decided():
             what = counted(sum(x.solution.degree for x in step.found), "solution")
-            if kind == "family":
+            if isinstance(step, Variety):
                 what = f"a family of dimension {step.ideal.dimension}{where(found.conditions, d)}"
-            which = f"real ones by {CRITERION}" if step.is_of_real_values else "real and complex"
+            which = f"real ones by {CRITERION}" if is_of_real else "real and complex"
             yield f"{what}: {_polynomials(found.zeros, d, which)}" if is_whole else what
-            if kind == "family":
+            if isinstance(step, Variety):
                 yield from _real(found, d)
-    if step.ideal is not None and not step.is_all and step.kind != "undecided":
+    if isinstance(step, Decided) and not step.is_all:
         yield "found by msolve: each is proved, that there are no others is not"
 
 
@@ -309,7 +320,7 @@ def order_rows(x: DesignReport, d: Plain) -> Texts:
 def single_rows(design: Design, d: Plain) -> Texts:
     """The condition that stops a method without unknowns."""
     last = design.last
-    if last.witness is None:
+    if not isinstance(last, NoValue) or last.witness is None:
         return []
     tree = _tree(design, last.witness, d)
     return [(f"order {last.order}", f"no: the condition of {tree} fails")]
@@ -347,18 +358,19 @@ def _answer(x: DesignReport, d: Plain) -> str:
     if best is not None:
         texts.append(f"order {best.order}{whose} for {_briefly(best)}")
     if best is not last:
-        none = "for no real value" if last.is_of_real_values else "for no value"
+        none = "for no real value" if design.is_of_real_values(last) else "for no value"
         no = {"undecided": "is not decided", "none": none}
         text = f"order {last.order}{'' if best else whose}"
         text = f"{text} {no.get(last.kind, 'for no method of the file')}"
         is_impossible = last.kind == "none" and design.family.impossible
         texts.append(d.prose(design.family.impossible[0]) if is_impossible else text)
     texts += [f"{'' if best else whose}{stability(values, d)}" for values in x.sets]
-    if best is not None and best.of_stable is not None:
+    of_stable = None if best is None else best.known.of_stable
+    if of_stable is not None:
         which = "every value of it"
-        if best.polynomials_of_stable:
+        if of_stable.polynomials:
             # real zeros may have a smaller one
-            part = f"a part of dimension {best.of_stable.dimension}"
+            part = f"a part of dimension {of_stable.ideal.dimension}"
             which = f"exactly the real values of {part}"
         texts.append(f"P-stable for {which}")
     return "; ".join(texts)
@@ -378,9 +390,9 @@ def _of_single(design: Design, best: Step | None) -> str:
 
 def _briefly(step: Step) -> str:
     """``a family of dimension 2``; ``3 of 4 solutions``."""
-    if step.kind == "every-value":
+    if isinstance(step, EveryValue):
         return "every value"
-    if step.kind == "family" and step.ideal is not None:
+    if isinstance(step, Variety):
         return f"a family of dimension {step.ideal.dimension}"
     count = sum(found.solution.degree for found in step.found)
     real = sum(len(found.accepted) for found in step.found if found.order is not None)
@@ -405,12 +417,12 @@ def stable_rows(x: DesignReport, d: Plain) -> Texts:
     kinds = ", ".join(map(str, family.stable))
     if not family.parameters:
         return []
-    if best is not None and best.of_stable is not None:
-        texts = [equation(family, p) for p in sorted(best.polynomials_of_stable, key=len)]
+    if best is not None and best.known.of_stable is not None:
+        texts = [equation(family, p) for p in sorted(best.known.of_stable.polynomials, key=len)]
         found = f"P-stable for exactly {_listed(texts, d, 'equation')}"
         return [("stable", found)] if texts else []
     last = x.design.last
-    if kinds and not x.sets and last.kind in {"every-value", "family"}:
+    if kinds and not x.sets and isinstance(last, Many):
         if last.found:  # all real ones, each with its verdict
             return []
         text = f"{kinds}: not decided for all methods of the family: fix unknowns by --set"
@@ -581,40 +593,26 @@ SOLUTION: Section[Solutions] = SectionChoice(
 CONDITIONS: Kind[Sequence[Reason]] = Kind(Json(S.array(S.TEXT), lambda xs, _: list(map(str, xs))))
 
 
-def _ideal(x: OrderDemand) -> Ideal | Pieces | None:
-    return None if x.step.kind == "undecided" else x.step.ideal
+def _zeros(x: OrderDemand, found: Zeros | None) -> list[str] | None:
+    return None if found is None else zeros(x.design.family, found.polynomials)
 
 
 def _dimension(x: OrderDemand) -> int | None:
-    ideal = _ideal(x)
-    return None if ideal is None else ideal.dimension
-
-
-def _zeros(
-    x: OrderDemand, ideal: Ideal | Pieces | None, polynomials: Sequence[AnyPolynomial]
-) -> list[str] | None:
-    return None if ideal is None else zeros(x.design.family, polynomials)
+    return x.step.ideal.dimension if isinstance(x.step, Decided) else None
 
 
 STEP: Rows[OrderDemand] = [
     Row("order", POSITION, lambda x: x.step.order, DATA),
     Row("verdict", choice(*get_args(Verdict)), lambda x: x.step.kind, DATA),
     maybe("reached", TRUTH, lambda x: x.step.has_methods, DATA),
-    optional("ideal", TEXTS, lambda x: None if _ideal(x) is None else x.zeros, DATA),
+    optional("ideal", TEXTS, lambda x: x.zeros if isinstance(x.step, Decided) else None, DATA),
     Row("restrictions", CONDITIONS, lambda x: x.conditions, DATA),
-    optional(
-        "real_ideal", TEXTS, lambda x: _zeros(x, x.step.real, x.step.polynomials_of_real), DATA
-    ),
-    optional(
-        "stable_ideal",
-        TEXTS,
-        lambda x: _zeros(x, x.step.of_stable, x.step.polynomials_of_stable),
-        DATA,
-    ),
+    optional("real_ideal", TEXTS, lambda x: _zeros(x, x.step.known.within), DATA),
+    optional("stable_ideal", TEXTS, lambda x: _zeros(x, x.step.known.of_stable), DATA),
     optional("dimension", INTEGER, _dimension, DATA),
     optional("complete", TRUTH, lambda x: None if x.step.ideal is None else x.step.is_all, DATA),
     Row("solutions", parts(SOLUTION), lambda x: x.solutions, DATA),
-    maybe("witness", TREE, lambda x: x.step.witness, DATA),
+    maybe("witness", TREE, lambda x: x.step.witness if isinstance(x.step, NoValue) else None, DATA),
 ]
 CHOICE: Section[Choices] = Section(
     Row("name", TEXT, lambda x: x.name),

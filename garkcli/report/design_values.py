@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from flint import fmpq, fmpq_mpoly, fmpz_mpoly
 
@@ -33,7 +33,7 @@ def zeros(family: Family, polynomials: Sequence[AnyPolynomial]) -> list[str]:
     return [_text(family, p) for p in polynomials if _terms(p) not in known]
 
 
-def equation(family: Family, p: fmpq_mpoly) -> str:
+def equation(family: Family, p: Any) -> str:
     """The polynomial as an equation, solved for its first unknown if that is alone."""
     exponents = [int(k) for k in p.monoms()[0]]
     if sum(exponents) > 1:

@@ -48,10 +48,10 @@ def _drawn(point: Point, draw: Draw) -> Method:
     """
     family = _asked(point).family
     order = point.template.order
-    step = find_parameters(family, order, "pair").last
-    drawn = None
-    if step.criterion is not None and isinstance(step.ideal, Ideal) and step.kind != "none":
-        drawn = step.criterion.point(step.ideal, draw)
+    design = find_parameters(family, order, "pair")
+    step, criterion, drawn = design.last, design.criterion_of(design.last), None
+    if criterion is not None and isinstance(step.ideal, Ideal) and step.kind != "none":
+        drawn = criterion.point(step.ideal, draw)
     for solution in () if drawn is None else solutions(drawn):
         for root in solution.real:
             if is_admissible(family, solution, root):

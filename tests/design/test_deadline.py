@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Callable, Iterator
 from contextlib import suppress
-from itertools import combinations, count, product
+from itertools import combinations, count, islice, product
 from math import prod
 from pathlib import Path
 from random import Random
@@ -36,6 +36,7 @@ from garkcli.design.stability_kinds import TwoSprings
 from garkcli.design.stable_parts import stable_part
 from garkcli.design.stable_plane import stable_set
 from garkcli.design.stable_values import stable_values
+from garkcli.design.steps import Undecided
 from garkcli.errors import NotDecided
 from garkcli.exact.apart import apart, first_of
 from garkcli.exact.fibre import Fibre
@@ -50,10 +51,12 @@ from garkcli.exact.projection import (
     resultant,
 )
 from garkcli.exact.roots import RealRoot, real_roots
+from garkcli.frozen import replace
 from garkcli.methodfile.family import loads_family
 from garkcli.order.certificate import find_order
 from garkcli.order.hulls import hulls
 from garkcli.order.weak_stages import weak_stage_order
+from garkcli.report.rendering import render
 from tests.whole import in_whole
 
 SDIRK2 = "parameters: {g: free}\nA: [[g, 0], [1 - 2*g, g]]\nb: [1/2, 1/2]\n"
@@ -221,7 +224,7 @@ def test_every_loop_over_very_many_looks_at_the_clock() -> None:
 def test_a_loop_over_very_many_ends_with_its_time() -> None:
     """The items are made one by one, and none after the deadline."""
     with within(0.05), pytest.raises(NotDecided) as raised:
-        for _ in checked(product((0, 1), repeat=100)):
+        for _ in islice(checked(product((0, 1), repeat=100)), 3_000_000):
             pass
     assert raised.value.is_late
 
@@ -316,8 +319,32 @@ def test_what_is_said_without_time() -> None:
     family = loads_family(SDIRK2)
     with within(0):
         found = find_parameters(family)
-    assert [(x.kind, x.has_methods, x.is_late) for x in found.steps] == [("undecided", None, True)]
+    [step] = found.steps
+    assert isinstance(step, Undecided)
+    assert (step.has_methods, step.is_late) == (None, True)
     assert found.reaches() is None
+
+
+@pytest.mark.parametrize("is_late", [True, False])
+def test_more_time_is_advised_where_it_helps(is_late: bool) -> None:
+    """What ended with its time may be decided in more; what is beyond the limits of gark is not."""
+    found = find_parameters(loads_family(SDIRK2), 1)
+    text = " ".join(render(replace(found, steps=(Undecided(1, None, is_late),))).split())
+    assert ("not decided in the time of --seconds; give it more" in text) is is_late
+    assert ("not decided within the limits of gark; fewer unknowns" in text) is not is_late
+
+
+@pytest.mark.parametrize("is_late", [True, False])
+def test_why_an_order_is_open(is_late: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It is known of the work that was given up."""
+
+    def given_up(*_: object) -> Ideal:
+        raise NotDecided(is_late)
+
+    monkeypatch.setattr(Ideal, "with_zeros", given_up)
+    last = find_parameters(loads_family(SDIRK2), 3).last
+    assert isinstance(last, Undecided)
+    assert last.is_late is is_late
 
 
 def test_a_search_without_time() -> None:

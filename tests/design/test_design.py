@@ -25,8 +25,10 @@ from garkcli.design.groebner import reduced
 from garkcli.design.ideal import Ideal
 from garkcli.design.parts import Changes, Pieces, charts, nodes_as_coordinates, parts_of
 from garkcli.design.solutions import solutions, value_at
+from garkcli.design.steps import Found, NoValue, Solutions
 from garkcli.errors import NotDecided
 from garkcli.exact.parametric import Parameters
+from garkcli.frozen import replace
 from garkcli.methodfile.family import loads_family, with_values
 from garkcli.ntrees.tree import Tree
 from garkcli.order.conditions import elementary_weight
@@ -367,6 +369,7 @@ def test_explicit_methods_of_four_stages() -> None:
     family = loads_family("unknown: {stages: 4, shape: explicit}\n")
     *_, four, five = find_parameters(family, 5, seconds=60).steps
     assert (four.kind, five.kind) == ("family", "none")
+    assert isinstance(five, NoValue)
     assert five.witness == Tree(0, (Tree(0, (Tree(0, (Tree(0, (Tree(0),)),)),)),))
     assert elementary_weight(load("rk4").tableau, five.witness) == 0  # bᵀA⁴𝟙, and A⁴ = 0
     assert four.ideal is not None
@@ -469,7 +472,7 @@ def test_given_nodes_of_order_five() -> None:
     wanted = f"{{order: 5, embedded-order: 4, fix: {nodes}}}"
     family = loads_family(f"unknown: {shape % 'true'}\ndesign: {wanted}")
     found = find_parameters(family).last
-    assert (found.kind, found.is_real) == ("family", True)
+    assert (found.kind, found.known.is_real) == ("family", True)
     known = load("cash-karp-5")
     values = {name: fmpq(0) for name in family.ring.names}
     for k, name in enumerate(f"b{i}" for i in range(1, 7)):
@@ -523,3 +526,19 @@ def test_seconds_are_a_number(tmp_path: Path) -> None:
     path.write_text("unknown: {stages: 1}\n", encoding="utf-8")
     run = gark("design", str(path), "--seconds", "nan")
     assert (run.code, "no number of seconds" in run.err) == (2, True)
+
+
+def test_solutions_that_are_open() -> None:
+    """No accepted solution is no answer where one is open, or where there may be others."""
+    [solution] = solutions(Ideal(Parameters(["x"])).with_zeros([Parameters(["x"]).context.gen(0)]))
+    ideal = Ideal(Parameters(["x"]))
+    order = find_order(load("rk4").tableau)
+    open_ = Found(solution, order, (), open=(0,))
+    none = Found(solution, order, ())
+    there = Found(solution, order, (0,))
+    assert Solutions(1, ideal, found=(none,)).has_methods is False
+    assert Solutions(1, ideal, found=(none, open_)).has_methods is None
+    assert Solutions(1, ideal, found=(there, open_)).has_methods is True
+    assert Solutions(1, ideal, found=(replace(there, order=None),)).has_methods is False
+    ideal.is_proved = False
+    assert Solutions(1, ideal, found=(none,)).has_methods is None

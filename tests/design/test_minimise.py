@@ -935,3 +935,11 @@ def test_a_sum_of_squares_over_a_closed_curve(
         g, h = 2 + cos(k * pi / 1000), 1 + sin(k * pi / 1000)
         values.append(sum(x * x for x in entries(g, h)) + 2)
     assert 0 <= min(values) - float(found.value) < 1e-3
+
+
+def test_a_denominator_leaves_values_near_its_zeros_open() -> None:
+    """Where methods are left out the set is not closed."""
+    text = CIRCLE.format("g", "h").replace("[[[0]], [[0]]]", '[[["1/(g - 2)"]], [[0]]]')
+    assert "1/(g - 2)" in text
+    found = minimise(find_parameters(loads_family(text), 1), "coefficients")
+    assert found.extent == "critical-points"

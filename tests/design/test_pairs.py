@@ -99,7 +99,8 @@ def test_the_dimension_of_all_transfers(methods: tuple[tuple[str, int], ...], or
     for step in found.steps[1:]:
         assert step.ideal is not None
         assert step.ideal.dimension == dimension(stages, step.order)
-    assert found.last.is_real
+    assert found.last.known.is_real
+    assert [found.is_of_real_values(x) for x in found.steps] == [x.order > 2 for x in found.steps]
     assert len(found.steps) == order
     conditions, ideal = pair_conditions(family), found.last.ideal
     assert conditions is not None
@@ -121,7 +122,7 @@ def test_a_pair_order_that_is_wanted() -> None:
     assert (last.order, last.kind, none.kind) == (4, "family", "none")
     assert last.ideal is not None
     assert last.ideal.dimension == dimension([2, 4], 4)
-    assert last.is_of_real_values
+    assert found.is_of_real_values(last)
     tableau = drawn(family, last.ideal, Random(2))
     assert find_order(tableau).order == find_order(pair(tableau)).order == 4
     text = " ".join(render(found).split())

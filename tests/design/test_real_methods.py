@@ -8,7 +8,10 @@ from pathlib import Path
 import pytest
 
 from garkcli import find_order, loads
+from garkcli.design.critical import smooth_points
 from garkcli.design.design import find_parameters
+from garkcli.design.ideal import Ideal
+from garkcli.exact.parametric import Parameters
 from garkcli.methodfile.family import loads_family
 from tests.cli.harness import gark
 
@@ -54,8 +57,8 @@ def test_real_points_of_complex_sets(text: str, solutions: list[dict[str, int]] 
     assert step.ideal is not None
     assert (step.kind, step.has_methods) == ("family", True)
     assert step.ideal.dimension > 0
-    assert step.real is not None
-    assert step.real.dimension == 0
+    assert step.known.within is not None
+    assert step.known.within.ideal.dimension == 0
     found = [
         {name: values[name] for name in values}
         for one in step.found
@@ -94,7 +97,7 @@ def test_a_double_factor_is_no_other_set() -> None:
     apart.
     """
     step = find_parameters(loads_family(family("1/2 + (x - y)**2", "x", "y")), 2).last
-    assert (step.kind, step.has_methods, step.real) == ("family", True, None)
+    assert (step.kind, step.has_methods, step.known.within) == ("family", True, None)
 
 
 RANGED = "{{free: true, range: [{}, {}]}}"
@@ -226,8 +229,8 @@ def test_planes_that_touch(first: str, second: str, squares: tuple[float, ...]) 
     """
     step = find_parameters(loads_family(SURFACES.format(first, second)), 1).last
     assert (step.kind, step.has_methods) == ("family", True)
-    assert step.real is not None
-    assert step.real.dimension == 0
+    assert step.known.within is not None
+    assert step.known.within.ideal.dimension == 0
     points = [x for one in step.found for x in one.solution.real_values]
     assert len(points) == 2
     for point in points:
@@ -249,3 +252,20 @@ def test_a_small_surface_is_met_by_critical_points() -> None:
     assert reached(family(f"1/2 + {sphere}", "x", "y", "z"), 2) is True
     far = family(f"1/2 + {sphere}", "x", "y", "z: {free: true, range: [1, 2]}")
     assert reached(far, 2) is None
+
+
+def test_sets_without_as_many_generators_as_their_codimension() -> None:
+    """A component of a smaller dimension would be missed, so nothing is told of a complex curve with
+    the real point (1, 0, 0) beside it, nor of the cone over the twisted cubic; a circle has a point
+    that is nearest to another one, and one that is furthest away.
+    """
+    ring = Parameters(["x", "y", "z", "w"])
+    x, y, z, w = ring.context.gens()
+    beside = Ideal(ring).with_zeros([x * y, x * z, (x - 1) * (y * y + z * z + 1), w])
+    assert smooth_points(beside) is None
+    cone = Ideal(ring).with_zeros([x * z - y * y, y * w - z * z, x * w - y * z])
+    assert smooth_points(cone) is None
+    assert smooth_points(Ideal(ring, [x])) is None
+    found = smooth_points(Ideal(ring).with_zeros([x * x + y * y - 2, z, w]))
+    assert found is not None
+    assert sum(len(point.real) for point in found.points) == 2

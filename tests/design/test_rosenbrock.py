@@ -47,7 +47,7 @@ def only(found: Design) -> dict[str, Number]:
 
 def ends(found: Design) -> list[str]:
     """The stable values of gamma, which are single ones."""
-    [values] = found.last.stable
+    [values] = found.last.known.stable
     assert values.parameter == "gamma"
     assert all(x.is_point for x in values.found)
     return [f"{float(x.start.ball(64).mid()):.10f}" for x in values.found if x.start]
@@ -95,7 +95,7 @@ def test_three_stages_with_ros3p_among_them() -> None:
     IV.6.3), and with R(∞) = 1 − √3 and d of J. Lang, J. Verwer, BIT 41 (2001) 731, it is ROS3P.
     """
     text = THREE + "design: {order: 3, fix: {c2: 1, c3: 1, alpha32: 0%s}%s}"
-    [values] = design(text % ("", ", a-stable: true")).last.stable
+    [values] = design(text % ("", ", a-stable: true")).last.known.stable
     [interval] = values.found
     assert interval.start is not None
     assert interval.end is not None

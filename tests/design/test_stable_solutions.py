@@ -100,7 +100,7 @@ def test_stable_methods_of_a_family_of_two_dimensions(kind: str, ends: list[str]
     """
     found = find_parameters(loads_family(TWO % kind))
     [values] = stable_sets(found)
-    assert found.last.is_real is True
+    assert found.last.known.is_real is True
     assert values.parameter == "gamma"
     shown = [root_text(end) for x in values.found for end in (x.start, x.end) if end is not None]
     assert list(dict.fromkeys(shown)) == ends
@@ -353,7 +353,7 @@ def test_parts_of_one_set_with_a_point() -> None:
     line = find_parameters(
         loads_family(text + "l-stable: true, stage-order: 2, fix: {c2: 2*gamma}}")
     )
-    (found,), (alone,) = whole.last.stable, line.last.stable
+    (found,), (alone,) = whole.last.known.stable, line.last.known.stable
     assert (found.parameter, found.found) == ("gamma", alone.found)
     assert [float(x.start.ball(64)) for x in found.found] == pytest.approx(
         [1 - 2**0.5 / 2, 1 + 2**0.5 / 2]
@@ -388,7 +388,7 @@ def test_several_parameters_of_which_every_value_has_the_order(
     family = loads_family(text)
     design = find_parameters(family, order, whose)
     [values] = stable_sets(design)
-    assert design.last.is_real
+    assert design.last.known.is_real
     alone = stable_set(family, values.wanted, whose)
     assert isinstance(alone, StableValues)
     assert alone.found == values.found

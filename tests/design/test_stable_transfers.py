@@ -14,13 +14,13 @@ import pytest
 from flint import fmpq
 
 from garkcli import find_parameters, loads_family, minimise
-from garkcli.design.design import Step
 from garkcli.design.ideal import Ideal
 from garkcli.design.member import is_admissible, member, method_at
 from garkcli.design.minimise.squared_error import squared_error
 from garkcli.design.pairs import PairConditions
 from garkcli.design.solutions import Solution, solutions, value_at
 from garkcli.design.stable_transfers import operator_of, stable_zeros
+from garkcli.design.steps import Step
 from garkcli.errors import NotDecided
 from garkcli.exact.field import Number
 from garkcli.exact.matrix import characteristic_coefficients
@@ -107,13 +107,13 @@ def some_of_both(
 ) -> Iterator[tuple[Solution, RealRoot, Floats, bool]]:
     """Random stable methods of an order, and random others that are not, by traces in floats."""
     step = last(family, order)
-    assert step.is_real
+    assert step.known.is_real
     assert step.ideal is not None
-    assert step.of_stable is not None
-    assert step.of_stable.dimension == dimension
-    assert all(not step.ideal.contains(p) for p in step.polynomials_of_stable)
+    assert step.known.of_stable is not None
+    assert step.known.of_stable.ideal.dimension == dimension
+    assert all(not step.ideal.contains(p) for p in step.known.of_stable.polynomials)
     for seed in range(3):
-        for ideal, is_stable in ((step.of_stable, True), (step.ideal, False)):
+        for ideal, is_stable in ((step.known.of_stable.ideal, True), (step.ideal, False)):
             solution, root = some(family, ideal, seed)
             method = Floats(family, solution, root)
             assert (max(map(abs, method.traces)) <= 2 + 1e-5) == is_stable
@@ -168,8 +168,8 @@ def test_the_least_error_of_the_stable_transfers(methods: str, order: int, least
     [one] = best.minimisers
     assert one.found.order is not None
     assert one.found.order.order == order
-    ideal = design.last.of_stable
-    assert ideal is not None
+    assert design.last.known.of_stable is not None
+    ideal = design.last.known.of_stable.ideal
     at = one.found.solution, one.found.solution.real[one.index]
     assert max(map(abs, Floats(family, *at).traces)) <= 2 + 1e-5
     assert error(family, *at, order) == RealRoot.rational(least)
@@ -198,14 +198,14 @@ def test_all_or_none_of_them() -> None:
     """Where the file fixes the block on which the step depends."""
     blocks = '{{default: {}, blocks: {{"1,2": "?"}}}}'
     every = last(p_stable("gauss-2, lobatto-iiia-4", blocks.format("interpolation")), 4)
-    assert every.of_stable is not None
-    assert every.polynomials_of_stable == ()
-    assert every.is_real
+    assert every.known.of_stable is not None
+    assert every.known.of_stable.polynomials == ()
+    assert every.known.is_real
     none = last(p_stable("gauss-2, lobatto-iiia-3", blocks.format("collocation")), 4)
-    assert none.of_stable is not None
-    assert none.of_stable.is_everything
-    assert [str(p) for p in none.polynomials_of_stable] == ["1"]
-    assert none.is_real is False
+    assert none.known.of_stable is not None
+    assert none.known.of_stable.ideal.is_everything
+    assert [str(p) for p in none.known.of_stable.polynomials] == ["1"]
+    assert none.known.is_real is False
 
 
 KUTTA = "{A: [[0, 0, 0, 0], [1/2, 0, 0, 0], [0, 1/2, 0, 0], [0, 0, 1, 0]], b: [1/6, 1/3, 1/3, 1/6]}"
@@ -254,8 +254,8 @@ def test_the_singular_values_of_a_step() -> None:
 def test_a_set_of_one_coordinate() -> None:
     """A rational family of one coordinate has a set of values."""
     step = last(p_stable("gauss-1, lobatto-iiia-2"), 2)
-    assert step.of_stable is None
-    [values] = step.stable
+    assert step.known.of_stable is None
+    [values] = step.known.stable
     assert values.has_values
 
 
@@ -275,8 +275,9 @@ def test_few_terms_that_are_much_work() -> None:
       - [[1/18, 2/9, 2/9], [1/18, 2/9, 2/9], [1/18, 2/9, 2/9]]
     """
     family = replace(loads_family(given), stable=(Stability("p-stable"),))
-    ideal = find_parameters(family, 1, "pair", seconds=60).last.of_stable
-    assert ideal is not None
+    found = find_parameters(family, 1, "pair", seconds=60).last.known.of_stable
+    assert found is not None
+    ideal = found.ideal
     for point in ((1, 0, 1), (-1, 0, 1), (2, 0, 1), (1, 0, 2), (1, 1, 1), (0, 0, 0), (0, 1, 0)):
         values = dict(zip(("p1", "p2", "p3"), map(fmpq, point), strict=True))
         oscillator = usual_oscillator(pair(member(family.tableau, family.ring, values)))

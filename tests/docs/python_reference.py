@@ -14,6 +14,7 @@ from typing import Any
 
 import garkcli
 from garkcli.cli.table import OPTIONS
+from garkcli.frozen import Frozen, fields
 from tests.docs.tables import cell, table
 
 TYPES = {
@@ -101,8 +102,12 @@ VALUES = (
     "backward.energy:ModifiedEnergy",
     "methodfile.family:FamilyFile",
     "design.design:Design",
-    "design.design:Step",
-    "design.design:Found",
+    "design.steps:Undecided",
+    "design.steps:NoValue",
+    "design.steps:Solutions",
+    "design.steps:Many",
+    "design.steps:Known",
+    "design.steps:Found",
     "design.within:DesignWithin",
     "design.within:StepWithin",
     "design.within:ValuesWithin",
@@ -203,12 +208,16 @@ def type_of(name: str, thing: Any) -> str:
 
 def members(kind: type) -> Iterator[tuple[str, Any]]:
     """The public properties and methods of a class, and of its bases that have no section."""
+    seen = {*fields(kind)} if issubclass(kind, Frozen) else set()
     for base in of_page(kind):
         for name, value in vars(base).items():
+            if name in seen:
+                continue
             is_told = isinstance(value, (property, cached_property))
             if inspect.isfunction(value) or isinstance(value, classmethod):
                 is_told = True
             if is_told and not name.startswith("_") and inspect.getdoc(value):
+                seen.add(name)
                 yield name, value
 
 

@@ -10,7 +10,7 @@ from typing import Any, cast
 from flint import fmpq_mpoly
 
 from garkcli.deadline import check_time
-from garkcli.design.design import Design, Found, Step, further_of, order_of
+from garkcli.design.design import Design, further_of, order_of
 from garkcli.design.ideal import Ideal
 from garkcli.design.member import is_admissible, is_as_stable, member, not_negative
 from garkcli.design.minimise.climbing import GRID, Point, climbed
@@ -21,6 +21,7 @@ from garkcli.design.pairs import least_error
 from garkcli.design.parts import Chart, Part, charts, points_of
 from garkcli.design.solutions import Solution, solutions
 from garkcli.design.stable_parts import is_on, stable_part
+from garkcli.design.steps import Decided, Found, Solutions
 from garkcli.design.want import sign_polynomial
 from garkcli.errors import NotDecided
 from garkcli.exact.cells import ends_of
@@ -49,7 +50,7 @@ class Comparison(Mutable):
     """
 
     design: Design
-    step: Step
+    step: Decided
     objective: Objective | Level
     extent: Extent = "all"
     candidates: list[Candidate] = field(default_factory=list)
@@ -61,7 +62,7 @@ class Comparison(Mutable):
 
     def result(self) -> Minimum:
         """The best of what was collected."""
-        if self.step.kind != "solutions":  # these are different already
+        if not isinstance(self.step, Solutions):  # these are different already
             self.candidates = without_repeats(self.candidates)
         values = [x.value for x in self.candidates]
         values += [x.value for x in self.limits]
@@ -69,7 +70,7 @@ class Comparison(Mutable):
         minimisers = [x for x in self.candidates if x.value == best]
         limits = [x for x in self.limits if x.value == best]
         extent = self.extent_of(best) if values else self.extent
-        if self.step.ideal is not None and not self.step.ideal.is_proved:
+        if not self.step.is_all:
             extent = "found"
         name, gradient = None, None
         if len(self.gradients) == 1 and len(self.parts) == 1:
@@ -131,10 +132,11 @@ class Comparison(Mutable):
         """The method with the least principal error of its pair, where a theorem knows it; whether
         it does.
         """
-        criterion, ideal = self.step.criterion, self.step.ideal
+        step, ideal, criterion = self.step, self.step.ideal, self.design.criterion_of(self.step)
         if criterion is None or not isinstance(ideal, Ideal):
             return False
-        best = least_error(criterion, self.step.order, ideal, self.step.of_stable is not None)
+        is_stable = step.known.of_stable is not None
+        best = least_error(criterion, step.order, ideal, is_stable)
         for solution in () if best is None else solutions(best):
             for index, root in enumerate(solution.real):
                 if self.takes(solution, root):

@@ -19,7 +19,6 @@ from typing import TypeAlias
 from flint import fmpq, fmpq_mpoly
 
 from garkcli.deadline import check_time
-from garkcli.design.design import Found
 from garkcli.design.member import member, method_at
 from garkcli.design.minimise.comparison import Comparison
 from garkcli.design.minimise.line import Conditions, Toward
@@ -27,6 +26,7 @@ from garkcli.design.minimise.objective import ORIGIN, Level, Signs, Size
 from garkcli.design.minimise.result import Candidate, Extent, Limit, Proof
 from garkcli.design.parts import Part, at_root
 from garkcli.design.solutions import Solution
+from garkcli.design.steps import Found
 from garkcli.exact.cells import Point, between, roots_of, sign_of
 from garkcli.exact.fibre import Fibre, Root
 from garkcli.exact.field import ZERO

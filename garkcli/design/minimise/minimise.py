@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from time import monotonic
 
 from garkcli.deadline import seconds_left, until, within
-from garkcli.design.design import Design, Step
+from garkcli.design.design import Design
 from garkcli.design.minimise.comparison import Comparison
 from garkcli.design.minimise.highest import Highest
 from garkcli.design.minimise.objective import Either, Level
@@ -21,6 +21,7 @@ from garkcli.design.minimise.result import Minimum
 from garkcli.design.minimise.smallest import Smallest
 from garkcli.design.minimise.sums import Wanted, exactly, objective_of
 from garkcli.design.parts import Part
+from garkcli.design.steps import Decided, Solutions
 from garkcli.errors import NotDecided, UsageProblem
 from garkcli.frozen import replace
 
@@ -30,14 +31,14 @@ where that is not enough takes about as long.
 """
 
 
-def step_to_minimise(design: Design) -> Step:
+def step_to_minimise(design: Design) -> Decided:
     """The step of the highest order that has methods.
 
     Raises:
         UsageProblem: none is decided.
     """
     for step in reversed(design.steps):
-        if step.ideal is not None and step.may_have_methods:
+        if isinstance(step, Decided) and step.may_have_methods:
             return step
     message = "--minimise: no order is known that methods of the file have"
     cure = "values for some unknowns, by --set, make it decidable"
@@ -65,10 +66,10 @@ def minimise(design: Design, objective: str | Wanted, seconds: float | None = No
     objective = exactly(objective)
     comparison: Comparison
     of_whom, among = design, step
-    if step.of_stable is not None:
+    if step.known.of_stable is not None:
         # all methods of this ideal are as stable as is wanted
         of_whom = replace(design, family=replace(design.family, stable=()))
-        among = replace(step, ideal=step.of_stable)
+        among = replace(step, ideal=step.known.of_stable.ideal)
     if isinstance(objective, Level):
         comparison = Highest(of_whom, among, objective)
     else:
@@ -76,7 +77,7 @@ def minimise(design: Design, objective: str | Wanted, seconds: float | None = No
     with within(seconds):
         left = seconds_left()
         comparison.share = None if left is None else monotonic() + SHARE * left
-        if step.kind == "solutions":
+        if isinstance(step, Solutions):
             comparison.selection()
         elif not (objective is OBJECTIVES["error"] and comparison.by_theorem()):
             with until(comparison.share):

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import Literal, TypeAlias
 
-from garkcli.design.design import Design, Found, Step
+from garkcli.design.design import Design
 from garkcli.design.minimise.line import Toward
 from garkcli.design.minimise.objective import Level, Objective
+from garkcli.design.steps import Decided, Found
 from garkcli.exact.polynomial import Polynomial
 from garkcli.exact.roots import RealRoot
 from garkcli.frozen import Frozen
@@ -78,7 +79,7 @@ class Minimum(Shown, Frozen):
 
     objective: Objective | Level
     design: Design
-    step: Step
+    step: Decided
     extent: Extent
     value: RealRoot | None
     minimisers: tuple[Candidate, ...]

@@ -11,7 +11,6 @@ from flint import fmpq, fmpq_mpoly
 
 from garkcli.deadline import check_time, checked, until
 from garkcli.design.critical import minors, slopes
-from garkcli.design.design import Found
 from garkcli.design.member import member
 from garkcli.design.minimise.comparison import Comparison
 from garkcli.design.minimise.line import on_line
@@ -21,6 +20,7 @@ from garkcli.design.parts import Chart, Part, at_root, charts, parts_within, val
 from garkcli.design.search.points import Fixings, is_proved, polished
 from garkcli.design.search.rational import System, as_float, in_decimals, polynomial_functions
 from garkcli.design.solutions import Solution, value_at
+from garkcli.design.steps import Found
 from garkcli.errors import NotDecided
 from garkcli.exact.cells import Interval, between
 from garkcli.exact.enclosing import midpoint
@@ -153,7 +153,7 @@ def are_bounded(ring: Parameters, numbers: Iterable[object]) -> bool:
 
     >>> ring = Parameters(["x", "y"])
     >>> x, y = map(ring.parameter, ring.names)
-    >>> are_bounded(ring, [x - 1, x * x + 2 * y]), are_bounded(ring, [x, x * y])
+    >>> are_bounded(ring, [x - 1, x * x + 2 * y]), are_bounded(ring, [x * y, y])
     (True, False)
     """
     polynomials = [p for p, q in (fraction(x, ring) for x in numbers) if q.is_constant()]

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from flint import arb, ctx, fmpq, fmpq_mpoly
 
-from garkcli.design.design import Found, order_of
+from garkcli.design.design import order_of
 from garkcli.design.member import (
     TABLEAUS,
     Whose,
@@ -37,6 +37,7 @@ from garkcli.design.search.recognise import Recognised, recognised
 from garkcli.design.search.residuals import Generators, Residuals
 from garkcli.design.search.snap import fixed_nearby, nodes_of, snapped, unknowns_of
 from garkcli.design.solutions import Solution, value_at
+from garkcli.design.steps import Found
 from garkcli.design.want import Asked, numerators
 from garkcli.errors import NotDecided
 from garkcli.exact.field import ZERO, Number
