@@ -41,19 +41,19 @@ class Highest(Task):
     """The point of the sphere farthest above x_3 = −1, with x_1 at least 1/2; a level, or not."""
 
     def __init__(self, has_level: bool) -> None:
-        self.has_level = has_level
+        self.levels = int(has_level)
 
     def value(self, x: Any) -> float:
         return -1 - float(x[2])
 
-    def guess(self, x: Any) -> float:
-        return 1 + float(x[2])
+    def guess(self, x: Any) -> Any:
+        return np.array([1 + float(x[2])] * self.levels)
 
     def at(self, z: Any) -> Look:
         one = np.eye(len(z))
         signs, slopes = [z[0] - 0.5], [one[0]]
-        value = -float(z[-1]) - (not self.has_level)
-        if self.has_level:
+        value = -float(z[-1]) - (not self.levels)
+        if self.levels:
             signs.append(1 + z[2] - z[3])
             slopes.append(one[2] - one[3])
         found = value if min(signs) >= -1e-9 else np.inf
