@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from itertools import count, islice
 from pathlib import Path
 from time import monotonic
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from garkcli.cli.arguments import rational
 from garkcli.cli.options import Given, Output, declared
@@ -24,9 +24,11 @@ from garkcli.tell.report import FORMATS
 
 if TYPE_CHECKING:
     from garkcli.api.design import Found
+    from garkcli.crew.work import Workers
     from garkcli.design.choices import Choice
     from garkcli.design.design import Design
     from garkcli.design.minimise.result import Minimum
+    from garkcli.design.search.curve import Curve
     from garkcli.design.search.run import Result, Task, Timed
     from garkcli.design.stable_values import StableValues
     from garkcli.design.within import DesignWithin
@@ -34,13 +36,14 @@ if TYPE_CHECKING:
     from garkcli.methodfile.search_file import FileSearch
     from garkcli.tableau.family import Stability
 
+AnyResult = TypeVar("AnyResult", "Result", "Curve")
 _STANDARD_INPUT = {STDIN, "<stdin>"}
 _PLOT = "--plot draws the A-stable values of two parameters"
 PROOFS = ("exact", "exists", "numerical")
 """What is known of a method that was found, the most first."""
 
 
-@declared("design", FORMATS)
+@declared("design", [*FORMATS, "csv"])
 def design(given: Given, output: Output) -> int:
     """For which values of its free parameters a method has an order, exactly.
 
@@ -67,6 +70,8 @@ def design(given: Given, output: Output) -> int:
         raise UsageProblem(message, "--emit FILE writes the one", code="options-clash")
     if given.minimise is not None:
         refuse(given.minimise, is_search=given.search is not None)  # before any work
+    for one in given.front or ():
+        refuse(one, is_search=True)
     family = load_family(given.file, given.settings, given.moment, is_free)
     is_of_springs = given.slow is not None
     _refuse_rounded(family, given)
@@ -77,7 +82,8 @@ def design(given: Given, output: Output) -> int:
         _refuse_unsettled(family)
         _refuse_other_wishes(family, asked, is_of_springs)
         return _stable_values(family, given, output)
-    if given.plot is not None:
+    is_curve = given.front is not None or given.along is not None
+    if given.plot is not None and not is_curve:
         raise UsageProblem(_PLOT, "ask for --a-stable alone", code="option-alone")
     family = _as_stable(family, asked)
     output.check_place(given.emit)
@@ -87,7 +93,7 @@ def design(given: Given, output: Output) -> int:
         return _within(family, given, output)
     if given.search is not None:
         _refuse_unsettled(family)
-        return _search(family, given, output)
+        return (_curve if is_curve else _search)(family, given, output)
     chosen: list[Choice] = []
     if given.choose:
         with _half(given):
@@ -404,10 +410,7 @@ def _search(family: FamilyFile, given: Given, output: Output) -> int:
     from garkcli.methodfile.search_file import FileSearch
     from garkcli.report.search import REPORT, SearchReport
 
-    if given.order is None:
-        cure = "say which by --order P, or in the file by design: {order: P}"
-        raise UsageProblem("a search is for an order", cure, code="option-alone")
-    asked = FileSearch.of(family, given.order, given.whose, given.minimise)
+    asked = FileSearch.of(family, _order(given), given.whose, given.minimise)
     result, ended = _searched(asked, given)
     files = _written(family, result, given, output)
     output.tell(REPORT, SearchReport(family.source, asked.search, result, files))
@@ -417,32 +420,102 @@ def _search(family: FamilyFile, given: Given, output: Output) -> int:
     return 0 if result.methods else 3
 
 
+def _curve(family: FamilyFile, given: Given, output: Output) -> int:
+    """Optima along a curve: report them, draw them, and return the exit code."""
+    from garkcli.design.search.curve import Curve, along, front
+    from garkcli.methodfile.search_file import FileSearch
+    from garkcli.report.design_curve import REPORT, CurveReport
+
+    order = _order(given)
+    first, second = given.front or (given.minimise, "")
+    asked = FileSearch.of(family, order, given.whose, first)
+    curve = Curve(first, second, given.front is not None, order, given.seed or 0)
+
+    def steps(workers: Workers[Task, Timed]) -> Iterator[Curve]:
+        rest = given.search, given.seed or 0, workers
+        if given.front is not None:
+            return front(asked.search, second, *rest)
+        return along(asked.search, given.along, *rest)
+
+    with doing("starts", given.search) as work:
+
+        def show(found: Curve) -> None:
+            work.what = f"{len(found.knots)} points, starts"
+            work.reach(found.starts)
+
+        curve, ended = _worked(asked, given, steps, curve, show)
+    report = CurveReport(family.source, asked.search, curve)
+    if given.plot is not None and curve.knots:
+        from garkcli.plots.design_curve import curve_scene
+
+        output.save_plot(curve_scene(curve, family.name), given.plot)
+    output.tell(REPORT, report)
+    if ended is not None:
+        return ended
+    return 0 if curve.knots else 3
+
+
+def _order(given: Given) -> int:
+    """The order of a search.
+
+    Raises:
+        UsageProblem: none is given.
+    """
+    if given.order is None:
+        cure = "say which by --order P, or in the file by design: {order: P}"
+        raise UsageProblem("a search is for an order", cure, code="option-alone")
+    order: int = given.order
+    return order
+
+
 def _searched(asked: FileSearch, given: Given) -> tuple[Result, int | None]:
     """The result, and the exit code where an interrupt or a lost worker ends the search; where the
     time does, it is that of what was found.
     """
-    from garkcli.crew.hiring import hired
     from garkcli.design.search.run import MOST, Result, results
 
-    starts = given.search
-    result, ended = Result(), None
-    # an interrupt leaves what was found
-    with doing("starts", starts) as work, undone():
+    most = given.most or (MOST if given.minimise is None else 1)
+
+    def steps(workers: Workers[Task, Timed]) -> Iterator[Result]:
+        return results(asked.search, given.search, given.seed or 0, most, workers)
+
+    with doing("starts", given.search) as work:
+
+        def show(found: Result) -> None:
+            work.what = f"{len(found.methods)} methods found, starts"
+            work.reach(found.starts)
+
+        return _worked(asked, given, steps, Result(), show)
+
+
+def _worked(
+    asked: FileSearch,
+    given: Given,
+    steps: Callable[[Workers[Task, Timed]], Iterator[AnyResult]],
+    found: AnyResult,
+    show: Callable[[AnyResult], None],
+) -> tuple[AnyResult, int | None]:
+    """The last of the steps of some work, and the exit code where an interrupt or a lost worker
+    ends it; an interrupt leaves the last step.
+    """
+    from garkcli.crew.hiring import hired
+
+    with undone():
         try:
             place = given.jobs or 1, given.scheduler or ""
             with until(given.moment), hired(asked.do, _lost, *place) as workers:
-                search, most = asked.search, given.most or (MOST if given.minimise is None else 1)
-                for result in results(search, starts, given.seed or 0, most, workers):
-                    work.what = f"{len(result.methods)} methods found, starts"
-                    work.reach(result.starts)
+                for found in steps(workers):
+                    show(found)
         except KeyboardInterrupt:
-            result.ending, ended = "interrupt", INTERRUPTED
+            found.ending = "interrupt"
+            return found, INTERRUPTED
         except NotDecided:
-            result.ending = "time"
+            found.ending = "time"
         except WorkerLost as error:
             say_problem(error)
-            result.ending, ended = "worker", 3
-    return result, ended
+            found.ending = "worker"
+            return found, 3
+    return found, None
 
 
 def _lost(_task: Task, why: str) -> Timed:

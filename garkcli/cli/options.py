@@ -79,6 +79,7 @@ KINDS: dict[str, dict[str, Any]] = {
     "points": {"callback": read_by(arguments.point)},
     "ratios": {"callback": read_by(arguments.ratio)},
     "jobs": {"callback": arguments.workers},
+    "two": {"nargs": 2, "metavar": "A B"},
     "square": {"callback": read_by(arguments.square)},
     "seconds": {"type": click.FloatRange(min=0, min_open=True), "callback": arguments.finite},
     "target": {"required": True, "shell_complete": completed("bridges.registry:bridges")},

@@ -247,6 +247,10 @@ design -j --jobs N 0..1000 jobs
     | With --search: the number of processes; 0 is one per processor.
 design --scheduler ADDRESS
     | With --search: work on the Dask cluster there; needs garkcli[cluster].
+--front two
+    | With --search: the front of two objectives, the best A for bounds on B, in place of methods.
+--along NAME
+    | With --search and --minimise: the optimum for values of an unknown, in place of methods.
 --choose pairs | Like --set, and show the values that remain; repeatable.
 
 --rows FILE written holds=jsonl = run_sweep.rows
@@ -356,8 +360,8 @@ tableaux: diff FIRST SECOND | how two methods differ, or that they are the same
 designing: design FILE | the parameter values that give a method an order
     = load_family find_parameters minimise search_methods found_methods stable_values
     --order --conjugate --pair --seconds --digits --emit --minimise --p-stable --i-stable
-    --a-stable --l-stable --colour --slow --fast --up-to --search --seed --most --jobs --scheduler
-    --output-dir --plot --set --choose
+    --a-stable --l-stable --colour --slow --fast --up-to --search --front --along --seed --most
+    --jobs --scheduler --output-dir --plot --set --choose
 designing: sweep SPEC | many methods compared: which are best?
     = run_sweep
     --rows --resume --jobs --scheduler --top --parquet --plot --catalogue
@@ -421,8 +425,17 @@ convert: --digits --recognise without --to=recovered
     | OPTION goes with --to recovered | add --to recovered
 convert: --stages with --to=reduced
     | --stages adds stages, --to reduced leaves some out | use one of them
-design: --seed --most --jobs --scheduler without --search
+design: --seed --most --jobs --scheduler --front --along without --search
     | OPTION goes with --search | add --search N
+design: --along without --minimise
+    | --along goes with --minimise | add --minimise WHAT
+design: --front --along with --emit --output-dir --most
+    | OPTION has no methods but optima in floats
+    | --set an unknown and --minimise prove one of them
+design: --format=csv without --front --along
+    | CSV has a line a point of a curve | add --front or --along
+design: --front with --minimise --along
+    | --front names two objectives | leave --minimise and --along out
 stability design: --slow without --fast | --slow and --fast belong together | give both
 stability design: --fast without --slow | --slow and --fast belong together | give both
 design: --up-to without --slow

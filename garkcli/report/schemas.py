@@ -28,6 +28,7 @@ REPORTS = {
     "stability-every": "garkcli.report.every:STABILITY",
     "design": "garkcli.report.design:REPORT",
     "design-search": "garkcli.report.search:REPORT",
+    "design-curve": "garkcli.report.design_curve:REPORT",
     "design-stability": "garkcli.report.stable_values:REPORT",
     "design-within": "garkcli.report.design_within:REPORT",
     "design-plane": "garkcli.report.stable_plane:REPORT",

@@ -5,6 +5,7 @@ order conditions, with an objective and inequalities; then short numbers that co
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from copy import copy
 from typing import TYPE_CHECKING
 
 from flint import fmpq
@@ -24,7 +25,7 @@ from garkcli.design.search.rational import (
     with_gradients,
 )
 from garkcli.design.search.residuals import Residuals
-from garkcli.design.search.tasks import FEASIBLE, Least, Missing, Total
+from garkcli.design.search.tasks import FEASIBLE, Least, Missing, Total, capped
 from garkcli.errors import UsageProblem
 from garkcli.frozen import Frozen
 from garkcli.tableau.family import Family
@@ -99,11 +100,9 @@ class Program:
         trees, last = len(wide.table), wide.table.ids(order + 1)
         self._own = np.r_[0 : last.start, trees : len(wide)]
         subject = Subject(conditions.tableau, order, family.further, family.embedded_order)
-        setting = Setting(subject, ring, self._trees)
-        terms = terms_of(objective, conditions.tableau)
-        self.total = Total([(as_float(w), goal_of(x, setting)) for w, x in terms], self.within)
-        # measures are no squares
-        self._rounding = ROUNDING**0.5 if isinstance(objective, Measure) else ROUNDING
+        self._setting = Setting(subject, ring, self._trees)
+        self._caps: tuple[Equations, ...] = ()
+        self._aim(objective)
         positive = polynomial_functions(family.positive, ring)
         self._signs = Functions(
             [*positive, *polynomial_functions(not_negative(family), ring)], len(ring.names)
@@ -115,6 +114,27 @@ class Program:
             for wanted in family.stable
             if wanted.kind in ("a-stable", "l-stable")
         ]
+
+    def _aim(self, objective: Single | Sum) -> None:
+        terms = terms_of(objective, self.conditions.tableau)
+        goals = [(as_float(w), goal_of(x, self._setting)) for w, x in terms]
+        self.total = Total(goals, self.within)
+        # measures are no squares
+        self._rounding = ROUNDING**0.5 if isinstance(objective, Measure) else ROUNDING
+
+    def aimed(self, objective: Single | Sum, cap: tuple[Single, float] | None = None) -> Program:
+        """The minimisation of another objective.
+
+        Args:
+            objective: the new one.
+            cap: a number that is at most a bound, or a level that is at least the bound.
+        """
+        other = copy(self)
+        if cap is not None:
+            one, bound = cap
+            other._caps = (capped(goal_of(one, self._setting), bound),)
+        other._aim(objective)
+        return other
 
     def equations(self, fixed: Sequence[Fixed] = ()) -> Equations:
         """The conditions, and those of given values, at one point."""
@@ -139,8 +159,8 @@ class Program:
 
         found, slopes = self._signs.at(x)
         values, derivatives = [found - self._margin], [slopes]
-        for stable in self.stable:
-            found, slopes = stable.at(x)
+        for at in (*(one.at for one in self.stable), *self._caps):
+            found, slopes = at(x)
             values.append(found)
             derivatives.append(slopes)
         return np.concatenate(values), np.concatenate(derivatives)
@@ -227,7 +247,7 @@ class Program:
             for value in _near(float(now[0, 0])):
                 check_time()
                 more = [*fixed, Fixed(function, value)]
-                moved = self._moved(present, more)
+                moved = self.moved(present.point, more)
                 if moved is None or moved.value > most:
                     continue
                 if self._rank(more, moved) > known:
@@ -243,12 +263,12 @@ class Program:
         _, jacobian = self.equations(fixed)(np.array(at.point))
         return len(rank(jacobian))
 
-    def _moved(self, present: Optimum, fixed: Sequence[Fixed]) -> Optimum | None:
-        """The best method with given values near another one."""
+    def moved(self, near: Sequence[float], fixed: Sequence[Fixed] = ()) -> Optimum | None:
+        """The best method with given values near a point."""
         import numpy as np
 
         system = Fixings(self.conditions, fixed)
-        minima = least_squares(system.at, np.array(present.point)[:, None], 60, CLOSE)
+        minima = least_squares(system.at, np.array(near)[:, None], 60, CLOSE)
         if not minima.succeeded[0]:
             return None
         return self.improved([float(x) for x in minima.points[:, 0]], fixed)

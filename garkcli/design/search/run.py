@@ -9,7 +9,7 @@ from functools import partial
 from itertools import islice
 from math import floor, log10
 from time import process_time
-from typing import Literal, TypeAlias
+from typing import Literal, Protocol, TypeAlias
 
 from flint import arb
 
@@ -230,7 +230,12 @@ def _method(search: Search, find: Find | None) -> object:
     return Method(find.start, find.proof, find.order, values, residual, objective)
 
 
-Task: TypeAlias = Batch | Solution | Descent | Best
+class Task(Protocol):
+    """A piece of a search."""
+
+    def result(self, search: Search) -> object:
+        """The outcome of the work."""
+        ...
 
 
 def do(search: Search, task: Task) -> Timed:
@@ -373,7 +378,7 @@ class _Run:
             found = timed.result
             if not isinstance(found, Optimum):
                 self.result.degenerate += 1
-            elif not any(_are_same(found.point, x.optimum.point) for x in self._optima):
+            elif not any(are_same(found.point, x.optimum.point) for x in self._optima):
                 self._optima.append(Best(task.start, found))
         self._optima.sort(key=lambda best: (best.optimum.grade, best.start))
         self._prove()
@@ -418,7 +423,7 @@ class _Run:
     def _is_new(self, point: Start) -> bool:
         if self.search.objective is None and len(self.result.methods) >= self.most:
             return False
-        if any(_are_same(point, other) for other in self._seen):
+        if any(are_same(point, other) for other in self._seen):
             return False
         self._seen.append(point)
         return True
@@ -438,5 +443,6 @@ class _Run:
             self.result.methods.append(found)
 
 
-def _are_same(one: Sequence[float], other: Sequence[float]) -> bool:
+def are_same(one: Sequence[float], other: Sequence[float]) -> bool:
+    """Whether two points are one up to rounding."""
     return all(abs(a - b) <= SAME for a, b in zip(one, other, strict=True))

@@ -159,6 +159,7 @@ class Search:
         self.order = order
         self.whose = whose
         self.tableau = TABLEAUS[whose](family.tableau)
+        self.text = objective
         self.objective = None if objective is None else meant(objective, self.tableau)
 
     @cached_property

@@ -61,6 +61,26 @@ class Height:
         return low
 
 
+def capped(goal: Goal, bound: float) -> Callable[[Array], Gradient]:
+    """The inequalities by which a goal is at most a bound, or a level at least the bound."""
+    unit = abs(bound) or 1.0
+
+    def at(x: Array) -> Gradient:
+        if isinstance(goal, Reach):
+            values, slopes = goal.at(np.append(x, bound))
+            return values, slopes[:, :-1]
+        if isinstance(goal, Smooth):
+            value, gradient = goal.at(x)
+            return np.array([(bound - value) / unit]), -gradient[None] / unit
+        values, slopes = goal.at(x)
+        return (
+            np.concatenate([bound - values, bound + values]) / unit,
+            np.concatenate([-slopes, slopes]) / unit,
+        )
+
+    return at
+
+
 class Total:
     """A sum of goals with weights, under inequalities.
 
