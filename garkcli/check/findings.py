@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from flint import fmpq
 
 from garkcli.check.outcome import Claim, Outcome
+from garkcli.check.pair_reasons import is_lost, rule_reasons
 from garkcli.errors import Remark
 from garkcli.exact.display import shortest, to_ball, to_decimal, to_text
 from garkcli.exact.field import Number
@@ -232,6 +233,10 @@ CLAIM = "write what holds under expect: gark claims FILE --write"
 """The cure for a file that lacks a claim."""
 
 
+OTHER_DEGREE = "leave out the degree: the rule then takes one that keeps the order"
+"""The cure of a transfer rule that loses pair order."""
+
+
 class Finding(Frozen):
     """A remark on a file, as formats for machines have it.
 
@@ -254,6 +259,7 @@ KINDS = {
     "claim": "a claim under expect does not hold",
     "undecided": "a claim under expect neither holds nor fails",
     "no-claim": "the file lacks a claim that is required",
+    "loses-pair-order": "a transfer rule loses the order of the pair",
 }
 """Every kind of remark on a method file, in words."""
 
@@ -280,6 +286,10 @@ def _remarks(outcome: Outcome) -> Iterator[tuple[str, Remark, str]]:
     for message in outcome.lacks:
         is_any = outcome.makes_no_claim and outcome.needs_claims
         yield "no-claim", Remark(message, CLAIM, code="no-claim"), "" if is_any else message
+    if outcome.analysis is not None:
+        for text in filter(is_lost, rule_reasons(outcome.analysis, outcome.rules)):
+            lost = "loses-pair-order"
+            yield lost, Remark(text, OTHER_DEGREE, code=lost, level="warning"), text
 
 
 def findings(outcome: Outcome) -> Iterator[Finding]:

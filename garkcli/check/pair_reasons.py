@@ -186,6 +186,11 @@ def rule_reasons(found: Analysis, rules: Sequence[BlockRule]) -> Iterator[str]:
         yield f"{rule} on {', '.join(places)}: {text}"
 
 
+def is_lost(reason: str) -> bool:
+    """Returns whether the degree of a rule loses pair order, which another degree keeps."""
+    return reason.startswith("legendre") and " loses " in reason
+
+
 class Fit(Frozen):
     """Whether a block by a rule preserves the least pair order of the diagonal methods.
 

@@ -14,7 +14,7 @@ from garkcli.check.findings import (
     sum_text,
 )
 from garkcli.check.findings import CLAIM as CLAIM_CURE
-from garkcli.check.pair_reasons import pair_reason, rule_reasons
+from garkcli.check.pair_reasons import is_lost, pair_reason, rule_reasons
 from garkcli.errors import counted
 from garkcli.exact.display import decimal, plain_decimal, to_float, to_text
 from garkcli.frozen import replace
@@ -1009,8 +1009,8 @@ OK: Rows[Outcome] = (IS_OK, Row("structure", STRUCTURES, lambda o: o.structure, 
 def transfer(o: Outcome) -> Answer[list[str]] | None:
     """Whether rules keep the order of the pair; usual if the file takes a degree that does not."""
     found = [] if o.analysis is None else [*rule_reasons(o.analysis, o.rules)]
-    is_told = any(x.startswith("legendre") and " loses " in x for x in found)
-    return Answer(found, level=USUAL if is_told else DETAIL) if found else None
+    level = USUAL if any(map(is_lost, found)) else DETAIL
+    return Answer(found, level=level) if found else None
 
 
 SENTENCES: Kind[Sequence[str]] = Kind(

@@ -58,7 +58,7 @@ def stability(values: StableValues, d: Plain) -> str:
 
 
 def _part(values: StableValues, x: Interval, d: Plain) -> str:
-    """A part of the set; a value of a linear form is told of its first parameter."""
+    """A part of the set; a value of a linear form is that of its first parameter."""
     if values.form is not None and x.is_point and x.start is not None:
         value = root_text(x.start) or f"{root_decimal(x.start, d.digits)}…"
         return " = ".join(map(d.expression, values.form.solved(value)))

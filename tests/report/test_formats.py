@@ -186,6 +186,21 @@ def test_sarif_of_real_files_has_the_structure_of_the_standard() -> None:
     assert GOOD not in files
 
 
+LOSING = """
+methods:
+  - {family: lobatto-iiia, stages: 3}
+  - {A: [[0, 0, 0, 0], [1/3, 0, 0, 0], [-1/3, 1, 0, 0], [1, -1, 1, 0]], b: [1/8, 3/8, 3/8, 1/8]}
+transfer: {rule: legendre, degree: 4}
+"""
+
+
+def written(folder: Path, text: str) -> Path:
+    """A file with a text."""
+    path = folder / "m.gark.yaml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
 def undecided(folder: Path) -> Outcome:
     """A rounded file of which one claim fails, one is undecided."""
     path = folder / "rounded.gark.yaml"
@@ -196,10 +211,21 @@ def undecided(folder: Path) -> Outcome:
 def test_sarif_names_its_rules(tmp_path: Path) -> None:
     """Each result's rule index points at the rule with the result's rule id."""
     silent = replace(outcome(MIDPOINT), needs_claims=True)
-    run = sarif(outcome(WRONG), outcome("methods: 1\n"), silent, undecided(tmp_path))
+    losing = check_file(str(written(tmp_path, LOSING)))
+    run = sarif(outcome(WRONG), outcome("methods: 1\n"), silent, undecided(tmp_path), losing)
     rules = run["tool"]["driver"]["rules"]
     assert {x["ruleId"] for x in run["results"]} == set(KINDS) == {x["id"] for x in rules}
     assert all(rules[x["ruleIndex"]]["id"] == x["ruleId"] for x in run["results"])
+
+
+@pytest.mark.parametrize("format", ["sarif", "github", "markdown", "json", "text"])
+def test_a_rule_that_loses_the_order_is_told_in_every_format(format: str, tmp_path: Path) -> None:
+    """As a warning, which fails nothing; a degree that keeps the order has none."""
+    run = gark("check", str(written(tmp_path, LOSING)), "--format", format)
+    assert run.code == 0
+    assert "loses pair order 4" in " ".join(run.out.split())
+    good = gark("check", str(written(tmp_path, LOSING.replace("4}", "2}"))), "--format", format)
+    assert "loses pair order" not in good.out
 
 
 def test_sarif_has_the_codes_of_faults() -> None:
