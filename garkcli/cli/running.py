@@ -133,7 +133,9 @@ def _several(paths: Sequence[str], given: Given, output: Output) -> int:
     entries = []
     with doing("methods", len(files)) as work:
         for file, found in zip(files, methods, strict=True):
-            entries.append(found if isinstance(found, ConvergedMethod) else _entry(file, found, problems))
+            entries.append(
+                found if isinstance(found, ConvergedMethod) else _entry(file, found, problems)
+            )
             work.reach(work.done + 1)
     output.tell(REPORT, ConvergedMethods(entries, given.work, given.against))
     results = [(x.name, x.result) for x in entries if x.result is not None]

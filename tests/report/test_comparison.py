@@ -196,7 +196,9 @@ def with_costs(name: str, costs: list[Cost | None], errors: list[float]) -> Conv
         Row(fmpq(1, 2**k), arb(e), None, arb(0), cost=c)
         for k, (e, c) in enumerate(zip(errors, costs, strict=True))
     )
-    return ConvergedMethod(f"{name}.gark.yaml", name, replace(on_oscillator("rk4"), rows=rows), (), 0)
+    return ConvergedMethod(
+        f"{name}.gark.yaml", name, replace(on_oscillator("rk4"), rows=rows), (), 0
+    )
 
 
 def test_costs_of_equal_errors() -> None:
