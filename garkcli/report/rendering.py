@@ -11,6 +11,10 @@ from garkcli.page.paint import Paint
 from garkcli.tell.report import FORMATS, Report
 
 if TYPE_CHECKING:
+    from garkcli.bridges.audit import Audited
+    from garkcli.check.meanings import Meaning
+    from garkcli.check.outcome import Outcome
+    from garkcli.sweep.report import SweepReport
     from garkcli.tableau.garkmethod import GarkMethod
 
 Writer: TypeAlias = "Callable[[Sequence[Any], str, str], str]"
@@ -92,13 +96,13 @@ def latex(method: GarkMethod) -> str:
     return render(method, "latex")
 
 
-def html(value: Any) -> str:
+def html(value: object) -> str:
     """A value as notebooks show it."""
     report, whole = _told_by(TOLD_BY[_kind(value, TOLD_BY)])
     return report.html(whole(value, ""))
 
 
-def _kind(value: object, known: Mapping[str, Any]) -> str:
+def _kind(value: object, known: Mapping[str, object]) -> str:
     """The room and the class of a value, or of a base of its class; else empty."""
     rooms = ((kind, kind.__module__.split(".")) for kind in type(value).__mro__)
     kinds = (f"{''.join(room[1:2])}.{kind.__name__}" for kind, room in rooms)
@@ -130,19 +134,19 @@ def _writer_of(value: object) -> tuple[str, Writer, Sequence[str]]:
     )
 
 
-def _methods(methods: Sequence[Any], format: str, _: str) -> str:
+def _methods(methods: Sequence[GarkMethod], format: str, _: str) -> str:
     from garkcli.report.tableau import REPORT, of_method
 
     return REPORT.render([of_method(x) for x in methods], format)
 
 
-def _outcomes(outcomes: Sequence[Any], format: str, _: str) -> str:
+def _outcomes(outcomes: Sequence[Outcome], format: str, _: str) -> str:
     from garkcli.report.check_formats import FORMATS
 
     return FORMATS[format](outcomes, _PLAIN, 0, None, WIDTH)
 
 
-def _sweeps(reports: Sequence[Any], format: str, _: str) -> str:
+def _sweeps(reports: Sequence[SweepReport], format: str, _: str) -> str:
     from garkcli.report import sweep
 
     if format == "jsonl":
@@ -150,13 +154,13 @@ def _sweeps(reports: Sequence[Any], format: str, _: str) -> str:
     return sweep.REPORT.render(reports, format)
 
 
-def _meanings(found: Sequence[Any], format: str, name: str) -> str:
+def _meanings(found: Sequence[Meaning], format: str, name: str) -> str:
     from garkcli.report.meaning import REPORT, told
 
     return REPORT.render(told(name or found[0].name, found), format)
 
 
-def _audited(tables: Sequence[Any], format: str, _: str) -> str:
+def _audited(tables: Sequence[Audited], format: str, _: str) -> str:
     from garkcli.report.audited import FORMATS
 
     return FORMATS[format](tables)

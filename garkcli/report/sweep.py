@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import io
 import json
-from collections.abc import Callable, Iterable, Sequence
-from typing import Any
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from garkcli.errors import UsageProblem, counted
 from garkcli.page import schema as S  # noqa: N812 -- its names are those of kinds too
@@ -44,7 +43,9 @@ def _value_words(value: Value, d: Plain) -> str:
     return f"{value:.6g}" if isinstance(value, float) else d.prose(str(value))
 
 
-def _values(row: Judged, form: Callable[[Any], Any] = dict) -> str | None:
+def _values(
+    row: Judged, form: Callable[[Mapping[str, str]], Mapping[str, str]] = dict
+) -> str | None:
     values = row.get("values")
     if not isinstance(values, dict):
         return None
@@ -190,7 +191,7 @@ def write_parquet(report: SweepReport, path: str) -> None:
 
     from garkcli.page.writing import write_whole
 
-    found: dict[str, Any] = {}
+    found: dict[str, list[Value]] = {}
     for row in flat(report.plan).rows:
         values = [row.fact(x).value for x in report.best]
         found[row.key] = _without_text(row.key, values, report.plan)
