@@ -175,7 +175,7 @@ UNDECIDED = (
     " fewer such as palindromic; --search N looks for methods and decides nothing"
 )
 LATE = "give it more by --seconds; "
-"""Of what ends with its time, and of nothing that is beyond gark's limits whatever the time is."""
+"""Advice where more seconds may decide; a limit of gark gets none."""
 
 
 def _undecided(design: Design, step: Undecided) -> Iterator[str]:

@@ -13,9 +13,9 @@ from garkcli.page import schema as S  # noqa: N812 -- its names are those of kin
 from garkcli.plots.design_curve import curve_scene
 from garkcli.report.search import ENDINGS, SECONDS
 from garkcli.tell.dialect import Plain
-from garkcli.tell.facts import Kind, Level, Row, Section
+from garkcli.tell.facts import Json, Kind, Level, Row, Section, itself
 from garkcli.tell.kinds import COUNT, POSITION, TEXT, TEXTS, TRUTH, choice
-from garkcli.tell.parts import answer, parts, rows_of, scene
+from garkcli.tell.parts import answer, parts, plot, rows_of
 from garkcli.tell.report import Report
 
 HEADLINE, USUAL, DETAIL, DATA = Level
@@ -85,31 +85,27 @@ def _cells(numbers: Mapping[str, float]) -> dict[str, str]:
     return {name: repr(number) for name, number in numbers.items()}
 
 
-NUMBERS: S.Schema = {"type": "object", "additionalProperties": S.NUMBER}
-KNOT = Section(
-    Row("coordinates", Kind(NUMBERS, csv=_cells), _coordinates),
-    Row("values", Kind(NUMBERS, csv=_cells), _values),
+_NUMBERS: Kind[dict[str, float]] = Kind(
+    Json({"type": "object", "additionalProperties": S.NUMBER}, csv=_cells)
 )
-WHOLE = Section(
-    Row("file", TEXT, level=DATA),
-    Row("name", TEXT, "search.family.name", DETAIL),
-    Row("of", choice(*get_args(Whose)), "search.whose", DATA),
+KNOT: Section[tuple[Knot, CurveReport]] = Section(
+    Row("coordinates", _NUMBERS, _coordinates), Row("values", _NUMBERS, _values)
+)
+WHOLE: Section[CurveReport] = Section(
+    Row("file", TEXT, lambda x: x.file, DATA),
+    Row("name", TEXT, lambda x: x.search.family.name, DETAIL),
+    Row("of", choice(*get_args(Whose)), lambda x: x.search.whose, DATA),
     answer(_answer),
     Row("unknowns", TEXTS, lambda x: list(x.search.family.parameters), DETAIL),
-    Row("order", POSITION, "search.order", DATA),
-    Row("knots_in_words", rows_of(_rows), "."),
-    Row("front", TRUTH, "curve.is_front", DATA),
-    Row("starts", COUNT, "curve.starts", DATA),
-    Row("successes", COUNT, "curve.successes", DATA),
+    Row("order", POSITION, lambda x: x.search.order, DATA),
+    itself("knots_in_words", rows_of(_rows)),
+    Row("front", TRUTH, lambda x: x.curve.is_front, DATA),
+    Row("starts", COUNT, lambda x: x.curve.starts, DATA),
+    Row("successes", COUNT, lambda x: x.curve.successes, DATA),
     Row("interrupted", TRUTH, lambda x: x.curve.ending is not None, DATA),
     Row("seconds", SECONDS, lambda x: round(x.curve.seconds, 3), DATA),
-    Row("knots", parts(KNOT), level=DATA),
-    Row(
-        "plot",
-        scene(lambda x: curve_scene(x.curve, x.search.family.name)),
-        lambda x: x if len(x.curve.knots) > 1 else None,
-        DETAIL,
-    ),
+    Row("knots", parts(KNOT), lambda x: x.knots, DATA),
+    plot(lambda x: curve_scene(x.curve, x.search.family.name), lambda x: len(x.curve.knots) > 1),
     title=lambda x, d: d.prose(x.file),
 )
 REPORT: Report[CurveReport] = Report.only(
