@@ -232,6 +232,8 @@ class _Search:
             has_rows = found.several >= (1 if s <= 2 else 2)
             if not (is_one and has_rows and self._may_have_order_one(of, parts, b, c)):
                 return None
+        if b.is_last_row and _is_like_other_rows(parts.A, found.nearly):
+            return None
         if b.is_last_row and not is_lower(parts.A) and found.nearly < s:
             # the node 1 is no reason: collocation makes rows that are quadratures
             return None
@@ -278,6 +280,16 @@ def _may_have_order_two(A: Floats, b: Vector, c: Floats | None) -> bool:
         if b.is_off and (np.abs(off + (1 - b.total) * sums) < wide).any():
             return True
     return False
+
+
+def _is_like_other_rows(A: Floats, order: int) -> bool:
+    """Whether another row whose stage is at the end of the step has the order of the last one, as
+    those of methods of high order do: their weights are elsewhere.
+    """
+    values, unit = A[..., VALUE], unit_of(A)
+    at_end = np.abs(values[:-1].sum(1) - 1) < CLOSE
+    others = (row for row in values[:-1][at_end] if not np.array_equal(row, values[-1]))
+    return any(order_of(values, row, unit, order) >= order for row in others)
 
 
 def _is_alike(other: Given, A: Floats) -> bool:

@@ -8,6 +8,7 @@ from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 from garkcli.frozen import Mutable, field, replace
+from garkcli.recognise.names import MATRIX
 from garkcli.sources import ir
 from garkcli.sources.allowance import Allowance
 from garkcli.sources.assembling import (
@@ -30,7 +31,7 @@ from garkcli.sources.linear_stages import (
     roles_of_arguments,
     roles_of_kpp,
 )
-from garkcli.sources.naming import ROLES, role_of, roles_of_parts
+from garkcli.sources.naming import METHODS, ROLES, role_of, roles_of_parts
 from garkcli.sources.overlooked import overlooked, sized
 from garkcli.sources.rklab import blocks_in
 from garkcli.sources.scalar_names import NEAR, whole_families
@@ -44,7 +45,7 @@ from garkcli.sources.signatures import (
     Signature,
     other_kind,
 )
-from garkcli.sources.steps import NoStep, step_of
+from garkcli.sources.steps import NoStep, splitting_of, step_of
 from garkcli.sources.values import (
     NULL,
     Array,
@@ -228,6 +229,8 @@ class TableFinder(Harvester):
             self._of_names(arrays, {name: x.line for name, x in named.items()}, scope)
         if self._count() > count:
             return
+        if scope is not self._scopes[-1] or scope.kind == "entry":
+            self._told_lost(scope, space)
         if looks_like_a_step:
             self.lost[scope.kind, scope.line] = "a step that is not followed"
 
@@ -235,6 +238,19 @@ class TableFinder(Harvester):
         """The Rosenbrock method of a scope as programs store it."""
         place = self._place(scope.title, scope.line)
         self._meant.append(Meant(place, dict(roles), SIGNATURES[KPP], KPP))
+
+    def _told_lost(self, scope: ir.Scope, space: Space) -> None:
+        """Tell of a matrix of one way through a program that has entries which are not known."""
+        for name, value in space.items():
+            is_named = METHODS.search(f"{name} {scope.title}") and MATRIX.search(name)
+            line = space.lines.get(name, 0)
+            if not is_named or not is_matrix(value) or line < scope.line:
+                continue
+            entries = list(value.flat())
+            lost = next((x for x in entries if isinstance(x, Unknown) and not x.was_written), None)
+            is_written_out = any(isinstance(x, Number) and x.is_given for x in entries)
+            if lost is not None and lost.reason != "never assigned" and is_written_out:
+                self._unread(scope.title, line, f"{lost.reason}, line {lost.line}, is not known")
 
     def _of_rosenbrock(self, scope: ir.Scope, space: Space) -> bool:
         """Whether the arrays of a scope, or its single numbers, are a Rosenbrock method."""
@@ -487,10 +503,14 @@ class TableFinder(Harvester):
             return False
         try:
             roles = step_of(scope.body, space, self, scope.kind == "function")
+            signature = NAMED
         except NoStep as error:
-            return error.looks_like
+            try:
+                roles, signature = splitting_of(scope.body, space, self), DRIFT_FIRST
+            except NoStep:
+                return error.looks_like
         place = self._place(scope.title, scope.line, notes=(STEP,))
-        self._meant.append(Meant(place, roles, maker="a step"))
+        self._meant.append(Meant(place, roles, signature, maker="a step"))
         return False
 
     def _place(self, name: str, line: int, **told: Any) -> FoundTable:

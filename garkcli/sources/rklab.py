@@ -58,6 +58,8 @@ def _block_roles(value: Array, name: str) -> Mapping[str, Value] | None:
         return None
     near = [[x.near if isinstance(x, Number) else 0.0 for x in row] for row in rows]
     agreeing = sum(abs(sum(row[1:]) - row[0]) < NEAR for row in near[:stages])
+    # rows of zeros agree with anything
+    zeros = sum(not any(row) for row in near[:stages])
     off = abs(sum(near[stages][1:]) - 1)
     order = whole(corners[0])
     is_tableau = _TABLEAU.search(name) is not None
@@ -66,7 +68,8 @@ def _block_roles(value: Array, name: str) -> Mapping[str, Value] | None:
     has_fractions = any(not x.is_integer() for row in near for x in row)
     is_ordered = name == "b" and is_named and off < TINY and stages > 1 and has_fractions
     # whole numbers alone may be anything
-    is_block = is_ordered or (off < FAR and agreeing >= stages / (1 + has_fractions))
+    is_near = agreeing - zeros >= (stages - zeros) / (1 + has_fractions)
+    is_block = is_ordered or (off < FAR and is_near)
     is_explicit = not any(x for i, row in enumerate(near[:stages]) for x in row[i + 1 :])
     is_plain = off < NEAR and agreeing >= max(2, stages - is_explicit)
     # the weights alone may be wrong where the rows are those of an explicit method

@@ -10,7 +10,7 @@ whatever does not fit makes no table.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import islice
+from itertools import islice, pairwise
 from typing import TypeGuard
 
 from garkcli.frozen import Frozen, replace
@@ -37,6 +37,8 @@ from garkcli.sources.values import (
 MAX_TERMS = 4 * MAX_STAGES
 MAX_WAYS = 8
 """Most ways through a function."""
+FEWEST_TURNS = 5
+"""So many calls in turns are a splitting."""
 NEAR = 1e-3
 """Sums that differ by less are meant to be the same."""
 Roles = dict[str, Value]
@@ -86,6 +88,33 @@ def step_of(body: ir.Body, space: Space, like: Evaluator, is_function: bool = Tr
         if len({shown(Record("", x)) for x in of_loops}) != 1:
             raise NoStep(error.looks_like or bool(of_loops)) from None
         return of_loops[0]
+
+
+def splitting_of(body: ir.Body, space: Space, like: Evaluator) -> Roles:
+    """The weights of two functions that are called in turns with parts of one step,
+    ``x.drift(0.5*h); x.kick(h)``: those of the first one are called drifts.
+
+    Raises:
+        NoStep: there are no such calls.
+    """
+    follower, names = Follower(like, ()), Space(space)
+    turns: list[tuple[str, Place, Value]] = []
+    for statement in body:
+        match statement:
+            case ir.Do(value=ir.Call(callee, (part,), ())) if name := _name(callee):
+                form = _terms(follower.value(part, names)) or {}
+                turns += [(name, at, x) for at, x in form.items() if at and len(form) == 1]
+    callees = list(dict.fromkeys(name for name, _, _ in turns))
+    are_in_turns = all(x[0] != y[0] for x, y in pairwise(turns))
+    if len(turns) < FEWEST_TURNS or len(callees) != 2 or not are_in_turns:
+        raise NoStep
+    drifts, kicks = ([x for name, _, x in turns if name == callee] for callee in callees)
+    if len({at for _, at, _ in turns}) > 1 or any(
+        abs(near(*x) - 1) > NEAR for x in (drifts, kicks)
+    ):
+        raise NoStep
+    kicks += [ZERO] * (len(drifts) - len(kicks))
+    return {"drifts": Array([*drifts]), "kicks": Array([*kicks])}
 
 
 def _by_every_way(

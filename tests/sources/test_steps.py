@@ -432,3 +432,20 @@ def test_a_thread_takes_its_own_entry() -> None:
     assert (table.b, table.c, table.trouble) == ((("0", "1"),), (("0", "1/2"),), "")
     other = KERNEL.replace("if (", "int j = threadIdx.y;\n  if (").replace("t, y[i]", "t, y[j]")
     assert not any(x.b for x in c.find(other, "x.cu"))
+
+
+@pytest.mark.parametrize(("last", "order"), [("0.67560359597983", 4), ("0.5", None)])
+def test_drifts_and_kicks_in_turns(last: str, order: int | None) -> None:
+    """Calls with parts of a step; their sums are 1."""
+    text = f"""
+    void Symplectic::integrate(System &system, double h) {{
+      system.drift(6.7560359597983E-1 * h);
+      system.kick(1.35120719195966 * h);
+      system.drift(-1.7560359597983E-1 * h);
+      system.kick(-1.70241438391932 * h);
+      system.drift(-1.7560359597983E-1 * h);
+      system.kick(1.35120719195966 * h);
+      system.drift({last} * h);
+    }}"""
+    found = [x for x in map(audit, c.find(text, "x")) if x is not None and x.is_read]
+    assert [x.order and x.order.order for x in found] == ([order] if order else [])
