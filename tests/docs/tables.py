@@ -14,8 +14,7 @@ from garkcli.glossary.key import Key, keys_of
 from garkcli.glossary.term import PAPER, Term
 from garkcli.properties.definitions import every_definition
 from garkcli.properties.registry import KEYS
-from garkcli.report.field_texts import REFERENCES
-from garkcli.report.schemas import REPORTS, report_schema
+from garkcli.report.schemas import REFERENCES, REPORTS, report_schema
 
 
 def codes_page() -> str:

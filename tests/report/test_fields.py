@@ -10,8 +10,7 @@ import pytest
 from garkcli.check.meanings import explain
 from garkcli.glossary import read
 from garkcli.glossary.fields import ORDERS, field_entries
-from garkcli.report.field_texts import text_of
-from garkcli.report.schemas import REPORTS, report_schema
+from garkcli.report.schemas import REPORTS, report_schema, text_of
 from tests.docs.tables import fields_of
 from tests.whole import in_whole
 
