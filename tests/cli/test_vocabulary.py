@@ -59,7 +59,7 @@ def test_a_family_of_the_catalogue_or_not() -> None:
 @pytest.mark.parametrize(
     ("written", "shown"),
     [
-        ("design --minimize nothing rk4", "'--minimise'"),
+        ("design --minimize nothing rk4", "no objective 'nothing'"),
         ("trees 3 --colors 2 --colors-used 1,2", "[[]_1,[]_2]_1"),
         ("conditions --colored -N 2", "b{1}"),
         ("trees 4 --count", "order 4  4"),
