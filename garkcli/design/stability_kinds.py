@@ -9,9 +9,10 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from functools import cached_property
 
-from flint import fmpq, fmpq_mpoly
+from flint import acb, acb_poly, arb, ctx, fmpq, fmpq_mpoly
 
 from garkcli.design.ideal import Ideal
 from garkcli.design.member import MOST_DEGREE, TABLEAUS, Whose, member, shares_of
@@ -19,7 +20,8 @@ from garkcli.design.solutions import Solution, solutions, value_at
 from garkcli.design.step_plane import Line, StepPlane, step_plane
 from garkcli.errors import NotDecided, UsageProblem, ZeroWeight
 from garkcli.exact import projection
-from garkcli.exact.cells import Interval, Point, between, contains, first_end, sign_of
+from garkcli.exact.cells import Interval, Point, between, contains, first_end, has, sign_of
+from garkcli.exact.enclosing import value
 from garkcli.exact.field import ZERO, Number, poly_of
 from garkcli.exact.matrix import Matrix
 from garkcli.exact.parametric import Parameters
@@ -44,6 +46,10 @@ _RIGHT = "the linear test equation has no meaning for it: some stages do not see
 
 MOST_POINTS = 60
 """Values of all unknowns together, with their conjugates, among which those meant are sought."""
+BITS = 512
+"""Precision of the balls in which a value of |R| above 1 is proved."""
+MOST_CONSTANT = 16
+"""Roots among the coefficients of a larger degree are not taken."""
 
 
 class Members(Frozen):
@@ -52,10 +58,19 @@ class Members(Frozen):
     family: Family
     whose: Whose
 
+    @property
+    def critical(self) -> tuple[Polynomial, ...] | None:
+        """Polynomials between whose roots one value decides on A-stability, if they are known."""
+        return None
+
+    def known(self, t: Point) -> bool | None:  # noqa: ARG002 -- of the others
+        """Whether a value is A-stable where that is known without a computation."""
+        return None
+
     @cached_property
     def constants(self) -> Mapping[str, Number] | None:
         """The roots among the coefficients; None where no field that is small enough has them."""
-        return self._numbers({}) if self.family.radicals else {}
+        return self._numbers({}, MOST_CONSTANT) if self.family.radicals else {}
 
     def at(self, t: Point) -> Tableau | None:
         """The method for a value; None where a weight or a denominator is zero.
@@ -67,7 +82,7 @@ class Members(Frozen):
         [name] = self.family.parameters
         if rational is None:
             assert isinstance(t, RealRoot)
-            numbers = self._numbers({name: t})
+            numbers = self._numbers({name: t}, MOST_DEGREE)
         else:
             numbers = None if self.constants is None else {name: rational, **self.constants}
         if numbers is None:
@@ -78,7 +93,7 @@ class Members(Frozen):
         except (ZeroDivisionError, ZeroWeight):
             return None
 
-    def _numbers(self, values: Mapping[str, RealRoot]) -> dict[str, Number] | None:
+    def _numbers(self, values: Mapping[str, RealRoot], most: int) -> dict[str, Number] | None:
         """The roots among the coefficients and other values as numbers of one field; None where
         that is too large.
         """
@@ -92,7 +107,7 @@ class Members(Frozen):
         for solution, root in self._conjugates(values):
             at = {key: value_at(x, root) for key, x in solution.values.items()}
             if all(at[x] == y for x, y in meant.items()) and not any(at[x] < zero for x in even):
-                u = number_of(root, MOST_DEGREE)
+                u = number_of(root, most)
                 if u is None:
                     return None
                 elements = solution.values.items()
@@ -123,6 +138,27 @@ class Members(Frozen):
     def plane(self, tableau: Tableau, fields: Sequence[Matrix]) -> StepPlane:
         """Their step for every value."""
         return step_plane(self.line(tableau), fields)
+
+
+class Slice(Members):
+    """The methods over one value of a parameter of two.
+
+    Attributes:
+        critical: polynomials that are zero where curves meet the line; None where it is a curve.
+        limits: values whose methods are limits of A-stable ones, and so A-stable; of those between
+            curves all that are.
+    """
+
+    critical: tuple[Polynomial, ...] | None
+    limits: tuple[Interval, ...] | None
+
+    def known(self, t: Point) -> bool | None:
+        if self.limits is None:
+            return None
+        if has(self.limits, t):
+            return True
+        is_between = self.critical and all(sign_of(p, t) for p in self.critical)
+        return False if is_between else None
 
 
 class Kind(ABC):
@@ -161,6 +197,10 @@ class Kind(ABC):
         """
         tableau = self.members.at(t)
         return tableau is not None and self.holds(tableau)
+
+    def is_refuted(self, t: RealRoot) -> bool:  # noqa: ARG002 -- of the others
+        """Whether the method for a value is seen not to have it, in balls."""
+        return False
 
     def witness(self, t: fmpq) -> fmpq | None:
         """An x at which a condition is violated for a value that has been decided in vain."""
@@ -208,18 +248,35 @@ class AStability(Kind):
         u, v = real_and_imaginary(self.Q)
         self.essential = []
         # a pole at infinity or on the axis, another degree of R, other lowest terms
-        self.critical = [
-            *self.plane.projected(self.signs, [ZERO]),
-            *(self.plane.in_t(projection.leading(p)) for p in (self.Q, self.P)),
-            *self.plane.meeting(u, v),
-            *self.plane.meeting(self.P, self.Q),
-        ]
+        self.critical = list(members.critical or ())
+        if members.critical is None:
+            self.critical = [
+                *self.plane.projected(self.signs, [ZERO]),
+                *(self.plane.in_t(projection.leading(p)) for p in (self.Q, self.P)),
+                *self.plane.meeting(u, v),
+                *self.plane.meeting(self.P, self.Q),
+            ]
 
     def holds(self, tableau: Tableau) -> bool:
         return is_a_stable(stability_function(tableau, self.shares))
 
     def stable(self, tableau: Tableau) -> tuple[Interval, ...]:
         return imaginary_set(stability_function(tableau, self.shares))
+
+    def is_refuted(self, t: RealRoot) -> bool:
+        """Whether |P| > |Q| for a simple z, Re z ≤ 0."""
+        with ctx.workprec(BITS):
+            P, Q = (
+                [a.enclosed_at(t.ball(BITS)) for a in self.plane.coefficients(p)]
+                for p in (self.P, self.Q)
+            )
+            sizes = [arb(0), *(arb(fmpq(4) ** k) for k in range(-6, 7))]
+            points = [acb(-x, z) for x in sizes for z in sizes]
+            with suppress(ValueError):  # multiple roots
+                # next to a pole too
+                near = acb_poly([x.mid() for x in Q]).roots()
+                points += [z.mid() for z in near if z.real < 0]
+            return any(abs(value(P, z)) > abs(value(Q, z)) for z in points)
 
     def is_damped(self, t: Point) -> bool:
         """Whether R(∞) = 0; common factors of P and Q change both degrees alike."""

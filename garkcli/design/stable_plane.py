@@ -6,11 +6,9 @@ projected once more, onto t. Between two critical t nothing changes but where th
 that one rational t decides a strip, by the set of values of the one parameter that is left; its
 ends are branches of the curves.
 
-Over a rational t the engine for one parameter decides. Limits of A-stable methods are A-stable: so
-over an irrational critical t that is no curve itself only the points where curves meet the line are
-open, and of these only those that are no limits; there some z with |P(z)| > |Q(z)| decides,
-whatever the degree of t. Where that leaves anything open, the engine for one parameter decides over
-ℚ(t).
+The engine for one parameter decides over each t, an irrational one too: in ℚ(t), between the points
+where curves meet the line. It knows of the limits from both sides, which are A-stable, as that is
+|P| ≤ |Q| on the left half plane with coefficients that are polynomials in the parameters.
 """
 
 from __future__ import annotations
@@ -19,13 +17,13 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import Any, TypeAlias
 
-from flint import acb, acb_poly, arb, ctx, fmpq, fmpq_mpoly
+from flint import arb, ctx, fmpq, fmpq_mpoly
 
 from garkcli.deadline import check_time
 from garkcli.design.fewer import fewest
 from garkcli.design.member import TABLEAUS, Whose, member, shares_of
 from garkcli.design.stability_functions import FamilyFunction, function_of, joined
-from garkcli.design.stability_kinds import TwoSprings, driven, real_and_imaginary
+from garkcli.design.stability_kinds import Slice, TwoSprings, driven, real_and_imaginary
 from garkcli.design.stable_values import (
     StableValues,
     Wanted,
@@ -37,7 +35,6 @@ from garkcli.design.stable_values import (
 from garkcli.errors import NotDecided, UsageProblem
 from garkcli.exact import projection
 from garkcli.exact.cells import Interval, Point, between, roots_of
-from garkcli.exact.enclosing import value
 from garkcli.exact.parametric import Parameters, common_denominator, evaluated, factors
 from garkcli.exact.polynomial import Polynomial, in_one
 from garkcli.exact.roots import RealRoot, real_roots, sign_at
@@ -45,9 +42,6 @@ from garkcli.frozen import Frozen, replace
 from garkcli.tableau.family import Family, Radical
 from garkcli.tableau.tableau import Tableau
 from garkcli.upward import Shown
-
-BITS = 512
-"""Precision of the balls in which a value of |R| above 1 is proved."""
 
 
 class Branch(Frozen, eq=False):
@@ -255,9 +249,7 @@ class _Plane:
         self.family, self.colour = family, colour
         driven(family.tableau, "a-stable", colour)
         R = function_of(family.tableau, family.ring, "", shares_of(family.tableau, colour))
-        self.R = R
         self.curves = _deciding(R, family.ring)
-        self.vertical = [projection.in_t(p) for p in self.curves if p.degrees()[0] == 0]
         self.undecided: list[RealRoot] = []
 
     def run(self) -> StablePlane:
@@ -273,8 +265,8 @@ class _Plane:
             strips += [self._over(t, strips[-1], following), following]
         return StablePlane(self.family, tuple(_joined(strips)), tuple(self.undecided), self.colour)
 
-    def _stable(self, t: Point) -> StableValues:
-        """The values of the second parameter for one of the first."""
+    def _stable(self, t: Point, limits: tuple[Interval, ...] | None = None) -> StableValues:
+        """The values of the second parameter for one of the first, by the limits if it has some."""
         first, second = self.family.parameters
         rational = t.exact if isinstance(t, RealRoot) else t
         ring = Parameters([second])
@@ -296,7 +288,16 @@ class _Plane:
             ranges={second: (None, None)},
             radicals=radicals,
         )
-        return stable_values(line, "a-stable", colour=self.colour)
+        members = Slice(line, "method", self._critical(t), limits)
+        return stable_values(line, "a-stable", colour=self.colour, members=members)
+
+    def _critical(self, t: Point) -> tuple[Polynomial, ...] | None:
+        """Polynomials that are zero where curves meet the line over t; None where one of them is
+        that line.
+        """
+        root = projection.of_root(t if isinstance(t, RealRoot) else RealRoot.rational(t))
+        found = [projection.resultant(p, root, "t") for p in self.curves]
+        return tuple(map(in_one, found)) if all(found) else None
 
     def _parts(self, t: fmpq) -> tuple[Part, ...]:
         """The set over an open strip, from one t inside.
@@ -322,54 +323,20 @@ class _Plane:
         """The set over a critical t."""
         base = Interval(t, t, has_start=True, has_end=True)
         sides = [(side, _over(side, t)) for side in (left, right)]
-        for (side, mine), (_, other) in (sides, sides[::-1]):
-            if t.exact is None and self._are_all(t, mine, other):
-                return Strip(base, side.parts)
         try:
-            found = self._stable(t)
+            is_known = all(parts is not None for _, parts in sides)
+            limits = tuple(x for _, parts in sides for x in parts or ())
+            found = self._stable(t, limits if is_known else None)
         except UsageProblem:  # no field that is small enough has it
             found = None
         if found is None or found.undecided:
             self.undecided.append(t)
             return Strip(base, ())
-        for side, mine in sides:
-            if mine == list(found.found):
+        for side, parts in sides:
+            if parts == list(found.found):
                 return Strip(base, side.parts)
-        parts = (Part(x.start, x.end, x.has_start, x.has_end) for x in found.found)
-        return Strip(base, tuple(parts))
-
-    def _are_all(
-        self, t: RealRoot, mine: list[Interval] | None, other: list[Interval] | None
-    ) -> bool:
-        """Whether the limits from one side are the set over t: those from the other are among them,
-        and at each other point where curves meet the line |R| > 1 is proved.
-        """
-        is_curve = any(sign_at(p, t) == 0 for p in self.vertical)
-        if is_curve or mine is None or other is None:
-            return False
-        return all(_contain(mine, x) for x in other) and self._nothing_else(t, mine)
-
-    def _nothing_else(self, t: RealRoot, found: Sequence[Interval]) -> bool:
-        """Whether |P| > |Q| for some z where curves meet the line outside of a set."""
-        for curve in self.curves:
-            if not curve.degrees()[0]:
-                continue
-            for y, _ in real_roots(in_one(projection.resultant(curve, projection.of_root(t), "t"))):
-                inside = _contain(found, Interval(y, y, has_start=True, has_end=True))
-                if not inside and not self._is_violated(t, y):
-                    return False
-        return True
-
-    def _is_violated(self, t: RealRoot, y: RealRoot) -> bool:
-        """Whether |P| > |Q| for a simple z, Re z ≤ 0, proved in balls."""
-        with ctx.workprec(BITS):
-            at = [t.ball(BITS), y.ball(BITS)]
-            P, Q = ([_value(x, at) for x in p] for p in (self.R.numerator, self.R.denominator))
-            sizes = [arb(0), *(arb(fmpq(4) ** k) for k in range(-6, 7))]
-            points = [acb(-x, z) for x in sizes for z in sizes]
-            # next to a pole too
-            points += [z for z in _roots([x.mid() for x in Q]) if z.real < 0]
-            return any(abs(value(P, z)) > abs(value(Q, z)) for z in points)
+        own = (Part(x.start, x.end, x.has_start, x.has_end) for x in found.found)
+        return Strip(base, tuple(own))
 
 
 def _deciding(R: FamilyFunction, ring: Parameters) -> list[fmpq_mpoly]:
@@ -391,16 +358,6 @@ def _over(strip: Strip, t: RealRoot) -> list[Interval] | None:
     return None if None in found else [x for x in found if x is not None]
 
 
-def _contain(parts: Sequence[Interval], x: Interval) -> bool:
-    """Whether an interval is in one of some closed ones."""
-    for part in parts:
-        begins = part.start is None or (x.start is not None and not x.start < part.start)
-        ends = part.end is None or (x.end is not None and not part.end < x.end)
-        if begins and ends:
-            return True
-    return False
-
-
 def _joined(strips: Sequence[Strip]) -> list[Strip]:
     """Strips beside each other with the same parts as one; without those of none."""
     found: list[Strip] = []
@@ -412,14 +369,6 @@ def _joined(strips: Sequence[Strip]) -> list[Strip]:
         else:
             found.append(strip)
     return [strip for strip in found if strip.parts]
-
-
-def _roots(coefficients: Sequence[arb]) -> list[acb]:
-    """Numbers near the roots of a polynomial; none where they are multiple."""
-    try:
-        return [z.mid() for z in acb_poly(coefficients).roots()]
-    except ValueError:
-        return []
 
 
 def _value(x: Any, at: Sequence[arb]) -> arb:

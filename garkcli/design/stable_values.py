@@ -276,12 +276,17 @@ class _Decision:
         poles = self.kind.plane.poles
         if self._is_outside(t) or any(sign_at(p, t) == 0 for p in poles):
             return False
+        known = self.kind.members.known(t)
+        if known is not None:
+            return known
         for x in self._witnesses:
             if any(sign_at(p, t) < 0 for p in self.kind.conditions(x)):
                 return False
         is_limit = any(t in (x.start, x.end) for x in self._interior)
         if is_limit and all(sign_at(p, t) for p in self.kind.essential):
             return True
+        if self.kind.is_refuted(t):
+            return False
         try:
             return self.kind.decide(t)
         except NotDecided as error:
@@ -301,8 +306,9 @@ class _Decision:
             return False
         key = str(t)
         if key not in self._known:
-            self._known[key] = self.kind.decide(t)
-            if not self._known[key]:
+            known = self.kind.members.known(t)
+            self._known[key] = self.kind.decide(t) if known is None else known
+            if known is None and not self._known[key]:
                 witness = self.kind.witness(t)
                 if witness is not None and witness not in self._witnesses:
                     self._witnesses.append(witness)

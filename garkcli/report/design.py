@@ -174,7 +174,7 @@ UNDECIDED = (
     "fewer unknowns make it decidable: values for some by --set or design: fix, a shape with"
     " fewer such as palindromic; --search N looks for methods and decides nothing"
 )
-LATE = "give it more by --seconds; "
+LATE = "give it more; "
 """Advice where more seconds may decide; a limit of gark gets none."""
 
 

@@ -27,6 +27,8 @@ FREE = "parameters: {g: free, d: free}\n"
 DIRK = f"{FREE}A: [[g, 0], [1 - d, d]]\nb: [1/2, 1/2]\n"
 STIFF = f"{FREE}A: [[g, 0], [1/2, d]]\nb: [1 - d, d]\n"
 SDIRK = f"{FREE}A: [[g, 0], [1 - 2*g, g]]\nb: [1 - d, d]\n"
+THREE = f"{FREE}A: [[g, 0, 0], [1/2 - g, g, 0], [d, 1 - d - g, g]]\nb: [d, 1 - d - g, g]\n"
+BILINEAR = f"{FREE}A: [[g, d], [1/3, g*d]]\nb: [3/4, 1/4]\n"
 FULL = f"{FREE}A: [[g, d], [1/2, 1/3]]\nb: [3/4, 1/4]\n"
 
 
@@ -75,7 +77,8 @@ def test_the_step_of_a_family_is_that_of_its_members(text: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "text", [DIRK, *(pytest.param(x, marks=in_whole) for x in (STIFF, SDIRK, FULL))]
+    "text",
+    [DIRK, THREE, *(pytest.param(x, marks=in_whole) for x in (STIFF, SDIRK, FULL, BILINEAR))],
 )
 def test_random_and_critical_points(text: str) -> None:
     """Rational points on a grid, at random, and beside the ends over some g: in the set exactly
@@ -200,6 +203,30 @@ def test_an_irrational_value_beside_a_free_parameter(
     for d in (fmpq(-1), fmpq(1, 8), fmpq(1, 2), fmpq(7, 5), fmpq(4)):
         method = loads(text, settings={"g": g, "d": str(d)})
         assert has(line.found, d) is is_a_stable(stability_function(method.tableau))
+
+
+CIRCLE = """parameters: {g: free, d: free}
+tableau:
+  A:
+    - [[["g"]], [["d"]]]
+    - [[[0]], [[0]]]
+  b: [["(g - 2)^2 + (d - 1)^2"], [1]]
+"""
+
+
+def test_a_curve_past_critical_values_of_degree_8() -> None:
+    """The set is a branch of a curve: over critical values of a large degree limits are A-stable,
+    and other points where curves meet the line are not.
+    """
+    values = plane(CIRCLE)
+    assert values.undecided == ()
+    [strip] = values.strips
+    assert strip.base.start is not None
+    assert strip.base.end is not None
+    assert strip.base.start.exact == 1
+    assert float(strip.base.end) == pytest.approx(4.95013386925)
+    [part] = strip.parts
+    assert part.start == part.end
 
 
 @in_whole
