@@ -24,6 +24,8 @@ MOST_NODES = 3
 """So many nodes, the best ones, are tried with each weights."""
 FAR = 0.2
 """Weights have a sum that is nearer to 1, one wrong number among them."""
+MOST_BESIDE = 2
+"""Embedded weights are in arrays with so many rows or columns."""
 BESIDE = 60
 """Arrays in so many lines may be of one method."""
 ELSEWHERE = 8.0
@@ -371,7 +373,9 @@ def with_beside(reading: Reading, group: Iterable[Given]) -> Reading:
         for given in group
         for x in vectors_of(given)
         # weights and embedded ones may be columns of one array
-        if given not in reading.used or (given is reading.weights and given.is_matrix)
+        if (given not in reading.used or (given is reading.weights and given.is_matrix))
+        # a column of a matrix may have the sum 1 by chance
+        and not (given.is_matrix and min(given.numbers.shape[:2]) > MOST_BESIDE)
     )
     for each in (x for of in vectors for x in fitted(of, len(b))):
         if each.is_behind_zero or each.is_behind_first:

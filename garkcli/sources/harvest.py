@@ -307,6 +307,10 @@ def _families(singles: Mapping[str, tuple[Entry, int]]) -> Iterator[Given]:
         if len(i) == 1 or (len(i) == 2 and i[0] != "0"):
             families[stem, 1][(int(i),)] = entry, line
     for (stem, indices), numbers in families.items():
+        if indices == 1 and (10,) not in numbers:
+            # c21 beside c2 has two indices
+            of_one = {at: x for at, x in numbers.items() if at[0] < 10}
+            numbers = of_one or numbers
         highest = max(max(at) for at in numbers)
         is_sparse = indices == 1 and (len(numbers) < 2 or len(numbers) < 0.4 * highest)
         if highest <= MOST_INDEX and not is_sparse and (len(numbers) > 1 or highest == 2):

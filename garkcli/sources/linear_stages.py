@@ -224,17 +224,22 @@ def _solved(packed: Sequence[Value], gamma: float, given: Sequence[float]) -> li
 
 
 def _completed(row: Value | None, known: Sequence[float]) -> Array | None:
-    """Numbers that were written, with 0 and 1 where these were left out; None without others."""
+    """Numbers that were written, with 0 and 1 where these were left out; None without others, or
+    where most of them are not the known ones.
+    """
     items = items_of(row)[: len(known)]
     items += [FILL] * (len(known) - len(items))
-    if not any(map(is_written, items)):
+    pairs = list(zip(items, known, strict=True))
+    agree = [abs(near(x) - y) < CLOSE for x, y in pairs if is_written(x)]
+    if 2 * sum(agree) <= len(agree):
         return None
-    for i, x in enumerate(items):
-        whole_one = abs(known[i] - 1) < NEAR
-        if not is_written(x) and not whole_one and abs(known[i]) > NEAR:
+    found: list[Value] = []
+    for x, y in pairs:
+        is_one = abs(y - 1) < NEAR
+        if not is_written(x) and not is_one and abs(y) > NEAR:
             return None
-        items[i] = ONE if whole_one and not is_written(x) else x
-    return Array(items)
+        found.append(ONE if is_one and not is_written(x) else x)
+    return Array(found)
 
 
 _NAMED = {

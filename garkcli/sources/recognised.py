@@ -218,9 +218,10 @@ def _told(roles: Mapping[str, Value], written: Collection[int]) -> _Told:
 
 
 def _is_about(numbers: frozenset[int], told: _Told) -> bool:
-    """Whether a reading and a table share most of their numbers."""
+    """Whether a reading and a table share most of their numbers; few may be those of others."""
     all_told = frozenset().union(*told.values())
-    return 2 * len(numbers & all_told) > min(len(numbers), len(all_told)) > 0
+    common, is_short = 2 * len(numbers & all_told), len(all_told) < FEWEST_NUMBERS
+    return common > len(numbers) or (common > len(all_told) and not is_short)
 
 
 def _explains(reading: Reading, numbers: frozenset[int], told: _Told) -> bool:

@@ -274,3 +274,14 @@ def test_without_order_2_there_is_no_rosenbrock_method() -> None:
     text = ROS2.replace("gamma21 = -2*gamma", "gamma21 = -3*gamma")
     assert not any(x.gamma for x in matlab.find(text, "x"))
     assert any(x.gamma for x in matlab.find(ROS2, "x"))
+
+
+def test_numbers_that_are_no_nodes_are_left_out() -> None:
+    """One of three nodes is a misprint; three of them are something else."""
+    text = RODAS.format(d4=-0.03620000000000023)
+    one = text.replace("c3(double(0.21))", "c3(double(0.12))")
+    three = one.replace("c2(double(0.386))", "c2(double(3))").replace(
+        "c4(double(0.63))", "c4(double(5))"
+    )
+    found = [audit(table) for x in (one, three) for table in c.find(x, "x")]
+    assert [x is not None and x.has_errors for x in found] == [True, False]
