@@ -12,7 +12,7 @@ from garkcli.deadline import within
 from garkcli.design import design as designing
 from garkcli.design.choices import Chosen, accepted_methods, chosen
 from garkcli.design.design import CLAIMS, Design
-from garkcli.design.member import TABLEAUS, Whose
+from garkcli.design.member import TABLEAUS, Whose, refuse_levels
 from garkcli.design.minimise import minimise as minimising
 from garkcli.design.minimise.objective import Level
 from garkcli.design.minimise.result import Minimum
@@ -120,6 +120,7 @@ def find_parameters(
     """
     most = None if order is None else whole(order, "order", 1)
     read = family_of(family)
+    refuse_levels(read)
     if is_rounded(read) and isinstance(read, FamilyFile):
         from garkcli.methodfile.rounded_family import RoundedFamily  # it imports numpy
 
@@ -154,6 +155,7 @@ def minimise(design: Design | AnyFamily, objective: str, seconds: float | None =
     refuse(objective)  # before any work
     if not isinstance(design, Design):
         read = exact_family_of(design, "minimise", is_free=False)
+        refuse_levels(read)
         design = designing.find_parameters(read, seconds=seconds)
     return minimising.minimise(design, objective, seconds)
 
@@ -245,6 +247,7 @@ def stable_values(
         message = f"no stability {wanted!r}"
         raise UsageProblem(message, did_you_mean(wanted, STABILITIES), code="unknown-word")
     read = exact_family_of(family, "stable_values").on_linear_problems
+    refuse_levels(read)
     springs = alone = None
     if slow is not None:
         tableau = TABLEAUS[whose](read.tableau)
@@ -360,7 +363,8 @@ def found_files(
             yield Found(family, best, f"{source}{options}: {claim}", claim + further)
     else:
         for find in found.methods:
-            claim = f"{CLAIMS[found.whose]}: {find.order}{_wanted(family, found.whose)}"
+            beside = "" if find.embedded is None else f", embedded-order: {find.embedded}"
+            claim = f"{CLAIMS[found.whose]}: {find.order}{beside}{_wanted(family, found.whose)}"
             goal = "" if found.objective is None else f" --minimise {found.objective.key}"
             head = (
                 f"{source} --order {found.order}{goal}, start {find.start} of seed {found.seed}\n"

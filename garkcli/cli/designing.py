@@ -58,6 +58,7 @@ def design(given: Given, output: Output) -> int:
     Exit code: 1 no value has the order or stability asked for, 3 a search found nothing, which
     proves nothing.
     """
+    from garkcli.design.member import refuse_levels
     from garkcli.design.minimise.sums import refuse
     from garkcli.methodfile.family import load_family
 
@@ -75,6 +76,8 @@ def design(given: Given, output: Output) -> int:
     family = load_family(given.file, given.settings, given.moment, is_free)
     is_of_springs = given.slow is not None
     _refuse_rounded(family, given)
+    if given.search is None:
+        refuse_levels(family)
     given.order = given.order or family.order
     asked = _asked(family, given)
     if asked is not None and (given.order is None or is_of_springs):

@@ -12,7 +12,7 @@ from flint import fmpq, fmpq_mpoly
 
 from garkcli.deadline import check_time
 from garkcli.design.solutions import Solution, value_at
-from garkcli.errors import NotDecided, VanishingDenominator
+from garkcli.errors import MethodError, NotDecided, VanishingDenominator
 from garkcli.exact.cells import Interval, has, where_not_negative
 from garkcli.exact.field import ONE, ZERO, Algebraic, Number
 from garkcli.exact.matrix import Matrix, Vector
@@ -199,6 +199,18 @@ def method_at(
         for name, x in solution.values.items()
     }
     return member(tableau, ring, values)
+
+
+def refuse_levels(family: Family) -> None:
+    """Refuse a family of which levels are wanted where no search looks for methods.
+
+    Raises:
+        MethodError: there are such.
+    """
+    for key, bound in family.levels:
+        name = key.removeprefix("-")
+        message = f"design: {name}: {bound} is met by a search alone"
+        raise MethodError(message, "add --search N --minimise WHAT", code="wanted-without-meaning")
 
 
 def is_as_stable(family: Family, whose: Whose, solution: Solution, root: RealRoot) -> bool | None:

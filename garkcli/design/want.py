@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import Literal, TypeAlias
 
-from flint import fmpq_mpoly
+from flint import fmpq, fmpq_mpoly
 
 from garkcli.errors import MethodError
 from garkcli.exact.matrix import Matrix, Vector
@@ -81,6 +81,7 @@ class Meaning(Frozen):
         unsettled: keys of wishes whose meaning was not worked out in time.
         real: keys of wishes of which ``zeros`` have what real values satisfy, not complex ones.
         impossible: what is wanted and no value makes true, with the reason.
+        levels: objectives to be made large, by their keys, with the least value of each.
     """
 
     zeros: tuple[object, ...] = ()
@@ -92,6 +93,7 @@ class Meaning(Frozen):
     unsettled: tuple[str, ...] = ()
     real: tuple[str, ...] = ()
     impossible: tuple[str, ...] = ()
+    levels: tuple[tuple[str, fmpq], ...] = ()
 
 
 class Want(Frozen):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 from itertools import chain, pairwise
+from math import factorial
 from typing import Any, cast
 
 from flint import fmpq
@@ -13,8 +14,10 @@ from garkcli.design.dense import DENSE
 from garkcli.design.pairs import pair_conditions
 from garkcli.design.want import Asked, Meaning, Want, stability
 from garkcli.errors import MethodError
-from garkcli.exact.matrix import characteristic_coefficients, dot
+from garkcli.exact.field import ONE
+from garkcli.exact.matrix import apply, characteristic_coefficients, dot
 from garkcli.exact.parametric import fraction
+from garkcli.frozen import replace
 from garkcli.order.simplifying import Defects
 from garkcli.tableau.conjugate import symplectic_defect
 from garkcli.tableau.embedded import with_weights
@@ -22,6 +25,13 @@ from garkcli.tableau.family import Family, Stability
 from garkcli.tableau.forms import pair
 from garkcli.tableau.tableau import Tableau
 
+LEVELS = {
+    "ssp": "the SSP coefficient",
+    "real-interval": "x with |R| ≤ 1 on [−x, 0]",
+    "imaginary-interval": "y with |R| ≤ 1 on [−iy, iy]",
+    "oscillator-interval": "z with bounded powers of the oscillator's step for hω ≤ z",
+}
+"""Levels that may be wanted, in words."""
 MOST_PRODUCTS = 200
 """Most products of blocks that weak stage order asks about."""
 
@@ -135,6 +145,31 @@ def at_infinity(asked: Asked) -> Meaning:
         if not numerator.is_constant():
             nonzero.append(numerator)
     return Meaning(tuple(zeros), tuple(nonzero))
+
+
+def _embedded_at_infinity(asked: Asked) -> Meaning:
+    """R(∞) with the embedded weights in place of b."""
+    return at_infinity(replace(asked, tableau=as_embedded(asked, "embedded-R-infinity")))
+
+
+def _stability_order(asked: Asked) -> Meaning:
+    """R(z) = exp z + O(z^(p+1)): b A^(k−1) 𝟙 = 1/k! for k = 1, …, p."""
+    zeros: list[Any] = []
+    for l in asked.colours:
+        A, b = asked.diagonal(l, "stability-order")
+        v: Any = tuple(ONE for _ in b)
+        for k in range(1, cast("int", asked.value) + 1):
+            zeros.append(dot(b, v) - fmpq(1, factorial(k)))
+            v = apply(A, v)
+    return Meaning(tuple(zeros))
+
+
+def _level(key: str, asked: Asked) -> Meaning:
+    """A level of the whole method that is at least a number."""
+    if len(asked.colours) < asked.tableau.size or not isinstance(asked.value, fmpq):
+        message = f"design: {key} is a rational number, and of the whole method"
+        raise MethodError(message, f"write {key}: 3/2", code="wanted-without-meaning")
+    return Meaning(levels=((f"-{key}", asked.value),))
 
 
 def _stage_order(asked: Asked) -> Meaning:
@@ -260,6 +295,13 @@ WANTS = {
         Want("symplectic", "flag", "the method is symplectic", _symplectic),
         Want("stiffly-accurate", "flag", "the last row of A is b", _stiffly_accurate),
         Want("R-infinity", "number", "the stability function at infinity", at_infinity),
+        Want(
+            "embedded-R-infinity",
+            "number",
+            "the same with the embedded weights in place of b",
+            _embedded_at_infinity,
+        ),
+        Want("stability-order", "count", "R(z) = exp z + O(z^(p+1))", _stability_order),
         Want("stage-order", "count", "B(q) and C(q)", _stage_order),
         Want(
             "weak-stage-order",
@@ -305,6 +347,10 @@ WANTS = {
             "flag",
             "bounded on the oscillator for every step size",
             partial(_oscillating, "i-stable"),
+        ),
+        *(
+            Want(key, "number", f"{what}, at least; for searches", partial(_level, key))
+            for key, what in LEVELS.items()
         ),
         *DENSE,
     )

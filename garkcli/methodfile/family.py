@@ -241,6 +241,7 @@ def _family(
         unsettled=meaning.unsettled,
         real=meaning.real,
         impossible=meaning.impossible,
+        levels=meaning.levels,
         embedded_order=wishes.count("embedded-order"),
         wanted_at=reader.place_of("design"),
         parameters_at=reader.place_of("parameters"),

@@ -90,6 +90,7 @@ class Family(Frozen, kw_only=True):
         real: the keys of requirements whose ``relations`` hold for real values only.
         further: its embedded weights and its dense output.
         impossible: requirements that no value meets, with the reason.
+        levels: the required levels, such as -ssp, each with the least value.
         embedded_order: the required order of the embedded weights, if the file has one.
     """
 
@@ -110,6 +111,7 @@ class Family(Frozen, kw_only=True):
     real: tuple[str, ...] = ()
     further: Further = NOTHING
     impossible: tuple[str, ...] = ()
+    levels: tuple[tuple[str, fmpq], ...] = ()
     embedded_order: int | None = None
 
     @property

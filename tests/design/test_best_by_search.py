@@ -5,6 +5,7 @@ are known.
 from __future__ import annotations
 
 import json
+import re
 import sys
 from pathlib import Path
 from typing import Any
@@ -13,7 +14,7 @@ import numpy as np
 import pytest
 from flint import fmpq
 
-from garkcli import load, loads_family, minimise, search_methods
+from garkcli import find_parameters, load, loads, loads_family, minimise, search_methods
 from garkcli.design.member import further_member, member
 from garkcli.design.minimise.measures import MEASURES
 from garkcli.design.minimise.objective import Level, Measure, Objective, Subject, Sum
@@ -22,8 +23,8 @@ from garkcli.design.search.goals import meant
 from garkcli.design.search.optimum import Program
 from garkcli.design.search.search import Search
 from garkcli.design.search.tasks import HIGHEST, Least
-from garkcli.errors import UsageProblem
-from garkcli.methodfile.family import FamilyFile
+from garkcli.errors import MethodError, UsageProblem
+from garkcli.methodfile.family import FamilyFile, with_values
 from garkcli.order.constants import error_constants
 from garkcli.problems.draw import Draw
 from garkcli.report.search import _shown
@@ -481,3 +482,56 @@ def test_processes_do_not_change_what_is_found(tmp_path: Path) -> None:
     for report in (one, two):
         del report["seconds"]
     assert one == two
+
+
+@pytest.mark.parametrize(
+    ("key", "bound"), [("ssp", "3/2"), ("real-interval", "7/2"), ("imaginary-interval", "12/5")]
+)
+def test_levels_may_be_wanted(key: str, bound: str) -> None:
+    """The best method has the level, exactly; the least error without it has not."""
+    text = "unknown: {stages: 4, shape: explicit}\ndesign: {order: 3"
+    level = meant(f"-{key}", loads_family(f"{text}}}").tableau)
+    assert isinstance(level, Level)
+
+    def size(wanted: str, objective: str) -> float:
+        family = loads_family(f"{text}{wanted}}}")
+        [method] = search_methods(family, 3, 8, objective=objective, most=1).methods
+        found = search_files(method, family)
+        value = level.shown(level.value(found.tableau))
+        assert value is not None
+        return float(value.ball(64))
+
+    assert size(f", {key}: {bound}", "largest") >= float(fmpq(*map(int, bound.split("/"))))
+    assert size("", "largest") < float(fmpq(*map(int, bound.split("/"))))
+
+
+def search_files(method: Any, family: FamilyFile) -> Any:
+    """The file of a method that a search has found."""
+    return loads(with_values(family, method.values, "found", "order: 3"))
+
+
+def test_levels_are_refused_without_a_search(tmp_path: Path) -> None:
+    """With words and a cure, in the command and in Python."""
+    text = SSP33.replace("order: 3", "order: 3, ssp: 1/2")
+    file = tmp_path / "ssp.yaml"
+    file.write_text(text, encoding="utf-8")
+    result = gark("design", str(file))
+    assert result.code == 2
+    assert "ssp: 1/2 is met by a search alone" in result.err
+    for call in (find_parameters, lambda x: minimise(x, "error")):
+        with pytest.raises(MethodError, match="by a search alone"):
+            call(loads_family(text))
+
+
+def test_emitted_pairs_claim_their_embedded_order(tmp_path: Path) -> None:
+    """By the certificate of the embedded weights; gark check confirms it."""
+    file = tmp_path / "pair.yaml"
+    file.write_text(PAIR, encoding="utf-8")
+    made = tmp_path / "made.gark.yaml"
+    result = gark("design", str(file), "--search", "4", "--emit", str(made))
+    assert result.code == 0, result.err
+    text = made.read_text(encoding="utf-8")
+    assert re.search(r"order: 3, embedded-order: [23]", text)
+    check = gark("check", str(made))
+    assert check.code == 0
+    assert re.search(r"claims hold +order: 3, embedded-order: [23]", check.out)

@@ -13,8 +13,11 @@ from garkcli.design.design import Design, find_parameters
 from garkcli.design.solutions import value_at
 from garkcli.design.wants import WANTS
 from garkcli.errors import MethodFileError
+from garkcli.methodfile.build import MethodFile
 from garkcli.methodfile.family import loads_family, with_values
 from garkcli.order.simplifying import simplifying
+from garkcli.stability.linear import stability_function
+from garkcli.tableau.embedded import Weights, with_weights
 from tests.cli.harness import gark
 
 SDIRK2 = "unknown: {stages: 2, shape: sdirk}\n"
@@ -355,3 +358,40 @@ def test_ranges_that_are_refused(ends: str, why: str) -> None:
         )
     with pytest.raises(MethodFileError, match=why):
         loads_family(f"parameters: {{g: {{free: true, range: {ends}}}}}\nA: [[g]]\nb: [1]\n")
+
+
+def test_the_order_of_the_stability_function() -> None:
+    """R(z) of four explicit stages of order 3 is that of RK4 where its own order is 4."""
+    text = (
+        "unknown: {stages: 4, shape: explicit}\n"
+        "design: {order: 3, stability-order: 4, fix: {c2: 1/2, c3: 3/4, c4: 1, a42: 1/10, b4: 1/5}}"
+    )
+    found = find_parameters(loads_family(text), 3)
+    methods = [loads(with_values(found.family, x.values, "", "")) for x in accepted_methods(found)]
+    assert methods
+    for method in methods:
+        R = stability_function(method.tableau)
+        assert list(R.numerator.coefficients) == [1, 1, fmpq(1, 2), fmpq(1, 6), fmpq(1, 24)]
+    assert {find_order(x).order for x in methods} == {3}
+
+
+def test_embedded_weights_that_damp() -> None:
+    """R̂(∞) = 0: the numerator of R̂ has the smaller degree."""
+    text = (
+        "unknown: {stages: 2, shape: sdirk, embedded: true}\n"
+        "design: {order: 2, embedded-order: 1, embedded-R-infinity: 0, fix: {gamma: 1/3, c2: 1}}"
+    )
+    found = find_parameters(loads_family(text), 2)
+    [chosen] = accepted_methods(found)
+    method = loads(with_values(found.family, chosen.values, "", ""))
+    assert method.embedded is not None
+    R = stability_function(with_weights(method.tableau, found_weights(method)))
+    assert R.numerator.degree < R.denominator.degree
+    assert stability_function(method.tableau).numerator.degree == 2
+
+
+def found_weights(method: MethodFile) -> Weights:
+    """The embedded weights of a method of one colour."""
+    weights = method.further.embedded
+    assert weights is not None
+    return weights

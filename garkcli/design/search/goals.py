@@ -13,7 +13,12 @@ from flint import fmpq
 
 from garkcli.design.minimise.measures import at_infinity, coefficients_of, numbers_of
 from garkcli.design.minimise.objective import Either, Level, Objective, Single, Subject, Sum
-from garkcli.design.minimise.objectives import oscillator_of, refuse_one_colour, refuse_partitioned
+from garkcli.design.minimise.objectives import (
+    OBJECTIVES,
+    oscillator_of,
+    refuse_one_colour,
+    refuse_partitioned,
+)
 from garkcli.design.minimise.sums import Wanted, objective_of
 from garkcli.design.search.one_point import Functions
 from garkcli.design.search.one_point import Matrix as Entries
@@ -189,6 +194,12 @@ def terms_of(wanted: Wanted, tableau: Tableau) -> list[tuple[fmpq, Single]]:
         return list(wanted.terms)
     one = wanted.meant(tableau) if isinstance(wanted, Either) else wanted
     return [(fmpq(-1 if isinstance(one, Level) else 1), one)]
+
+
+def levels_of(family: Family) -> list[tuple[Level, fmpq]]:
+    """The levels that a family is to have, each with the least value."""
+    found = [(OBJECTIVES[key], bound) for key, bound in family.levels]
+    return [(x, bound) for x, bound in found if isinstance(x, Level)]
 
 
 def meant(name: str, tableau: Tableau) -> Single | Sum:

@@ -14,7 +14,7 @@ from garkcli.deadline import check_time
 from garkcli.design.member import not_negative
 from garkcli.design.minimise.objective import Measure, Single, Subject, Sum
 from garkcli.design.search.descent import descended
-from garkcli.design.search.goals import AStable, Setting, Trees, goal_of, terms_of
+from garkcli.design.search.goals import AStable, Setting, Trees, goal_of, levels_of, terms_of
 from garkcli.design.search.least_squares import least_squares
 from garkcli.design.search.one_point import Functions
 from garkcli.design.search.points import Fixed, Fixings, rank
@@ -38,6 +38,10 @@ ROUNDING = 1e-17
 """A smaller sum of squares may be zero."""
 LARGEST = 20.0
 """Unknowns are no larger."""
+INSIDE = 1e-7
+"""Levels that are wanted are larger by this part, and entries that must not be negative for an SSP
+coefficient by a tenth: exact numbers nearby must not have less.
+"""
 MARGIN = 1e-6
 """Positive functions are at least so large."""
 CLOSE = 1e-12
@@ -101,7 +105,14 @@ class Program:
         self._own = np.r_[0 : last.start, trees : len(wide)]
         subject = Subject(conditions.tableau, order, family.further, family.embedded_order)
         self._setting = Setting(subject, ring, self._trees)
-        self._caps: tuple[Equations, ...] = ()
+        self._caps: tuple[Equations, ...] = tuple(
+            capped(
+                goal_of(level, self._setting),
+                as_float(bound) * (1 + INSIDE),
+                INSIDE / 10 if level.key == "-ssp" else 0.0,
+            )
+            for level, bound in levels_of(family)
+        )
         self._aim(objective)
         positive = polynomial_functions(family.positive, ring)
         self._signs = Functions(
@@ -132,7 +143,7 @@ class Program:
         other = copy(self)
         if cap is not None:
             one, bound = cap
-            other._caps = (capped(goal_of(one, self._setting), bound),)
+            other._caps = (*self._caps, capped(goal_of(one, self._setting), bound))
         other._aim(objective)
         return other
 

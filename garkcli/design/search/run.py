@@ -50,6 +50,8 @@ class Method(Frozen):
         residual: a bound on all residuals up to the order; "0" where they vanish.
         objective: what was minimised, at the method, as a decimal or ``infinity``; None where
             nothing was.
+        embedded: the order of the embedded weights: the exact one, or that of the conditions that
+            were solved; None if the file wants none.
     """
 
     start: int
@@ -58,6 +60,7 @@ class Method(Frozen):
     values: Mapping[str, str]
     residual: str
     objective: str | None = None
+    embedded: int | None = None
 
     @property
     def is_exact(self) -> bool:
@@ -227,7 +230,8 @@ def _method(search: Search, find: Find | None) -> object:
         values = {name: decimals(find.digits[name]) for name in search.family.parameters}
     residual = "0" if find.found is not None else RESIDUAL
     objective = None if search.objective is None else search.value(find)
-    return Method(find.start, find.proof, find.order, values, residual, objective)
+    embedded = search.embedded_order(find)
+    return Method(find.start, find.proof, find.order, values, residual, objective, embedded)
 
 
 class Task(Protocol):

@@ -22,7 +22,7 @@ from garkcli.design.member import (
     value_of,
 )
 from garkcli.design.minimise.objective import Level, Measure, Single, Subject, Sum
-from garkcli.design.search.goals import meant, terms_of
+from garkcli.design.search.goals import levels_of, meant, terms_of
 from garkcli.design.search.least_squares import least_squares
 from garkcli.design.search.optimum import Optimum, Program
 from garkcli.design.search.points import Fixings, is_proved, polished
@@ -44,7 +44,9 @@ from garkcli.exact.field import ZERO, Number
 from garkcli.exact.polynomial_text import root_decimal
 from garkcli.exact.roots import RealRoot, square_root
 from garkcli.frozen import Frozen, replace
+from garkcli.order.certificate import find_order
 from garkcli.problems.draw import Draw
+from garkcli.tableau.embedded import with_weights
 from garkcli.tableau.family import Family
 
 if TYPE_CHECKING:
@@ -307,6 +309,17 @@ class Search:
         quotient = one.formula(tableau, self.order, None)
         return RealRoot.rational(quotient.numerator / quotient.denominator)
 
+    def embedded_order(self, find: Find) -> int | None:
+        """The order of the embedded weights of a find: by the certificate where its numbers are
+        exact; None if no order is wanted of them.
+        """
+        wanted, embedded = self.family.embedded_order, self.family.further.embedded
+        if wanted is None or embedded is None or self.whose != "method" or find.found is None:
+            return wanted if self.whose == "method" else None
+        tableau = with_weights(self.family.tableau, embedded)
+        values = find.found.solution.values
+        return find_order(member(tableau, self.family.ring, values)).order
+
     def find(self, start: int, point: list[float]) -> Find | None:
         """What can be proved of a solution in floats; None where it is no solution after all.
 
@@ -358,7 +371,8 @@ class Search:
         if answer == "yes" and is_proved(proving, x, BITS, self._generators.denominators):
             proof = "exists"
         digits = dict(zip(self.family.ring.names, x[:, 0], strict=True))
-        return Find(start, proof, self.order, None, digits, not self.family.stable)
+        is_open = bool(self.family.stable or self.family.levels)
+        return Find(start, proof, self.order, None, digits, is_stable=not is_open)
 
     @cached_property
     def _signs(self) -> Signs:
@@ -403,7 +417,20 @@ class Search:
         if order is None or order.order < self.order:
             return None
         stable = is_as_stable(self.family, self.whose, solution, guess.root)
-        return Find(start, "exact", order.order, Found(solution, order, (0,)), {}, bool(stable))
+        is_meant = bool(stable) and self._has_levels(solution)
+        return Find(start, "exact", order.order, Found(solution, order, (0,)), {}, is_meant)
+
+    def _has_levels(self, solution: Solution) -> bool:
+        """Whether a method is known to have the levels that are wanted."""
+        wanted = levels_of(self.family)
+        if not wanted:
+            return True
+        with suppress(NotDecided):
+            method = method_at(self.tableau, self.family.ring, solution, solution.real[0])
+            if method is not None:
+                sizes = [(level.shown(level.value(method)), bound) for level, bound in wanted]
+                return all(y is None or not y < RealRoot.rational(b) for y, b in sizes)
+        return False
 
 
 def _ball(number: RealRoot | float) -> arb:

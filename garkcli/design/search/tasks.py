@@ -61,14 +61,20 @@ class Height:
         return low
 
 
-def capped(goal: Goal, bound: float) -> Callable[[Array], Gradient]:
-    """The inequalities by which a goal is at most a bound, or a level at least the bound."""
+def capped(goal: Goal, bound: float, margin: float = 0.0) -> Callable[[Array], Gradient]:
+    """The inequalities by which a goal is at most a bound, or a level at least the bound.
+
+    Args:
+        goal: the function.
+        bound: of it.
+        margin: what is left of the inequalities of a level.
+    """
     unit = abs(bound) or 1.0
 
     def at(x: Array) -> Gradient:
         if isinstance(goal, Reach):
             values, slopes = goal.at(np.append(x, bound))
-            return values, slopes[:, :-1]
+            return values - margin, slopes[:, :-1]
         if isinstance(goal, Smooth):
             value, gradient = goal.at(x)
             return np.array([(bound - value) / unit]), -gradient[None] / unit
