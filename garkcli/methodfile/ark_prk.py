@@ -1,4 +1,4 @@
-"""YAML nodes to the forms ``ark`` and ``prk``, whose colours share stages."""
+"""The forms ``ark`` and ``prk``, whose colours share stages."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ ARK = spelled_out.with_coefficients(
     ),
     form=spelled_out.EXAMPLE,
 )
-"""An additive method: its colours share their stages."""
+"""An additive method, whose colours share their stages."""
 PRK = mapping(
     Key(
         "q: {A: [[0], [1]], b: [1]}",
@@ -53,11 +53,11 @@ PRK = mapping(
     ),
     form=_FORM_OF_PRK,
 )
-"""A partitioned method: a tableau for the positions, one for the momenta."""
+"""A partitioned method: a tableau for the positions and one for the momenta."""
 
 
 def ark(at: Reading, node: Node) -> d.ArkText | None:
-    """The form ``ark``: a matrix per colour on one set of stages; None where it makes no method."""
+    """Reads the form ``ark``; None if it is not a method."""
     entries: Found | None = ARK.read(at, node, "ark")
     if entries is None or not {"A", "b"} <= entries.keys():
         return None
@@ -96,7 +96,7 @@ def ark(at: Reading, node: Node) -> d.ArkText | None:
 
 
 def _matrices(at: Reading, node: Node) -> list[Rows] | None:
-    """The matrices as they are; None where A is no list of matrices."""
+    """Returns the matrices as written; None if A is not a list of matrices."""
     items = spelled_out.colours_in(at, node, "A")
     if items and spelled_out.depth_of_lists(node) == 2:
         message = "A is one matrix, and an ark has one per colour"
@@ -109,7 +109,7 @@ def _matrices(at: Reading, node: Node) -> list[Rows] | None:
 
 
 def prk(at: Reading, node: Node, structure: d.Structure) -> d.PrkText | None:
-    """The form ``prk``; its blocks are rectangular unless the structure is general."""
+    """Reads the form ``prk``; its blocks are rectangular unless the structure is general."""
     entries: Found | None = PRK.read(at, node, "prk")
     if entries is None or len(entries) < 2:
         return None
@@ -129,7 +129,7 @@ def prk(at: Reading, node: Node, structure: d.Structure) -> d.PrkText | None:
 
 
 def _part(at: Reading, node: Node, part: str) -> d.ButcherText | None:
-    """Q or p of a prk, its sizes not yet looked at."""
+    """Returns q or p of a prk, before its sizes are checked."""
     entries: Found | None = spelled_out.BUTCHER.read(at, node, f"prk, {part}")
     if entries is None or not {"A", "b"} <= entries.keys():
         return None
@@ -147,7 +147,7 @@ def _part(at: Reading, node: Node, part: str) -> d.ButcherText | None:
 def _fitted(
     at: Reading, text: d.ButcherText, part: str, shape: tuple[int, int], why: str
 ) -> d.ButcherText:
-    """A part whose matrix has the shape that the weights of both ask for."""
+    """Returns a part whose matrix has the shape required by the weights of both parts."""
     keys = key_nodes(text.node)
     A = at.numbers.fitted(text.A, keys.get("A", text.node), f"{part}.A", shape, why)
     if text.c is not None:

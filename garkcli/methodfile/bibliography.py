@@ -1,4 +1,4 @@
-"""Where a method was published, and what else it is called: ``reference`` and ``aliases``."""
+"""The reference and the aliases of a method."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def _year(at: Any, node: Node, where: str) -> str:
 
 
 def _people(at: Any, node: Node, where: str) -> tuple[str, ...]:
-    """Names in a list, or in one text with commas or ``and`` between them."""
+    """Returns names from a list, or from a text with commas or ``and`` between them."""
     if isinstance(node, SequenceNode):
         names = [_text(at, item, where) for item in node.value]
     else:
@@ -110,7 +110,7 @@ _REFERENCE = mapping(
 
 
 def _reference(at: Any, node: Node, where: str) -> tuple[str, Reference | None]:
-    """A reference as text in one line, and its fields where it has them."""
+    """Returns a reference in one line, and its fields if it has any."""
     if not isinstance(node, MappingNode):
         return at.source.scalar(node, where) or "", None
     found: Found = _REFERENCE.read(at, node, where)
@@ -121,11 +121,10 @@ def _reference(at: Any, node: Node, where: str) -> tuple[str, Reference | None]:
 REFERENCE = Kind(
     lambda: {"anyOf": [TEXT.schema(), _REFERENCE.schema()]}, _reference, _REFERENCE.inside
 )
-"""Where a method was published: a text, or the fields of a publication."""
+"""The publication of a method: a text or its fields."""
 
 
 def _aliases(at: Any, node: Node, where: str) -> tuple[str, ...]:
-    """Other names of a method: a list of texts, or one text."""
     source: Source = at.source
     aliases: list[str] = []
     for item in node.value if isinstance(node, SequenceNode) else [node]:
@@ -151,11 +150,10 @@ _ALIAS: Schema = {
 ALIASES = Kind(
     lambda: {"anyOf": [{"type": "array", "items": _ALIAS, "uniqueItems": True}, _ALIAS]}, _aliases
 )
-"""What else a method is called."""
 
 
 def _what_is_wrong(alias: str, before: Sequence[str]) -> tuple[str, str, str] | None:
-    """Why a text is no alias, the cure, and the kind of fault; None where it is one."""
+    """Returns why a text cannot be an alias, the cure and the kind of fault; None if it can."""
     shown = shortened(alias)
     if not alias:
         return "aliases: an empty name", "leave it out", "name-taken"
@@ -171,14 +169,9 @@ def _what_is_wrong(alias: str, before: Sequence[str]) -> tuple[str, str, str] | 
 
 
 def aliases_of(text: str, name: str) -> tuple[str, ...]:
-    """The aliases that the text of a method file gives, of which nothing else is read.
+    """Returns the aliases in the text of a method file, without reading the rest.
 
-    Args:
-        text: of the file.
-        name: what to call it.
-
-    Raises:
-        MethodFileError: it is no YAML, or far from a method file.
+    Raises MethodFileError if the text is not YAML, or far from a method file.
 
     >>> aliases_of("aliases: [DOPRI5, RK45]", "a file")
     ('DOPRI5', 'RK45')
@@ -188,15 +181,10 @@ def aliases_of(text: str, name: str) -> tuple[str, ...]:
 
 
 def reference_of(text: str, name: str) -> tuple[str, Reference | None]:
-    """The reference that the text of a method file gives, in one line and its fields; nothing else
-    is read.
+    """Returns the reference in the text of a method file, in one line and as fields, without
+    reading the rest.
 
-    Args:
-        text: of the file.
-        name: what to call it.
-
-    Raises:
-        MethodFileError: it is no YAML, or the reference has a fault.
+    Raises MethodFileError if the text is not YAML, or the reference has a fault.
 
     >>> reference_of("reference: Runge 1895", "a file")
     ('Runge 1895', None)
@@ -208,7 +196,6 @@ def reference_of(text: str, name: str) -> tuple[str, Reference | None]:
 
 
 def _value_of(source: Source, name: str, kind: Kind) -> Any:
-    """The value of a key of the file; None where there is none."""
     root = source.compose()
     if root is None:
         raise source.error()

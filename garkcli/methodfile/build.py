@@ -1,4 +1,4 @@
-"""A description to a method: the one place where files meet mathematics."""
+"""The method that a description stands for: the only module where files meet mathematics."""
 
 from __future__ import annotations
 
@@ -48,14 +48,9 @@ Blocks: TypeAlias = dict[tuple[int, int], Matrix]
 
 
 class BlockBuilder:
-    """Makes the off-diagonal blocks of one file.
+    """Makes the off-diagonal blocks of a file.
 
-    Args:
-        source: where what the mathematics refuses becomes a fault.
-        values: of the coefficients.
-        text: what the file says.
-        methods: the diagonal ones.
-        tolerance: the rounding of their coefficients.
+    Errors of the mathematics become faults of ``source``.
     """
 
     def __init__(
@@ -73,11 +68,9 @@ class BlockBuilder:
         self.tolerance = tolerance
 
     def built(self, is_general: bool) -> Blocks:
-        """All blocks; the one at which the second colour sees the first where the structure of
-        the problem needs no other.
+        """Returns all blocks, or only the necessary one, where the second colour sees the first.
 
-        Raises:
-            MethodFileError: a block cannot be made.
+        Raises MethodFileError if a block cannot be made.
         """
         blocks: Blocks = {}
         said = set()  # one fault of a rule for several blocks is noted once
@@ -96,7 +89,7 @@ class BlockBuilder:
         return blocks
 
     def _text_of(self, l: int, m: int) -> d.MatrixText | d.RuleText | None:
-        """What the file says of a block: itself, with the opposite one, or of all."""
+        """Returns the text for a block: its own, that of the opposite block, or the default."""
         transfer = self.text.transfer
         own, opposite = transfer.blocks.get((l, m)), transfer.blocks.get((m, l))
         if own is None and isinstance(opposite, d.RuleText) and opposite.terms[0][0] in PAIR_RULES:
@@ -104,7 +97,7 @@ class BlockBuilder:
         return own or transfer.default
 
     def _block(self, text: d.MatrixText | d.RuleText | None, l: int, m: int) -> Matrix:
-        """A block that is spelled out, or made by one rule, or by several with weights."""
+        """Returns a block that is spelled out, made by one rule, or a combination of rules."""
         if text is None:
             cure = "give it one, or a default, under transfer"
             raise MethodError("it has no rule", cure, code="missing-key")
@@ -128,10 +121,9 @@ class BlockBuilder:
         return self._rule(rule, text.degree)(self.methods[l], self.methods[m])
 
     def _combined(self, text: d.RuleText, l: int, m: int) -> Matrix:
-        """A combination of blocks by rules.
+        """Returns a combination of blocks by rules.
 
-        Raises:
-            MethodError: its weights do not sum to 1.
+        Raises MethodError if its weights do not sum to 1.
         """
         terms = [
             (self.values.number(x), self._rule(rule)) for rule, x in text.terms if x is not None
@@ -144,12 +136,11 @@ class BlockBuilder:
         return combination(terms, self.methods[l], self.methods[m])
 
     def _rule(self, name: str, degree: int | None = None) -> Rule:
-        """A rule that makes one block, with its degree where it has one."""
         return RULES[name] if name != "legendre" else legendre_rule(self._alone, degree)
 
     @cached_property
     def _alone(self) -> list[AnyTableau]:
-        """The diagonal methods on their own, rounded where the file is."""
+        """The diagonal methods on their own, rounded if the file is."""
         return self.values.once(
             ("alone", id(self.text)),
             lambda: [meant(self.values.alone(method), self.tolerance) for method in self.methods],
@@ -157,10 +148,9 @@ class BlockBuilder:
 
     @cached_property
     def _orders(self) -> list[int]:
-        """Their orders.
+        """The orders of the diagonal methods.
 
-        Raises:
-            MethodError: they have unknowns, or radicals beside these, and no order yet.
+        Raises MethodError for methods with unknowns or radicals.
         """
         numbers = chain.from_iterable((*chain(*x.A), *x.b) for x in self.methods)
         if any(isinstance(x, Parametric) for x in numbers):
@@ -177,7 +167,7 @@ T = TypeVar("T")
 
 
 class MethodFile(GarkMethod, kw_only=True):
-    """One method file, read: the method that it describes, and what else it says.
+    """A method read from a file, with its claims and its bibliography.
 
     Attributes:
         source: the path as given, or ``<stdin>``.
@@ -189,7 +179,7 @@ class MethodFile(GarkMethod, kw_only=True):
         reference: where it was published, in one line.
         description: in whole sentences.
         aliases: what else it is called.
-        bibliography: the fields of the reference; None where it is plain text.
+        bibliography: the fields of the reference; None for plain text.
         printed: the coefficients as they are written.
         left_behind: further weights of methods inside of a construction, which it has not.
         rules: what made blocks between diagonal methods, with its degree where the file has one.
@@ -221,15 +211,9 @@ V = TypeVar("V", bound=Values)
 
 
 class Builder(Generic[V]):
-    """Builds the method that a file, or a part of it, describes; what the mathematics refuses
-    becomes a fault at its place.
+    """Builds the method that a file, or a part of it, describes.
 
-    Attributes:
-        values: of all coefficients.
-        tableau: the method.
-
-    Raises:
-        MethodFileError: the numbers do not make a method.
+    Errors of the mathematics become faults; raises MethodFileError.
     """
 
     def __init__(self, text: d.PartText, values: V) -> None:
@@ -287,7 +271,7 @@ class Builder(Generic[V]):
                 return tableau
 
     def part(self, part: d.PartText) -> Tableau:
-        """A method that another is made from, built as if it stood alone."""
+        """Returns a part of a construction, built as if it stood alone."""
         if id(part) not in self._parts:
             tableau = Builder(part, self.values).tableau
             self._at(part.description.node, lambda: tableau.demand_fields("a construction"))
@@ -296,9 +280,9 @@ class Builder(Generic[V]):
 
     @cached_property
     def further(self) -> Further:
-        """The embedded weights and the dense output, for the colours of the tableau.
+        """The embedded weights and the dense output for the colours of the tableau.
 
-        In a pair V^{l} and F^{l} evaluate at the same stages and have the same weights.
+        In a pair, V^{l} and F^{l} are evaluated at the same stages and have the same weights.
         """
         texts = d.further_of(self.text.description.content)
         if not texts:
@@ -380,7 +364,6 @@ class Builder(Generic[V]):
         return nystrom(matrix(text.Abar), A, c, vector(text.bbar), vector(text.b))
 
     def _beside_nystrom(self, of_q: d.FurtherText, of_v: d.FurtherText) -> Further:
-        """The further weights of a Nyström method."""
         from garkcli.constructions.nystrom import dense_of, weights_of
 
         embedded = dense = None
@@ -393,7 +376,7 @@ class Builder(Generic[V]):
         return Further(embedded, dense)
 
     def _transformed(self, text: d.RosenbrockText, further: Further) -> Further:
-        """The further weights at the stages of the method, with what ``e`` says."""
+        """Returns the further weights of a transformed Rosenbrock method, with those from ``e``."""
         from garkcli.constructions.rosenbrock import transformed_weights
 
         vector = self.values.vector
@@ -404,7 +387,7 @@ class Builder(Generic[V]):
         return transformed_weights(further, self._gamma)
 
     def _at(self, node: Node, make: Callable[[], T]) -> T:
-        """The result of ``make``; what it refuses becomes a fault at ``node``."""
+        """Returns the result of ``make``; its errors become faults at ``node``."""
         try:
             return make()
         except MethodFileError:
@@ -414,7 +397,6 @@ class Builder(Generic[V]):
             raise self.source.error() from None
 
     def _plain(self, text: d.ButcherText) -> tuple[Matrix, Vector, Vector | None]:
-        """A, b and c of one spelled-out method."""
         c = None if text.c is None else self.values.vector(text.c)
         return self.values.matrix(text.A), self.values.vector(text.b), c
 
@@ -448,16 +430,13 @@ class Builder(Generic[V]):
 def part_of(
     source: Source, numbers: Numbers, description: d.Description, why: str = ""
 ) -> d.PartText:
-    """A description with its members of families, and with the nodes of members taken at points.
+    """Returns a description with its members of families, and their nodes as coefficients if
+    needed.
 
-    The entries of a spelled-out block, and weights that a file has beside a member, refer to single
-    stages, so the methods need one coordinate a stage.
+    The entries of spelled-out blocks, and weights beside a member, refer to single stages, so that
+    all methods need one coordinate for each stage.
 
-    Args:
-        source: the file.
-        numbers: the coefficients of the file, to which the nodes are added.
-        description: of the method.
-        why: what needs the nodes of all members; empty where nothing does.
+    ``why`` is what needs the nodes of all members, or empty.
     """
     content = description.content
     if not isinstance(content, d.MethodsText):
@@ -486,8 +465,9 @@ def part_of(
 
 
 def _family_nodes(text: d.FamilyText, space: StageSpace, numbers: Numbers, why: str) -> Row | None:
-    """The nodes of a family as coefficients; None where there is nothing to spell out, or a fault
-    where it cannot be.
+    """Returns the nodes of a family as coefficients; None if nothing has to be spelled out.
+
+    Nodes that cannot be spelled out are a fault.
     """
     from garkcli.tableau.polynomial_space import PolynomialSpace, simple_nodes  # few files need it
 

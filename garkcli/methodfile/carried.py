@@ -1,6 +1,4 @@
-"""Files made from the text of another: what it says besides its coefficients, as that of the
-conjugate, with other claims.
-"""
+"""Files made from the text of another: the conjugate, other claims, keys that are kept."""
 
 from __future__ import annotations
 
@@ -20,7 +18,7 @@ _WIDTH = 110
 
 
 def lines_of(method: MethodFile, keys: Sequence[str]) -> str:
-    r"""The lines of some keys as they are in the file of a method; empty where it has none.
+    r"""Returns the lines of some keys as they are in the file of a method; empty without them.
 
     >>> from garkcli.methodfile.load import loads
     >>> euler = loads("{A: [[0]], b: [1], reference: L. Euler 1768, expect: {order: 1}}")
@@ -31,11 +29,9 @@ def lines_of(method: MethodFile, keys: Sequence[str]) -> str:
 
 
 def claim_lines(method: MethodFile, names: Mapping[str, str]) -> str:
-    """The lines of ``expect`` with some of the claims of a method.
+    """Returns the lines of ``expect`` for some of the claims of a method.
 
-    Args:
-        method: the file.
-        names: the claims that are kept, with what they are called now.
+    ``names`` maps the claims that are kept to their new names.
     """
     for key, claims in _entries(method):
         if key.value == "expect" and isinstance(claims, MappingNode):
@@ -49,7 +45,7 @@ def claim_lines(method: MethodFile, names: Mapping[str, str]) -> str:
 
 
 def parameter_names(text: str, source: str) -> list[str]:
-    """The parameters that the text of a file names; none where it is not readable as YAML.
+    """Returns the parameters that the text of a file names; none if it is not YAML.
 
     >>> parameter_names("{parameters: {t: free}, A: [[t]], b: [1]}", "it")
     ['t']
@@ -60,7 +56,7 @@ def parameter_names(text: str, source: str) -> list[str]:
 
 
 def is_transformed(method: MethodFile) -> bool:
-    """Whether the file of a Rosenbrock method has it as programs store it."""
+    """Returns whether a Rosenbrock method is written in transformed form, as in programs."""
     root = Source(method.source, method.text).compose()
     form = None if root is None else _mapping_under(root, "rosenbrock")
     return form is not None and _mapping_under(form, "transformed") is not None
@@ -85,10 +81,10 @@ _DROPPED = (*("expect", "conjugate", "name", "aliases", "description"), *BESIDE)
 
 
 def write_conjugate_of(method: MethodFile, name: str) -> str:
-    """The file of ``method`` with ``conjugate: true`` added, or taken away where it is.
+    """Returns the file of the method with ``conjugate: true`` added, or removed.
 
-    Exact for every method: nothing is spelled out. Claims and description are left behind, as they
-    are about the other method, and so are weights that only the method itself has.
+    This is exact for every method, as nothing is spelled out. Claims and the description are
+    dropped, because they are about the other method, and so are embedded and dense weights.
     """
     kept = [(key, _without_further(x)) for key, x in _entries(method) if key.value not in _DROPPED]
     kept = [(key, x) for key, x in kept if key.value != "tolerance" or x.value]
@@ -98,7 +94,7 @@ def write_conjugate_of(method: MethodFile, name: str) -> str:
 
 
 def _without_further(node: Node) -> Node:
-    """The node without embedded weights and dense output in the mappings of it."""
+    """Returns the node without embedded weights and dense output in its mappings."""
     if isinstance(node, SequenceNode):
         items = [_without_further(item) for item in node.value]
         return SequenceNode(node.tag, items, flow_style=node.flow_style)
@@ -114,22 +110,15 @@ def _scalar(text: str) -> ScalarNode:
 
 INDENT = "  "
 Edit: TypeAlias = tuple[int, int, str]
-"""The place in a text and its new content."""
+"""A place in a text and its new content."""
 
 
 def write_claims(source: str, text: str, claims: Mapping[str, str]) -> str:
-    r"""The text of a method file with other claims.
+    r"""Returns the text of a method file with other claims.
 
-    A claim that is there has its value replaced, and one that has no truth is left as it is;
-    new ones follow the last. Comments, blanks and everything else stay.
-
-    Args:
-        source: what the file is called.
-        text: of the file, which can be read.
-        claims: values as they are written in YAML, by key.
-
-    Raises:
-        MethodFileError: the file is one line of braces, where nothing can be added below.
+    A claim in the file gets the new value; one without a new value stays. New claims follow the
+    last one. Comments, blanks and everything else stay. Raises MethodFileError if the file is one
+    line in braces, below which nothing can be added.
 
     >>> print(write_claims("a file", "A: [[0]]\nb: [1]", {"order": "1"}))
     A: [[0]]
@@ -151,7 +140,6 @@ def write_claims(source: str, text: str, claims: Mapping[str, str]) -> str:
 
 
 def _mapping_under(root: MappingNode, name: str) -> MappingNode | None:
-    """The mapping under a key of a file; None where there is none."""
     found = (x for key, x in root.value if key.value == name and isinstance(x, MappingNode))
     return next(found, None)
 
@@ -159,7 +147,7 @@ def _mapping_under(root: MappingNode, name: str) -> MappingNode | None:
 def _with_block(
     source: str, text: str, root: MappingNode, empty: Node | None, claims: Mapping[str, str]
 ) -> str:
-    """A file without claims: they are at its end."""
+    """Returns a file without claims, with the claims added at the end."""
     if root.flow_style or empty is not None:
         fault = Remark(
             "the claims have no place in this file",
@@ -180,7 +168,7 @@ def _with_block(
 
 
 def _replacements(text: str, expect: MappingNode, claims: Mapping[str, str]) -> Iterator[Edit]:
-    """Other values for claims that are there."""
+    """Yields the edits for claims that are in the file."""
     for key, node in expect.value:
         value = claims.get(key.value)
         is_plain = isinstance(node, ScalarNode)
@@ -191,7 +179,7 @@ def _replacements(text: str, expect: MappingNode, claims: Mapping[str, str]) -> 
 
 
 def _additions(text: str, expect: MappingNode, claims: Mapping[str, str]) -> Iterator[Edit]:
-    """Claims after the last one: behind it in braces, on lines of their own below it otherwise."""
+    """Yields the edits for new claims after the last one, in braces or on lines below it."""
     there = {key.value for key, _ in expect.value}
     new = [f"{key}: {x}" for key, x in claims.items() if key not in there]
     first, _ = expect.value[0]
@@ -209,13 +197,12 @@ def _additions(text: str, expect: MappingNode, claims: Mapping[str, str]) -> Ite
 
 
 def _line_end(text: str) -> str:
-    """How the lines of a file end."""
     return "\r\n" if "\r\n" in text else "\n"
 
 
 def _end(text: str, node: Node) -> int:
-    """Where a value ends; a list of lines ends with its last entry, in spite of comments below
-    it.
+    """Returns the end of a value; that of a block list is the end of its last entry, before
+    comments below it.
     """
     while isinstance(node, SequenceNode) and node.value:
         if node.flow_style:

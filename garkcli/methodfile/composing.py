@@ -1,9 +1,8 @@
 """YAML text to nodes with positions, by PyYAML's parser in Python, within limits.
 
-Composing keeps what ``safe_load`` loses: where each value is, keys that occur twice, and the
-text of a number as it was written. PyYAML's loader in Python is used whatever there is in C: the
-two word their faults differently and count columns differently, and a file has to be met with the
-same answer on every machine.
+Nodes keep what ``safe_load`` loses: the positions of values, repeated keys, and the text of
+numbers. PyYAML's loader in Python is used even where the one in C is available: their messages and
+columns differ, and a file should be answered alike on every machine.
 """
 
 from __future__ import annotations
@@ -18,20 +17,20 @@ from yaml.nodes import MappingNode, Node, ScalarNode
 from garkcli.errors import Remark, printable
 
 MAX_NODES = 50_000
-"""Most YAML values in one file, with aliases counted each time they are used."""
+"""The largest number of YAML values in a file, with aliases counted at each use."""
 MAX_NESTING = 12
-"""Deepest nesting of lists and mappings; files need six."""
+"""The deepest nesting of lists and mappings; files need six."""
 
 
 def position(mark: Any) -> tuple[int, int]:
-    """Line and column of a mark of PyYAML, from 1; those of the start where there is none."""
+    """Returns the line and the column of a mark, from 1; 1 and 1 without a mark."""
     if mark is None:
         return 1, 1
     return mark.line + 1, mark.column + 1
 
 
 class TooLargeError(Exception):
-    """A file beyond the limits: where, what there is too much of, and the cure."""
+    """A file beyond the limits."""
 
     def __init__(self, at: Node | yaml.Event, message: str, cure: str) -> None:
         super().__init__(message)
@@ -40,7 +39,7 @@ class TooLargeError(Exception):
 
 
 class _Composer(yaml.SafeLoader):
-    """PyYAML's composer; it refuses too many values and too deep nesting as it meets them."""
+    """PyYAML's composer, which refuses too many values and too deep nesting."""
 
     def __init__(self, text: str) -> None:
         super().__init__(text)
@@ -52,7 +51,6 @@ class _Composer(yaml.SafeLoader):
         return event
 
     def compose_node(self, parent: Node | None, index: int) -> Node | None:
-        """One value and those in it."""
         self._count += 1
         if self._count > MAX_NODES:
             raise TooLargeError(self._next_event(), _TOO_MANY, "no method needs that")
@@ -81,11 +79,11 @@ _YAML_CURES = (
     ("duplicate anchor", "give every anchor a name of its own"),
     ("undefined tag", "leave the tag out, or quote the text"),
 )
-"""What is behind the words of PyYAML."""
+"""Explanations of PyYAML's messages."""
 
 
 def yaml_fault(error: yaml.MarkedYAMLError) -> Remark:
-    """What PyYAML complains about, where, and its cure."""
+    """Returns an error of PyYAML as a fault, with a cure."""
     mark = error.problem_mark or error.context_mark
     context = str(error.context or "")
     problem = str(error.problem or context)
@@ -102,7 +100,7 @@ def yaml_fault(error: yaml.MarkedYAMLError) -> Remark:
 
 
 def composed(text: str) -> Node | Remark | None:
-    """The one document of a text, or what is wrong with it; None where there is nothing in it."""
+    """Returns the document of a text, or its fault; None if the text is empty."""
     try:
         return compose(text)
     except TooLargeError as error:
@@ -121,7 +119,7 @@ def composed(text: str) -> Node | Remark | None:
 
 
 def compose(text: str) -> Node | None:
-    """The one document of a text, within the limits; None where there is nothing in it."""
+    """Returns the document of a text within the limits; None if the text is empty."""
     composer = _Composer(text)
     try:
         root: Node | None = composer.get_single_node()
@@ -133,7 +131,7 @@ def compose(text: str) -> Node | None:
 
 
 def _walk(root: Node) -> None:
-    """Count every value as often as it is used, so that no alias multiplies work unseen."""
+    """Counts each value at every use, so that aliases cannot multiply work unnoticed."""
     count = 0
     pending: list[tuple[Node, int]] = [(root, 1)]
     while pending:
@@ -150,8 +148,8 @@ def _walk(root: Node) -> None:
 
 
 def folded_place(text: str, node: ScalarNode, offset: int) -> tuple[int, int]:
-    """Where a value over several lines has its character ``offset``: YAML changes nothing but the
-    space between.
+    """Returns the line and the column of character ``offset`` of a folded value: YAML only changes
+    the space between the characters.
     """
     position = node.start_mark.index
     if node.style in {"|", ">"}:
@@ -170,7 +168,7 @@ def folded_place(text: str, node: ScalarNode, offset: int) -> tuple[int, int]:
 
 
 def place_of_sign(text: str, sign: object) -> tuple[int, int]:
-    """Where a sign that YAML refuses is first; one at the start of the text marks its bytes."""
+    """Returns the place of the first refused character; one at the start marks the encoding."""
     code = ord(sign) if isinstance(sign, str) and len(sign) == 1 else sign
     position = 0
     if isinstance(code, int):
@@ -184,7 +182,7 @@ def _line_and_column(text: str, position: int) -> tuple[int, int]:
 
 
 MOST_LOOKED_AT = 20_000
-"""Characters of a file that are examined."""
+"""The number of characters of a file that are examined."""
 _READS = "gark import {file} reads it"
 _PASTED = "gark new FILE --tableau - < {file} makes a method file of it"
 _PROGRAMS = (
@@ -220,22 +218,19 @@ _LOOKS: tuple[tuple[str, str], ...] = (
         f"this looks like a program: {_READS}; a method file has A: in place of A =",
     ),
 )
-"""What a text has that is none of a method file, and the cure; the first that is found counts."""
+"""Patterns of texts that are not method files, and the cures; the first that matches counts."""
 _WITHOUT_KEYS: tuple[tuple[str, str], ...] = (
     (r"^[ \t]*([-+0-9/.]*[0-9][ \t]*[|│]|[|│][ \t]*[-+0-9])", _PASTED),
     (r"^[-+0-9/.]*,[-+0-9/., ]*$", f"this looks like CSV: {_READS}"),
     (r"\A[-+0-9/. \t\n]+\Z", _PASTED),
 )
-"""The same of a text that is read as YAML, but has no keys."""
+"""Patterns of other texts that are YAML without keys, and the cures."""
 
 
 def cure_of_foreign(text: str, name: str, is_yaml: bool) -> str:
-    r"""What to do with a file that is no YAML mapping; empty where it looks like nothing known.
+    r"""Returns a cure for a file that is not a YAML mapping; empty if its kind is not recognised.
 
-    Args:
-        text: of the file.
-        name: what it is called.
-        is_yaml: whether it is YAML all the same, a text or a list.
+    ``is_yaml`` says that it is a YAML text or list.
 
     >>> cure_of_foreign("A = [0 0; 1/2 0];", "m.txt", True)
     'this looks like a program: gark import m.txt reads it; a method file has A: in place of A ='

@@ -1,4 +1,4 @@
-"""YAML nodes to the form ``derivatives``: methods that use derivatives of f along the solution."""
+"""The form ``derivatives``: methods that use derivatives of f along the solution."""
 
 from __future__ import annotations
 
@@ -13,12 +13,11 @@ from garkcli.methodfile.parameters import ROW
 
 _FORM = "give {A: [[[], [1/2]], [[], [1/8]]], b: [[1, 0], [1/6, 1/3]]}: of f, then of f′f, …"
 MOST = 9
-"""Most derivatives."""
+"""The largest number of derivatives."""
 _ARRAY = {"type": "array", "items": {"type": "array"}}
 
 
 def _of_each(schema: g.Schema) -> g.Kind:
-    """A list of something for each derivative."""
     return g.Kind(lambda: {"type": "array", "minItems": 1, "maxItems": MOST, "items": schema})
 
 
@@ -50,11 +49,11 @@ DERIVATIVES = g.mapping(
     ),
     form=_FORM,
 )
-"""A method that uses derivatives."""
+"""A method that uses derivatives of f."""
 
 
 def derivatives(at: Reading, node: Node) -> d.DerivativesText | None:
-    """The form ``derivatives``; None where it makes no method."""
+    """Reads the form ``derivatives``; None if it is not a method."""
     found: g.Found | None = DERIVATIVES.read(at, node, "derivatives")
     if found is None or not found.is_right:
         return None
@@ -89,7 +88,7 @@ def derivatives(at: Reading, node: Node) -> d.DerivativesText | None:
 
 
 def _weights(at: Reading, node: Node, name: str, derivatives: int) -> Rows:
-    """A row for each matrix."""
+    """Returns the weights, one row for each matrix."""
     rows = at.numbers.matrix(node, name)
     if len(rows) != derivatives:
         matrices = counted(derivatives, "matrix", "matrices")
@@ -100,7 +99,7 @@ def _weights(at: Reading, node: Node, name: str, derivatives: int) -> Rows:
 
 
 def _matrix(at: Reading, node: Node, name: str, stages: int) -> Rows:
-    """The matrix with zeros where it ends early."""
+    """Returns the matrix, filled with zeros."""
     rows = at.numbers.matrix(node, name) if at.source.items(node, name, _FORM) else ()
     longest = max([len(rows), *map(len, rows)], default=0)
     if longest > stages:

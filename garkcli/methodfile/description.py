@@ -1,4 +1,4 @@
-"""What a method file says, before any mathematics: plain data with positions."""
+"""The content of a method file as data with positions, before any mathematics."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ Structure: TypeAlias = Literal["general", "semi-separable", "separable", "nystro
 STRUCTURES: tuple[Structure, ...] = ("general", "semi-separable", "separable", "nystrom")
 Construction: TypeAlias = Literal["compose", "adjoint", "extrapolate", "splitting", "multirate"]
 CONSTRUCTIONS: tuple[Construction, ...] = get_args(Construction)
-"""The forms that make a method from others."""
+"""The forms that construct a method from others."""
 OwnForm: TypeAlias = Literal[
     "methods",
     "tableau",
@@ -40,19 +40,19 @@ OwnForm: TypeAlias = Literal[
 Form: TypeAlias = OwnForm | Construction
 FORMS: tuple[Form, ...] = (*get_args(OwnForm), *CONSTRUCTIONS)
 PLAIN = ("A", "b", "c")
-"""The keys of a Butcher tableau that is at the top of a file."""
+"""The keys of a Butcher tableau at the top of a file."""
 BESIDE = ("embedded", "dense")
-"""Further weights, which are beside b."""
+"""Further weights beside b."""
 
 
 MAX_COLOURS = 200
-"""Most colours of a method; there are as many blocks as pairs of them."""
+"""The largest number of colours; the number of blocks is its square."""
 MAX_ENTRIES = 1_000_000
-"""Most entries of all blocks that transfer rules make."""
+"""The largest number of entries in all blocks made by transfer rules."""
 
 
 def block_name(l: int, m: int) -> str:
-    """What messages call a block; colours are counted from 0.
+    """Returns the name of a block in messages; colours are counted from 0.
 
     >>> block_name(0, 1)
     'A^{1,2}'
@@ -61,7 +61,7 @@ def block_name(l: int, m: int) -> str:
 
 
 def of_colour(letter: str, l: int) -> str:
-    """What messages call the weights, nodes or matrix of one colour, counted from 0.
+    """Returns the name of the weights, nodes or matrix of a colour, counted from 0, in messages.
 
     >>> of_colour("b", 0)
     'b^{1}'
@@ -70,12 +70,10 @@ def of_colour(letter: str, l: int) -> str:
 
 
 class FurtherText(Frozen):
-    """Further weights of one colour, each None where the file has none.
+    """Further weights of one colour, or None: embedded ones, one for each stage, and for dense
+    output the coefficients of θ, θ², … for each stage.
 
-    Attributes:
-        embedded: one per stage.
-        dense: of dense output, the coefficients of θ, θ², … a stage.
-        node: where the first of them is.
+    ``node`` is that of the first of them.
     """
 
     embedded: Row | None = None
@@ -89,14 +87,8 @@ NOTHING_FURTHER = FurtherText()
 class FamilyText(Frozen):
     """A member of a family.
 
-    Attributes:
-        node: the place in the file.
-        name: of the family.
-        chosen: its size and what else it is chosen by, as it is written; with the name they say
-            which member it is.
-        recipe: how it is made.
-        numbers: what it is made of besides rational numbers.
-        further: what is beside it.
+    ``chosen`` has its size and the other options as written, which with the name determine the
+    member; ``numbers`` are its irrational numbers.
     """
 
     node: Node
@@ -108,12 +100,11 @@ class FamilyText(Frozen):
 
     @property
     def stages(self) -> int:
-        """How many stages it has."""
         return self.recipe.stages
 
 
 class ButcherText(Frozen):
-    """A spelled-out method: A with a row per stage, b, and c where the file gives it."""
+    """A spelled-out method."""
 
     node: Node
     name: str
@@ -124,9 +115,7 @@ class ButcherText(Frozen):
 
 
 class RuleText(Frozen):
-    """A block made by rules: ``(rule, weight)``, the weight None for a rule on its own; the degree
-    of that, where the file gives it.
-    """
+    """A block made by rules with weights, None for a single rule, which may have a degree."""
 
     node: Node
     terms: tuple[tuple[str, Entry | None], ...]
@@ -134,7 +123,7 @@ class RuleText(Frozen):
 
 
 class MatrixText(Frozen):
-    """A block spelled out."""
+    """A spelled-out block."""
 
     node: Node
     rows: Rows
@@ -146,21 +135,21 @@ BlockTexts: TypeAlias = dict[tuple[int, int], BlockText]
 
 
 class TransferText(Frozen):
-    """A rule for all off-diagonal blocks, with exceptions; colours count from 0."""
+    """A rule for all off-diagonal blocks, with exceptions; colours are counted from 0."""
 
     default: RuleText | None
     blocks: BlockTexts
 
 
 class MethodsText(Frozen):
-    """The paper's construction."""
+    """The construction of the paper."""
 
     methods: tuple[FamilyText | ButcherText, ...]
     transfer: TransferText
 
 
 class TableauText(Frozen):
-    """Every block spelled out; None for an absent one. ``further`` has one per colour."""
+    """A tableau with every block spelled out, None for absent ones."""
 
     A: tuple[tuple[Rows | None, ...], ...]
     b: tuple[Row, ...]
@@ -170,7 +159,7 @@ class TableauText(Frozen):
 
 
 class ArkText(Frozen):
-    """Shared stages, one matrix per colour; ``further`` has one per colour."""
+    """A method with shared stages and one matrix for each colour."""
 
     A: tuple[Rows, ...]
     b: tuple[Row, ...]
@@ -179,21 +168,17 @@ class ArkText(Frozen):
 
 
 class PrkText(Frozen):
-    """A partitioned method: the parts q and p."""
+    """A partitioned method with parts q and p."""
 
     q: ButcherText
     p: ButcherText
 
 
 class RegistersText(Frozen):
-    """A method as codes with few registers print it.
+    """A method in the form used by codes with few registers.
 
-    Attributes:
-        node: the place in the file.
-        scheme: ``shu-osher``, or the form of ``low-storage``.
-        numbers: its rows and matrices, in the order of the scheme.
-        c: the nodes, where the file gives them.
-        further: what is beside the weights.
+    ``scheme`` is ``shu-osher``, or the form of ``low-storage``; ``numbers`` are its rows and
+    matrices, in the order of the scheme.
     """
 
     node: Node
@@ -204,19 +189,8 @@ class RegistersText(Frozen):
 
 
 class RosenbrockText(Frozen):
-    """A Rosenbrock or W-method, as papers print it, or transformed, as programs store it; that has
-    one colour.
-
-    Attributes:
-        node: the place in the file.
-        alpha: the α^{l,m}; A of a transformed one.
-        gamma: the γ^{l,m} with their diagonals; C of a transformed one.
-        b: the weights of each colour; m of a transformed one.
-        c: where each f^{l} is evaluated; None where the row sums of α^{l,l} say it.
-        d: the weights of ∂f^{l}/∂t; None where the row sums of γ^{l,l} say it.
-        diagonal: the γ_ii of a transformed one, one for all or one per stage; else None.
-        error: b − b̂ of a transformed one, as far as it is given.
-        further: what is beside the weights of each colour.
+    """A Rosenbrock or W-method as in papers, or transformed as in programs; the latter has one
+    colour.
     """
 
     node: Node
@@ -233,17 +207,9 @@ class RosenbrockText(Frozen):
 class NystromText(Frozen):
     """A Nyström method.
 
-    Attributes:
-        node: the place in the file.
-        Abar: Ā.
-        A: None where g depends on q alone.
-        c: None where the row sums of A say it.
-        bbar: the weights of the step in q.
-        b: those of the step in q′.
-        embedded: the embedded ones of both, each None where they are those of the method; None
-            where there are none.
-        dense: the polynomials of both steps, those of q′ None where they are the slopes of the
-            others; None where there are none.
+    ``A`` is None if g depends on q only, ``c`` if it has the row sums of A. ``embedded`` has the
+    embedded weights in q and in q′, each None if they are those of the method; ``dense`` the
+    polynomials in q and in q′, the latter None if they are the slopes of the former.
     """
 
     node: Node
@@ -257,7 +223,7 @@ class NystromText(Frozen):
 
     @property
     def further(self) -> tuple[FurtherText, ...]:
-        """What is beside the weights of each step."""
+        """The further weights of each component."""
         if self.embedded is None and self.dense is None:
             return ()
         embedded, dense = self.embedded, self.dense or (None, None)
@@ -268,13 +234,9 @@ class NystromText(Frozen):
 
 
 class NprkText(Frozen):
-    """A nonlinearly partitioned method; rows and matrices may end early, zeros follow.
+    """A nonlinearly partitioned method; rows and matrices may end early, followed by zeros.
 
-    Attributes:
-        node: the place in the file.
-        a: a matrix for each stage.
-        b: the weights.
-        embedded: embedded ones; None where there are none.
+    ``a`` has a matrix for each stage.
     """
 
     node: Node
@@ -284,19 +246,15 @@ class NprkText(Frozen):
 
     @property
     def further(self) -> tuple[FurtherText, ...]:
-        """What is beside the weights, which the tableau is made with."""
+        """Empty: the tableau includes them."""
         return ()
 
 
 class DerivativesText(Frozen):
     """A method that uses derivatives of f along the solution.
 
-    Attributes:
-        node: the place in the file.
-        A: a matrix for f, one for f′f, and so on.
-        b: the weights of each.
-        c: where time is; None where the row sums of the first matrix say it.
-        embedded: embedded weights; None where there are none.
+    ``A`` has a matrix for f, one for f′f, and so on; ``c`` is None if it has the row sums of the
+    first matrix.
     """
 
     node: Node
@@ -307,18 +265,15 @@ class DerivativesText(Frozen):
 
     @property
     def further(self) -> tuple[FurtherText, ...]:
-        """What is beside the weights, which the tableau is made with."""
+        """Empty: the tableau includes them."""
         return ()
 
 
 class PartText(Frozen):
-    """A method that a construction is made from.
+    """A method within a construction, from this file or one of the catalogue.
 
-    Attributes:
-        source: the file that it is in: this one, or one of the catalogue.
-        description: what it says.
-        families: its methods that are members of families, by number from 0.
-        nodes: the nodes of the families taken at points, as coefficients.
+    ``families`` has its members of families by number, from 0, ``nodes`` the nodes of members as
+    coefficients.
     """
 
     source: Source
@@ -337,20 +292,16 @@ class PartText(Frozen):
 Make: TypeAlias = (
     "Callable[[Callable[[PartText], Tableau], Values], Tableau | tuple[Tableau, Further]]"
 )
-"""A method, with its further weights where it has any, from what gives the tableaus of its parts
-and the values of its coefficients.
+"""Makes a method, and its further weights if any, from the tableaus of its parts and the values of
+its coefficients.
 """
 
 
 class ConstructionText(Frozen):
-    """A method made from others.
+    """A method constructed from others.
 
-    Attributes:
-        node: the place in the file.
-        parts: the methods that it is made from.
-        make: the method, from the tableaus of the parts and the values of its own coefficients.
-        tolerance: the rounding of what it is made from.
-        kept: the parts whose embedded weights it takes over.
+    ``make`` makes it from the tableaus of the parts and the values of its coefficients;
+    ``tolerance`` is the rounding of the parts, ``kept`` are those whose embedded weights are used.
     """
 
     node: Node
@@ -367,7 +318,7 @@ Content: TypeAlias = (
 
 
 def further_of(content: Content) -> tuple[FurtherText, ...]:
-    """The further weights of each colour of the file; of a prk those of q, then those of p."""
+    """Returns the further weights of each colour of the file; for a prk those of q, then of p."""
     match content:
         case MethodsText():
             return tuple(method.further for method in content.methods)
@@ -379,9 +330,7 @@ def further_of(content: Content) -> tuple[FurtherText, ...]:
 
 
 class BlockRule(Frozen):
-    """The rule that makes the block A^{l,m} by itself, with the degree that the file gives it;
-    colours count from 0.
-    """
+    """The rule for the block A^{l,m}, and its degree if given; colours are counted from 0."""
 
     l: int
     m: int
@@ -390,7 +339,7 @@ class BlockRule(Frozen):
 
 
 def rules_of_blocks(description: Description) -> tuple[BlockRule, ...]:
-    """The rules that make blocks of a method of the form ``methods``, but for combinations."""
+    """Returns the rules for single blocks of a method of the form ``methods``."""
     content = description.content
     if description.is_conjugate or not isinstance(content, MethodsText):
         return ()
@@ -404,10 +353,10 @@ def rules_of_blocks(description: Description) -> tuple[BlockRule, ...]:
 
 
 def left_behind(content: Content) -> tuple[str, ...]:
-    """What a construction does not take over from its parts: in words, most often nothing.
+    """Returns the further weights of its parts that a construction drops, as text; most often none.
 
-    Their further weights are for their own step: an adjoint of embedded weights, for instance, is
-    at other stages than that of the method.
+    They belong to the steps of the parts: embedded weights of an adjoint, for instance, would be at
+    other stages.
     """
     if not isinstance(content, ConstructionText):
         return ()
@@ -423,7 +372,7 @@ def left_behind(content: Content) -> tuple[str, ...]:
 
 
 def works_of(said: Description) -> tuple[Work, ...]:
-    """Where a method was published; without a reference where its parts and rules were."""
+    """Returns the references of a method; without one those of its parts and rules."""
     if said.reference:
         return ((said.reference, said.bibliography),)
     found: list[Work] = []
@@ -443,7 +392,7 @@ def works_of(said: Description) -> tuple[Work, ...]:
 
 
 class ClaimText(FrozenBut):
-    """One claim of ``expect``: its key, its value as plain data, and where it is."""
+    """A claim under ``expect``."""
 
     besides = frozenset({"node"})
 
@@ -456,8 +405,6 @@ class ClaimText(FrozenBut):
 
 
 class Description(Frozen):
-    """A whole file."""
-
     form: Form
     content: Content
     node: Node

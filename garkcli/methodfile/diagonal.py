@@ -1,4 +1,4 @@
-"""YAML nodes to the form ``methods``: members of families, and methods that are spelled out."""
+"""The form ``methods``: members of families, and methods that are spelled out."""
 
 from __future__ import annotations
 
@@ -32,7 +32,6 @@ _BESIDE = [key for key in BUTCHER.inside() if key.name not in {"A", "b", "c"}]
 
 
 def _kind_of(option: Option) -> Kind:
-    """What an option may be set to."""
     if option.words:
         return word(lambda: option.words)
     if option.smallest is None:
@@ -47,7 +46,7 @@ _CHOSEN = [
 
 
 def _member(family: Family) -> Schema:
-    """What a member of one family needs, and what it does not have."""
+    """Returns the schema of the keys that a member of a family needs and lacks."""
     needed = [] if family.is_single else [family.size]
     needed += [option.name for option in family.options if not option.default]
     barred = dict.fromkeys(sorted(OPTIONS.keys() - set(family.keys)), False)
@@ -74,7 +73,7 @@ _KEYS = {key.name: key for key in FAMILY.inside()}
 def methods(
     at: Reading, node: Node, structure: d.Structure, transfer: Node | None
 ) -> d.MethodsText | None:
-    """The form ``methods``; None where it does not make a method."""
+    """Reads the form ``methods``; None if it is not a method."""
     if keys_of(node) & {"A", "b", "family", "stages"} or _in_a_word(node) is not None:
         items = [node]  # one method needs no brackets around it
     else:
@@ -105,7 +104,7 @@ def _stages(text: d.FamilyText | d.ButcherText) -> int:
 
 
 def _is_too_large(at: Reading, found: Sequence[d.FamilyText | d.ButcherText], node: Node) -> bool:
-    """Note blocks between the methods that together have too many entries to be made."""
+    """Reports whether the blocks between the methods have too many entries in total."""
     stages = list(map(_stages, found))
     entries = sum(stages) ** 2 - sum(s * s for s in stages)
     if entries > d.MAX_ENTRIES:
@@ -115,7 +114,7 @@ def _is_too_large(at: Reading, found: Sequence[d.FamilyText | d.ButcherText], no
 
 
 def _method(at: Reading, node: Node, l: int) -> d.FamilyText | d.ButcherText | None:
-    """The method of colour ``l``, counted from 1."""
+    """Reads the method of colour ``l``, counted from 1."""
     node = _in_a_word(node) or node
     keys, where = keys_of(node), f"method {l}"
     if isinstance(node, ScalarNode):
@@ -144,7 +143,7 @@ def _method(at: Reading, node: Node, l: int) -> d.FamilyText | d.ButcherText | N
 
 
 def _in_a_word(node: Node) -> MappingNode | None:
-    """``gauss-2`` as ``{family: gauss, stages: 2}``; None for any other node."""
+    """Returns ``gauss-2`` as ``{family: gauss, stages: 2}``; None for any other node."""
     found = member_named(node.value) if isinstance(node, ScalarNode) else None
     if found is None:
         return None
@@ -161,7 +160,7 @@ def _in_a_word(node: Node) -> MappingNode | None:
 
 
 def _written_out(node: ScalarNode) -> str:
-    """The cure for a method that is a mere word."""
+    """Returns the cure for a method that is a single word."""
     name = nearest(str(node.value), FAMILIES) or "gauss"
     family = FAMILIES[name]
     if family.is_single:
@@ -171,7 +170,7 @@ def _written_out(node: ScalarNode) -> str:
 
 
 def _family(at: Reading, node: Node, where: str) -> tuple[d.FamilyText, Entries] | None:
-    """A member of a family, which exists, with its keys; None where a fault was noted."""
+    """Reads a member of a family with its keys; None after a fault."""
     before = len(at.source.faults)
     family = _family_named(node)
     barred = set() if family is None else OPTIONS.keys() - set(family.keys)
@@ -202,7 +201,7 @@ def _family(at: Reading, node: Node, where: str) -> tuple[d.FamilyText, Entries]
 def _chosen(
     at: Reading, entries: Entries, family: Family, where: str
 ) -> tuple[int | None, dict[str, Given]]:
-    """The size of a member and what else it is chosen by."""
+    """Returns the size and the other options of a member."""
     size = None
     if family.size in entries:
         size = at.source.whole(entries[family.size], f"{where}, {family.size}", smallest=1)
@@ -216,9 +215,7 @@ def _chosen(
 
 
 def _entries(at: Reading, recipe: Recipe, node: Node, name: str) -> Row:
-    """What a member is made of as coefficients of the file; those that are there are so
-    already.
-    """
+    """Returns the numbers of a recipe as coefficients of the file, added unless they are there."""
     read = {id(entry.expression): entry for entry in at.numbers.entries}
     row: list[Entry] = []
     for i, expression in enumerate(recipe.numbers, start=1):
@@ -231,7 +228,6 @@ def _entries(at: Reading, recipe: Recipe, node: Node, name: str) -> Row:
 
 
 def _family_named(node: Node) -> Family | None:
-    """The family that a mapping names, where it names one."""
     for key, value in node.value if isinstance(node, MappingNode) else ():
         is_name = isinstance(key, ScalarNode) and key.value == "family"
         if is_name and isinstance(value, ScalarNode):

@@ -1,6 +1,4 @@
-"""How long an expression gets when it is multiplied out: asked before a Lagrangian is
-transformed.
-"""
+"""The length of an expression once multiplied out, found before a Lagrangian is transformed."""
 
 from __future__ import annotations
 
@@ -12,19 +10,13 @@ from garkcli.frozen import Frozen
 from garkcli.problems.expr import Expr, Vector
 
 MAX_TERMS = 3_000
-"""Most terms of an equation for a velocity, multiplied out over its common denominator."""
+"""The largest number of terms of an equation for a velocity, over its common denominator."""
 
 
 def too_long(lagrangian: Expr, velocities: Vector) -> Expr:
-    """The first velocity whose equation p = ∂L/∂v would be too long to be solved; None where there
-    is none.
+    """Returns the first velocity whose equation p = ∂L/∂v is too long to be solved, or None.
 
-    Equations that are linear in the velocities are solved by elimination, so they are never too
-    long.
-
-    Args:
-        lagrangian: a sympy expression.
-        velocities: its velocities, sympy symbols.
+    Equations linear in the velocities are solved by elimination and are never too long.
 
     >>> from sympy.abc import u, x
     >>> too_long((1 + x + u**2) ** 4, [u])
@@ -40,9 +32,7 @@ def too_long(lagrangian: Expr, velocities: Vector) -> Expr:
 
 
 def _undone(f: Expr, v: Expr) -> Expr:
-    """What is left of f(v) = c to be multiplied out, once the functions that hold v alone are
-    undone.
-    """
+    """Returns what remains of f(v) = c after inverting the functions that only hold v."""
     while f != v:
         if f.is_Add or f.is_Mul:
             is_sum = f.is_Add
@@ -59,8 +49,8 @@ def _undone(f: Expr, v: Expr) -> Expr:
 
 
 def _terms(f: Expr, v: Expr) -> int:
-    """The terms of the numerator of f multiplied out; squared where a square root has to be squared
-    away.
+    """Returns the number of terms of the multiplied-out numerator of f, squared if a square root
+    has to be removed by squaring.
     """
     import sympy
 
@@ -72,18 +62,13 @@ def _terms(f: Expr, v: Expr) -> int:
 
 
 Size: TypeAlias = tuple[int, int]
-"""Terms and exponent of a factor."""
+"""The number of terms and the exponent of a factor."""
 Factors: TypeAlias = Mapping[Expr, Size]
-"""The factors of a denominator."""
 
 
 class _Fraction(Frozen):
-    """The size of an expression as one fraction.
-
-    Attributes:
-        terms: those of the numerator, multiplied out.
-        factors: of the denominator.
-        inside: most terms of what is in functions and roots.
+    """The size of an expression written as one fraction: the terms of the multiplied-out numerator,
+    the factors of the denominator, and the most terms within functions and roots.
     """
 
     terms: int
@@ -107,7 +92,7 @@ def _fraction(f: Expr) -> _Fraction:
 
 
 def _sum(parts: Sequence[_Fraction], inside: int) -> _Fraction:
-    """Over the least common denominator."""
+    """Returns the size of a sum over the least common denominator."""
     common: dict[Expr, Size] = {}
     for part in parts:
         for base, (size, power) in part.factors.items():
@@ -138,11 +123,11 @@ def _integer_power(f: Expr, base: _Fraction, inside: int) -> _Fraction:
 
 
 def _missing(all_factors: Factors, factors: Factors) -> int:
-    """The terms of a denominator divided by some of its factors."""
+    """Returns the number of terms of a denominator divided by some of its factors."""
     sizes = all_factors.items()
     return prod(_power(size, power - factors.get(x, (size, 0))[1]) for x, (size, power) in sizes)
 
 
 def _power(terms: int, exponent: int) -> int:
-    """The terms of a power of a sum."""
+    """Returns the number of terms of a power of a sum."""
     return comb(terms + exponent - 1, exponent)

@@ -1,4 +1,4 @@
-"""The claims of a file: reading ``expect``, with claims on real numbers."""
+"""The claims under ``expect``, including those on real numbers."""
 
 from __future__ import annotations
 
@@ -30,14 +30,10 @@ _LEAST = r">=\s*(.*)"
 
 
 class Measure(Frozen):
-    """A real number that is claimed.
+    """A claimed real number.
 
-    Attributes:
-        text: as it is written.
-        number: its value; None for ∞.
-        half_unit: half a unit of the last place of a decimal, which claims no further digits; 0 for
-            an exact number.
-        is_least: whether the claim is that the number is at least so large.
+    ``number`` is None for ∞. ``half_unit`` is half a unit of the last place of a decimal, 0 for an
+    exact number. ``is_least`` says that the claim is a lower bound.
     """
 
     text: str
@@ -49,11 +45,9 @@ class Measure(Frozen):
         return self.text
 
     def agrees(self, found: RealRoot | None, rounding: fmpq = ZERO) -> bool:
-        """Whether the claim is true of a number, None for ∞.
+        """Returns whether the claim is true of a number, None for ∞.
 
-        Args:
-            found: the number.
-            rounding: by how much it may be off, for coefficients within a tolerance.
+        ``rounding`` is the largest error of the number, for coefficients within a tolerance.
         """
         if self.number is None:
             return found is None
@@ -74,7 +68,7 @@ def _root(number: Number) -> RealRoot:
 
 
 def read_measure(source: Source, node: Node, where: str) -> Measure | None:
-    """The claim that a value makes; None, with a fault noted, where it is none."""
+    """Reads a claimed real number; None after a fault."""
     text = source.scalar(node, where)
     if text is None:
         return None
@@ -101,14 +95,12 @@ def _half_unit(text: str) -> fmpq:
 
 
 CLAIMS = (*ORDERS, *KEYS)
-"""Everything a file may claim."""
+"""All claims that a file may make."""
 _FORM = "write for instance expect: {order: 4}"
 _AT_LEAST = r">=\s*([0-9]{1,4})"
 
 
 class AtLeast(Frozen):
-    """A claim ``>= least``."""
-
     least: int
 
     def __str__(self) -> str:
@@ -133,8 +125,6 @@ def _number(at: Any, node: Node, where: str) -> Wanted:
 
 
 def _table(item: Kind) -> Kind:
-    """A list, for each colour one thing."""
-
     def read(at: Any, node: Node, where: str) -> Wanted:
         if isinstance(node, SequenceNode):
             return [item.read(at, x, where) for x in node.value]
@@ -170,11 +160,10 @@ _EXAMPLES = {
     "real-stability": "infinity",
     "imaginary-stability": "2*sqrt(2)",
 }
-"""How tables and real numbers are claimed."""
+"""Examples of claims on tables and real numbers."""
 
 
 def claims() -> Iterator[Key]:
-    """Every claim with what it means."""
     for claim in every_definition():
         example = _EXAMPLES.get(claim.key, "4" if claim.kind == "count" else "true")
         text = f"{claim.text} It is claimed as {claim.values.replace('`', '')}."
@@ -182,7 +171,6 @@ def claims() -> Iterator[Key]:
 
 
 def _read(at: Any, node: Node, where: str) -> tuple[ClaimText, ...]:
-    """The claims of ``expect``; faulty ones are noted."""
     entries = at.source.mapping(node, where, CLAIMS, form=_FORM)
     return tuple(
         ClaimText(value, key, _KINDS[definition(key).kind].read(at, value, f"{where}, {key}"))
@@ -191,7 +179,7 @@ def _read(at: Any, node: Node, where: str) -> tuple[ClaimText, ...]:
 
 
 EXPECT = Kind(mapping(more=claims).schema, _read, claims)
-"""What a file claims."""
+"""The claims of a file."""
 
 
 OF_ORDERS = {
@@ -199,11 +187,11 @@ OF_ORDERS = {
     "stage-order",
     "weak-stage-order",
 }
-"""Claims for which orders must be sought as far as their numbers, and one further."""
+"""Claims for which the search for orders has to reach their numbers plus one."""
 
 
 def highest_order(claims: tuple[ClaimText, ...], keys: Collection[str] = OF_ORDERS) -> int:
-    """The largest number that occurs in the claims with some keys; 0 where there are none."""
+    """Returns the largest number in the claims with some keys; 0 without one."""
     return max([_largest(claim.value) for claim in claims if claim.key in keys], default=0)
 
 

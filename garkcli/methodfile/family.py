@@ -1,4 +1,4 @@
-"""Files with free parameters: families of methods, coefficients rational functions of them."""
+"""Files with free parameters: families of methods whose coefficients are rational functions."""
 
 from __future__ import annotations
 
@@ -36,29 +36,28 @@ if TYPE_CHECKING:
     from garkcli.methodfile.rounding import Rounded
 
 Moved: TypeAlias = "Callable[[Rounded], Mapping[int, Expression]]"
-"""Expressions in place of the rounded numbers, by the identity of what they replace."""
+"""Expressions in place of rounded numbers, by the identity of the latter."""
 _NAME = re.compile(r"\ba[0-9_]+")
-"""An entry of a block."""
 _DESIGN = "a family with free parameters"
 
 
 class FamilyFile(Family, kw_only=True):
-    """One method file with free parameters, read.
+    """A method file with free parameters.
 
     Attributes:
         source: the path as given.
         text: the file as it was read.
         settings: values that were given for other parameters.
         places: the place of the value of each parameter in the text, from and to.
-        parameters_at: the place of ``parameters: …``; None where there is none.
+        parameters_at: the place of ``parameters: …``; None without.
         shape: where ``unknown: …`` is, and the tableau that it means as keys of a method file;
-            None where the file has no shape.
+            None without a shape.
         blocks: where "?" stands for whole blocks, and their matrices with the names of entries.
-        wanted_at: the place of ``design: …``; None where there is none.
+        wanted_at: the place of ``design: …``; None without.
         structure: which vector fields the problem has.
         claims: what ``expect`` says.
         left_behind: further weights of methods inside of a construction, which it has not.
-        tolerance: the rounding of its numbers, the largest; None where none of them is rounded.
+        tolerance: the rounding of its numbers, the largest; None if all are exact.
     """
 
     source: str
@@ -81,24 +80,18 @@ def load_family(
     deadline: float | None = None,
     is_free: bool = True,
 ) -> FamilyFile:
-    """Read a method file with free parameters.
+    """Reads a method file with free parameters.
 
-    Args:
-        path: of the file.
-        settings: values of parameters, by name, in place of those in the file.
-        deadline: the reading of ``time.monotonic`` at which what is wanted and not worked out is
-            left unsettled; None for never.
-        is_free: whether it must have a free parameter.
-
-    Raises:
-        MethodFileError: every fault of the file, with positions.
-        MethodError: it has no free parameter and must have one; or it is no GARK method.
+    ``settings`` are values of parameters in place of those in the file. At ``deadline``, a value of
+    ``time.monotonic``, remaining demands stay undecided. With ``is_free`` the file needs a free
+    parameter. Raises MethodFileError with all faults of the file; MethodError without a free
+    parameter, or for methods that are not GARK methods.
     """
     return loads_family(*read_method_text(path), settings, deadline=deadline, is_free=is_free)
 
 
 def _without_unknowns(source: str, settings: Mapping[str, str]) -> MethodError:
-    """A method where a family is expected."""
+    """Returns the error for a method in place of a family."""
     if settings:
         message = f"{source} has no free parameter left"
         return MethodError(message, "gark check --set judges one method", code="free-parameters")
@@ -115,20 +108,10 @@ def loads_family(
     is_free: bool = True,
     numbers: Moved | None = None,
 ) -> FamilyFile:
-    r"""Read a method file with free parameters from its text.
+    r"""Reads the text of a method file with free parameters.
 
-    Args:
-        text: of the file.
-        source: what to call it.
-        settings: as in ``load_family``.
-        is_design: whether to use ``design`` of the file.
-        deadline: as in ``load_family``.
-        is_free: as in ``load_family``.
-        numbers: what takes the place of its rounded numbers; None for themselves.
-
-    Raises:
-        MethodFileError: every fault of the file, with positions.
-        MethodError: it has no free parameter and must have one; or it is no GARK method.
+    ``is_design`` says whether its demands under ``design`` count; ``numbers`` replaces its rounded
+    numbers; the others are those of ``load_family``.
 
     >>> family = loads_family("parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [0, 1]")
     >>> family.tableau.block(0, 0)
@@ -146,14 +129,9 @@ def loads_family(
 
 
 def family_of(error: HasFreeParameters, settings: Mapping[str, str] = NO_SETTINGS) -> FamilyFile:
-    """The family of a file that was read as a method; what it wants is passed over.
+    """Returns the family of a file that was read as a method, without its demands under ``design``.
 
-    Args:
-        error: the refusal of the file.
-        settings: with which it was read.
-
-    Raises:
-        MethodFileError: every fault of the file, with positions.
+    Raises MethodFileError with all faults of the file.
     """
     if error.reading is None:  # the file was read in another process
         return loads_family(error.text, error.source, settings, is_design=False)
@@ -162,17 +140,14 @@ def family_of(error: HasFreeParameters, settings: Mapping[str, str] = NO_SETTING
 
 
 def _refuse_others(tableau: Tableau) -> None:
-    """Refuse methods that are neither GARK methods nor Rosenbrock methods."""
+    """Raises MethodError for methods that are neither GARK nor Rosenbrock methods."""
     if not is_rosenbrock(tableau):
         tableau.demand_fields(_DESIGN)
 
 
 def refuse_rounded(family: FamilyFile) -> None:
-    """Refuse to say what holds for every value of the unknowns where known numbers are rounded: a
-    last digit would decide it.
-
-    Raises:
-        MethodError: they are.
+    """Raises MethodError if known coefficients are rounded: statements for all values of the
+    unknowns would depend on their last digits.
     """
     if family.tolerance is None:
         return
@@ -193,7 +168,7 @@ def _family(
     deadline: float | None,
     numbers: Moved | None = None,
 ) -> FamilyFile:
-    """The family that a file describes, with what is wanted of it."""
+    """Returns the family that a file describes, with its demands."""
     if description.form == "derivatives":  # its numbers say how many stages its tableau has
         message = f"{_DESIGN} is for GARK methods: {Jets.why}"
         raise MethodError(message, Jets.cure, code="cannot-construct")
@@ -259,8 +234,8 @@ def _family(
 def _cancelled(
     divisors: Sequence[fmpq_mpoly], tableau: Tableau, ring: Parameters, free: Iterable[str]
 ) -> Iterator[fmpq_mpoly]:
-    """What the file divides by and no denominator shows, as in t/t: there is no method with a zero
-    of it. Irreducible polynomials.
+    """Yields irreducible polynomials by which the file divides although no denominator shows them,
+    as in t/t: at their zeros there is no method.
     """
     shown = common_denominator(tableau.entries, ring)
     known = {str(factor) for factor, _ in shown.factor()[1]}
@@ -275,12 +250,11 @@ def _cancelled(
 
 
 def _signs(numbers: Sequence[object], ring: Parameters) -> tuple[fmpq_mpoly, ...]:
-    """Polynomials with the signs of rational functions."""
     return tuple(sign_polynomial(x, ring) for x in numbers)
 
 
 def _shape(reader: Reader) -> tuple[Extent, str] | None:
-    """Where a shape is in the file, and what it means."""
+    """Returns the place of a shape in the file, and its text as a tableau."""
     if reader.shaped is None:
         return None
     from garkcli.methodfile.shapes import spelled
@@ -292,7 +266,7 @@ def _shape(reader: Reader) -> tuple[Extent, str] | None:
 
 
 def _blocks(description: Description, text: str) -> Iterator[tuple[Extent, str]]:
-    """Where "?" stands for whole blocks, and what it means."""
+    """Yields the places where "?" stands for a whole block, and the text of the block."""
     if not isinstance(description.content, MethodsText):
         return
     found: dict[int, dict[tuple[int, int], MatrixText]] = {}
@@ -307,14 +281,10 @@ def _blocks(description: Description, text: str) -> Iterator[tuple[Extent, str]]
 
 
 def with_values(family: FamilyFile, values: Mapping[str, str], head: str, claim: str) -> str:
-    """The text of a family's file with values for its parameters: that of a method.
+    """Returns the text of a family's file with values for its parameters.
 
-    Args:
-        family: as it was read.
-        values: of each free parameter, as text.
-        head: a comment to begin with, how the values were found.
-        claim: a fact about the method, such as ``order: 4``; added where the file makes no
-            claims of its own.
+    ``head`` is a comment to begin with; ``claim``, such as ``order: 4``, is added if the file makes
+    no claims.
     """
     text = family.text
     given = {**family.settings, **values}
@@ -343,6 +313,6 @@ def with_values(family: FamilyFile, values: Mapping[str, str], head: str, claim:
 
 
 def _scalar(value: str) -> str:
-    """A value as YAML has it in any place."""
+    """Returns a value in YAML."""
     is_plain = value.replace("/", "").replace("-", "").isdigit()
     return value if is_plain else f'"{value}"'

@@ -1,5 +1,5 @@
-"""The coefficients of files with free parameters: rational functions of these, radicals unknowns
-of their own.
+"""The coefficients of files with free parameters: rational functions, with unknowns for
+radicals.
 """
 
 from __future__ import annotations
@@ -33,23 +33,20 @@ from garkcli.tableau.family import Radical
 from garkcli.tableau.tableau import Method, Tableau
 
 MAX_DEGREE = 200
-"""Largest degree of a coefficient in the parameters."""
+"""The largest degree of a coefficient in the parameters."""
 MAX_TERMS = 2_000
-"""Most terms of the numerator and of the denominator of a coefficient, multiplied out."""
+"""The largest number of terms in the numerator or the denominator of a coefficient."""
 MAX_TERMS_TOGETHER = 200_000
-"""Most terms of all different coefficients of a file."""
+"""The largest number of terms of all different coefficients of a file."""
 ROOT = "_root"
-"""What the names of unknowns begin with that stand for radicals."""
+"""The prefix of unknowns that stand for radicals."""
 
 
 class FamilyValues(Values):
     """The coefficients of a file as rational functions of its free parameters.
 
-    Radicals are unknowns of their own, with the relation that they satisfy.
-
-    Args:
-        numbers: of the file.
-        change: what takes the place of an expression; None for itself.
+    Each radical is an unknown with its relation. ``change`` replaces expressions before they are
+    evaluated.
     """
 
     def __init__(
@@ -67,7 +64,7 @@ class FamilyValues(Values):
         self._evaluate(numbers, self.domain)
 
     def alone(self, method: Method) -> Tableau:
-        """With reduced roots: what is zero looks like it."""
+        """Returns the tableau with reduced roots, so that zeros are recognised."""
         tableau = super().alone(method)
         if not self.domain.radicals:
             return tableau
@@ -88,8 +85,9 @@ class FamilyValues(Values):
         return member(tableau, ring, values)
 
     def ends(self, free: Free) -> tuple[fmpq | None, fmpq | None]:
-        """Between which rational numbers a parameter lies, by all of its ranges; an end that is
-        none is noted, and where no number is left.
+        """Returns the rational numbers between which a parameter lies by all of its ranges.
+
+        Other ends, and ranges without a number in common, are faults.
         """
         least = greatest = None
         for ends in free.ranges:
@@ -121,7 +119,7 @@ class FamilyValues(Values):
         return value
 
     def _plain(self, expression: Expression) -> fmpq | None:
-        """The value of an expression where it is a rational number."""
+        """Returns the value of an expression if it is a rational number."""
         if any(roots_in(expression)):
             return None
         try:
@@ -171,7 +169,6 @@ class _FamilyDomain(Domain):
         return cast("Number", unknown)
 
     def _add(self, root: Root | AlgebraicRoot, radical: Radical) -> None:
-        """Keep an unknown of a radical, with the radical as text."""
         text, latex = format_expression(root), format_expression(root, latex=True)
         self.radicals.append(replace(radical, text=text, latex=latex))
 
@@ -219,7 +216,7 @@ class _FamilyDomain(Domain):
         return super()._apply(sign, left, right, at)
 
     def _terms_of(self, polynomial: fmpq_mpoly) -> int:
-        """The terms that a polynomial has at most once powers of radicals are written out."""
+        """Returns a bound on the number of terms once powers of radicals are written out."""
         if not self.radicals:
             return len(polynomial)
 
@@ -232,7 +229,7 @@ class _FamilyDomain(Domain):
         return sum(prod(written_out(x, exponents) for x in self.radicals) for exponents in every)
 
     def _limit(self, terms: int, degree: int, at: Expression) -> None:
-        """Refuse what would be larger than any coefficient, before it is multiplied out."""
+        """Raises LimitExceeded for sizes beyond those of coefficients, before multiplication."""
         if degree > MAX_DEGREE:
             message = f"a degree of more than {MAX_DEGREE} in the parameters"
             raise LimitExceeded(message, "write it smaller", at.start, at.end)
@@ -242,7 +239,7 @@ class _FamilyDomain(Domain):
             raise LimitExceeded(message, cure, at.start, at.end)
 
     def _note_divisor(self, number: Number) -> None:
-        """Keep where a divisor is zero: it may cancel, and is one all the same."""
+        """Records the zeros of a divisor, which may cancel."""
         p, _ = fraction(number, self.ring)
         if not p.is_constant():
             self.divisors.append(p)

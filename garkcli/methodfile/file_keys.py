@@ -1,7 +1,7 @@
 """The keys of method files, and the JSON Schema (draft-07) of such files, for editors.
 
-The schema says what can be said about one value at a time. Sizes that have to fit each other, names
-of parameters and everything mathematical are for ``gark check``.
+The schema constrains single values. Sizes that have to fit, names of parameters and everything
+mathematical are left to ``gark check``.
 """
 
 from __future__ import annotations
@@ -237,7 +237,7 @@ KEYS = {
 }
 """The keys of a method file by name, in the order of the documentation."""
 KEYS_OF_METHOD = ("name", *FORMS, *PLAIN, *BESIDE, "transfer", "structure", "conjugate", "linear")
-"""The keys of a method, wherever it is."""
+"""The keys of a method, at the top of a file or within it."""
 _TWO_COLOURS = g.Values(
     {"type": "array", "minItems": 2},
     lambda node: isinstance(node, SequenceNode) and len(node.value) > 1,
@@ -303,20 +303,20 @@ BESIDE_FORM: tuple[g.Beside, ...] = (
         values=_SEMI_SEPARABLE,
     ),
 )
-"""What else a method has or has not, by its form."""
+"""Rules about further keys, by the form of the coefficients."""
 
 
 @cache
 def elsewhere() -> Mapping[str, Home]:
-    """Where keys belong that are at the top of a file and have no place there; what may be a
-    claim most often is one.
+    """Returns where misplaced keys at the top of a file belong; a key that may be a claim most
+    often is one.
     """
     every = (x for x in KEYS.values() if x.name != "parameters")  # has keys below other names
     return g.homes([KEYS["expect"], *every])
 
 
 def method_file_schema() -> g.Schema:
-    """The JSON Schema of method files, as plain data, with what each key means.
+    """The JSON Schema of method files, as plain data, with the meaning of each key.
 
     >>> method_file_schema()["title"]
     'gark method file'
@@ -350,5 +350,4 @@ def method_file_schema() -> g.Schema:
 
 
 def told(files: Files) -> Iterable[Entry]:
-    """What the report says of the keys."""
     return g.told(KEYS.values(), files.page)

@@ -1,6 +1,6 @@
-"""Which files are meant: folders, patterns, names.
+"""The files that arguments stand for: folders, patterns, names.
 
-Places that cannot be searched are kept for the report.
+Places that cannot be searched are kept and reported.
 """
 
 from __future__ import annotations
@@ -17,17 +17,13 @@ _MAGIC = frozenset("*?[")
 
 
 def find_files(paths: Iterable[str], told: Callable[[str], None] = no_one) -> Iterator[str]:
-    """The files meant by ``paths``, in order.
+    """Yields the files that ``paths`` stand for, in order.
 
-    A directory stands for all method files below it, a pattern such as ``**/*.yaml`` for the files
-    it matches. What stands for nothing stays, to be reported as missing, and so does a folder below
-    that cannot be searched. Links to folders are not followed: they may lead back. Links to
-    files elsewhere are left out. Names of the catalogue stay as they are; ``catalogue:`` stands for
-    all, ``catalogue:FOLDER`` for a folder.
-
-    Args:
-        paths: files, folders, patterns, names.
-        told: who hears of what is left out.
+    A folder stands for all method files below it, a pattern such as ``**/*.yaml`` for its matches,
+    ``catalogue:`` for all methods of the catalogue and ``catalogue:FOLDER`` for a folder of it;
+    names stay as they are. An argument without files stays too, to be reported as missing, as does
+    a folder that cannot be searched. Links to folders are not followed, because they may lead back.
+    Links to files elsewhere are left out; ``told`` is called with a message about them.
     """
     for path in paths:
         if path == STDIN:
@@ -44,8 +40,8 @@ def find_files(paths: Iterable[str], told: Callable[[str], None] = no_one) -> It
 
 
 def _matching(pattern: str, told: Callable[[str], None]) -> list[str]:
-    """What a pattern matches, where ``**`` stands for folders of any depth; a folder stands for
-    what is below it.
+    """Returns the matches of a pattern, in which ``**`` stands for folders of any depth; a folder
+    that matches stands for the files below it.
     """
     from pathlib import Path
 
@@ -65,7 +61,7 @@ def _matching(pattern: str, told: Callable[[str], None]) -> list[str]:
 
 
 def fixed_part(pattern: str) -> str:
-    """The folder that a pattern begins with; a path without signs of patterns is all fixed.
+    """Returns the folder with which a pattern begins; a path without wildcards is returned whole.
 
     >>> fixed_part("methods/**/*.yaml"), fixed_part("methods/rk4.yaml"), fixed_part("*.yaml")
     ('methods', 'methods/rk4.yaml', '')
@@ -77,7 +73,9 @@ def fixed_part(pattern: str) -> str:
 
 
 def _expanded(place: str, parts: Sequence[str], root: str) -> Iterator[str]:
-    """Every match below a place; a link out of ``root`` is one itself: nobody looks behind it."""
+    """Yields all matches below a place. A link out of ``root`` is a match itself and is not
+    followed.
+    """
     if not parts or (os.path.islink(place) and leads_away(place, root)):
         if os.path.lexists(place):
             yield place
@@ -97,7 +95,7 @@ def _expanded(place: str, parts: Sequence[str], root: str) -> Iterator[str]:
 
 
 def _folders(place: str) -> Iterator[str]:
-    """A folder and all below it but the hidden ones; empty for where we are."""
+    """Yields a folder and all folders below it except hidden ones; empty for the current one."""
     for folder, below, _ in os.walk(place or "."):
         # os.walk goes on with what is left in the list
         below[:] = [name for name in below if not name.startswith(".")]
@@ -106,7 +104,6 @@ def _folders(place: str) -> Iterator[str]:
 
 
 def _names(folder: str) -> list[str]:
-    """What is in a folder; nothing where it is none."""
     try:
         return os.listdir(folder or ".")
     except OSError:

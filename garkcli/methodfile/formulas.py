@@ -1,4 +1,4 @@
-"""Formulas in a problem file: text to expressions with known names, and their values."""
+"""Formulas in a problem file: expressions with known names, and their values."""
 
 from __future__ import annotations
 
@@ -24,19 +24,16 @@ from garkcli.problems.translate import Translator
 from garkcli.transfer import LOG10_2
 
 BITS = 320
-"""Precision of the values of formulas."""
+"""The precision of the values of formulas."""
 PLACES = 60
-"""Decimals to which an irrational initial value is taken."""
+"""The number of decimals of an irrational initial value."""
 
 
 class Formulas(Mutable):
     """Reads the formulas of one file.
 
-    Attributes:
-        source: where faults are noted.
-        given: values of parameters that are not those of the file.
-        values: the parameters read so far.
-        made: their sympy expressions.
+    ``given`` has values for parameters in place of those in the file, ``values`` the parameters
+    read so far, ``made`` their sympy expressions.
     """
 
     source: Source
@@ -48,14 +45,10 @@ class Formulas(Mutable):
     def parsed(
         self, node: Node, where: str, names: Mapping[str, str] | None, noun: str = "parameter"
     ) -> Expression | None:
-        """The expression of a text; None where there are faults, which are noted.
+        """Returns the expression of a text; None after a fault.
 
-        Args:
-            node: the text.
-            where: what it is, for messages.
-            names: for names that may not be here, the cure; "" for those that may. Parameters
-                always may; None is for all.
-            noun: what a name can be here.
+        ``names`` maps names to the cure if they are not allowed here, or to "" if they are; None
+        allows all. Parameters are always allowed. ``noun`` is the kind of name that is expected.
         """
         text = self.source.scalar(node, where)
         if text is None:
@@ -87,7 +80,7 @@ class Formulas(Mutable):
         return None if strangers else expression
 
     def constant(self, node: Node, where: str) -> tuple[Expression, Value] | None:
-        """A formula of parameters alone, and its value."""
+        """Returns a formula of parameters only, and its value."""
         expression = self.parsed(node, where, {})
         if expression is None:
             return None
@@ -97,7 +90,7 @@ class Formulas(Mutable):
     def value(
         self, expression: Expression, node: Node, where: str, names: Mapping[str, Value]
     ) -> Value | None:
-        """The value for given values of names; None where there is none, which is noted."""
+        """Returns the value of an expression; None after a fault."""
         try:
             with ctx.workprec(BITS):
                 return value_of(expression, {**self.values, **names})
@@ -106,16 +99,15 @@ class Formulas(Mutable):
             return None
 
     def rational(self, node: Node, where: str) -> fmpq | None:
-        """A number: a rational one exactly, an irrational one to ``PLACES`` decimals."""
+        """Returns a number, exact if rational and to ``PLACES`` decimals otherwise."""
         found = self.constant(node, where)
         return None if found is None else nearby(found[1])
 
     def translator(self, symbols: Mapping[str, Any]) -> Translator:
-        """What makes sympy expressions in ``symbols`` and the parameters."""
         return Translator({**self.made, **symbols}, self.values)
 
     def read_parameters(self, node: Node | None) -> None:
-        """Read ``parameters``; each may use those before it."""
+        """Reads ``parameters``; each may use those before it."""
         entries = {} if node is None else self.source.mapping(node, "parameters", ())
         for name, value_node in entries.items():
             where = f"parameters: {unquoted(name)}"
@@ -138,7 +130,7 @@ class Formulas(Mutable):
 
 
 def bad_name(name: str) -> str:
-    """Why this cannot be the name of a variable or parameter; nothing where it can."""
+    """Returns why a text cannot be the name of a variable or parameter; empty if it can."""
     if name in RESERVED:
         return "has a meaning already"
     if not (name.isidentifier() and name.isascii()):
@@ -147,8 +139,8 @@ def bad_name(name: str) -> str:
 
 
 def nearby(value: Value) -> fmpq:
-    """The simplest fraction within 10^(−``PLACES``) of a number: the number itself where it is a
-    short fraction.
+    """Returns the simplest fraction within 10^(−``PLACES``) of a number, which is the number itself
+    if it is a short fraction.
 
     >>> with ctx.workprec(BITS):
     ...     nearby(arb(1) / 3)
@@ -161,7 +153,7 @@ def nearby(value: Value) -> fmpq:
 
 
 def _simplest(low: fmpq, high: fmpq) -> fmpq:
-    """The fraction of the smallest denominator in an interval, by continued fractions."""
+    """Returns the fraction with the smallest denominator in an interval, by continued fractions."""
     if low <= 0 <= high:
         return fmpq(0)
     if high < 0:
@@ -178,13 +170,11 @@ def _simplest(low: fmpq, high: fmpq) -> fmpq:
 
 _SHOWN = 8  # most missing names that are reported
 MAX_BITS = 4_000
-"""Longest numerator or denominator: squared and cubed it is short of the 4300 digits that Python
-writes.
-"""
+"""The longest numerator or denominator: its cube stays below the 4300 digits that Python prints."""
 
 
 class Term(Frozen):
-    """A formula of the file, and its sympy expression."""
+    """A formula of the file and its sympy expression."""
 
     node: Node
     where: str
@@ -193,14 +183,7 @@ class Term(Frozen):
 
 
 class Maker:
-    """What makes the problem of one file; faults are noted in its source.
-
-    Attributes:
-        source: the file.
-        formulas: its parameters, read already.
-        text: what it says.
-        symbols: of all names.
-    """
+    """Makes the problem of one file; faults are reported to its source."""
 
     def __init__(self, formulas: Formulas, text: ProblemText, symbols: Iterable[Any]) -> None:
         self.source = formulas.source
@@ -211,12 +194,9 @@ class Maker:
     def terms(
         self, items: Iterable[tuple[Node, str]], names: Mapping[str, str], noun: str
     ) -> list[Term]:
-        """The formulas without faults; where the variables have faults there are none.
+        """Returns the formulas without faults; none if the variables have faults.
 
-        Args:
-            items: each formula with what it is called in messages.
-            names: for names that may not be here, the cure; "" for those that may.
-            noun: what a name can be here.
+        ``names`` and ``noun`` are those of ``Formulas.parsed``.
         """
         known = names if self.text.are_named else None
         allowed = [name for name, cure in (known or {}).items() if not cure]
@@ -235,12 +215,12 @@ class Maker:
         return found
 
     def invariants(self, names: Mapping[str, str], noun: str) -> list[Term]:
-        """The first integrals; ``names`` and ``noun`` as for ``terms``."""
+        """Returns the first integrals; ``names`` and ``noun`` are those of ``terms``."""
         items = ((node, f"invariants: {name}") for name, node in self.text.invariants)
         return self.terms(items, names, noun)
 
     def check_values(self, terms: Sequence[Term], start: Mapping[str, fmpq]) -> None:
-        """Note formulas that have no value at the start, as far as that is known."""
+        """Reports formulas without a value at the start, as far as the start is known."""
         with ctx.workprec(BITS):
             values = {name: arb(x) for name, x in start.items()}
         for term in terms:
@@ -251,7 +231,9 @@ class Maker:
     def numbers(
         self, node: Node, where: str, names: Sequence[str]
     ) -> tuple[Entries, dict[str, fmpq]]:
-        """Values by names: what is given, and the numbers; of no names given all may be here."""
+        """Returns the nodes and the numbers of values by names; without ``names`` all are
+        allowed.
+        """
         entries = self.source.mapping(node, where, names)
         values: dict[str, fmpq] = {}
         for name, x in entries.items():
@@ -263,7 +245,7 @@ class Maker:
     def refuse_missing(
         self, node: Node, where: str, needed: Iterable[object], given: Container[str], example: str
     ) -> None:
-        """Note names without a value; ``example`` is one, with ``{}`` for a name."""
+        """Reports names without a value. ``example`` shows one, with ``{}`` for a name."""
         missing = [name for name in map(str, needed) if name not in given]
         if missing:
             more = ", …" if len(missing) > _SHOWN else ""
@@ -273,7 +255,7 @@ class Maker:
             )
 
     def refuse_constants(self, invariants: Sequence[Term], noun: str) -> None:
-        """Note first integrals that are none: they are constant for every motion."""
+        """Reports first integrals that do not depend on any variable."""
         from garkcli.problems.vectorfield import is_constant
 
         for invariant in invariants:
@@ -285,7 +267,7 @@ class Maker:
     def check_derivatives(
         self, terms: Sequence[Term], y: Vector, start: Mapping[str, fmpq], more: Place
     ) -> None:
-        """Note terms that have no derivative at the start, where more names may have values."""
+        """Reports terms without a derivative at the start; ``more`` has values of further names."""
         from garkcli.problems.lagrangian import missing_derivative
 
         with ctx.workprec(BITS):
@@ -298,7 +280,7 @@ class Maker:
                 self.source.fault(term.node, message, cure, code="no-formula")
 
     def check_size(self, terms: Sequence[Term]) -> None:
-        """Note terms whose derivatives are too long."""
+        """Reports terms whose derivatives are too long."""
         from garkcli.problems.translate import MAX_SIZE, size_of_derivatives
 
         sizes = [size_of_derivatives(x.made) for x in terms]
@@ -310,7 +292,7 @@ class Maker:
             self.source.fault(largest.node, message, cure, code="too-many")
 
     def check_numbers(self, terms: Sequence[Term]) -> None:
-        """Note terms with numbers too long to be written, once powers are multiplied out."""
+        """Reports terms with numbers that are too long once powers are multiplied out."""
         import sympy
 
         for term in terms:
@@ -325,5 +307,4 @@ class Maker:
 
 
 def named(invariants: Sequence[Term]) -> Invariants:
-    """First integrals with the names that the file has for them."""
     return tuple((x.where.removeprefix("invariants: "), x.made) for x in invariants)

@@ -1,7 +1,7 @@
-"""The grammar of the files that people write: each key is declared once, with what may be there.
+"""The grammar of the files that users write: each key is declared once, with the kind of its value.
 
-A declaration reads the key, makes its JSON Schema, and is what pages, ``gark explain`` and editors
-say of it.
+A declaration reads the key, makes its JSON Schema, and is the source of pages, ``gark explain`` and
+editors.
 """
 
 from __future__ import annotations
@@ -22,35 +22,29 @@ if TYPE_CHECKING:
 
 Schema: TypeAlias = dict[str, Any]
 Read: TypeAlias = Callable[[Any, Node, str], Any]
-"""From what reads the file, which has its ``source``, from a node, and from what messages call it,
-to the value; None, with a fault noted, where it is none.
+"""Reads a node: from the reader of the file, which has its ``source``, the node, and its name in
+messages, to the value; None after a fault.
 """
 FILE = "the file"
-"""What messages call the mapping that is the whole file."""
+"""The name of the whole file in messages."""
 NOTHING: Mapping[str, Any] = {}
 
 
 def as_it_is(_: Any, node: Node, __: str) -> Node:
-    """The node itself, for keys that are read where more is known."""
+    """Returns the node itself, for keys that are read later."""
     return node
 
 
 class Kind(Frozen):
-    """What may be under a key.
-
-    Attributes:
-        schema: its JSON Schema.
-        read: its value.
-        inside: the keys inside of it.
-    """
+    """The kind of value of a key, with its JSON Schema and the keys within it."""
 
     schema: Callable[[], Schema]
     read: Read = as_it_is
     inside: Callable[[], Iterable[Key]] = tuple
 
     def then(self, make: Callable[[Any, Found, str], Any]) -> Kind:
-        """Of a mapping the same keys, with what is made of their values; None where there are
-        faults.
+        """Returns the same kind with a value made from the values of the keys; None after a
+        fault.
         """
 
         def read(at: Any, node: Node, where: str) -> Any:
@@ -64,15 +58,15 @@ class Key(Frozen):
     """A key of a mapping.
 
     Attributes:
-        line: an example, a line of a file with it: its name, a colon, a value.
-        kind: what may be there.
-        text: what it is, in whole sentences.
-        default: what holds where it is left out; None where nothing does.
-        is_needed: whether it cannot be left out.
-        page: where more is said; empty for the page about such files.
-        is_word: whether it is found by its own name too.
+        line: an example: a line of a file with its name, a colon and a value.
+        kind: the kind of its value.
+        text: its meaning, in full sentences.
+        default: its default, or None.
+        is_needed: whether it is required.
+        page: a page about it; empty for the page about such files.
+        is_word: whether ``gark explain`` finds it by its own name.
         is_listed: whether the page lists it.
-        also: what else people call it; a key of such a name is read as this one.
+        also: other spellings, which are read as this key.
     """
 
     line: str
@@ -87,11 +81,10 @@ class Key(Frozen):
 
     @property
     def name(self) -> str:
-        """The key itself."""
         return self.line.partition(":")[0]
 
     def schema(self) -> Schema:
-        """What it may have, and what it means."""
+        """Returns the schema of its value, with description, example and default."""
         import yaml  # only who asks for a schema reads examples
 
         schema = self.kind.schema()
@@ -103,7 +96,7 @@ class Key(Frozen):
         return told if self.default is None else {**told, "default": self.default}
 
     def entries(self, above: str, page: str) -> Iterator[Entry]:
-        """What the report says of it and of the keys inside of it, as those of a page."""
+        """Yields the entries of the glossary for the key and the keys within it."""
         from garkcli.glossary.key import Key as Entry  # only pages and explanations tell of keys
 
         path, own = above + self.name, self.page or page
@@ -114,12 +107,9 @@ class Key(Frozen):
 
 
 class Found(dict[str, Any]):
-    """What a mapping has: its values by key, without the faulty ones.
+    """The values of a mapping by key, without faulty ones.
 
-    Attributes:
-        node: the place in the file.
-        nodes: what is under each key that is given.
-        is_right: whether no fault was noted in it.
+    ``nodes`` has the nodes of all given keys; ``is_right`` says that there is no fault.
     """
 
     def __init__(self, node: Node, nodes: Entries) -> None:
@@ -129,7 +119,7 @@ class Found(dict[str, Any]):
 
 
 def required(*keys: str) -> Schema:
-    """That each of these keys is given."""
+    """Returns the schema that requires keys."""
     return {"required": list(keys)}
 
 
@@ -139,20 +129,17 @@ def _any_given(keys: Sequence[str]) -> Schema:
 
 
 class Together(Frozen):
-    """Keys that are one way to say something: all of the first are needed, the others may be
-    given.
-    """
+    """Keys that belong together: all of ``needed``, and perhaps others."""
 
     needed: tuple[str, ...]
     perhaps: tuple[str, ...] = ()
 
     @property
     def keys(self) -> tuple[str, ...]:
-        """All of them."""
         return self.needed + self.perhaps
 
     def refuse(self, source: Source, where: str, entries: Entries) -> None:
-        """Note those that are missing beside others."""
+        """Reports missing keys if others of the group are there."""
         missing = [key for key in self.needed if key not in entries]
         there = [key for key in self.keys if key in entries]
         if missing and there:
@@ -164,14 +151,14 @@ class Together(Frozen):
 
 
 class Ways(Frozen):
-    """Keys that say the same in several ways, of which a mapping has one.
+    """Alternatives for the same statement, of which a mapping has one.
 
     Attributes:
-        what: they say, with a verb: ``the substeps are``.
-        ways: a key each, or keys that go together.
-        none: what is wrong where there is none of them; empty where none is needed.
-        cure: for that.
-        is_one: whether there may be only one.
+        what: the statement, with a verb: ``the substeps are``.
+        ways: a key, or keys that belong together, for each.
+        none: the message if there is none; empty if none is required.
+        cure: the cure for that.
+        is_one: whether only one is allowed.
     """
 
     what: str
@@ -181,7 +168,7 @@ class Ways(Frozen):
     is_one: bool = True
 
     def given(self, entries: Entries) -> list[str]:
-        """The first key of each way that a mapping has."""
+        """Returns the first key of each alternative that a mapping has."""
         found = []
         for way in self.ways:
             keys = (way,) if isinstance(way, str) else way.keys
@@ -189,7 +176,6 @@ class Ways(Frozen):
         return found
 
     def schema(self) -> Schema:
-        """What it says of a mapping."""
         each = [required(x) if isinstance(x, str) else _any_given(x.keys) for x in self.ways]
         if not self.is_one:
             return {"anyOf": each}
@@ -199,7 +185,7 @@ class Ways(Frozen):
         return {"allOf": [choice, *whole]}
 
     def refuse(self, source: Source, node: Node, where: str, entries: Entries, _: str = "") -> None:
-        """Note what breaks it."""
+        """Reports violations."""
         given = self.given(entries)
         cure = f"keep one of {', '.join(given)}"
         for key in given[1:] if self.is_one else ():
@@ -213,28 +199,23 @@ class Ways(Frozen):
 
 
 class Values(Frozen):
-    """Some of the values that a key may have.
-
-    Attributes:
-        schema: of them.
-        has: whether a node is one of them.
-    """
+    """Some of the values of a key, by a schema and by a test of nodes."""
 
     schema: Schema
     has: Callable[[Node], bool]
 
 
 class Beside(Frozen):
-    """What a key needs beside it, or what bars it.
+    """Keys that a key requires, or excludes.
 
     Attributes:
-        key: it is about.
-        message: what is wrong, with ``{way}`` for what a mapping has instead of what is needed.
-        cure: for that, or cures by what it has instead, with one for all others under ``""``.
-        needs: keys of which one has to be there too; none for any.
-        bars: keys beside which it may not be.
+        key: the key.
+        message: the message, with ``{way}`` for the alternative that a mapping has instead.
+        cure: the cure, or cures by the alternative, with one for all others under ``""``.
+        needs: the keys of which one is required.
+        bars: the keys that it excludes.
         code: the kind of fault.
-        values: that it is about; None for all.
+        values: the values to which it applies; None for all.
     """
 
     key: str
@@ -246,7 +227,6 @@ class Beside(Frozen):
     values: Values | None = None
 
     def schema(self) -> Schema:
-        """What it says of a mapping."""
         about = required(self.key)
         if self.values is not None:
             about["properties"] = {self.key: self.values.schema}
@@ -254,7 +234,7 @@ class Beside(Frozen):
         return {"if": about, "then": then}
 
     def refuse(self, source: Source, _: Node, where: str, entries: Entries, way: str = "") -> None:
-        """Note what breaks it; ``way`` is what the mapping has instead of what is needed."""
+        """Reports violations; ``way`` is the alternative that the mapping has instead."""
         node = entries.get(self.key)
         if node is None or (self.values is not None and not self.values.has(node)):
             return
@@ -269,12 +249,11 @@ class Beside(Frozen):
 
 
 class OfSchema(Frozen):
-    """What the schema alone says of a mapping; its reader finds it out otherwise."""
+    """A rule that only the schema has; the reader checks it elsewhere."""
 
     rule: Schema
 
     def schema(self) -> Schema:
-        """That."""
         return self.rule
 
     def refuse(self, *_: object) -> None:
@@ -282,18 +261,18 @@ class OfSchema(Frozen):
 
 
 Rule: TypeAlias = Ways | Beside | OfSchema
-"""Which keys need each other or exclude each other: for readers and for the schema."""
+"""Rules about keys that require or exclude each other, for readers and schemas."""
 
 
 def placed(where: str, message: str) -> str:
-    """A message about a mapping, with what it is; the whole file needs no name."""
+    """Returns a message with the name of its mapping, unless that is the whole file."""
     return message if where == FILE else f"{where}: {message}"
 
 
 def homes(keys: Iterable[Key]) -> dict[str, Home]:
-    """Where keys belong that are inside of others, by their names; the first of several places.
+    """Returns the places of the keys within others, by name; the first of several places.
 
-    A name that is also one of these keys, or of what people call them, has its meaning there.
+    Names that are also keys at the top, or other spellings of them, are left out.
     """
     found: dict[str, Home] = {}
     known = list(keys)
@@ -313,16 +292,11 @@ def entries_in(
     cures: Cures = dict,
     form: str = "",
 ) -> Entries:
-    """The entries of a mapping, with what is misspelt or called otherwise as what it is; faults
-    are noted.
+    """Returns the entries of a mapping, with misspelt keys under their correct names and faults
+    reported.
 
-    Args:
-        source: the file.
-        node: the mapping.
-        where: what it is, for messages.
-        keys: those there are, by their names.
-        cures: what to do about keys that are expected elsewhere.
-        form: the cure where there is no mapping.
+    ``cures`` returns advice about keys that belong elsewhere; ``form`` is the cure if there is no
+    mapping.
     """
     words = {word: name for name, key in keys.items() for word in key.also}
     return source.mapping(node, where, keys, cures, form, words)
@@ -335,14 +309,11 @@ def mapping(
     cures: Cures = dict,
     rules: Iterable[Rule] = (),
 ) -> Kind:
-    """Keys with their values, and no others.
+    """Returns the kind of a mapping with these keys and no others.
 
-    Args:
-        keys: those there are.
-        more: those that only a file with them, or a schema, has to know.
-        form: the cure where there is no such mapping, or a key is missing.
-        cures: what to do about keys that are expected elsewhere.
-        rules: which keys need or exclude each other.
+    ``more`` returns keys that are only needed for files with them, and for schemas; ``form`` is the
+    cure if there is no mapping, or a key is missing; ``cures`` returns advice about keys that
+    belong elsewhere.
     """
 
     @cache
@@ -382,7 +353,7 @@ def mapping(
 
 
 def closed(properties: Schema, *needed: str) -> Schema:
-    """The schema of a mapping with these keys and no others."""
+    """Returns the schema of a mapping with these keys and no others."""
     return {
         "type": "object",
         "properties": properties,
@@ -392,13 +363,12 @@ def closed(properties: Schema, *needed: str) -> Schema:
 
 
 def by_name(kind: Kind, **rules: Any) -> Kind:
-    """Values of one kind by names that the file chooses; read where more is known."""
+    """Returns the kind of a mapping with names from the file; values are read later."""
     schema = {"type": "object", **rules}
     return Kind(lambda: {**schema, "additionalProperties": kind.schema()}, inside=kind.inside)
 
 
 def count(least: int = 0, most: int | None = None) -> Kind:
-    """A whole number."""
     schema: Schema = {"type": "integer", "minimum": least}
     if most is not None:
         schema["maximum"] = most
@@ -406,7 +376,9 @@ def count(least: int = 0, most: int | None = None) -> Kind:
 
 
 def word(words: Callable[[], Iterable[str]]) -> Kind:
-    """One of a few words; with a mapping from words to texts the schema has these."""
+    """Returns the kind of one of several words; a mapping gives their descriptions in the
+    schema.
+    """
 
     def schema() -> Schema:
         known = words()
@@ -418,7 +390,7 @@ def word(words: Callable[[], Iterable[str]]) -> Kind:
 
 
 YES_AND_NO = {"yes": True, "no": False, "true": True, "false": False}
-"""What people write for a truth, besides ``true`` and ``false``."""
+"""Spellings of truth values besides ``true`` and ``false``."""
 
 
 def _flag(at: Any, node: Node, where: str) -> bool | None:
@@ -429,14 +401,11 @@ def _flag(at: Any, node: Node, where: str) -> bool | None:
 
 
 FLAG = Kind(lambda: {"type": "boolean"}, _flag)
-"""True or false."""
 TEXT = Kind(
     lambda: {"type": ["string", "number", "boolean", "null"]},
     lambda at, node, where: at.source.scalar(node, where),
 )
-"""A name or a text, as YAML may read it."""
 VERSION = Kind(lambda: {"enum": [1, "1"]}, lambda at, node, _: at.source.check_version(node))
-"""The version of the format."""
 
 
 def list_of(
@@ -447,15 +416,10 @@ def list_of(
     form: str = "",
     rules: Mapping[str, Any] = NOTHING,
 ) -> Kind:
-    """A list that is not empty.
+    """Returns the kind of a nonempty list.
 
-    Args:
-        item: what is in it.
-        noun: what messages call several of them.
-        most: how many there may be.
-        each: what messages call one of them, with ``{}`` for its number.
-        form: the cure where there is no list.
-        rules: of the schema.
+    ``noun`` names its items in messages, ``each`` one of them, with ``{}`` for the number; ``most``
+    is the largest length, ``form`` the cure if there is no list, ``rules`` is added to the schema.
     """
     schema = {"minItems": 1, **({} if most is None else {"maxItems": most}), **rules}
 
@@ -476,7 +440,7 @@ def list_of(
 
 
 def either(single: Kind, at_list: Kind | None = None, at_mapping: Kind | None = None) -> Kind:
-    """What is of one kind where it is a single value, and of another as a list or as a mapping."""
+    """Returns a kind that depends on whether the value is a scalar, a list or a mapping."""
     every = [x for x in (single, at_list, at_mapping) if x is not None]
 
     def read(at: Any, node: Node, where: str) -> Any:
@@ -501,14 +465,9 @@ def one_or_more(
     is_plain: bool = False,
     rules: Mapping[str, Any] = NOTHING,
 ) -> Kind:
-    """One value, or a list; read as a list.
+    """Returns the kind of one value or a list, read as a list.
 
-    Args:
-        item: what one is.
-        noun: what messages call several of them.
-        most: how many there may be.
-        is_plain: whether one is a single value, no mapping.
-        rules: of the schema of the list.
+    ``is_plain`` says that one value is a scalar; the others are those of ``list_of``.
     """
     several = list_of(item, noun, most, form="name one", rules=rules)
 
@@ -523,17 +482,17 @@ def one_or_more(
 
 
 def defined(name: str, read: Read = as_it_is) -> Kind:
-    """What the definitions of a schema have under a name."""
+    """Returns the kind with a name in the definitions of a schema."""
     return Kind(lambda: {"$ref": f"#/definitions/{name}"}, read)
 
 
 def declared(room: str, name: str) -> Any:
-    """What is declared in a file of this room, which is loaded for it."""
+    """Returns a declaration from a module of this package, which is imported."""
     return getattr(import_module(f"garkcli.methodfile.{room}"), name)
 
 
 def later(room: str, name: str) -> Kind:
-    """What is declared in a file that is loaded when it is read, or a schema has it."""
+    """Returns the kind declared in a module that is imported when it is needed."""
 
     def kind() -> Kind:
         found: Kind = declared(room, name)
@@ -547,19 +506,15 @@ def later(room: str, name: str) -> Kind:
 
 
 def file_schema(title: str, text: str, kind: Kind, **more: Any) -> Schema:
-    """The JSON Schema (draft-07) of files with some keys, as plain data.
+    """Returns the JSON Schema (draft-07) of files, as plain data.
 
-    Args:
-        title: of the schema.
-        text: what such a file is.
-        kind: the mapping that the file is.
-        more: beside it, such as definitions.
+    ``more`` is added to it, such as definitions.
     """
     head = {"$schema": "http://json-schema.org/draft-07/schema#", "title": title}
     return {**head, "description": text, **kind.schema(), **more}
 
 
 def told(keys: Iterable[Key], page: str) -> Iterator[Entry]:
-    """What the report says of keys at the top of a file, and of those inside of them."""
+    """Yields the entries of the glossary for keys at the top of a file and those within them."""
     for key in keys:
         yield from key.entries("", page)

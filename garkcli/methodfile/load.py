@@ -1,4 +1,4 @@
-"""From a path to methods: reading, describing, building, with every fault of a file at once."""
+"""Method files from path to method; all faults of a file are reported at once."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ _READ: ContextVar[list[MethodFile] | None] = ContextVar("read", default=None)
 
 @contextmanager
 def noting() -> Iterator[list[MethodFile]]:
-    """The methods that are read inside, in order, as they are read."""
+    """Collects the methods that are read while it is open."""
     found: list[MethodFile] = []
     token = _READ.set(found)
     try:
@@ -53,14 +53,11 @@ def noting() -> Iterator[list[MethodFile]]:
 
 
 def load(path: str, settings: Mapping[str, str] = NO_SETTINGS) -> MethodFile:
-    """Read one method file, or standard input for ``-``.
+    """Reads a method file, or standard input for ``-``, or a method of the catalogue by its name or
+    alias.
 
-    Args:
-        path: of the file; or the name or an alias of a method of the catalogue.
-        settings: values of its parameters, by name, in place of those in the file.
-
-    Raises:
-        MethodFileError: every fault of the file, with positions.
+    ``settings`` are values of parameters in place of those in the file. Raises MethodFileError with
+    all faults of the file.
     """
     with doing(f"reading {path}"):
         method = loads(*read_method_text(path), settings)
@@ -70,11 +67,10 @@ def load(path: str, settings: Mapping[str, str] = NO_SETTINGS) -> MethodFile:
 
 
 def read_method_text(path: str) -> tuple[str, str]:
-    """The text of a method file, of a method of the catalogue, or of standard input for ``-``, and
-    what to call it.
+    """Returns the text of a method file, of a method of the catalogue or of standard input for
+    ``-``, and its name.
 
-    Raises:
-        MethodFileError: there is no such file or method, or no such text in it.
+    Raises MethodFileError if there is no such file or method, or it is not text.
     """
     is_folder = path != STDIN and os.path.isdir(path)
     if is_folder and not is_both(path):
@@ -83,7 +79,7 @@ def read_method_text(path: str) -> tuple[str, str]:
 
 
 def _of_folder(path: str) -> Remark:
-    """Why a folder is no method."""
+    """Returns the fault of a folder in place of a method."""
     try:
         os.scandir(path).close()
     except OSError as error:
@@ -100,15 +96,10 @@ def _of_folder(path: str) -> Remark:
 def loads(
     text: str, source: str = "<text>", settings: Mapping[str, str] = NO_SETTINGS
 ) -> MethodFile:
-    """Read a method file from its text.
+    """Reads the text of a method file.
 
-    Args:
-        text: of the file.
-        source: what to call it.
-        settings: values of its parameters, by name, in place of those in the file.
-
-    Raises:
-        MethodFileError: every fault of the text, with positions.
+    ``settings`` are values of parameters in place of those in the file. Raises MethodFileError with
+    all faults of the text.
 
     >>> loads("methods: [{family: gauss, stages: 2}]").tableau.size
     1
@@ -191,11 +182,10 @@ def _maker_by_digits(text: str, source: str, settings: Any, radii: Sequence[fmpq
 
 
 def works_in(text: str, source: str) -> tuple[Work, ...]:
-    r"""Where the method of a file was published; without a reference where its parts were.
+    r"""Returns the publications of the method of a file; without a reference those of its parts.
 
-    Raises:
-        MethodFileError: the text is no YAML, or its reference has a fault; or it has none, and it
-            is no method file.
+    Raises MethodFileError if the text is not YAML or its reference has a fault, or if it has none
+    and is not a method file.
 
     >>> [x[0][:8] for x in works_in("methods: [gauss-2, gauss-3]\ntransfer: collocation", "")]
     ['E. Haire', 'A. Zanna']
@@ -210,11 +200,11 @@ _OTHER_KINDS: dict[Form, str] = {
     "nprk": "nonlinearly partitioned",
     "derivatives": "multiderivative",
 }
-"""The names of methods that are no GARK methods, in messages."""
+"""The kinds of methods that are not GARK methods, in messages."""
 
 
 def _free(reader: Reader, description: Description) -> MethodFileError:
-    """The error of a family of methods, or what else is wrong with it."""
+    """Returns the error for a family of methods, or the other faults of the file."""
     if reader.source.faults:
         return reader.source.error()
     kind = _OTHER_KINDS.get(description.form)
@@ -233,10 +223,9 @@ def _free(reader: Reader, description: Description) -> MethodFileError:
 
 
 def described(text: str, source: str, settings: Mapping[str, str]) -> tuple[Reader, Description]:
-    """What a file says, with the reader that has its coefficients and its faults.
+    """Returns the description of a file and its reader, which has the coefficients.
 
-    Raises:
-        MethodFileError: it says no method.
+    Raises MethodFileError if the file does not describe a method.
     """
     reading = Source(source, text)
     reader = Reader(reading, settings)
@@ -252,15 +241,9 @@ def described(text: str, source: str, settings: Mapping[str, str]) -> tuple[Read
 def built(
     reader: Reader, description: Description, values_of: Callable[[Numbers], V]
 ) -> Builder[V]:
-    """The method that a file describes, with what else its coefficients say.
+    """Returns the method that a file describes, with its coefficients.
 
-    Args:
-        reader: as it read the file.
-        description: what it read.
-        values_of: what gives coefficients their values.
-
-    Raises:
-        MethodFileError: the coefficients make no method.
+    ``values_of`` evaluates them. Raises MethodFileError if they do not make a method.
     """
     text = part_of(reader.source, reader.numbers, description)
     reader.source.close()

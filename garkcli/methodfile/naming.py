@@ -1,9 +1,9 @@
-"""A name in place of a file: which method of which catalogue it means.
+"""Names of methods in place of files.
 
-An argument with a separator of paths in it is a file, and so is one that exists as a file; any
-other is a name. Your own folders come before the package, the package before packages of
-others, and in all of them a name before an alias, and both before what has the same letters and
-digits: ``ARS(2,2,2)`` is ``ARS222``.
+An argument with a path separator is a file, and so is one that exists as a file; any other is a
+name. The user's folders come before the package, and the package before other packages; in each,
+names come before aliases, and both before spellings with the same letters and digits:
+``ARS(2,2,2)`` is ``ARS222``.
 """
 
 from __future__ import annotations
@@ -35,24 +35,20 @@ if TYPE_CHECKING:
     from garkcli.reference import Reference
 
 FAMILY = "the families"
-"""The shelf of methods that are made when they are named."""
+"""The shelf of methods made from their names."""
 PREFIX = "catalogue:"
-"""What is before a name that is never a file; alone, or before a folder, it means all methods."""
+"""The prefix of a name that is never a file; alone, or with a folder, it stands for all methods."""
 _OF_FILES = (".yaml", ".yml", ".json")
-"""No name ends so."""
+"""Endings of files, which names do not have."""
 _MOST_SHOWN = 6
-"""Most methods that are listed where an alias means several, or a name is cut short."""
+"""The number of methods listed for an ambiguous alias, or for the start of a name."""
 
 
 def read_argument(argument: str, path: str = "") -> tuple[str, str]:
-    """The text of the method that an argument means, and what to call it.
+    """Returns the text and the name of the method that an argument stands for.
 
-    Args:
-        argument: a path, or a name or alias of the catalogue.
-        path: where it is as a file, if that is not the argument itself.
-
-    Raises:
-        MethodFileError: there is no such file or method, or no text in it, or it may mean several.
+    ``path`` is the place of the file, if it is not the argument. Raises MethodFileError if there is
+    no such file or method, if it is not text, or if the name is ambiguous.
     """
     method = find_named(argument, path)
     if method is None:
@@ -61,14 +57,9 @@ def read_argument(argument: str, path: str = "") -> tuple[str, str]:
 
 
 def find_named(argument: str, path: str = "") -> Shelved | None:
-    """The method of the catalogue that an argument means; None where it means a file.
+    """Returns the method of the catalogue that an argument stands for; None for a file.
 
-    Args:
-        argument: as in ``read_argument``.
-        path: as there.
-
-    Raises:
-        MethodFileError: it means both, several, or nothing.
+    Raises MethodFileError if it may be both or several, or does not exist.
     """
     if not can_be_name(argument):
         return None
@@ -87,7 +78,7 @@ def find_named(argument: str, path: str = "") -> Shelved | None:
 
 
 def can_be_name(argument: object) -> bool:
-    """Whether it looks like a name, whatever exists: no file is sought, no catalogue."""
+    """Returns whether an argument has the form of a name, whether or not the method exists."""
     if not isinstance(argument, str) or argument in {STDIN, "", ".", ".."}:
         return False
     if argument.startswith("{"):
@@ -98,9 +89,7 @@ def can_be_name(argument: object) -> bool:
 
 
 def called(argument: str) -> str:
-    """What reports call it: a method of the catalogue by its name, however it was typed, and a file
-    by its path.
-    """
+    """Returns the name of a method in reports: that in the catalogue, or the path."""
     with suppress(MethodFileError):  # whoever reads it says what is wrong
         method = find_named(argument)
         if method is not None:
@@ -109,16 +98,15 @@ def called(argument: str) -> str:
 
 
 def is_both(path: str) -> bool:
-    """Whether what exists under this path is also a name."""
+    """Returns whether a path is also the name of a method."""
     return can_be_name(path) and look_up(path) is not None
 
 
 def look_up(name: str) -> Shelved | None:
-    """The method of a name or an alias; None where there is none.
+    """Returns the method with a name or an alias, or None.
 
-    Raises:
-        MethodFileError: the name is that of several files of one place, or the alias that of
-            several methods.
+    Raises MethodFileError if several files in one place have the name, or several methods the
+    alias.
     """
     key = key_of(name)
     for shelves in _in_turn():
@@ -133,13 +121,13 @@ def look_up(name: str) -> Shelved | None:
 
 
 def is_catalogued(name: str) -> bool:
-    """Whether a catalogue has a method of exactly this name."""
+    """Returns whether a catalogue has a method of exactly this name."""
     method = look_up(name)
     return method is not None and method.name == name and method.shelf != FAMILY
 
 
 def _of_family(name: str) -> Shelved | None:
-    """A member of a family: ``gauss-7``, ``gauss:7`` or ``{family: gauss, stages: 7}``."""
+    """Returns a member of a family: ``gauss-7``, ``gauss:7`` or ``{family: gauss, stages: 7}``."""
     from garkcli.families.registry import FAMILIES, member_named
 
     text = name.strip()
@@ -156,7 +144,7 @@ def _of_family(name: str) -> Shelved | None:
 
 
 def _made(name: str, reference: Reference | None = None) -> Shelved:
-    """The file of a member of a family, with the reference of the family."""
+    """Returns the file of a member of a family, with the reference of the family."""
 
     def written() -> str:
         known = {key: getattr(reference, key) for key in fields(reference)} if reference else {}
@@ -169,13 +157,13 @@ def _made(name: str, reference: Reference | None = None) -> Shelved:
 
 
 def _in_turn() -> Iterator[Sequence[Shelf]]:
-    """The shelves; those of other packages, which take long to find, after all others."""
+    """Yields the shelves in the order of search, those of other packages last, as they are slow."""
     yield [*own_folders(), package()]
     yield others()
 
 
 def _called(key: str, known: Iterable[Found]) -> list[Shelved]:
-    """The methods that a key means; of two that have one name the first."""
+    """Returns the methods under a key, the first of those with the same name."""
     found: dict[str, Shelved] = {}
     for methods in known:
         for method in methods.get(key, ()):
@@ -184,10 +172,9 @@ def _called(key: str, known: Iterable[Found]) -> list[Shelved]:
 
 
 def _only(name: str, methods: Sequence[Shelved]) -> Shelved:
-    """The one method of a name.
+    """Returns the only method of a name.
 
-    Raises:
-        MethodFileError: there are several.
+    Raises MethodFileError if there are several.
     """
     if len(methods) == 1:
         return methods[0]
@@ -198,7 +185,7 @@ def _only(name: str, methods: Sequence[Shelved]) -> Shelved:
 
 
 def _unknown(name: str) -> Remark:
-    """Neither file nor name."""
+    """Returns the fault for an argument that is neither a file nor a name."""
     message = "no such file, and no method of this name in the catalogue"
     known = [
         word
@@ -215,24 +202,22 @@ def _unknown(name: str) -> Remark:
 
 
 def _first(names: Sequence[str]) -> str:
-    """Some names in a line."""
     shown = ", ".join(names[:_MOST_SHOWN])
     return f"{shown}, …" if len(names) > _MOST_SHOWN else shown
 
 
 def every_shelf() -> list[Shelf]:
-    """All shelves, in the order in which names are sought."""
+    """All shelves in the order of search."""
     return list(chain.from_iterable(_in_turn()))
 
 
 def shelf_of(method: Shelved) -> Shelf:
-    """Where a method is."""
     (shelf,) = [x for x in every_shelf() if x.label == method.shelf]
     return shelf
 
 
 def visible(shelves: Iterable[Shelf]) -> Iterator[tuple[Shelf, Shelved]]:
-    """The methods that their names mean, shelf by shelf: none that another one hides."""
+    """Yields the methods shelf by shelf, without those hidden by another of the same name."""
     known: set[str] = set()
     for shelf in shelves:
         for key, methods in shelf.methods.items():
@@ -242,17 +227,16 @@ def visible(shelves: Iterable[Shelf]) -> Iterator[tuple[Shelf, Shelved]]:
 
 
 def hidden_by(method: Shelved) -> list[str]:
-    """Where else among your own folders and the package a method of this name is."""
+    """Returns the user's folders, or the package, in which a method of the same name is hidden."""
     key = key_of(method.name)
     elsewhere = [x for x in (*own_folders(), package()) if x.label != method.shelf]
     return [shelf.label for shelf in elsewhere if key in shelf.methods]
 
 
 def note_of(argument: str) -> list[str]:
-    """What a user should know of a name: that its method hides another one.
+    """Returns a note if the method of a name hides another one.
 
-    Raises:
-        MethodFileError: the name may mean several methods.
+    Raises MethodFileError if the name is ambiguous.
     """
     if not can_be_name(argument) or os.path.lexists(argument):
         return []
@@ -266,10 +250,9 @@ def note_of(argument: str) -> list[str]:
 
 
 def names_beginning(start: str) -> list[str]:
-    """Names that begin so; where none does, aliases that are one word.
+    """Returns the names that begin with a text, or else one-word aliases.
 
-    Raises:
-        MethodFileError: a package of others cannot be imported.
+    Raises MethodFileError if another package cannot be imported.
     """
     key = key_of(start)
     shelves = every_shelf()
@@ -282,9 +265,9 @@ def names_beginning(start: str) -> list[str]:
 
 
 def expanded(argument: str) -> list[str]:
-    """What ``catalogue:`` and ``catalogue:FOLDER`` mean, as arguments for one method each.
+    """Returns the methods that ``catalogue:`` or ``catalogue:FOLDER`` stands for, as arguments.
 
-    Empty where the argument is something else, or there is no such folder.
+    Empty for other arguments, and if there is no such folder.
     """
     if not argument.startswith(PREFIX) or os.path.lexists(argument):
         return []

@@ -1,4 +1,4 @@
-"""What nodes of YAML hold and where they are; the words of a file, as shown, as meant."""
+"""YAML nodes: their content and their place; the words of a file in messages."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ from yaml.nodes import MappingNode, Node, ScalarNode
 from garkcli.errors import nearest
 
 Extent: TypeAlias = tuple[int, int]
-"""From where to where something is in the text of a file."""
+"""The start and the end of a place in the text of a file."""
 
 
 def keys_of(node: Node) -> set[str]:
-    """The keys of a mapping that are plain texts; none for anything else."""
+    """Returns the text keys of a mapping; none for other nodes."""
     if not isinstance(node, MappingNode):
         return set()
     return {key.value for key, _ in node.value if isinstance(key, ScalarNode)}
 
 
 def key_nodes(node: Node) -> dict[str, ScalarNode]:
-    """Where the keys of a mapping are, the first of equal ones."""
+    """Returns the nodes of the keys of a mapping, the first of equal ones."""
     found: dict[str, ScalarNode] = {}
     for key, _ in node.value if isinstance(node, MappingNode) else ():
         if isinstance(key, ScalarNode):
@@ -30,38 +30,30 @@ def key_nodes(node: Node) -> dict[str, ScalarNode]:
 
 
 def key_of(root: MappingNode, value: Node) -> Node:
-    """The key of a value, as it is in the file."""
     found: Node = next(key for key, other in root.value if other is value)
     return found
 
 
 def extent(text: str, first: Node, last: Node) -> Extent:
-    """From where to where in the text of a file the values from ``first`` to ``last`` are,
-    without the blanks after them.
-    """
+    """Returns the place of the values from ``first`` to ``last``, without blanks at the end."""
     start, end = first.start_mark.index, last.end_mark.index
     return start, start + len(text[start:end].rstrip())
 
 
 def is_null(node: Node) -> bool:
-    """Whether the value is YAML's null."""
     return isinstance(node, ScalarNode) and node.tag == "tag:yaml.org,2002:null"
 
 
 def meant_key(key: str, known: Sequence[str], words: Mapping[str, str]) -> str:
-    """The key that an unknown one stands for; empty where it is none of them.
+    """Returns the known key for which an unknown one stands; empty if there is none.
 
-    Args:
-        key: as it is written.
-        known: the keys there are.
-        words: what people call some of them besides.
+    ``words`` has other spellings.
     """
     return words.get(key.lower(), "") or nearest(key, known)
 
 
 def one_line(text: str) -> str:
-    r"""A name as it can be in a heading: blanks for line ends and for what a terminal would act
-    on.
+    r"""Returns a text in one line of printable characters.
 
     >>> one_line("Gauss 2\n  and \x1b more")
     'Gauss 2 and more'
@@ -71,7 +63,7 @@ def one_line(text: str) -> str:
 
 
 def unquoted(name: str) -> str:
-    """A name of the file, cut where it is long; in quotes where it is no plain word.
+    """Returns a name from the file, shortened if long, in quotes unless it is an identifier.
 
     >>> unquoted("tau"), unquoted("no name")
     ('tau', "'no name'")
@@ -82,7 +74,7 @@ def unquoted(name: str) -> str:
 
 
 def shortened(text: str, length: int = 60) -> str:
-    """``text`` in quotes, cut where it is long."""
+    """Returns ``text`` in quotes, shortened if long."""
     if len(text) > length:
         text = text[:length] + "…"
     return repr(text)

@@ -1,4 +1,4 @@
-"""YAML nodes to the form ``nprk``: nonlinearly partitioned methods for ẏ = F(y, y)."""
+"""The form ``nprk``: nonlinearly partitioned methods for ẏ = F(y, y)."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ NPRK = g.mapping(
 
 
 def nprk(at: Reading, node: Node) -> d.NprkText | None:
-    """The form ``nprk``; None where it makes no method."""
+    """Reads the form ``nprk``; None if it is not a method."""
     found: g.Found | None = NPRK.read(at, node, "nprk")
     if found is None or not found.is_right:
         return None

@@ -1,4 +1,4 @@
-"""Coefficients in a file: text to expressions."""
+"""The coefficients of a file, from text to expressions."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from garkcli.exact.polynomial import Polynomial
 
 UNKNOWN = "?"
-"""What is in a file for a coefficient that is not known."""
+"""The text for an unknown coefficient."""
 _MATRICES = {"A", "alpha", "gamma", "dense"}
 _LETTERS = {"embedded": "bh", "dense": "bt"}
 _PLACE = (
@@ -33,9 +33,10 @@ _PLACE = (
 
 
 def name_of_place(where: str) -> str | None:
-    """The name of the unknown at a place, as messages call it; None where there is none.
+    """Returns the name of the unknown at a place, given as in messages; None if it cannot be
+    unknown.
 
-    Numbers of ten and more are kept apart by ``_``.
+    Numbers with two digits are separated by ``_``.
 
     >>> name_of_place("A, row 2, entry 1"), name_of_place("A^{1,2}, row 3, entry 1")
     ('a21', 'a12_31')
@@ -58,26 +59,25 @@ def name_of_place(where: str) -> str | None:
 
 
 def is_bare_unknown(node: Node) -> bool:
-    """Whether a ? is there without quotes, which YAML takes for the sign of a key."""
+    """Returns whether a ? is written without quotes, which YAML takes for the sign of a key."""
     if not isinstance(node, MappingNode) or len(node.value) != 1:
         return False
     return all(isinstance(x, ScalarNode) and not x.value for x in node.value[0])
 
 
 def _together(indices: Sequence[str]) -> str:
-    """Indices one after the other, with _ between them where one has two digits."""
     return ("_" if any(len(index) > 1 for index in indices) else "").join(indices)
 
 
 MAX_SIZE = 2_000
-"""Most operations of one coefficient, those of the parameters in it written out."""
+"""The largest number of operations in a coefficient, with parameters expanded."""
 MAX_DEPTH = 200
-"""How deep one coefficient may be nested, the parameters in it written out."""
+"""The deepest nesting of a coefficient, with parameters expanded."""
 _SHOWN_ROWS = 5  # most further rows of another length that are reported
 
 
 class Entry(Frozen):
-    """One coefficient: its expression and where it is."""
+    """A coefficient."""
 
     expression: Expression
     node: Node
@@ -89,11 +89,8 @@ Rows: TypeAlias = tuple[Row, ...]
 
 
 class Between(Frozen):
-    """Where a parameter lies.
-
-    Attributes:
-        ranges: with two rational ends each.
-        bounds: polynomials in it that are at least 0, for ends that are algebraic.
+    """The range of a parameter: pairs of rational ends, and polynomials in it that are nonnegative,
+    for algebraic ends.
     """
 
     ranges: tuple[tuple[Entry, Entry], ...] = ()
@@ -103,14 +100,14 @@ class Between(Frozen):
 class Free(Between, kw_only=True):
     """A parameter without a value.
 
-    ``where`` is the entry of a tableau that it stands for, empty for a parameter with a name.
+    For an entry of a tableau ``where`` is its place; it is empty for a named parameter.
     """
 
     node: Node
     where: str = ""
 
     def within(self, found: Between) -> Free:
-        """The same parameter, in a range besides those that it has."""
+        """Returns the parameter with a further range."""
         ranges, bounds = (*self.ranges, *found.ranges), (*self.bounds, *found.bounds)
         return replace(self, ranges=ranges, bounds=bounds)
 
@@ -118,11 +115,8 @@ class Free(Between, kw_only=True):
 class Numbers(Mutable):
     """Reads the coefficients of one file; ``parameters`` are substituted as they are read.
 
-    Attributes:
-        settings: values of parameters that are given from outside of the file, as text.
-        free: the parameters that have none.
-        places: where the value of each parameter is.
-        used: the names in all coefficients, as they are written.
+    ``settings`` are values of parameters from outside, as text, ``free`` the parameters without
+    value, ``places`` the nodes of values of parameters, ``used`` the names in all coefficients.
     """
 
     source: Source
@@ -138,26 +132,27 @@ class Numbers(Mutable):
     _read: dict[str, Expression] = field(default_factory=dict)
 
     def define(self, name: str, value: Expression) -> None:
-        """Let ``name`` stand for ``value`` in all coefficients read from now on."""
+        """Sets the value of ``name`` in all coefficients that are read later."""
         self._read.clear()
         self.parameters[name] = value
         self._sizes[name] = size_of(value, {})
         self._depths[name] = depth_of(value, {})
 
     def forget(self, name: str) -> None:
-        """Let ``name`` stand for nothing in coefficients read from now on."""
+        """Removes ``name`` for all coefficients that are read later."""
         self._read.clear()
         for known in (self.parameters, self._sizes, self._depths):
             del known[name]
 
     def entry(self, node: Node, where: str) -> Entry:
-        """One coefficient; a faulty one is noted and read as zero, so that reading goes on."""
+        """Reads a coefficient; a faulty one is reported and counts as zero, so that reading
+        continues.
+        """
         entry = Entry(self._read_entry(node, where), node, where)
         self.entries.append(entry)
         return entry
 
     def _read_entry(self, node: Node, where: str) -> Expression:
-        """What a coefficient means; zero where it is faulty."""
         if is_bare_unknown(node):
             message = f"YAML reads a bare {UNKNOWN} as a key"
             cure = f'quote it: "{UNKNOWN}"'
@@ -175,7 +170,9 @@ class Numbers(Mutable):
             return Literal(ZERO)
 
     def _unknown(self, node: Node, where: str) -> Expression:
-        """An entry without a value: an unknown named by its place, or the value given for it."""
+        """Returns an entry without a value: an unknown named by its place, or its value from
+        outside.
+        """
         name = name_of_place(where)
         if name is None:
             message = f"{UNKNOWN} stands for an entry of A, b, c, embedded, dense, α, γ or d"
@@ -192,7 +189,7 @@ class Numbers(Mutable):
         return self.unknown(name, node, where)
 
     def unknown(self, name: str, node: Node, where: str) -> Expression:
-        """Define an unknown of a tableau: free, or with the value given for it."""
+        """Defines an unknown of a tableau, free or with a value from outside."""
         value: Expression = Name(name)
         if name in self.settings:
             value = self.given(name, node, where)
@@ -202,7 +199,7 @@ class Numbers(Mutable):
         return value
 
     def given(self, name: str, node: Node, where: str) -> Expression:
-        """The value of an unknown that is given from outside of the file."""
+        """Returns the value of an unknown given from outside the file."""
         text = self.settings[name]
         try:
             value = parse(text)
@@ -214,18 +211,16 @@ class Numbers(Mutable):
         return value
 
     def written(self, text: str, node: Node, where: str) -> Entry:
-        """A coefficient that a shape writes in place of the file."""
+        """Returns a coefficient that a shape writes in place of the file."""
         entry = Entry(self._expression(text), node, where)
         self.entries.append(entry)
         return entry
 
     def _expression(self, text: str) -> Expression:
-        """What a text means, its parameters written out; the same object for the same text, which
-        large matrices repeat a lot.
+        """Returns the expression of a text, with parameters expanded; the same object for equal
+        texts, which large matrices have.
 
-        Raises:
-            ExpressionError: it is no number.
-            LimitExceeded: written out it is too long.
+        Raises ExpressionError for a text that is not a number, LimitExceeded if it is too long.
         """
         if text in self._read:
             return self._read[text]
@@ -241,7 +236,7 @@ class Numbers(Mutable):
         return found
 
     def row(self, node: Node, where: str) -> Row:
-        """A row of coefficients; a single value is a row of one."""
+        """Reads a row of coefficients; a single value is a row of one."""
         if self._is_text([node], where, "a row"):
             return ()
         if isinstance(node, ScalarNode):
@@ -252,7 +247,9 @@ class Numbers(Mutable):
         return self._entries(items, where)
 
     def _entries(self, items: Sequence[Node], where: str) -> Row:
-        """The entries of a row; one that YAML cut in two at a comma is noted, and counts once."""
+        """Reads the entries of a row; one that YAML split at a comma is reported and counts
+        once.
+        """
         row: list[Entry] = []
         is_open = False
         for item in items:
@@ -272,7 +269,7 @@ class Numbers(Mutable):
         return tuple(row)
 
     def matrix(self, node: Node, where: str) -> Rows:
-        """A matrix, row by row; the rows may still be of different lengths, see ``fitted``."""
+        """Reads a matrix by rows, which may still differ in length, see ``fitted``."""
         written = node.value if isinstance(node, SequenceNode) else [node]
         if self._is_text(written, where, "a matrix"):
             return ()
@@ -298,7 +295,9 @@ class Numbers(Mutable):
         return ()
 
     def _is_text(self, rows: Sequence[Node], where: str, what: str) -> bool:
-        """Note, once, rows that are a text of several numbers, as other programs print them."""
+        """Reports, once, rows written as text with several numbers, as other programs print
+        them.
+        """
         example = "[0, 1/2]" if what == "a row" else "[[0, 0], [1/2, 0]]"
         found = spellings.printed_row(rows, example)
         if found is None:
@@ -310,17 +309,10 @@ class Numbers(Mutable):
         return True
 
     def fitted(self, rows: Rows, node: Node, where: str, shape: tuple[int, int], why: str) -> Rows:
-        """A matrix of the given shape; note at most one fault where it has another.
+        """Returns a matrix of the given shape; reports at most one fault if it has another.
 
         The rows of a triangular matrix may end at the diagonal or before it, as explicit tableaus
-        are printed: a missing entry is zero.
-
-        Args:
-            rows: as ``matrix`` read them; none where it noted a fault.
-            node: the matrix in the file.
-            where: what it is, for messages.
-            shape: the rows and columns it should have.
-            why: where this shape comes from.
+        are printed: missing entries are zero. ``why`` says where the shape comes from.
         """
         if not rows:
             return rows
@@ -347,8 +339,8 @@ class Numbers(Mutable):
     def rectangular(
         self, rows: Rows, node: Node, where: str, shape: tuple[int, int] | None = None
     ) -> Rows:
-        """The rows of a matrix, a triangle completed where ``shape`` is square; note rows of
-        different lengths. Nothing else compares the matrix with ``shape``.
+        """Returns the rows of a matrix, with a triangle completed if ``shape`` is square; reports
+        rows of different lengths.
         """
         lengths = [len(row) for row in rows]
         if shape == (len(rows), len(rows)) and spellings.is_triangle(lengths):
@@ -358,7 +350,7 @@ class Numbers(Mutable):
         return rows
 
     def _uneven(self, lengths: Sequence[int], node: Node, where: str, columns: int) -> None:
-        """Note rows of different lengths: one fault, at the first of another length."""
+        """Reports rows of different lengths as one fault, at the first of another length."""
         wrong = [i for i, length in enumerate(lengths, 1) if length != columns]
         first, others = wrong[0], wrong[1:]
         found = counted(lengths[first - 1], "entry", "entries")
@@ -375,7 +367,7 @@ class Numbers(Mutable):
         self.source.fault(place, message, cure, code="wrong-size")
 
     def _completed(self, rows: Rows, node: Node, where: str) -> Rows:
-        """A triangle of rows, with the zeros above it."""
+        """Returns a triangle of rows filled with zeros."""
         whole: list[Row] = []
         for i, row in enumerate(rows, start=1):
             missing = len(rows) - len(row)
@@ -387,12 +379,7 @@ class Numbers(Mutable):
 
 
 class Reading:
-    """What reads a file, or a part of it.
-
-    Attributes:
-        numbers: the coefficients of the file.
-        source: the file, where faults are noted.
-    """
+    """Reads a file, or a part of it."""
 
     def __init__(self, numbers: Numbers) -> None:
         self.numbers = numbers

@@ -1,4 +1,4 @@
-"""YAML nodes to the form ``nystrom``: Nyström methods for q″ = g(q, q′), or g(q)."""
+"""The form ``nystrom``: Nyström methods for q″ = g(q, q′), or g(q)."""
 
 from __future__ import annotations
 
@@ -31,7 +31,6 @@ EMBEDDED = g.mapping(
     ),
     form=_FORM_OF_EMBEDDED,
 )
-"""The keys under ``embedded``."""
 _POLYNOMIALS = g.Kind(lambda: {"type": "array", "minItems": 1})
 DENSE = g.mapping(
     g.Key(
@@ -54,7 +53,6 @@ DENSE = g.mapping(
     ),
     form=_FORM_OF_DENSE,
 )
-"""The keys under ``dense``."""
 NYSTROM = g.mapping(
     g.Key(
         "Abar: [[], [1/2]]",
@@ -111,7 +109,7 @@ NYSTROM = g.mapping(
 
 
 def nystrom(at: Reading, node: Node) -> d.NystromText | None:
-    """The form ``nystrom``; None where it makes no method."""
+    """Reads the form ``nystrom``; None if it is not a method."""
     found: g.Found | None = NYSTROM.read(at, node, "nystrom")
     if found is None or not found.is_right or not found["b"]:
         return None
@@ -147,7 +145,9 @@ def nystrom(at: Reading, node: Node) -> d.NystromText | None:
 
 
 def _dense(at: Reading, found: g.Found, stages: int) -> tuple[Rows, Rows | None] | None:
-    """The polynomials of both steps, those of q′ None where they are the slopes of the others."""
+    """Reads the polynomials of both components; None for q′ if they are the slopes of the
+    others.
+    """
 
     def rows(key: str) -> Rows | None:
         node, where = found.nodes[key], f"dense, {key}"

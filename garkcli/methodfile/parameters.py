@@ -1,4 +1,4 @@
-"""Coefficients as files have them; ``parameters``: values, given ones, and those that are free."""
+"""Coefficients in files, and ``parameters``: with values, values from outside, or free."""
 
 from __future__ import annotations
 
@@ -16,13 +16,12 @@ from garkcli.methodfile.nodes import key_nodes, shortened, unquoted
 from garkcli.methodfile.numbers import UNKNOWN, Between, Free, Numbers
 
 NUMBER = defined("number", lambda at, node, where: at.numbers.entry(node, where))
-"""One coefficient."""
 ROW = defined("row", lambda at, node, where: at.numbers.row(node, where))
-"""Weights or nodes; a single value is a row of one."""
+"""A row of weights or nodes; a single value is a row of one."""
 MATRIX = defined("matrix", lambda at, node, where: at.numbers.matrix(node, where))
-"""A matrix, whose rows may still be of different lengths."""
+"""A matrix, whose rows may still differ in length."""
 SIGNS = r"^[-+*/^(),.\sA-Za-z0-9_]+$"
-"""What a number is written with."""
+"""The characters of a number."""
 _NUMBER: Schema = {
     "description": "A coefficient: a number, or text such as 1/2 - sqrt(3)/6,"
     " read exactly as written.",
@@ -42,11 +41,11 @@ DEFINITIONS: Schema = {
         "minItems": 1,
     },
 }
-"""What they are in a schema."""
+"""The definitions of coefficients in a schema."""
 
 
 def _range(at: Any, node: Node, where: str) -> Between:
-    """A range with two ends; none where it is faulty."""
+    """Reads a range with two ends; empty after a fault."""
     numbers: Numbers = at.numbers
     ends = numbers.source.items(node, where)
     if len(ends) != 2:
@@ -65,7 +64,7 @@ def _range(at: Any, node: Node, where: str) -> Between:
 RANGE = Kind(
     lambda: {"type": "array", "items": NUMBER.schema(), "minItems": 2, "maxItems": 2}, _range
 )
-"""Between which numbers a parameter is."""
+"""The range of a parameter."""
 
 
 _FREE_FORM = "write {free: true, range: [1/4, 1]}, or give it a value"
@@ -92,10 +91,10 @@ _FREE = mapping(
 
 
 def _read(at: Any, node: Node, _: str) -> None:
-    """Read ``parameters`` into the numbers of a file; each may use those before it.
+    """Reads ``parameters`` into the numbers of a file; each may use those before it.
 
-    The values are kept apart from the coefficients: one that no coefficient uses has no part in
-    their domain, but a faulty one is reported where it is.
+    The values are kept apart from the coefficients: an unused one does not enlarge their domain,
+    but its faults are reported.
     """
     numbers: Numbers = at.numbers
     source = numbers.source
@@ -122,14 +121,14 @@ def _read(at: Any, node: Node, _: str) -> None:
 
 
 def _names_alone(node: Node) -> list[str]:
-    """The names in a list without values, or a single one."""
+    """Returns the names in a list without values, or a single one."""
     nodes = node.value if isinstance(node, SequenceNode) else [node]
     words = [x.value for x in nodes if isinstance(x, ScalarNode)]
     return [x for x in words if x.isidentifier() and x.isascii() and x not in FUNCTIONS]
 
 
 def _value(at: Any, name: str, node: Node, where: str) -> Expression:
-    """What a parameter stands for: a value, or itself where it is free."""
+    """Returns the value of a parameter, or its name if it is free."""
     numbers: Numbers = at.numbers
     if name in numbers.settings:
         return numbers.given(name, node, where)
@@ -142,7 +141,7 @@ def _value(at: Any, name: str, node: Node, where: str) -> Expression:
 
 
 def _free(at: Any, node: Node, where: str) -> Free:
-    """A free parameter: ``free``, or ``{free: true, range: [1/4, 1]}``."""
+    """Reads a free parameter: ``free``, or ``{free: true, range: [1/4, 1]}``."""
     if isinstance(node, ScalarNode):
         return Free(node=node)
     found: Found = _FREE.read(at, node, where)
@@ -160,11 +159,13 @@ PARAMETERS = Kind(
     _read,
     _FREE.inside,
 )
-"""Names with values, or without."""
+"""Names with values, or free ones."""
 
 
 def refuse_free(numbers: Numbers) -> None:
-    """Note the unknowns without a value, those of entries as one: a method has a value for each."""
+    """Reports unknowns without a value, entries of the tableau together: a method needs values for
+    all.
+    """
     family = "the file describes a family of methods"
     of_entries: list[str] = []
     for name, free in numbers.free.items():
@@ -183,12 +184,11 @@ def refuse_free(numbers: Numbers) -> None:
 
 
 def _value_for(name: str) -> str:
-    """What to do about an unknown where a method is needed."""
     return f"gark design finds values; --set {name}=1/2 chooses one"
 
 
 def refuse_unknown_settings(numbers: Numbers) -> None:
-    """Note values that are given for parameters that the file does not have."""
+    """Reports values for parameters that the file does not have."""
     known = list(numbers.parameters)
     for name in (x for x in numbers.settings if x not in known):
         cure = did_you_mean(name, known) or "the file has none: leave out --set"

@@ -1,4 +1,4 @@
-"""A Butcher tableau as people paste it: rows of numbers, with or without bars.
+"""A Butcher tableau pasted as text: rows of numbers, with or without bars.
 
     0   |
     1/2 | 1/2
@@ -37,11 +37,11 @@ _OF_LATEX = (
     (r"\\sqrt\s*\{([^{}]*)\}|\\sqrt\s*([0-9])", r"sqrt(\1\2)"),
     (r"\\left|\\right|\\displaystyle|\\phantom\{[^{}]*\}|\$|\\[,;!:]", ""),
 )
-"""What LaTeX writes, and what it stands for; the inner ones first, again and again."""
+"""LaTeX commands and their replacements, applied repeatedly from the inside out."""
 
 
 def plain(text: str) -> str:
-    r"""The text with the signs of a keyboard.
+    r"""Returns the text in ASCII characters.
 
     >>> plain("½ − √3/6"), plain(r"$\frac{1}{2}$ & \frac12 \\ \hline")
     ('1/2 - sqrt(3)/6', '1/2 & 1/2 \n \n')
@@ -61,14 +61,15 @@ def plain(text: str) -> str:
 
 
 def _fraction(before: str, sign: str) -> str:
-    """A fraction that is one sign, written out; not behind a digit, where it would be a sum."""
+    """Returns a one-character fraction written out, except after a digit, where it would be a
+    sum.
+    """
     written = unicodedata.normalize("NFKC", sign)
     is_fraction = "\N{FRACTION SLASH}" in written and sign != written
     return written if is_fraction and not before.isdigit() else sign
 
 
 _Row: TypeAlias = tuple[str, ...]
-"""Numbers as they were written."""
 MOST_LINES = 1000
 _RULE = re.compile(r"[\s|+=─│┼,&-]*")
 _BAR = re.compile(r"\|\|?|│|&")
@@ -80,14 +81,7 @@ _IN_BRACKETS = "a list in brackets belongs into a file: A: [[0, 0], [1/2, 0]]"
 
 
 class Pasted(Frozen):
-    """A tableau in the texts of its numbers.
-
-    Attributes:
-        A: the matrix, row by row, each filled with zeros.
-        b: the weights.
-        c: the nodes; None where none were given.
-        embedded: further weights; None where there are none.
-    """
+    """A tableau in the texts of its numbers, with the rows of A filled with zeros."""
 
     A: tuple[_Row, ...]
     b: _Row
@@ -96,20 +90,16 @@ class Pasted(Frozen):
 
 
 class _Line(Frozen):
-    """A line of numbers; ``node`` is None where no bar parts one from the row."""
+    """A line of numbers; ``node`` is None if no bar separates one from the row."""
 
     node: str | None
     row: _Row
 
 
 def read_pasted(text: str) -> Pasted:
-    r"""A tableau from text.
+    r"""Reads a tableau: one line for each stage, one of weights, perhaps one of embedded weights.
 
-    Args:
-        text: a line per stage, then a line of weights, and another of embedded ones.
-
-    Raises:
-        MethodError: the lines make no tableau.
+    Raises MethodError if the lines are not a tableau.
 
     >>> read_pasted("0 |\n1/2 | 1/2\n---\n | 0 1").A
     (('0', '0'), ('1/2', '0'))
@@ -136,7 +126,7 @@ def _is_rule(text: str) -> bool:
 
 
 def _between_cells(text: str) -> str:
-    """The sign that parts the cells of a table; empty where numbers are side by side."""
+    """Returns the separator of the cells of a table; empty for numbers side by side."""
     rows = [x for x in text.splitlines() if not _is_rule(x)]
     if any(x.count("&") > 1 for x in rows):
         return "&"
@@ -148,16 +138,13 @@ def _between_cells(text: str) -> str:
 
 
 def _filled(row: _Row, length: int) -> _Row:
-    """A row with the zeros that were left out at its end."""
     return row + ("0",) * (length - len(row))
 
 
 def _line(text: str, sign: str) -> _Line:
-    """The numbers of a line.
+    """Returns the numbers of a line.
 
-    Args:
-        text: the line.
-        sign: what parts cells, of which the first is that of the node; empty for blanks.
+    ``sign`` separates cells, the first of which is the node; empty for blanks.
     """
     if sign:
         node, *cells = (x.strip() for x in text.split(sign))
@@ -170,14 +157,14 @@ def _line(text: str, sign: str) -> _Line:
 
 
 def _with_nodes(lines: list[_Line]) -> Pasted:
-    """Stages have something before the bar, weights have nothing."""
+    """Reads lines with bars: stages have a node before the bar, weights have none."""
     nodes = tuple(takewhile(bool, (line.node or "" for line in lines)))
     rows = [line.row for line in lines]
     return _made(rows[: len(nodes)], rows[len(nodes) :], nodes)
 
 
 def _without_bars(lines: list[_Line]) -> Pasted:
-    """The rows of a matrix, with nodes before them where there is a column more."""
+    """Reads the rows of a matrix, preceded by nodes if there is one column more."""
     rows = [line.row for line in lines]
     longest = max(map(len, rows))
     weights = [rows.pop()]

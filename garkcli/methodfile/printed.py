@@ -1,4 +1,4 @@
-"""How exactly coefficients are printed: what their last digits leave open."""
+"""The precision of printed coefficients, from their last digits."""
 
 from __future__ import annotations
 
@@ -14,45 +14,42 @@ from garkcli.exact.nodes import AlgebraicRoot, Chain, Expression, Literal, Power
 from garkcli.order.tolerance import rounded_up
 
 Printed: TypeAlias = Sequence[tuple[Expression, Number]]
-"""Coefficients as they are written, with their values."""
+"""Coefficients as written, with their values."""
 Units: TypeAlias = Mapping[Number, fmpq]
-"""By how much values may be off."""
+"""The largest errors of values."""
 FEWEST_DIGITS = 6
-"""A number with fewer digits is meant exactly."""
+"""A number with fewer digits is taken as exact."""
 SHORTENED = 4
-"""The denominator of a decimal has so many digits fewer in lowest terms, at most."""
+"""In lowest terms, the denominator of a decimal has at most so many digits less."""
 MANY_DIGITS = 14
-"""A decimal of so many digits is a rounded one, however long others are: products of two that are
-written out have twice as many.
+"""A decimal with so many digits is rounded, however long the others are: written-out products have
+twice as many.
 """
 LONG_DENOMINATOR = 10**5
-"""Fractions with a smaller denominator are no approximants."""
+"""Fractions with a smaller denominator are not approximants."""
 LONG_DECIMAL = 9
-"""Decimals that were written as fractions are exact with fewer places."""
+"""Decimals written as fractions are exact with fewer places."""
 
 SLACK = 10
-"""Units of the last place by which a number may be off that was computed in them."""
+"""Units of the last place that a number may be wrong by if it was computed in that precision."""
 CARELESS = 1_000
-"""Units of the last place that a careless rounding may be off by."""
+"""Units of the last place that careless rounding may cost."""
 FLOAT = fmpq(1, 2**53)
-"""By how much of itself the float next to a number is off."""
+"""The relative error of rounding to floats."""
 LARGEST = fmpq(2) ** 1023
 SHORTER = 100
-"""A decimal of so many times finer units than a float never was one."""
+"""A decimal whose units are finer than those of a float by this factor was not a float."""
 QUADRUPLE = fmpq(1, 2**113)
-"""By how much of itself the number of quadruple precision next to a number is off."""
+"""The relative error of rounding to quadruple precision."""
 
 
 def printed_units(printed: Printed, many: int = MANY_DIGITS) -> dict[Number, fmpq]:
-    """By how much each value may be off if its last digits are rounded, one unit of them.
+    """Returns the largest error of each value if its last digit is rounded, one unit.
 
-    A decimal counts as rounded when it has more than half as many digits as the longest one of
-    the file: beside 0.7886751345948129 the number 0.25 is exact. A fraction with a long denominator
-    may be an approximant. Units are rounded up, by less than a tenth.
-
-    Args:
-        printed: coefficients as they are written, with their values.
-        many: a decimal of so many digits counts as rounded whatever the longest has.
+    A decimal counts as rounded if it has more than half as many digits as the longest one of the
+    file: beside 0.7886751345948129 the number 0.25 is exact. A fraction with a long denominator may
+    be an approximant. Units are rounded up by less than a tenth. A decimal with ``many`` digits
+    always counts as rounded.
 
     >>> from garkcli.exact.expression import parse
     >>> units = printed_units([(parse(x), fmpq(1, 2)) for x in ("0.50000000", "1/2")])
@@ -71,8 +68,8 @@ def printed_units(printed: Printed, many: int = MANY_DIGITS) -> dict[Number, fmp
 
 
 def left_open(printed: Printed) -> list[fmpq]:
-    """By how much each number may be off that was computed in its digits, or in floats where these
-    are the digits of one; 0 where it is exact.
+    """Returns the error of each number if it was computed to its digits, or in floats if the digits
+    are those of a float; 0 if it is exact.
     """
     fewest = max(FEWEST_DIGITS, fewest_digits(text for text, _ in printed))
     units = [(x, unit_of(text, fewest)) for text, x in printed]
@@ -80,16 +77,15 @@ def left_open(printed: Printed) -> list[fmpq]:
 
 
 def _float_unit(value: Number, unit: fmpq) -> fmpq:
-    """By how much of itself a rounded number is off that is a float; 0 where it is none."""
+    """Returns the error of a rounded number that is a float; 0 if it is not."""
     if not unit or not _is_float(value, unit):
         return fmpq(0)
     return rounded_up(abs(to_ball(value))) * FLOAT
 
 
 def at_full_length(printed: Printed) -> list[fmpq]:
-    """The same where each was printed with as many places, or as many digits, as half of the others
-    at least: zeros at the end are often left away, and a digit too many or a wrong one makes a
-    number long, or short.
+    """Returns the same with errors of at most the median in places or digits: zeros at the end are
+    often dropped, and a wrong or superfluous digit makes a number long or short.
     """
     own = left_open(printed)
     with ctx.workprec(64):
@@ -104,14 +100,13 @@ def at_full_length(printed: Printed) -> list[fmpq]:
 
 
 def approximant_units(printed: Printed, given: Units | None = None) -> dict[Number, fmpq]:
-    """The same for the source of a solver, where whole numbers are what they are.
+    """Returns the same for the source of a solver, where integers are exact.
 
-    Of numbers that were made of printed ones it is ``given`` by how much they may be off.
-
-    A fraction with a long denominator q may be an approximant of an irrational number, as those of
-    Kennedy and Carpenter are: good ones are off by 1/q^2, and a hundred times that is admitted.
-    One that is a decimal in lowest terms counts as that decimal. Every fraction with a shorter
-    denominator, such as 161/1000 and 3/64, is exact, so that a wrong digit of it is no rounding.
+    ``given`` has the errors of numbers computed from printed ones. A fraction with a long
+    denominator q may be an approximant of an irrational number, as those of Kennedy and Carpenter
+    are: good ones are within 1/q^2, and a hundred times that is admitted. A fraction that is a
+    decimal in lowest terms counts as that decimal. Fractions with shorter denominators, such as
+    161/1000 and 3/64, are exact, so that a wrong digit does not count as rounding.
 
     >>> from garkcli.exact.expression import parse
     >>> texts = ("19372/6561", "1767732205903/4055673282236", "3/64")
@@ -127,10 +122,11 @@ def approximant_units(printed: Printed, given: Units | None = None) -> dict[Numb
 
 
 def careless_units(printed: Printed, given: Units | None = None) -> dict[Number, fmpq]:
-    """The same where decimals are rounded carelessly: ``CARELESS`` units of their last place. What
-    may have been computed in floats before it was printed, fractions and decimals that are no
-    longer than floats or are floats, may be off by so many units of these; longer decimals by many
-    units of quadruple precision. A decimal that is short beside others is off by one unit.
+    """Returns the same for careless rounding of decimals: ``CARELESS`` units of the last place.
+
+    Fractions, and decimals no longer than floats, may have been computed in floats and may be wrong
+    by as many units of these; longer decimals by many units of quadruple precision. A decimal that
+    is short beside others is within one unit.
     """
     units = approximant_units(printed, given)
     decimals = [pair for pair in printed if not _is_whole(pair[0])]
@@ -151,19 +147,19 @@ def careless_units(printed: Printed, given: Units | None = None) -> dict[Number,
 
 
 def _is_float(value: Number, unit: fmpq) -> bool:
-    """Whether all digits of a decimal are those of a float."""
+    """Returns whether all digits of a decimal are those of a float."""
     if not isinstance(value, fmpq) or abs(value) > LARGEST:
         return False
     return abs(fmpq(*(int(value.p) / int(value.q)).as_integer_ratio()) - value) <= unit
 
 
 def _is_whole(expression: Expression) -> bool:
-    """Whether only whole numbers are in it, 2.0 as C has it among them."""
+    """Returns whether all numbers of an expression are integers, including 2.0 as in C."""
     return all(x.value.q == 1 or not x.text for x in _literals(expression))
 
 
 def _approximation(value: Number) -> fmpq:
-    """By how much a fraction may be off."""
+    """Returns the error of a fraction."""
     if not isinstance(value, fmpq) or value.q < LONG_DENOMINATOR:
         return fmpq(0)
     q = int(value.q)
@@ -175,13 +171,15 @@ def _approximation(value: Number) -> fmpq:
 
 
 def is_long_fraction(expression: Expression, value: Number) -> bool:
-    """Whether a fraction of whole numbers may be an approximant: its denominator is long."""
+    """Returns whether a fraction of integers may be an approximant, with a long denominator."""
     return _is_whole(expression) and isinstance(value, fmpq) and value.q >= LONG_DENOMINATOR
 
 
 def fewest_digits(texts: Iterable[Expression]) -> int:
-    """A decimal with fewer digits is exact beside others that are long: it has at most half as
-    many, and not many. Zeros after the point count, as tables have decimals of one length.
+    """Returns the number of digits below which a decimal is exact beside longer ones, about half of
+    the longest.
+
+    Zeros after the point count, as tables have decimals of equal length.
 
     >>> from garkcli.exact.expression import parse
     >>> fewest_digits(map(parse, ("0.25", "0.7886751345948129", "1/3")))
@@ -192,13 +190,11 @@ def fewest_digits(texts: Iterable[Expression]) -> int:
 
 
 def unit_of(expression: Expression, fewest: int) -> fmpq:
-    """By how much a decimal may be off, one unit of its last digit, a fraction with a long
-    denominator, or a root of a polynomial with decimals, as the coarsest of these; 0 for one that
-    is exact.
+    """Returns the error of a decimal, one unit of its last digit; of a fraction with a long
+    denominator; or of a root of a polynomial with decimals, the largest of theirs. 0 for an exact
+    number.
 
-    Args:
-        expression: as it is written.
-        fewest: digits of a decimal that is no exact one, as ``fewest_digits`` has it.
+    ``fewest`` is from ``fewest_digits``.
 
     >>> from garkcli.exact.expression import parse
     >>> unit_of(parse("0.25"), 9), unit_of(parse("0.25"), 2)
@@ -212,7 +208,7 @@ def unit_of(expression: Expression, fewest: int) -> fmpq:
 
 
 def coarsest_unit(texts: Sequence[Expression]) -> fmpq:
-    """By how much a number in some texts may be off at most, where its own digits say it."""
+    """Returns the largest error of the numbers in some texts, by their own digits."""
     fewest = fewest_digits(texts)
     units = [fmpq(0)]
     units += [unit_of(x, fewest) for text in texts for x in _literals(text)]
@@ -220,15 +216,15 @@ def coarsest_unit(texts: Sequence[Expression]) -> fmpq:
 
 
 def _places(literal: Literal) -> int:
-    """Digits of a decimal, with zeros between the point and the first of them."""
+    """Returns the number of digits of a decimal, with zeros between the point and the first
+    digit.
+    """
     mantissa, _, exponent = literal.text.lower().partition("e")
     return max(_digits(literal), len(mantissa.partition(".")[2]) - int(exponent or 0))
 
 
 def _parts(chain: Chain) -> Iterator[tuple[str, Expression]]:
-    """Terms or factors with their signs; a fraction of whole numbers is one factor, which has no
-    text.
-    """
+    """Yields terms or factors with their signs; a fraction of integers is one factor."""
     rest = list(zip(chain.signs, chain.operands, strict=True))
     while rest:
         sign, part = rest.pop(0)
@@ -255,19 +251,18 @@ def _literals(expression: Expression) -> Iterator[Literal]:
 
 
 def _digits(literal: Literal) -> int:
-    """Digits of a printed number, without zeros in front."""
+    """Returns the number of digits of a literal, without leading zeros."""
     return len(literal.text.lower().partition("e")[0].replace(".", "").lstrip("0"))
 
 
 def _unit(literal: Literal) -> fmpq:
-    """One in the last place."""
     mantissa, _, exponent = literal.text.lower().partition("e")
     decimals = len(mantissa.partition(".")[2]) - int(exponent or 0)
     return fmpq(10) ** -decimals
 
 
 def _unit_in(expression: Expression, fewest: int) -> fmpq:
-    """By how much an expression may be off if its long numbers are, rounded up."""
+    """Returns the error of an expression whose long numbers are rounded, rounded up."""
     longest = [x for x in _literals(expression) if _open(x, fewest)]
     if not longest:
         return fmpq(0)
@@ -276,14 +271,15 @@ def _unit_in(expression: Expression, fewest: int) -> fmpq:
 
 
 def _open(literal: Literal, fewest: int) -> fmpq:
-    """By how much a decimal or a fraction may be off."""
     if is_decimal(literal):
         return _unit(literal) if _digits(literal) >= fewest else fmpq(0)
     return _approximation(literal.value)
 
 
 def _enclosed(expression: Expression, fewest: int) -> arb:
-    """All values that the expression may have, its long numbers off by one unit each."""
+    """Returns an enclosure of the values of an expression, with its long numbers within one
+    unit.
+    """
     match expression:
         case Literal(value=value):
             return arb(value, arb(_open(expression, fewest)))
@@ -303,7 +299,7 @@ def _enclosed(expression: Expression, fewest: int) -> arb:
 
 
 def _radius(ball: arb) -> fmpq:
-    """How far the ball reaches, rounded up to a digit or two; 1 where it reaches everywhere."""
+    """Returns the radius of a ball, rounded up to a digit or two; 1 if it is infinite."""
     if not ball.is_finite():
         return fmpq(1)
     radius = ball.rad()

@@ -1,5 +1,5 @@
-"""Problem files: a Hamiltonian, a Lagrangian or right-hand sides with their initial values, every
-fault of the text at once.
+"""Problem files: a Hamiltonian, a Lagrangian or right-hand sides with initial values; all faults
+are reported at once.
 """
 
 from __future__ import annotations
@@ -41,24 +41,17 @@ _ANOTHER = "choose another name"
 
 
 def load_problem(path: str, stiffness: fmpq | None = None) -> Problem:
-    """Read one problem file, or standard input for ``-``.
+    """Reads a problem file, or standard input for ``-``.
 
-    Args:
-        path: of the file.
-        stiffness: the value of its parameter of this name, in place of its own.
-
-    Raises:
-        MethodFileError: every fault of the file, with positions.
+    ``stiffness`` is the value of its parameter of this name. Raises MethodFileError with all faults
+    of the file.
     """
     with doing(f"reading {path}"):
         return loads_problem(*read_text(path, PROBLEM_FILE), stiffness)
 
 
 def loads_problem(text: str, source: str = "<text>", stiffness: fmpq | None = None) -> Problem:
-    """Read a problem file from its text; see ``load_problem``.
-
-    Raises:
-        MethodFileError: every fault of the text, with positions.
+    """Reads the text of a problem file; see ``load_problem``.
 
     >>> text = "{variables: [x], hamiltonian: px**2/2 - cos(x), initial: {x: 1, px: 0}}"
     >>> loads_problem(text).energy
@@ -75,12 +68,10 @@ def loads_problem(text: str, source: str = "<text>", stiffness: fmpq | None = No
 
 
 class _Variables(Frozen):
-    """The variables of one file.
+    """The variables of a file.
 
-    Attributes:
-        source: where faults are noted.
-        places: where each name is, in the order of the file; names only that can be names.
-        form: of the problem; a Hamiltonian where it has none.
+    ``places`` has the nodes of well-formed names in the order of the file; ``form`` is that of the
+    problem, a Hamiltonian by default.
     """
 
     source: Source
@@ -88,8 +79,8 @@ class _Variables(Frozen):
     form: str
 
     def refuse_clashes(self) -> None:
-        """Refuse a variable that is the momentum or velocity of another, or has one with a name of
-        the formulas: the momentum of ``i`` would be π.
+        """Reports variables that are momenta or velocities of others, or whose own would have the
+        name of a function or constant: the momentum of ``i`` would be π.
         """
         derived = self._derived()
         for name, node in self.places.items():
@@ -102,7 +93,7 @@ class _Variables(Frozen):
                 self.source.fault(node, message, _ANOTHER, code="name-taken")
 
     def refuse_taken(self, parameters: Node | None) -> None:
-        """Refuse a parameter that is called like a variable, or like what belongs to one."""
+        """Reports parameters with the name of a variable, a momentum or a velocity."""
         taken = self._derived() | dict.fromkeys(self.places, "a variable")
         for key, _ in parameters.value if isinstance(parameters, MappingNode) else ():
             if isinstance(key, ScalarNode) and key.value in taken:
@@ -110,7 +101,7 @@ class _Variables(Frozen):
                 self.source.fault(key, message, _ANOTHER, code="name-taken")
 
     def _derived(self) -> dict[str, str]:
-        """The names that variables bring with them, and what they are."""
+        """Returns the names that belong to variables, and their meaning."""
         if self.form == "rhs":
             return {TIME: "time"}
         letters = {"p": "momentum"} | ({"v": "velocity"} if self.form == "lagrangian" else {})
@@ -121,7 +112,7 @@ class _Variables(Frozen):
         }
 
     def example_start(self) -> str:
-        """How the initial values of the first variables would be written."""
+        """Returns an example of initial values for the first variables."""
         names = list(self.places)[:2]
         prefixes = [""] if self.form == "rhs" else ["", "p"]
         values = [f"{prefix}{name}: 0" for name in names for prefix in prefixes]
@@ -129,14 +120,9 @@ class _Variables(Frozen):
 
 
 class _ProblemReader:
-    """Reads what a file says, as far as no names but its own are needed.
+    """Reads a file as far as only its own names are needed.
 
-    Args:
-        source: the file, where faults are noted.
-        stiffness: given in place of its own.
-
-    Attributes:
-        formulas: of the file, its parameters known once it is read.
+    ``formulas`` has its parameters once it is read.
     """
 
     def __init__(self, source: Source, stiffness: fmpq | None) -> None:
@@ -144,7 +130,6 @@ class _ProblemReader:
         self.formulas = Formulas(source, {} if stiffness is None else {STIFFNESS: stiffness})
 
     def read(self) -> ProblemText | None:
-        """The text; None where it makes no sense to go on."""
         source = self.source
         root = source.compose()
         if root is None:
@@ -192,7 +177,7 @@ class _ProblemReader:
         )
 
     def _places(self, root: Node, entries: Entries) -> Entries:
-        """The names of the variables, and where they are; what is wrong with them is noted."""
+        """Returns the names of the variables and their nodes; faults are reported."""
         places: Entries = {}
         if "variables" not in entries:
             cure = "name the positions, for instance variables: [x, y]"
@@ -210,7 +195,7 @@ class _ProblemReader:
         return places
 
     def _check_stiffness(self, root: Node, form: str | None) -> None:
-        """Refuse a stiffness that would change nothing."""
+        """Reports a stiffness that would have no effect."""
         if self.stiffness is None:
             return
         if form is not None and form != "rhs":
@@ -222,7 +207,6 @@ class _ProblemReader:
             self.source.fault(root, message, cure, code="other-problem")
 
     def _value(self, key: str, entries: Entries) -> Any:
-        """What is under a key; None where nothing does, or a fault was noted."""
         return KEYS[key].kind.read(self, entries[key], key) if key in entries else None
 
     def _t_end(self, node: Node | None) -> fmpq:
@@ -237,7 +221,7 @@ class _ProblemReader:
         return DEFAULT_T_END
 
     def _invariants(self, entries: Entries, form: str) -> list[tuple[str, Node]]:
-        """The first integrals that the file names, with their formulas."""
+        """Returns the first integrals of the file and their formulas."""
         node = entries.get("invariants")
         formulas = {} if node is None else self.source.mapping(node, "invariants", ())
         if len(formulas) > MAX_INVARIANTS:
@@ -252,9 +236,9 @@ class _ProblemReader:
 
 
 def _side(source: Source, node: Node, where: str, names: Sequence[str]) -> Side:
-    """The right-hand sides of a term: variables, formulas, and what these are called.
+    """Returns the right-hand sides of a term: variables, formulas, and their names in messages.
 
-    A formula alone is that of the only variable. Of no names given all may be here.
+    A single formula belongs to the only variable. Without ``names`` all are allowed.
     """
     if isinstance(node, ScalarNode) and len(names) == 1:
         return ((names[0], node, where),)
@@ -268,6 +252,6 @@ def _side(source: Source, node: Node, where: str, names: Sequence[str]) -> Side:
 
 
 def _shown_name(text: str) -> str:
-    """A name as it is shown: one line of printable signs, not too long."""
+    """Returns a name as one line of printable characters, shortened if long."""
     plain = one_line(text)
     return plain if len(plain) <= 60 else f"{plain[:59]}…"

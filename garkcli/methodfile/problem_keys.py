@@ -1,7 +1,6 @@
 """The keys of problem files, and their JSON Schema (draft-07), for editors.
 
-The schema says what can be said about one value at a time: which names formulas may have is for the
-loader.
+The schema constrains single values; the names in formulas are left to the loader.
 """
 
 from __future__ import annotations
@@ -23,30 +22,21 @@ if TYPE_CHECKING:
 
 
 DEFAULT_T_END = fmpq(2)
-"""The final time of a convergence test where the file gives none."""
+"""The default final time of a convergence test."""
 STIFFNESS = "stiffness"
 """The parameter that ``--stiffness`` sets."""
 Side: TypeAlias = tuple[tuple[str, Node, str], ...]
-"""The right-hand sides of one term: variable, formula, and what this is called."""
+"""The right-hand sides of a term: variable, formula, and its name in messages."""
 Sides: TypeAlias = tuple[Side, ...]
-"""Those of all terms."""
 
 
 class ProblemText(Frozen):
-    """What a problem file says; formulas are still nodes, each with what it is called in messages.
+    """The content of a problem file, with formulas as nodes.
 
-    Attributes:
-        name: what people call it.
-        variables: names of the positions.
-        are_named: whether these are all; if not, other names are not judged.
-        form: hamiltonian, lagrangian or rhs.
-        terms: one formula a term; none of rhs.
-        sides: the right-hand sides of a term by the names of variables, each with its formula;
-            empty for the other forms.
-        initial: the mapping of initial values, where the file has one.
-        exact: the mapping of the exact solution, where the file has one.
-        t_end: the final time.
-        invariants: names, and formulas.
+    ``are_named`` says that ``variables`` are complete; if not, other names are not judged. ``form``
+    is hamiltonian, lagrangian or rhs; ``terms`` has one formula for each term, none for rhs;
+    ``sides`` the right-hand sides of each term by variables, none for other forms. ``initial`` and
+    ``exact`` are mappings of initial values and the exact solution, if given.
     """
 
     name: str
@@ -62,23 +52,19 @@ class ProblemText(Frozen):
 
 
 FORMS = ("hamiltonian", "lagrangian", "rhs")
-"""The keys of which a file has one."""
+"""The keys of which a file has exactly one."""
 MAX_VARIABLES = 64
-"""Most degrees of freedom."""
 MAX_TERMS = 64
-"""Most terms."""
 MAX_INVARIANTS = 10
-"""Most invariants."""
 _CLASHING = {name.removeprefix("p") for name in RESERVED if name.startswith("p")}
 
 
 def _name_but(names: Iterable[str]) -> str:
-    """The pattern of a name that is none of ``names``."""
     return f"^(?!({'|'.join(sorted(names))})$)[A-Za-z_][A-Za-z_0-9]{{0,29}}$"
 
 
 def _names(pattern: str) -> g.Kind:
-    """One name, or a list of different ones."""
+    """Returns the kind of a name or a list of different names."""
     name = g.Kind(lambda: {"type": "string", "pattern": pattern})
     return g.one_or_more(name, "variables", MAX_VARIABLES, True, {"uniqueItems": True})
 
@@ -177,11 +163,11 @@ FORM = g.Ways(
 )
 SOLUTION = g.Beside("exact", "exact is for rhs, and this is a {way}", needs=("rhs",))
 START = g.Ways("", ("initial", "exact"), "initial missing", is_one=False)
-"""What a problem begins with: its initial values, or those of its solution."""
+"""The start of a problem: its initial values, or those of its solution."""
 
 
 def problem_file_schema() -> g.Schema:
-    """The JSON Schema of problem files, as plain data, with what each key means.
+    """The JSON Schema of problem files, as plain data, with the meaning of each key.
 
     >>> problem_file_schema()["title"]
     'gark problem file'
@@ -215,10 +201,8 @@ def problem_file_schema() -> g.Schema:
 
 
 def _told_anew(key: str, kind: g.Kind) -> g.Schema:
-    """A key with what it may have in some files."""
     return replace(KEYS[key], kind=kind).schema()
 
 
 def told(files: Files) -> Iterable[Entry]:
-    """What the report says of the keys."""
     return g.told(KEYS.values(), files.page)

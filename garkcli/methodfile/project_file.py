@@ -1,4 +1,4 @@
-"""What ``.gark.toml``, or ``[tool.gark]`` of pyproject.toml, has: its keys; a table → values."""
+"""The keys of ``.gark.toml``, or of ``[tool.gark]`` in pyproject.toml, and their values."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ from garkcli.methodfile.source import Source
 
 HEAD = re.compile(r"^[ \t]*\[[ \t]*tool[ \t]*\.[ \t]*gark[ \t]*\]", re.MULTILINE)
 BEFORE = r"(?:tool[ \t]*\.[ \t]*)?gark[ \t]*\.[ \t]*"
-"""Before a key where no line begins its table."""
+"""The prefix of a key outside of a table."""
 TAG = "tag:yaml.org,2002:"
 QUOTED = f"{TAG}str"
 MOST_PATHS = 1_000
 DEEPEST = 2
-"""Lists and tables inside one another, below the keys, that some kind reads or refuses."""
+"""The deepest nesting of lists and tables that is read or refused."""
 
 
 def _written(kind: g.Kind, is_quoted: bool) -> g.Kind:
-    """A kind whose values have quotes in TOML, or have none."""
+    """Returns a kind whose values have to be quoted in TOML, or must not be."""
 
     def read(at: Any, node: Node, where: str) -> Any:
         value = kind.read(at, node, where)
@@ -44,7 +44,7 @@ def _written(kind: g.Kind, is_quoted: bool) -> g.Kind:
 
 
 def _path(at: Any, node: Node, where: str) -> str | None:
-    """A path or a pattern; NUL is in the name of no file."""
+    """Reads a path or a pattern; NUL cannot be in the name of a file."""
     text: str | None = g.TEXT.read(at, node, where)
     if text is None or "\0" not in text:
         return text
@@ -54,10 +54,9 @@ def _path(at: Any, node: Node, where: str) -> str | None:
 
 
 def file_of(formats: Iterable[str]) -> g.Kind:
-    """What the file has.
+    """Returns the keys of the file.
 
-    Args:
-        formats: those of ``gark check``.
+    ``formats`` are those of ``gark check``.
     """
     return g.mapping(
         g.Key(
@@ -104,9 +103,9 @@ def file_of(formats: Iterable[str]) -> g.Kind:
 
 
 def read_settings(source: Source, table: dict[str, Any], kind: g.Kind, where: str) -> g.Found:
-    """The values of a table of TOML by key; faults are noted.
+    """Returns the values of a table by key; faults are reported.
 
-    TOML tells no places: a value has that of the first line with its key.
+    TOML gives no positions: a value is placed at the first line with its key.
     """
     is_whole = where == g.FILE
     head = None if is_whole else HEAD.search(source.text)
@@ -135,12 +134,9 @@ def read_settings(source: Source, table: dict[str, Any], kind: g.Kind, where: st
 
 
 def _places(text: str, before: str, start: int) -> dict[str, yaml.Mark]:
-    """The place of the first line with each key, after what begins its table.
+    """Returns the place of the first line with each key.
 
-    Args:
-        text: of the file.
-        before: the pattern of what is before each key.
-        start: where the table begins.
+    ``before`` is the pattern before each key, ``start`` the start of the table.
     """
     places: dict[str, yaml.Mark] = {}
     line, seen = 0, 0

@@ -17,8 +17,9 @@ from garkcli.methodfile.source import Source
 
 
 def between_roots(source: Source, ends: tuple[Entry, Entry], node: Node, where: str) -> Between:
-    """Rational numbers around two algebraic ones, and polynomials that between those are not
-    negative just between these: the minimal ones, which may have no other zero there.
+    """Returns rational numbers around two algebraic ones, and polynomials that are nonnegative
+    between those exactly between the algebraic ones: the minimal polynomials, which may have no
+    other zero there.
     """
     cure = "write [1/4, 1] or [0, sqrt(2)/2], the smaller end first"
     try:

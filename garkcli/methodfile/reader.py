@@ -1,6 +1,4 @@
-"""YAML nodes to a ``Description``: every key, shape and word checked, faults collected as they are
-met.
-"""
+"""The reader of method files: checks every key and word, and collects all faults."""
 
 from __future__ import annotations
 
@@ -33,14 +31,8 @@ _EXAMPLE = "write for instance {family: rk4}, {A: …, b: …} or a name of the 
 class ContentReader(Reading):
     """Reads the coefficients of one method of a file.
 
-    Args:
-        numbers: of the file.
-        opened: what reads methods of the catalogue.
-
-    Attributes:
-        shaped: the tableau of its ``unknown``; None without that.
-        tolerance: what the file says of the rounding of its coefficients; None where they are
-            meant exactly.
+    ``shaped`` is the tableau of its ``unknown``, ``tolerance`` that of the file, None if its
+    coefficients are exact.
     """
 
     def __init__(self, numbers: Numbers, opened: Open) -> None:
@@ -50,7 +42,7 @@ class ContentReader(Reading):
         self.tolerance: Tolerance | None = None
 
     def read(self, root: MappingNode, entries: Entries) -> d.Description | None:
-        """What the keys of a method say; None, with faults noted, where they make none."""
+        """Returns the description of a method from its keys; None after a fault."""
         is_conjugate = bool(self._value("conjugate", entries))
         form = self._form(root, entries)
         if form is None:
@@ -79,7 +71,7 @@ class ContentReader(Reading):
         return d.Description(form, content, place, structure, is_conjugate)
 
     def _form(self, root: Node, entries: Entries) -> d.Form | Literal["unknown"] | None:
-        """Which form the coefficients have; A, b and c at the top are those of a tableau."""
+        """Returns the form of the coefficients; A, b and c at the top are those of a tableau."""
         given = FORM.given(entries)
         if not given:
             begun = [home.key for key, home in elsewhere().items() if key in keys_of(root)]
@@ -92,7 +84,7 @@ class ContentReader(Reading):
         return None
 
     def _structure(self, form: d.Form, entries: Entries) -> d.Structure:
-        """Which vector fields the problem has; noted where it does not go with the form."""
+        """Returns the structure of the problem; reports one that does not go with the form."""
         word = self._value("structure", entries)
         is_of_flows = form == "splitting" and "of" not in keys_of(entries[form])
         is_split = is_of_flows or (self.shaped is not None and form == "prk")
@@ -110,11 +102,10 @@ class ContentReader(Reading):
         return cast("d.Structure", word or "general")
 
     def _value(self, key: str, entries: Entries) -> Any:
-        """What is under a key; None where nothing does, or a fault was noted."""
         return KEYS[key].kind.read(self, entries[key], key) if key in entries else None
 
     def _inside(self, node: Node, where: str) -> d.Description | None:
-        """A method inside of a construction, which may be one itself."""
+        """Reads a method within a construction, which may be one itself."""
         reader = ContentReader(self.numbers, self._open)
         reader.tolerance = self.tolerance
         if isinstance(node, MappingNode) and "family" in keys_of(node):
@@ -175,21 +166,13 @@ _ABOUT = (
     *("gark", "name", "description", "aliases", "reference", "tolerance", "expect"),
     "parameters",
 )
-"""The keys beside the coefficients, which are read before these."""
+"""The keys besides the coefficients, which are read first."""
 
 
 class Reader(Reading):
     """Reads one file.
 
-    Args:
-        settings: values of parameters that are given from outside of it.
-        inside: the methods of the catalogue for the sake of which it is read.
-
-    Attributes:
-        content: what reads its coefficients.
-        keys: at the top of the file.
-        design: what is under ``design``; None without that.
-        wishes: the same as it was read.
+    ``inside`` has the methods of the catalogue that are being read and refer to it.
     """
 
     def __init__(
@@ -206,7 +189,6 @@ class Reader(Reading):
         self._root: MappingNode | None = None
 
     def read(self) -> d.Description | None:
-        """The description; None, with faults noted in the source, where there is none."""
         source = self.source
         root = source.compose()
         if root is None:
@@ -245,7 +227,7 @@ class Reader(Reading):
         )
 
     def _rounding(self, tolerance: Tolerance | None, content: d.Content) -> Rounding | None:
-        """That of the file, or of what it is made from; None where all of it is exact."""
+        """Returns the rounding of the file, or of its parts; None if all is exact."""
         if tolerance is None:
             inside = content.tolerance if isinstance(content, d.ConstructionText) else None
             if not inside:
@@ -258,7 +240,7 @@ class Reader(Reading):
         return Rounding(tolerance, content, self.numbers.entries)
 
     def _refuse_unused(self, unknowns: Iterable[str]) -> None:
-        """Note parameters beside a shape that are none of its unknowns, and that nothing uses."""
+        """Reports parameters that are neither unknowns of the shape nor used."""
         for name, node in self.numbers.places.items():
             if name not in self.numbers.used:
                 message = f"parameters: {name} is no unknown of the shape, and nothing uses it"
@@ -267,14 +249,13 @@ class Reader(Reading):
 
     @property
     def shaped(self) -> Shaped | None:
-        """The tableau of its ``unknown``; None without that."""
+        """The tableau of its ``unknown``, or None."""
         return self.content.shaped
 
     def _opened(self, name: str) -> Opened:
-        """A method of the catalogue that this one is made from.
+        """Returns a method of the catalogue that this one is made from.
 
-        Raises:
-            MethodFileError: there is none, or it is made from itself.
+        Raises MethodFileError if there is none, or if it refers to itself.
         """
         from garkcli.methodfile.constructed.parts import Opened
         from garkcli.methodfile.naming import read_argument
@@ -292,7 +273,7 @@ class Reader(Reading):
         return Opened(source, reader.numbers, description)
 
     def place_of(self, key: str) -> Extent | None:
-        """From where to where a key with its value is; None where there is none."""
+        """Returns the place of a key and its value, or None."""
         node = self._entries.get(key)
         if node is None or self._root is None:
             return None

@@ -1,4 +1,4 @@
-"""From a path to the text of a file, within limits; the method files below a folder."""
+"""The texts of files within limits, and the method files in a folder."""
 
 from __future__ import annotations
 
@@ -12,16 +12,15 @@ from garkcli.files import STDIN, NotAFile, is_elsewhere, is_stream, leads_away, 
 from garkcli.methodfile.source import MAX_BYTES, FileKind
 
 MOST_COMPARED = 1_000
-"""Files of a folder that a missing name is compared with."""
+"""The number of files in a folder with which a missing name is compared."""
 MOST_SHOWN = 4
-"""Files of a folder that are named in place of a missing one."""
+"""The number of files that are suggested for a missing one."""
 
 
 def read_text(path: str, kind: FileKind) -> tuple[str, str]:
-    """The text of a file, or of standard input for ``-``, and what to call it.
+    """Returns the text of a file, or of standard input for ``-``, and its name.
 
-    Raises:
-        MethodFileError: there is no such file, or no such text in it.
+    Raises MethodFileError if there is no such file, or it is not text.
     """
     name = "<stdin>" if path == STDIN else path
     try:
@@ -47,7 +46,7 @@ def read_text(path: str, kind: FileKind) -> tuple[str, str]:
 
 
 def _not_quoted(path: str, kind: FileKind) -> Remark:
-    """The message for a file that may hold anything."""
+    """Returns the fault for a file that may not be quoted."""
     if is_elsewhere(path):
         message = f"a link to a file elsewhere, which has no key of a {kind.name}"
         return Remark(message, "name the file that is meant", code="elsewhere")
@@ -56,8 +55,10 @@ def _not_quoted(path: str, kind: FileKind) -> Remark:
 
 
 def _may_be_quoted(path: str, text: str, kind: FileKind) -> bool:
-    """Whether errors may quote a file: it has a key of its kind, or is where it seems to be and its
-    name has an ending. Whoever leads us to a file with secrets is not told what is in it.
+    """Returns whether errors may quote a file.
+
+    It has to have a key of its kind, or be no link to elsewhere and have an ending: a path chosen
+    by someone else must not reveal secrets.
     """
     if not is_elsewhere(path) and os.path.splitext(path)[1]:
         return True
@@ -67,7 +68,7 @@ def _may_be_quoted(path: str, text: str, kind: FileKind) -> bool:
 
 
 def _cure_of_missing(path: str) -> str:
-    """The file that was meant, where one of its folder is called nearly so."""
+    """Returns a cure with the file of nearly the same name in the folder."""
     folder, name = os.path.split(path)
     try:
         with os.scandir(folder or os.curdir) as entries:
@@ -93,14 +94,9 @@ def _stem(name: str) -> str:
 
 
 def decoded(name: str, data: bytes) -> str:
-    """The text of a file.
+    """Returns the text of a file.
 
-    Args:
-        name: what errors call it.
-        data: what it holds.
-
-    Raises:
-        MethodFileError: there is too much of it, or it is no text.
+    Raises MethodFileError if it is too long or not UTF-8.
     """
     if len(data) > MAX_BYTES:
         message = f"a file of more than {MAX_BYTES} bytes"
@@ -114,20 +110,18 @@ def decoded(name: str, data: bytes) -> str:
 
 
 SUFFIX = ".gark.yaml"
-"""How method files end."""
 
 
 def no_one(told: object) -> None:
-    """Who hears where nobody asks."""
+    """The default listener, which ignores messages."""
     del told
 
 
 def files_below(folder: str, told: Callable[[str], None] = no_one) -> list[str]:
-    """All method files below a folder, and the folders that cannot be read, in order.
+    """Returns all method files below a folder, and folders that cannot be read, sorted.
 
-    Args:
-        folder: to look in; links to folders are not followed.
-        told: who hears of links that lead out of it, and are left out.
+    Links to folders are not followed. Links out of the folder are left out; ``told`` is called with
+    a message.
     """
     found: list[str] = []
 
@@ -144,7 +138,7 @@ def files_below(folder: str, told: Callable[[str], None] = no_one) -> list[str]:
 
 
 def within(paths: list[str], folder: str, told: Callable[[str], None]) -> list[str]:
-    """Those of some paths that are no links out of a folder; who asks hears of the others."""
+    """Returns the paths that are not links out of a folder; ``told`` is called for the others."""
     kept = []
     for path in paths:
         if os.path.lexists(path) and leads_away(path, folder):

@@ -1,6 +1,4 @@
-"""YAML nodes to the forms ``shu-osher`` and ``low-storage``: methods as codes with few registers
-print them.
-"""
+"""The forms ``shu-osher`` and ``low-storage``: methods as in codes with few registers."""
 
 from __future__ import annotations
 
@@ -26,7 +24,7 @@ KEYS_OF_FORMS: Mapping[str, tuple[str, ...]] = {
     "2S": ("gamma1", "gamma2", "delta", "beta"),
     "3S*": ("gamma1", "gamma2", "gamma3", "delta", "beta"),
 }
-"""The coefficients of each scheme, that with an entry per stage last."""
+"""The coefficients of each scheme; the last one has an entry for each stage."""
 _FORM_OF_SHU_OSHER = (
     "give {alpha: [[1], [3/4, 1/4]], beta: [[1], [0, 1/4]]}: a row for each value but the first"
 )
@@ -97,7 +95,7 @@ LOW_STORAGE = g.mapping(
 
 
 def shu_osher(at: Reading, node: Node) -> d.RegistersText | None:
-    """The form ``shu-osher``; None where it makes no method."""
+    """Reads the form ``shu-osher``; None if it is not a method."""
     found: g.Found | None = SHU_OSHER.read(at, node, "shu-osher")
     if found is None or not found.is_right:
         return None
@@ -106,7 +104,7 @@ def shu_osher(at: Reading, node: Node) -> d.RegistersText | None:
 
 
 def _begins_with_zeros(nodes: Mapping[str, Node]) -> bool:
-    """Whether there is a first row for the value at the beginning, which is empty or zeros."""
+    """Returns whether there is a first row for the initial value, which is empty or zero."""
 
     def is_zero(node: Node) -> bool:
         row = node.value[0] if isinstance(node, SequenceNode) and node.value else node
@@ -118,7 +116,7 @@ def _begins_with_zeros(nodes: Mapping[str, Node]) -> bool:
 
 
 def low_storage(at: Reading, node: Node) -> d.RegistersText | None:
-    """The form ``low-storage``; None where it makes no method."""
+    """Reads the form ``low-storage``; None if it is not a method."""
     found: g.Found | None = LOW_STORAGE.read(at, node, "low-storage")
     if found is None or not found.is_right:
         return None

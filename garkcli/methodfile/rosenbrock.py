@@ -1,6 +1,4 @@
-"""YAML nodes to the form ``rosenbrock``: Rosenbrock and W-methods as papers print them, and as
-programs store them.
-"""
+"""The form ``rosenbrock``: Rosenbrock and W-methods as in papers, or transformed as in programs."""
 
 from __future__ import annotations
 
@@ -69,7 +67,6 @@ TRANSFORMED = g.mapping(
     ),
     form=_FORM_OF_TRANSFORMED,
 )
-"""The keys under ``transformed``."""
 _OF_COLOURS = g.Kind(lambda: spelled_out.rows_of(ROW.schema()))
 _BLOCK = {"anyOf": [MATRIX.schema(), {"type": "null"}]}
 _BLOCKS = g.Kind(lambda: spelled_out.rows_of(spelled_out.rows_of(_BLOCK)))
@@ -102,7 +99,6 @@ BLOCKS = g.mapping(
     g.Key("embedded: [[1, 0], [1, 0]]", _OF_COLOURS, "Embedded weights of each colour."),
     form=_FORM_OF_BLOCKS,
 )
-"""The keys under ``blocks``."""
 ROSENBROCK = g.mapping(
     g.Key(
         "alpha: [[0, 0], [1, 0]]",
@@ -157,7 +153,7 @@ ROSENBROCK = g.mapping(
 
 
 def rosenbrock(at: Reading, node: Node) -> d.RosenbrockText | None:
-    """The form ``rosenbrock``; None where it makes no method."""
+    """Reads the form ``rosenbrock``; None if it is not a method."""
     entries: g.Found | None = ROSENBROCK.read(at, node, "rosenbrock")
     if entries is None or not entries.is_right:
         return None
@@ -172,7 +168,7 @@ def rosenbrock(at: Reading, node: Node) -> d.RosenbrockText | None:
 def _text(
     at: Reading, node: Node, found: g.Found, names: tuple[str, str, str], gamma: Rows
 ) -> d.RosenbrockText | None:
-    """The method with its sizes checked; ``names`` are what its matrices and weights are called."""
+    """Returns the method after a check of its sizes; ``names`` are those of its coefficients."""
     name_of_alpha, name_of_gamma, name_of_b = names
     b: Row = found[name_of_b]
     stages = len(b)
@@ -194,7 +190,7 @@ def _text(
 
 
 def _several(at: Reading, node: Node, found: g.Found) -> d.RosenbrockText | None:
-    """A method of several colours."""
+    """Reads a method of several colours."""
     before = len(at.source.faults)
 
     def rows(key: str) -> Rows | None:
@@ -255,7 +251,7 @@ def _row(at: Reading, found: g.Found, name: str, stages: int) -> Row:
 
 
 def _diagonal(at: Reading, node: Node, stages: int) -> tuple[Entry, ...]:
-    """The γ_ii, one for each stage."""
+    """Reads the γ_ii, one for each stage."""
     row = at.numbers.row(node, "gamma")
     if isinstance(node, ScalarNode):
         return row * stages

@@ -1,4 +1,4 @@
-"""Files with unknowns beside rounded numbers: with values for the unknowns, and near the print."""
+"""Files with unknowns and rounded numbers: filled with values, and with other numbers."""
 
 from __future__ import annotations
 
@@ -24,39 +24,35 @@ from garkcli.tableau.box import Box
 class Filled(Frozen, eq=False):
     """A family with values for its unknowns.
 
-    Attributes:
-        rounded: the method, with all that it may be a rounding of.
-        given: of each of its rounded numbers, whether it is the value of an unknown.
+    ``given`` says of each rounded number whether it is the value of an unknown.
     """
 
     rounded: RoundedTableau
     given: tuple[bool, ...]
 
     def shifts(self) -> tuple[fmpq, ...]:
-        """By how much the numbers of the file are off at the method that it is taken to be, in
-        units of their radii.
+        """Returns the distances of the numbers in the file from those of the exact method that it
+        stands for, in units of their radii.
         """
         off = zip(self.rounded.search.place.shifts, self.given, strict=True)
         return tuple(x for x, is_given in off if not is_given)
 
 
 class RoundedFamily(Frozen, eq=False):
-    """A family with rounded numbers, as ``garkcli.design.within`` takes it."""
+    """A family with rounded numbers, for ``garkcli.design.within``."""
 
     family: FamilyFile
 
     @property
     def tolerance(self) -> fmpq:
-        """The rounding."""
         assert self.family.tolerance is not None
         return self.family.tolerance
 
     def at(self, shifts: Sequence[fmpq], bits: int) -> FamilyFile:
-        """As ``family_at``."""
         return family_at(self.family, shifts, bits)
 
     def generic(self) -> FamilyFile:
-        """With an indeterminate in place of each rounded number and of each root."""
+        """Returns the family with an indeterminate for each rounded number and each root."""
         family = self.family
         return loads_family(
             family.text,
@@ -67,22 +63,15 @@ class RoundedFamily(Frozen, eq=False):
         )
 
     def filled(self, values: Mapping[str, fmpq], digits: int, width: fmpq) -> Filled:
-        """As ``filled``."""
         return filled(self.family, values, digits, width)
 
 
 def filled(family: FamilyFile, values: Mapping[str, fmpq], digits: int, width: fmpq) -> Filled:
-    """A family with values for its unknowns.
+    """Returns a family with values for its unknowns.
 
-    Args:
-        family: with a tolerance.
-        values: of each free parameter.
-        digits: decimals that are written of them.
-        width: by how much each may be off that is not 0.
-
-    Raises:
-        MethodFileError: they make no method.
-        MethodError: stages are joined that would differ with other last digits.
+    ``digits`` decimals of them are written, and each nonzero one may be wrong by ``width``. Raises
+    MethodFileError if they do not make a method, MethodError if stages are joined that would differ
+    with other last digits.
     """
     texts = {name: in_decimals(x, digits) for name, x in values.items()}
     reader, description = described(family.text, family.source, {**family.settings, **texts})
@@ -106,12 +95,10 @@ def filled(family: FamilyFile, values: Mapping[str, fmpq], digits: int, width: f
 
 
 def family_at(family: FamilyFile, shifts: Sequence[fmpq], bits: int) -> FamilyFile:
-    """A family with other numbers in place of the rounded ones.
+    """Returns a family with other numbers in place of the rounded ones.
 
-    Args:
-        family: with a tolerance.
-        shifts: by how much they are off, in units of their radii; nothing for none.
-        bits: of irrational ones.
+    ``shifts`` are the changes in units of the radii; if empty there are none. ``bits`` is the
+    precision of irrational numbers.
     """
 
     def moved(rounded: Rounded) -> Mapping[int, Expression]:

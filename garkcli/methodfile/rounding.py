@@ -1,4 +1,4 @@
-"""The numbers of a file that are rounded, and the method that others in their place make."""
+"""The rounded numbers of a file, and the method with other numbers in their place."""
 
 from __future__ import annotations
 
@@ -36,33 +36,26 @@ if TYPE_CHECKING:
     from garkcli.order.meant import Radii
 
 INDETERMINATE = "_number"
-"""The beginning of the names of indeterminates that stand for known numbers."""
+"""The prefix of indeterminates for known numbers."""
 _Rounded: TypeAlias = tuple[Entry, Expression, Number]
 """A rounded number, in an entry."""
 
 
 def rounded_of(built: Builder[Values], numbers: Numbers, rounding: Rounding) -> Rounded:
-    """The rounded numbers of a file: each decimal in it, and each fraction with a long denominator;
-    short fractions are exact, and roots of exact numbers. Where there is none of these, and one
-    tolerance for the whole file, each coefficient that is not 0 may be off.
+    """Returns the rounded numbers of a file: each decimal in it, and each fraction with a long
+    denominator. Short fractions are exact, and roots of exact numbers.
 
-    Args:
-        built: the method, with the values of the file.
-        numbers: the coefficients of the file.
-        rounding: by how much they may be off.
+    If there are none, but one tolerance for the whole file, each nonzero coefficient is rounded.
     """
     named = {id(x) for text in numbers.parameters.values() for x in _all_parts(text)}
     return Rounded(numbers.entries, built.values, rounding, apart=named)
 
 
 def box_of(built: Builder[Values], numbers: Numbers, content: Content, radii_of: Radii) -> Box:
-    """All methods that a file may mean by other radii than its ``tolerance``.
+    """Returns all methods that a file may stand for, with other radii than those of its
+    ``tolerance``.
 
-    Args:
-        built: the method, with the values of the file.
-        numbers: the coefficients of the file.
-        content: these by their places.
-        radii_of: by how much rounded numbers may be off, as they are written; 0 for exact ones.
+    ``radii_of`` returns the errors of the rounded numbers as written, 0 for exact ones.
     """
     from garkcli.methodfile.tolerance import Rounding, same_for_all
 
@@ -81,28 +74,10 @@ def box_of(built: Builder[Values], numbers: Numbers, content: Content, radii_of:
 
 
 class Rounded:
-    """The rounded numbers of a file, each with its place: a decimal, which may be under a root; an
-    expression that is a long fraction; or a root of a polynomial with decimals, which is off by
-    as much as each of these.
+    """The rounded numbers of a file and their places.
 
-    Args:
-        coefficients: of the file.
-        known: their values, as they are printed.
-        rounding: by how much each number may be off.
-        given: the literals, by their identity, that take the place of unknowns: they are rounded
-            as they are written, and entries with them are not what the file prints.
-        apart: where equal texts, which are read once, may be roundings of several numbers: the
-            expressions, by their identity, that are one number wherever they are, those of
-            parameters. None where equal texts are one number.
-
-    Attributes:
-        places: of each, by the identity of its expression.
-        written: their expressions.
-        numbers: as they are printed.
-        radii: by how much each may be off, the least where it is in several places; those that may
-            not are left out, but for values of unknowns.
-        is_given: of each, whether it takes the place of an unknown.
-        keys: those under ``tolerance`` that are about some rounded number.
+    A number is a decimal, perhaps under a root; an expression that is a long fraction; or a root of
+    a polynomial with decimals, which has the errors of all of these.
     """
 
     def __init__(
@@ -161,15 +136,14 @@ class Rounded:
         self.is_given = tuple(key in given for key in kept)
 
     def largest(self, *kinds: str) -> fmpq:
-        """By how much a number of some kinds may be off at most: empty for A, b and c."""
+        """Returns the largest error of the numbers of some kinds: empty for A, b and c."""
         return max((self._largest.get(kind, fmpq(0)) for kind in kinds), default=fmpq(0))
 
     def box(self, text: PartText) -> Box:
-        """All methods that a file may mean."""
         return Box(self.numbers, self.radii, self.maker(text))
 
     def maker(self, text: PartText) -> Callable[[Sequence[Any]], Any]:
-        """A function that makes the method of other numbers."""
+        """Returns a function that makes the method from other numbers."""
 
         def make(numbers: Sequence[Any]) -> Any:
             with ctx.workprec(max(ctx.prec, 64)):
@@ -178,12 +152,12 @@ class Rounded:
         return make
 
     def literals(self, numbers: Sequence[fmpq]) -> Mapping[int, Expression]:
-        """Other numbers by the identity of the expressions whose place they take."""
+        """Returns other numbers by the identity of the expressions that they replace."""
         return {key: Literal(numbers[place]) for key, place in self.places.items()}
 
     def indeterminates(self) -> Mapping[int, Expression]:
-        """A name for each rounded number, those in sums that are 0 as printed too, and for each
-        root of known numbers: by identity, as ``literals`` has them.
+        """Returns names for the rounded numbers, including those in sums that are 0 as printed, and
+        for the roots of known numbers, by the identity of the expressions.
         """
         found: dict[int, Expression] = {}
         for entry in self._coefficients:
@@ -199,8 +173,8 @@ class Rounded:
 
     @staticmethod
     def changer(instead: Mapping[int, Expression]) -> Callable[[Expression], Expression]:
-        """A function that puts other expressions in place of some, by identity; a root of numbers
-        becomes one of its digits too, as many as the bits of the context leave.
+        """Returns a function that replaces expressions by identity. A root of a polynomial with
+        decimals is replaced by a decimal with as many digits as the precision gives.
         """
         known: dict[int, Expression] = {}
 
@@ -230,16 +204,15 @@ class Rounded:
         return change
 
     def made(self, text: PartText, numbers: Sequence[Any]) -> Any:
-        """The method with other numbers, further weights as colours."""
+        """Returns the method with other numbers, its further weights as colours."""
         builder = Builder(text, _Moved(self._coefficients, self, numbers))
         return to_points(as_colours(builder.tableau, builder.further))
 
 
 def refuse_keys(source: Source, rounding: Rounding, rounded: Rounded) -> None:
-    """Refuse keys of ``tolerance`` that are about nothing.
+    """Reports keys of ``tolerance`` that do not apply to a number.
 
-    Raises:
-        MethodFileError: there are some.
+    Raises MethodFileError if there are some.
     """
     for node, message, cure, code in rounding.refusals(rounded.keys):
         source.fault(node, message, cure, code=code)
@@ -247,14 +220,13 @@ def refuse_keys(source: Source, rounding: Rounding, rounded: Rounded) -> None:
 
 
 def _all_parts(expression: Expression) -> Iterator[Expression]:
-    """An expression and all that is in it."""
     yield expression
     for part in parts(expression):
         yield from _all_parts(part)
 
 
 def _copied(expression: Expression, kept: Container[int]) -> Expression:
-    """The same expression of new parts, but for those that are kept."""
+    """Returns a copy of an expression that shares only the parts in ``kept``."""
     if id(expression) in kept:
         return expression
     match expression:
@@ -268,14 +240,14 @@ def _copied(expression: Expression, kept: Container[int]) -> Expression:
 
 
 def is_of_unknowns(expression: Expression, given: Container[int]) -> bool:
-    """Whether unknowns are in an expression, or literals in their place."""
+    """Returns whether an expression contains unknowns, or literals in their place."""
     if isinstance(expression, Name) or id(expression) in given:
         return True
     return any(is_of_unknowns(x, given) for x in parts(expression))
 
 
 def _rounded_in(expression: Expression, value: Number) -> Iterator[tuple[Expression, Number]]:
-    """The rounded numbers in an expression, with their values."""
+    """Yields the rounded numbers in an expression and their values."""
     if is_long_fraction(expression, value):
         yield expression, value
         return
@@ -291,7 +263,7 @@ def _rounded_in(expression: Expression, value: Number) -> Iterator[tuple[Express
 
 
 class _Moved(Values):
-    """Values of the coefficients where the rounded numbers in them are others."""
+    """The values of the coefficients with other numbers in place of the rounded ones."""
 
     def __init__(
         self, coefficients: Sequence[Entry], rounded: Rounded, numbers: Sequence[Any]
@@ -308,7 +280,9 @@ class _Moved(Values):
             self._values[id(entry)] = rational_or_ball(value) if moved is None else moved
 
     def _value(self, expression: Expression) -> Any:
-        """The value of an expression with other numbers; None where none of them is in it."""
+        """Returns the value of an expression with other numbers; None if it contains none of
+        them.
+        """
         key = id(expression)
         if key not in self._found:
             self._found[key] = self._moved(expression)
@@ -339,12 +313,10 @@ class _Moved(Values):
 
 
 def _exact(expression: Expression) -> Any:
-    """The value of an expression without rounded numbers."""
     return rational_or_ball(_value(expression))
 
 
 def _value(expression: Expression) -> Number:
-    """The value of an expression as it is printed."""
     from garkcli.exact.domain import Domain
 
     return Domain([expression]).coefficient(expression)

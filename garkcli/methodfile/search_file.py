@@ -1,4 +1,4 @@
-"""The search of a file with unknowns, as it travels between processes."""
+"""The search of a file with unknowns, in a form that can be sent between processes."""
 
 from __future__ import annotations
 
@@ -13,15 +13,10 @@ from garkcli.methodfile.family import FamilyFile, loads_family
 
 
 class FileSearch(Frozen):
-    """What is sought, without a number that only one process knows.
+    """A search, described by text alone.
 
-    Attributes:
-        text: of the file.
-        source: what it is called.
-        settings: values that are given, name and text.
-        order: that is wanted.
-        whose: of the method, its conjugate or its pair.
-        objective: that is minimised, by its name; None for none.
+    ``settings`` are names and values of parameters; ``order`` is the wanted one, of the method, its
+    conjugate or its pair; ``objective`` is minimised, if given.
     """
 
     text: str
@@ -35,26 +30,25 @@ class FileSearch(Frozen):
     def of(
         cls, family: FamilyFile, order: int, whose: Whose = "method", objective: str | None = None
     ) -> FileSearch:
-        """The search of a file that is read already."""
+        """Returns the search of a family file."""
         settings = tuple(family.settings.items())
         return cls(family.text, family.source, settings, order, whose, objective)
 
     @property
     def family(self) -> FamilyFile:
-        """The file, read once in each process.
+        """The family, read once in each process.
 
-        Raises:
-            MethodError: its coefficients are rounded.
+        Raises MethodError for rounded coefficients.
         """
         return _family(self.text, self.source, self.settings)
 
     @property
     def search(self) -> Search:
-        """What looks for it, made once in each process."""
+        """The search, made once in each process."""
         return _search(self)
 
     def do(self, task: Task) -> Timed:
-        """Do a piece of it, with the time that it takes."""
+        """Returns the result of a task and the time it took."""
         return do(self.search, task)
 
 

@@ -1,5 +1,5 @@
-"""Shapes of tableaus of unknowns: as text, which each shape changes entry by entry; and
-``unknown`` of a method file, which names them.
+"""Shapes of tableaus of unknowns, as text that each shape modifies, and ``unknown`` of a method
+file, which names them.
 """
 
 from __future__ import annotations
@@ -29,11 +29,8 @@ _OWN = re.compile(r"(?:a|e|alpha|gamma)[0-9_]+")
 class Layout(Frozen):
     """A tableau whose entries are zeros, names of unknowns and sums of them.
 
-    Attributes:
-        kind: the form of method file that it is.
-        A: a matrix for each colour; α and γ of a Rosenbrock method.
-        b: a row of weights for each colour; of an ark one for all.
-        embedded: the same of embedded weights; None where there are none.
+    ``kind`` is the form of its method file. ``A`` has a matrix for each colour, or α and γ of a
+    Rosenbrock method; ``b`` and ``embedded`` a row for each colour, or one for all of an ark.
     """
 
     kind: Literal["tableau", "ark", "prk", "rosenbrock"]
@@ -43,20 +40,18 @@ class Layout(Frozen):
 
     @property
     def stages(self) -> int:
-        """How many stages it has."""
         return len(self.b[0])
 
     @property
     def unknowns(self) -> tuple[str, ...]:
-        """The names in it, each once, row by row."""
+        """The names in the layout, row by row."""
         texts = chain.from_iterable(chain(*self.A, self.b, self.embedded or ()))
         return tuple(dict.fromkeys(name for text in texts for name in _NAME.findall(text)))
 
     def with_entries(self, entry: Callable[[int, int, str], str]) -> Layout:
-        """The layout with the entries of its last matrix changed.
+        """Returns the layout with changed entries in its last matrix.
 
-        Args:
-            entry: from a row and a column, counted from 0, and the text there to another.
+        ``entry`` maps a row, a column (from 0) and the text there to the new text.
         """
         *others, last = self.A
         changed = tuple(
@@ -66,7 +61,7 @@ class Layout(Frozen):
 
 
 def full_layout(stages: int) -> Layout:
-    """Every entry an unknown of its own, named by its place."""
+    """Returns the layout with an unknown for each entry, named by its place."""
     join = _join(stages)
     numbers = range(1, stages + 1)
     rows = tuple(tuple(f"a{join}{i}{join}{j}" for j in numbers) for i in numbers)
@@ -74,23 +69,23 @@ def full_layout(stages: int) -> Layout:
 
 
 def _join(stages: int) -> str:
-    """What parts numbers of stages in names, where they may have two digits."""
+    """Returns the separator of numbers in names, needed if they may have two digits."""
     return "" if stages < 10 else "_"
 
 
 def with_embedded(layout: Layout) -> Layout:
-    """The layout with embedded weights, an unknown each: bh1 beside b1."""
+    """Returns the layout with an unknown for each embedded weight: bh1 beside b1."""
     join, stages = _join(layout.stages), range(1, layout.stages + 1)
     letters = "ab" if layout.kind == "prk" else "b"
     return replace(layout, embedded=tuple(tuple(f"{x}h{join}{i}" for i in stages) for x in letters))
 
 
 def with_nodes(layout: Layout) -> Layout:
-    """The layout with the node c_i an unknown in place of the first entry of row i.
+    """Returns the layout with the node c_i in place of the first entry of row i.
 
-    Where that entry is an unknown that is nowhere else it is the node minus the rest of the
-    row: the same methods, and values for nodes are the ones people choose. So is d_i, the sum of a
-    row of γ.
+    If that entry is an unknown that occurs nowhere else, it is the node minus the rest of the row:
+    the methods are the same, and nodes are what people choose. The sum d_i of a row of γ is used
+    likewise.
     """
     if layout.kind == "prk":
         return layout
@@ -128,7 +123,9 @@ def _esdirk(layout: Layout) -> Layout:
 
 
 def _symplectic_dirk(layout: Layout) -> Layout:
-    """J. M. Sanz-Serna, L. Abia, *Order conditions for canonical Runge-Kutta schemes*, 1991."""
+    """As in J. M. Sanz-Serna, L. Abia, *Order conditions for canonical Runge-Kutta schemes*,
+    1991.
+    """
     weights = layout.b[0]
 
     def entry(i: int, j: int, _: str) -> str:
@@ -140,7 +137,7 @@ def _symplectic_dirk(layout: Layout) -> Layout:
 
 
 def _imex(layout: Layout) -> Layout:
-    """Explicit entries are called e_ij; the nodes and the weights are shared."""
+    """Entries of the explicit part are called e_ij; the nodes and the weights are shared."""
     implicit = _esdirk(layout)
     rows = _explicit(layout).A[0]
     named = [tuple(f"e{text[1:]}" if text != ZERO else text for text in row) for row in rows]
@@ -149,7 +146,7 @@ def _imex(layout: Layout) -> Layout:
 
 
 def _lower(weights: tuple[str, ...], reach: int) -> Texts:
-    """Rows of weights up to the diagonal, or before it."""
+    """Returns rows of weights up to the diagonal, or before it."""
     stages = len(weights)
     ends = (i + reach for i in range(stages))
     return tuple((*weights[:end], *(ZERO,) * (stages - end)) for end in ends)
@@ -162,15 +159,15 @@ def _splitting(layout: Layout) -> Layout:
 
 
 def _low_storage(layout: Layout) -> Layout:
-    """ΔY ← A_i ΔY + h f(Y), Y ← Y + B_i ΔY in two registers: after register step i the slope of
-    stage j has the weight Σ_{m=j}^i B_m A_m ⋯ A_{j+1}.
+    """Eliminates the two registers of ΔY ← A_i ΔY + h f(Y), Y ← Y + B_i ΔY: after register step i
+    the slope of stage j has the weight Σ_{m=j}^i B_m A_m ⋯ A_{j+1}.
 
     J. H. Williamson, *Low-storage Runge–Kutta schemes*, Journal of Computational Physics 35, 1980.
     """
     s, join = layout.stages, _join(layout.stages)
 
     def weight(i: int, j: int) -> str:
-        """The weight of stage j after register step i, both counted from 1."""
+        """Returns the weight of stage j after register step i, both counted from 1."""
         terms = [
             "*".join([f"B{join}{m}", *(f"A{join}{k}" for k in range(j + 1, m + 1))])
             for m in range(j, i + 1)
@@ -265,7 +262,7 @@ def _palindromic(layout: Layout) -> Layout:
 
 
 def _mirror(rows: list[list[str]], b: tuple[str, ...], i: int, j: int) -> None:
-    """Write the entry at the place opposite of (i, j), where that is an unknown of its own."""
+    """Writes the entry opposite to (i, j), if that is an unknown of its own."""
     last = len(b) - 1
     k, l = last - i, last - j
     entry, opposite = rows[i][j], rows[k][l]
@@ -285,11 +282,8 @@ def _mirror(rows: list[list[str]], b: tuple[str, ...], i: int, j: int) -> None:
 class Shape(Frozen):
     """A shape of tableaus.
 
-    Attributes:
-        name: in method files.
-        summary: what it is.
-        applied: the layout with that shape.
-        begins: whether it says which colours there are, and so is first.
+    ``applied`` returns a layout with the shape; a shape that ``begins`` determines the colours and
+    comes first.
     """
 
     name: str
@@ -327,14 +321,13 @@ SHAPES = {
         Shape("palindromic", "the same method backwards", _palindromic),
     )
 }
-"""Every shape by its name, in the order of the documentation."""
+"""All shapes by name, in the order of the documentation."""
 
 
 def layout_of(stages: int, names: Sequence[str]) -> Layout:
-    """The tableau of unknowns that has some shapes, one applied after the other.
+    """Returns the tableau of unknowns with some shapes, applied in their order.
 
-    Raises:
-        MethodError: they do not go together.
+    Raises MethodError if they exclude each other.
 
     >>> layout_of(2, ["sdirk"]).A
     ((('gamma', '0'), ('c2 - gamma', 'gamma')),)
@@ -354,7 +347,7 @@ def layout_of(stages: int, names: Sequence[str]) -> Layout:
 
 FORM = "write unknown: {stages: 3, shape: sdirk}"
 MAX_STAGES = 20
-"""Most stages of a tableau of unknowns; twelve unknowns without structure are too many."""
+"""The largest number of stages; twelve unknowns without structure are too many."""
 
 
 def _shape(at: Any, node: Node, where: str) -> str | None:
@@ -383,17 +376,12 @@ UNKNOWN = mapping(
     Key("embedded: true", FLAG, "Whether there are embedded weights bh1, bh2, … too, all unknown."),
     form=FORM,
 )
-"""How many stages, and which shape."""
+"""The number of stages, and the shape."""
 
 
 class Shaped(Frozen):
-    """What ``unknown`` stands for.
-
-    Attributes:
-        form: of the method file that says the same.
-        content: its coefficients.
-        layout: the same as text.
-        place: from where to where in the file ``unknown: …`` is.
+    """The tableau for ``unknown``: the form and the coefficients of the equivalent method file, the
+    layout, and the place of ``unknown: …`` in the file.
     """
 
     form: d.Form
@@ -403,12 +391,9 @@ class Shaped(Frozen):
 
 
 def shaped(at: Reading, key: Node, node: Node) -> Shaped | None:
-    """The tableau of unknowns of ``unknown``; None, with faults noted, where there is none.
+    """Returns the tableau for ``unknown``; None after a fault.
 
-    Args:
-        at: what reads the file.
-        key: the word ``unknown`` in the file.
-        node: its value.
+    ``key`` is the node of the word ``unknown``, ``node`` that of its value.
     """
     found: Found | None = UNKNOWN.read(at, node, "unknown")
     if found is None or not found.is_right:
@@ -434,8 +419,6 @@ def shaped(at: Reading, key: Node, node: Node) -> Shaped | None:
 def _content(
     at: Reading, layout: Layout, node: Node
 ) -> d.TableauText | d.ArkText | d.PrkText | d.RosenbrockText:
-    """The coefficients of a layout."""
-
     def row(texts: TextRow, where: str) -> Row:
         numbered = enumerate(texts, start=1)
         return tuple(at.numbers.written(x, node, f"{where}, entry {j}") for j, x in numbered)
@@ -466,8 +449,6 @@ def _content(
 
 
 def spelled(layout: Layout) -> str:
-    """The layout as keys of a method file."""
-
     def listed(texts: Iterable[str]) -> str:
         return f"[{', '.join(texts)}]"
 

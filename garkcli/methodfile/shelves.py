@@ -1,6 +1,6 @@
-"""Where methods with names are: your own folders, the package, packages of others.
+"""The places of named methods: the user's folders, the package, and other packages.
 
-A shelf knows its methods by their names, which are those of their files, and by their aliases.
+A shelf has its methods by the names of their files, and by their aliases.
 """
 
 from __future__ import annotations
@@ -27,11 +27,11 @@ if TYPE_CHECKING:
     from importlib.resources.abc import Traversable
 
 PATH_VARIABLE = "GARK_PATH"
-"""The variable with your own folders, as ``PATH`` has those of programs."""
+"""The environment variable with the user's folders, like ``PATH``."""
 GROUP = "gark.catalogue"
-"""The group of entry points whose values are packages with method files in them."""
+"""The group of entry points whose values are packages with method files."""
 INDEX = "catalogue/index.json"
-"""What there is in the package, from its root."""
+"""The index of the package, from its root."""
 DATA = "catalogue/data"
 """The method files of the package, from its root."""
 _DASHES = dict.fromkeys([*range(0x2010, 0x2016), 0x2212], "-")
@@ -40,7 +40,7 @@ _NO_LETTERS = r"[\W_]+"
 
 @lru_cache(4_096)
 def key_of(name: str) -> str:
-    """A name as it is compared: in lower case, with hyphens between its words.
+    """Returns a name for comparison: lower case, with hyphens between the words.
 
     >>> key_of("Dormand_Prince 5"), key_of("Runge–Kutta")
     ('dormand-prince-5', 'runge-kutta')
@@ -50,7 +50,7 @@ def key_of(name: str) -> str:
 
 
 def letters_of(name: str) -> str:
-    """The letters and digits of a name, however it is spelt; a star tells methods apart.
+    """Returns the letters and digits of a name for comparison; a star counts as a word.
 
     >>> letters_of("ARK4(3)6L[2]SA"), letters_of("ARS-222") == letters_of("ARS(2,2,2)")
     ('ark436l2sa', True)
@@ -64,12 +64,9 @@ def letters_of(name: str) -> str:
 class Shelved(Frozen):
     """A method file with a name.
 
-    Attributes:
-        name: that of the file, without its suffix.
-        folder: the one below the root of its shelf that it is in; empty for none.
-        place: where the file is, for people.
-        shelf: what messages call its shelf.
-        read: gives its text, or raises ``MethodFileError``.
+    ``name`` is that of the file without suffix, ``folder`` the folder below the root of its shelf,
+    or empty; ``place`` and ``shelf`` are for messages; ``read`` returns its text, or raises
+    MethodFileError.
     """
 
     name: str
@@ -80,11 +77,10 @@ class Shelved(Frozen):
 
 
 Found = Mapping[str, Sequence[Shelved]]
-"""Methods by the keys of their names, or of their aliases; several where these are not unique."""
+"""Methods by the keys of names or aliases, which several may share."""
 
 
 def _by(keys: Callable[[Shelved], Iterable[str]], methods: Iterable[Shelved]) -> Found:
-    """Methods by keys that each of them has."""
     found: dict[str, list[Shelved]] = {}
     for method in methods:
         for key in dict.fromkeys(keys(method)):
@@ -93,50 +89,44 @@ def _by(keys: Callable[[Shelved], Iterable[str]], methods: Iterable[Shelved]) ->
 
 
 class Shelf:
-    """Methods with names that are in one place.
-
-    Attributes:
-        label: what messages call it.
-    """
+    """A place with named methods; ``label`` names it in messages."""
 
     def __init__(self, label: str) -> None:
         self.label = label
 
     @cached_property
     def methods(self) -> Found:
-        """By their names."""
+        """The methods by their names."""
         return _by(lambda x: [key_of(x.name)], self._shelved())
 
     def named(self, key: str) -> Sequence[Shelved]:
-        """Those of a name, by its key."""
         return self.methods.get(key, ())
 
     @cached_property
     def aliases(self) -> Found:
-        """By what else they are called."""
+        """The methods by their aliases."""
         return _by(lambda x: map(key_of, self.called(x)), chain(*self.methods.values()))
 
     @cached_property
     def spellings(self) -> Found:
-        """By the letters and digits of their names and aliases."""
+        """The methods by the letters and digits of their names and aliases."""
         return _by(
             lambda x: map(letters_of, (x.name, *self.called(x))), chain(*self.methods.values())
         )
 
     def called(self, method: Shelved) -> Sequence[str]:
-        """The aliases of one of its methods; none where its file cannot be read."""
+        """Returns the aliases of a method; none if its file cannot be read."""
         try:
             return aliases_of(method.read(), method.place)
         except MethodFileError:
             return ()
 
     def _shelved(self) -> Iterator[Shelved]:
-        """Its methods."""
         raise NotImplementedError
 
 
 class OwnFolder(Shelf):
-    """A folder, with all method files below it."""
+    """A folder with method files."""
 
     def _shelved(self) -> Iterator[Shelved]:
         for path in files_below(self.label):
@@ -152,7 +142,7 @@ def _text_of(path: str) -> Callable[[], str]:
 
 
 class Package(Shelf):
-    """The methods that come with the program, by their index."""
+    """The methods that come with the program, from their index."""
 
     @cached_property
     def _index(self) -> str:
@@ -160,11 +150,11 @@ class Package(Shelf):
 
     @cached_property
     def entries(self) -> Mapping[str, Mapping[str, Any]]:
-        """What the index says of each, by its name."""
+        """The entries of the index by name."""
         return {x["name"]: x for x in json.decode(self._index)["methods"]}
 
     def named(self, key: str) -> Sequence[Shelved]:
-        """Those of a name, by its key, which it is itself; no other entry of the index is read."""
+        """Returns the method of a name; no other entry of the index is read."""
         start = self._index.find(f'\n{{"name": "{key}", ') + 1
         if not start or '"' in key:
             return ()
@@ -172,7 +162,7 @@ class Package(Shelf):
         return [self._entered(json.decode(line.removesuffix(",")))]
 
     def called(self, method: Shelved) -> Sequence[str]:
-        """The aliases of one of its methods; no file is read for it."""
+        """Returns the aliases of a method, from the index."""
         aliases: Sequence[str] = self.entries[method.name]["aliases"]
         return aliases
 
@@ -188,9 +178,9 @@ class Package(Shelf):
 
 
 def _resource(file: str) -> bytes:
-    """A file of this package, wherever the package is.
+    """Returns a file of this package, which may be within an archive.
 
-    By ``pkgutil``, as to import ``importlib.resources`` takes as long as to check a method.
+    ``importlib.resources`` takes as long to import as a method to check.
     """
     from pkgutil import get_data
 
@@ -200,12 +190,7 @@ def _resource(file: str) -> bytes:
 
 
 class OtherPackage(Shelf):
-    """A package of others, with method files in it.
-
-    Args:
-        label: the name of its entry point.
-        root: where it is.
-    """
+    """Another package with method files; ``label`` is the name of its entry point."""
 
     def __init__(self, label: str, root: Traversable) -> None:
         super().__init__(label)
@@ -215,7 +200,6 @@ class OtherPackage(Shelf):
         return self._below(self.root, ())
 
     def _below(self, folder: Traversable, inside: tuple[str, ...]) -> Iterator[Shelved]:
-        """The method files below a folder of the package."""
         for item in sorted(folder.iterdir(), key=lambda x: x.name):
             if item.is_dir():
                 yield from self._below(item, (*inside, item.name))
@@ -232,20 +216,19 @@ def _text_of_item(item: Traversable, place: str) -> Callable[[], str]:
 
 @cache
 def package() -> Package:
-    """The shelf of this package; its index is read once."""
     return Package("the package")
 
 
 def own_folders() -> list[Shelf]:
-    """The folders of ``GARK_PATH`` that there are, in its order."""
+    """Returns the existing folders of ``GARK_PATH``, in its order."""
     folders = dict.fromkeys(x for x in os.environ.get(PATH_VARIABLE, "").split(os.pathsep) if x)
     return [OwnFolder(x) for x in folders if os.path.isdir(x)]
 
 
 @cache
 def _points(_: tuple[str, ...]) -> list[EntryPoint]:
-    """The entry points of the group on a search path: to look for them takes longer than a check,
-    and many names that mean nothing ask for them.
+    """Returns the entry points of the group on a search path. They are cached, because the search
+    takes longer than a check and is repeated for each unknown name.
     """
     from importlib.metadata import entry_points
 
@@ -253,10 +236,9 @@ def _points(_: tuple[str, ...]) -> list[EntryPoint]:
 
 
 def others() -> list[Shelf]:
-    """The packages that are installed with an entry point of the group, by its name.
+    """Returns the packages with an entry point of the group, by name.
 
-    Raises:
-        MethodFileError: one of them cannot be imported.
+    Raises MethodFileError if one cannot be imported.
     """
     from importlib.resources import files
 

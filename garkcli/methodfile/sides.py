@@ -1,5 +1,5 @@
-"""From the text of a problem file with ``rhs`` to right-hand sides: known names, values at the
-start, derivatives, and whether an exact solution is one.
+"""Right-hand sides from the text of a problem file with ``rhs``, with checks of names, initial
+values, derivatives and the exact solution.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ if TYPE_CHECKING:
 # parts of the time, where a solution is tried
 _TRIES = fmpq(1, 3), fmpq(2, 3), fmpq(1)
 ByName: TypeAlias = dict[str, Term]
-"""Formulas by the variables that they are of."""
+"""Formulas by the variables whose derivatives they are."""
 Start: TypeAlias = dict[str, fmpq]
-"""Initial values by the variables."""
+"""Initial values by variables."""
 
 
 class SidesMaker(Maker):
@@ -34,14 +34,13 @@ class SidesMaker(Maker):
         self.y = symbols(text.variables, "y")
         (self.t,) = symbols(text.variables, TIME)
         self.variables = text.variables if text.are_named else ()
-        """The names that values and formulas may have; none where these have faults."""
+        """The names that values and formulas may have; empty after a fault."""
         super().__init__(formulas, text, (*self.y, self.t))
 
     def problem(self) -> RightHandSide:
-        """The problem.
+        """Returns the problem.
 
-        Raises:
-            MethodFileError: there are faults; all that could be found.
+        Raises MethodFileError with all faults found.
         """
         from garkcli.problems.righthandside import RightHandSide
 
@@ -81,7 +80,7 @@ class SidesMaker(Maker):
         return made
 
     def _components(self, term: ByName) -> tuple[object, ...]:
-        """D expressions: 0 for what is left out."""
+        """Returns the expressions of all variables, 0 for missing ones."""
         import sympy
 
         zero = sympy.Integer(0)
@@ -95,7 +94,7 @@ class SidesMaker(Maker):
         }
 
     def _exact(self) -> ByName | None:
-        """The exact solution by names; None where there is none, or it has faults."""
+        """Returns the exact solution by names; None without one, or after a fault."""
         node = self.text.exact
         if node is None:
             return None
@@ -109,7 +108,7 @@ class SidesMaker(Maker):
         return found if len(self.source.faults) == before else None
 
     def _initial(self, exact: ByName | None) -> Start | None:
-        """The initial values by name; None where they are not complete."""
+        """Returns the initial values by names; None if they are incomplete."""
         started = None if exact is None else self._start_of(exact)
         node = self.text.initial
         if node is None:
@@ -126,7 +125,7 @@ class SidesMaker(Maker):
         return values
 
     def _refuse_other_start(self, exact: ByName, started: Start, values: Start) -> None:
-        """Note where the exact solution does not begin at the initial values."""
+        """Reports an exact solution that does not start at the initial values."""
         for name, term in exact.items():
             own, given = started[name], values[name]
             if own != given:
@@ -136,7 +135,7 @@ class SidesMaker(Maker):
                 self.source.fault(term.node, message, cure, code="no-solution")
 
     def _start_of(self, exact: ByName) -> Start | None:
-        """The exact solution at t = 0; None where it has no value there, which is noted."""
+        """Returns the exact solution at t = 0; None if it has no value there."""
         found = {}
         for name, term in exact.items():
             where = f"{term.where} at t = 0"
@@ -148,7 +147,7 @@ class SidesMaker(Maker):
     def _refuse_constants(
         self, all_terms: Sequence[Term], terms: Sequence[ByName], invariants: Sequence[Term]
     ) -> None:
-        """Note right-hand sides with which nothing moves, and invariants that depend on nothing."""
+        """Reports right-hand sides that are all zero, and invariants that are constant."""
         parts = ([x[name].made for x in terms if name in x] for name in self.text.variables)
         if not any(sum(made) != 0 for made in parts):
             message = "nothing moves: the right-hand sides sum to 0"
@@ -157,8 +156,8 @@ class SidesMaker(Maker):
         self.refuse_constants(invariants, "the variables")
 
     def _check_solution(self, problem: RightHandSide, exact: ByName) -> None:
-        """Note a solution whose derivative differs from the right-hand sides at a later time, with
-        balls that prove it.
+        """Reports a solution whose derivative differs from the right-hand sides at a later time, as
+        proved by enclosures.
         """
         from garkcli.problems.mass import enclosed
 
@@ -184,5 +183,4 @@ class SidesMaker(Maker):
 
 
 def _decimal(x: fmpq | arb) -> str:
-    """A few digits of a number."""
     return str(arb(x).str(6, radius=False))

@@ -1,4 +1,4 @@
-"""One file being read: its nodes taken apart, and the list in which faults are collected."""
+"""A file that is being read: its nodes, and the faults found in it."""
 
 from __future__ import annotations
 
@@ -24,16 +24,14 @@ from garkcli.methodfile.nodes import keys_of, meant_key, shortened
 Place: TypeAlias = tuple[int, int]
 """Line and column, from 1."""
 MAX_PLACES = 3
-"""Most further places that are named where one cause shows in many."""
+"""The number of further places that are listed for a cause with many faults."""
 
 
 class Found(Frozen):
-    """A fault as it was noted.
+    """A reported fault.
 
-    Attributes:
-        fault: what is reported.
-        cause: what it has in common with others; empty for a fault on its own.
-        is_one: whether faults of this cause are reported once, however few there are.
+    ``cause`` is equal for faults with the same cause, empty for a single one; if ``is_one``, faults
+    of this cause are always reported once.
     """
 
     fault: Remark
@@ -42,12 +40,13 @@ class Found(Frozen):
 
 
 def place_of(found: Found) -> Place:
-    """Line and column of a fault."""
     return found.fault.line, found.fault.column
 
 
 def told_once(found: Sequence[Found]) -> list[Remark]:
-    """The faults in file order; those of one cause at their first place, which names the others."""
+    """Returns the faults in file order; those of one cause at its first place, with the others
+    listed.
+    """
     causes = Counter(one.cause for one in found)
     together: dict[object, list[Found]] = {}
     for number, one in enumerate(found):
@@ -62,7 +61,7 @@ def told_once(found: Sequence[Found]) -> list[Remark]:
 
 
 def _elsewhere(others: Sequence[Place]) -> str:
-    """Where else a cause shows: ``(also at 4:12 and in 3 more places)``."""
+    """Returns the other places of a cause: ``(also at 4:12 and in 3 more places)``."""
     if not others:
         return ""
     places = ", ".join(f"{line}:{column}" for line, column in others[:MAX_PLACES])
@@ -72,15 +71,10 @@ def _elsewhere(others: Sequence[Place]) -> str:
 
 
 class FileKind(Frozen):
-    """What a file is for.
+    """A kind of file.
 
-    Attributes:
-        name: what people call it.
-        keys: those that tell one from other files.
-        smallest: what the smallest one has.
-        start: how one begins.
-        page: where it is described.
-        use: what runs it.
+    ``keys`` distinguish it from other files; the texts name it, describe the smallest file and its
+    start, its page and the command that uses it.
     """
 
     name: str
@@ -121,13 +115,13 @@ SWEEP_FILE = FileKind(
 
 
 MAX_BYTES = 1_000_000
-"""Largest file that is read."""
+"""The largest file that is read."""
 _MOST_DIGITS = 6
-"""Of a whole number that counts something."""
+"""The largest number of digits of an integer."""
 MAX_FAULTS = 200
-"""Most faults of one file that are reported one by one."""
+"""The largest number of faults that are reported one by one."""
 MAX_FAULTS_READ = 1_000
-"""After so many faults a file is read no further."""
+"""Reading stops after this number of faults."""
 
 
 Entries: TypeAlias = dict[str, Node]
@@ -135,12 +129,7 @@ Entries: TypeAlias = dict[str, Node]
 
 
 class Home(Frozen):
-    """Where a key belongs.
-
-    Attributes:
-        key: of the mapping that it is in.
-        line: an example with the key itself.
-    """
+    """The place of a key: the key of the mapping that contains it, and an example with it."""
 
     key: str
     line: str
@@ -152,7 +141,7 @@ _PLAIN_VALUE = re.compile(r"[A-Za-z0-9]\S*")
 
 
 def _moved(key: str, value: Node, example: str) -> str:
-    """A key with the value that the file gives it, or an example where that is longer."""
+    """Returns a key with its value in the file, or an example if the value is longer."""
     if not isinstance(value, ScalarNode) or not _SHORT_VALUE.fullmatch(value.value):
         return example
     text = value.value
@@ -160,14 +149,14 @@ def _moved(key: str, value: Node, example: str) -> str:
 
 
 Cures: TypeAlias = Callable[[], Mapping[str, str | Home]]
-"""What to do about keys that are expected elsewhere, or not at all: asked where one is met."""
+"""Returns advice about keys that belong elsewhere or nowhere, called when one is found."""
 _NOTHING: Mapping[str, str] = {}
 _PYTHON = "tag:yaml.org,2002:python"
-"""What tags begin with that make objects of Python."""
+"""The prefix of tags that create Python objects."""
 
 
 class Source:
-    """One file being read: its name, its text, its kind, and the faults found so far."""
+    """A file that is being read."""
 
     def __init__(self, name: str, text: str, kind: FileKind = METHOD_FILE) -> None:
         self.name = name
@@ -177,7 +166,7 @@ class Source:
 
     @property
     def faults(self) -> list[Remark]:
-        """What was noted so far, in the order of reading."""
+        """The faults so far, in the order of reading."""
         return [found.fault for found in self._found]
 
     def fault(
@@ -191,21 +180,13 @@ class Source:
         *,
         code: str,
     ) -> None:
-        """Note a fault at ``node``, ``offset`` characters into its text.
+        """Reports a fault at ``node``, or of the file as a whole, ``offset`` characters into its
+        text.
 
-        Args:
-            node: the value at fault; None for the file as a whole.
-            message: what is wrong.
-            cure: what to do about it.
-            offset: where in the text of the value.
-            where: what the value is, such as ``A^{1,1}, row 2``. The same message about a word of
-                the file, with another ``where``, has the same cause and is reported once, with its
-                other places; so is any other message that occurs often.
-            cause: what has the same cause though the message is another one.
-            code: the kind of fault.
-
-        Raises:
-            MethodFileError: there are ``MAX_FAULTS_READ`` of them; no file is read further.
+        ``where`` says what the value is, such as ``A^{1,1}, row 2``. The same message about a word
+        of the file, with another ``where``, has the same cause and is reported once, with its other
+        places; so is any other message that occurs often. Messages with equal ``cause`` have the
+        same cause too. Raises MethodFileError after ``MAX_FAULTS_READ`` faults.
         """
         line, column = (1, 1) if node is None else self._place(node, offset)
         text = f"{where}: {message}" if where else message
@@ -219,7 +200,6 @@ class Source:
             raise self.error()
 
     def _place(self, node: Node, offset: int) -> tuple[int, int]:
-        """Line and column of the text of a value, ``offset`` characters into it."""
         line, column = position(node.start_mark)
         if not isinstance(node, ScalarNode):
             return line, column + offset
@@ -230,20 +210,16 @@ class Source:
     def expression_fault(
         self, node: Node, where: str, error: ExpressionError, cause: str = ""
     ) -> None:
-        """Note what is wrong with the text of a number."""
+        """Reports an error in the text of a number."""
         self.fault(node, error.message, error.help, error.start, where, cause, code=error.code)
 
     def close(self) -> None:
-        """Raise what has been found.
-
-        Raises:
-            MethodFileError: there are faults; all of them, in file order.
-        """
+        """Raises MethodFileError if there are faults, with all of them in file order."""
         if self._found:
             raise self.error()
 
     def error(self) -> MethodFileError:
-        """What has been found, as one error; faults in file order, each cause once, and at least
+        """Returns the faults as one error, in file order, each cause once; there is at least
         one.
         """
         if not self._found:
@@ -258,7 +234,7 @@ class Source:
         return MethodFileError(self.name, faults, self.text)
 
     def error_with(self, note: Callable[[], None]) -> MethodFileError:
-        """What has been found, with what ``note`` notes, which is forgotten again."""
+        """Returns the faults as an error, including those that ``note`` reports temporarily."""
         before = list(self._found)
         note()
         error = self.error()
@@ -266,7 +242,7 @@ class Source:
         return error
 
     def compose(self) -> MappingNode | None:
-        """The root of the file; None, with faults noted, where there is no mapping."""
+        """Returns the root of the file; None after a fault."""
         if len(self.text) > MAX_BYTES:
             message = f"a file of more than {MAX_BYTES} characters"
             self.fault(None, message, "split it", code="file-too-large")
@@ -290,7 +266,7 @@ class Source:
         return root
 
     def _kind_of(self, root: MappingNode) -> FileKind | None:
-        """The other kind of file that the keys are of; None for this one, or in doubt."""
+        """Returns the other kind of file to which the keys belong; None if in doubt."""
         keys, own = keys_of(root) - {"gark"}, set(self.kind.keys)
         others = (
             kind
@@ -300,7 +276,7 @@ class Source:
         return max(others, key=lambda kind: len(keys.intersection(kind.keys)), default=None)
 
     def _foreign(self, is_yaml: bool) -> str:
-        """The cure for a file that is none of YAML, where a method file is expected."""
+        """Returns the cure for a file that is not YAML in place of a method file."""
         if self.kind is not METHOD_FILE:
             return ""
         return cure_of_foreign(self.text, self.name, is_yaml)
@@ -314,18 +290,13 @@ class Source:
         form: str = "",
         words: Mapping[str, str] = _NOTHING,
     ) -> Entries:
-        """The entries of a mapping by key; doubled and unknown keys are noted.
+        """Returns the entries of a mapping by key; repeated and unknown keys are reported.
 
-        A key that is misspelt is read as the one it was meant to be, so that a slip of the finger
-        is one fault and not also a missing key.
+        A misspelt key counts as the intended one, so that a typing error is not also a missing key.
 
-        Args:
-            node: the value.
-            where: what it is, for messages.
-            allowed: the keys there are; none for any.
-            cures: what to do about keys that are expected elsewhere.
-            form: the cure where there is no mapping at all.
-            words: what people call keys besides their names.
+        ``allowed`` has the known keys, all if empty; ``cures`` returns advice about keys that
+        belong elsewhere, ``words`` has other spellings, ``form`` is the cure if there is no
+        mapping.
         """
         if not isinstance(node, MappingNode):
             message = f"{where}: a mapping of keys to values is expected here"
@@ -368,7 +339,7 @@ class Source:
         cures: Mapping[str, str | Home],
         words: Mapping[str, str],
     ) -> None:
-        """Note keys that there are not; those that belong to one other place as one fault."""
+        """Reports unknown keys; those that belong in one other place as one fault."""
         together: dict[object, list[ScalarNode]] = {}
         for number, key_node in enumerate(unknown[:MAX_FAULTS]):
             there = cures.get(key_node.value, number)
@@ -398,13 +369,13 @@ class Source:
             self.fault(unknown[MAX_FAULTS], message, "mend these first", code="more-faults")
 
     def check_version(self, node: Node | None) -> None:
-        """Note a version of the format that is not read; a file need not say which it is."""
+        """Reports a version of the format that is not supported."""
         if node is not None and self.scalar(node, "gark") != "1":
             message = "gark: this program reads version 1 of the format"
             self.fault(node, message, "write gark: 1", code="wrong-version")
 
     def items(self, node: Node, where: str, cure: str = "") -> list[Node]:
-        """The items of a list."""
+        """Returns the items of a list."""
         if not isinstance(node, SequenceNode):
             cure = cure or "write it in brackets: [ , ]"
             self.fault(node, "a list is expected here", cure, where=where, code="list-expected")
@@ -412,7 +383,7 @@ class Source:
         return list(node.value)
 
     def scalar(self, node: Node, where: str) -> str | None:
-        """The text of a single value, as written."""
+        """Returns the text of a scalar as written."""
         if not isinstance(node, ScalarNode):
             message, cure = "a single value is expected here", "write one number or word"
             self.fault(node, message, cure, where=where, code="value-expected")
@@ -427,7 +398,7 @@ class Source:
     def whole(
         self, node: Node, where: str, smallest: int = 0, largest: int | None = None
     ) -> int | None:
-        """A whole number written in plain decimal digits."""
+        """Returns a nonnegative integer written in decimal digits."""
         text = self.scalar(node, where)
         if text is None:
             return None
@@ -448,7 +419,7 @@ class Source:
         return None
 
     def choice(self, node: Node, where: str, known: Iterable[str]) -> str | None:
-        """One of a few words."""
+        """Returns one of several words."""
         text = self.scalar(node, where)
         words = list(known)
         if text is None or text in words:

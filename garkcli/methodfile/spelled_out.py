@@ -1,5 +1,5 @@
-"""YAML nodes to methods that are spelled out: Butcher tableaus and the form ``tableau``; and to
-further weights, ``embedded`` and ``dense``, which are beside b in every form.
+"""Methods that are spelled out, as Butcher tableaus or in the form ``tableau``, and the further
+weights ``embedded`` and ``dense``, which are beside b in every form.
 """
 
 from __future__ import annotations
@@ -19,11 +19,10 @@ from garkcli.methodfile.parameters import MATRIX, ROW
 from garkcli.methodfile.source import Entries, Home
 
 Weights: TypeAlias = tuple[Row, ...]
-"""A row per colour."""
 Names: TypeAlias = tuple[str, str, str]
-"""What A, b and c are called in messages."""
+"""The names of A, b and c in messages."""
 MAX_DEGREE = 60
-"""Largest degree of dense output; its order is no larger."""
+"""The largest degree of dense output; its order is no larger."""
 FORM_OF_DENSE = (
     "write dense: {degree: 2, weights: [[1, -1/2], [0, 1/2]]}, "
     "a row per stage: the coefficients of θ, θ², …"
@@ -40,7 +39,6 @@ DENSE = g.mapping(
     ),
     form=FORM_OF_DENSE,
 )
-"""What is under ``dense``."""
 _SAID_BY_B = dict.fromkeys(("stages", "s"), "the number of entries in b says it")
 EXAMPLE = "give A, b and perhaps c: {A: [[0, 0], [1/2, 0]], b: [0, 1]}"
 _LEVELS = (
@@ -52,12 +50,11 @@ _PAGE = "docs/method-file.md#embedded-and-dense-further-weights"
 
 
 def _all_of(*kinds: g.Schema) -> g.Kind:
-    """One of several schemas; the value is read where the number of colours is known."""
+    """Returns a kind with one of several schemas; its value is read once the colours are known."""
     return g.Kind(lambda: {"anyOf": list(kinds)})
 
 
 def rows_of(item: g.Schema) -> g.Schema:
-    """A list that is not empty."""
     return {"type": "array", "minItems": 1, "items": item}
 
 
@@ -105,11 +102,11 @@ TABLEAU_KEYS = (
         also=("bi", "binterp", "b_theta"),
     ),
 )
-"""What a Butcher tableau has, wherever it is."""
+"""The keys of a Butcher tableau."""
 
 
 def with_coefficients(*keys: g.Key, form: str) -> g.Kind:
-    """A mapping with these keys, of which it needs A and b; called as at the top of a file."""
+    """Returns the kind of a mapping with these keys, with A and b required."""
     also = {key.name: key.also for key in TABLEAU_KEYS}
     needed = [
         replace(key, is_needed=key.name in {"A", "b"}, also=also.get(key.name, ())) for key in keys
@@ -118,7 +115,7 @@ def with_coefficients(*keys: g.Key, form: str) -> g.Kind:
 
 
 def _elsewhere() -> Mapping[str, str | Home]:
-    """What to do about keys that are in a Butcher tableau and belong elsewhere."""
+    """Returns advice about keys in a Butcher tableau that belong elsewhere."""
     # declared where this tableau is a part of files
     return {**g.declared("file_keys", "elsewhere")(), **_SAID_BY_B}
 
@@ -155,16 +152,15 @@ BUTCHER_KEYS = (
 )
 _METHOD = with_coefficients(*BUTCHER_KEYS, form="give family and stages, or A and b")
 BUTCHER = with_coefficients(*BUTCHER_KEYS, form=EXAMPLE)
-"""One diagonal method, or a part of a pair."""
+"""A diagonal method, or a part of a pair."""
 
 
 def entries_of(number: int) -> str:
-    """``1 entry``, ``2 entries``."""
     return counted(number, "entry", "entries")
 
 
 def _spelled(node: Node, wanted: int, each: str) -> str:
-    """The cure where one ? stands for a list of them; nothing elsewhere."""
+    """Returns the cure for one ? in place of a list of them; empty otherwise."""
     if not isinstance(node, ScalarNode) or node.value != UNKNOWN:
         return ""
     return f"write [{', '.join([repr(UNKNOWN)] * wanted)}], one per {each}"
@@ -173,17 +169,11 @@ def _spelled(node: Node, wanted: int, each: str) -> str:
 def one_each(
     at: Reading, node: Node, name: str, items: Sized, noun: str, each: str, wanted: int, cure: str
 ) -> bool:
-    """Whether there are as many as wanted; noted where not: ``b has 2 rows for 3 colours``.
+    """Returns whether there is one item for each; otherwise reports, for instance, ``b has 2 rows
+    for 3 colours``.
 
-    Args:
-        at: what reads the file.
-        node: the place in the file.
-        name: what messages call what has them.
-        items: that it has.
-        noun: what these are, such as ``row``.
-        each: what one is wanted for, such as ``colour``.
-        wanted: how many of these there are.
-        cure: where there are others.
+    ``noun`` is what the items are, such as ``row``; ``each`` what they belong to, such as
+    ``colour``; ``wanted`` the number of the latter.
     """
     found = len(items)
     if found != wanted:
@@ -195,14 +185,14 @@ def one_each(
 
 
 def depth_of_lists(node: Node) -> int:
-    """How deep lists are nested; a value on its own is 0 deep."""
+    """Returns how deep lists are nested; 0 for a scalar."""
     if not isinstance(node, SequenceNode):
         return 0
     return 1 + max(map(depth_of_lists, node.value), default=0)
 
 
 def _holds_a_number(node: Node) -> bool:
-    """Whether anything but null is in nested lists."""
+    """Returns whether nested lists contain anything but null."""
     if isinstance(node, SequenceNode):
         return any(map(_holds_a_number, node.value))
     return not is_null(node)
@@ -215,7 +205,9 @@ def _has_an_empty_row(node: Node) -> bool:
 
 
 def colours_in(at: Reading, node: Node, name: str) -> list[Node] | None:
-    """What a list has, one per colour; None, with a fault noted, where these are too many."""
+    """Returns the items of a list, one for each colour; None, with a fault, if there are too
+    many.
+    """
     items = at.source.items(node, name)
     if isinstance(node, SequenceNode) and not items:
         at.source.fault(node, f"{name} is empty", "give one for each colour", code="empty")
@@ -223,7 +215,7 @@ def colours_in(at: Reading, node: Node, name: str) -> list[Node] | None:
 
 
 def are_too_many(at: Reading, colours: Sized, node: Node) -> bool:
-    """Note more colours than any method has."""
+    """Returns whether there are more colours than allowed, and reports it."""
     if len(colours) <= d.MAX_COLOURS:
         return False
     message = f"{len(colours)} colours (limit {d.MAX_COLOURS})"
@@ -232,7 +224,7 @@ def are_too_many(at: Reading, colours: Sized, node: Node) -> bool:
 
 
 def butcher(at: Reading, node: Node, where: str, names: Names) -> d.ButcherText | None:
-    """A method spelled out; ``names`` are what its A, b and c are called in messages."""
+    """Reads a spelled-out method; ``names`` are those of its A, b and c in messages."""
     entries: g.Found | None = _METHOD.read(at, node, where)
     if entries is None or not {"A", "b"} <= entries.keys():
         return None
@@ -244,7 +236,7 @@ def butcher(at: Reading, node: Node, where: str, names: Names) -> d.ButcherText 
 
 
 def _method(at: Reading, entries: Entries, names: Names) -> tuple[Rows, Row, Row | None] | None:
-    """A, b and c of a method of one colour; None where they do not make one."""
+    """Reads A, b and c of a method with one colour; None if they are not a method."""
     name_of_A, name_of_b, name_of_c = names
     A = at.numbers.matrix(entries["A"], name_of_A)
     b = at.numbers.row(entries["b"], name_of_b)
@@ -267,13 +259,13 @@ def _method(at: Reading, entries: Entries, names: Names) -> tuple[Rows, Row, Row
 
 
 def nodes_fit(at: Reading, node: Node, name: str, c: Row, stages: int) -> bool:
-    """Whether there is a node a stage; noted where not."""
+    """Returns whether there is one node for each stage, and reports if not."""
     cure = "give a node a stage, or leave c out"
     return one_each(at, node, name, c, "entry", "stage", stages, cure)
 
 
 def tableau(at: Reading, node: Node, linear: Node | None) -> d.TableauText | None:
-    """The form ``tableau``; ``linear`` lists its linear colours."""
+    """Reads the form ``tableau``; ``linear`` lists its linear colours."""
     entries: g.Found | None = TABLEAU.read(at, node, "tableau")
     if entries is None or not {"A", "b"} <= entries.keys():
         return None
@@ -281,7 +273,7 @@ def tableau(at: Reading, node: Node, linear: Node | None) -> d.TableauText | Non
 
 
 def tableau_of(at: Reading, entries: Entries, linear: Node | None) -> d.TableauText | None:
-    """A, b and c of one colour or of several, told apart by how deep A is nested."""
+    """Reads A, b and c of one colour or of several, distinguished by the nesting of A."""
     A, b = entries["A"], entries["b"]
     depth, is_one_row = depth_of_lists(A), depth_of_lists(b) < 2
     # [[null]] may be a row of blocks as well; [[]] is the short form of [[0]]
@@ -314,7 +306,6 @@ def tableau_of(at: Reading, entries: Entries, linear: Node | None) -> d.TableauT
 
 
 def _blocks(at: Reading, entries: Entries, linear: Node | None) -> d.TableauText | None:
-    """A tableau block by block."""
     items = colours_in(at, entries["b"], "b")
     if items is None:
         return None
@@ -335,7 +326,7 @@ def _blocks(at: Reading, entries: Entries, linear: Node | None) -> d.TableauText
 
 
 def _block_row(at: Reading, l: int, node: Node, b: Weights) -> tuple[Rows | None, ...]:
-    """The blocks A^{l,m} of one colour l, None for absent ones."""
+    """Reads the blocks A^{l,m} of colour l, None for absent ones."""
     where = f"row {l + 1} of blocks"
     items = at.source.items(node, f"A, {where}")
     cure = "write null for a block that does not exist"
@@ -344,7 +335,7 @@ def _block_row(at: Reading, l: int, node: Node, b: Weights) -> tuple[Rows | None
 
 
 def _block(at: Reading, node: Node, l: int, m: int, b: Weights) -> Rows | None:
-    """The block A^{l,m}, a row for each weight of l, a column for each of m; None for null."""
+    """Reads the block A^{l,m}; None for null."""
     if is_null(node):
         return None
     where, (rows, columns) = d.block_name(l, m), (len(b[l]), len(b[m]))
@@ -356,7 +347,7 @@ def _block(at: Reading, node: Node, l: int, m: int, b: Weights) -> Rows | None:
 
 
 def _node_rows(at: Reading, node: Node | None, b: Weights) -> tuple[Row | None, ...]:
-    """The nodes of each colour, as many as it has weights; None where they are left out."""
+    """Reads the nodes of each colour; None for those left out."""
     items = [] if node is None else at.source.items(node, "c")
     cure = "give a row per colour, null where they are left out"
     if node is None or not one_each(at, node, "c", items, "row", "colour", len(b), cure):
@@ -372,7 +363,7 @@ def _node_rows(at: Reading, node: Node | None, b: Weights) -> tuple[Row | None, 
 
 
 def _linear(at: Reading, node: Node | None, colours: int) -> tuple[int, ...]:
-    """The colours that are linear, numbered from 0."""
+    """Reads the linear colours, numbered from 0."""
     found: list[int] = []
     for item in () if node is None else at.source.items(node, "linear"):
         colour = at.source.whole(item, "linear", smallest=1)
@@ -385,7 +376,7 @@ def _linear(at: Reading, node: Node | None, colours: int) -> tuple[int, ...]:
 
 
 def names_beside(name_of_b: str) -> tuple[str, str]:
-    """What messages call embedded weights and dense output beside weights of some name.
+    """Returns the names of embedded weights and dense output in messages, from that of the weights.
 
     >>> names_beside("b^{2}"), names_beside("q.b")
     (('embedded^{2}', 'dense^{2}'), ('q.embedded', 'q.dense'))
@@ -397,13 +388,10 @@ def names_beside(name_of_b: str) -> tuple[str, str]:
 def further_of_method(
     at: Reading, entries: Entries, stages: int, names: tuple[str, str] = d.BESIDE
 ) -> d.FurtherText:
-    """The further weights of one colour.
+    """Reads the further weights of one colour.
 
-    Args:
-        at: what reads the file.
-        entries: what is beside b.
-        stages: how many weights b has.
-        names: what ``embedded`` and ``dense`` are called in messages.
+    ``entries`` are beside b, which has ``stages`` weights; ``names`` are those of ``embedded`` and
+    ``dense`` in messages.
     """
     embedded = dense = None
     if "embedded" in entries and not _is_of_several(at, entries["embedded"], names[0], 2):
@@ -418,13 +406,9 @@ def further_of_method(
 def further_of_colours(
     at: Reading, entries: Entries, stages: Sequence[int], is_shared: bool = False
 ) -> tuple[d.FurtherText, ...]:
-    """The further weights of several colours in one place.
+    """Reads the further weights of several colours.
 
-    Args:
-        at: what reads the file.
-        entries: what is beside b.
-        stages: how many weights each colour has.
-        is_shared: whether a single row, or block, may stand for every colour.
+    ``is_shared`` allows a single row, or block, for all colours.
     """
     rows: dict[int, Row | None] = {}
     blocks: dict[int, Rows | None] = {}
@@ -441,7 +425,7 @@ def further_of_colours(
 def _a_colour(
     at: Reading, node: Node, where: str, stages: Sized, is_shared: bool, depth: int
 ) -> Iterator[tuple[int, Node, str]]:
-    """What belongs to each colour, itself ``depth`` lists deep, and what messages call it."""
+    """Yields the item of each colour, ``depth`` lists deep, and its name in messages."""
     colours, is_one = len(stages), _depth(node) == depth
     if is_shared and is_one:
         yield from ((l, node, where) for l in range(colours))
@@ -461,7 +445,9 @@ def _a_colour(
 
 
 def _is_of_several(at: Reading, node: Node, where: str, depth: int) -> bool:
-    """Note what is written as for several colours, ``depth`` lists deep."""
+    """Reports weights written as for several colours, ``depth`` lists deep, and returns whether
+    so.
+    """
     if _depth(node) != depth:
         return False
     noun = "row" if depth == 2 else "block"
@@ -474,7 +460,6 @@ def _is_of_several(at: Reading, node: Node, where: str, depth: int) -> bool:
 
 
 def _weights(at: Reading, node: Node, where: str, stages: int) -> Row | None:
-    """A weight per stage."""
     row = at.numbers.row(node, where)
     if row and stages:
         one_each(at, node, where, row, "entry", "stage", stages, "give a weight per stage, as in b")
@@ -482,7 +467,7 @@ def _weights(at: Reading, node: Node, where: str, stages: int) -> Row | None:
 
 
 def _parts(at: Reading, entries: Entries, where: str) -> tuple[int, Node | None]:
-    """The degree and the weights of dense output; None where there are none."""
+    """Reads the degree and the weights of dense output; None without them."""
     found: g.Found | None = DENSE.read(at, entries["dense"], where) if "dense" in entries else None
     if found is None or not {"degree", "weights"} <= found.keys():
         return 0, None
@@ -490,7 +475,7 @@ def _parts(at: Reading, entries: Entries, where: str) -> tuple[int, Node | None]
 
 
 def polynomials(at: Reading, node: Node, where: str, stages: int, degree: int) -> Rows | None:
-    """A row per stage, a coefficient per power of θ."""
+    """Reads one row for each stage, with one coefficient for each power of θ."""
     rows = at.numbers.matrix(node, where)
     if not rows or not stages:
         return None
@@ -510,7 +495,7 @@ def polynomials(at: Reading, node: Node, where: str, stages: int, degree: int) -
 def refuse_partial(
     at: Reading, further: Sequence[d.FurtherText], names: Sequence[str], node: Node
 ) -> None:
-    """Note further weights of some colours, where others have none."""
+    """Reports further weights that only some colours have."""
     for key in d.BESIDE:
         given = [getattr(text, key) is not None for text in further]
         if any(given) and not all(given):
@@ -527,7 +512,7 @@ def _further(entries: Entries, embedded: Row | None, dense: Rows | None) -> d.Fu
 
 
 def _depth(node: Node) -> int:
-    """How deep the lists are at their first items; a value on its own is 0 deep."""
+    """Returns how deep lists are nested at their first items; 0 for a scalar."""
     depth = 0
     while isinstance(node, SequenceNode) and node.value:
         depth += 1

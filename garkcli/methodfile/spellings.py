@@ -1,6 +1,4 @@
-"""What people write where a file has coefficients and lists: other languages, printed matrices,
-triangles.
-"""
+"""Other spellings of coefficients and lists: of other languages, printed matrices, triangles."""
 
 from __future__ import annotations
 
@@ -16,7 +14,7 @@ from garkcli.methodfile.source import Source
 
 
 def is_triangle(lengths: Sequence[int]) -> bool:
-    """Whether rows end at the diagonal each, or each before it.
+    """Returns whether all rows end at the diagonal, or all before it.
 
     >>> is_triangle([1, 2, 3]), is_triangle([0, 1, 2]), is_triangle([1, 1, 3])
     (True, True, False)
@@ -26,7 +24,9 @@ def is_triangle(lengths: Sequence[int]) -> bool:
 
 
 def opens(node: Node) -> bool:
-    """Whether a plain value has a function of two arguments that YAML cut at the comma."""
+    """Returns whether a plain value has a function of two arguments that YAML split at the
+    comma.
+    """
     if not isinstance(node, ScalarNode) or node.style in {"'", '"'}:
         return False
     text = str(node.value)
@@ -34,27 +34,26 @@ def opens(node: Node) -> bool:
 
 
 def first_list_in_rows(items: Sequence[Node]) -> Node | None:
-    """The first entry of a matrix that is a list itself."""
     rows = (row.value for row in items if isinstance(row, SequenceNode))
     return next((x for x in chain.from_iterable(rows) if isinstance(x, SequenceNode)), None)
 
 
 _SEVERAL = r"[0-9)][ \t]*[,;\n]|[0-9)][ \t]+[0-9.]"
-"""Two numbers with no sign of an operation between them."""
+"""Two numbers without an operator between them."""
 _IN_PARENTHESES = r"\([^()]*\)"
 MAX_PRINTED = 2_000
-"""Longest text that is examined for being a printed row or matrix."""
+"""The longest text that is examined for a printed row or matrix."""
 
 
 def only_text(node: Node) -> str:
-    """The text of a value, or of the only one in a list; empty for anything else."""
+    """Returns the text of a scalar, or of the only one in a list; empty otherwise."""
     while isinstance(node, SequenceNode) and len(node.value) == 1:
         node = node.value[0]
     return str(node.value) if isinstance(node, ScalarNode) else ""
 
 
 def holds_several(text: str) -> bool:
-    """Whether a text has several numbers with nothing between them but blanks, commas, semicolons.
+    """Returns whether a text has several numbers separated by blanks, commas or semicolons only.
 
     >>> holds_several("0 0; 1/2 0"), holds_several("1/2 - 1/3"), holds_several("root(2, 5)")
     (True, False, False)
@@ -68,7 +67,7 @@ def holds_several(text: str) -> bool:
 
 
 def bracketed(text: str) -> str:
-    """Numbers parted by blanks or commas, rows by semicolons or line ends, as YAML writes them.
+    """Returns numbers separated by blanks or commas, and rows by semicolons or line ends, in YAML.
 
     >>> bracketed("0 0; 1/2 0"), bracketed("1/6, 2/3, 1/6")
     ('[[0, 0], [1/2, 0]]', '[1/6, 2/3, 1/6]')
@@ -83,8 +82,9 @@ def bracketed(text: str) -> str:
 
 
 def printed_row(rows: Sequence[Node], example: str) -> tuple[Node, str, str] | None:
-    """The first row that is a text of several numbers, as other programs print them; that text; and
-    all rows in brackets, or ``example`` where they are no plain numbers. None where there is none.
+    """Returns the first row that is a text of several numbers, as other programs print them, its
+    text, and all rows in brackets, or ``example`` if they are not plain numbers. None if there is
+    no such row.
     """
     texts = [only_text(row) for row in rows]
     for row, text in zip(rows, texts, strict=True):
@@ -113,12 +113,12 @@ _SPELLINGS: tuple[tuple[str, str], ...] = (
     (r"(?<![A-Za-z_])[0-9.]*[ijIJ](?![A-Za-z_0-9])", "coefficients are real here: no complex ones"),
     (r"[0-9)][ \t]+[0-9.]+", "put commas between the entries: [0, 1/2]"),
 )
-"""Numbers as other languages write them, and how a method file does."""
+"""Numbers as other languages write them, and the spelling in a method file."""
 
 
 def explained(error: ExpressionError, text: str) -> tuple[ExpressionError, str]:
-    """The error with the cure for what comes from another language; and its cause, where that is
-    not the word at fault.
+    """Returns the error with a cure for spellings of other languages, and its cause if that is not
+    the word at fault.
     """
     start = error.start
     if len(text) > MAX_PRINTED:
@@ -142,21 +142,17 @@ def explained(error: ExpressionError, text: str) -> tuple[ExpressionError, str]:
 
 
 _SYMBOLS = r"[A-Za-z]+_?[0-9]+(_[0-9]+)*"
-"""Names as a11, b_2, x1_2: the symbols of a tableau in general, all without values."""
+"""Names such as a11, b_2, x1_2: the symbols of a general tableau, all without values."""
 _READ_DIFFERENTLY = (
     r"[-+]?(0[0-9_]+|0[xob][0-9a-f_]+|[0-9][0-9_]*(:[0-5]?[0-9])+(\.[0-9_]*)?|[0-9]*_[0-9_.]*)"
 )
-"""Plain scalars that YAML 1.1 reads as another number than they look: octal, hexadecimal, base 60,
-with _.
-"""
+"""Plain scalars that YAML 1.1 reads as another number: octal, hexadecimal, base 60, with _."""
 _WORDS = {"bool", "null", "timestamp", "merge"}
 _NO_FINITE_NUMBERS = {".inf", ".nan", "nan", "inf", "infinity"}
 
 
 def is_misread(source: Source, node: Node, text: str, where: str) -> bool:
-    """Note a plain scalar that YAML itself takes for something else than the number it looks
-    like.
-    """
+    """Reports a plain scalar that YAML does not read as the number it looks like."""
     if not isinstance(node, ScalarNode) or node.style in {"'", '"'}:
         return False
     kind = str(node.tag).rpartition(":")[2]

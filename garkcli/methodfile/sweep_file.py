@@ -1,6 +1,6 @@
 """Spec files of sweeps: families × stages × transfer rules × values of parameters, and criteria.
 
-Every fault of the text at once, with its position, as for method files.
+All faults are reported at once, with their positions.
 """
 
 from __future__ import annotations
@@ -38,16 +38,14 @@ from garkcli.methodfile.sweep_methods import (
 )
 
 MOST_METHODS = 10_000_000
-"""Largest sweep."""
 MOST_VALUES = 1_000_000
-"""Most values of a parameter."""
 FREE = "free"
 """The value of a parameter that is left to the search."""
 _CONDITION = re.compile(r"(>=|<=|>|<|=)?\s*([-+0-9./eE]+)")
 
 
 def _value(at: Any, node: Node, text: str, where: str) -> fmpq | None:
-    """A rational number; everything else is a fault."""
+    """Reads a rational number."""
     try:
         expression = parse(text)
         if any(roots_in(expression)):
@@ -83,7 +81,7 @@ _VALUES = g.one_or_more(_RATIONAL)
 
 
 def _grid(at: Any, node: Node, where: str) -> list[fmpq]:
-    """The values of a parameter; equidistant ones have both ends."""
+    """Reads the values of a parameter; equidistant ones include both ends."""
     if not isinstance(node, MappingNode):
         return _VALUES.read(at, node, where) or []
     found: g.Found = _STEPS.read(at, node, where)
@@ -94,7 +92,7 @@ def _grid(at: Any, node: Node, where: str) -> list[fmpq]:
 
 
 def _parameters(at: Any, node: Node, where: str) -> dict[str, tuple[str, ...] | None]:
-    """The values of each parameter as text; None where they are left to the search."""
+    """Reads the values of each parameter as text; None if they are left to the search."""
     grids: dict[str, tuple[str, ...] | None] = {}
     for name, values in at.source.mapping(node, where, ()).items():
         place = f"{where}: {unquoted(name)}"
@@ -133,7 +131,7 @@ _BOUND: g.Schema = {"type": ["number", "string"], "pattern": r"^(>=|<=|>|<|=)?\s
 
 
 def _bound(at: Any, node: Node, where: str) -> tuple[str, float] | None:
-    """A comparison with a number."""
+    """Reads a comparison with a number."""
     text = at.source.scalar(node, where)
     if text is None:
         return None
@@ -169,12 +167,12 @@ _OWN = {
     "stages": "The stages of all colours together.",
     "colours": "How many colours the method has.",
 }
-"""The columns that no file claims."""
+"""The columns that are not claims."""
 _EXAMPLES = {"stages": '"<= 6"', "colours": "2", "phase-order": '">= 4"'}
 
 
 def _conditions(kinds: Mapping[str, str]) -> Iterator[g.Key]:
-    """The keys of ``where``: for each column what it is compared with."""
+    """Yields the keys of ``where``: the columns, with what they are compared with."""
     claimed = {key.name: key.text.partition(" It is claimed as ")[0] for key in claims()}
     by_kind = {
         "truth": (g.Kind(g.FLAG.schema, _truth), "true"),
@@ -191,10 +189,9 @@ def _conditions(kinds: Mapping[str, str]) -> Iterator[g.Key]:
 
 
 def file_of(kinds: Mapping[str, str]) -> g.Kind:
-    """What a spec file has.
+    """Returns the keys of a spec file.
 
-    Args:
-        kinds: the columns there are, and whether each is a ``truth``, ``count`` or ``number``.
+    ``kinds`` has the columns, each a ``truth``, ``count`` or ``number``.
     """
     columns = g.one_or_more(g.word(lambda: kinds.keys()))
     where = g.mapping(more=lambda: _conditions(kinds))
@@ -275,16 +272,11 @@ def file_of(kinds: Mapping[str, str]) -> g.Kind:
 
 
 class Sweep(Frozen):
-    """What a spec file says.
+    """The content of a spec file.
 
-    Attributes:
-        name: of the sweep.
-        templates: the method files.
-        grids: the values of each parameter, as text.
-        columns: the criteria, those of conditions first.
-        conditions: column, relation and bound.
-        best: columns to sort by.
-        pareto: columns of the front.
+    ``grids`` has the values of each parameter as text; ``columns`` are the criteria, those of
+    conditions first; ``conditions`` have column, relation and bound; ``best`` are the columns for
+    sorting, ``pareto`` those of the front.
     """
 
     name: str
@@ -297,14 +289,9 @@ class Sweep(Frozen):
 
 
 def read_sweep(path: str, kinds: Mapping[str, str]) -> Sweep:
-    """Read a spec file.
+    """Reads a spec file; the method files that it names are sought beside it.
 
-    Args:
-        path: of the file; method files of it are sought beside it.
-        kinds: as for ``file_of``.
-
-    Raises:
-        MethodFileError: every fault of the file, with positions; or of a method file of it.
+    Raises MethodFileError with all faults of the file, or of a method file.
     """
     text, name = read_text(path, SWEEP_FILE)
     source = Source(name, text, SWEEP_FILE)
@@ -349,13 +336,12 @@ def read_sweep(path: str, kinds: Mapping[str, str]) -> Sweep:
 
 
 def count_methods(template: Template, grids: Mapping[str, tuple[str, ...]]) -> int:
-    """How many methods a template has."""
     count = prod(len(grids[name]) for name in template.parameters)
     return count * len(template.seeds) if template.is_searched else count
 
 
 def _refuse_unused(source: Source, said: g.Found, methods: MethodsReader) -> None:
-    """Note parameters that no method has, and a search with nothing to look for."""
+    """Reports parameters that no method has, and a search without unknowns."""
     used = {name for x in methods.templates for name in x.parameters}
     for name in methods.grids.keys() - used:
         message, cure = f"parameters: no method has {name}", "leave it out, or use it"

@@ -1,6 +1,4 @@
-"""What a spec file of a sweep says, and which methods it names: families × stages × transfer
-rules, and method files.
-"""
+"""The methods of a sweep: families × stages × transfer rules, and method files."""
 
 from __future__ import annotations
 
@@ -33,20 +31,15 @@ from garkcli.methodfile.transfers import ALL_RULES, OF_DEGREE
 from garkcli.transfer import RULES
 
 STARTS = 20
-"""Starts of a seed, where nothing is said."""
+"""The default number of starts for each seed."""
 
 
 class Template(Frozen):
-    """A method file of a sweep, made or read, with the parameters that are given values.
+    """A method file of a sweep, with the parameters that get values.
 
-    Attributes:
-        name: what it is called in rows.
-        text: of the file.
-        parameters: their names.
-        order: that its other unknowns are searched for; 0 where it has none.
-        seeds: of the searches, a method each.
-        starts: of each search.
-        is_drawn: whether it has any transfer, drawn from those whose pair has the order.
+    ``name`` is that in rows. ``order`` is that of the search for its other unknowns, 0 without any;
+    ``seeds`` give one method each, with ``starts`` starts. ``is_drawn`` says that the transfer is
+    drawn from those whose pair has the order.
     """
 
     name: str
@@ -59,7 +52,7 @@ class Template(Frozen):
 
     @property
     def is_searched(self) -> bool:
-        """Whether methods are what is found in place of what is given."""
+        """Whether its methods are found by a search."""
         return self.order > 0
 
 
@@ -68,7 +61,7 @@ NAME = re.compile(r"[A-Za-z_][A-Za-z_0-9]*")
 
 
 def span(least: int, digits: int, cure: str, most: int | None = None) -> g.Kind:
-    """A number, or a range of numbers such as 1..4, none of them above ``most``."""
+    """Reads a number, or a range such as 1..4, up to ``most``."""
 
     def read(at: Any, node: Node, where: str) -> range | None:
         text = node.value if isinstance(node, ScalarNode) else ""
@@ -88,7 +81,6 @@ def span(least: int, digits: int, cure: str, most: int | None = None) -> g.Kind:
 
 
 def rational(read: g.Read) -> g.Kind:
-    """A rational number, as it is read."""
     text = "A rational number: 2, 0.1, 1/3."
     return g.Kind(
         lambda: {"description": text, "type": ["number", "string"], "pattern": SIGNS}, read
@@ -109,11 +101,11 @@ _METHOD = g.mapping(
     form="write {family: gauss, stages: 1..4}",
 )
 METHODS = g.list_of(_METHOD, "methods", each="methods", form="name at least one family")
-"""Families × stages, an entry per colour."""
+"""Families × stages, one entry for each colour."""
 
 
 def _weight(at: MethodsReader, node: Node, where: str) -> str | None:
-    """A weight as text, in which parameters may be."""
+    """Reads a weight as text, which may contain parameters."""
     text = at.source.scalar(node, where)
     if text is None:
         return None
@@ -127,7 +119,7 @@ def _weight(at: MethodsReader, node: Node, where: str) -> str | None:
 
 
 def _weights(at: MethodsReader, node: Node, where: str) -> dict[str, str] | g.Found | None:
-    """Rules with their weights, or a rule with its degree."""
+    """Reads rules with weights, or a rule with its degree."""
     if keys_of(node) & {"rule", "degree"}:
         found_degree: g.Found | None = OF_DEGREE.read(at, node, where)
         return found_degree
@@ -139,20 +131,14 @@ def _weights(at: MethodsReader, node: Node, where: str) -> dict[str, str] | g.Fo
 _RULES = g.by_name(rational(_weight), minProperties=1, propertyNames={"enum": list(RULES)})
 _SCHEMAS = g.Kind(lambda: {"anyOf": [_RULES.schema(), OF_DEGREE.schema()]}, _weights)
 TRANSFER = g.one_or_more(g.either(g.word(lambda: [*ALL_RULES, UNKNOWN]), at_mapping=_SCHEMAS))
-"""Rules between methods, each tried; or any transfer."""
+"""Rules between methods, each of which is tried, or any transfer."""
 
 
 class MethodsReader:
-    """Makes method files out of ``methods``, ``transfer`` and ``files``.
+    """Makes method files from ``methods``, ``transfer`` and ``files``.
 
-    Args:
-        source: the spec file.
-        grids: the values of each parameter, as text.
-        free: parameters of ``methods`` that are left to the search.
-        search: what ``search`` says; None without it.
-
-    Attributes:
-        templates: those that were made.
+    ``grids`` has the values of each parameter as text, ``free`` the parameters left to the search,
+    ``search`` the content of that key.
     """
 
     def __init__(
@@ -168,10 +154,10 @@ class MethodsReader:
         self.search = search
         self.templates: list[Template] = []
         self.names = {*grids, *free}
-        """Parameters that weights may use."""
+        """The parameters that weights may contain."""
 
     def read(self, node: Node, entries: Sequence[g.Found], transfer: Node | None) -> None:
-        """The entries of ``methods`` with each rule of ``transfer``."""
+        """Combines the entries of ``methods`` with each rule of ``transfer``."""
         self._at = node
         choices = [self._choices(entry) for entry in entries]
         rules: list[tuple[str, str, set[str]]] = [("", "", set())]
@@ -191,7 +177,7 @@ class MethodsReader:
                 self._add(methods, rule, shown, names)
 
     def _rule(self, given: str | dict[str, str] | g.Found) -> tuple[str, str, set[str]]:
-        """A rule as method files have it, as people read it, and the parameters in it."""
+        """Returns a rule as in method files, as shown to users, and the parameters in it."""
         if given == UNKNOWN:
             return f'"{UNKNOWN}"', "any transfer", set()
         if isinstance(given, str):
@@ -208,7 +194,7 @@ class MethodsReader:
     def _add(
         self, methods: Sequence[tuple[str, int]], rule: str, shown: str, names: set[str]
     ) -> None:
-        """One template out of families and a rule."""
+        """Adds a template with given members and rule."""
         used = tuple(name for name in self.grids if name in names)
         free = [name for name in self.free if name in names]
         members = [f'{{family: "{family}", stages: {s}}}' for family, s in methods]
@@ -234,7 +220,9 @@ class MethodsReader:
         return Template(name, text, used, order, self.search["seeds"], starts, is_drawn)
 
     def _choices(self, entry: g.Found) -> list[tuple[str, int]]:
-        """The members of one entry of ``methods``: those there are of families × stages."""
+        """Returns the members for one entry of ``methods``: the existing ones of families ×
+        stages.
+        """
         families: list[str] = entry.get("family", [])
         found: dict[tuple[str, int], None] = {}
         for family in families:
@@ -252,7 +240,7 @@ class MethodsReader:
         return list(found)
 
     def read_files(self, node: Node, folder: Path) -> None:
-        """Method files, beside the spec file."""
+        """Reads method files beside the spec file."""
         for item in node.value if isinstance(node, SequenceNode) else [node]:
             name = self.source.scalar(item, "files")
             if name is None:
@@ -279,7 +267,7 @@ class MethodsReader:
             self.templates.append(self._template(name, text, used, order))
 
     def _order(self, node: Node, name: str, unknowns: Sequence[str], own: int = 0) -> int:
-        """The order that is searched for: that of ``search``, or the file's own."""
+        """Returns the order that is searched for: that of ``search``, or of the file."""
         if self.search is None:
             message = f"{shortened(name)} leaves {unknowns[0]} to a search"
             order = "" if own else "order: 4, "

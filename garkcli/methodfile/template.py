@@ -1,4 +1,4 @@
-"""New method files, with comments that say what is where."""
+"""New method files, with comments that explain them."""
 
 from __future__ import annotations
 
@@ -17,17 +17,14 @@ HEAD = (
     "# renews them; gark explain WORD says what a key means.",
 )
 _MEANS = re.compile("[;:.]")
-"""What ends the first part of a text about a key, which says what it is."""
+"""The end of the first part of a text about a key, which says what it is."""
 
 
 class Member(Frozen):
-    """A member of a family."""
-
     family: str
     size: int | None
 
     def __str__(self) -> str:
-        """Its line in a file."""
         if self.size is None:
             return f"{{family: {self.family}}}"
         known = FAMILIES.get(self.family)
@@ -35,11 +32,11 @@ class Member(Frozen):
 
 
 Values: TypeAlias = Mapping[str, str | Sequence[str]]
-"""What is under keys of a file: a text in its line, or the items of a list below it."""
+"""The values of keys: a text in its line, or the items of a list below it."""
 
 
 def new_file(values: Values) -> str:
-    """A method file with some keys, each with what it means."""
+    """Returns a method file with some keys, each with its meaning as a comment."""
     return "\n".join([*HEAD, *_lines(values), ""])
 
 
@@ -54,26 +51,22 @@ def _lines(values: Values) -> Iterator[str]:
 
 
 def of_tableau(name: str, found: Pasted) -> str:
-    """A method file of a pasted tableau."""
     rows = {"b": found.b, "c": found.c, "embedded": found.embedded}
     given = {key: _row(row) for key, row in rows.items() if row is not None}
     return new_file({"name": quoted(name), "A": [_row(row) for row in found.A], **given})
 
 
 def of_families(name: str, members: Sequence[Member], transfer: str) -> str:
-    """A method file of members of families.
+    """Returns a method file with members of families.
 
-    Args:
-        name: of the method.
-        members: one per colour.
-        transfer: the rule for the blocks between them.
+    ``transfer`` is the rule for the blocks between them.
     """
     between = {"transfer": transfer} if len(members) > 1 else {}
     return new_file({"name": quoted(name), "methods": [*map(str, members)], **between})
 
 
 def _row(numbers: Sequence[str]) -> str:
-    """Numbers in brackets; what YAML would take apart is in quotes."""
+    """Returns numbers in brackets, in quotes if YAML would split them."""
     return f"[{', '.join(map(_entry, numbers))}]"
 
 

@@ -1,4 +1,4 @@
-"""From the text of a problem file to a Hamiltonian: known names, values at the start,
+"""Hamiltonians from the text of a problem file, with checks of names, initial values and
 derivatives.
 """
 
@@ -38,10 +38,9 @@ class HamiltonianMaker(Maker):
         super().__init__(formulas, text, (*self.q, *self.p, *self.v))
 
     def problem(self) -> Hamiltonian:
-        """The problem.
+        """Returns the problem.
 
-        Raises:
-            MethodFileError: there are faults; all that could be found.
+        Raises MethodFileError with all faults found.
         """
         from garkcli.problems.hamiltonian import Hamiltonian
 
@@ -78,7 +77,7 @@ class HamiltonianMaker(Maker):
         )
 
     def _initial(self) -> dict[str, fmpq] | None:
-        """The initial values by name; None where they are not complete."""
+        """Returns the initial values by names; None if they are incomplete."""
         node = self.text.initial
         if node is None:
             return None
@@ -100,14 +99,14 @@ class HamiltonianMaker(Maker):
         return values if len(self.source.faults) == before else None
 
     def _names(self, motion: Vector, other: Vector, cure: str) -> dict[str, str]:
-        """For names that may be in a formula nothing, for others the cure."""
+        """Returns names with the cure if they may not occur in a formula, or "" if they may."""
         others = {str(y): cure.format(x) for x, y in zip(motion, other, strict=True)}
         return others | dict.fromkeys(map(str, (*self.q, *motion)), "")
 
     def _transformed(
         self, lagrangians: list[Term], start: dict[str, fmpq]
     ) -> tuple[list[Term], dict[str, fmpq]]:
-        """The Hamiltonian terms, and the start with momenta."""
+        """Returns the Hamiltonian terms, and the initial values with momenta."""
         velocities = set(self.v)
         moving = [x for x in lagrangians if x.made.free_symbols & velocities]
         if not moving:
@@ -132,7 +131,7 @@ class HamiltonianMaker(Maker):
         return found, start
 
     def _transform(self, term: Term, known: Place) -> Term | None:
-        """The Hamiltonian of one term; None where it is not found, which is noted."""
+        """Returns the Hamiltonian of a term; None, with a fault, if it is not found."""
         from garkcli.problems.lagrangian import legendre_transform
         from garkcli.problems.mass import WRITE_HAMILTONIAN
 
@@ -152,7 +151,7 @@ class HamiltonianMaker(Maker):
     def _momenta(
         self, lagrangians: Sequence[Term], hamiltonians: Sequence[Term], at: Place, moving: Term
     ) -> dict[str, fmpq]:
-        """The momenta by name that belong to the velocities at the start."""
+        """Returns the momenta that belong to the initial velocities, by name."""
         from garkcli.problems.lagrangian import initial_momenta
 
         L = [term.made for term in lagrangians]
@@ -173,9 +172,7 @@ class HamiltonianMaker(Maker):
         return found
 
     def _refuse_constants(self, terms: Sequence[Term], invariants: Sequence[Term]) -> None:
-        """Note an H with which nothing moves, and invariants that are none: they are constant for
-        every motion.
-        """
+        """Reports a Hamiltonian without motion, and constant invariants."""
         from garkcli.problems.vectorfield import is_constant
 
         total = sum(x.made for x in terms)

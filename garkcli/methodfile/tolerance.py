@@ -1,4 +1,4 @@
-"""``tolerance``: by how much numbers of a file may be off, all of them alike or by their place."""
+"""``tolerance``: the errors of the numbers of a file, for all alike or by their places."""
 
 from __future__ import annotations
 
@@ -23,22 +23,21 @@ from garkcli.methodfile.parameters import NUMBER
 from garkcli.methodfile.printed import coarsest_unit, fewest_digits, unit_of
 
 DIGITS = "digits"
-"""Each decimal is off by one unit of its last digit at most."""
+"""Each decimal is within one unit of its last digit."""
 OTHERS = "others"
-"""The key for numbers that no other key is about."""
+"""The key for all numbers without a key of their own."""
 Off: TypeAlias = "fmpq | str"
-"""By how much: a number, or ``DIGITS``."""
+"""A tolerance: a number, or ``DIGITS``."""
 
 _DECIMAL = r"([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?"
 _FORM = "write for instance {others: 1e-20, embedded: 1e-12}"
 
 
 class Tolerance(FrozenBut):
-    """Tolerances of a file by the place of its numbers.
+    """The tolerances of a file by the places of its numbers.
 
-    Attributes:
-        offs: by key: ``others``, ``embedded``, ``dense``, a colour by number or name.
-        places: where the keys are; none for one tolerance for all.
+    The keys are ``others``, ``embedded``, ``dense``, and colours by number or name; ``places`` are
+    their nodes, none for one tolerance for all.
     """
 
     besides = frozenset({"places"})
@@ -51,22 +50,21 @@ class Tolerance(FrozenBut):
 
     @property
     def is_single(self) -> bool:
-        """Whether it is one number for the whole file."""
+        """Whether there is one number for the whole file."""
         return not self.places and not self.is_of_digits
 
     @property
     def is_of_digits(self) -> bool:
-        """Whether the last digits of some numbers say it."""
+        """Whether some tolerances depend on the last digits."""
         return DIGITS in self.offs.values()
 
 
 def same_for_all(off: Off) -> Tolerance:
-    """One tolerance for all numbers."""
     return Tolerance({OTHERS: off}, {})
 
 
 def largest(tolerance: Tolerance, entries: Iterable[Entry]) -> fmpq:
-    """By how much a number among some entries may be off at most, wherever it is."""
+    """Returns the largest tolerance of some entries."""
     offs = [x for x in tolerance.offs.values() if isinstance(x, fmpq)]
     if tolerance.is_of_digits:
         offs.append(coarsest_unit([x.expression for x in entries]))
@@ -74,7 +72,7 @@ def largest(tolerance: Tolerance, entries: Iterable[Entry]) -> fmpq:
 
 
 def _off(at: Any, node: Node, where: str) -> Off | None:
-    """A number between 0 and 1, which uses no parameters, as it is no coefficient; or the word."""
+    """Reads a number between 0 and 1, which may not contain parameters, or the word."""
     text: str | None = at.source.scalar(node, where)
     if text is None or text == DIGITS:
         return text
@@ -120,23 +118,15 @@ _INSIDE = (
     Key("dense: 1e-8", _OFF, "The tolerance of the coefficients of dense output."),
 )
 KIND = Kind(_schema, _read, lambda: _INSIDE)
-"""A value of ``tolerance``."""
 
 
 class Rounding:
-    """By how much each number of a file may be off.
+    """The tolerances of the numbers of a file.
 
-    A number has the tolerance of what it is, embedded or dense; else that of its colour; else
-    that of the others; else it is exact.
+    A number has the tolerance of embedded weights or of dense output, if it is one; otherwise that
+    of its colour; otherwise that of the others; otherwise it is exact.
 
-    Args:
-        tolerance: what the file says.
-        content: its coefficients, by their places.
-        entries: all of them.
-
-    Attributes:
-        tolerance: what the file says.
-        largest: by how much one of them may be off at most.
+    ``largest`` is the largest of them.
     """
 
     def __init__(self, tolerance: Tolerance, content: d.Content, entries: Sequence[Entry]) -> None:
@@ -152,25 +142,26 @@ class Rounding:
         self.largest = largest(tolerance, entries)
 
     def kind_of(self, entry: Entry) -> str:
-        """Whether a number is of embedded weights or of dense output; empty for A, b and c."""
+        """Returns whether a number is in embedded weights or in dense output; empty for A, b and
+        c.
+        """
         return self._kinds.get(id(entry), "")
 
     def key_of(self, entry: Entry) -> str:
-        """The key of ``tolerance`` that is about a number."""
+        """Returns the key of ``tolerance`` that applies to a number."""
         return self._keys.get(id(entry), OTHERS)
 
     def radius(self, entry: Entry, part: Expression) -> fmpq:
-        """By how much a number in an entry may be off; 0 for one that is exact."""
+        """Returns the tolerance of a number in an entry; 0 if it is exact."""
         off = self.tolerance.offs.get(self.key_of(entry), ZERO)
         if isinstance(off, fmpq):
             return off
         return unit_of(part, self._fewest)
 
     def refusals(self, used: Iterable[str]) -> Iterator[tuple[Node | None, str, str, str]]:
-        """Faults of the keys: where, the message, the cure, the kind of fault.
+        """Yields the faults of the keys: node, message, cure and kind of fault.
 
-        Args:
-            used: the keys that are about some rounded number.
+        ``used`` has the keys that apply to some rounded number.
         """
         known = [OTHERS, *d.BESIDE, *(name for names in self.names for name in names)]
         for key, node in self.tolerance.places.items():
@@ -188,14 +179,14 @@ class Rounding:
             yield None, message, "leave it out, or write a number such as 1e-13", "empty"
 
     def _named_like(self, key: str) -> int | None:
-        """The colour, counted from 1, whose name is a key that means something else."""
+        """Returns the colour, counted from 1, whose name is a key with another meaning."""
         taken = {OTHERS, *d.BESIDE, *(x for names in self.names for x in names[:1])}
         named = (l for l, names in enumerate(self.names, start=1) if key in names[1:])
         return next((l for l in named if key in taken and key != str(l)), None)
 
 
 def _names(content: d.Content) -> list[tuple[str, ...]]:
-    """Names of each colour in the file: its number, and its name where it has one."""
+    """Returns the names of each colour in the file: its number, and its name if it has one."""
     match content:
         case d.MethodsText(methods=methods):
             names = [x.name if isinstance(x, d.ButcherText) else "" for x in methods]
@@ -215,12 +206,13 @@ def _names(content: d.Content) -> list[tuple[str, ...]]:
 
 
 _Place: TypeAlias = tuple[str, "int | None", Entry]
-"""A number: ``embedded``, ``dense`` or empty; its colour from 0, None where it has none."""
+"""A number: ``embedded``, ``dense`` or empty; its colour from 0, or None; its entry."""
 
 
 def _places(content: d.Content) -> Iterator[_Place]:
-    """The numbers that are of a colour, or of further weights; A^{l,m} is of colour l, and of
-    colours that share their stages A^{m} is of colour m.
+    """Yields the numbers that belong to a colour, or to further weights.
+
+    A^{l,m} belongs to colour l, but A^{m} of colours with shared stages to colour m.
     """
     match content:
         case d.MethodsText(methods=methods, transfer=transfer):

@@ -1,4 +1,4 @@
-"""The rules of a method file that make the blocks between its methods, and the blocks it gives."""
+"""The blocks between the methods of a file: by rules, or given one by one."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def _weight(rule: str) -> g.Key:
 
 
 ALL_RULES = (*RULES, *PAIR_RULES)
-"""The words for rules."""
+"""The names of the rules."""
 _WORDS = g.word(lambda: {rule: SUMMARIES[rule] for rule in ALL_RULES})
 _WEIGHTS = g.mapping(*map(_weight, RULES), rules=[g.OfSchema({"minProperties": 1})])
 OF_DEGREE = g.mapping(
@@ -44,7 +44,7 @@ OF_DEGREE = g.mapping(
 )
 """The rule legendre with its degree."""
 RULE = g.Kind(lambda: {"oneOf": [*_WORDS.schema()["oneOf"], _WEIGHTS.schema(), OF_DEGREE.schema()]})
-"""How a block is made: one of the rules, or several with weights."""
+"""A rule for a block, or several with weights."""
 _OF_RULE = g.defined("rule").schema()
 _ALL_UNKNOWN: g.Schema = {
     "const": UNKNOWN,
@@ -71,13 +71,15 @@ TRANSFER = g.Kind(
     lambda: {"anyOf": [_OF_RULE, _PARTS.schema(), _ALL_UNKNOWN]},
     inside=lambda: [*_PARTS.inside(), *_WEIGHTS.inside(), *OF_DEGREE.inside()],
 )
-"""The rules between methods; they are read where the number of colours is known."""
+"""The rules between methods; they are read once the number of colours is known."""
 _BLOCK_OR_COLOUR = re.compile(r"[1-9][0-9 ,]*")
 _BLOCK = re.compile(r"\s*([1-9][0-9]{0,3})\s*,\s*([1-9][0-9]{0,3})\s*")
 
 
 def _block_of(key: str) -> tuple[int, int]:
-    """The colours of a key such as ``1,2``, counted from 0; twice the same where it is none."""
+    """Returns the colours of a key such as ``1,2``, counted from 0; equal ones if it is not
+    valid.
+    """
     found = _BLOCK.fullmatch(key)
     if found is None:
         return 0, 0
@@ -86,7 +88,10 @@ def _block_of(key: str) -> tuple[int, int]:
 
 
 def rules_of(at: Reading, node: Node, stages: Sequence[int]) -> d.TransferText:
-    """``transfer``: the rules, and the blocks given one by one, of colours with so many stages."""
+    """Reads ``transfer``: the rules, and the blocks given one by one.
+
+    ``stages`` are those of the colours.
+    """
     if _is_unknown(node):
         edges = permutations(range(len(stages)), 2)
         return d.TransferText(None, {edge: _unknown(at, node, edge, stages) for edge in edges})
@@ -109,7 +114,7 @@ def _is_unknown(node: Node) -> bool:
 
 
 def _unknown(at: Reading, node: Node, edge: tuple[int, int], stages: Sequence[int]) -> d.MatrixText:
-    """A block with an unknown for each entry, named by its place."""
+    """Returns a block with an unknown for each entry, named by its place."""
     rows, columns = (range(1, stages[k] + 1) for k in edge)
     name = d.block_name(*edge)
     places = [[f"{name}, row {i}, entry {j}" for j in columns] for i in rows]
@@ -119,8 +124,8 @@ def _unknown(at: Reading, node: Node, edge: tuple[int, int], stages: Sequence[in
 
 
 def spelled(blocks: Mapping[tuple[int, int], d.MatrixText]) -> str:
-    """Unknown blocks with the names of their entries, as method files have them: a single matrix,
-    or all of them as the value of ``transfer``.
+    """Returns unknown blocks with the names of their entries: a matrix, or the value of
+    ``transfer`` if there are several.
     """
     texts = {}
     for (l, m), block in blocks.items():
@@ -133,7 +138,7 @@ def spelled(blocks: Mapping[tuple[int, int], d.MatrixText]) -> str:
 
 
 def _blocks(at: Reading, node: Node, stages: Sequence[int]) -> d.BlockTexts:
-    """The blocks that are given one by one; keys such as ``1,2`` count colours from 1."""
+    """Reads the blocks given one by one; keys such as ``1,2`` count colours from 1."""
     blocks: d.BlockTexts = {}
     colours = len(stages)
     keys = key_nodes(node)
@@ -160,7 +165,6 @@ def _blocks(at: Reading, node: Node, stages: Sequence[int]) -> d.BlockTexts:
 
 
 def _block(at: Reading, node: Node, where: str, shape: tuple[int, int]) -> d.BlockText | None:
-    """A block as a matrix or as a rule."""
     if not isinstance(node, SequenceNode):
         return _rule(at, node, where)
     rows = at.numbers.matrix(node, where)

@@ -1,4 +1,4 @@
-"""The coefficients of a file as numbers, all of them in one exact domain."""
+"""The coefficients of a file as numbers in a common exact domain."""
 
 from __future__ import annotations
 
@@ -19,10 +19,9 @@ T = TypeVar("T")
 
 
 class Values:
-    """The exact values of all coefficients of a file, in their common domain.
+    """The exact values of all coefficients of a file.
 
-    Attributes:
-        printed: each different coefficient, as it is written and its value.
+    ``printed`` has each different coefficient, as written and its value.
     """
 
     def __init__(self, numbers: Numbers) -> None:
@@ -40,7 +39,9 @@ class Values:
         _note_faults(numbers, numbers.of_parameters)
 
     def once(self, key: object, find: Callable[[], T]) -> T:
-        """What is decided of a method once, whatever numbers take the place of those printed."""
+        """Returns a decision about the method that does not depend on changes of rounded
+        numbers.
+        """
         decided = self.__dict__.setdefault("decided", {})
         if key not in decided:
             decided[key] = find()
@@ -48,16 +49,15 @@ class Values:
         return found
 
     def decide_as(self, other: Values) -> None:
-        """Take the decisions of ``once`` from other numbers of the same file."""
+        """Uses the decisions of ``once`` from other numbers of the same file."""
         self.__dict__["decided"] = other.__dict__.setdefault("decided", {})
 
     def alone(self, method: Method) -> Tableau:
-        """A diagonal method as a tableau."""
         return gark([method], {})
 
     def _evaluate(self, numbers: Numbers, domain: Domain) -> dict[int, Number]:
-        """The values of the expressions by their identity, each found once; what has none is
-        noted.
+        """Returns the values of the expressions by their identity; those without a value are
+        reported.
         """
         known: dict[int, Number] = {}
         for entry in numbers.entries:
@@ -71,10 +71,9 @@ class Values:
         return known
 
     def _find_culprits(self, numbers: Numbers, error: ExpressionError) -> None:
-        """Note each coefficient that has no real value; failing that, what is wrong with all of
-        them together.
+        """Reports each coefficient without a real value, or else the common error.
 
-        No field is made for any of them: there may be many, and each may be large.
+        No field is constructed, as there may be many large coefficients.
         """
         source = numbers.source
         before = len(source.faults)
@@ -85,20 +84,17 @@ class Values:
         source.fault(next(with_roots).node, error.message, error.help, code=error.code)
 
     def number(self, entry: Entry) -> Number:
-        """The value of a coefficient."""
         return self._values[id(entry)]
 
     def vector(self, row: Row) -> Vector:
-        """The values of a row."""
         return tuple(self._values[id(entry)] for entry in row)
 
     def matrix(self, rows: Rows) -> Matrix:
-        """The values of a matrix."""
         return tuple(self.vector(row) for row in rows)
 
 
 def _note_faults(numbers: Numbers, entries: Iterable[Entry]) -> None:
-    """Note each coefficient that has no real value; no field is made for any of them."""
+    """Reports each coefficient without a real value; no field is constructed."""
     for entry in entries:
         error = _fault_of(entry)
         if error is not None:
@@ -116,7 +112,7 @@ def _fault_of(entry: Entry) -> ExpressionError | None:
 
 
 def _note(numbers: Numbers, entry: Entry, error: ExpressionError) -> None:
-    """Note why a coefficient has no value: at its parameter where that has none."""
+    """Reports why a coefficient has no value, at its parameter if that is the cause."""
     source = numbers.source
     within = set(_identities(entry.expression))
     for given in numbers.of_parameters:
@@ -132,7 +128,9 @@ def _note(numbers: Numbers, entry: Entry, error: ExpressionError) -> None:
 
 
 def _identities(expression: Expression) -> Iterator[int]:
-    """Of an expression and of all that it is made of: the text of a parameter is one expression."""
+    """Yields the identities of an expression and its parts; a parameter is always the same
+    object.
+    """
     yield id(expression)
     for part in parts(expression):
         yield from _identities(part)

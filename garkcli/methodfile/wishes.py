@@ -1,4 +1,4 @@
-"""``design`` of a method file: what is wanted of the methods of a family besides their order."""
+"""``design`` of a method file: demands on the methods of a family besides their order."""
 
 from __future__ import annotations
 
@@ -22,7 +22,6 @@ from garkcli.methodfile.parameters import NUMBER, RANGE
 from garkcli.methodfile.source import Source
 
 MOST = 60
-"""The largest order that is examined, as for ``--order``."""
 FORM = "write design: {order: 3, stiffly-accurate: true}"
 
 
@@ -33,11 +32,11 @@ _VALUES = {
     "number": (NUMBER, "0"),
     "smoothness": (count(0, 1), "1"),
 }
-"""What a want is written with, by its kind, and an example."""
+"""The values of a demand, by its kind, and an example."""
 
 
 def _wanted() -> Iterator[Key]:
-    """The wants, each for all colours or for those that are named."""
+    """Yields the demands, each for all colours or for some."""
     from garkcli.constructions.wants import EVERY  # few files have them
 
     for name, want in EVERY.items():
@@ -49,7 +48,7 @@ def _wanted() -> Iterator[Key]:
 
 
 def _fixed(at: Any, node: Node, where: str) -> list[tuple[Entry, Entry]]:
-    """``fix: {c2: 2*gamma}``: unknowns with their values, which may have other unknowns."""
+    """Reads ``fix: {c2: 2*gamma}``: unknowns with values, which may contain other unknowns."""
     fixed = []
     for name, value, place in _unknowns(at, node, where):
         entry = at.numbers.entry(value, place)
@@ -60,7 +59,7 @@ def _fixed(at: Any, node: Node, where: str) -> list[tuple[Entry, Entry]]:
 
 
 def _ranges(at: Any, node: Node, where: str) -> dict[str, Free]:
-    """``range: {gamma: [1/4, 1]}``: where unknowns lie, besides the ranges that they have."""
+    """Reads ``range: {gamma: [1/4, 1]}``: ranges of unknowns, besides those they have."""
     return {
         name: at.numbers.free[name].within(RANGE.read(at, value, place))
         for name, value, place in _unknowns(at, node, where)
@@ -68,7 +67,7 @@ def _ranges(at: Any, node: Node, where: str) -> dict[str, Free]:
 
 
 def _unknowns(at: Any, node: Node, where: str) -> Iterator[tuple[str, Node, str]]:
-    """The message for unknowns without a value."""
+    """Yields the unknowns with their nodes and names in messages; reports those not in the file."""
     numbers: Numbers = at.numbers
     for name, value in numbers.source.mapping(node, where, (), form=FORM).items():
         place = f"{where}: {name}"
@@ -100,19 +99,12 @@ DESIGN = mapping(
     more=_wanted,
     form=FORM,
 )
-"""What is wanted of the methods of a family; it is read when its unknowns are known."""
+"""The demands on the methods of a family, read once its unknowns are known."""
 NO_RANGES: Mapping[str, Free] = {}
 
 
 class Wish(Frozen):
-    """One key of ``design``; a count, a coefficient, or True.
-
-    Attributes:
-        node: the place in the file.
-        want: what is wanted.
-        value: as it was read.
-        colour: the one it is about, counted from 0; None for all.
-    """
+    """A key of ``design`` with its value; ``colour``, counted from 0, is None for all colours."""
 
     node: Node
     want: Want
@@ -121,14 +113,10 @@ class Wish(Frozen):
 
 
 class Wishes(Frozen):
-    """All of ``design``.
+    """The content of ``design``.
 
-    Attributes:
-        order: that is wanted; None where the command says it.
-        fixed: pairs of entries that are equal.
-        wishes: everything else.
-        ranges: unknowns with the range that they are to have.
-        entries: all coefficients in it.
+    ``order`` is None if the command has it; ``fixed`` are pairs of equal entries; ``entries`` are
+    all its coefficients.
     """
 
     order: int | None = None
@@ -144,11 +132,8 @@ class Wishes(Frozen):
 
 
 def read_wishes(at: Any, node: Node) -> Wishes:
-    """What a file wants; its unknowns are known already.
-
-    Args:
-        at: what reads the file, with its source and its numbers, which stay as they are.
-        node: the value of ``design``.
+    """Returns the content of ``design``, once the unknowns are known; the numbers of the file are
+    left as they are.
     """
     numbers: Numbers = at.numbers
     before = len(numbers.entries)
@@ -162,7 +147,7 @@ def read_wishes(at: Any, node: Node) -> Wishes:
 
 
 def _wishes(want: Want, at: Any, node: Node, where: str) -> list[Wish]:
-    """One wish, or one for each colour that is named."""
+    """Reads a demand for all colours, or for each colour that is named."""
     kind, _ = _VALUES[want.kind]
     if not isinstance(node, MappingNode):
         value = kind.read(at, node, where)
@@ -180,7 +165,7 @@ def _wishes(want: Want, at: Any, node: Node, where: str) -> list[Wish]:
 
 
 def _colours_of(wish: Wish, size: int, source: Source) -> tuple[int, ...]:
-    """The colours that a wish is about; none where the method lacks the one it names."""
+    """Returns the colours to which a demand applies; none if the method lacks the one it names."""
     if wish.colour is None:
         return tuple(range(size))
     if wish.colour < size:
@@ -194,14 +179,10 @@ def _colours_of(wish: Wish, size: int, source: Source) -> tuple[int, ...]:
 def meaning_of(
     wishes: Wishes, made: Builder[FamilyValues], source: Source, deadline: float | None = None
 ) -> Meaning:
-    """Everything that is wanted, as conditions on the parameters.
+    """Returns all demands as conditions on the parameters.
 
-    Args:
-        wishes: as they were read.
-        made: of the file: the tableau, further weights and coefficients.
-        source: the file, where wishes that make no sense for it are noted.
-        deadline: the reading of ``time.monotonic`` at which the rest stays
-            unsettled; None for never.
+    At ``deadline``, a value of ``time.monotonic``, the remaining ones are left undecided; None for
+    never. Demands that do not apply are reported.
     """
     from garkcli.constructions.wants import meant_of
 

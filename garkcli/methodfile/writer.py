@@ -1,4 +1,4 @@
-"""A method back to YAML, such that it loads again with the same blocks."""
+"""Methods written as YAML from which the same blocks are read."""
 
 from __future__ import annotations
 
@@ -21,7 +21,6 @@ from garkcli.tableau.stages import PointSpace
 from garkcli.tableau.tableau import Colour, Tableau
 
 NumberText: TypeAlias = Callable[[Number], str]
-"""How a coefficient is written."""
 Written: TypeAlias = "fmpq | Mapping[str, fmpq]"
 """A tolerance for the file, or by keys of ``tolerance``."""
 
@@ -35,17 +34,10 @@ def write_tableau_file(
     parameters: Sequence[str] = (),
     further: Further = NOTHING,
 ) -> str:
-    """A method file with every block of ``tableau`` spelled out.
+    """Returns a method file with every block of ``tableau`` spelled out.
 
-    Args:
-        tableau: over point spaces, every entry exact.
-        name: what the file calls the method.
-        tolerance: the rounding of its coefficients, or None; by keys of ``tolerance`` where it is
-            not the same for all.
-        note: a comment above it.
-        text: how a coefficient is written.
-        parameters: what it says of each parameter in the coefficients, such as ``tau: free``.
-        further: embedded weights and dense output, written beside b.
+    The tableau has point spaces and exact entries. ``note`` is a comment at the top, ``text``
+    writes a coefficient, ``parameters`` has a text such as ``tau: free`` for each parameter.
     """
     tableau.demand_fields("a method file")
     lines = [*(f"# {line}" for line in note.splitlines()), "gark: 1", f"name: {quoted(name)}"]
@@ -64,18 +56,14 @@ def write_tableau_file(
 
 
 def tolerance_text(written: Written) -> str:
-    """The value of the key ``tolerance``."""
     if isinstance(written, fmpq):
         return decimal(written)
     return f"{{{', '.join(f'{key}: {decimal(t)}' for key, t in written.items())}}}"
 
 
 def tolerance_of_file(method: GarkMethod, further: Further) -> Written | None:
-    """The tolerance of a file that spells a method out: what its numbers are off by at most.
-
-    Args:
-        method: as it is.
-        further: its further weights in the file.
+    """Returns the tolerance for a file that spells a method out, with its further weights, or
+    None.
     """
     own = method.tolerance
     by_key = {
@@ -91,7 +79,7 @@ def tolerance_of_file(method: GarkMethod, further: Further) -> Written | None:
 def write_method(
     tableau: Tableau, name: str, tolerance: Written | None, further: Further = NOTHING
 ) -> str:
-    """The same with decimals where coefficients are rounded."""
+    """Returns the same with decimals for rounded coefficients."""
     text = to_text if tolerance is None else _decimal_text
     return write_tableau_file(tableau, name, tolerance, text=text, further=further)
 
@@ -104,15 +92,10 @@ def write_form(
     tolerance: Written | None = None,
     further: Further = NOTHING,
 ) -> str:
-    """A method file of one colour in a form of its own.
+    """Returns a method file of one colour in a form other than ``tableau``.
 
-    Args:
-        form: its key.
-        keys: what is under it: words, rows and matrices of exact numbers.
-        tableau: of the method; its nodes are written where they are not the row sums of A.
-        name: what the file calls the method.
-        tolerance: the rounding of further weights.
-        further: embedded weights and dense output.
+    ``keys`` has words, rows and matrices of exact numbers; the nodes are written unless they are
+    the row sums of A.
     """
     text = to_text if tolerance is None else _decimal_text
     lines = ["gark: 1", f"name: {quoted(name)}", f"{form}:"]
@@ -135,16 +118,10 @@ def write_form(
 
 
 def write_rounded(tableau: Tableau, entries: Entries, name: str, further: Further = NOTHING) -> str:
-    """A method file with entries rounded to decimals, and the tolerance that this rounding needs.
+    """Returns a method file with entries rounded to decimals, and the tolerance needed for it.
 
-    An entry is at most half a unit in its last digit off; the tolerance allows for a hundred units
-    in the last digit of the largest, as residuals are sums of such entries and of their products.
-
-    Args:
-        tableau: for its colours.
-        entries: its entries as enclosures.
-        name: what the file calls the method.
-        further: its embedded weights and its dense output, exact.
+    An entry is within half a unit of its last digit. The tolerance is a hundred units in the last
+    digit of the largest entry, as residuals are sums of entries and of their products.
     """
     digits = entries.digits
     made = _rounded_tableau(tableau, entries)
@@ -158,7 +135,7 @@ def write_rounded(tableau: Tableau, entries: Entries, name: str, further: Furthe
 
 
 def _rounded_tableau(tableau: Tableau, entries: Entries) -> Tableau:
-    """The tableau of the rounded entries, its stages at the rounded nodes."""
+    """Returns the tableau of the rounded entries, with its stages at the rounded nodes."""
 
     def rounded(cells: Sequence[Cell]) -> Vector:
         return tuple(_rounded(cell, entries.digits) for cell in cells)
@@ -189,12 +166,12 @@ def _decimal_text(number: Number) -> str:
 
 
 def _rationals(tableau: Tableau) -> Iterator[fmpq]:
-    """Every coefficient of a tableau whose coefficients are rational."""
+    """Yields the coefficients of a tableau with rational coefficients."""
     yield from (x for x in chain.from_iterable(tableau.rows) if isinstance(x, fmpq))
 
 
 def can_spell_out(tableau: Tableau) -> bool:
-    """Whether a spelled-out file says everything about ``tableau``: a GARK tableau, or a
+    """Returns whether a spelled-out file represents ``tableau`` completely: a GARK tableau or a
     partitioned pair.
     """
     if not tableau.is_gark:
@@ -203,8 +180,8 @@ def can_spell_out(tableau: Tableau) -> bool:
 
 
 def _is_prk(tableau: Tableau) -> bool:
-    """Whether the form ``prk`` says everything: it has both blocks, and a colour that is linear
-    where q̇ = p alone.
+    """Returns whether the form ``prk`` represents a tableau: both blocks exist, and a colour is
+    linear only if q̇ = p.
     """
     parts = [colour.part for colour in tableau.colours]
     linear = [colour.is_linear for colour in tableau.colours]
@@ -216,7 +193,7 @@ def _is_prk(tableau: Tableau) -> bool:
 
 
 def _is_ark(tableau: Tableau) -> bool:
-    """Whether several vector fields share all stages and nodes, and none is linear."""
+    """Returns whether several colours share all stages and nodes, and none is linear."""
     colours = tableau.colours
     if len(colours) == 1 or len(tableau.spaces) > 1:
         return False
@@ -229,7 +206,6 @@ def _is_complete(tableau: Tableau) -> bool:
 
 
 def _ark(tableau: Tableau, text: NumberText) -> list[str]:
-    """The form ``ark``: one matrix per colour, all on the same stages."""
     lines = ["ark:", f"  c: {_row(tableau.colours[0].c, text)}", "  A:"]
     for m in range(tableau.size):
         lines += [f"    -  # A^{{{m + 1}}}", *_items(tableau.blocks[0, m], 6, text)]
@@ -237,13 +213,11 @@ def _ark(tableau: Tableau, text: NumberText) -> list[str]:
 
 
 def _items(rows: Iterable[Vector], indent: int, text: NumberText) -> Iterator[str]:
-    """A list of rows, a line each."""
     for row in rows:
         yield " " * indent + f"- {_row(row, text)}"
 
 
 def _blocks(tableau: Tableau, text: NumberText) -> list[str]:
-    """The form ``tableau``: nodes, blocks and weights, and which colours are linear."""
     colours = tableau.colours
     nodes = [colour.c for colour in colours]
     weights = [colour.b for colour in colours]
@@ -255,7 +229,6 @@ def _blocks(tableau: Tableau, text: NumberText) -> list[str]:
 
 
 def _further(further: Further, text: NumberText) -> list[str]:
-    """Embedded weights and dense output of a tableau or an ark, a part for each colour."""
     lines = []
     if further.embedded is not None:
         lines += ["  embedded:", *_items(further.embedded, 4, text)]
@@ -267,7 +240,6 @@ def _further(further: Further, text: NumberText) -> list[str]:
 
 
 def _further_of_part(further: Further, colour: int, text: NumberText) -> list[str]:
-    """The same of one part of a prk."""
     lines = []
     if further.embedded is not None:
         lines.append(f"    embedded: {_row(further.embedded[colour], text)}")
@@ -278,7 +250,7 @@ def _further_of_part(further: Further, colour: int, text: NumberText) -> list[st
 
 
 def _block(tableau: Tableau, l: int, m: int, text: NumberText) -> Iterator[str]:
-    """The lines of the block A^{l,m}, which is null where it does not exist."""
+    """Yields the lines of the block A^{l,m}, null if it does not exist."""
     block = tableau.block(l, m)
     dash = "    - -" if m == 0 else "      -"
     comment = f"  # {block_name(l, m)}" if tableau.size > 1 else ""
@@ -290,8 +262,8 @@ def _block(tableau: Tableau, l: int, m: int, text: NumberText) -> Iterator[str]:
 
 
 def _prk(tableau: Tableau, text: NumberText, further: Further) -> list[str]:
-    """The form ``prk``: the rows of q.A are the positions at which the colour p evaluates its
-    forces.
+    """Returns the lines of the form ``prk``: the rows of q.A are the positions at which p evaluates
+    its forces.
     """
     lines = ["prk:"]
     for part, drives, seen_at in (("q", 0, 1), ("p", 1, 0)):
@@ -313,17 +285,16 @@ def _row(numbers: Sequence[Number], text: NumberText) -> str:
 
 
 def row_text(numbers: Iterable[str]) -> str:
-    """Numbers in brackets."""
     return f"[{', '.join(map(number_text, numbers))}]"
 
 
 def number_text(number: str) -> str:
-    """A number as brackets may have it, in which the comma of root(x, n) would end it."""
+    """Returns a number for a list in brackets, in which the comma of root(x, n) needs quotes."""
     return quoted(number) if "," in number else number
 
 
 def quoted(text: str) -> str:
-    """A text as YAML takes it at its word: in quotes, what cannot be printed as an escape."""
+    """Returns a text in quotes, with escapes for nonprintable characters."""
     escaped = text.replace("\\", "\\\\").replace('"', '\\"')
     inside = "".join(x if x.isprintable() else f"\\U{ord(x):08x}" for x in escaped)
     return f'"{inside}"'

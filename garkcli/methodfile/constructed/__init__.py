@@ -1,1 +1,1 @@
-"""Methods that files make from others: a file each construction."""
+"""Methods constructed from others, with one file for each construction."""

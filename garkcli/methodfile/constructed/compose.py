@@ -1,4 +1,4 @@
-"""``compose``: substeps of methods, given one by one or by the name of a scheme."""
+"""``compose``: substeps of methods, one by one or by the name of a scheme."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from garkcli.tableau.tableau import Tableau
 
 
 def _adjoint(at: PartReader, node: Node, where: str) -> ConstructionText | None:
-    """The method whose adjoint is meant; it may have stages without simple nodes."""
+    """Reads the adjoint of a method, which may have stages without simple nodes."""
     part = at.method(node, where, why="")
     return None if part is None else at.made(node, lambda tableau_of, _: adjoint(tableau_of(part)))
 
@@ -33,9 +33,9 @@ ADJOINT = g.Kind(g.defined("part").schema, _adjoint)
 _FORM = "write for instance {of: {family: heun}, steps: [1/2, 1/2]}"
 _NAME_IT = "give of: METHOD, here or for all of them"
 MAX_SUBSTEPS = 400
-"""Most substeps of a composition."""
+"""The largest number of substeps in a composition."""
 _Step: TypeAlias = tuple[PartText, Entry, bool]
-"""Which method takes a substep, its fraction of the step, whether with the adjoint."""
+"""The method of a substep, its fraction of the step, and whether the adjoint is taken."""
 
 
 def _scheme(at: PartReader, node: Node, where: str) -> Scheme | None:
@@ -120,7 +120,7 @@ _KEYS = g.mapping(
 
 
 def _read(at: PartReader, found: g.Found, where: str) -> ConstructionText | None:
-    """The methods and their substeps."""
+    """Reads the methods and their substeps."""
     before, node = len(at.source.faults), found.node
     steps = [*_steps(at, found, where)]
     if "processor" in found:
@@ -135,7 +135,7 @@ def _read(at: PartReader, found: g.Found, where: str) -> ConstructionText | None
 
 
 def _steps(at: PartReader, found: g.Found, where: str) -> Iterator[_Step]:
-    """The substeps between those of the processor."""
+    """Yields the substeps between those of the processor."""
     whole: Any = found.get("of")
     if "scheme" in found:
         place = found.nodes["scheme"]
@@ -158,9 +158,9 @@ def _steps(at: PartReader, found: g.Found, where: str) -> Iterator[_Step]:
 
 
 def _orders(at: PartReader, found: g.Found, scheme: Scheme) -> tuple[int, int]:
-    """From which order to which a scheme that is repeated goes.
+    """Returns the order of the method and that of the result for a repeated scheme.
 
-    The substeps that take a symmetric method of order p further have a root of degree p + 1.
+    The substeps that raise a symmetric method of order p contain a root of degree p + 1.
     """
     if not scheme.has_orders:
         for key in found.nodes.keys() & {"order", "from"}:

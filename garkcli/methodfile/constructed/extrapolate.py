@@ -24,14 +24,14 @@ from garkcli.tableau.tableau import Tableau
 _FORM = "write for instance {of: {family: gauss, stages: 1}, order: 6}"
 _HOW_FAR, _GIVE_ORDER = "how far is missing", "give order: 6, or sequence: [1, 2, 3]"
 MAX_ORDER = 40
-"""Largest order that is extrapolated to."""
+"""The largest order of an extrapolation."""
 MAX_PARTS = 200
-"""Most substeps of one row of the extrapolation table."""
+"""The largest number of substeps in a row of the extrapolation table."""
 _MOST_ROWS = 20
 
 
 def _numbers(at: PartReader, node: Node, where: str) -> tuple[int, ...]:
-    """Numbers of substeps, all different."""
+    """Reads numbers of substeps, which have to differ."""
     source = at.source
     items = source.items(node, where)
     numbers: list[int] = []
@@ -111,7 +111,7 @@ _KEYS = g.mapping(
 
 
 def _read(at: PartReader, found: g.Found, _: str) -> ConstructionText:
-    """The method and the numbers of its substeps."""
+    """Reads the method and the numbers of its substeps."""
     plan = _Plan(
         found.get("sequence", "harmonic"),
         found.get("order", 0),
@@ -127,14 +127,10 @@ def _read(at: PartReader, found: g.Found, _: str) -> ConstructionText:
 
 
 class _Plan(Frozen):
-    """How far a method is extrapolated.
+    """The order, or the sequence, of an extrapolation.
 
-    Attributes:
-        sequence: by its name, or number by number.
-        wanted: the order; 0 where the numbers say it.
-        base: the order of the method; None where it is to be found.
-        is_symmetric: whether its error has every second power only; None where that is to be found.
-        tolerance: the rounding of its coefficients.
+    ``wanted`` is 0 if the sequence is given by its numbers; ``base``, the order of the method, and
+    ``is_symmetric`` are None if they have to be found.
     """
 
     sequence: str | tuple[int, ...]
@@ -144,10 +140,9 @@ class _Plan(Frozen):
     tolerance: fmpq | None
 
     def made(self, base: Tableau, numbers: Numbers) -> Tableau:
-        """The extrapolated method; its order and its symmetry are those of the printed numbers.
+        """Returns the extrapolated method.
 
-        Raises:
-            MethodError: the order of the method is not known, or already high enough.
+        Raises MethodError if the order of the method is unknown, or high enough already.
         """
         order, is_symmetric = self.base, self.is_symmetric
         if base.has_parameters and (order is None or is_symmetric is None):

@@ -57,20 +57,20 @@ _FORM_OF_MIS = (
 _FORM_OF_COUPLING = "write slowest-first, collocation, {gamma: [[…]]}, or "
 _FORM_OF_COUPLING += "{fast-slow: [[…]], slow-fast: [[…]]}"
 MAX_STEPS = 400
-"""Most small steps."""
+"""The largest number of small steps."""
 MAX_POWERS = 12
-"""Most matrices of one slow part, one for each power of τ."""
+"""The largest number of matrices of a slow part, one for each power of τ."""
 SLOWEST_FIRST = "slowest-first"
 EXACT = "exact"
-"""In place of a fast method: the exact solution of each fast problem."""
+"""Stands for the exact solution of each fast problem, in place of a fast method."""
 RESTARTS = {
     "merk": "polynomials in the time of the step, from 0 to 1",
     "sr": "polynomials in the time of the fast problem, from 0 to 1; gamma is added after it",
 }
-"""How the forcing is given of methods whose fast problems begin at the beginning of the step."""
+"""The forcing of methods whose fast problems begin at the start of the step."""
 _BLOCKS = ("fast-slow", "slow-fast")
 _NAMES = ("lambda", "M")
-"""Which small step it is, from 1, and how many there are, in coupling matrices."""
+"""The number of a small step, from 1, and the number of small steps, in coupling matrices."""
 TableauOf: TypeAlias = Callable[[PartText], Tableau]
 
 _SMALL_STEPS = g.Kind(MATRIX.schema, g.as_it_is)
@@ -106,7 +106,7 @@ _PREDICTOR = g.mapping(
 
 
 def _one_of(names: tuple[str, ...], kind: g.Kind, other: g.Kind) -> g.Kind:
-    """A mapping that is known by one of its keys, or something else."""
+    """Returns the kind of a mapping with one of the keys, or of another value."""
 
     def is_it(node: Node) -> bool:
         return isinstance(node, MappingNode) and any(k.value in names for k, _ in node.value)
@@ -119,7 +119,6 @@ def _one_of(names: tuple[str, ...], kind: g.Kind, other: g.Kind) -> g.Kind:
 
 
 def _powers(key: str) -> g.Kind:
-    """A matrix for each power of τ."""
     return g.list_of(MATRIX, "matrices", MAX_POWERS, f"{key}, matrix {{}}", _FORM_OF_MRI)
 
 
@@ -246,12 +245,10 @@ _KEYS = g.mapping(
 
 
 class Infinitesimal(Frozen):
-    """What makes a multirate infinitesimal method.
+    """Makes a multirate infinitesimal method.
 
-    Attributes:
-        fast: the fast method; None for the exact solution.
-        coupling: of the slow stages, from what gives tableaus and values.
-        steps: small ones, between two slow stages.
+    ``fast`` is None for the exact solution; ``coupling`` makes the coupling of the slow stages;
+    ``steps`` is the number of small steps between two slow stages.
     """
 
     fast: PartText | None
@@ -259,7 +256,6 @@ class Infinitesimal(Frozen):
     steps: int
 
     def __call__(self, tableau_of: TableauOf, values: Values) -> tuple[Tableau, Further]:
-        """The method, and its embedded weights."""
         coupling = self.coupling(tableau_of, values)
         values.once(("ends", id(self)), lambda: check_ends(coupling))
         if self.fast is None:
@@ -271,14 +267,11 @@ class Infinitesimal(Frozen):
 
 
 class Predictor(Frozen):
-    """The parts of a step-predictor.
+    """Makes a method with a step-predictor.
 
-    Attributes:
-        slow: the method that takes the step for both parts.
-        fast: that of the fast problem; None for the exact solution.
-        forcing: the rows of the fast problem, and of that for the embedded value; none where the
-            slow slopes are interpolated.
-        steps: small ones.
+    ``slow`` takes the step for both parts. ``forcing`` has the rows of the fast problem, and those
+    for the embedded value; if empty, the slow slopes are interpolated. ``fast`` is None for the
+    exact solution.
     """
 
     slow: PartText
@@ -287,7 +280,6 @@ class Predictor(Frozen):
     steps: int
 
     def __call__(self, tableau_of: TableauOf, values: Values) -> tuple[Tableau, Further]:
-        """The method, and its embedded weights."""
         slow = _method(tableau_of, self.slow, "slow")
         forcing = tuple(map(values.matrix, self.forcing.values())) or (interpolation(slow),)
         for key, rows in zip(self.forcing, forcing, strict=False):
@@ -309,18 +301,14 @@ def _method(tableau_of: TableauOf, part: PartText, key: str) -> Method:
 
 
 def _refuse_parameters(rows: Iterable[Vector]) -> None:
-    """Refuse coefficients without a value.
-
-    Raises:
-        MethodError: there is one.
-    """
+    """Raises MethodError if a coefficient has no value."""
     if any(isinstance(x, Parametric) for x in chain.from_iterable(rows)):
         message = "a parameter is free, and the fast part is solved exactly"
         raise MethodError(message, "give it a value: --set NAME=1/2", code="free-parameters")
 
 
 def _mis(part: PartText) -> Callable[[TableauOf, Values], Coupling]:
-    """The coupling by a constant forcing."""
+    """Returns the coupling by a constant forcing."""
 
     def coupling(tableau_of: TableauOf, values: Values) -> Coupling:
         row = _embedded_of(part)
@@ -331,13 +319,13 @@ def _mis(part: PartText) -> Callable[[TableauOf, Values], Coupling]:
 
 
 def _embedded_of(part: PartText) -> Row | None:
-    """The embedded weights of a method of one colour; None of one that has none."""
+    """Returns the embedded weights of a method with one colour, or None."""
     texts = further_of(part.description.content)
     return texts[0].embedded if len(texts) == 1 else None
 
 
 def _generalized(at: PartReader, found: g.Found) -> Callable[[TableauOf, Values], Coupling]:
-    """The coupling by α, β and γ."""
+    """Returns the coupling by α, β and γ."""
     stages = len(found["beta"])
     parts = [
         _whole(at, found[key], found.nodes[key], key, stages + 1)
@@ -347,7 +335,7 @@ def _generalized(at: PartReader, found: g.Found) -> Callable[[TableauOf, Values]
 
 
 def _coupling_by_name(at: PartReader, found: g.Found) -> Callable[[TableauOf, Values], Coupling]:
-    """The coupling of another multirate infinitesimal method."""
+    """Returns the coupling of another multirate infinitesimal method."""
     part: PartText = found["mri"]
     at.parts.remove(part)  # its coupling is taken, not its step
     content = part.description.content
@@ -362,7 +350,7 @@ def _coupling_by_name(at: PartReader, found: g.Found) -> Callable[[TableauOf, Va
 
 
 def _read(at: PartReader, found: g.Found, _: str) -> ConstructionText | None:
-    """The methods, and how they are coupled."""
+    """Reads the methods and their coupling."""
     before = len(at.source.faults)
     kept: tuple[PartText, ...] = ()
     rounding = None
@@ -386,7 +374,7 @@ def _read(at: PartReader, found: g.Found, _: str) -> ConstructionText | None:
 
 
 def _coupled(at: PartReader, found: g.Found) -> Make:
-    """Two methods with a coupling by name, or by matrices."""
+    """Returns two methods with a coupling by name, or by matrices."""
     coupling = found.get("coupling", SLOWEST_FIRST)
     is_exact = found["fast"] == EXACT
     if isinstance(coupling, g.Found) and "gamma" in coupling:
@@ -424,11 +412,7 @@ def _coupled(at: PartReader, found: g.Found) -> Make:
 
 
 def _check_shape(key: str, matrix: Matrix, seeing: Method, seen: Method) -> None:
-    """Refuse a coupling matrix of another shape than its methods.
-
-    Raises:
-        MethodError: that is the case.
-    """
+    """Raises MethodError if the shape of a coupling matrix does not fit its methods."""
     found, wanted = (len(matrix), len(matrix[0])), (seeing.stages, seen.stages)
     if found != wanted:
         message = f"{key} is {found[0]} by {found[1]} and should be {wanted[0]} by {wanted[1]}"
@@ -437,7 +421,7 @@ def _check_shape(key: str, matrix: Matrix, seeing: Method, seen: Method) -> None
 
 
 def _small_steps(at: PartReader, node: Node, key: str, steps: int) -> Iterator[Rows]:
-    """A coupling matrix for each small step; its entries may use their number."""
+    """Yields a coupling matrix for each small step, whose number its entries may use."""
     before = len(at.source.faults)
     for step in range(1, steps + 1):
         with _defined(at.numbers, (step, steps)):
@@ -450,7 +434,7 @@ def _small_steps(at: PartReader, node: Node, key: str, steps: int) -> Iterator[R
 
 @contextmanager
 def _defined(numbers: Numbers, values: tuple[int, int]) -> Iterator[None]:
-    """While it is open, ``lambda`` and ``M`` are numbers."""
+    """Defines ``lambda`` and ``M`` as numbers while it is open."""
     before = {name: numbers.parameters.get(name) for name in _NAMES}
     for name, number in zip(_NAMES, values, strict=True):
         numbers.define(name, Literal(fmpq(number)))
@@ -463,7 +447,7 @@ def _defined(numbers: Numbers, values: tuple[int, int]) -> Iterator[None]:
 
 
 def _polynomials(at: PartReader, found: g.Found) -> Callable[[TableauOf, Values], Coupling]:
-    """Polynomial couplings between nodes, of the explicit part before the implicit one."""
+    """Returns the polynomial couplings between nodes, the explicit part before the implicit one."""
     c: Row = found["c"]
     restart = found.get("restart")
     matrices: dict[str, list[Rows]] = {}
@@ -503,7 +487,7 @@ def _polynomials(at: PartReader, found: g.Found) -> Callable[[TableauOf, Values]
 
 
 def _check_restart(at: PartReader, found: g.Found, matrices: Mapping[str, Sequence[Rows]]) -> None:
-    """Note what a method with restarts cannot have."""
+    """Reports what a method with restarts cannot have."""
     restart = found["restart"]
     if restart == "merk" and len(matrices) > 1:
         message = "multirate, mri: restart: merk goes with omega, not with omega and gamma"
@@ -526,7 +510,7 @@ def _check_restart(at: PartReader, found: g.Found, matrices: Mapping[str, Sequen
 
 
 def _embedded_rows(at: PartReader, found: g.Found) -> dict[str, Rows] | None:
-    """The embedded rows by the key of their slow part, of the length of the nodes."""
+    """Returns the embedded rows for each slow part, with one entry for each node."""
     given = found.get("embedded")
     if given is None:
         return None
@@ -551,7 +535,7 @@ def _embedded_rows(at: PartReader, found: g.Found) -> dict[str, Rows] | None:
 
 
 def _widened(at: PartReader, rows: Rows, node: Node, name: str, nodes: int) -> Rows:
-    """The rows with a column a node; what is left out at the right is zero."""
+    """Returns the rows filled with zeros to one column for each node."""
     width = max(map(len, rows), default=0)
     if width > nodes:
         message = f"{name} has {counted(width, 'column')} for {counted(nodes, 'node')}"
@@ -561,8 +545,10 @@ def _widened(at: PartReader, rows: Rows, node: Node, name: str, nodes: int) -> R
 
 
 def _whole(at: PartReader, rows: Rows, node: Node, name: str, nodes: int) -> Rows:
-    """The matrix with a row less than nodes and a column a node; what is left out at the right is
-    zero, and a first row of zeros, that of the beginning, may be before the others.
+    """Returns the matrix filled with zeros to one column for each node.
+
+    It has one row less than there are nodes; a first row of zeros, for the start of the step, is
+    dropped.
     """
     if len(rows) == nodes and not any(map(_is_nonzero, rows[0])):
         rows = rows[1:]
@@ -584,10 +570,10 @@ KIND = _KEYS.then(_read)
 
 
 def coupling_of(method: MethodFile) -> Coupling | None:
-    """What a file with ``multirate: {mis: …}`` or ``{mri: …}`` couples its slow stages by.
+    """Returns the coupling of the slow stages in a file with ``multirate: {mis: …}`` or ``{mri:
+    …}``.
 
-    Returns:
-        None for other files, and where values were given for parameters of the file.
+    None for other files, and if parameters of the file were given values.
     """
     if method.form != "multirate":
         return None

@@ -1,4 +1,4 @@
-"""YAML nodes to the methods and the numbers that constructions are made from."""
+"""The methods and numbers of constructions."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ _FORM = "write for instance rk4, {family: heun} or {A: …, b: …}"
 _NO_FILE = "put it as NAME.gark.yaml in a folder of GARK_PATH, and write NAME"
 AT_POINTS = "its substeps cannot be spelled out"
 METHOD = defined("part", lambda at, node, where: at.method(node, where))
-"""A method inside of a construction."""
+"""A method within a construction."""
 
 
 class Opened(Frozen):
-    """A method of the catalogue, as it was read."""
+    """A method of the catalogue."""
 
     source: Source
     numbers: Numbers
@@ -38,25 +38,17 @@ class Opened(Frozen):
 Open: TypeAlias = Callable[[str], Opened]
 """Reads a method of the catalogue.
 
-Raises:
-    MethodFileError: there is none of that name, or it is no method on its own.
+Raises MethodFileError if there is none of that name, or it does not stand alone.
 """
 Written: TypeAlias = Callable[[Node, str], Description | None]
-"""Reads a method that is in this file, called so in messages."""
+"""Reads a method in this file; the text names it in messages."""
 
 
 class PartReader(Reading):
-    """Reads what one construction is made from.
+    """Reads the parts of a construction.
 
-    Args:
-        numbers: the coefficients of the file.
-        written: what reads methods that are spelled out.
-        opened: what reads methods of the catalogue.
-        tolerance: what the file says of rounding; None where it says nothing.
-        structure: which vector fields the problem has.
-
-    Attributes:
-        parts: the methods that were read.
+    ``written`` reads methods that are spelled out, ``opened`` those of the catalogue; ``parts``
+    collects them.
     """
 
     def __init__(
@@ -76,7 +68,7 @@ class PartReader(Reading):
 
     @property
     def tolerance(self) -> fmpq | None:
-        """The rounding that the file states for what was read so far; None where it states none."""
+        """The tolerance of the coefficients read so far; None without one in the file."""
         if self._tolerance is None:
             return None
         from garkcli.methodfile.tolerance import largest
@@ -84,13 +76,9 @@ class PartReader(Reading):
         return largest(self._tolerance, self.numbers.entries)
 
     def method(self, node: Node, where: str, why: str = AT_POINTS) -> PartText | None:
-        """A method: a family, coefficients of any form, or a name.
+        """Reads a method: a family, coefficients of any form, or a name.
 
-        Args:
-            node: the place in the file.
-            where: what it is, for messages.
-            why: what does not work where its stages cannot be given by points; empty where any
-                stages will do.
+        ``why`` is what needs the stages to be given by points, or empty.
         """
         if isinstance(node, ScalarNode):
             return self._named(node, where, why)
@@ -102,7 +90,7 @@ class PartReader(Reading):
         return part
 
     def _named(self, node: ScalarNode, where: str, why: str) -> PartText | None:
-        """A single method of a family, or one of the catalogue."""
+        """Reads a method without a size, or one of the catalogue."""
         name = self.source.scalar(node, where)
         if name is None:
             return None
@@ -135,10 +123,9 @@ class PartReader(Reading):
         return part
 
     def _of_catalogue(self, name: str, why: str) -> PartText:
-        """A method of the catalogue, its coefficients among those of this file.
+        """Returns a method of the catalogue, its coefficients added to those of this file.
 
-        Raises:
-            MethodFileError: there is none, or it is no method on its own.
+        Raises MethodFileError if there is none of that name, or it does not stand alone.
         """
         opened = self._open(name)
         if opened.numbers.free:
@@ -152,16 +139,13 @@ class PartReader(Reading):
         return part
 
     def made(self, node: Node, make: Make, rounding: fmpq | None = None) -> ConstructionText:
-        """What is made from the methods that were read.
+        """Returns the construction from the parts read so far.
 
-        Args:
-            node: the place in the file.
-            make: what makes it.
-            rounding: of its own numbers.
+        ``rounding`` is that of its own numbers.
         """
         return ConstructionText(node, tuple(self.parts), make, self.rounding(rounding))
 
     def rounding(self, *others: fmpq | None) -> fmpq | None:
-        """That of what is made from the parts: the largest; None where all are exact."""
+        """Returns the largest tolerance of the parts; None if all are exact."""
         found = [x for x in (*(part.tolerance for part in self.parts), *others) if x is not None]
         return max(found, default=None)

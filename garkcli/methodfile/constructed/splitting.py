@@ -22,11 +22,11 @@ from garkcli.tableau.tableau import Tableau
 _FORM = "write for instance {a: [1/2, 1/2], b: [1]} or {scheme: strang}"
 _FORM_OF_FLOWS = "write for instance [{1: 1/2}, {2: 1}, {1: 1/2}]"
 MAX_TERMS = 20
-"""Most parts of a problem that is split."""
+"""The largest number of parts."""
 MAX_FLOWS = 400
-"""Most flows of a splitting."""
+"""The largest number of flows."""
 _Flow: TypeAlias = tuple[int, Entry]
-"""A part of the problem, counted from 0, and for which fraction of the step it flows."""
+"""A part of the problem, from 0, and the fraction of the step for which it flows."""
 
 _WAYS = g.Ways("the flows are", (g.Together(("a", "b")), "flows", "scheme"), "no flows", _FORM)
 _FLOW = g.by_name(NUMBER, propertyNames={"pattern": "^[1-9][0-9]?$"}, minProperties=1)
@@ -64,7 +64,7 @@ _KEYS = g.mapping(
 
 
 def _read(at: PartReader, node: Node, where: str) -> ConstructionText | None:
-    """The parts and their flows."""
+    """Reads the parts and their flows."""
     source = at.source
     before = len(source.faults)
     found: g.Found | None = _KEYS.read(at, node, where)
@@ -102,7 +102,7 @@ def _read(at: PartReader, node: Node, where: str) -> ConstructionText | None:
 
 
 def _terms(at: PartReader, found: g.Found, where: str) -> int:
-    """How many parts there are; noted where there is no method for each of them."""
+    """Returns the number of parts; one method for each of them is required."""
     of = found.nodes.get("of")
     terms: int | None = found.get("terms")
     if isinstance(of, SequenceNode):
@@ -121,7 +121,7 @@ def _terms(at: PartReader, found: g.Found, where: str) -> int:
 
 
 def _largest(flows: Node | None) -> int:
-    """The largest number of a part among the flows; there are two parts at least."""
+    """Returns the largest number of a part among the flows, at least 2."""
     numbers = [2]
     for item in flows.value if isinstance(flows, SequenceNode) else ():
         for key, _ in item.value if isinstance(item, MappingNode) else ():
@@ -132,7 +132,7 @@ def _largest(flows: Node | None) -> int:
 
 
 def _alternating(at: PartReader, found: g.Found, where: str) -> Iterator[_Flow]:
-    """Part 1 for a_1, part 2 for b_1, and so on."""
+    """Yields a_1 of part 1, b_1 of part 2, and so on."""
     a, b = found["a"], found["b"]
     if len(a) - len(b) not in {0, 1}:
         message = f"{where}: a has {len(a)} numbers and b has {len(b)}"
@@ -145,7 +145,6 @@ def _alternating(at: PartReader, found: g.Found, where: str) -> Iterator[_Flow]:
 
 
 def _one_by_one(at: PartReader, items: list[Node], terms: int) -> Iterator[_Flow]:
-    """Each the part and its fraction."""
     names = [str(l) for l in range(1, terms + 1)]
     for number, item in enumerate(items, start=1):
         where = f"splitting, flow {number}"
@@ -154,7 +153,7 @@ def _one_by_one(at: PartReader, items: list[Node], terms: int) -> Iterator[_Flow
 
 
 def _by_scheme(at: PartReader, found: g.Found, terms: int, where: str) -> Iterator[_Flow]:
-    """The flows of a splitting by name."""
+    """Yields the flows of a named splitting."""
     scheme, node = SPLITTINGS[found["scheme"]], found.nodes["scheme"]
     if scheme.terms and scheme.terms != terms:
         message = f"{where}, scheme: {scheme.name} is for {scheme.terms} parts"
