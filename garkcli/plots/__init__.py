@@ -1,1 +1,1 @@
-"""Pictures of results: scenes, which say what is drawn, and what draws them."""
+"""Figures of results: scenes with their content, and the modules that draw them."""

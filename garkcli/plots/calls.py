@@ -1,4 +1,4 @@
-"""Figures as a call."""
+"""Figures from Python."""
 
 from __future__ import annotations
 
@@ -73,10 +73,9 @@ def plot(
 
 
 def plot_method(method: GarkMethod, path: str | os.PathLike[str] | None = None) -> Figure:
-    """The region of stability of a method, saved where a path is given.
+    """Plots the region of stability of a method, and saves it if a path is given.
 
-    Raises:
-        MethodError: the path is none.
+    Raises MethodError if ``path`` is not a path.
     """
     if path is not None:
         path = path_of(path)

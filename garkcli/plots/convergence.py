@@ -1,4 +1,4 @@
-"""Errors over step sizes and over what they cost, with lines of the slopes that orders ask for."""
+"""Errors against step sizes and against costs, with lines of the slopes of the orders."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from garkcli.plots import scene
 from garkcli.problems.righthandside import RightHandSide
 
 _GAPS = (0.05, 0.08, 0.12, 0.18, 0.26)
-"""Distances from the curve that a line is for, in heights of the figure."""
+"""Distances between the curve and the line beside it, in heights of the figure."""
 _CLEAR = 0.035
-"""The distance from all curves that is enough, in heights of the figure."""
+"""The distance from all curves that suffices, in heights of the figure."""
 _LABEL = ((0.02, 0.02), (0.06, 0.03), (0.11, 0.035))
-"""Where a label is, from the middle of its line, in widths and heights of the figure."""
+"""Distances of a label from the middle of its line, in widths and heights of the figure."""
 _SAMPLES = 8
 _Points: TypeAlias = Sequence[scene.Point]
 
@@ -27,17 +27,12 @@ _Points: TypeAlias = Sequence[scene.Point]
 def place_line(
     beside: Sequence[scene.Curve], slope: int, curves: Sequence[scene.Curve], is_whole: bool = False
 ) -> scene.Rule:
-    """A line of this slope near one of the curves that it is for, where no other curve is; its
-    label is on its far side.
+    """Returns a line of given slope near one of its curves, away from all others; its label is on
+    the far side.
 
-    Args:
-        beside: the curves that have this slope, each with at least one point.
-        slope: of the line, in decades a decade.
-        curves: all that is drawn.
-        is_whole: the line is as long as the curve, and has no label; otherwise it is as long as
-            three points of it, those of the smallest errors if there is space.
-
-    The first place that is clear of all curves is taken; where none is, the clearest.
+    The slope is in decades per decade. With ``is_whole`` the line is as long as the curve and has
+    no label; otherwise it spans three points, those of the smallest errors if there is space. The
+    first place that is clear of all curves is taken, or else the clearest.
     """
     figure = _Figure.of(curves)
     parts: list[_Points] = []
@@ -60,12 +55,7 @@ def place_line(
 
 
 class _Figure(Frozen):
-    """All curves, in widths and heights of the figure.
-
-    Attributes:
-        wide, high: the figure's own, in decades.
-        curves: the points of each, from left to right.
-    """
+    """The curves in widths and heights of the figure; ``wide`` and ``high`` are in decades."""
 
     wide: float
     high: float
@@ -73,7 +63,6 @@ class _Figure(Frozen):
 
     @staticmethod
     def of(curves: Sequence[scene.Curve]) -> _Figure:
-        """The figure that holds some curves."""
         points = [point for curve in curves for point in curve.points]
         wide = _extent([x for x, _ in points])
         high = _extent([y for _, y in points])
@@ -82,11 +71,11 @@ class _Figure(Frozen):
         return _Figure(wide, high, scaled)
 
     def place(self, x: float, y: float) -> scene.Point:
-        """Where a point in decades is."""
+        """Returns the place of a point given in decades."""
         return x / self.wide, y / self.high
 
     def heights(self, x: float) -> list[float]:
-        """Of the curves that pass x, at x."""
+        """Returns the heights of the curves at x."""
         found = []
         for points in self.curves:
             for (a, c), (b, d) in pairwise(points):
@@ -97,12 +86,14 @@ class _Figure(Frozen):
 
 
 def _extent(numbers: Sequence[float]) -> float:
-    """From the least to the greatest; 1 where they are one."""
+    """Returns the range of numbers; 1 if they are equal."""
     return max(numbers) - min(numbers) or 1.0
 
 
 def _parts(curve: scene.Curve, is_whole: bool) -> list[_Points]:
-    """The points beside which a line can be: those of the smallest errors, or of the largest."""
+    """Returns the points beside which a line may be: those of the smallest or the largest
+    errors.
+    """
     points = curve.points
     if is_whole or len(points) <= 3:
         return [points]
@@ -110,7 +101,7 @@ def _parts(curve: scene.Curve, is_whole: bool) -> list[_Points]:
 
 
 def _beside(points: _Points, slope: int, gap: float, is_below: bool) -> scene.Rule:
-    """The line through no point, with this distance from the nearest."""
+    """Returns the line with this distance from the nearest point."""
     left, _ = points[0]
     right, _ = points[-1]
     if len(points) == 1:
@@ -124,9 +115,7 @@ def _beside(points: _Points, slope: int, gap: float, is_below: bool) -> scene.Ru
 
 
 def _clearance(line: scene.Rule, figure: _Figure) -> float:
-    """The least vertical distance of the line and its label from the curves, in heights of the
-    figure.
-    """
+    """Returns the least vertical distance of a line and its label from the curves, in heights."""
     (left, start), (right, end) = line.start, line.end
     points: list[scene.Point] = []
     for k in range(_SAMPLES + 1):
@@ -155,11 +144,9 @@ _LONGEST_STEP = 6  # characters
 
 
 def errors_scene(named: Sequence[tuple[str, Convergence]], against: str = "h") -> scene.Scene:
-    """Errors of methods; of one over step sizes also the energy error.
+    """Returns the scene of errors; for one method against step sizes with its energy error.
 
-    Args:
-        named: names and results of methods, at least one.
-        against: h, evaluations or seconds; the latter two need rows with costs.
+    ``against`` is h, evaluations or seconds; the latter two need rows with costs.
     """
     (name, first), *others = named
     about = _about(first)
@@ -170,7 +157,7 @@ def errors_scene(named: Sequence[tuple[str, Convergence]], against: str = "h") -
 
 
 def errors_panel(result: Convergence) -> scene.Panel:
-    """Error and energy error against h, log–log, with a line whose slope is the visible order."""
+    """Returns the error and the energy error against h, with a line for the observed order."""
     order = result.visible_order
     energies = [(row.h, row.energy_error) for row in result.rows if row.energy_error is not None]
     errors = scene.Curve(0, _decades(curve(result, "h")), "error", has_dots=True)
@@ -189,7 +176,7 @@ def errors_panel(result: Convergence) -> scene.Panel:
 
 
 def comparison_panel(named: Sequence[tuple[str, Convergence]], against: str = "h") -> scene.Panel:
-    """Errors of several methods, log–log, with a line for each visible order."""
+    """Returns the errors of several methods, with a line for each observed order."""
     curves: list[scene.Curve] = []
     of_order: dict[int, list[scene.Curve]] = {}
     for style, (name, result) in enumerate(named):
@@ -224,14 +211,14 @@ def _panel(
 
 
 def _decades(points: Iterable[tuple[Any, Any]]) -> list[scene.Point]:
-    """The decimal logarithms of points, of the digits that are certain; without those where there
-    are none.
+    """Returns the decimal logarithms of points, to their certain digits; without a certain digit
+    the point is left out.
     """
     return [(log10(x), log10(for_programs(y, 9))) for x, y in points if y > 0]
 
 
 def step_marks(sizes: Sequence[fmpq]) -> list[scene.Mark]:
-    """The step sizes themselves, as many as there is space for."""
+    """Returns the step sizes as marks, as many as there is space for."""
     places = {h: log10(h) for h in sorted(set(sizes), reverse=True)}
     least = (max(places.values()) - min(places.values())) / _MOST_STEPS
     found: list[scene.Mark] = []
@@ -244,7 +231,7 @@ def step_marks(sizes: Sequence[fmpq]) -> list[scene.Mark]:
 
 
 def _about(result: Convergence) -> str:
-    """The problem and the time, with a capital."""
+    """Returns the problem and the final time as text."""
     problem = result.problem
     about = scene.capitalized(result.problem.name)
     if isinstance(problem, RightHandSide) and problem.stiffness is not None:

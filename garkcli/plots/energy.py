@@ -11,15 +11,13 @@ from garkcli.plots import scene
 
 _TITLE = "Energy error over a long time"
 _HEIGHT, _LOWER = 200, 110
-"""Of the panel of the energy, and of the others."""
+"""Heights of the panel of the energy and of the others."""
 
 
 def energy_scene(run: LongRun, name: str = "") -> scene.Scene:
-    """The energy error against time, and below it a panel for the error of each other invariant.
+    """Returns the energy error against time, with a further panel for each other invariant.
 
-    Args:
-        run: what is drawn.
-        name: of the method; none where it has no name.
+    ``name`` may be empty.
     """
     about = f"{scene.capitalized(run.problem.name)}, h = {run.step}, {run.steps} steps"
     title = f"{name}\n{about}" if name else about
@@ -27,7 +25,7 @@ def energy_scene(run: LongRun, name: str = "") -> scene.Scene:
 
 
 def history_panel(run: LongRun, history: InvariantHistory) -> scene.Panel:
-    """One quantity against time, with the line of its drift where it has one."""
+    """Returns one quantity against time, with the line of its drift if it has one."""
     pairs = zip(run.times, history.errors, strict=True)
     points = [(t, error) for t, error in pairs if isfinite(error)]
     exponent = scene.common_exponent([error for _, error in points] or [0.0])
@@ -67,7 +65,7 @@ def history_panel(run: LongRun, history: InvariantHistory) -> scene.Panel:
 
 
 def became_of(history: InvariantHistory) -> str:
-    """The largest error, with the digits that are certain, and the verdict."""
+    """Returns the verdict and the largest error, to its certain digits."""
     _, word = WORDS[history.verdict]
     if history.verdict in ("exact", "round-off") or not isfinite(history.max_error):
         return word

@@ -27,22 +27,22 @@ from garkcli.plots.scene import (
 )
 
 _MARKS = "os^DvXP*"
-"""By style; every second one is open."""
+"""The markers by style; every second one is open."""
 _INCH = WIDTH / 6.4
-"""Units of a picture in an inch."""
+"""Units of a picture per inch."""
 _BESIDE, _ABOVE, _LEGEND_ROW = 0.95, 0.35, 0.21
-"""Inches around the axes of a panel, above all of them, and of a line below."""
+"""Space around the axes of a panel, above all panels, and for a line below, in inches."""
 _TITLE_WIDTH = 60  # characters of a line of a title
 _LONGEST = 72  # characters of a name
 _MOST_ACROSS, _MOST_UP = 8, 8
-"""Marks on the axes."""
+"""The largest numbers of marks on the axes."""
 _BELOW_AXES, _BELOW_LABEL = 0.5, 4.2
-"""How far below the axes a legend is, in letters."""
+"""The distance of a legend from the axes, in letters."""
 _TEXT = "0.15"
 
 
 def figure(scene: Scene) -> Figure:
-    """A scene drawn, with the legend of each panel below it."""
+    """Returns a figure of a scene, with the legend of each panel below it."""
     panels = scene.panels
     heights = [_BESIDE + x.height / _INCH + _LEGEND_ROW * len(x.legend) for x in panels]
     title = [line for text in scene.title.splitlines() for line in wrap(text, _TITLE_WIDTH)]
@@ -64,7 +64,7 @@ def figure(scene: Scene) -> Figure:
 
 
 def draw(axes: Axes, panel: Panel, has_label: bool = True) -> None:
-    """A panel on axes of a figure, with numbers and a label below them or without."""
+    """Draws a panel on axes, with or without numbers and label below."""
     _set_axis(axes.xaxis, panel.x, _MOST_ACROSS)
     _set_axis(axes.yaxis, panel.y, _MOST_UP)
     axes.set_xlim(panel.x.low, panel.x.high)
@@ -95,8 +95,8 @@ def _set_axis(drawn: Any, axis: Axis, most: int) -> None:
 
 
 def _line(shape: Curve | Area) -> dict[str, Any]:
-    """How matplotlib draws the line of a shape; marks and dashes are combined anew once all have
-    been used.
+    """Returns the line style of a shape for matplotlib; after all combinations of marks and dashes
+    are used, they are combined anew.
     """
     style = shape.style or 0
     rounds, place = divmod(style, len(COLOURS))
@@ -119,7 +119,7 @@ def _line(shape: Curve | Area) -> dict[str, Any]:
 
 
 def _fill(axes: Axes, area: Area, loops: Loops) -> None:
-    """An area as one patch, so that there are no seams; outlines of holes turn the other way."""
+    """Fills an area as one patch, to avoid seams; outlines of holes turn the other way."""
     if not loops:
         return
     whole = Path.make_compound_path(*(Path([*loop, loop[0]], closed=True) for loop in loops))
@@ -132,7 +132,7 @@ def _fill(axes: Axes, area: Area, loops: Loops) -> None:
 
 
 def _rule(axes: Axes, rule: Rule) -> None:
-    """A thin line, its label on the far side from the curve that it is beside."""
+    """Draws a thin line, with its label on the far side of the curve."""
     xs, ys = zip(rule.start, rule.end, strict=True)
     axes.plot(xs, ys, color=_TEXT, linewidth=0.8)
     if not rule.label:
@@ -151,7 +151,7 @@ def _rule(axes: Axes, rule: Rule) -> None:
 
 
 def _add_legend(axes: Axes, named: Sequence[Curve | Area], distance: float) -> None:
-    """The names below the axes, where no curve can be."""
+    """Adds the legend below the axes."""
     if not named:
         return
     handles = [Line2D([], [], **_line(shape)) for shape in named]

@@ -1,4 +1,4 @@
-"""Outlines of areas, traced on a grid."""
+"""Outlines of regions, traced on a grid."""
 
 from __future__ import annotations
 
@@ -13,22 +13,22 @@ if TYPE_CHECKING:
     from garkcli.arrays import Floats
 
 _Edge: TypeAlias = tuple[int, int, bool]
-"""Row and column of the node where an edge of the grid begins, and whether it goes upward."""
+"""The row and column of the start of an edge of the grid, and whether the edge is vertical."""
 _FAR = 1.0
-"""The value of the nodes around the grid."""
+"""The value at the nodes around the grid."""
 _NODES = 300
-"""Nodes a side of a grid; even, so that none is on the imaginary axis of a symmetric one, where |R|
-may be 1.
+"""The number of nodes on a side of a grid; even, so that none is on the imaginary axis of a
+symmetric one, where |R| may be 1.
 """
 _FLAT = 3.0
-"""What levels are cut off at, such as logarithms near zeros and poles."""
+"""The bound at which levels are cut, such as logarithms near zeros and poles."""
 _THINNED = 0.06  # cells
 
 
 def compared(
     small: Callable[[Any], Any], large: Callable[[Any], Any], x: Axis, y: Axis
 ) -> list[list[Point]]:
-    """The outlines of where ``small(z)`` ≤ ``large(z)`` for functions of arrays of z."""
+    """Returns the outlines of the region ``small(z)`` ≤ ``large(z)``, for functions of arrays."""
     across = np.linspace(x.low, x.high, _NODES)
     up = np.linspace(y.low, y.high, _NODES)
     z = across + 1j * up[:, np.newaxis]
@@ -37,9 +37,10 @@ def compared(
 
 
 def outlined(x: Floats, y: Floats, level: Floats) -> list[list[Point]]:
-    """The outlines of where ``level`` ≤ 0 on the grid of x and y, with the area on their left.
+    """Returns the outlines of the region ``level`` ≤ 0 on the grid of x and y, with the region on
+    their left.
 
-    A point without a number is outside.
+    Points whose level is NaN are outside.
     """
     across, up = float(x[1] - x[0]), float(y[1] - y[0])
     left, bottom = float(x[0]), float(y[0])
@@ -48,11 +49,10 @@ def outlined(x: Floats, y: Floats, level: Floats) -> list[list[Point]]:
 
 
 def outlines(level: Floats, tolerance: float) -> list[list[Point]]:
-    """The closed outlines of where ``level`` ≤ 0, with points left out that lie on the line.
+    """Returns the closed outlines of the region ``level`` ≤ 0, simplified.
 
-    Args:
-        level: values at the nodes, shape (rows, columns), finite.
-        tolerance: how far from the line a point may be that is left out, in cells.
+    ``level`` has finite values at the nodes, rows first; points within ``tolerance`` of the line,
+    in cells, are dropped.
     """
     padded = np.pad(level, 1, constant_values=_FAR)
     pieces = dict(_pieces(padded))
@@ -69,10 +69,10 @@ def outlines(level: Floats, tolerance: float) -> list[list[Point]]:
 
 
 def _pieces(padded: Floats) -> Iterator[tuple[_Edge, _Edge]]:
-    """The pieces of outlines in all cells, from the edge where each begins to that where it ends.
+    """Yields the pieces of outlines in all cells, as start and end edges.
 
-    Around a cell a piece begins where the area ends, and ends where the area begins: where it
-    begins next if the middle is inside, otherwise where it began before.
+    Going around a cell, a piece starts where the region ends, and ends where the region starts: at
+    the next such place if the middle is inside, otherwise at the previous one.
     """
     corners = padded[:-1, :-1], padded[:-1, 1:], padded[1:, 1:], padded[1:, :-1]
     inside = np.stack(corners, axis=-1) <= 0
@@ -89,7 +89,7 @@ def _pieces(padded: Floats) -> Iterator[tuple[_Edge, _Edge]]:
 
 
 def _crossing(padded: Floats, edge: _Edge) -> complex:
-    """Where the outline crosses an edge, in the grid without its surroundings."""
+    """Returns the point where the outline crosses an edge, in the grid without its border."""
     i, j, is_upward = edge
     here = float(padded[i, j])
     part = here / (here - float(padded[(i + 1, j) if is_upward else (i, j + 1)]))
@@ -97,7 +97,7 @@ def _crossing(padded: Floats, edge: _Edge) -> complex:
 
 
 def _thinned(points: list[complex], tolerance: float) -> list[complex]:
-    """Ramer, Douglas, Peucker: the points without which a line would be too far off."""
+    """Simplifies a line by the algorithm of Ramer, Douglas and Peucker."""
     keeps = {0, len(points) - 1}
     spans = [(0, len(points) - 1)]
     while spans:
@@ -112,6 +112,6 @@ def _thinned(points: list[complex], tolerance: float) -> list[complex]:
 
 
 def _distance(z: complex, start: complex, end: complex) -> float:
-    """From the line through both ends; from the end where they are one."""
+    """Returns the distance from the line through both ends, or from the end if they are equal."""
     along = end - start
     return abs(((z - start) * along.conjugate()).imag) / abs(along) if along else abs(z - start)

@@ -1,6 +1,6 @@
 """Regions of stability in the complex plane.
 
-They illustrate what was decided exactly and decide nothing.
+They illustrate decisions that are made exactly elsewhere.
 """
 
 from __future__ import annotations
@@ -32,11 +32,11 @@ if TYPE_CHECKING:
 _POINTS = 600
 _HIGHEST = 2.0
 _WITHOUT_END = 8.0
-"""How far z goes where all of it is stable."""
+"""The end of the z-axis if all z are stable."""
 
 
 def trace_panel(named: Sequence[tuple[str, OscillatorStability]]) -> Panel:
-    """|tr M|/2 over z = hω, with the stable step sizes shaded where there is one method."""
+    """Returns |tr M|/2 over z = hω, with the stable step sizes shaded if there is one method."""
     spans = [_stable(oscillator) for _, oscillator in named]
     highest = [high for found in spans for _, high in found if high]
     end = 1.25 * max(highest, default=_WITHOUT_END)
@@ -65,7 +65,7 @@ def trace_panel(named: Sequence[tuple[str, OscillatorStability]]) -> Panel:
 
 
 def _stable(oscillator: OscillatorStability) -> list[tuple[float, float | None]]:
-    """The stable z, as intervals; None where there is no end."""
+    """Returns the intervals of stable z; None for an infinite end."""
     return [
         (0.0 if x.start is None else _root(x.start), None if x.end is None else _root(x.end))
         for x in oscillator.stable
@@ -73,7 +73,6 @@ def _stable(oscillator: OscillatorStability) -> list[tuple[float, float | None]]
 
 
 def _root(x: RealRoot) -> float:
-    """The z of x = z²."""
     z: float = float(x.ball(64)) ** 0.5
     return z
 
@@ -86,7 +85,7 @@ def _spans_text(spans: Sequence[tuple[float, float | None]]) -> str:
 
 
 def _parts(oscillator: OscillatorStability, end: float) -> list[list[Point]]:
-    """The curve where it is in the frame or just above, cut where it leaves."""
+    """Returns the pieces of the curve within the frame or just above."""
     ratio = oscillator.trace
     sides = _floats(ratio.numerator), _floats(ratio.denominator)
     points = []
@@ -108,7 +107,7 @@ def _parts(oscillator: OscillatorStability, end: float) -> list[list[Point]]:
 
 
 def springs_panel(plane: SpringsPlane) -> Panel:
-    """The plane of the two frequencies: where |tr M| > 2, the resonances, is filled."""
+    """Returns the plane of the two frequencies, with the resonances, |tr M| > 2, filled."""
     fast, slow, half = plane.fast, plane.slow, plane.half_trace
 
     def is_unstable(x: float, y: float) -> bool:
@@ -133,29 +132,29 @@ def springs_panel(plane: SpringsPlane) -> Panel:
 
 
 Named: TypeAlias = tuple[str, StabilityFunction]
-"""A stability function and what the legend calls it."""
+"""A stability function and its label in the legend."""
 _EDGE = 1 + 1e-9
-"""Keeps points on the very edge inside on every machine."""
+"""Keeps points on the boundary inside on every machine."""
 FILLED = "Filled: |R(z)| ≤ 1."
 PRINTED = "Of the digits as printed, not of all methods within the tolerance."
 _STAR = "Order star, filled: |R(z)| > |exp z|."
 _HEIGHT = 300
 _SQUARES = 120
-"""A side of a region whose squares are decided one by one, even: the lower half is the upper one
-upside down.
+"""The number of squares on a side of a region that are decided one by one; even, as the lower half
+mirrors the upper half.
 """
 _ABOVE_ONE = 1.001
-"""Where |R(z_E, 0)| is larger there is nothing to decide: z_I = 0 is not damped."""
+"""If |R(z_E, 0)| is larger, nothing has to be decided: z_I = 0 is not damped."""
 _MOST_ZOOMS = 6
 _BLINDLY = 20
 _COARSE = 80
-"""Cells a side of the grid on which regions are sought; a node of it is 0."""
+"""Cells on a side of the grid that is searched for regions; 0 is one of its nodes."""
 _MUCH = 2.5
-"""How many times as large a window may be as what is around 0."""
+"""The largest ratio between the size of a window and that of the region around 0."""
 _AROUND = 1.3
 _FAR = 1e6
-"""How many times as far as all nearer ones a zero or pole is that is in no picture: where a leading
-coefficient is the rounding of 0.
+"""A zero or pole is left out if it is so many times as far away as the nearer ones: it comes from a
+leading coefficient that is a rounded 0.
 """
 
 
@@ -164,12 +163,11 @@ def stability_scene(
     is_order_star: bool = False,
     plane: SpringsPlane | None = None,
 ) -> Scene:
-    """What there is to draw of one or several methods.
+    """Returns the scene for one or several methods, all with a linear part or all with an
+    oscillator.
 
-    Args:
-        methods: names and stability, all with a linear part, or all with an oscillator.
-        is_order_star: draw |R(z)| > |e^z| instead of |R(z)| ≤ 1.
-        plane: draw this plane of two frequencies instead.
+    ``is_order_star`` draws |R(z)| > |e^z| instead of |R(z)| ≤ 1; ``plane`` draws this plane of two
+    frequencies instead.
     """
     (name, found), *others = methods
     title = f"{len(methods)} methods" if others else name
@@ -197,7 +195,7 @@ def stability_scene(
 
 
 def of_directions(found: Sequence[Named]) -> list[Named]:
-    """The functions of a method, "all" first, by what the legend calls them."""
+    """Returns the stability functions of a method with labels for the legend, "all" first."""
     if len(found) == 1:
         return [("", R) for _, R in found]
     return [
@@ -206,7 +204,7 @@ def of_directions(found: Sequence[Named]) -> list[Named]:
 
 
 def region_panel(named: Sequence[Named], is_order_star: bool = False) -> Panel:
-    """The regions |R(z)| ≤ 1, or the order stars, of some stability functions."""
+    """Returns the regions |R(z)| ≤ 1, or the order stars, of stability functions."""
     functions = [R for _, R in named]
     labels = [name if len(named) > 1 else "" for name, _ in named]
     areas = [
@@ -230,8 +228,8 @@ def region_panel(named: Sequence[Named], is_order_star: bool = False) -> Panel:
 
 
 def pair_panel(pair: ImexPair, explicit: StabilityFunction) -> Panel:
-    """The z_E for which every z_I in the left half plane is damped, decided exactly point by point,
-    and the outline with z_I = 0.
+    """Returns the region of z_E for which every z_I in the left half plane is damped, decided
+    exactly point by point, and the outline for z_I = 0.
     """
     near = _area(1, explicit, 0.0, edge=_ABOVE_ONE)
 
@@ -266,7 +264,7 @@ def pair_panel(pair: ImexPair, explicit: StabilityFunction) -> Panel:
 def _in_plane(
     title: str, description: str, window: _Window, areas: Sequence[Area], note: str, z: str
 ) -> Panel:
-    """Areas with both axes of the complex plane."""
+    """Returns the panel of regions in the complex plane with both axes."""
     left, right, top = window.left, window.right, window.top
     axes = [Rule((left, 0.0), (right, 0.0)), Rule((0.0, -top), (0.0, top))]
     x, y = Axis(f"Re {z}", left, right), Axis(f"Im {z}", -top, top)
@@ -274,7 +272,7 @@ def _in_plane(
 
 
 def _squares(is_damped: Callable[[float, float], bool], x: Axis, y: Axis) -> Loops:
-    """The squares of a grid whose centres are damped, those beside each other as one."""
+    """Returns the squares of a grid whose centres are damped, with neighbours in a row joined."""
     columns = [x.low + (x.high - x.low) * k / _SQUARES for k in range(_SQUARES + 1)]
     rows = [2 * y.high * k / _SQUARES for k in range(_SQUARES // 2 + 1)]
     found = []
@@ -294,12 +292,11 @@ def _exact(x: float) -> fmpq:
 
 
 def _floats(p: Polynomial) -> list[float]:
-    """The coefficients, the leading one first, cut off where floats end."""
+    """Returns the coefficients, the leading one first, within the range of floats."""
     return [min(max(to_float(a), -float_info.max), float_info.max) for a in p.coefficients[::-1]]
 
 
 def _value(coefficients: Sequence[float], z: Any) -> Any:
-    """The value of a polynomial at a point, or at many."""
     value = 0 * z
     for a in coefficients:
         value = value * z + a
@@ -314,7 +311,7 @@ def _area(
     is_order_star: bool = False,
     edge: float = _EDGE,
 ) -> Area:
-    """Where |R(z)| ≤ 1, or where |R(z)| > |e^z|."""
+    """Returns the region |R(z)| ≤ 1, or |R(z)| > |e^z|."""
     P, Q = _floats(R.numerator), _floats(R.denominator)
 
     def over(z: Any) -> Any:
@@ -340,15 +337,15 @@ def _area(
 
 
 class _Window(Frozen):
-    """A part of the complex plane."""
-
     left: float
     right: float
     top: float
 
 
 def _window_of(functions: Sequence[StabilityFunction], is_symmetric: bool) -> _Window:
-    """A part of the plane with all that happens: zeros of P, poles, where |R| = 1 on the axis."""
+    """Returns the part of the plane with the zeros, the poles, and the points |R| = 1 on the
+    axis.
+    """
     reach = 2.0
     for size in _sizes(functions):
         if size > _FAR * reach:
@@ -361,7 +358,7 @@ def _window_of(functions: Sequence[StabilityFunction], is_symmetric: bool) -> _W
 
 
 def _sizes(functions: Sequence[StabilityFunction]) -> list[float]:
-    """How far from 0 the zeros and poles are, ascending."""
+    """Returns the distances of the zeros and poles from 0, ascending."""
     sizes = []
     for R in functions:
         for p in (R.numerator, R.denominator):
@@ -372,8 +369,8 @@ def _sizes(functions: Sequence[StabilityFunction]) -> list[float]:
 
 
 def _nearer(window: _Window, areas: Sequence[Area]) -> _Window:
-    """A part of the window where the regions around 0 fill too little of it, for zeros of R that
-    are far away.
+    """Returns a part of the window if the region around 0 fills too little of it, as for zeros of R
+    that are far away.
     """
     for _ in range(_MOST_ZOOMS):
         reach = max(_reach(window, area) for area in areas)
@@ -388,8 +385,8 @@ def _nearer(window: _Window, areas: Sequence[Area]) -> _Window:
 
 
 def _reach(window: _Window, area: Area) -> float:
-    """How far from 0 the widest connected part of a region goes, on a coarse grid of the upper
-    half.
+    """Returns the distance from 0 to which the widest connected part of a region extends, on a
+    coarse grid of the upper half.
     """
     wide, high = (window.right - window.left) / _COARSE, window.top / (_COARSE // 2)
     inside = {

@@ -1,4 +1,4 @@
-"""How figures become files: in the format of the suffix, the same bytes every time."""
+"""Figures as files, in the format of the suffix, reproducible byte by byte."""
 
 from __future__ import annotations
 
@@ -17,15 +17,12 @@ if TYPE_CHECKING:
     from garkcli.plots.scene import Scene
 
 SUFFIXES = (".png", ".svg", ".pdf")
-"""The kinds of file that figures can be saved as."""
+"""The suffixes of figures."""
 
 
 def check_suffix(path: Path) -> None:
-    """Refuse a file name that ``save`` has no format or no folder for, before the work is done.
-
-    Raises:
-        UsageProblem: the suffix is none of ``SUFFIXES``, there is no such folder, or no
-            matplotlib, which draws.
+    """Raises UsageProblem if a figure cannot be saved at ``path``: another suffix, no such folder,
+    or no matplotlib.
     """
     suffix = path.suffix
     if suffix.lower() not in SUFFIXES:
@@ -38,18 +35,13 @@ def check_suffix(path: Path) -> None:
 
 
 def need_matplotlib() -> None:
-    """Refuse to draw without what draws.
-
-    Raises:
-        UsageProblem: there is no matplotlib.
-    """
+    """Raises UsageProblem without matplotlib."""
     if find_spec("matplotlib") is None:
         cure = "install garkcli[plot]; text and JSON do without"
         raise UsageProblem("a figure needs matplotlib", cure, code="missing-package")
 
 
 def save_scene(scene: Scene, path: Path) -> None:
-    """Draw a scene into a file, as ``save`` writes it."""
     check_suffix(path)
     from garkcli.plots.figure import figure
 
@@ -57,10 +49,9 @@ def save_scene(scene: Scene, path: Path) -> None:
 
 
 def save(figure: Figure, path: Path) -> None:
-    """Write ``figure`` in the format of the suffix of ``path``: whole or not at all.
+    """Writes a figure in the format of the suffix, whole or not at all.
 
-    Raises:
-        UsageProblem: the suffix is none of ``SUFFIXES``, or the file cannot be written.
+    Raises UsageProblem for another suffix, or if the file cannot be written.
     """
     from matplotlib import rc_context
 

@@ -1,7 +1,8 @@
-"""What a picture shows, in the coordinates of its axes; ``terminal``, ``svg`` and ``figure`` draw.
+"""The content of pictures in the coordinates of their axes; ``terminal``, ``svg`` and ``figure``
+draw it.
 
-Curves and areas have a style, a number: of a colour, of dashes and of marks, so that they can be
-distinguished in grey too.
+The style of a curve or region is a number that selects a colour, dashes and marks, so that they can
+be distinguished in grey too.
 """
 
 from __future__ import annotations
@@ -15,24 +16,22 @@ from garkcli.errors import printable
 from garkcli.frozen import Frozen
 
 _STEPS = (1, 2, 5, 10)
-"""What marks are apart, times powers of ten."""
+"""Distances between marks, times powers of ten."""
 _DIGITS = (1, 2, 5)
-"""Of numbers between powers of ten."""
+"""Digits of marks between powers of ten."""
 _FEW_DECADES = 0.5
 _FLOATS = 290
-"""Decades."""
+"""In decades."""
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 class Mark(Frozen):
-    """A mark on an axis, and its label."""
-
     at: float
     label: str
 
 
 def linear_marks(low: float, high: float, most: int) -> list[Mark]:
-    """Round numbers between the ends, about ``most`` of them at most.
+    """Returns round numbers between the ends, about ``most`` of them.
 
     >>> [mark.label for mark in linear_marks(-4.2, 4.2, 5)]
     ['−4', '−2', '0', '2', '4']
@@ -56,8 +55,8 @@ def _round_step(least: float) -> float:
 
 
 def logarithmic_marks(low: float, high: float, most: int) -> list[Mark]:
-    """Powers of ten between decimal logarithms, evenly apart, with round numbers between them where
-    there is space.
+    """Returns powers of ten between decimal logarithms, at equal distances, with round numbers
+    between them if there is space.
 
     >>> [mark.label for mark in logarithmic_marks(-6.5, -1.5, 3)]
     ['10⁻⁶', '10⁻⁴', '10⁻²']
@@ -81,20 +80,20 @@ def logarithmic_marks(low: float, high: float, most: int) -> list[Mark]:
 
 
 def _rounded(digit: int, exponent: int) -> str:
-    """The number of one digit, with a power of ten where it is large or small."""
+    """Returns the text of a number with one digit, with a power of ten if it is large or small."""
     if -3 <= exponent <= 3:
         return f"{digit * 10.0**exponent:g}"
     return power_of_ten(exponent) if digit == 1 else f"{digit}·{power_of_ten(exponent)}"
 
 
 def power_of_ten(exponent: int) -> str:
-    """10 to a power, with raised digits."""
+    """Returns a power of ten with superscript digits."""
     raised = str(exponent).translate(_SUPERSCRIPTS)
     return f"10{raised}"
 
 
 def in_words(measured: str) -> str:
-    """A measured number as people write it, on one line; words stay as they are.
+    """Returns a measured number with a power of ten; words stay as they are.
 
     >>> in_words("5.9e-06"), in_words("-2e+01"), in_words("below round-off")
     ('5.9·10⁻⁶', '−2·10¹', 'below round-off')
@@ -106,7 +105,7 @@ def in_words(measured: str) -> str:
 
 
 def common_exponent(numbers: Sequence[float]) -> int:
-    """The decimal exponent of the largest of some numbers; 0 where all are of usual size.
+    """Returns the decimal exponent of the largest number; 0 for numbers of common size.
 
     >>> common_exponent([2e-7, -3.1e-6]), common_exponent([0.5, 20]), common_exponent([0])
     (-6, 0, 0)
@@ -120,7 +119,7 @@ def common_exponent(numbers: Sequence[float]) -> int:
 
 Point: TypeAlias = tuple[float, float]
 COLOURS = ("#24558f", "#a02417", "#35702f", "#76439a", "#8a6d1a", "#30777a", "#1d1f24", "#8c8c8c")
-"""By style, on white; all but the last at least 4.5 to 1."""
+"""By style, on white; contrast at least 4.5 to 1 except for the last."""
 DASHES: tuple[tuple[float, ...], ...] = (
     (),
     (7, 3),
@@ -131,19 +130,16 @@ DASHES: tuple[tuple[float, ...], ...] = (
     (1.5, 4),
     (4, 1.5),
 )
-"""By style: lengths of dashes and of gaps, in units of a picture."""
+"""By style: lengths of dashes and gaps, in units of a picture."""
 WIDTH = 360
-"""Of a picture, in units of which a letter is 12 high: about those of a phone."""
+"""The width of a picture, in units of which a letter is 12 high: about that of a phone."""
 
 
 class Axis(Frozen):
-    """An axis from ``low`` to ``high``.
+    """An axis from ``low`` to ``high``, which differ.
 
-    Attributes:
-        label: what it shows.
-        low, high: its ends, not equal.
-        is_logarithmic: whether coordinates are decimal logarithms of the numbers.
-        given: the marks on it; none for round numbers.
+    With ``is_logarithmic`` the coordinates are decimal logarithms of the numbers. ``given`` are its
+    marks; by default they are round numbers.
     """
 
     label: str
@@ -159,14 +155,16 @@ class Axis(Frozen):
         is_logarithmic: bool = False,
         given: Sequence[Mark] = (),
     ) -> Axis:
-        """An axis with a twentieth of its length beside the coordinates on both sides."""
+        """Returns an axis that extends the range of the coordinates by a twentieth on both
+        sides.
+        """
         found = [*coordinates] or [0.0]
         low, high = min(found), max(found)
         beside = 0.05 * (high - low) or 0.5
         return Axis(label, low - beside, high + beside, is_logarithmic, given)
 
     def marks(self, most: int) -> Sequence[Mark]:
-        """Marks with labels, about ``most`` of them at most."""
+        """Returns labelled marks, about ``most`` of them."""
         if self.given:
             return self.given
         make = logarithmic_marks if self.is_logarithmic else linear_marks
@@ -174,17 +172,10 @@ class Axis(Frozen):
 
 
 class Curve(Frozen):
-    """Points, and lines between them.
+    """A curve through points.
 
-    Attributes:
-        style: a number from 0.
-        points: from the first to the last.
-        label: in the legend; empty for none.
-        has_dots: whether the points are marked.
-        has_line: whether there are lines between them.
-        width: of the lines.
-        is_dense: whether they may fill a band, which is pale on white paper, so that other lines
-            can be seen on it.
+    ``style`` is a number from 0. A curve that ``is_dense`` may fill a band, which is pale on white
+    paper, so that other lines are visible on it.
     """
 
     style: int
@@ -197,19 +188,16 @@ class Curve(Frozen):
 
 
 Loops: TypeAlias = Sequence[Sequence[Point]]
-"""The corners of closed outlines, with an area on their left: those of holes turn the other way."""
+"""The corners of closed outlines with the region on their left; those of holes turn the other
+way.
+"""
 
 
 class Area(Frozen):
-    """A part of the picture. Every output samples it as finely as it draws.
+    """A region of the picture, sampled as finely as each output needs.
 
-    Attributes:
-        style: that of a curve; None for the colour of text.
-        holds: whether a point belongs to it.
-        outlines: its outlines between two axes.
-        opacity: of what is filled, from 0 to 1.
-        has_outline: whether the outlines are drawn.
-        label: in the legend; empty for none.
+    ``style`` is that of a curve, None for the colour of text. ``holds`` says whether a point
+    belongs to it, ``outlines`` returns its outlines within two axes.
     """
 
     style: int | None
@@ -221,7 +209,7 @@ class Area(Frozen):
 
 
 def polygons(style: int | None, loops: Loops, opacity: float, has_outline: bool = True) -> Area:
-    """The area inside of outlines."""
+    """Returns the region inside outlines."""
 
     def holds(x: float, y: float) -> bool:
         sides = (side for loop in loops for side in pairwise([*loop, *loop[:1]]))
@@ -231,7 +219,6 @@ def polygons(style: int | None, loops: Loops, opacity: float, has_outline: bool 
 
 
 def _crosses(x: float, y: float, start: Point, end: Point) -> bool:
-    """Whether a side lies to the right of a point."""
     (a, b), (c, d) = start, end
     return (b > y) != (d > y) and a + (c - a) * (y - b) / (d - b) > x
 
@@ -239,10 +226,7 @@ def _crosses(x: float, y: float, start: Point, end: Point) -> bool:
 class Rule(Frozen):
     """A thin straight line in the colour of text.
 
-    Attributes:
-        start, end: its ends.
-        label: beside its middle; empty for none.
-        is_right, is_below: on which side of the middle the label is.
+    ``is_right`` and ``is_below`` give the side of its middle on which the label is.
     """
 
     start: Point
@@ -256,17 +240,10 @@ Shape: TypeAlias = Curve | Area | Rule
 
 
 class Panel(Frozen):
-    """Axes and what is drawn between them.
+    """Axes and the shapes between them, the last ones on top.
 
-    Attributes:
-        title: its heading, a few words.
-        description: what one sees, for those who do not see it.
-        x, y: the horizontal and the vertical axis.
-        shapes: what is drawn, the last ones on top.
-        note: what is drawn, in a sentence beside it; empty for none.
-        height: of the space between the axes.
-        is_plane: whether the scales of both axes are alike; the height is then the largest.
-        has_grid: whether there are lines at the marks where there is space for them.
+    ``description`` is for screen readers, ``note`` a sentence beside the picture. In a plane the
+    scales of both axes are equal, and ``height`` is the largest height.
     """
 
     title: str
@@ -281,19 +258,14 @@ class Panel(Frozen):
 
     @property
     def legend(self) -> list[Curve | Area]:
-        """What is named."""
+        """The labelled shapes."""
         named = [shape for shape in self.shapes if not isinstance(shape, Rule)]
         return [shape for shape in named if shape.label]
 
 
 class Scene(Frozen):
-    """A picture in a file: panels with a common title.
-
-    Attributes:
-        title: above all.
-        panels: at least one.
-        is_row: whether they are side by side; otherwise they are one below the other, and share
-            their horizontal axis.
+    """A picture: panels with a common title, side by side or one below the other, with a common
+    horizontal axis.
     """
 
     title: str
@@ -302,12 +274,11 @@ class Scene(Frozen):
 
 
 def capitalized(name: str) -> str:
-    """A name at the beginning of a sentence."""
     return name[:1].upper() + name[1:]
 
 
 def shortened(name: str, longest: int) -> str:
-    """A name from outside on one line of so many characters."""
+    """Returns a name from outside on one line, shortened to ``longest`` characters."""
     shown = printable(name)
     if len(shown) <= longest:
         return shown

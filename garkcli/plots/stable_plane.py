@@ -1,4 +1,4 @@
-"""For which values of two parameters a family is A-stable, as a picture."""
+"""The set of two parameters for which a family is stable, as a picture."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from garkcli.exact.roots import RealRoot
 from garkcli.plots.scene import Axis, Curve, Panel, Point, Scene, Shape, polygons
 
 _COLUMNS = 120
-"""Values of the first parameter at which a strip is drawn."""
+"""The number of values of the first parameter at which a strip is drawn."""
 
 
 def stable_plane_scene(values: StablePlane, title: str) -> Scene:
-    """The set around the ends of its strips."""
+    """Returns the set near the ends of its strips."""
     x_name, y_name = values.family.ring.names
     ends = [x for strip in values.strips for x in (strip.base.start, strip.base.end)]
     x = Axis.around(x_name, _widened([float(end) for end in ends if end is not None]))
@@ -50,7 +50,7 @@ def _widened(numbers: Sequence[float]) -> list[float]:
 
 
 def _shape(strip: Strip, part: Part, x: Axis, y: Axis) -> Shape:
-    """A part over a strip: an area, or a line where it has no breadth."""
+    """Returns a part over a strip: a region, or a line over a single value."""
     base = strip.base
     if base.is_point:
         assert base.start is not None
@@ -74,7 +74,7 @@ def _shape(strip: Strip, part: Part, x: Axis, y: Axis) -> Shape:
 
 
 def _within(end: End, y: Axis, which: int) -> float:
-    """A number inside of the picture; its lower or upper end for what is none."""
+    """Returns an end within the picture; the lower or upper edge if it is infinite."""
     if not isinstance(end, RealRoot):
         return (y.low, y.high)[which]
     return min(max(float(end), y.low), y.high)

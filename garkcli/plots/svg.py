@@ -1,8 +1,8 @@
-"""Panels as elements of SVG, in the colours of the page they are in.
+"""Panels as elements of SVG, in the colours of the surrounding page.
 
-Text, axes and marks have the colour of the text around them. Curves have the colours --picture-1 to
---picture-4 of the page, which STYLE sets for light and dark backgrounds; they differ in dashes too,
-so that they can be distinguished in grey. There are no ids: any number of pictures fit on a page.
+Text, axes and marks have the colour of the surrounding text. Curves have the colours --picture-1 to
+--picture-4 of the page, which STYLE sets for light and dark backgrounds, and different dashes, so
+that they can be distinguished in grey. There are no ids: a page can have any number of pictures.
 """
 
 from __future__ import annotations
@@ -14,18 +14,18 @@ from typing import TypeAlias
 from garkcli.plots import scene
 
 Value: TypeAlias = str | float | None
-"""Of an attribute; numbers are lengths, None is for those that are left out."""
+"""The value of an attribute; numbers are lengths, None leaves it out."""
 _LEFT, _RIGHT, _TOP, _BOTTOM = 58, 12, 10, 40
-"""Around the frame: numbers and a label on the left and below."""
+"""Space around the frame: numbers and a label on the left and below."""
 _INSIDE = scene.WIDTH - _LEFT - _RIGHT
 ON_ANY = ("#2f7dc8", "#d24a3a", "#3f8f36", "#9b6ac0")
-"""Of a page without STYLE, a notebook for instance, light or dark: 3 to 1 and more on both."""
+"""For pages without STYLE, such as notebooks, light or dark: contrast at least 3 to 1 on both."""
 _DARK_COLOURS = ("#8ab8f5", "#ff9d8c", "#8fd08a", "#d3a6f2")
 _LEGEND_ROW = 18
 _LONGEST = 46  # characters of a name
 _RADIUS = 3
 _MOST_ACROSS, _MOST_UP = 6, 7
-"""Marks on the axes."""
+"""The largest numbers of marks on the axes."""
 
 
 def _variables(colours: Sequence[str]) -> str:
@@ -43,11 +43,11 @@ def _style() -> str:
 
 
 STYLE = _style()
-"""What a page with pictures has among its styles."""
+"""The style sheet for pages with pictures."""
 
 
 def colour(style: int | None) -> str:
-    """The colour of a style, that of the page or else one for any page."""
+    """Returns the colour of a style: that of the page, or one that suits any page."""
     if style is None:
         return "currentColor"
     place = style % len(ON_ANY)
@@ -55,7 +55,7 @@ def colour(style: int | None) -> str:
 
 
 def svg(panel: scene.Panel) -> str:
-    """A panel as an element, with its title and description for those who do not see it."""
+    """Returns a panel as an element, with title and description for screen readers."""
     frame = _Frame(panel)
     foot = frame.bottom + _BOTTOM
     height = _number(foot + _LEGEND_ROW * len(panel.legend))
@@ -81,8 +81,6 @@ def svg(panel: scene.Panel) -> str:
 
 
 class _Frame:
-    """The axes in units of the picture."""
-
     def __init__(self, panel: scene.Panel) -> None:
         x, y = panel.x, panel.y
         self._x, self._y = x, y
@@ -96,19 +94,18 @@ class _Frame:
         self.bottom = self.top + height
 
     def across(self, x: float) -> float:
-        """How far right a coordinate is."""
+        """Returns the horizontal position of a coordinate."""
         return self.left + self.width * (x - self._x.low) / (self._x.high - self._x.low)
 
     def down(self, y: float) -> float:
-        """How far down a coordinate is."""
+        """Returns the vertical position of a coordinate."""
         return self.bottom - self.height * (y - self._y.low) / (self._y.high - self._y.low)
 
     def path(self, points: Iterable[scene.Point]) -> str:
-        """A line through points as the data of a path."""
         return _path((self.across(x), self.down(y)) for x, y in points)
 
     def axes(self, panel: scene.Panel) -> Iterator[str]:
-        """The frame, the marks and the labels of both axes."""
+        """Yields the frame, the marks and the labels of both axes."""
         left, bottom = self.left, self.bottom
         middle = left + self.width / 2, self.top + self.height / 2
         box = {"x": left, "y": self.top, "width": self.width, "height": self.height}
@@ -129,7 +126,7 @@ class _Frame:
         )
 
     def cut_off(self, shapes: Sequence[scene.Shape]) -> Iterator[str]:
-        """A nested picture cuts off what is outside of it, and needs no id for that."""
+        """Yields the shapes in a nested picture, which clips them and needs no id for it."""
         box = {"x": self.left, "y": self.top, "width": self.width, "height": self.height}
         yield _opened("svg", **box, viewBox=" ".join(map(_number, box.values())))
         for shape in shapes:
@@ -190,7 +187,6 @@ def _legend_rows(named: Sequence[scene.Curve | scene.Area], y: float) -> Iterato
 
 
 def _stroke(shape: scene.Curve | scene.Area) -> dict[str, Value]:
-    """The attributes of its line."""
     dashes = () if shape.style is None else scene.DASHES[shape.style % len(ON_ANY)]
     return {
         "style": f"stroke:{colour(shape.style)}",
@@ -200,7 +196,7 @@ def _stroke(shape: scene.Curve | scene.Area) -> dict[str, Value]:
 
 
 def element(name: str, words: str | None = None, /, **attributes: Value) -> str:
-    """An element with attributes, and with a text in it or empty.
+    """Returns an element with attributes, empty or with a text.
 
     >>> element("text", "a < b", x=1.26, text_anchor="end", style=None)
     '<text x="1.3" text-anchor="end">a &lt; b</text>'
@@ -212,7 +208,6 @@ def element(name: str, words: str | None = None, /, **attributes: Value) -> str:
 
 
 def _opened(name: str, **attributes: Value) -> str:
-    """The beginning of an element."""
     parts = [name]
     for key, value in attributes.items():
         if value is not None:
@@ -222,11 +217,10 @@ def _opened(name: str, **attributes: Value) -> str:
 
 
 def _path(points: Iterable[scene.Point]) -> str:
-    """A polygon or polyline as the data of a path."""
     return "M" + "L".join(f"{_number(x)} {_number(y)}" for x, y in points)
 
 
 def _number(x: float) -> str:
-    """A length to a tenth of a unit."""
+    """Returns a length to a tenth of a unit."""
     short = f"{x:.1f}".removesuffix(".0")
     return "0" if short == "-0" else short

@@ -1,4 +1,4 @@
-"""Sweeps: one criterion against another, with the Pareto front of both."""
+"""Sweeps: two criteria against each other, with their Pareto front."""
 
 from __future__ import annotations
 
@@ -13,12 +13,11 @@ from garkcli.sweep.row import Row
 
 
 def drawn(report: SweepReport) -> list[Row]:
-    """The kept methods that have finite values in the first two columns of the front."""
+    """Returns the kept methods with finite values in the first two columns of the front."""
     return [x for x in kept(report.done) if all(_is_finite(x, y) for y in report.plan.pareto[:2])]
 
 
 def sweep_scene(report: SweepReport) -> Scene:
-    """These methods in the plane of both columns."""
     x, y = report.plan.pareto[:2]
     rows = drawn(report)
     if not rows:

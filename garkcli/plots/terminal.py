@@ -1,4 +1,4 @@
-"""Panels in the signs of a terminal: a sign a point, a letter where the legend has one."""
+"""Panels in characters: one for each point, the letter of the legend if it has one."""
 
 from __future__ import annotations
 
@@ -11,30 +11,28 @@ from garkcli.page.paint import folded
 from garkcli.plots.scene import Area, Curve, Mark, Panel, Rule, shortened
 
 COLUMNS = 58
-"""Of a picture; indented by two it fits narrow terminals."""
+"""The width of a picture; indented by two it fits narrow terminals."""
 _NARROWEST = 8  # columns between the axes
 _LINE = 16
-"""Units of a picture in a line."""
+"""Units of a picture per line."""
 _DOTS = "•○×+"
 _FILLED = "█▒░:"
-"""By style; the first areas are on top."""
+"""By style; the first regions are on top."""
 _PALE = ":"
-"""An area in the colour of text."""
+"""A region in the colour of text."""
 _STEEP, _STRAIGHT = "│", "·"
-"""A line over several signs of a column, and a line between two points."""
+"""A line across several rows of a column, and a line between two points."""
 SEVERAL = "*"
-"""Points of several letters."""
+"""Points with several letters."""
 _Cells: TypeAlias = dict[tuple[int, int], str]
-"""Signs by line and column, from the upper left."""
+"""Characters by row and column, from the upper left."""
 
 
 def drawn(panel: Panel, spelt: Callable[[str], str] = str, columns: int = COLUMNS) -> list[str]:
-    r"""A panel in lines.
+    r"""Returns the lines of a panel.
 
-    Args:
-        panel: what is drawn.
-        spelt: a text in the signs that the terminal has.
-        columns: of the longest line, if there is space for the axes.
+    ``spelt`` replaces characters that the terminal lacks; ``columns`` is the length of the longest
+    line, if there is space for the axes.
 
     >>> from garkcli.plots.scene import Axis
     >>> squares = [(x, x * x) for x in range(-3, 4)]
@@ -57,8 +55,6 @@ def drawn(panel: Panel, spelt: Callable[[str], str] = str, columns: int = COLUMN
 
 
 class _Picture:
-    """The cells of a panel between its axes."""
-
     def __init__(self, panel: Panel, spelt: Callable[[str], str], columns: int) -> None:
         self.panel = panel
         self.spelt: Callable[[str], str] = lambda text: spelt(printable(text))
@@ -72,17 +68,18 @@ class _Picture:
     # places
 
     def row(self, y: float) -> int:
-        """The line of a coordinate, from the top."""
+        """Returns the row of a coordinate, from the top."""
         axis = self.panel.y
         return round((axis.high - y) / (axis.high - axis.low) * (self.height - 1))
 
     def column(self, x: float) -> int:
-        """The column of a coordinate."""
         axis = self.panel.x
         return round((x - axis.low) / (axis.high - axis.low) * (self.width - 1))
 
     def inside(self) -> Iterator[tuple[int, int, float, float]]:
-        """All cells with their coordinates, those of the lower half the upper ones' mirrored."""
+        """Yields all cells with their coordinates; those of the lower half mirror the upper
+        half.
+        """
         x, y = self.panel.x, self.panel.y
         last = self.height - 1
         for i in range(self.height):
@@ -93,7 +90,7 @@ class _Picture:
     # shapes
 
     def cells(self) -> _Cells:
-        """What is drawn: areas, the first on top, then rules, lines and points."""
+        """Returns the shapes: regions, the first on top, then rules, lines and points."""
         found: _Cells = {}
         shapes = self.panel.shapes
         areas = [x for x in shapes if isinstance(x, Area)]
@@ -124,7 +121,7 @@ class _Picture:
         return found
 
     def rule(self, rule: Rule, found: _Cells) -> None:
-        """A thin line: one that is upright is above areas, others are where nothing else is."""
+        """Draws a thin line: above regions if it is vertical, otherwise in empty cells only."""
         curve = Curve(0, [rule.start, rule.end])
         (a, b), (c, d) = rule.start, rule.end
         sign = "│" if a == c else "─" if b == d else _STRAIGHT
@@ -132,7 +129,7 @@ class _Picture:
         found.update(cells if a == c else {x: sign for x in cells if x not in found})
 
     def label(self, rule: Rule, found: _Cells) -> None:
-        """The label of a rule, near its middle where there is space."""
+        """Writes the label of a rule near its middle if there is space."""
         text = self.spelt(rule.label)
         (a, b), (c, d) = rule.start, rule.end
         row, column = self.row((b + d) / 2), self.column((a + c) / 2)
@@ -146,7 +143,7 @@ class _Picture:
                 return
 
     def line(self, curve: Curve, sign: str) -> _Cells:
-        """The signs of a line: in a column all that it passes there."""
+        """Returns the characters of a line: in each column all rows that it passes."""
         last = self.height - 1
         x, y = self.panel.x, self.panel.y
         spans: dict[int, tuple[float, float]] = {}
@@ -180,7 +177,7 @@ class _Picture:
     # the frame
 
     def lines(self) -> list[str]:
-        """The note, the frame with its labels, the legend."""
+        """Returns the note, the frame with its labels, and the legend."""
         panel, cells, spelt = self.panel, self.cells(), self.spelt
         blank = " " * self.margin
         columns = {self.column(mark.at): mark for mark in panel.x.marks(max(self.width // 7, 2))}
@@ -196,7 +193,7 @@ class _Picture:
         return [*lines, *self.legend(cells)]
 
     def below(self, columns: Mapping[int, Mark]) -> str:
-        """The numbers below their marks, those that fit."""
+        """Returns the numbers below their marks as far as they fit."""
         line = ""
         for j, mark in sorted(columns.items()):
             text = self.spelt(mark.label)
@@ -207,7 +204,7 @@ class _Picture:
         return line
 
     def legend(self, cells: _Cells) -> list[str]:
-        """What signs mean, as many on a line as fit."""
+        """Returns the legend, as many entries on a line as fit."""
         named = [x for x in self.panel.legend if x.label != sign_of(x)]
         # a dot alone is a dot in ASCII, and between blanks a product
         signs = [self.spelt(sign_of(x)) for x in named]
@@ -225,12 +222,11 @@ class _Picture:
 
 
 def is_straight(curve: Curve) -> bool:
-    """Whether it is a line between two points."""
     return len(curve.points) == 2 and not curve.has_dots
 
 
 def sign_of(shape: Curve | Area) -> str:
-    """What draws it: the letter that it is called by, or the sign of its style."""
+    """Returns the character of a shape: its one-letter label, or that of its style."""
     if isinstance(shape, Area):
         return _PALE if shape.style is None else _FILLED[shape.style % len(_FILLED)]
     if len(shape.label) == 1:
