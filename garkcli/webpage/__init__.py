@@ -1,1 +1,1 @@
-"""The page of ``gark report``: one HTML document that needs nothing else."""
+"""The page of ``gark report``: one self-contained HTML document."""

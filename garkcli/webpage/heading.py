@@ -14,13 +14,11 @@ from garkcli.webpage.mathml import Typeset
 from garkcli.webpage.reported import Content, Reported
 
 MARKS = {0: "holds", 1: "fails", 2: "fault", 3: "fault"}
-"""The class of a verdict, by the exit code of ``gark check``; with a claim undecided, open."""
+"""The class of a verdict, by the exit code of ``gark check``."""
 
 
 def heading(method: Reported) -> Content:
-    """What is above the sections of a method: what is judged in which arithmetic, the verdict
-    in a sentence or two, and what its file says of it.
-    """
+    """Returns the text above the sections of a method: the arithmetic, the verdict and the file."""
     outcome = method.outcome
     verdict = f"The file cannot be read as a method: {counted(len(outcome.faults), 'fault')}."
     if outcome.is_read:
@@ -36,7 +34,7 @@ def heading(method: Reported) -> Content:
 
 
 def _about(outcome: Outcome) -> str:
-    """The kind of a method, and how many stages it has."""
+    """Returns the kind of a method and its number of stages."""
     if outcome.of_other_kind is None:
         return words(METHOD.fact(outcome), Plain())
     row = next(x for x in REPORT.form(outcome).rows if x.key == METHOD.key)
@@ -48,7 +46,7 @@ def _mark(outcome: Outcome) -> str:
 
 
 def _found(outcome: Outcome) -> str:
-    """The order and whether the method is symplectic, or A-stable, as ``gark check`` tells it."""
+    """Returns the order and the properties, as in ``gark check``."""
     d = Typeset(**REPORT.signs(outcome))
     facts = REPORT.form(outcome).named(outcome, ("order", "symplectic", "stability"))
     if outcome.every is not None:
@@ -60,7 +58,7 @@ def _found(outcome: Outcome) -> str:
 
 
 def claims_text(outcome: Outcome) -> str:
-    """What becomes of the claims, in a sentence."""
+    """Returns the result for the claims in a sentence."""
     if not outcome.claims:
         return "Its file claims nothing."
     claims = counted(len(outcome.claims), "claim")
@@ -85,11 +83,11 @@ COLUMNS = {
     "stage order": "stage_order",
     "stages": "",
 }
-"""Of the comparison, with the rows of ``gark check`` that they have; the first has the verdict."""
+"""The columns of the comparison, with the rows of ``gark check`` that they show."""
 
 
 def comparison_row(method: Reported) -> Content:
-    """A method among others: its numbers, as ``gark check`` has them."""
+    """Returns the row of a method in the comparison."""
     outcome = method.outcome
     cells: dict[str, str] = dict.fromkeys(COLUMNS, "–")
     d = REPORT.dialect(outcome, "text")

@@ -1,6 +1,6 @@
-"""Formulas of reports as MathML, as browsers and screen readers know it.
+"""Formulas of reports as MathML, for browsers and screen readers.
 
-What comes in is LaTeX that the program writes itself, never the text of a file.
+The input is LaTeX from the program, never the text of a file.
 """
 
 from __future__ import annotations
@@ -25,17 +25,17 @@ from garkcli.tell.latex import place_latex
 
 _OPENING = re.compile(r"<math[^>]*>")
 _NEEDLESS = re.compile(r"<mrow>(<(m[ino])[^>]*>[^<]*</\2>)</mrow>")
-"""A group of a single sign."""
+"""A group of a single element."""
 _ONES = re.compile(r"\\mathbbm\{1\}")
 _WEIGHTS = re.compile(r"\{b\^\{(\\\{[^{}]*\\\})\}\}\^T")
-"""The transposed weights of a colour: both above, at the same height."""
+"""The transposed weights of a colour: both superscripts at the same height."""
 _DOUBLE_ONE = "\U0001d7d9"
-"""The vector of ones as the paper has it, which MathML has as a letter."""
+"""The vector of ones as in the paper, which MathML has as a letter."""
 _MARKUP = frozenset("<>&")
-"""Signs that no formula of ours has."""
+"""Characters that do not occur in the formulas."""
 _MOST_KEPT = 1 << 12
 _LONGEST = 60
-"""Signs of an exact number; longer ones are shown in decimals beside which that is said."""
+"""Longest exact number; longer ones are shown as approximate decimals."""
 _DIGITS = 8
 
 
@@ -53,12 +53,12 @@ _IN_WORDS = {
     "|R(z2, z1)| ≤ 1": r"\lvert R(z_2,z_1)\rvert\le 1", "|R| ≤ 1": r"\lvert R\rvert\le 1",
     "Re ≤ 0": r"\operatorname{Re}\le 0", "z ≤ 0": r"z\le 0", "y = 0": "y=0", "z = 0": "z=0",
 }  # fmt: skip
-"""Formulas in sentences of ours, as LaTeX."""
+"""Formulas within sentences, as LaTeX."""
 _ANY_IN_WORDS = re.compile("|".join(map(re.escape, sorted(_IN_WORDS, key=len, reverse=True))))
 
 
 class Typeset(Html):
-    """The signs of the page: those of HTML, formulas as MathML."""
+    """The output format of the page: HTML with formulas as MathML."""
 
     def prose(self, text: str) -> str:
         parts = _ANY_IN_WORDS.split(text)
@@ -78,11 +78,9 @@ class Typeset(Html):
 
 @lru_cache(maxsize=_MOST_KEPT)
 def typeset(latex: str, text: str = "") -> Markup:
-    r"""A formula within a line.
+    r"""Returns an inline formula.
 
-    Args:
-        latex: what is seen.
-        text: what is read in its place where formulas are not, and copied.
+    ``text`` is read and copied in its place.
 
     >>> print(typeset(r"\frac{1}{2}", "1/2"))
     <math alttext="1/2"><mfrac><mn>1</mn><mn>2</mn></mfrac></math>
@@ -98,19 +96,19 @@ def typeset(latex: str, text: str = "") -> Markup:
 
 
 def typeset_condition(tree: Tree, has_colours: bool) -> Markup:
-    """The order condition of a tree in the paper's notation."""
+    """Returns the order condition of a tree in the notation of the paper."""
     return typeset(_WEIGHTS.sub(r"b^{\1 T}", condition_latex(tree, colours=has_colours)))
 
 
 def typeset_cell(cell: Cell, digits: int) -> Markup:
-    """An entry of a tableau: exact, or as a decimal of so many digits."""
+    """Returns an entry of a tableau, exact or as a decimal with ``digits`` digits."""
     if isinstance(cell, arb):
         return typeset(decimal_latex(cell_text(cell, digits)))
     return typeset(to_latex(cell), to_text(cell))
 
 
 def typeset_number(value: Number | Parametric) -> Markup:
-    """A weight or a residual: exact where it is short, else about how large it is."""
+    """Returns a weight or a residual, exact if short and approximate otherwise."""
     text = str(value) if isinstance(value, Parametric) else to_text(value)
     if isinstance(value, Parametric) or len(text) <= _LONGEST:
         return typeset(to_latex(value), text)

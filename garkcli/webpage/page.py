@@ -1,4 +1,4 @@
-"""The page: the sections of some methods put into one document."""
+"""The page: the sections of methods in one document."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from garkcli.webpage.sections.pictures import of_several
 from garkcli.webpage.tree_picture import dots
 
 MOST_ROWS = 2000
-"""Conditions of all methods of a page together: about 3 MB."""
+"""The largest number of conditions of all methods on a page: about 3 MB."""
 
 SECTIONS = {
     "faults": "What is wrong with the file",
@@ -38,13 +38,13 @@ SECTIONS = {
     "pictures": "Pictures",
     "conditions": "Order conditions",  # the longest, and across on paper: pages of its own
 }
-"""The sections in their order with their headings: a file each in ``sections``, whose ``content``
-the template of its name is given.
+"""The sections and their headings, in order. Each is a file in ``sections``; its ``content`` is
+passed to the template of the same name.
 """
 
 
 def report_page(*methods: AnyMethod, order: Whole | None = None, pictures: bool = True) -> str:
-    """All that is found of methods as one HTML page, which needs nothing else: ``gark report``.
+    """All results about methods as one self-contained HTML page: ``gark report``.
 
     Args:
         methods: names, paths, or methods; several are compared in a table. The faults of a file
@@ -53,7 +53,7 @@ def report_page(*methods: AnyMethod, order: Whole | None = None, pictures: bool 
         pictures: whether stability, errors and energy are drawn.
 
     Raises:
-        MethodError: there is no method, or something that is none.
+        MethodError: no method is given, or something else.
 
     >>> report_page("heun", pictures=False).splitlines()[0]
     '<!doctype html>'
@@ -65,11 +65,7 @@ def report_page(*methods: AnyMethod, order: Whole | None = None, pictures: bool 
 
 
 def render(methods: Sequence[Reported]) -> str:
-    """The page of some methods.
-
-    Args:
-        methods: at least one; several are compared in a table.
-    """
+    """Returns the page of one or several methods, the latter with a comparison."""
     has_several = len(methods) > 1
     room = min(MOST_CONDITIONS, MOST_ROWS // max(len(methods), 1))
     methods = [replace(x, most_conditions=room) for x in methods]
@@ -97,7 +93,7 @@ def render(methods: Sequence[Reported]) -> str:
 
 
 def _sections(method: Reported) -> Iterator[tuple[Content, Content]]:
-    """The sections that have something to say, with what their templates are given."""
+    """Yields the nonempty sections with the content for their templates."""
     for name, title in SECTIONS.items():
         with doing(f"{method.outcome.name}: {title}"):
             content = import_module(f"garkcli.webpage.sections.{name}").content(method)
@@ -106,7 +102,7 @@ def _sections(method: Reported) -> Iterator[tuple[Content, Content]]:
 
 
 def _policy(script: str) -> str:
-    """What a browser is allowed to do with the page: to run its one script, and to load nothing."""
+    """Returns the content security policy: the page may run its script and load nothing."""
     digest = b64encode(sha256(script.encode()).digest()).decode()
     return (
         "default-src 'none'; style-src 'unsafe-inline'; img-src data:; "
@@ -116,7 +112,7 @@ def _policy(script: str) -> str:
 
 @cache
 def _environment() -> Environment:
-    """Templates that write every text so that it is none of the page's markup."""
+    """Returns templates that escape all texts."""
     return Environment(
         loader=PackageLoader("garkcli.webpage"),
         autoescape=True,
@@ -129,7 +125,7 @@ def _environment() -> Environment:
 
 
 def _visible(value: object) -> object:
-    """A text whose every sign can be seen; what is markup already stays as it is."""
+    """Returns a text with all its characters visible; markup is unchanged."""
     return printable(value) if isinstance(value, str) and not isinstance(value, Markup) else value
 
 

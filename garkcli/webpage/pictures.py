@@ -1,4 +1,4 @@
-"""The pictures of a method, and of several together, in their order."""
+"""The pictures of a method, and of several together."""
 
 from __future__ import annotations
 
@@ -32,27 +32,23 @@ from garkcli.tableau.tableau import Tableau
 from garkcli.tell.dialect import Plain
 
 MOST = len(ON_ANY)
-"""Curves in one picture; more could not be distinguished."""
+"""The largest number of curves in a picture; more could not be distinguished."""
 STEPS = 5000
 _POINTS = 600
 MOST_STAGES = 40
-"""Of a method that is put to work for a picture."""
+"""The largest number of stages of a method that is run for a picture."""
 MOST_ROUNDED_STAGES = 20
-"""Of one with rounded coefficients, whose order takes longer."""
+"""The largest number of stages of a method with rounded coefficients, whose order takes longer."""
 MOST_STAGES_OF_PAIR = 14
-"""Of an implicit-explicit pair that is drawn."""
+"""The largest number of stages of an implicit-explicit pair that is drawn."""
 
 
 class Picture(Frozen):
     """A picture of a method, or of several.
 
-    Attributes:
-        name: what it is of, a word for addresses and classes.
-        title: its heading, a few words.
-        description: what one sees, for those who do not see it.
-        svg: the element, without ids and in the colours of the page; empty where there is no
-            picture.
-        note: a sentence below it; why there is none where it is missing.
+    ``name`` is a word for addresses and classes, ``description`` for screen readers. ``svg`` has no
+    ids and the colours of the page; it is empty without a picture, and ``note`` then has the
+    reason.
     """
 
     name: str
@@ -63,8 +59,8 @@ class Picture(Frozen):
 
 
 class NotDrawn(Exception):
-    """A picture that a method has not. The text says why, as a sentence; it is empty where nobody
-    would expect one.
+    """A picture that cannot be drawn. The text is a sentence with the reason, empty if the picture
+    would not be expected.
     """
 
 
@@ -73,8 +69,8 @@ def _is_gark(method: GarkMethod) -> bool:
 
 
 def _of_stability(method: GarkMethod) -> Tableau | None:
-    """What has the R(z) of a method, the Runge–Kutta method of one that is none; None where there
-    is none.
+    """Returns the tableau with the R(z) of a method: its own, or that of a Runge–Kutta method with
+    the same R(z). None if there is none.
     """
     if _is_gark(method):
         return method.tableau
@@ -82,11 +78,8 @@ def _of_stability(method: GarkMethod) -> Tableau | None:
 
 
 def pictures(method: GarkMethod) -> list[Picture]:
-    """All pictures of a method. One that is expected and is not there has no SVG, and a note that
-    says why.
-
-    Args:
-        method: with numbers as coefficients.
+    """Returns all pictures of a method. Expected ones that cannot be drawn have no SVG, but a note
+    with the reason.
     """
     drawn = []
     for name, (title, draw) in PICTURES.items():
@@ -103,8 +96,8 @@ def pictures(method: GarkMethod) -> list[Picture]:
 
 
 def compared_pictures(methods: Sequence[GarkMethod]) -> list[Picture]:
-    """The pictures of several methods together, the first of them where they are many; those that
-    cannot be drawn of two of them at least are left out.
+    """Returns the pictures of several methods together, of the first ones if there are too many.
+    Pictures of fewer than two methods are left out.
     """
     chosen = methods[:MOST]
     first = f" Of the first {MOST} methods." if len(methods) > MOST else ""
@@ -124,7 +117,9 @@ def _picture(name: str, panel: Panel, note: str) -> Picture:
 
 
 def _region(method: GarkMethod) -> tuple[Panel, str]:
-    """The regions |R(z)| ≤ 1: of all colours alike, and of each alone with the others at 0."""
+    """Returns the regions |R(z)| ≤ 1: of all colours alike, and of each alone with the others at
+    0.
+    """
     tableau = _of_stability(method)
     found = [] if tableau is None else directions(tableau)
     if tableau is None or not found:
@@ -143,7 +138,9 @@ def _region(method: GarkMethod) -> tuple[Panel, str]:
 
 
 def _pair(method: GarkMethod) -> tuple[Panel, str]:
-    """The z of the explicit colour for which every z of the implicit one is damped."""
+    """Returns the region of z of the explicit colour for which every z of the implicit one is
+    damped.
+    """
     alone = directions(method.tableau)[1:]
     is_small = sum(method.stages) <= MOST_STAGES_OF_PAIR
     if len(alone) != 2 or not is_small or method.tolerance is not None:
@@ -157,7 +154,6 @@ def _pair(method: GarkMethod) -> tuple[Panel, str]:
 
 
 def _oscillator(method: GarkMethod) -> tuple[Panel, str]:
-    """|tr M|/2 over z = hω."""
     tableau = method.tableau
     rounded = method.tolerance is not None
     found = None if rounded else usual_oscillator(tableau)
@@ -174,7 +170,7 @@ def _oscillator(method: GarkMethod) -> tuple[Panel, str]:
 
 
 def _convergence(method: GarkMethod) -> tuple[Panel, str]:
-    """The convergence test, on the problem that sees every tree of the method."""
+    """Returns the convergence test, on the problem for which every tree of the method matters."""
     _refuse_large(method, "gark converge", "be tested")
     result = converge(method)
     if sum(row.error > 0 for row in result.rows) < 2:
@@ -192,7 +188,7 @@ def _convergence(method: GarkMethod) -> tuple[Panel, str]:
 
 
 def _energy(method: GarkMethod) -> tuple[Panel, str]:
-    """The energy error over a long time, on an orbit of Kepler's problem."""
+    """Returns the energy error over a long time, on a Kepler orbit."""
     _refuse_large(method, "gark energy", "be put to work")
     problem = hamiltonian("kepler", terms_of(with_joined_terms(method.tableau)))
     step, _ = usual(problem)
@@ -210,7 +206,7 @@ def _energy(method: GarkMethod) -> tuple[Panel, str]:
 
 
 def _is_large(method: GarkMethod) -> bool:
-    """Whether steps would take longer than a picture is worth."""
+    """Returns whether steps would take too long for a picture."""
     most = MOST_STAGES if method.tolerance is None else MOST_ROUNDED_STAGES
     return sum(method.stages) > most
 
@@ -228,11 +224,10 @@ PICTURES: dict[str, tuple[str, Callable[[GarkMethod], tuple[Panel, str]]]] = {
     "convergence": ("Convergence", _convergence),
     "energy": ("Energy error over a long time", _energy),
 }
-"""Titles of missing pictures and what draws them, by name."""
+"""The titles of pictures by name, and the functions that draw them."""
 
 
 def _regions(methods: Sequence[GarkMethod]) -> tuple[Panel, str]:
-    """The regions of all colours alike."""
     named = []
     without = []
     for method in methods:
@@ -250,7 +245,7 @@ def _regions(methods: Sequence[GarkMethod]) -> tuple[Panel, str]:
 
 
 def _comparison(methods: Sequence[GarkMethod]) -> tuple[Panel, str]:
-    """The errors on the problem that sees the most trees of all of them."""
+    """Returns the errors on the problem for which the most trees of the methods matter."""
     small = [x for x in methods if _is_gark(x) and not _is_large(x)]
     if len(small) < 2:
         raise NotDrawn("")

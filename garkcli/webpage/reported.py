@@ -1,4 +1,4 @@
-"""A method as its sections are made: what is found of it, and what its file says of it."""
+"""A method with its results and the texts of its file, as the sections use them."""
 
 from __future__ import annotations
 
@@ -27,28 +27,21 @@ from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.tableau import Tableau
 
 Content: TypeAlias = Mapping[str, Any]
-"""What a template is given, by the names that it has there."""
+"""The variables of a template."""
 MOST_CONDITIONS = 500
-"""Of one method in one page; of many methods fewer each."""
+"""The largest number of conditions of one method on a page; with many methods it is less."""
 MOST_STAGES = 12
-"""Of methods with irrational or rounded coefficients: with 16 their intervals of stability take up
-to ten seconds.
+"""The largest number of stages of methods with irrational or rounded coefficients: with 16, the
+intervals of stability take up to ten seconds.
 """
 
 
 class Reported(Frozen):
-    """A method, or a file that is none.
+    """A method, or a file that cannot be read as one.
 
-    Attributes:
-        outcome: what became of it.
-        method: it; None of a file with free parameters, and of one that cannot be read.
-        reference: where it was published, in one line.
-        bibliography: the fields of the reference; None where it is plain text.
-        description: what its file says of it.
-        wanted_order: up to which order its conditions are listed; None for the first one that
-            fails.
-        has_pictures: whether there are pictures of it.
-        most_conditions: how many of its conditions are listed at most.
+    ``method`` is None for a file with free parameters and for one that cannot be read.
+    ``wanted_order`` is the last order whose conditions are listed, None for the first that fails;
+    at most ``most_conditions`` are listed.
     """
 
     outcome: Outcome
@@ -62,20 +55,22 @@ class Reported(Frozen):
 
     @property
     def tableau(self) -> Tableau | None:
-        """Its tableau, that of a family with entries in the parameters."""
+        """The tableau; that of a family has entries in its parameters."""
         found = self.outcome.found
         return None if found is None else found.tableau
 
     @property
     def free(self) -> str | None:
-        """The first of its free parameters; None where it has none."""
+        """The first free parameter, or None."""
         every = self.outcome.every
         return None if every is None else every.parameters[0]
 
     @property
     def stages(self) -> tuple[int, ...]:
-        """How many stages each colour has. Of a Rosenbrock method these are f, of a multirate one
-        with the exact fast part the slow parts; Nyström and partitioned methods have one colour.
+        """The number of stages of each colour.
+
+        For a Rosenbrock method those of f, for a multirate method with the exact fast part those of
+        the slow parts; Nyström and partitioned methods have one colour.
         """
         if self.tableau is None:
             return ()
@@ -95,7 +90,7 @@ class Reported(Frozen):
 
     @property
     def is_slow(self) -> bool:
-        """Whether its stability takes long: of many stages, with irrational or rounded numbers."""
+        """Whether its stability takes long: many stages with irrational or rounded numbers."""
         if self.tableau is None:
             return False
         stages = sum(self.stages)
@@ -104,7 +99,6 @@ class Reported(Frozen):
 
     @property
     def tolerance(self) -> fmpq | None:
-        """The rounding of its coefficients."""
         return None if self.method is None else self.method.tolerance
 
 
@@ -114,17 +108,11 @@ def reported(
     has_pictures: bool = True,
     settings: Mapping[str, str] = NO_SETTINGS,
 ) -> Reported:
-    """What is found of a method.
+    """Returns a method with its results.
 
-    Args:
-        given: a path, or a name of the catalogue, whose faults are part of the page; a method, or
-            arrays, as ``assert_order`` takes them.
-        order: up to which order conditions are listed; None for the first that fails.
-        has_pictures: whether there are pictures of it.
-        settings: values of the parameters of a file.
-
-    Raises:
-        MethodError: the argument is no method.
+    ``given`` is a path or a name of the catalogue, whose faults become part of the page; a method;
+    or arrays, as in ``assert_order``. Conditions are listed up to ``order``, by default the first
+    that fails. Raises MethodError if ``given`` is not a method.
     """
     if isinstance(given, (str, os.PathLike)):
         try:

@@ -1,4 +1,4 @@
-"""A tree as a picture within the page: dots that all trees share, with the numbers of colours."""
+"""A tree as a picture within the page, made of dots that all trees share."""
 
 from __future__ import annotations
 
@@ -13,16 +13,13 @@ STEP_X = 22
 STEP_Y = 24
 RADIUS = 8
 MARGIN = 2
-"""In pixels."""
+"""Sizes in pixels."""
 
 
 def tree_picture(tree: Tree, title: str, has_colours: bool) -> Markup:
-    """The root at the bottom, as Butcher draws trees.
+    """Returns a picture of a tree with the root at the bottom, as Butcher draws them.
 
-    Args:
-        tree: any.
-        title: what a screen reader says.
-        has_colours: whether dots carry the numbers of their colours.
+    ``title`` is for screen readers; ``has_colours`` puts the numbers of colours on the dots.
     """
     vertices = layout(tree)
     edge = RADIUS + MARGIN
@@ -50,16 +47,12 @@ def tree_picture(tree: Tree, title: str, has_colours: bool) -> Markup:
 
 
 def dot_name(colour: int, has_colours: bool) -> str:
-    """The name of the dot of a colour, from 0."""
+    """Returns the name of the dot of a colour, counted from 0."""
     return f"dot{colour + 1}" if has_colours else "dot"
 
 
 def dots(counts: Iterable[int]) -> Markup:
-    """The definitions of the dots that trees are drawn with.
-
-    Args:
-        counts: the numbers of colours of the methods.
-    """
+    """Returns the definitions of the dots for methods with these numbers of colours."""
     most = max(counts, default=1)
     found = [f'<circle id="dot" class="dot plain" r="{RADIUS - 2}"/>']
     for colour in range(most):

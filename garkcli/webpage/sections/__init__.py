@@ -1,1 +1,1 @@
-"""The sections of a page, one file each, with a template of the same name."""
+"""The sections of a page, one file each, with templates of the same names."""

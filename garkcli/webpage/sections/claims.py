@@ -1,4 +1,4 @@
-"""What the file claims, and whether it holds."""
+"""The claims of the file, and whether they hold."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ _FORMULA = re.compile(r"sqrt|/")
 
 
 def content(method: Reported) -> Content | None:
-    """What the template is given; None where the section has nothing to say."""
+    """Returns the variables of the template; None without results."""
     outcome = method.outcome
     return None if not outcome.is_read else {"claims": [_shown(outcome, x) for x in outcome.claims]}
 
 
 def _shown(outcome: Outcome, claim: Claim) -> Content:
-    """A claim; of one that fails, what speaks against it and what would mend it."""
+    """Returns a claim; a failing one with the reason and a repair."""
     told = (
         []
         if claim.holds
@@ -39,5 +39,5 @@ def _shown(outcome: Outcome, claim: Claim) -> Content:
 
 
 def _value(text: str, d: Typeset) -> str:
-    """A value as it is claimed; what has a root or a fraction is a formula."""
+    """Returns a claimed value; one with a root or a fraction is a formula."""
     return d.expression(text) if _FORMULA.search(text) else d.prose(text)

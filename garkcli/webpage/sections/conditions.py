@@ -1,4 +1,4 @@
-"""The order conditions of the method with their values, and what they are filtered by."""
+"""The order conditions of the method with their values, and the data for filters."""
 
 from __future__ import annotations
 
@@ -23,12 +23,8 @@ _STATES = ("holds", "within", "varies", "fails")
 
 
 class Listed(Frozen):
-    """The conditions that are shown.
-
-    Attributes:
-        rows: of whole orders.
-        upto: the last of these orders.
-        left_out: how many of the next order are left out; 0 where it is not wanted.
+    """The conditions that are listed, up to order ``upto``, and the number of those of the next
+    order that are left out.
     """
 
     rows: list[Condition]
@@ -37,7 +33,7 @@ class Listed(Frozen):
 
 
 def content(method: Reported) -> Content | None:
-    """What the template is given; None where the section has nothing to say."""
+    """Returns the variables of the template; None without a tableau."""
     tableau = method.tableau
     if tableau is None:
         return None
@@ -61,7 +57,7 @@ def content(method: Reported) -> Content | None:
 
 
 def _arguments(method: Reported) -> str:
-    """FILE of ``gark conditions`` for this method, perhaps with --pair; empty without a file."""
+    """Returns the arguments of ``gark conditions`` for the method; empty without a file."""
     shown = method.method
     derivation = derivation_of(shown)
     base = shown.base if shown is not None and derivation else shown
@@ -72,7 +68,9 @@ def _arguments(method: Reported) -> str:
 
 
 def _wanted(method: Reported) -> int:
-    """Up to which order: that which was requested, or the first of which a condition fails."""
+    """Returns the order up to which conditions are listed: as requested, or the first that
+    fails.
+    """
     if method.wanted_order is not None:
         return method.wanted_order
     found = method.outcome.found
@@ -81,7 +79,7 @@ def _wanted(method: Reported) -> int:
 
 
 def _listed(method: Reported, tableau: Tableau, wanted: int) -> Listed:
-    """Whole orders as long as there is room."""
+    """Returns the conditions of whole orders as long as there is room."""
     rows: list[Condition] = []
     wanted = min(wanted, tableau.exact_to or wanted)
     for n in range(1, wanted + 1):
@@ -93,7 +91,7 @@ def _listed(method: Reported, tableau: Tableau, wanted: int) -> Listed:
 
 
 def _rows(found: list[Condition], colours: bool | Sequence[str]) -> Iterator[Content]:
-    """What ``gark conditions`` says of each, with the tree drawn and the formulas typeset."""
+    """Yields the rows of ``gark conditions``, with the tree drawn and formulas typeset."""
     has_colours = bool(colours)
     for condition in found:
         row = ConditionRow(condition.tree, False, condition)
@@ -112,7 +110,7 @@ def _rows(found: list[Condition], colours: bool | Sequence[str]) -> Iterator[Con
 
 
 def _state(condition: Condition) -> str:
-    """Whether it holds: exactly, within the tolerance, for some values of the parameters."""
+    """Returns whether a condition holds exactly, within the tolerance, or for some parameters."""
     if condition.is_exact:
         return "holds"
     if is_parametric(condition.residual):

@@ -1,4 +1,4 @@
-"""Why a file is no method, and the cure."""
+"""The faults of a file, with cures."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from garkcli.webpage.reported import Content, Reported
 
 
 def content(method: Reported) -> Content | None:
-    """What the template is given; None where the section has nothing to say."""
+    """Returns the variables of the template; None if the file could be read."""
     outcome = method.outcome
     if outcome.is_read:
         return None
@@ -16,7 +16,6 @@ def content(method: Reported) -> Content | None:
 
 
 def _shown(fault: Remark, lines: list[str]) -> Content:
-    """A fault with the line that it is in."""
     line = lines[fault.line - 1] if 0 < fault.line <= len(lines) else ""
     return {
         "line": fault.line,

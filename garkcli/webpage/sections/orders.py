@@ -1,4 +1,4 @@
-"""The orders, what decided them, and the trees at which they end."""
+"""The orders and the trees at which they end."""
 
 from __future__ import annotations
 
@@ -28,15 +28,15 @@ ORDERS = (
     *("order", "embedded_order", "dense_order", "conjugate_order", "pair_order"),
     *(*WITH_TIME, *OF_OTHER_KINDS),
 )
-"""The rows of ``gark check`` that are reported here: exact orders, those within a tolerance, of
-every value of parameters, of dense output.
+"""The rows of ``gark check`` with orders: exact ones, within a tolerance, for all parameters, of
+dense output.
 """
 NOTES = {"embedded_order": "error_estimate", "dense_order": "dense"}
-"""Rows that are reported below others."""
+"""Rows that are shown below others."""
 
 
 def content(method: Reported) -> Content | None:
-    """What the template is given; None where the section has nothing to say."""
+    """Returns the variables of the template; None without results."""
     outcome = method.outcome
     if not outcome.is_read:
         return None
@@ -49,8 +49,8 @@ def content(method: Reported) -> Content | None:
 
 
 def _orders(outcome: Outcome) -> Iterator[Content]:
-    """Every order that there is, in the order of ``gark check``, with the condition at which it
-    ends, unless another one above ends there too.
+    """Yields all orders as in ``gark check``, with the condition at which each ends, unless it was
+    shown already.
     """
     d = Typeset(**REPORT.signs(outcome))
     facts = REPORT.form(outcome).named(outcome, {*ORDERS, *NOTES.values()})
@@ -87,8 +87,8 @@ def _orders(outcome: Outcome) -> Iterator[Content]:
 
 
 def _witness(witness: Witness, colours: bool | Sequence[str]) -> Content:
-    """The condition that fails: its tree drawn, written, and as a formula; of trees whose colours
-    have names with these, and without a formula, as blocks have no names.
+    """Returns the condition that fails: its tree as a picture and as text, and its formula. Trees
+    whose colours have names have no formula, as blocks have no names.
     """
     tree, names = witness.tree, () if isinstance(colours, bool) else colours
     name = format_tree(tree, colours)

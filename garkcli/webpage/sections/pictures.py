@@ -1,4 +1,4 @@
-"""The pictures: stability, errors over step sizes, energy."""
+"""The pictures: stability, errors against step sizes, energy."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from garkcli.webpage.reported import Content, Reported
 
 
 def content(method: Reported) -> Content | None:
-    """What the template is given; None where the section has nothing to say."""
+    """Returns the variables of the template; None without pictures."""
     if method.has_pictures and method.free is not None:
         return {"free": method.free, "file": method.outcome.file}
     if method.method is None or not method.has_pictures:
@@ -22,13 +22,13 @@ def content(method: Reported) -> Content | None:
 
 
 def of_several(methods: Sequence[Reported]) -> list[Content]:
-    """The pictures of methods side by side; none of a single one."""
+    """Returns the pictures of several methods together; none for a single one."""
     drawn = [x.method for x in methods if x.has_pictures]
     given = [method for method in drawn if method is not None]
     return [] if len(given) < 2 else [_shown(picture) for picture in compared_pictures(given)]
 
 
 def _shown(picture: Picture) -> Content:
-    """A picture, whose SVG is made of numbers and of text that is escaped there."""
+    """Returns a picture, whose SVG consists of numbers and escaped text."""
     note = Markup(Typeset().prose(picture.note))
     return {"about": picture, "svg": Markup(picture.svg), "note": note}

@@ -1,4 +1,4 @@
-"""What the method is like, and all properties that a file may claim."""
+"""The properties of the method that a file may claim."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from garkcli.webpage.reported import Content, Reported
 
 
 def content(method: Reported) -> Content | None:
-    """What the template is given; None where the section has nothing to say."""
+    """Returns the variables of the template; None without properties."""
     outcome = method.outcome
     of_test_equation = outcome.rosenbrock or outcome.derivatives
     if not (outcome.every or outcome.analysis or of_test_equation):
@@ -37,7 +37,7 @@ def content(method: Reported) -> Content | None:
 
 
 def _lines(outcome: Outcome) -> list[tuple[Markup, Markup]]:
-    """What the method is like, in lines of ``gark check``."""
+    """Returns the lines of ``gark check`` about symplecticity, consistency and structure."""
     d = Typeset(**REPORT.signs(outcome))
     facts = CHECKED.named(outcome, ("symplectic", "consistent", "method", "by_colour"))
     found = [x for x in facts.values() if x.is_something]
@@ -45,7 +45,7 @@ def _lines(outcome: Outcome) -> list[tuple[Markup, Markup]]:
 
 
 def _verdict(outcome: Outcome, key: str) -> Content:
-    """A property, what is true of it, and why."""
+    """Returns a property, whether it holds, and the reason."""
     d = Typeset()
     if outcome.every is not None:
         fact = fact_reason(outcome.every.verdict(key), outcome.every.parameters[0])
@@ -59,7 +59,6 @@ def _verdict(outcome: Outcome, key: str) -> Content:
 
 
 def _mark(verdict: Verdict) -> str:
-    """The class of the answer, for its sign."""
     if verdict.value is None:
         return "open" if verdict.is_undecided else "none"
     if verdict.value is True:

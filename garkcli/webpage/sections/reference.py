@@ -1,4 +1,4 @@
-"""Where the method was published."""
+"""The publication of the method."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ from garkcli.report.citation import Cited, bibliography
 from garkcli.webpage.reported import Content, Reported
 
 _ADDRESSES = ("https://", "http://")
-"""What an address of a reference begins with that may be a link."""
+"""The beginnings of addresses that become links."""
 
 
 def content(method: Reported) -> Content | None:
-    """What the template is given; None where the section has nothing to say."""
+    """Returns the variables of the template; None without a reference."""
     if not method.reference:
         return None
     fields = method.bibliography

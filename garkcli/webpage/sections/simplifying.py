@@ -1,4 +1,4 @@
-"""B, C and D, block by block, and the bounds that they give."""
+"""B, C and D for each block, and their bounds of the order."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _LEVELS = 6
 
 
 def content(method: Reported) -> Content | None:
-    """What the template is given; None where the section has nothing to say."""
+    """Returns the variables of the template; None without results."""
     whole: Any = method.outcome.analysis or method.outcome.every
     if whole is None:
         return None
@@ -47,7 +47,7 @@ def content(method: Reported) -> Content | None:
 
 
 def _cells(numbers: Sequence[int | None], limit: int) -> list[tuple[str, int | None]]:
-    """The text of each cell, and its shade; none where there is no block."""
+    """Returns the text and the shade of each cell; no shade without a block."""
     found: list[tuple[str, int | None]] = []
     for number in numbers:
         if number is None:
@@ -59,7 +59,6 @@ def _cells(numbers: Sequence[int | None], limit: int) -> list[tuple[str, int | N
 
 
 def _formula(text: str) -> Markup:
-    """A bound, typeset."""
     latex = text.replace("min{", r"\min\{").replace("}", r"\}")
     for letter, name in _GREEK.items():
         latex = latex.replace(letter, name)
@@ -67,7 +66,7 @@ def _formula(text: str) -> Markup:
 
 
 def _numbers(found: Simplifying) -> list[Markup]:
-    """What the bounds are made of; those that reached the limit may be larger."""
+    """Returns the numbers of the bounds; those that reached the limit may be larger."""
     numbers = {"r": found.r, "η": found.eta, "ζ": found.zeta, "ξ": found.xi, "χ": found.chi}
     shown = []
     for name, number in numbers.items():

@@ -16,18 +16,18 @@ from garkcli.webpage.reported import Content, Reported
 
 _TYPESET = ("R", "R_alike", "trace", "determinant")
 _LONGEST = 400
-"""Signs of a formula in LaTeX; longer ones are left to ``gark stability``."""
+"""Longest formula in LaTeX; longer ones are left to ``gark stability``."""
 
 
 def _has_stability(tableau: Tableau) -> bool:
-    """Whether ``gark stability`` takes such a method."""
+    """Returns whether ``gark stability`` applies to a method."""
     if is_nystrom(tableau):
         return Nystrom.of(tableau).A is None
     return is_derivatives(tableau) or (tableau.exact_to is None and not is_nprk(tableau))
 
 
 def content(method: Reported) -> Content | None:
-    """What the template is given; None where the section has nothing to say."""
+    """Returns the variables of the template; None if stability does not apply."""
     file = method.outcome.file
     if method.free is not None:
         return {"free": method.free, "file": file}

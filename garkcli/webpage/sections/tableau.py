@@ -24,20 +24,20 @@ from garkcli.webpage.mathml import Typeset, typeset, typeset_cell
 from garkcli.webpage.reported import Content, Reported
 
 MOST_COLUMNS = 64
-"""Most stages side by side; a larger tableau is left out."""
+"""The largest number of stages side by side; a larger tableau is left out."""
 LONGEST = 64
-"""Signs of an exact entry; a longer one is shown as a decimal."""
+"""Longest exact entry; a longer one is shown as a decimal."""
 _DIGITS = 17
 _WIDE, _VAST = 6, 12
-"""More columns need smaller letters on paper."""
+"""More columns need smaller letters in print."""
 
 
 _TITLES = {"": "The method", "conjugate": "The symplectic conjugate", "pair": "The symplectic pair"}
-"""Of the tableau that the page is about, by how it was made."""
+"""The title of the tableau, by its derivation."""
 
 
 def content(method: Reported) -> Content | None:
-    """What the template is given; None where the section has nothing to say."""
+    """Returns the variables of the template; None without a tableau."""
     outcome = method.outcome
     if outcome.of_other_kind is not None:
         return _of_other_kind(method)
@@ -71,7 +71,7 @@ def content(method: Reported) -> Content | None:
 
 
 def _of_other_kind(method: Reported) -> Content:
-    """The tableaus of a method that is no GARK method, as ``gark tableau`` has them."""
+    """Returns the tableaus of a method that is not a GARK method, as in ``gark tableau``."""
     shown = method.method
     assert shown is not None
     whole = entries(shown.tableau, _DIGITS).beside(shown.further)
@@ -85,7 +85,7 @@ def _of_other_kind(method: Reported) -> Content:
 
 
 def _of_family(method: Reported) -> Iterator[Content]:
-    """The tableaus of a file with free parameters, where their nodes can be written down."""
+    """Yields the tableaus of a file with free parameters, if their nodes can be written down."""
     every = method.outcome.every
     assert every is not None
     family = every.family
@@ -102,13 +102,13 @@ def _of_family(method: Reported) -> Iterator[Content]:
 
 
 def _entries(tableau: Tableau, tolerance: fmpq | None, further: Further) -> Entries:
-    """The entries as they are shown: long ones of rounded methods in decimals."""
+    """Returns the entries; long ones of rounded methods as decimals."""
     found = entries(tableau, _DIGITS).beside(further)
     return found if tolerance is None else readable(found)
 
 
 def _table(title: str, tableau: Tableau, found: Entries) -> Content:
-    """A tableau with its title, or that it is too large to be shown."""
+    """Returns a tableau with its title, or a note that it is too large."""
     widest = max(sum(len(found.b[m]) for m in colours) for _, _, colours in parts_of(tableau))
     if widest > MOST_COLUMNS:
         why = f"it has {widest} columns; gark tableau and gark conjugate print it"
@@ -122,7 +122,7 @@ def _table(title: str, tableau: Tableau, found: Entries) -> Content:
 
 
 def _short(cell: Cell) -> Cell:
-    """An entry as it is shown: a decimal where its exact form is longer than a line."""
+    """Returns an entry, as a decimal if its exact form is too long."""
     if isinstance(cell, (arb, Parametric)) or len(to_text(cell)) <= LONGEST:
         return cell
     return to_ball(cell, _DIGITS)
@@ -131,7 +131,7 @@ def _short(cell: Cell) -> Cell:
 def _part(
     tableau: Tableau, found: Entries, letter: str, stages: Sequence[int], colours: Sequence[int]
 ) -> Content:
-    """The rows of some colours over the columns of others."""
+    """Returns the rows of some colours over the columns of others."""
     heads = [(m + 1, tableau.colours[m].name, len(found.b[m])) for m in colours]
     columns = sum(span for _, _, span in heads)
     return {
@@ -144,8 +144,8 @@ def _part(
 
 
 def _line(tableau: Tableau, found: Entries, line: Line, colours: Sequence[int]) -> Content:
-    """A stage, whose group are the colours that share it, or weights: its blocks from left to
-    right, blanks where there is none.
+    """Returns the blocks of a stage, which several colours may share, or of weights; blanks for
+    absent ones.
     """
     blocks = []
     for m, row in zip(colours, line.groups, strict=True):
