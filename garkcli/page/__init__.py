@@ -1,1 +1,1 @@
-"""What reports are made of: signs, columns, plots in text, records for programs, files."""
+"""Components of reports: characters, columns, plots in text, records for programs, files."""

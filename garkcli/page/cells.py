@@ -1,4 +1,4 @@
-"""Entries of tableaus as short text, and the rows that every output prints of a tableau."""
+"""Entries of tableaus as short text, and the rows of printed tableaus."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from garkcli.tableau.tableau import Tableau
 
 
 def cell_text(cell: Cell, digits: int) -> str:
-    """An entry for people: exact, or rounded to ``digits`` significant digits."""
+    """Returns an entry, exact or rounded to ``digits`` significant digits."""
     if not isinstance(cell, arb):
         return shortest(cell)
     if cell.contains(0):
@@ -23,7 +23,7 @@ def cell_text(cell: Cell, digits: int) -> str:
 
 
 def without_zeros(decimal: str) -> str:
-    """A decimal without zeros at its end.
+    """Returns a decimal without trailing zeros.
 
     >>> without_zeros("0.50000"), without_zeros("1.0000"), without_zeros("2.500e-7")
     ('0.5', '1', '2.5e-7')
@@ -35,7 +35,7 @@ def without_zeros(decimal: str) -> str:
 
 
 def remark(entries: Entries) -> str:
-    """That entries are decimals, and why; empty where none is."""
+    """Returns why the entries are decimals; empty if they are exact."""
     decimals = f"decimals, {entries.digits} digits"
     if not entries.have_radicals:
         return f"the nodes have no simple radicals: {decimals}"
@@ -51,7 +51,7 @@ def remark(entries: Entries) -> str:
 
 
 def distinct_rows(tableau: Tableau) -> list[int]:
-    """One colour for each stage space: colours that share stages share rows."""
+    """Returns one colour for each stage space, as colours that share stages share rows."""
     seen: dict[int, int] = {}
     for l, colour in enumerate(tableau.colours):
         seen.setdefault(colour.space, l)
@@ -59,8 +59,8 @@ def distinct_rows(tableau: Tableau) -> list[int]:
 
 
 def parts_of(tableau: Tableau) -> Iterator[tuple[str, Sequence[int], Sequence[int]]]:
-    """The tables that a tableau is printed as: a letter or none, a colour for each group of rows,
-    the colours of the columns.
+    """Yields the tables in which a tableau is printed: a letter or none, one colour for each group
+    of rows, and the colours of the columns.
     """
     shown = distinct_rows(tableau)
     if not tableau.is_partitioned:
@@ -73,13 +73,11 @@ def parts_of(tableau: Tableau) -> Iterator[tuple[str, Sequence[int], Sequence[in
 
 
 class Line(NamedTuple):
-    """A row of a tableau as it is printed.
+    """A row of a printed tableau.
 
-    Attributes:
-        place: where it is among the stages of its colour, or among the rows of weights, from 0.
-        colour: of its stage; None of weights.
-        node: of its stage; None of weights.
-        groups: its entries, a row per colour; None where there is no block.
+    ``place`` is its number among the stages of its colour, or among the rows of weights, from 0;
+    ``colour`` and ``node`` are those of its stage, None for weights; ``groups`` has a row for each
+    colour, None without a block.
     """
 
     place: int
@@ -89,12 +87,13 @@ class Line(NamedTuple):
 
     @property
     def is_first(self) -> bool:
-        """Whether a line is above it."""
         return self.place == 0
 
 
 def lines_of(entries: Entries, stages: Sequence[int], colours: Sequence[int]) -> Iterator[Line]:
-    """The stages of each colour of ``stages``, then the weights; columns of ``colours``."""
+    """Yields the stages of each colour of ``stages``, then the weights, with columns of
+    ``colours``.
+    """
     for l in stages:
         blocks = [entries.A[l][m] for m in colours]
         for i, node in enumerate(entries.c[l]):

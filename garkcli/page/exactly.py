@@ -28,13 +28,13 @@ ROOT_OF: Schema = {
     "properties": {"root_of": TEXT, "decimal": TEXT},
     "additionalProperties": False,
 }
-"""An algebraic number without simple radicals: a polynomial in x, and which root of it."""
+"""An algebraic number without simple radicals: a polynomial in x and a decimal."""
 ALGEBRAIC: Schema = one_of(TEXT, ROOT_OF)
-"""What ``root_data`` makes."""
+"""The schema of ``root_data``."""
 
 
 def polynomial_latex(p: Polynomial, variable: str) -> str:
-    r"""A polynomial in LaTeX, highest power first.
+    r"""Returns a polynomial in LaTeX, highest power first.
 
     >>> print(polynomial_latex(Polynomial([48, -22, 1]), "x"))
     x^{2}-22x+48
@@ -44,7 +44,7 @@ def polynomial_latex(p: Polynomial, variable: str) -> str:
 
 
 def multivariate_latex(p: Multivariate, variables: Sequence[str]) -> str:
-    r"""A polynomial in several variables in LaTeX.
+    r"""Returns a polynomial in several variables in LaTeX.
 
     >>> from flint import fmpq
     >>> print(multivariate_latex(Multivariate.of(2, {(1, 2): fmpq(1)}), ["z_{1}", "z_{2}"]))
@@ -58,7 +58,7 @@ def multivariate_latex(p: Multivariate, variables: Sequence[str]) -> str:
 
 
 def quotient_latex(p: Polynomial, q: Polynomial, variable: str) -> str:
-    """A rational function in LaTeX, with whole coefficients."""
+    """Returns a rational function in LaTeX with integer coefficients."""
     over, under = (polynomial_latex(x, variable) for x in integral([p, q]))
     return over if under == "1" else rf"\frac{{{over}}}{{{under}}}"
 
@@ -66,7 +66,7 @@ def quotient_latex(p: Polynomial, q: Polynomial, variable: str) -> str:
 def sum_latex(
     terms: Iterable[tuple[Number | Parametric | arb, str]], latex: Callable[[Any], str] = to_latex
 ) -> str:
-    """Coefficients with what they are multiplied by in LaTeX; zeros are left out."""
+    """Returns a sum of terms in LaTeX, without zero coefficients."""
     text = ""
     for a, power in terms:
         factor = latex(a)
@@ -83,7 +83,9 @@ def sum_latex(
 
 
 def root_data(root: RealRoot, digits: int = 17) -> Any:
-    """A root for programs: text where it has simple radicals, else polynomial and decimal."""
+    """Returns a root for programs: text if it has simple radicals, otherwise polynomial and
+    decimal.
+    """
     simple = root_text(root)
     if simple is not None:
         return simple

@@ -1,8 +1,8 @@
-"""Positive numbers of any size as short text: only digits that are certain.
+"""Positive numbers of any size as short text with certain digits only.
 
-What is measured comes as a ball, whose radius is what rounding leaves open. Digits within the
-radius depend on the processor, so they are not shown; of a ball that holds 0 only a bound is, and
-of one that is not finite nothing: there is no value, or rounding leaves every value open.
+A measured number is a ball whose radius is the effect of rounding. Digits within the radius depend
+on the processor and are not shown. For a ball that contains 0 only a bound is shown. A ball that is
+not finite has no digits: there is no value, or rounding makes every value possible.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from flint import arb
 _DIGITS_PER_BIT = math.log10(2)
 _ALL = 15  # digits of a float
 UNKNOWN = "unknown"
-"""What stands for a ball that is not finite."""
+"""The text for a ball that is not finite."""
 
 
 def log10(x: Any) -> float:
-    """The decimal logarithm of a positive number, however small.
+    """Returns the decimal logarithm of a positive number of any size.
 
     >>> from flint import fmpq
     >>> log10(fmpq(1, 10**400))
@@ -30,12 +30,12 @@ def log10(x: Any) -> float:
 
 
 def order_text(order: float | None) -> str:
-    """An observed order; never −0.00."""
+    """Returns an observed order as text, without −0.00."""
     return "none" if order is None else f"{round(order, 2) + 0.0:.2f}"
 
 
 def rounded(ball: Any, digits: int = 4) -> str:
-    """A few digits of an enclosed number; "0" for zero, a bound for what is below round-off.
+    """Returns a few digits of an enclosed number; "0" for zero, a bound below round-off.
 
     >>> rounded(arb(1) / 3), rounded(arb(1, 0.004)), rounded(arb(0, 3e-15)), rounded(arb(0))
     ('0.3333', '1.00', '< 1e-14', '0')
@@ -53,7 +53,7 @@ def rounded(ball: Any, digits: int = 4) -> str:
 
 
 def scientific(ball: Any, digits: int = 3) -> str:
-    """The same with an exponent always, so that columns are read by their ends.
+    """Returns the same, always with an exponent, so that columns are compared by their ends.
 
     >>> scientific(arb(2) / 300), scientific(arb(12)), scientific(arb(0))
     ('6.67e-3', '1.20e1', '0')
@@ -82,8 +82,8 @@ def scientific(ball: Any, digits: int = 3) -> str:
 
 
 def for_programs(ball: Any, digits: int = 6) -> str:
-    """The same as a number that every program reads: a bound is the power of ten that it is, and
-    an infinite number is empty.
+    """Returns the same as a number that programs can read: a bound becomes its power of ten, and an
+    infinite number is empty.
 
     >>> for_programs(arb(2) / 3), for_programs(arb(0, 3e-15)), for_programs(arb(-1).sqrt())
     ('6.66667e-1', '1e-14', '')
@@ -92,19 +92,19 @@ def for_programs(ball: Any, digits: int = 6) -> str:
 
 
 def bound(ball: Any) -> int:
-    """The smallest k for which all of a ball about 0 is below 10^k."""
+    """Returns the smallest k for which a ball around 0 is below 10^k."""
     return ceil(log10(arb(ball).abs_upper()))
 
 
 def certain_digits(ball: Any) -> int:
-    """How many digits of a number its ball leaves no doubt about; at least one."""
+    """Returns the number of certain digits of a ball, at least one."""
     bits = min(arb(ball).rel_accuracy_bits(), 10**6)
     digits = floor(bits * _DIGITS_PER_BIT)
     return min(max(digits, 1), _ALL)
 
 
 def measured(value: float, good_to: float, most: int = 5) -> str:
-    """A measured number with the digits that are above what it is good to, at most ``most``.
+    """Returns a measured number with the digits above its error, at most ``most``.
 
     >>> measured(0.0123456, 1e-12), measured(1.2345e-13, 1e-15, 3), measured(3e-16, 1e-15)
     ('1.2346e-02', '1.23e-13', 'below round-off')

@@ -1,4 +1,4 @@
-"""JSON as its standard has it: no Infinity, no NaN."""
+"""JSON as in its standard, without Infinity and NaN."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from typing import Any
 
 
 def to_json(data: Any, indent: int | None = 2, ascii_only: bool = False) -> str:
-    """Plain data as JSON text, without a final newline.
+    """Returns plain data as JSON, without a final newline.
 
-    A number beyond the range of floats is null: its exact form is beside it as text.
+    Infinite floats become null; their exact form is beside them as text.
 
     >>> to_json({"float": float("inf"), "exact": "10**400"}, indent=None)
     '{"float": null, "exact": "10**400"}'
@@ -19,7 +19,6 @@ def to_json(data: Any, indent: int | None = 2, ascii_only: bool = False) -> str:
 
 
 def _finite(data: Any) -> Any:
-    """The same data with null in place of floats that are no numbers."""
     if isinstance(data, float):
         return data if isfinite(data) else None
     if isinstance(data, dict):

@@ -1,6 +1,4 @@
-"""What the LaTeX reports share: the preamble they need, and a complete document that
-compiles.
-"""
+"""Common parts of the LaTeX reports: the preamble, and a complete document."""
 
 from __future__ import annotations
 
@@ -11,11 +9,11 @@ PREAMBLE = (
     r"\providecommand{\mathbbm}[1]{\mathbf{#1}} "
     r"% or \usepackage{bbm} for the paper's vector of ones",
 )
-"""What a document needs that includes a report."""
+"""The lines of the preamble that a report needs."""
 
 
 def fragment(lines: Iterable[str], is_document: bool) -> Iterator[str]:
-    """The lines as a document of their own, or to be included in one whose preamble they name."""
+    """Yields the lines as a complete document, or with a comment about the preamble."""
     if is_document:
         yield "\\documentclass{article}\n"
         yield from (line + "\n" for line in PREAMBLE)

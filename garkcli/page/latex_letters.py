@@ -1,4 +1,4 @@
-"""Plain text as LaTeX and BibTeX have it: letters with accents, signs that mean something there."""
+"""Plain text in LaTeX and BibTeX: accented letters and special characters."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _SIGNS = {
     "LEFT SINGLE QUOTATION MARK": "`", "LEFT DOUBLE QUOTATION MARK": "``",
     "RIGHT DOUBLE QUOTATION MARK": "''", "MULTIPLICATION SIGN": r"$\times$", "NO-BREAK SPACE": "~",
 }  # fmt: skip
-"""By the sign, or by its name in Unicode where it is no ASCII."""
+"""By character, or by its Unicode name if it is not ASCII."""
 _ACCENTS = {
     "COMBINING GRAVE ACCENT": "`", "COMBINING ACUTE ACCENT": "'",
     "COMBINING CIRCUMFLEX ACCENT": "^", "COMBINING TILDE": "~", "COMBINING DIAERESIS": '"',
@@ -35,13 +35,13 @@ _BASE = {
     "LATIN SMALL LETTER L WITH STROKE": "l",
     "LATIN SMALL LETTER D WITH STROKE": "d",
 }
-"""Letters that are no accented ones, as they are spelt without them."""
+"""Letters without an accent that have an ASCII spelling."""
 
 
 def letters(text: str) -> str:
-    r"""A text in the letters of ASCII, signs of LaTeX as text.
+    r"""Returns a text in ASCII, with the special characters of LaTeX escaped.
 
-    What has no such form, as a letter of another script, stays as it is.
+    Characters without such a form, as letters of other scripts, are unchanged.
 
     >>> print(letters("Störmer & Runge–Kutta, γ = 50 %"))
     St{\"o}rmer \& Runge--Kutta, $\gamma$ = 50 \%
@@ -62,12 +62,12 @@ def _letter(sign: str) -> str:
 
 
 def _name(sign: str) -> str:
-    """What Unicode calls a sign, or several signs nothing."""
+    """Returns the Unicode name of a character; empty for several."""
     return unicodedata.name(sign, "") if len(sign) == 1 else ""
 
 
 def greek(sign: str) -> str:
-    """A Greek letter as LaTeX names it; any other sign as it is."""
+    """Returns a Greek letter as a LaTeX command; other characters are unchanged."""
     words = _name(sign).split()
     if words[:1] != ["GREEK"] or "LETTER" not in words or len(words) != 4:
         return sign
@@ -77,7 +77,7 @@ def greek(sign: str) -> str:
 
 
 def ascii_letters(text: str) -> str:
-    """The letters and digits of a text without their accents.
+    """Returns the letters and digits of a text without accents.
 
     >>> ascii_letters("Nørsett"), ascii_letters("van der Houwen"), ascii_letters("Kværnø")
     ('Norsett', 'vanderHouwen', 'Kvaerno')
@@ -87,6 +87,6 @@ def ascii_letters(text: str) -> str:
 
 
 def _spelt(sign: str) -> str:
-    """A letter that is no accented one, as it is spelt without it."""
+    """Returns the ASCII spelling of a letter."""
     base = _BASE.get(_name(sign.lower()), sign)
     return base.capitalize() if sign.isupper() else base

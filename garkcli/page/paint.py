@@ -1,4 +1,4 @@
-"""Colour for the terminal, and columns that line up."""
+"""Colours for the terminal, and aligned columns."""
 
 from __future__ import annotations
 
@@ -11,34 +11,31 @@ from garkcli.frozen import Frozen
 _CODES = {"good": "32", "bad": "31;1", "strong": "1", "faint": "2", "note": "36"}
 
 _STYLE = "\x1b\\[[0-9;]*m"
-"""What starts or ends a style."""
+"""The start or end of a style."""
 _DOT = "●([0-9]+)"
 """A dot of a drawn tree, with the number of its colour."""
 _DOTS = (34, 33, 32, 35, 36, 31)
-"""The codes of the colours 1, 2, …, taken anew after the last."""
+"""The codes of the colours 1, 2, …, repeated after the last."""
 
 
 class Paint(Frozen):
-    """Marks text for a terminal when ``color`` is on; nothing is shown by colour alone.
+    """Colours text for a terminal if ``color`` is set; the colour is never the only information.
 
-    Attributes:
-        color: whether there is any.
-        encoding: of where the text goes: signs that it lacks are spelt before columns are made.
+    Characters that the ``encoding`` lacks are replaced before columns are aligned.
     """
 
     color: bool = False
     encoding: str = "utf-8"
 
     def __call__(self, style: str, text: str) -> str:
-        """``text`` in one of the styles good, bad, strong, faint, note."""
+        """Returns ``text`` in one of the styles good, bad, strong, faint, note."""
         return text if not self.color or not text else _in_code(_CODES[style], text)
 
     def dots(self, line: str) -> str:
-        """A line of a drawn tree, its dots in the colours of their numbers."""
+        """Returns a line of a drawn tree with its dots in colour."""
         return line if not self.color else re.sub(_DOT, _coloured_dot, line)
 
     def verdict(self, holds: bool, yes: str = "yes", no: str = "no") -> str:
-        """A word that is good or bad news."""
         return self("good", yes) if holds else self("bad", no)
 
 
@@ -48,12 +45,11 @@ def _coloured_dot(dot: re.Match[str]) -> str:
 
 
 def _in_code(code: str, text: str) -> str:
-    """A text between the sequence that starts a style and the one that ends it."""
     return f"\x1b[{code}m{text}\x1b[0m"
 
 
 def numbered(names: Sequence[str]) -> str:
-    """Names behind their numbers; empty where they are these numbers.
+    """Returns names with their numbers; empty if they are the numbers.
 
     >>> numbered(["q", "p"]), numbered(["1", "2"])
     ('1 q, 2 p', '')
@@ -63,7 +59,7 @@ def numbered(names: Sequence[str]) -> str:
 
 
 def indented(lines: Iterable[str], indent: str = "  ") -> list[str]:
-    """Lines with the same margin.
+    """Returns lines with the same margin.
 
     >>> indented(["a", "b"])
     ['  a', '  b']
@@ -72,7 +68,7 @@ def indented(lines: Iterable[str], indent: str = "  ") -> list[str]:
 
 
 def aligned(rows: Sequence[Sequence[str]], gap: str = "  ", right: bool = True) -> list[str]:
-    """Rows of cells as lines with columns of equal width.
+    """Returns rows as lines with columns of equal width.
 
     >>> aligned([["1/2", "-1"], ["0", "1/36"]])
     ['1/2    -1', '  0  1/36']
@@ -83,16 +79,16 @@ def aligned(rows: Sequence[Sequence[str]], gap: str = "  ", right: bool = True) 
 
 
 def _widths(rows: Sequence[Sequence[str]]) -> list[int]:
-    """The longest cell of each column; no row may have more or fewer cells than another."""
+    """Returns the longest cell of each column; all rows have as many cells."""
     return [max(map(len, column)) for column in zip(*rows, strict=True)]
 
 
 _JOINTS = r".+?(?:(?<![∀=⊙]) |\}(?=[Ab(])|\](?:_\d+)?,|$)"
-"""Pieces of a formula or of a tree, each up to a place where a line may end."""
+"""Pieces of a formula or tree, each up to a place where a line may end."""
 
 
 def shown_width(text: str) -> int:
-    """The columns of a text: codes of colours take none.
+    """Returns the width of a text in columns, without colour codes.
 
     >>> shown_width(Paint(True)("good", "yes"))
     3
@@ -101,8 +97,8 @@ def shown_width(text: str) -> int:
 
 
 def folded(text: str, width: int, indent: str = "      ") -> list[str]:
-    """A formula or a tree in lines of at most ``width``, where it has places to break; those after
-    the first are indented.
+    """Returns a formula or tree in lines of at most ``width``, if it has places to break; later
+    lines are indented.
 
     >>> folded("b{l}A{l,m}A{m,n} = 1/24", 16, "  ")
     ['b{l}A{l,m}A{m,n}', '  = 1/24']
@@ -119,7 +115,7 @@ def folded(text: str, width: int, indent: str = "      ") -> list[str]:
 
 
 def beside(left: Sequence[str], right: Sequence[str], gap: str = "   ") -> list[str]:
-    """Two blocks of lines next to each other."""
+    """Returns two blocks of lines side by side."""
     width = max((len(line) for line in left), default=0)
     lines = []
     for a, b in zip_longest(left, right, fillvalue=""):

@@ -1,7 +1,7 @@
-"""Text from strangers made harmless: for terminals, the log of GitHub Actions, spreadsheets.
+"""Untrusted text made harmless for terminals, the log of GitHub Actions and spreadsheets.
 
-Names of files and methods, and lines of files that are shown, are not ours. Every report writes
-them through here.
+Names of files and methods, and quoted lines of files, come from others. Every report writes them
+through this module.
 """
 
 from __future__ import annotations
@@ -11,13 +11,13 @@ import re
 _COMMAND = r"^([^\S\n]*):(?=:)"
 """A line that GitHub Actions takes for a workflow command: it begins with two colons."""
 _OLD_COMMAND = r"##(?=\[)"
-"""The older form of these commands, which is sought anywhere in a line."""
+"""The older form of these commands, which may be anywhere in a line."""
 _FORMULA = ("=", "+", "-", "@", "\t", "\r")
-"""What a spreadsheet takes for the beginning of a formula."""
+"""The characters that start a formula in spreadsheets."""
 
 
 def inert(text: str) -> str:
-    r"""Lines of a report that GitHub Actions would take for commands, written as text.
+    r"""Returns text with the lines escaped that GitHub Actions would take for commands.
 
     >>> print(inert("::error::no"))
     \x3a:error::no
@@ -26,7 +26,7 @@ def inert(text: str) -> str:
 
 
 def csv_cell(text: str) -> str:
-    """A name as the cell of a CSV file: never a formula; numbers stay as they are.
+    """Returns a name as a CSV cell that is never a formula; numbers are unchanged.
 
     >>> csv_cell("=1+1"), csv_cell("-1.5e-3")
     ("'=1+1", '-1.5e-3')

@@ -1,4 +1,4 @@
-"""Text for streams that have no Greek: an ASCII form for every sign that reports use."""
+"""Text for streams without Greek: an ASCII form of every character in reports."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from functools import lru_cache
 
 PHRASES = {" · ": " * ", "½": "1/2 "}
-"""Signs that read differently among others than alone; they come first."""
+"""Phrases whose form differs from that of their characters; they are replaced first."""
 SIGNS = {
     # letters and operators; A^ would look like a power
     "Â": "Ahat", "Ā": "Abar", "ℚ": "Q", "𝟙": " 1", "ᵀ": "^T", "∀": "for all", "∂": "d", "∫": "int ",
@@ -31,22 +31,22 @@ SIGNS = {
     "●": "o", "○": "o", "─": "-", "│": "|", "█": "#", "▒": "%", "░": "=", "└": "`", "┘": "'",
     "┌": ".", "┐": ".", "├": "+", "┤": "+", "┬": "+", "┴": "+", "┼": "+", "╯": "'", "╰": "`",
 }  # fmt: skip
-"""The ASCII form of each sign that is not a letter with an accent."""
+"""The ASCII form of each character other than accented letters."""
 DRAWN = frozenset("●○─│└┘┌┐├┤┬┴┼╯╰")
-"""What trees and plots are drawn with: lines of these are below each other."""
+"""The characters of drawn trees and plots, which are aligned vertically."""
 EVERYTHING = "¹⁴γ𝟙●"
-"""An encoding that has these has every sign: it is one of Unicode."""
+"""An encoding with these characters is one of Unicode."""
 _GREEK = r"GREEK (SMALL|CAPITAL) LETTER (FINAL )?(?P<name>[A-Z]+)( |$)"
 _BLANKS = re.compile(" +")
 _COLOURS = r"\x1b\[[0-9;]*m"
 HANGING = 4
-"""How far the rest of a broken line is indented, beside its beginning."""
+"""The indentation of the rest of a broken line, relative to its beginning."""
 _SCRIPT = r"(SUPERSCRIPT|SUBSCRIPT) "
 
 
 @lru_cache(4096)
 def ascii_form(sign: str) -> str:
-    r"""One sign in ASCII; a script of another language is written in code points.
+    r"""Returns a character in ASCII; other scripts are written as code points.
 
     >>> [ascii_form(x) for x in "γΩ²ö中"]
     ['gamma', 'Omega', '^2', 'o', '\\u4e2d']
@@ -70,15 +70,15 @@ def ascii_form(sign: str) -> str:
 
 
 def plain_line(line: str, encoding: str = "ascii") -> str:
-    """A line with an ASCII form for every sign that ``encoding`` lacks.
+    """Returns a line with an ASCII form for every character that ``encoding`` lacks.
 
-    What the longer forms take is given back at the next gap of more than two blanks, so that
-    columns further right stay where they are. A drawing does so at the cost of the second blank.
+    The next gap of more than two blanks is shortened by the additional length, so that columns
+    further right stay in place. In front of a drawing, one blank is enough.
 
     >>> plain_line("10¹² trees, σ = 2   in all"), plain_line("10¹² trees, σ = 2      ●1 ●1")
     ('10^12 trees, sigma = 2  in all', '10^12 trees, sigma = 2 o1 o1')
 
-    A letter that is spelled, and an exponent, are apart from the letters beside them.
+    Spelled letters and exponents are separated from adjacent letters.
 
     >>> plain_line("z = hω, ω²q"), plain_line("bᵀA")
     ('z = h omega, omega^2 q', 'b^T A')
@@ -102,14 +102,16 @@ def plain_line(line: str, encoding: str = "ascii") -> str:
 
 
 def _spare_blanks(line: str) -> Iterator[int]:
-    """Where blanks can be left out: all but two of a gap, and all but one before a drawing."""
+    """Yields the positions of blanks that can be dropped: all but two of a gap, or all but one
+    before a drawing.
+    """
     for gap in _BLANKS.finditer(line):
         needed = 1 if line[gap.end() : gap.end() + 1] in DRAWN else 2
         yield from range(gap.start() + needed, gap.end())
 
 
 def _forms(line: str, encoding: str) -> Iterator[tuple[str, str]]:
-    """Each sign of a line with its form, spelled letters and exponents apart from letters."""
+    """Yields each character and its form, with spaces between spelled letters and adjacent ones."""
     # the sign of a running exponent or index, which is written once
     raised = ""
     # whether a spelled letter or an exponent ends here: a letter needs a gap
@@ -131,15 +133,15 @@ def _forms(line: str, encoding: str) -> Iterator[tuple[str, str]]:
 
 
 def _script_mark(sign: str, form: str) -> str:
-    """What raises or lowers a sign, ``^`` or ``_``; empty for others."""
+    """Returns ``^`` or ``_`` for a raised or lowered character; empty for others."""
     is_script = len(form) == 2 and form[0] in "^_" and sign not in SIGNS
     return form[0] if is_script else ""
 
 
 def plain_text(text: str, encoding: str, width: int | None = None) -> str:
-    """A text of any number of lines for a stream of this encoding.
+    """Returns a text for a stream of this encoding.
 
-    A line that fits ``width`` columns, and in its longer forms no more, goes on in the next.
+    Lines that fit ``width`` columns only before their characters are replaced are broken.
     """
     if text.isascii() or _has(encoding, EVERYTHING):
         return text
@@ -152,8 +154,8 @@ def plain_text(text: str, encoding: str, width: int | None = None) -> str:
 
 
 def broken(line: str, width: int) -> list[str]:
-    r"""A line in lines of ``width`` columns: broken at a gap of two blanks in the right half, or
-    else at any blank; whole where there is none.
+    r"""Returns a line in lines of ``width`` columns, broken at a gap of two blanks in the right
+    half, or at any blank; whole if there is none.
 
     >>> print("\n".join(broken("  bound  4 = min{r, 2eta+2}  r = 4, eta = 1", 34)))
       bound  4 = min{r, 2eta+2}
@@ -172,8 +174,8 @@ def broken(line: str, width: int) -> list[str]:
 
 
 def _last_place(line: str, width: int, start: int) -> re.Match[str] | None:
-    """The blanks after ``start`` at which to break a line: the first ones where none come in time,
-    None where there are none.
+    """Returns the blanks after ``start`` at which to break a line: the first ones if none fit, None
+    if there are none.
     """
     blanks = list(_BLANKS.finditer(line, start, len(line.rstrip())))
     fitting = [m for m in blanks if _columns(line[: m.start()]) <= width]
@@ -182,16 +184,16 @@ def _last_place(line: str, width: int, start: int) -> re.Match[str] | None:
 
 
 def _columns(line: str) -> int:
-    """How many columns a line takes; its colours take none."""
+    """Returns the width of a line, without colour codes."""
     return len(re.sub(_COLOURS, "", line))
 
 
 @lru_cache(4096)
 def _has(encoding: str, text: str) -> bool:
-    """Whether a stream of this encoding takes the text as it is.
+    """Returns whether a stream of this encoding accepts the text.
 
-    An exponent of two digits must not be half a sign and half ASCII: what has no fourth power has
-    no powers.
+    An exponent of two digits must not be partly ASCII: an encoding without fourth powers is treated
+    as one without powers.
     """
     if re.match(_SCRIPT, unicodedata.name(text, "") if len(text) == 1 else ""):
         text = "⁴"
@@ -203,9 +205,10 @@ def _has(encoding: str, text: str) -> bool:
 
 
 def handled(error: UnicodeError) -> tuple[str, int]:
-    """What to write from the first sign that cannot be encoded to the end of its line.
+    """Returns the replacement from the first character that cannot be encoded to the end of its
+    line.
 
-    The net below ``plain_text``, for what others write to the stream.
+    This catches what others write to the stream, without ``plain_text``.
     """
     assert isinstance(error, UnicodeEncodeError)
     end = error.object.find("\n", error.start)

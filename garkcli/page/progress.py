@@ -1,11 +1,11 @@
-"""What takes long, in one line on stderr, on a terminal, once a command has worked for two seconds.
+"""One line on stderr about long work, on a terminal, once a command has run for two seconds.
 
-The line says what is being done, how much of it, and for how long the command has worked. It is
-wiped out before anything else is written there, and at the end.
+The line says what is being done, how much of it, and how long the command has run. It is erased
+before anything else is written there, and at the end.
 
-Exact arithmetic may stay within one call of a library for minutes, and no thread of Python runs
-meanwhile. So a process of its own draws the line; where the system cannot fork, the command itself
-does whenever something begins or ends.
+Exact arithmetic may stay in one library call for minutes, during which no thread of Python runs.
+Therefore a separate process draws the line; where the system cannot fork, the command itself does
+at the start and the end of each task.
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ from garkcli.doing import Work
 from garkcli.errors import printable
 
 PATIENCE = 2.0
-"""Seconds of work before the line appears."""
+"""The time before the line appears, in seconds."""
 EVERY = 0.25
-"""Seconds from one line to the next."""
+"""The time between updates, in seconds."""
 WIPED = "\r\x1b[2K"
 _ASIDE, _END = b"\0", b"\1"  # texts have no such signs
 _STDERR = 2
@@ -34,7 +34,7 @@ _USUAL = 80  # columns
 
 @contextmanager
 def watching(what: str) -> Iterator[None]:
-    """Show what is being done meanwhile: what ``garkcli.doing`` hears, and before that
+    """Shows what is being done while it is open: the tasks that ``garkcli.doing`` reports, or else
     ``what``.
 
     A terminal that cannot move its cursor shows nothing.
@@ -52,7 +52,7 @@ def watching(what: str) -> Iterator[None]:
 
 
 def _pen() -> Draws:
-    """A process that draws where there can be one."""
+    """Returns a process that draws, if the system can fork."""
     if hasattr(os, "fork"):
         with suppress(OSError):
             return Process()
@@ -61,7 +61,7 @@ def _pen() -> Draws:
 
 @contextmanager
 def aside() -> Iterator[None]:
-    """Make room for something else on the terminal meanwhile."""
+    """Removes the line while it is open, for other output on the terminal."""
     line = doing.listener()
     if not isinstance(line, Line):
         yield
@@ -72,15 +72,13 @@ def aside() -> Iterator[None]:
 
 
 Draws: TypeAlias = "Pen | Process"
-"""What draws the line, wipes it out until there is something to be drawn, and ends."""
+"""Draws the line, erases it until the next update, and ends."""
 
 
 class Line:
-    """What is being done, outermost first.
+    """The tasks at work, the outermost first.
 
-    Args:
-        what: is said where nothing else is.
-        pen: draws it.
+    ``what`` is shown while there is none.
     """
 
     def __init__(self, what: str, pen: Draws) -> None:
@@ -92,48 +90,44 @@ class Line:
         self.tell()
 
     def begin(self, work: Work) -> None:
-        """Take note of what is being done from now on."""
         self._stack.append(work)
         self.tell()
 
     def changed(self) -> None:
-        """Take note of how far it is, now and then."""
+        """Updates the line from time to time."""
         if monotonic() >= self._next:
             self.tell()
 
     def end(self, work: Work) -> None:
-        """Take note of what is done; generators may end in another order than they began."""
+        """Removes a task; generators may end in another order than they began."""
         self._stack.remove(work)
         self.tell()
 
     def hush(self) -> None:
-        """Show nothing more."""
+        """Ends the line."""
         if not self._is_hushed:
             self._is_hushed = True
             self.pen.end()
 
     def make_room(self) -> None:
-        """Take the line away until the pen has something to say again."""
+        """Erases the line until the next update."""
         if not self._is_hushed:
             self.pen.wipe()
 
     @property
     def text(self) -> str:
-        """What is being done."""
         return ": ".join(map(str, self._stack)) or self._what
 
     def tell(self) -> None:
-        """Tell the pen what is being done now."""
+        """Sends the tasks to the pen."""
         if not self._is_hushed:
             self._next = monotonic() + EVERY
             self.pen.draw(self.text)
 
 
 class Pen:
-    """Draws the line every ``EVERY`` seconds, from ``PATIENCE`` on.
-
-    Args:
-        put: writes to the terminal.
+    """Draws the line every ``EVERY`` seconds, after ``PATIENCE``; ``put`` writes to the
+    terminal.
     """
 
     def __init__(self, put: Callable[[str], None]) -> None:
@@ -144,11 +138,10 @@ class Pen:
 
     @property
     def wait(self) -> float:
-        """Seconds until there is something to be drawn."""
         return max(0.0, self._due - monotonic())
 
     def draw(self, text: str) -> None:
-        """Write the line over the one before, if it is time."""
+        """Writes the line over the previous one, if it is time."""
         if self.wait:
             return
         from garkcli.page.plaintext import plain_text
@@ -162,18 +155,18 @@ class Pen:
         self._due = now + EVERY
 
     def wipe(self) -> None:
-        """Take the line away until it is drawn anew."""
+        """Erases the line until the next update."""
         if self._is_shown:
             self._put(WIPED)
             self._is_shown = False
 
     def end(self) -> None:
-        """Take the line away for good."""
+        """Erases the line for good."""
         self.wipe()
 
 
 class Process:
-    """A process that draws the line with a ``Pen``, whatever this one is at."""
+    """A process that draws the line with a ``Pen``, independent of this one."""
 
     def __init__(self) -> None:
         commands, self._commands = os.pipe()
@@ -186,23 +179,21 @@ class Process:
         os.close(answers)
 
     def draw(self, text: str) -> None:
-        """Show this from now on, once it is time."""
         self._send(printable(text).encode("utf-8", "replace"))
 
     def wipe(self) -> None:
-        """Take the line away until there is something to be drawn, and wait until it is gone."""
+        """Erases the line until the next update, and waits until that is done."""
         if self._send(_ASIDE):
             os.read(self._answers, 1)
 
     def end(self) -> None:
-        """Take the line away, and end the process."""
         self._send(_END)
         os.close(self._commands)
         os.close(self._answers)
         os.waitpid(self._process, 0)
 
     def _send(self, message: bytes) -> bool:
-        """Whether the process is there to read it."""
+        """Sends a message; returns False if the process is gone."""
         with suppress(OSError):
             os.write(self._commands, message + b"\n")
             return True
@@ -210,7 +201,7 @@ class Process:
 
 
 def _draw_for(parent: int, commands: int, answers: int) -> NoReturn:
-    """What the process does, until it has to end or its parent is gone."""
+    """Runs the process until it is ended or its parent is gone."""
     import select
 
     try:
@@ -238,7 +229,7 @@ def _draw_for(parent: int, commands: int, answers: int) -> NoReturn:
 
 
 def _columns() -> int:
-    """Of the terminal of stderr."""
+    """Returns the width of the terminal of stderr."""
     with suppress(OSError):
         # 0 where the terminal does not know
         return os.get_terminal_size(_STDERR).columns or _USUAL
@@ -246,7 +237,7 @@ def _columns() -> int:
 
 
 def _put(text: str) -> None:
-    """Write to the terminal; one that is gone is no reason to stop."""
+    """Writes to the terminal, and ignores that it may be gone."""
     with suppress(OSError):
         sys.stderr.write(text)
         sys.stderr.flush()

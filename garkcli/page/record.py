@@ -16,11 +16,8 @@ Owner = TypeVar("Owner")
 class Field(Frozen, Generic[Whole]):
     """A field of a JSON object that describes a ``Whole``.
 
-    Attributes:
-        name: its key.
-        schema: the JSON Schema of its values.
-        value: how it is computed, as plain data.
-        is_optional: whether it is left out where its value is None; otherwise that is null.
+    ``value`` computes it as plain data; if it is None, an optional field is left out, and another
+    one is null.
     """
 
     name: str
@@ -30,7 +27,7 @@ class Field(Frozen, Generic[Whole]):
 
 
 def schema_named(name: str) -> Field[Any]:
-    """The first field of a report: the name of the schema that it follows."""
+    """Returns the first field of a report: the name of its schema."""
     return Field("schema", {"const": name}, lambda _: name)
 
 
@@ -48,12 +45,12 @@ class Record(Generic[Whole]):
     """
 
     def __init__(self, *fields: Field[Whole], is_open: bool = False) -> None:
-        """The fields; ``is_open`` where the schema allows others."""
+        """With ``is_open`` the schema allows further fields."""
         self.fields = fields
         self.is_open = is_open
 
     def data(self, whole: Whole) -> dict[str, Any]:
-        """The object as plain data."""
+        """Returns the object as plain data."""
         found = {}
         for field in self.fields:
             value = field.value(whole)
@@ -62,7 +59,7 @@ class Record(Generic[Whole]):
         return found
 
     def text(self, whole: Whole) -> str:
-        """The object as a JSON document."""
+        """Returns the object as a JSON document."""
         return f"{to_json(self.data(whole))}\n"
 
     @property
@@ -78,5 +75,5 @@ class Record(Generic[Whole]):
         return schema
 
     def every(self, name: str, parts: Callable[[Owner], Iterable[Whole]]) -> Field[Owner]:
-        """A field with a list of these objects, one for each part."""
+        """Returns a field with a list of these objects, one for each part."""
         return Field(name, array(self.schema), lambda owner: [self.data(x) for x in parts(owner)])

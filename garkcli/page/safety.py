@@ -1,7 +1,7 @@
-"""The last look at a report before it is written, in the escapes of its format.
+"""The last check of a report before it is written, with the escapes of its format.
 
-Reports make the names of strangers harmless where they write them (``plain``); here nothing that
-was forgotten gets through to a terminal or to the runner of a job.
+Reports escape names where they write them (``plain``); here nothing that was missed reaches a
+terminal or the runner of a job.
 """
 
 from __future__ import annotations
@@ -11,21 +11,20 @@ import re
 from garkcli.page.plain import inert
 
 JSON = frozenset({"json", "ndjson", "sarif"})
-"""Formats that are JSON: a sign may always be written as ``\\u1234``."""
+"""Formats that are JSON, where any character may be written as ``\\u1234``."""
 YAML = frozenset({"yaml"})
 XML = frozenset({"junit", "html"})
-"""Formats in which a sign may be written as a reference to its number."""
+"""Formats in which a character may be written as a numeric reference."""
 TABBED = frozenset({"rungekutta-jl"})
-"""Tables whose columns are parted by tabs, which command nothing."""
+"""Tables with columns separated by tabs, which are harmless."""
 _COLOURS = r"(\x1b\[(?:[012]|3[1-6]|31;1)m)"
 
 
 def written_out(text: str, format: str = "text", coloured: bool = False) -> str:
-    r"""A whole report in which every sign that does not print is written out.
+    r"""Returns a report with every nonprintable character escaped.
 
-    Control characters would command a terminal, bidirectional ones would show another text than
-    there is, halves of pairs cannot be encoded. The colours of ``Paint`` stay where it is
-    ``coloured``.
+    Control characters could command a terminal, bidirectional ones could disguise the text, and
+    lone surrogates cannot be encoded. The colours of ``Paint`` are kept if ``coloured``.
 
     >>> print(written_out("a\x1b[2Jb \u202ec\n"), end="")
     a\x1b[2Jb \u202ec
@@ -52,7 +51,7 @@ def _written_out(text: str, format: str) -> str:
 
 
 def escaped(sign: str, format: str = "text") -> str:
-    r"""One sign written out as the format has it.
+    r"""Returns a character escaped for a format.
 
     >>> escaped("\x1b"), escaped("\x1b", "json"), escaped("𝟙", "json"), escaped("ö", "junit")
     ('\\x1b', '\\u001b', '\\ud835\\udfd9', '&#246;')
@@ -72,7 +71,7 @@ def escaped(sign: str, format: str = "text") -> str:
 
 
 def without_commands(text: str, format: str = "text") -> str:
-    r"""A text none of whose lines the runner of GitHub Actions takes for a command of the job.
+    r"""Returns a text without lines that GitHub Actions takes for commands of the job.
 
     >>> print(without_commands("  ::error::no\nsee ##[group]"))
       \x3a:error::no

@@ -1,4 +1,4 @@
-"""Fragments of JSON Schema (draft-07): what a value of a report may be."""
+"""Fragments of JSON Schema (draft-07) for the values of reports."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ NULL: Schema = {"type": "null"}
 TRUE: Schema = {"const": True}
 COUNT: Schema = {"type": "integer", "minimum": 0}
 POSITION: Schema = {"type": "integer", "minimum": 1}
-"""A number of a line, a stage or an order, from 1."""
+"""The number of a line, a stage or an order, from 1."""
 NUMERAL: Schema = {
     "type": "string",
     "description": "An exact number, or a decimal if the call asks for digits.",
@@ -32,11 +32,10 @@ SIZE: Schema = {
 }
 
 DERIVATION: Schema = {"enum": [*get_args(Derivation)]}
-"""Whether a method is the conjugate or the pair of the one that a file gives; empty for itself."""
+"""Whether a method is the conjugate or the pair of the one in the file; empty for itself."""
 
 
 def nullable(schema: Schema) -> Schema:
-    """The same, or null."""
     kind = schema.get("type")
     if isinstance(kind, list) and "null" in kind:
         return schema
@@ -46,12 +45,11 @@ def nullable(schema: Schema) -> Schema:
 
 
 def array(items: Schema) -> Schema:
-    """A list of these."""
     return {"type": "array", "items": items}
 
 
 def counts_of(what: str) -> Schema:
-    """A number for each of numbered things, by their numbers from 1."""
+    """Returns the schema of counts by numbers from 1."""
     return {
         "type": "object",
         "description": f"By {what}.",
@@ -61,13 +59,12 @@ def counts_of(what: str) -> Schema:
 
 
 def one_of(*schemas: Schema) -> Schema:
-    """One of these, and of no two of them."""
     return {"oneOf": [*schemas]}
 
 
 def published(title: str, schema: Schema) -> Schema:
-    """The schema of a whole document. Fields may be added to documents; those that are there never
-    change their meaning.
+    """Returns the schema of a whole document. Fields may be added to documents; the meaning of
+    existing ones never changes.
     """
     head = {"$schema": "http://json-schema.org/draft-07/schema#", "title": title}
     return {**head, **schema}

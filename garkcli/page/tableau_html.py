@@ -1,4 +1,4 @@
-"""A tableau as tables of HTML, Q and P for a method for positions and momenta."""
+"""A tableau as HTML tables, with Q and P for partitioned methods."""
 
 from __future__ import annotations
 
@@ -14,7 +14,6 @@ _LINE = "1px solid"
 
 
 def tableau_lines(tableau: Tableau, entries: Entries, name: str = "") -> list[str]:
-    """The tables, below the name and the letter of each."""
     return [
         _table(", ".join(filter(None, (name, letter))), _rows(tableau, entries, stages, colours))
         for letter, stages, colours in parts_of(tableau)
@@ -24,7 +23,7 @@ def tableau_lines(tableau: Tableau, entries: Entries, name: str = "") -> list[st
 def _rows(
     tableau: Tableau, entries: Entries, stages: Sequence[int], colours: Sequence[int]
 ) -> Iterator[str]:
-    """The stages of each colour of ``stages``, then the rows of weights."""
+    """Yields the stages of each colour of ``stages``, then the rows of weights."""
     if len(colours) > 1:
         yield _heads(tableau, entries, colours)
     for line in lines_of(entries, stages, colours):
@@ -37,7 +36,6 @@ def _rows(
 
 
 def _heads(tableau: Tableau, entries: Entries, colours: Sequence[int]) -> str:
-    """The names of the colours over their columns."""
     heads = ['<th scope="col"></th>']
     for m in colours:
         name = _text(tableau.colours[m].name)
@@ -48,7 +46,9 @@ def _heads(tableau: Tableau, entries: Entries, colours: Sequence[int]) -> str:
 
 
 def _row(head: str, groups: Sequence[Sequence[str]], is_first: bool) -> str:
-    """A row of the tableau: a line to the left of each block, one above where it is the first."""
+    """Returns a row of the tableau, with a line left of each block, and above if it is the
+    first.
+    """
     above = f"border-top:{_LINE};" if is_first else ""
     cells = [_cell(head, above)]
     for group in groups:
@@ -74,5 +74,5 @@ def _table(title: str, rows: Iterable[str]) -> str:
 
 
 def _text(text: str) -> str:
-    """A text without controls, as it is in HTML."""
+    """Returns a text without control characters, escaped for HTML."""
     return escape(printable(text))

@@ -1,7 +1,7 @@
-"""A tableau as LaTeX arrays, laid out as the paper prints it; needs amsmath only.
+"""A tableau as LaTeX arrays in the layout of the paper; needs amsmath only.
 
-A method for positions and momenta is two arrays, Q and P, as in eq. (psymplecticGARK): each with
-the stages at which its part is computed and the weights that update it.
+A partitioned method has two arrays, Q and P, as in eq. (psymplecticGARK), each with the stages at
+which its part is computed and the weights that update it.
 """
 
 from __future__ import annotations
@@ -18,23 +18,19 @@ from garkcli.tableau.pointwise import Cell, Entries
 from garkcli.tableau.tableau import Tableau
 
 MAX_BESIDE = 8
-"""Most columns of two arrays that are beside each other."""
+"""The largest number of columns for two arrays side by side."""
 
 
 def tableau_lines(tableau: Tableau, entries: Entries) -> list[str]:
-    """The arrays, and the polynomials of dense output."""
     return [*displays(tableau, entries), *_dense(entries)]
 
 
 def displays(
     tableau: Tableau, entries: Entries, text: Callable[[Cell], str] | None = None
 ) -> Iterator[str]:
-    """The lines of the arrays.
+    """Yields the lines of the arrays.
 
-    Args:
-        tableau: for its colours, and for what they drive.
-        entries: its entries.
-        text: an entry in LaTeX; by default exact ones exactly.
+    ``text`` writes an entry in LaTeX.
     """
     arrays = [
         [*([f"{letter}: \\quad"] if letter else []), *_array(entries, text, stages, driven)]
@@ -60,7 +56,7 @@ def _array(
     stages: Sequence[int],
     colours: Sequence[int],
 ) -> Iterator[str]:
-    """C | A | …, the stages of one colour of ``stages`` under those of the other, b below."""
+    """Yields the lines of an array: c, the blocks, and b below."""
 
     def usual(cell: Cell) -> str:
         return _cell(cell, entries)
@@ -81,7 +77,7 @@ def _array(
 
 
 def _dense(entries: Entries) -> Iterator[str]:
-    """The polynomials of dense output, one a line."""
+    """Yields the polynomials of dense output, one per line."""
     if entries.dense is None:
         return
     yield r"\["
@@ -93,7 +89,7 @@ def _dense(entries: Entries) -> Iterator[str]:
 
 
 def dense_polynomials(entries: Entries) -> Iterator[tuple[str, str]]:
-    """The weights of dense output and their polynomials in θ."""
+    """Yields the weights of dense output and their polynomials in θ."""
     found = entries.dense or ()
     for l, rows in enumerate(found, start=1):
         letter = f"b^{{[{l}]}}" if len(found) > 1 else "b"

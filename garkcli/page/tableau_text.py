@@ -1,4 +1,4 @@
-"""A tableau for people: as the paper prints it where it fits, block by block where it does not."""
+"""A tableau as text: in the layout of the paper if it fits, otherwise block by block."""
 
 from __future__ import annotations
 
@@ -18,9 +18,7 @@ _GAP = "  "
 
 
 def readable(entries: Entries) -> Entries:
-    """The entries of a method with rounded coefficients for people: fractions longer than decimals
-    as decimals.
-    """
+    """Returns the entries of a rounded method, with fractions longer than decimals as decimals."""
     widest = entries.digits + len("-0.")
 
     def short(cell: Cell) -> Cell:
@@ -34,13 +32,6 @@ def readable(entries: Entries) -> Entries:
 
 
 def tableau_lines(tableau: Tableau, entries: Entries, width: int = 80) -> list[str]:
-    """The whole tableau.
-
-    Args:
-        tableau: for the names of its colours.
-        entries: its entries, see ``garkcli.tableau.pointwise``.
-        width: columns of the terminal.
-    """
     lines = _grid(tableau, entries)
     if max(map(len, lines)) > width:
         lines = _listing(tableau, entries, width)
@@ -48,7 +39,7 @@ def tableau_lines(tableau: Tableau, entries: Entries, width: int = 80) -> list[s
 
 
 def _grid(tableau: Tableau, entries: Entries) -> list[str]:
-    """C | A^{1,1} | A^{1,2} | …, one colour under the other, b and embedded weights below."""
+    """Returns the lines with all blocks side by side, and b and embedded weights below."""
     digits = entries.digits
     lines = list(lines_of(entries, distinct_rows(tableau), range(tableau.size)))
     heads = [cell_text(x.node, digits) for x in lines if x.node is not None]
@@ -69,12 +60,11 @@ def _grid(tableau: Tableau, entries: Entries) -> list[str]:
 
 
 def _texts(cells: Sequence[Cell], digits: int) -> list[str]:
-    """Entries as texts."""
     return [cell_text(x, digits) for x in cells]
 
 
 def _listing(tableau: Tableau, entries: Entries, width: int) -> list[str]:
-    """Each block on its own."""
+    """Returns the lines with one block after the other."""
     digits = entries.digits
     names = [colour.name for colour in tableau.colours]
     lines: list[str] = []
@@ -95,12 +85,14 @@ def _listing(tableau: Tableau, entries: Entries, width: int) -> list[str]:
 
 
 def _named(letter: str, tableau: Tableau, *colours: str) -> str:
-    """What is called by its colours, where there are several."""
+    """Returns a letter with the names of its colours, if there are several."""
     return f"{letter}{{{','.join(colours)}}}" if tableau.size > 1 else letter
 
 
 def _dense(tableau: Tableau, entries: Entries, width: int) -> list[str]:
-    """The polynomials of dense output, a block per colour with a row per stage."""
+    """Returns the polynomials of dense output: one block for each colour, one row for each
+    stage.
+    """
     if entries.dense is None:
         return []
     lines = ["", "dense output, in each row the coefficients of θ, θ², …", ""]
@@ -111,12 +103,9 @@ def _dense(tableau: Tableau, entries: Entries, width: int) -> list[str]:
 
 
 def _block(name: str, cells: Sequence[Sequence[str]], width: int) -> list[str]:
-    """A block beneath its name: whole where it fits, else as many of its columns at a time as do.
+    """Returns a block below its name, with as many columns at a time as fit.
 
-    Args:
-        name: what the block is called.
-        cells: its entries.
-        width: columns of the terminal. An entry that is longer has lines of its own.
+    Entries longer than ``width`` have lines of their own.
     """
     count = len(cells[0])
     groups = _columns_that_fit(cells, width)
@@ -133,7 +122,7 @@ def _block(name: str, cells: Sequence[Sequence[str]], width: int) -> list[str]:
 
 
 def _columns_that_fit(cells: Sequence[Sequence[str]], width: int) -> list[range]:
-    """The columns of a block in groups that each fit between the margin and ``width``."""
+    """Returns the columns of a block in groups that fit between the margin and ``width``."""
     gap = len(_GAP)
     room = width - len(_MARGIN) + gap  # the last column has no gap behind it
     groups = []
@@ -151,7 +140,7 @@ def _columns_that_fit(cells: Sequence[Sequence[str]], width: int) -> list[range]
 
 
 def _numbers(columns: range) -> str:
-    """Columns by their numbers from 1."""
+    """Returns the numbers of columns from 1 as text."""
     first, last = columns.start + 1, columns.stop
     if first == last:
         return f"column {first}"
@@ -160,7 +149,7 @@ def _numbers(columns: range) -> str:
 
 
 def _vector(name: str, texts: Sequence[str], width: int) -> list[str]:
-    """Nodes or weights, in as many lines as they need."""
+    """Returns nodes or weights in as many lines as needed."""
     lines = [f"{name} ="]
     margin = " " * (len(name) + 2)
     for text, end in zip(texts, [","] * (len(texts) - 1) + [""], strict=True):

@@ -1,4 +1,4 @@
-"""Files that appear whole or not at all."""
+"""Files that are written whole or not at all."""
 
 from __future__ import annotations
 
@@ -15,26 +15,26 @@ from garkcli.errors import UsageProblem
 from garkcli.files import is_input, note_input, own_stream
 
 _MOST_LINKS = 40
-"""As many links in a row as Linux follows."""
+"""The length of chains of links that Linux follows."""
 
 
 def write_whole(path: str, pieces: Iterable[str | bytes], is_renewed: bool = False) -> bool:
-    """Write a file beside its place, then rename it into place.
+    """Writes a file beside its place, then renames it into place.
 
-    A link stays a link, and what it leads to is written; a file that exists keeps its permissions,
-    its owner and its group. What is no ordinary file (a device, a pipe, a stream of this process),
-    has several names or belongs to somebody else is written through.
+    A link stays a link, and its target is written; an existing file keeps its permissions, owner
+    and group. Devices, pipes, streams of this process, and files with several names or another
+    owner are written in place.
 
     Args:
-        path: where to.
+        path: the file.
         pieces: text, which is written as UTF-8, or bytes.
-        is_renewed: whether it is meant to be a file that the command has read.
+        is_renewed: whether it may be a file that the command has read.
 
     Returns:
-        Whether there is a file now: false of a device, a pipe or a stream of this process.
+        Whether there is a file now; False for a device, a pipe or a stream of this process.
 
     Raises:
-        UsageProblem: the file cannot be written, or is an input; nothing is left behind.
+        UsageProblem: the file cannot be written, or is an input; then nothing changes.
     """
     with _told(path), undone():
         target = _without_links(path)
@@ -59,11 +59,8 @@ def write_whole(path: str, pieces: Iterable[str | bytes], is_renewed: bool = Fal
 
 
 def refuse_unwritable(path: str) -> None:
-    """Say before any work is done that there will be no place for its result.
-
-    Raises:
-        UsageProblem: the name is empty, there is no such folder, it or the file is protected, or it
-            is a folder or an input.
+    """Raises UsageProblem, before any work, if a file cannot be written: its name is empty, the
+    folder does not exist, it is protected, or it is a folder or an input.
     """
     if not path:
         message = "the name of the file to be written is empty"
@@ -87,7 +84,7 @@ def refuse_unwritable(path: str) -> None:
 
 @contextmanager
 def _told(path: str) -> Iterator[None]:
-    """What the system says, as a problem of the option."""
+    """Raises errors of the system as UsageProblem about the option."""
     try:
         yield
     except BrokenPipeError:
@@ -99,14 +96,14 @@ def _told(path: str) -> Iterator[None]:
 
 
 def _refuse_input(path: str, status: os.stat_result) -> None:
-    """Never write over what was read or has just been written, whatever it is called."""
+    """Raises UsageProblem for a file that was read or has just been written, by any name."""
     if is_input(status):
         message = f"cannot write {path}: the command reads it, or has just written it"
         raise UsageProblem(message, "choose another place", code="cannot-write")
 
 
 def _without_links(path: str) -> Path:
-    """Where a path leads; a stream of this process, which is a link of its own kind, stays."""
+    """Returns the target of a path; streams of this process, which are links, are unchanged."""
     target = Path(path)
     for _ in range(_MOST_LINKS):
         if own_stream(str(target)) is not None or not target.is_symlink():
@@ -128,7 +125,7 @@ def _refuse_protected(target: Path) -> None:
 
 
 def _can_replace(target: Path, before: os.stat_result) -> bool:
-    """Whether a file that is made beside it has the owner and the group of one that is there."""
+    """Returns whether a new file in the folder gets the owner and the group of the existing one."""
     if not hasattr(os, "geteuid"):
         return True
     folder = target.parent.stat()
@@ -149,7 +146,7 @@ def _encoded(pieces: Iterable[str | bytes]) -> Iterator[bytes]:
 
 
 def _write_through(target: Path, pieces: Iterable[str | bytes], is_file: bool) -> None:
-    """Write into what is there: a file of several names at the end, a device as it comes."""
+    """Writes into an existing file or device; a file only once all pieces are there."""
     data = _encoded(pieces)
     if is_file:
         data = iter([b"".join(data)])
@@ -160,7 +157,6 @@ def _write_through(target: Path, pieces: Iterable[str | bytes], is_file: bool) -
 
 
 def _replace(target: Path, pieces: Iterable[bytes], mode: int) -> None:
-    """Write beside ``target``, then rename over it."""
     with _temporary(target) as (stream, temporary):
         stream.writelines(pieces)
         stream.close()
@@ -170,7 +166,7 @@ def _replace(target: Path, pieces: Iterable[bytes], mode: int) -> None:
 
 @contextmanager
 def _temporary(target: Path) -> Iterator[tuple[BinaryIO, Path]]:
-    """A file in the folder of ``target`` that is gone at the end, whatever ends it."""
+    """Opens a file in the folder of ``target`` that is removed at the end in any case."""
     import tempfile
 
     # the name of the target may fill what a name may have
