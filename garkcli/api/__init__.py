@@ -1,4 +1,4 @@
 """The Python interface: the functions behind the commands, for methods from files and from arrays.
 
-``garkcli`` itself hands out what is here; nothing of the program imports it.
+``garkcli`` exports them; no other part of the program imports this package.
 """

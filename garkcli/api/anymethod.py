@@ -1,4 +1,4 @@
-"""What stands for a method: a method itself, a tableau, a path, a name of the catalogue, arrays."""
+"""The kinds of arguments that stand for a method."""
 
 from __future__ import annotations
 
@@ -21,25 +21,25 @@ from garkcli.tableau.tableau import Method, Tableau
 AnyMethod: TypeAlias = (
     "GarkMethod | Tableau | Method | str | os.PathLike[str] | Sequence[Any] | Mapping[str, Any]"
 )
-"""A method, a tableau; a path or a name of the catalogue; arrays ``(A, b)``, ``(A, b, c)`` or
-``(A, b, c, embedded)``, or a mapping of what ``from_arrays`` takes.
+"""A method or a tableau; a path or a name of the catalogue; arrays ``(A, b)``, ``(A, b, c)`` or
+``(A, b, c, embedded)``, or a mapping of arguments of ``from_arrays``.
 """
 _ROWS = ("A", "b", "c", "embedded")
 _CURE = "load a file with load(path), or make one with from_arrays(A, b)"
 
 
 def method_of(given: AnyMethod, tolerance: object = None, is_any_kind: bool = False) -> GarkMethod:
-    """The method that is meant, with its entries as they are printed.
+    """The method for an argument, with its entries as printed.
 
     Args:
         given: a method, a tableau; a path, or a name of the catalogue; a tuple ``(A, b)``,
-            ``(A, b, c)`` or ``(A, b, c, embedded)``, or a mapping of what ``from_arrays`` takes.
-        tolerance: the rounding of arrays, where they bring none.
-        is_any_kind: whether it may be another than a GARK method.
+            ``(A, b, c)`` or ``(A, b, c, embedded)``, or a mapping of arguments of ``from_arrays``.
+        tolerance: the rounding of arrays without one of their own.
+        is_any_kind: whether the method may be other than a GARK method.
 
     Raises:
-        MethodError: it is none of these.
-        MethodFileError: there is no such file or name, or it is no method.
+        MethodError: the argument is none of these.
+        MethodFileError: there is no such file or name, or the file is not a method.
 
     >>> method_of(([[0, 0], [1, 0]], ["1/2", "1/2"])).stages
     (2,)
@@ -73,11 +73,8 @@ def _method_of(given: AnyMethod, tolerance: object) -> GarkMethod:
 
 
 def tableau_of(given: AnyMethod) -> Tableau:
-    """The tableau of a method.
-
-    Raises:
-        MethodError: it is none.
-        MethodFileError: there is no such file or name, or it is no method.
+    """Returns the tableau for an argument; raises MethodError or MethodFileError as ``method_of``
+    does.
     """
     if isinstance(given, Tableau):
         return given
@@ -85,10 +82,9 @@ def tableau_of(given: AnyMethod) -> Tableau:
 
 
 def tolerance_of(method: object, given: object = None) -> fmpq | None:
-    """The tolerance that was given, or else that of the method's file.
+    """Returns the given tolerance, or that of the method's file.
 
-    Raises:
-        MethodError: the argument is no number between 0 and 1.
+    Raises MethodError unless it lies between 0 and 1.
     """
     if given is None:
         return method.tolerance if isinstance(method, GarkMethod) else None
@@ -100,10 +96,8 @@ def tolerance_of(method: object, given: object = None) -> fmpq | None:
 
 
 def refuse_rounded(method: GarkMethod) -> None:
-    """Refuse to write the conjugate or the pair of rounded coefficients for other codes.
-
-    Raises:
-        MethodError: it is one of them: its coefficients are off by more than the tolerance.
+    """Raises MethodError for the conjugate or the pair of a rounded method, whose coefficients have
+    larger errors than the tolerance.
     """
     derivation = method.derivation
     if derivation and method.tolerance is not None:
@@ -114,7 +108,7 @@ def refuse_rounded(method: GarkMethod) -> None:
 def with_tolerance(
     given: AnyMethod, tolerance: object = None, is_any_kind: bool = False
 ) -> tuple[GarkMethod, fmpq | None]:
-    """A method with the tolerance that it is judged within: the one given, or its own."""
+    """Returns a method, and the tolerance within which it is judged: the given one, or its own."""
     method = method_of(given, tolerance, is_any_kind)
     if tolerance is not None and (method.embedded_tolerance or method.dense_tolerance):
         # that of its further weights is another too
@@ -125,15 +119,14 @@ def with_tolerance(
 def meant_of(
     given: AnyMethod, tolerance: object = None, is_any_kind: bool = False
 ) -> tuple[GarkMethod, AnyTableau]:
-    """A method, and its tableau with the rounding that it is judged within: the one given, or its
-    own.
+    """Returns a method, and its tableau with the rounding within which it is judged: the given one,
+    or its own.
     """
     method, near = with_tolerance(given, tolerance, is_any_kind)
     return method, as_meant(method) if tolerance is None else meant(method.tableau, near)
 
 
 def _rounded(tolerance: object) -> dict[str, Any]:
-    """What says that arrays are rounded; nothing where they are exact."""
     is_rounded = tolerance_of(None, tolerance) is not None
     return {"tolerance": tolerance} if is_rounded else {}
 

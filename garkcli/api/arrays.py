@@ -1,4 +1,4 @@
-"""Arrays to methods: through the text of a method file, so that both mean the same."""
+"""Methods from arrays, through the text of a method file, so that both have the same meaning."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from garkcli.methodfile.load import loads
 from garkcli.methodfile.writer import quoted
 
 SOURCE = "<arrays>"
-"""What errors call the file that arrays are written to."""
+"""The name of the file in error messages."""
 
 
 def from_arrays(
@@ -24,25 +24,25 @@ def from_arrays(
 
     Arrays are lists, tuples, NumPy arrays or matrices of SymPy or FLINT. Their entries are ints,
     Fractions, Decimals, floats, texts such as ``"1/2 - sqrt(3)/6"``, or numbers of NumPy, SymPy or
-    FLINT. They are taken exactly; a float stands for the decimal that it prints, so 0.1 is one
-    tenth, and one of more than 15 digits needs a ``tolerance``.
+    FLINT. They are taken exactly; a float stands for its shortest decimal, so 0.1 is one tenth, and
+    floats of more than 15 digits need a ``tolerance``.
 
     Args:
         A: the matrix, shape (s, s); the rows of a triangle may end at the diagonal or before it,
-            and an explicit method may lack the last column, as in SciPy. Of N colours N rows of N
-            blocks, shape (s_l, s_m), None where colour l does not see colour m; or a mapping of
+            and an explicit method may lack the last column, as in SciPy. For N colours N rows of N
+            blocks, shape (s_l, s_m), None if colour l does not depend on colour m; or a mapping of
             pairs (l, m), counted from 1, to blocks.
-        b: the weights, length s; of N colours a row each, or a mapping of colours to rows.
-        c: the nodes, length s; of N colours a row each.
+        b: the weights, length s; for N colours a row each, or a mapping of colours to rows.
+        c: the nodes, length s; for N colours a row each.
         embedded: embedded weights, as b.
-        name: what to call the method.
+        name: the name of the method.
         tolerance: the rounding of the coefficients, for instance ``"1e-13"``.
 
     Returns:
-        The method; its ``text`` is a method file that says the same.
+        The method; its ``text`` is a method file for it.
 
     Raises:
-        MethodError: an entry is no exact number.
+        MethodError: an entry is not an exact number.
         MethodFileError: the numbers do not make a method.
 
     >>> heun = from_arrays([[0, 0], [1, 0]], [0.5, "1/2"], name="Heun")
@@ -71,12 +71,10 @@ def from_arrays(
 
 
 _PLAIN = re.compile(r"-?(0|[1-9][0-9]*)([./][0-9]+)?(e-?[0-9]+)?", re.ASCII)
-"""Numbers that no reader of YAML takes for another."""
+"""Numbers that every YAML reader takes for the same."""
 
 
 class _Writer:
-    """Writes nested lists of numbers as YAML."""
-
     def __init__(self, is_rounded: bool) -> None:
         self.is_rounded = is_rounded
 
@@ -90,7 +88,7 @@ class _Writer:
 
 
 def _called(where: str, place: tuple[int, ...]) -> str:
-    """An entry as files call it, with colours, rows and entries counted from 1.
+    """Returns the name of an entry in messages, with colours, rows and entries counted from 1.
 
     >>> _called("A", (1, 2)), _called("b", (3,)), _called("A", (1, 2, 3, 4)), _called("b", (2, 1))
     ('A, row 1, entry 2', 'b, entry 3', 'A{1,2}, row 3, entry 4', 'b{2}, entry 1')
@@ -105,10 +103,9 @@ def _called(where: str, place: tuple[int, ...]) -> str:
 
 
 def _in_rows(value: Any, where: str) -> Any:
-    """What is given by colours counted from 1 as nested lists; anything else as it is.
+    """Returns nested lists for a mapping by colours counted from 1; other values are unchanged.
 
-    Raises:
-        MethodError: a key is no colour, or no pair of colours.
+    Raises MethodError for a key that is not a colour, or a pair of colours.
     """
     if not isinstance(value, Mapping):
         return value
@@ -139,7 +136,7 @@ def _is_colour(x: object) -> bool:
 
 
 def _listed(value: Any) -> Any:
-    """Arrays of any kind as nested lists; anything else as it is."""
+    """Returns arrays of any kind as nested lists; other values are unchanged."""
     if value is None or isinstance(value, str):
         return value
     if hasattr(value, "tolist"):
@@ -161,8 +158,8 @@ def _depth(value: Any) -> int:
 
 
 def _triangle(A: Any) -> Any:
-    """A matrix without its last column, which is zero like all on and above the diagonal, as rows
-    that end before it; anything else as it is.
+    """Returns an explicit matrix without its last column as rows that end before the diagonal;
+    other values are unchanged.
 
     >>> _triangle([[0], ["1/2"]]), _triangle([[1], ["1/2"]])
     ([[], ['1/2']], [[1], ['1/2']])
@@ -178,7 +175,7 @@ def _triangle(A: Any) -> Any:
 
 
 def _one_row(value: Any) -> Any:
-    """A row that is in a matrix of one row or of one column, as SymPy and FLINT have them."""
+    """Returns the row in a matrix with one row or one column, as SymPy and FLINT have them."""
     if _depth(value) != 2:
         return value
     if len(value) == 1:
@@ -189,7 +186,7 @@ def _one_row(value: Any) -> Any:
 
 
 def _quoted(text: str) -> str:
-    """A text as YAML takes it at its word; plain where it is a plain number."""
+    """Returns a text in quotes unless it is a plain number."""
     if _PLAIN.fullmatch(text):
         return text
     return quoted(text)

@@ -1,6 +1,4 @@
-"""All orders of a method, and orders asserted in your own tests, with what speaks against them
-in the failure.
-"""
+"""The orders of a method, and assertions about them for test suites, with explanations."""
 
 from __future__ import annotations
 
@@ -34,7 +32,6 @@ from garkcli.tableau.garkmethod import GarkMethod
 from garkcli.tableau.tableau import Tableau
 
 Wanted: TypeAlias = "int | str | None"
-"""An order, or ``">= 4"``."""
 _AT_LEAST = re.compile(r"\s*>=\s*([0-9]{1,4})\s*")
 _MAX_ORDER = 1000
 
@@ -50,15 +47,15 @@ def assert_order(
     index_1: Wanted = None,
     tolerance: Any = None,
 ) -> None:
-    """Fail unless a method has an order, and say why it has not.
+    """Fail unless a method has an order; the failure explains why not.
 
-    The order is meant as in the claims of a file: 4 is neither 3 nor 5, and ``">= 4"`` leaves it
-    open. It is decided exactly, or within the tolerance of the method.
+    Orders are written as in the claims of a file: 4 is neither 3 nor 5, and ``">= 4"`` is a lower
+    bound. They are decided exactly, or within the tolerance of the method.
 
     Args:
         method: a method, a tableau; a path, or a name of the catalogue; ``(A, b)``, ``(A, b, c)``
-            or ``(A, b, c, embedded)`` as ``from_arrays`` takes them, or a mapping of that.
-        order: of the method.
+            or ``(A, b, c, embedded)`` as for ``from_arrays``, or a mapping of its arguments.
+        order: the order of the method.
         embedded: the order of its embedded weights.
         conjugate: the order of its symplectic conjugate.
         pair: the order of the symplectic pair.
@@ -68,8 +65,8 @@ def assert_order(
             none.
 
     Raises:
-        AssertionError: an order is another one; its message has the tree whose condition fails, its
-            weight, what is required, and the entry that would restore the order.
+        AssertionError: an order differs; the message has the tree whose condition fails, its weight
+            and the required value, and the entry that would restore the order.
         MethodError: there is no such method, no order is given, or it has no embedded weights.
         MethodFileError: a file cannot be read as a method.
 
@@ -96,15 +93,15 @@ def assert_order(
 
 
 def find_orders(method: Any, limit: int = DEFAULT_LIMIT) -> dict[str, int | str]:
-    """The order of a method and those of its embedded weights, its conjugate and its pair, within
-    its tolerance: what ``assert_order`` takes.
+    """The orders of a method, its embedded weights, its conjugate and its pair, within its
+    tolerance, as ``assert_order`` takes them.
 
     Args:
-        method: as ``assert_order`` takes it.
+        method: as for ``assert_order``.
         limit: the order at which to stop.
 
     Returns:
-        The orders of what there is, ``">= 60"`` where the search stopped at 60.
+        The orders by name, ``">= 60"`` where the search stopped at 60.
 
     >>> find_orders("rk4")
     {'order': 4, 'conjugate': 4, 'pair': 4}
@@ -128,13 +125,11 @@ def find_orders(method: Any, limit: int = DEFAULT_LIMIT) -> dict[str, int | str]
 
 
 class _Part(Frozen):
-    """What an order may be asked of.
+    """Part of a method with an order of its own.
 
-    Attributes:
-        words: what it is called after the name of the method.
-        of: the method whose order it is.
-        exists: whether a method has it, but for weights that are 0.
-        which: ``conjugate`` or ``pair`` of the tableau whose entries are to blame; else empty.
+    ``words`` follow the name of the method in messages; ``of`` returns the method with this order;
+    ``exists`` says whether a method has it, unless a weight is 0; ``which`` is ``conjugate`` or
+    ``pair`` if their entries are to blame.
     """
 
     words: str
@@ -144,10 +139,9 @@ class _Part(Frozen):
 
 
 def _embedded(method: GarkMethod) -> GarkMethod:
-    """The method with the embedded weights in place of its own.
+    """Returns the method with the embedded weights in place of b.
 
-    Raises:
-        MethodError: it has none.
+    Raises MethodError without any.
     """
     if method.embedded is None:
         message = f"{_called(method)} has no embedded weights"
@@ -157,7 +151,7 @@ def _embedded(method: GarkMethod) -> GarkMethod:
 
 
 def _made(method: GarkMethod, changed: AnyTableau) -> GarkMethod:
-    """What was made of a method, with its rounding."""
+    """Returns a method with a changed tableau and its rounding."""
     if not isinstance(changed, Tableau):
         keep(changed)
     tolerance = tolerance_of(changed)
@@ -165,7 +159,7 @@ def _made(method: GarkMethod, changed: AnyTableau) -> GarkMethod:
 
 
 def _seen(which: Which) -> Callable[[GarkMethod], GarkMethod]:
-    """A Rosenbrock method with another matrix, or on other problems."""
+    """Returns the map from a Rosenbrock method to it with another matrix, or on other problems."""
 
     def of(method: GarkMethod) -> GarkMethod:
         if not _is_rosenbrock(method):
@@ -181,7 +175,7 @@ def _is_rosenbrock(method: GarkMethod) -> bool:
 
 
 def _is_plain(method: GarkMethod) -> bool:
-    """Whether it has a conjugate and a pair."""
+    """Returns whether the method has a conjugate and a pair."""
     return method.tableau.has_fields_alone and method.tableau.exact_to is None
 
 
@@ -204,7 +198,7 @@ def _called(method: GarkMethod) -> str:
 
 
 def _failure(method: GarkMethod, part: _Part, value: Any, tolerance: Any) -> Iterator[str]:
-    """The lines that say that an order is not as it should be; none where it is."""
+    """Yields the lines of the failure if an order is not as wanted."""
     wanted = _read(value)
     least = wanted.least if isinstance(wanted, AtLeast) else wanted
     name = f"{_called(method)}{part.words}"
@@ -237,10 +231,9 @@ def _failure(method: GarkMethod, part: _Part, value: Any, tolerance: Any) -> Ite
 
 
 def _read(value: Any) -> int | AtLeast:
-    """An order as it is requested.
+    """Reads a wanted order.
 
-    Raises:
-        MethodError: it is no order.
+    Raises MethodError for anything else.
     """
     if isinstance(value, str):
         match = _AT_LEAST.fullmatch(value)
@@ -253,7 +246,7 @@ def _read(value: Any) -> int | AtLeast:
 
 
 def _blamed(tableau: Tableau, part: _Part, found: AnyOrder, claimed: int) -> Iterator[str]:
-    """The entries whose change would restore the order."""
+    """Yields the entries whose change would restore the order."""
     missed = Missed(found.order + 1, claimed, part.which or "order")
     method = tableau if isinstance(found, Order) else meant(tableau, found.tolerance)
     blame = blame_of(method, missed)

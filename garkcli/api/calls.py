@@ -1,4 +1,4 @@
-"""What is true of a method as its file claims it, its stability, and what proves its orders."""
+"""The true claims of a method, its stability, and the proofs of its orders."""
 
 from __future__ import annotations
 
@@ -37,15 +37,14 @@ if TYPE_CHECKING:
 
 
 def claims_of(method: AnyMethod, keys: str | Iterable[str] = ()) -> dict[str, str]:
-    """What is true of a method, as its file would claim it: ``gark claims``.
+    """The true claims of a method, as its file would make them: ``gark claims``.
 
     Args:
         method: whatever ``method_of`` takes.
         keys: the claims, or one of them; by default those that ``gark claims`` writes.
 
     Returns:
-        The value of each as YAML; one that has no meaning for the method or is not decided is left
-        out.
+        The values in YAML; claims that do not apply to the method or are undecided are left out.
 
     Raises:
         UsageProblem: there is no such claim.
@@ -59,7 +58,7 @@ def claims_of(method: AnyMethod, keys: str | Iterable[str] = ()) -> dict[str, st
 
 
 def refuse_unknown(keys: Iterable[str]) -> None:
-    """Refuse what is no claim.
+    """Raises UsageProblem for an unknown claim.
 
     Raises:
         UsageProblem: one is none.
@@ -70,7 +69,7 @@ def refuse_unknown(keys: Iterable[str]) -> None:
 
 
 def true_claims_of(method: GarkMethod, keys: Sequence[str]) -> TrueClaims:
-    """What is true of some claims, of the usual ones where none are named."""
+    """Returns the true ones among some claims, or among the usual ones."""
     claims = method.claims if isinstance(method, MethodFile) else ()
     found = analyse_any(method, max(DEFAULT_LIMIT, highest_order(claims) + 1))
     wanted = keys or usual_keys(found)
@@ -80,15 +79,15 @@ def true_claims_of(method: GarkMethod, keys: Sequence[str]) -> TrueClaims:
 
 
 def with_claims(method: AnyMethod, keys: str | Iterable[str] = ()) -> str:
-    """The text of a method file that claims what is true of it: ``gark claims --write``, and what
-    ``gark new`` writes.
+    """The text of a method file with its true claims, as ``gark claims --write`` and ``gark new``
+    write it.
 
     Args:
         method: from a file, a text or arrays, or a path or a name of the catalogue.
         keys: as in ``claims_of``.
 
     Raises:
-        MethodError: it was not read from a text.
+        MethodError: the method was not read from a text.
         UsageProblem: there is no such claim.
 
     >>> print(with_claims(([[0]], [1]), ["order", "symplectic"]), end="")
@@ -112,7 +111,7 @@ def find_stability(
     seconds: float | None = SECONDS,
     at: Sequence[Point] = (),
 ) -> Stability:
-    """Everything that ``gark stability`` decides of a method.
+    """The stability of a method: ``gark stability``.
 
     Args:
         method: whatever ``method_of`` takes.
@@ -124,7 +123,7 @@ def find_stability(
         at: points z = x + iy, such as ``"0.01+2i"``, at which R(z) and |R(z)| are computed.
 
     Raises:
-        MethodError: there are ratios for another method, one is not positive, or the method has no
+        MethodError: ratios do not apply to the method, one is not positive, or the method has no
             R(z) for a value at a point.
         NotDecided: the time is not enough for R.
 
@@ -176,7 +175,7 @@ def two_springs(
         fast: the colour of the fast spring, counted from 1.
 
     Returns:
-        What is found for one slow frequency, or for all of the interval: ``stable`` are the
+        The result for one slow frequency, or for the whole interval: ``stable`` are the
         x = (hω_f)² with all powers of the step matrix bounded.
 
     Raises:
@@ -217,7 +216,7 @@ def prove_method(method: AnyMethod, limit: Whole = DEFAULT_LIMIT) -> MethodProof
         limit: the order at which to stop.
 
     Raises:
-        MethodError: the coefficients are rounded: ``prove_method_exists`` is for these.
+        MethodError: the coefficients are rounded; use ``prove_method_exists``.
 
     >>> prove_method("rk4")
     <MethodProof order 4, conjugate 4, pair 4>
@@ -226,15 +225,16 @@ def prove_method(method: AnyMethod, limit: Whole = DEFAULT_LIMIT) -> MethodProof
 
 
 def prove_method_exists(method: AnyMethod, limit: Whole = DEFAULT_LIMIT) -> ExistenceProof:
-    """That a method within the rounding of a printed one has its order, and none a higher one.
+    """A proof that some method within the rounding of a printed one has its order, and none a
+    higher one.
 
     Args:
         method: whatever ``method_of`` takes; its coefficients are rounded.
         limit: the order at which to stop.
 
     Raises:
-        MethodError: the coefficients are exact, or it is not proved, as where conditions depend on
-            each other.
+        MethodError: the coefficients are exact, or there is no proof, for instance because
+            conditions depend on each other.
 
     >>> prove_method_exists("kvaerno-3")
     <ExistenceProof of order 3>

@@ -1,4 +1,4 @@
-"""Methods put together from diagonal methods by the paper's rules."""
+"""Methods made from diagonal methods by the rules of the paper."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ Blocks: TypeAlias = "Mapping[tuple[int, int], Any]"
 
 
 def diagonal_method(name: str, stages: Whole | None = None) -> GarkMethod:
-    """The member of a family, with its entries as they are printed.
+    """The member of a family, with its entries as printed.
 
     Args:
-        name: as ``gark list families`` shows it.
-        stages: how many; may be left out for a family of one method.
+        name: the name of the family, as in ``gark list families``.
+        stages: the number of stages; may be left out for a family of one method.
 
     Raises:
-        UnknownFamily: no such family, or not with that many stages.
+        UnknownFamily: there is no such family, or no member with that many stages.
 
     >>> diagonal_method("lobatto-iiia", 2).A
     ((0, 0), (1/2, 1/2))
@@ -46,15 +46,15 @@ def gark(
     """The method with diagonal ``methods`` and the blocks between them, eq. (GARK).
 
     Args:
-        methods: of one colour each: whatever ``method_of`` takes.
+        methods: methods of one colour each, whatever ``method_of`` takes.
         transfer: a rule for all blocks, as ``gark list transfer`` shows it; or the blocks between
-            them, by pairs (l, m) of colours counted from 1, of shape (s_l, s_m). A pair that is
-            left out is a block that is not there.
-        degree: of the rule ``legendre``, which finds one by itself.
+            them, by pairs (l, m) of colours counted from 1, of shape (s_l, s_m). A block that is
+            left out is absent.
+        degree: the degree of the rule ``legendre``; by default it is chosen.
 
     Raises:
         MethodError: there is no such rule, or it has no degree; a method has several colours, or a
-            block goes with none of them.
+            block fits none of them.
 
     >>> gark(["gauss-2", "lobatto-iiia-3"])
     <GarkMethod 2 colours, stages 2, 3>
@@ -84,7 +84,6 @@ def gark(
 
 
 def _with_blocks(methods: Sequence[GarkMethod], blocks: Blocks) -> GarkMethod:
-    """The method with these blocks off the diagonal, as they are given."""
     size = range(1, len(methods) + 1)
     for key in blocks:
         if key not in {(l, m) for l in size for m in size if l != m}:
@@ -98,10 +97,9 @@ def _with_blocks(methods: Sequence[GarkMethod], blocks: Blocks) -> GarkMethod:
 
 
 def _diagonal_methods(methods: Sequence[GarkMethod]) -> list[Method]:
-    """The one colour of each method in its stage space, with numbers of one field.
+    """Returns the colour of each method with numbers from one field.
 
-    Raises:
-        CannotConvert: the numbers have no common field.
+    Raises CannotConvert if there is none.
     """
     tableaus = [method.tableau for method in methods]
     if len({id(x.field) for x in tableaus if x.field is not None}) > 1:

@@ -1,4 +1,4 @@
-"""Methods tested on problems: the order that errors show."""
+"""The observed orders of methods on problems."""
 
 from __future__ import annotations
 
@@ -32,26 +32,26 @@ def converge(
 ) -> Convergence:
     """Test the convergence of a method on a problem: ``gark converge``.
 
-    The method steps as it was given, whatever its file looks like: ``method.pair`` and
-    ``method.conjugate`` are what ``--pair`` and ``--conjugate`` take.
+    The method is used as given; ``method.pair`` and ``method.conjugate`` correspond to ``--pair``
+    and ``--conjugate``.
 
     Args:
         method: whatever ``method_of`` takes.
-        problem: a problem, the name of a built-in one, or the path of a problem file; in as many
-            terms as the method is for, or in one that has a natural split. The oscillator is solved
-            by the exact step map. By default the problem with random coefficients that sees every
-            tree of the structure.
+        problem: a problem, the name of a built-in one, or the path of a problem file; with as many
+            terms as the method has fields, or with one that has a natural split. The oscillator is
+            solved by the exact step map. By default the problem with random coefficients for which
+            every tree of the structure matters.
         t_end: the final time; the problem's own by default, 4/ω for the oscillator.
         steps: step sizes that divide ``t_end``, the largest first; by default a ladder.
         tolerance: the rounding of the coefficients; that of the method where it is not given.
             Slopes may then end on a plateau.
         is_timed: whether to measure the time of the steps in floats as well, in seconds.
-        jacobian: what a Rosenbrock method takes for it: the exact one; one that is older by a step,
-            at t − h and y − h f; or its diagonal alone, without ∂f/∂t. The order is then that with
-            an old Jacobian, or with any matrix.
+        jacobian: the matrix of a Rosenbrock method: the exact Jacobian; that of one step before, at
+            t − h and y − h f; or its diagonal, without ∂f/∂t. The order is then that with an old
+            Jacobian, or with any matrix.
 
     Raises:
-        MethodError: ``jacobian`` is given and it is no Rosenbrock method.
+        MethodError: ``jacobian`` is given for another kind of method.
         UsageProblem: the problem is not of the form of the structure, a step does not divide
             ``t_end``, or the stage equations of a given step have no unique solution.
         StepFailed: Newton's method fails for a given step size, or for all of the default ladder.
@@ -81,20 +81,13 @@ def converge(
 
 
 MATRICES: dict[Taken, Which] = {"old": "with_old_jacobian", "diagonal": "with_any_matrix"}
-"""The tableaus of other matrices than the exact Jacobian."""
+"""The tableaus for other matrices than the exact Jacobian."""
 
 
 def taking(tableau: Tableau, tolerance: fmpq | None, jacobian: Taken) -> Tableau:
-    """The tableau of the method that takes some matrix for the Jacobian.
+    """Returns the tableau of a Rosenbrock method with some matrix for the Jacobian.
 
-    Args:
-        tableau: with the exact one.
-        tolerance: of rounded coefficients.
-        jacobian: the matrix.
-
-    Raises:
-        MethodError: it is no Rosenbrock method, and no exact Jacobian is meant; or there is no such
-            matrix.
+    Raises MethodError for other methods, unless the Jacobian is exact, and for unknown matrices.
     """
     if jacobian == "exact":
         return tableau
@@ -111,11 +104,7 @@ def taking(tableau: Tableau, tolerance: fmpq | None, jacobian: Taken) -> Tableau
 
 
 def _some(steps: list[fmpq]) -> list[fmpq]:
-    """Step sizes, at least one.
-
-    Raises:
-        MethodError: there is none.
-    """
+    """Returns the step sizes; raises MethodError if there are none."""
     if not steps:
         raise MethodError("steps: there is none", "give one or more", code="arrays")
     return steps

@@ -1,4 +1,4 @@
-"""Methods found: parameters for an order, minima, searches."""
+"""Methods from families: parameters for an order, minima, searches."""
 
 from __future__ import annotations
 
@@ -33,29 +33,24 @@ from garkcli.methodfile.family import FamilyFile, with_values
 from garkcli.tableau.family import Family
 
 AnyFamily: TypeAlias = "Family | str | os.PathLike[str]"
-"""What ``load_family`` and ``loads_family`` return, or the path of a file."""
+"""The result of ``load_family`` and ``loads_family``, or the path of a file."""
 
 DIGITS = 15
-"""Of claims without simple radicals."""
+"""Digits of claims without simple radicals."""
 HEADS = {
     "exact": "exact",
     "exists": "proved to exist, with these decimals",
     "numerical": "numerical, nothing is proved",
 }
-"""What is known of methods that a search finds."""
+"""The certainty of the methods that a search finds."""
 STABILITIES: tuple[Wanted, ...] = ("a-stable", "l-stable", "p-stable", "i-stable")
 
 
 def family_of(given: AnyFamily, is_free: bool = True) -> Family:
-    """The family that is meant.
+    """Returns the family for an argument.
 
-    Args:
-        given: it, or the path of its file.
-        is_free: whether a file must have a free parameter.
-
-    Raises:
-        MethodFileError: every fault of a file.
-        MethodError: it has no free parameter and must have one.
+    With ``is_free`` a file needs a free parameter. Raises MethodFileError with all faults of a
+    file, MethodError without a free parameter.
     """
     if isinstance(given, (str, os.PathLike)):
         return families.load_family(path_of(given), is_free=is_free)
@@ -69,15 +64,9 @@ def family_of(given: AnyFamily, is_free: bool = True) -> Family:
 
 
 def exact_family_of(given: AnyFamily, what: str, is_free: bool = True) -> Family:
-    """The same, where only exact coefficients have an answer.
+    """Returns the same if its coefficients are exact.
 
-    Args:
-        given: a family, or the path of its file.
-        what: is asked.
-        is_free: as in ``family_of``.
-
-    Raises:
-        MethodError: its coefficients are rounded; or as ``family_of``.
+    ``what`` is named in the message. Raises MethodError for rounded coefficients.
     """
     family = family_of(given, is_free)
     if is_rounded(family):
@@ -88,7 +77,6 @@ def exact_family_of(given: AnyFamily, what: str, is_free: bool = True) -> Family
 
 
 def is_rounded(family: Family) -> bool:
-    """Whether known numbers of a family are rounded."""
     return isinstance(family, FamilyFile) and family.tolerance is not None
 
 
@@ -98,16 +86,17 @@ def find_parameters(
     whose: Whose = "method",
     seconds: float | None = None,
 ) -> Design | DesignWithin:
-    r"""For which values of its parameters the members of a family have an order: ``gark design``.
+    r"""The values of the parameters for which the members of a family have an order: ``gark
+    design``.
 
-    Where known numbers are rounded it finds values with which a method within the tolerance has it.
+    For rounded coefficients these are values for which a method within the tolerance has it.
 
     Args:
         family: as ``load_family`` and ``loads_family`` return it, or the path of a file.
-        order: the order wanted; where it is not given, as far as some value reaches.
+        order: the wanted order; by default the highest that some value reaches.
         whose: ``"method"``, ``"conjugate"`` or ``"pair"``: of the method, its symplectic conjugate
             or its symplectic pair.
-        seconds: after which the rest stays undecided; None for no limit.
+        seconds: the time after which the rest stays undecided; None for no limit.
 
     Raises:
         ZeroWeight: a weight is zero for every value, and there is no conjugate.
@@ -129,21 +118,21 @@ def find_parameters(
 
 
 def minimise(design: Design | AnyFamily, objective: str, seconds: float | None = None) -> Minimum:
-    r"""The methods of the highest order with the least value of an objective:
-    ``gark design --minimise``.
+    r"""The methods of the highest order that minimise an objective: ``gark design --minimise``.
 
     Args:
-        design: what ``find_parameters`` returns, or a family as it takes it; the path may be that
-            of a method without free parameters, whose value is the answer.
-        objective: the quantity to be small: error, error-coupling or coefficients; or large, with a
-            minus sign: -ssp, -stability-interval, -real-interval, -imaginary-interval,
-            -oscillator-interval; a search alone minimises A, B, C, D, E, embedded-A, largest,
-            largest-error, infinity, embedded-infinity and sums such as '2*A - ssp/10'.
-        seconds: after which it is given up; None for never.
+        design: the result of ``find_parameters``, or a family as for it; the path may be that of a
+            method without free parameters, whose value is the answer.
+        objective: the quantity to be minimised: error, error-coupling or coefficients; or
+            maximised, with a minus sign: -ssp, -stability-interval, -real-interval,
+            -imaginary-interval, -oscillator-interval; a search alone minimises A, B, C, D, E,
+            embedded-A, largest, largest-error, infinity, embedded-infinity and sums such as
+            '2*A - ssp/10'.
+        seconds: the time after which it stops; None for never.
 
     Raises:
-        UsageProblem: there is no such objective, it or stability that is wanted has no meaning for
-            the methods, or nothing was decided.
+        UsageProblem: there is no such objective, it or a wanted stability does not apply to the
+            methods, or nothing was decided.
         NotDecided: a Gröbner basis or a trial takes too long.
 
     >>> from garkcli import loads_family
@@ -174,19 +163,19 @@ def search_methods(
 
     Args:
         family: as ``find_parameters`` takes it.
-        order: that is wanted.
-        starts: how many.
-        seed: of the starts; the same seed has the same finds everywhere.
-        most: the most methods to look for; other successes are counted.
+        order: the wanted order.
+        starts: the number of starts.
+        seed: the seed of the starts; the same seed gives the same methods everywhere.
+        most: the largest number of methods; further ones are counted.
         whose: as in ``find_parameters``.
-        seconds: after which the search ends with what was found; None for never.
-        objective: that is minimised from each start, as in ``minimise``; the methods are then the
-            best ones that were found.
+        seconds: the time after which the search ends with the methods found; None for never.
+        objective: the objective that is minimised from each start, as in ``minimise``; the methods
+            are then the best ones found.
 
     Raises:
         ZeroWeight: a weight is zero for every value, and there is no conjugate.
-        UsageProblem: there is no such objective, it has no meaning for the methods, or SciPy is
-            not there to minimise it.
+        UsageProblem: there is no such objective, it does not apply to the methods, or SciPy is
+            missing.
 
     >>> from garkcli import loads_family
     >>> family = loads_family("parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [0, 1]")
@@ -219,20 +208,20 @@ def stable_values(
     r"""The values of the parameter of a family that make it stable: ``gark design --a-stable``.
 
     Args:
-        family: as ``find_parameters`` takes it; with one free parameter, or several through one
-            linear combination of which the step depends on them; for A-stability with two.
+        family: as ``find_parameters`` takes it; with one free parameter, or several on which the
+            step depends through one linear combination; for A-stability with two.
         wanted: ``"a-stable"``, ``"l-stable"``, ``"p-stable"`` or ``"i-stable"``.
         whose: as in ``find_parameters``.
-        slow: of P- or I-stability on two springs, (hω_s)²; None for the oscillator.
+        slow: (hω_s)² for P- or I-stability on two springs; None for the oscillator.
         fast: the colour of the fast spring, counted from 1.
         up_to: a bound on (hω_f)²; None for none.
-        colour: of A- and L-stability, the colour that is meant alone, counted from 1; None for all
-            colours with one λ.
-        seconds: after which it is given up; None for never.
+        colour: for A- and L-stability of a single colour its number from 1; None for all colours
+            with one λ.
+        seconds: the time after which it stops; None for never.
 
     Raises:
         MethodError: there is no such colour.
-        UsageProblem: the stability has no meaning for the method, there are several parameters, or
+        UsageProblem: the stability does not apply to the method, there are several parameters, or
             coefficients are irrational.
         ZeroWeight: a weight is zero for every value, and there is no conjugate.
         NotDecided: the time is not enough.
@@ -269,10 +258,11 @@ def found_methods(
     r"""The methods that were found, each with the text of its file: ``gark design --output-dir``.
 
     Args:
-        found: what ``find_parameters``, ``minimise`` or ``search_methods`` returned. Of a design
-            those of the highest order that has finitely many, of a minimum those with the value.
-        family: that was searched; a design and a minimum know theirs.
-        whose: order a search was for, in place of the one that it knows.
+        found: the result of ``find_parameters``, ``minimise`` or ``search_methods``. Of a design
+            the methods of the highest order with finitely many are taken, of a minimum those with
+            its value.
+        family: the family of a search; a design and a minimum have theirs.
+        whose: whose order a search was for, if not that of the search.
 
     Raises:
         MethodError: a search is given without its family, the family is not from a file or a text,
@@ -307,14 +297,8 @@ def found_methods(
 
 
 class Found(Frozen):
-    """A method that was found, with what its file says of it.
-
-    Attributes:
-        family: of which it is one.
-        member: its parameters.
-        head: how it was found.
-        claim: what is known of it.
-        is_exact: whether its parameters are exact.
+    """A method that was found, and the text of its file: how it was found, and the claim about
+    it.
     """
 
     family: FamilyFile
@@ -325,10 +309,9 @@ class Found(Frozen):
 
     @property
     def text(self) -> str:
-        """Of its file.
+        """The text of its file.
 
-        Raises:
-            MethodError: its values cannot be written in a method file.
+        Raises MethodError if its values cannot be written in a method file.
         """
         text = with_values(self.family, self.member.values, self.head, self.claim)
         if not self.is_exact and "tolerance:" not in text:
@@ -339,7 +322,6 @@ class Found(Frozen):
 def found_files(
     found: Design | DesignWithin | Minimum | Result, family: FamilyFile
 ) -> Iterator[Found]:
-    """The methods that were found, as their files say it."""
     source = f"found by gark design {family.source}"
     if isinstance(found, DesignWithin):
         yield from _files_within(found, family, source)
@@ -378,7 +360,7 @@ def found_files(
 
 
 def _files_within(found: DesignWithin, family: FamilyFile, source: str) -> Iterator[Found]:
-    """The files of values within a tolerance."""
+    """Yields the files for values within a tolerance."""
     step = found.best
     for values in () if step is None else (x for x in step.found if x.is_admitted):
         texts = {name: values.text(name, found.digits) for name in family.parameters}
@@ -391,20 +373,20 @@ def _files_within(found: DesignWithin, family: FamilyFile, source: str) -> Itera
 
 
 def _orders(method: Chosen, whose: Whose) -> str:
-    """What a method file may claim of orders."""
+    """Returns the claims about orders for the file of a method."""
     beside = "" if method.embedded is None else f", embedded-order: {method.embedded}"
     return f"{CLAIMS[whose]}: {method.order}{beside}"
 
 
 def _wanted(family: Family, whose: Whose) -> str:
-    """What a method file may claim of stability and further orders that were wanted."""
+    """Returns the claims about stability and further orders that were wanted."""
     wanted = [f", {key}: {value}" for key, value in family.claims_of_wanted]
     wanted += [f", {x.kind}: true" for x in family.stable if x.colour is None]
     return "".join(wanted) if whose == "method" else ""
 
 
 def _claim(minimum: Minimum) -> str:
-    """What a method file may claim of the greatest level."""
+    """Returns the claim about the greatest level."""
     objective = minimum.objective
     if not isinstance(objective, Level) or objective.claim is None:
         return ""

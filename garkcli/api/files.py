@@ -1,4 +1,4 @@
-"""Method files and problem files, from paths and texts, with values of parameters of any kind."""
+"""Method files and problem files, from paths and texts, with parameters of any number type."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def load(path: AnyPath, settings: Settings = NONE) -> MethodFile:
     """Read a method file, or a method of the catalogue.
 
     Args:
-        path: of the file, or ``-`` for standard input; or the name or an alias of a method of the
+        path: the file, or ``-`` for standard input; or the name or an alias of a method of the
             catalogue.
         settings: values of its parameters, by name, in place of those in the file.
 
@@ -50,7 +50,7 @@ def load(path: AnyPath, settings: Settings = NONE) -> MethodFile:
 
 
 def loads(text: str, source: str = "<text>", settings: Settings = NONE) -> MethodFile:
-    r"""Read a method file from its text.
+    r"""Read the text of a method file.
 
     Args:
         text: of the file.
@@ -69,10 +69,9 @@ def loads(text: str, source: str = "<text>", settings: Settings = NONE) -> Metho
 
 
 def references_in(given: AnyMethod) -> tuple[str, tuple[Work, ...]]:
-    """What a method, a file or a family is called, and its publications; arrays have none.
+    """Returns the name of a method, a file or a family, and its publications; arrays have none.
 
-    Raises:
-        MethodFileError: there is no such file, it is no YAML, or the reference has a fault.
+    Raises MethodFileError if there is no such file, it is not YAML, or the reference has a fault.
     """
     if not isinstance(given, (str, os.PathLike)):
         method = method_of(given)
@@ -95,12 +94,12 @@ def load_family(
     Args:
         path: of the file.
         settings: values of parameters, by name, in place of those in the file.
-        deadline: the reading of ``time.monotonic``, in seconds, at which what is wanted and not
-            worked out is left unsettled; None for never.
+        deadline: the reading of ``time.monotonic``, in seconds, at which remaining demands are left
+            undecided; None for never.
 
     Raises:
         MethodFileError: every fault of the file, with positions.
-        MethodError: it has no free parameter.
+        MethodError: the file has no free parameter.
 
     >>> load_family("tests/examples/families/sdirk.gark.yaml").parameters
     ('g',)
@@ -116,18 +115,18 @@ def loads_family(
     is_design: bool = True,
     deadline: float | None = None,
 ) -> FamilyFile:
-    r"""Read a method file with free parameters from its text.
+    r"""Read the text of a method file with free parameters.
 
     Args:
         text: of the file.
         source: what errors call it.
         settings: values of parameters, by name, in place of those in the file.
-        is_design: whether to use ``design`` of the file.
+        is_design: whether the demands under ``design`` count.
         deadline: as in ``load_family``.
 
     Raises:
         MethodFileError: every fault of the file, with positions.
-        MethodError: it has no free parameter.
+        MethodError: the file has no free parameter.
 
     >>> loads_family("parameters: {t: free}\nA: [[0, 0], [t, 0]]\nb: [0, 1]").parameters
     ('t',)
@@ -141,7 +140,7 @@ def load_problem(path: AnyPath, stiffness: Number | None = None) -> Problem:
 
     Args:
         path: of the file, or ``-`` for standard input.
-        stiffness: the value of its parameter of this name, in place of its own.
+        stiffness: a value for its parameter of this name.
 
     Raises:
         MethodFileError: every fault of the file, with positions.
@@ -154,7 +153,7 @@ def load_problem(path: AnyPath, stiffness: Number | None = None) -> Problem:
 
 
 def loads_problem(text: str, source: str = "<text>", stiffness: Number | None = None) -> Problem:
-    """Read a problem file from its text; see ``load_problem``.
+    """Read the text of a problem file; see ``load_problem``.
 
     Args:
         text: of the file.
@@ -182,14 +181,14 @@ def check_file(
 
     Args:
         path: a file, a name of the catalogue, or ``-`` for standard input.
-        limit: where the search for orders stops, unless a claim of the file reaches further.
-        want_constants: whether to find the norms of the principal error coefficients, over the
+        limit: where the search for orders stops, unless a claim of the file is higher.
+        want_constants: whether to compute the norms of the principal error coefficients, over the
             trees of the order that fails.
         settings: values of its parameters, by name, in place of those in the file.
 
     Returns:
-        The outcome; ``ok`` where it could be read and every claim holds. A file that cannot be read
-        has its ``faults`` in it.
+        The outcome; ``ok`` if the file could be read and all claims hold. A file that cannot be
+        read has ``faults``.
 
     >>> found = check_file("rk4")
     >>> found.ok, found.analysis.order, [claim.holds for claim in found.claims]
@@ -201,15 +200,14 @@ def check_file(
 
 
 def compare(one: AnyMethod, other: AnyMethod, limit: Whole = DEFAULT_LIMIT) -> Comparison:
-    """Hold two methods against each other: ``gark diff``.
+    """Compare two methods: ``gark diff``.
 
-    Methods are the same where a renumbering of stages or colours turns one into the other, once
-    colours that share stages have copies of their own, and stages without influence and equal
-    stages are left out.
+    Methods are the same if renumbering stages or colours turns one into the other, after colours
+    that share stages were given copies of them, and equal or redundant stages were removed.
 
     Args:
         one: whatever ``method_of`` takes.
-        other: another.
+        other: another method.
         limit: where the search for orders stops.
 
     >>> compare(([[0, 0], [1, 0]], ["1/2", "1/2"]), ([[0, 1], [0, 0]], [0.5, 0.5]))
@@ -226,19 +224,20 @@ def convert(
     digits: Whole | None = None,
     is_recognising: bool = False,
 ) -> Converted:
-    """The same method in another form: ``gark convert``.
+    """A method in another form: ``gark convert``.
 
     Args:
         method: whatever ``method_of`` takes.
-        to: the form: spelled-out, gark, ark, prk, pair, canonical or recovered; of a Rosenbrock
+        to: the form: spelled-out, gark, ark, prk, pair, canonical or recovered; for a Rosenbrock
             method printed or transformed.
-        stages: how many each colour gets at least, by stages in front that do nothing.
-        digits: with recovered: digits after the point; by default 50, more if the tolerance has.
-        is_recognising: with recovered: exact numbers for decimals if no order falls.
+        stages: the least number of stages of each colour, reached with redundant stages in front.
+        digits: with recovered: digits after the point; by default 50, or more if the tolerance has
+            more.
+        is_recognising: with recovered: exact numbers for decimals unless an order falls.
 
     Raises:
-        UsageProblem: there is no such form, or it has no digits.
-        CannotConvert: the method has none; the message says why.
+        UsageProblem: there is no such form, or digits do not apply to it.
+        CannotConvert: the method has no such form; the message says why.
         ZeroWeight: a pair would divide by zero.
 
     >>> convert("heun", stages=3).method.A
@@ -254,10 +253,9 @@ def convert(
 
 
 def path_of(given: object) -> str:
-    """A path, or a name of the catalogue.
+    """Returns the path, or the name of the catalogue.
 
-    Raises:
-        MethodError: it is neither.
+    Raises MethodError for other types.
     """
     if isinstance(given, (str, bytes, os.PathLike)):
         return os.fsdecode(given)
@@ -267,10 +265,9 @@ def path_of(given: object) -> str:
 
 
 def _text(given: object) -> str:
-    """The text of a file.
+    """Returns the text.
 
-    Raises:
-        MethodError: it is none.
+    Raises MethodError for other types.
     """
     if isinstance(given, str):
         return given

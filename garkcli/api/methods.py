@@ -1,6 +1,6 @@
-"""What is asked of a method most: its order, its conjugate, its pair, everything at once.
+"""The most frequent questions about a method: its order, its conjugate, its pair, its analysis.
 
-Each takes anything that means a method, and decides within the tolerance of the method's file
+All functions take anything that stands for a method, and decide within the tolerance of its file
 unless another is given.
 """
 
@@ -36,8 +36,8 @@ def find_order(
 ) -> AnyOrder:
     """The order of a method: exactly, or within its tolerance.
 
-    The conjugate and the pair of a rounded method have the orders that ``analyse`` says: its
-    rounding goes on into their coefficients.
+    The conjugate and the pair of a rounded method have the orders in ``analyse``: their
+    coefficients inherit the rounding.
 
     Args:
         method: whatever ``method_of`` takes.
@@ -68,7 +68,7 @@ def find_order(
 def analyse(
     method: AnyMethod, limit: Whole = DEFAULT_LIMIT, tolerance: Number | None = None
 ) -> AnyAnalysis:
-    """Decide everything that ``gark check`` reports; up to the order ``limit``.
+    """Decide all that ``gark check`` reports, with orders up to ``limit``.
 
     Args:
         method: whatever ``method_of`` takes.
@@ -77,9 +77,9 @@ def analyse(
             none.
 
     Returns:
-        An ``Analysis`` of a GARK method. That of a Rosenbrock method has ``order``, ``w_order``,
+        An ``Analysis`` for a GARK method. That of a Rosenbrock method has ``order``, ``w_order``,
         ``old_jacobian_order``, ``nonautonomous_order``, ``index_1_order``, ``index_1_y_order``,
-        ``index_1_z_order``, ``at_infinity``; that of a multirate one with ``fast: exact``
+        ``index_1_z_order``, ``at_infinity``; that of a multirate method with ``fast: exact``
         ``order``, ``slow_order``, ``nonautonomous_order``. Each has ``embedded`` too.
 
     >>> found = analyse("gauss-2")
@@ -99,7 +99,7 @@ def analyse(
 def simplifying(
     method: AnyMethod, limit: Whole = DEFAULT_LIMIT, tolerance: Number | None = None
 ) -> Simplifying:
-    """The simplifying assumptions B(r), C(η) and D(ζ) of every colour and every block.
+    """The simplifying assumptions B(r), C(η) and D(ζ) of each colour and each block.
 
     Args:
         method: whatever ``method_of`` takes.
@@ -108,8 +108,8 @@ def simplifying(
             none.
 
     Returns:
-        ``B`` has a number per colour, ``C`` and ``D`` one per block, in rows, None for no block;
-        ``bound`` and ``sharp_bound`` are what they say of the order.
+        ``B`` has a number for each colour, ``C`` and ``D`` one for each block, in rows, None for
+        absent blocks; ``bound`` and ``sharp_bound`` are lower bounds of the order.
 
     >>> simplifying("gauss-2")
     Simplifying(B=(4,), C=((2,),), D=((2,),), limit=60)
@@ -120,8 +120,8 @@ def simplifying(
 
 
 def is_symplectic(method: AnyMethod, tolerance: Number | None = None) -> bool:
-    """Whether a method is its own conjugate; for a partitioned one, whether its parts are each
-    other's. Within the tolerance of the method where it has one.
+    """Whether a method is its own conjugate, or for a partitioned method whether its parts are
+    conjugate to each other; within its tolerance, if it has one.
 
     Args:
         method: whatever ``method_of`` takes.
@@ -137,7 +137,7 @@ def is_symplectic(method: AnyMethod, tolerance: Number | None = None) -> bool:
 
 
 class _OfSameKind(Protocol):
-    """A function that makes a tableau of a tableau, and a loaded method of any other method."""
+    """A function that returns a tableau for a tableau, and a method for any other argument."""
 
     @overload
     def __call__(self, method: Tableau) -> Tableau: ...
@@ -148,7 +148,7 @@ class _OfSameKind(Protocol):
 
 
 def _of_same_kind(make: Callable[[AnyMethod], Tableau | GarkMethod]) -> _OfSameKind:
-    """The function itself; its type says what it returns for what."""
+    """Returns the function with a type that says so."""
     return cast(_OfSameKind, make)
 
 
@@ -156,7 +156,7 @@ def _of_same_kind(make: Callable[[AnyMethod], Tableau | GarkMethod]) -> _OfSameK
 def conjugate(method: AnyMethod) -> Tableau | GarkMethod:
     """The symplectic conjugate, with the name and the tolerance of the method.
 
-    The conjugate of a conjugate is the method itself; that of a bare tableau is a tableau.
+    The conjugate of a conjugate is the method itself; for a tableau the result is a tableau.
 
     Args:
         method: whatever ``method_of`` takes.
@@ -180,7 +180,7 @@ def conjugate(method: AnyMethod) -> Tableau | GarkMethod:
 def pair(method: AnyMethod) -> Tableau | GarkMethod:
     """The symplectic pair (Q, P) of a method and its conjugate: 2N colours V¹…Vᴺ, F¹…Fᴺ.
 
-    That of a bare tableau is a tableau.
+    For a tableau the result is a tableau.
 
     Args:
         method: whatever ``method_of`` takes.
@@ -211,11 +211,11 @@ def _derived(method: GarkMethod, tableau: Tableau, derivation: Derivation) -> Ga
 def symplectic_pair(
     method: AnyMethod, velocities: Iterable[Whole], forces: Iterable[Whole]
 ) -> GarkMethod:
-    """The pair (Q, P) of a method and its conjugate for the vector fields that a problem has.
+    """The pair (Q, P) of a method and its conjugate, for the vector fields of a problem.
 
-    Colours V^l for l in ``velocities`` and F^l for l in ``forces``, which share their stages. With
-    all of both it is ``pair``; of a semi-separable problem {1} and {1, 2}; of a separable one {1}
-    and {2}, eqs. (varGARK).
+    The colours are V^l for l in ``velocities`` and F^l for l in ``forces``, which share their
+    stages. With all colours in both it is ``pair``; {1} and {1, 2} are for semi-separable problems,
+    {1} and {2} for separable ones, eqs. (varGARK).
 
     Args:
         method: whatever ``method_of`` takes.
@@ -224,7 +224,7 @@ def symplectic_pair(
 
     Raises:
         MethodError: there is no such colour, or the method is partitioned already.
-        ZeroWeight: a conjugate that is needed would divide by zero.
+        ZeroWeight: a conjugate would divide by zero.
 
     >>> symplectic_pair("collocation", [1], [2])
     <GarkMethod 2 colours, stages 2, 3>
@@ -240,7 +240,7 @@ def symplectic_pair(
 
 
 def find_property(method: AnyMethod, key: str, tolerance: Number | None = None) -> Verdict:
-    """What is true of a property, such as ``"l-stable"``, and what decides it.
+    """Decide a property, such as ``"l-stable"``, and give the reason.
 
     Args:
         method: whatever ``method_of`` takes.
@@ -267,8 +267,7 @@ def find_property(method: AnyMethod, key: str, tolerance: Number | None = None) 
 
 
 def reduced(method: AnyMethod) -> GarkMethod | None:
-    """The smallest method that does the same, maybe itself: ``gark convert --to reduced``.
-    None where stages are at irrational nodes and more than row sums would have to be compared.
+    """The smallest equivalent method, perhaps itself: ``gark convert --to reduced``.
 
     Args:
         method: whatever ``method_of`` takes.

@@ -1,4 +1,4 @@
-"""Backward error analysis: what equation a method solves, and in which energy it does."""
+"""Backward error analysis: the modified equation of a method, and the energy error in it."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from garkcli.frozen import replace
 def backward_analysis(
     method: AnyMethod, max_order: Whole, tolerance: Number | None = None
 ) -> BackwardAnalysis:
-    """What trees of up to ``max_order`` vertices tell of a method: ``gark modified``.
+    """The backward error analysis of a method with trees of up to ``max_order`` vertices: ``gark
+    modified``.
 
-    With a tolerance they are those of the method that the digits are taken to be a rounding of, to
-    some digits more than are printed; nothing is decided about the orders that are about exact
-    zeros.
+    With a tolerance it is that of the exact method that the coefficients approximate, to some digits
+    more than are printed; orders that depend on exact zeros are undecided.
 
     Args:
         method: whatever ``method_of`` takes.
-        max_order: the most vertices of a tree, at least 1.
+        max_order: the largest number of vertices of a tree, at least 1.
         tolerance: the rounding of the coefficients; that of the method where it is not given, 0 for
             none.
 
@@ -40,12 +40,12 @@ def backward_analysis(
 
 
 def modified_formula(method: AnyMethod, problem: AnyProblem, max_order: Whole) -> ModifiedFormula:
-    """The modified Hamiltonian of a symplectic method, the modified equation of any other.
+    """The modified Hamiltonian of a symplectic method, or the modified equation of another one.
 
     Args:
         method: whatever ``method_of`` takes; its coefficients are exact.
         problem: a Hamiltonian problem, the name of a built-in one, or the path of a problem file.
-        max_order: of the trees: powers of h up to one less.
+        max_order: the largest order of trees; powers of h go up to one less.
 
     Raises:
         UsageProblem: the problem is not of the form of the structure, or there are too many trees.
@@ -67,15 +67,15 @@ def modified_run(
     t_end: Number | None = None,
     longest: Number | None = None,
 ) -> ModifiedRun:
-    """Measure the energy error of a symplectic method in its modified Hamiltonian:
+    """Measure the error of a symplectic method in its modified Hamiltonian:
     ``gark energy --modified``.
 
     Args:
         method: whatever ``method_of`` takes; symplectic by its coefficients, which are exact.
         problem: as in ``modified_formula``.
-        max_order: of the trees: powers of h up to one less.
+        max_order: the largest order of trees; powers of h go up to one less.
         t_end: the final time; the problem's own by default.
-        longest: the largest step size is at most so long.
+        longest: an upper bound on the step sizes.
 
     Raises:
         UsageProblem: the method is not symplectic or not consistent, there are too many trees or

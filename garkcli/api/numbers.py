@@ -1,4 +1,4 @@
-"""Numbers of Python, NumPy, SymPy and FLINT as the exact numbers that the rooms below take."""
+"""Exact numbers from numbers of Python, NumPy, SymPy and FLINT."""
 
 from __future__ import annotations
 
@@ -11,26 +11,21 @@ from garkcli.errors import MethodError, counted
 from garkcli.exact.given import EXACTLY, AnyNumber, complex_parts, number_text, rational_of
 
 Number: TypeAlias = AnyNumber
-"""A number, or its text: an int, a Fraction, a Decimal, a float of at most 15 digits, ``"1/3"``; a
+"""A number or its text: an int, a Fraction, a Decimal, a float of at most 15 digits, ``"1/3"``; a
 number of NumPy, SymPy or FLINT.
 """
 Point: TypeAlias = "Number | complex | tuple[Number, Number]"
-"""A complex number with rational parts: ``"0.01+2i"``, a number of Python, or its two parts."""
+"""A complex number with rational parts: ``"0.01+2i"``, a Python number, or its two parts."""
 Whole: TypeAlias = "SupportsIndex"
-"""A whole number of Python, NumPy, SymPy or FLINT."""
+"""An integer of Python, NumPy, SymPy or FLINT."""
 Settings: TypeAlias = "Mapping[str, Number]"
-"""Values of parameters by their names."""
 
 
 def rational(given: Number, where: str) -> fmpq:
-    """The rational number that is meant.
+    """Returns the rational number for an argument.
 
-    Args:
-        given: a number of any kind, or its text.
-        where: the argument, for messages.
-
-    Raises:
-        MethodError: it is no number, it is irrational, or a float that is rounded.
+    ``where`` names the argument in messages. Raises MethodError for other values: not a number,
+    irrational, or a float that is rounded.
 
     >>> rational(0.25, "h"), rational("1/3 - 1/4", "h")
     (1/4, 1/12)
@@ -39,15 +34,13 @@ def rational(given: Number, where: str) -> fmpq:
 
 
 def rational_or_none(given: Number | None, where: str) -> fmpq | None:
-    """The same, where None says that the default is meant."""
     return None if given is None else rational(given, where)
 
 
 def rationals(given: Iterable[Number], where: str) -> list[fmpq]:
-    """Several of them; messages have the place in Python's indices.
+    """Returns several rational numbers.
 
-    Raises:
-        MethodError: one is none, or they cannot be gone through.
+    Raises MethodError with the index of the first wrong one.
     """
     if not _is_list(given):
         raise MethodError(f"{where}: {given!r} is no list", "give a list", code="wrong-value")
@@ -55,10 +48,9 @@ def rationals(given: Iterable[Number], where: str) -> list[fmpq]:
 
 
 def points(given: Iterable[Point], where: str) -> list[tuple[fmpq, fmpq]]:
-    """Complex numbers with rational parts.
+    """Returns complex numbers with rational parts.
 
-    Raises:
-        MethodError: one is none, or they are no list.
+    Raises MethodError for other values.
 
     >>> points(["0.01+2i", 2j, ("1/3", 0)], "at")
     [(1/100, 2), (0, 2), (1/3, 0)]
@@ -82,10 +74,9 @@ def _point(given: Point, where: str) -> tuple[fmpq, fmpq]:
 
 
 def whole(given: Any, where: str, least: int = 0) -> int:
-    """A whole number that is at least ``least``.
+    """Returns an integer that is at least ``least``.
 
-    Raises:
-        MethodError: it is none.
+    Raises MethodError for other values.
 
     >>> whole(3.0, "order"), whole("12", "order")
     (3, 12)
@@ -98,10 +89,9 @@ def whole(given: Any, where: str, least: int = 0) -> int:
 
 
 def colour_of(given: Any, where: str, count: int) -> int:
-    """A colour of a method as code counts it, from 0, of one that is counted from 1.
+    """Returns a colour counted from 0, for one counted from 1.
 
-    Raises:
-        MethodError: the method has no such colour.
+    Raises MethodError if the method lacks it.
 
     >>> colour_of(2, "forces", 2)
     1
@@ -115,10 +105,9 @@ def colour_of(given: Any, where: str, count: int) -> int:
 
 
 def colours_of(given: Iterable[Any], where: str, count: int) -> list[int]:
-    """Several of them.
+    """Returns colours counted from 0, for a list of them counted from 1.
 
-    Raises:
-        MethodError: one is none of the method's, or they are no list.
+    Raises MethodError if the method lacks one.
 
     >>> colours_of([1, 2], "forces", 2)
     [0, 1]
@@ -130,10 +119,9 @@ def colours_of(given: Iterable[Any], where: str, count: int) -> list[int]:
 
 
 def texts(given: Settings, where: str) -> dict[str, str]:
-    """Values of parameters as the texts of coefficients.
+    """Returns the values of parameters as texts of coefficients.
 
-    Raises:
-        MethodError: one is no exact number, or they have no names.
+    Raises MethodError if one is not exact, or they are not a mapping.
     """
     if not _is_mapping(given):
         cure = f"give a mapping, such as {where}={{'tau': '1/3'}}"

@@ -1,4 +1,4 @@
-"""Problems: built in, from files, or as values, in as many terms as a method is for."""
+"""Problems: built in, from files, or as objects, split into the terms that a method needs."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from garkcli.tableau.tableau import Tableau
 AnyProblem: TypeAlias = "Problem | Oscillator | str | os.PathLike[str]"
 """A problem; the name of a built-in one, or the path of a problem file."""
 OSCILLATOR = "oscillator"
-"""The name of the problem that is solved by exact step maps."""
+"""The name of the problem with exact step maps."""
 
 
 def problem(
@@ -29,10 +29,10 @@ def problem(
     """The built-in problem called ``name``, Hamiltonian or not, split into terms.
 
     Args:
-        name: as ``gark list problems`` shows it.
-        terms: how many, one for each colour of a method.
-        seed: of those with random coefficients.
-        stiffness: if the problem has one; 1 by default.
+        name: the name in ``gark list problems``.
+        terms: the number of terms, one for each colour of a method.
+        seed: the seed of random coefficients.
+        stiffness: the stiffness of a stiff problem; 1 by default.
 
     Raises:
         UsageProblem: there is no such problem, it cannot be split so, or it has no stiffness.
@@ -52,9 +52,9 @@ def hamiltonian(name: str, terms: Whole = 1, seed: Whole = 1) -> Hamiltonian:
     """The built-in Hamiltonian problem called ``name``, split into terms.
 
     Args:
-        name: as ``gark list problems`` shows it.
-        terms: how many, one for each colour of a method.
-        seed: of those with random coefficients.
+        name: the name in ``gark list problems``.
+        terms: the number of terms, one for each colour of a method.
+        seed: the seed of random coefficients.
 
     Raises:
         UsageProblem: there is no such problem, it cannot be split so, or it is not Hamiltonian.
@@ -68,7 +68,7 @@ def hamiltonian(name: str, terms: Whole = 1, seed: Whole = 1) -> Hamiltonian:
 
 
 def demand_name(given: object) -> None:
-    """Refuse what is no name of a problem, and no path to one.
+    """Raises MethodError unless the argument is the name of a problem or a path.
 
     Raises:
         MethodError: that is the case.
@@ -87,21 +87,12 @@ def problem_for(
     omega: fmpq | None = None,
     split: str | None = None,
 ) -> Problem | Oscillator:
-    """The problem that is meant, one that is named in as many terms as the method is for.
+    """Returns the problem for an argument; a named one has as many terms as the method has fields.
 
-    Args:
-        given: a problem, a name or a path.
-        tableau: of the method.
-        seed: for problems with random coefficients; 1 by default.
-        stiffness: for those that have one.
-        omega: the frequency of the oscillator; 1 by default.
-        split: its shares of the energies, as ``parse_shares`` reads them.
-
-    Raises:
-        UsageProblem: there is no such problem, it takes no seed or no stiffness, or it has another
-            number of terms.
-        MethodFileError: a file has faults.
-        MethodError: it is no problem.
+    ``seed`` and ``omega`` are 1 by default; ``split`` are the shares of the energies of the
+    oscillator, as for ``parse_shares``. Raises UsageProblem if there is no such problem, it has no
+    seed or stiffness, or another number of terms; MethodFileError for faults of a file; MethodError
+    for other arguments.
     """
     if isinstance(given, (Problem, Oscillator)):
         return given
@@ -118,7 +109,7 @@ def problem_for(
 def _to_step(
     given: str | os.PathLike[str], tableau: Tableau, seed: int | None, stiffness: fmpq | None = None
 ) -> Problem:
-    """The problem of a name or a path for steps in numbers, the oscillator among them."""
+    """Returns the problem of a name or path with steps in numbers, including the oscillator."""
     text = os.fspath(given)
     builtin.check_seed(text, seed)
     if builtin.is_path(text) or not isinstance(given, str):
@@ -128,16 +119,15 @@ def _to_step(
 
 
 def split_for(problem: Problem, tableau: Tableau) -> Problem:
-    """A problem in as many terms as a method is for.
+    """Returns a problem with as many terms as a method has fields.
 
-    Raises:
-        UsageProblem: it has no natural split.
+    Raises UsageProblem if it has no natural split.
     """
     return split_into(problem, terms_of(with_joined_terms(tableau)))
 
 
 def to_step(given: AnyProblem, tableau: Tableau, seed: int | None = None) -> Problem:
-    """The same where steps are taken in numbers, not by exact step maps."""
+    """Returns the same for steps in numbers, not by exact step maps."""
     found = problem_for(given, tableau, seed)
     if isinstance(found, Problem):
         return found
@@ -146,7 +136,7 @@ def to_step(given: AnyProblem, tableau: Tableau, seed: int | None = None) -> Pro
 
 
 def hamiltonian_for(given: AnyProblem, tableau: Tableau, seed: int | None = None) -> Hamiltonian:
-    """The same where the problem has to be Hamiltonian."""
+    """Returns the same for Hamiltonian problems."""
     found = _to_step(OSCILLATOR, tableau, seed) if given == OSCILLATOR else None
     found = found or to_step(given, tableau, seed)
     if isinstance(found, Hamiltonian):

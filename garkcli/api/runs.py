@@ -1,4 +1,4 @@
-"""Methods on problems: long runs, single steps."""
+"""Methods at work on problems: long runs, single steps."""
 
 from __future__ import annotations
 
@@ -29,21 +29,21 @@ def long_run(
     points: Whole = SERIES,
     tolerance: Number | None = None,
 ) -> LongRun:
-    """Step a problem for a long time and watch its energy and its other invariants:
+    """Solve a problem over a long time and follow its energy and other invariants:
     ``gark energy``.
 
-    The method steps as it was given, as in ``converge``.
+    The method is used as given, as in ``converge``.
 
     Args:
         method: whatever ``method_of`` takes.
         problem: as in ``converge``.
-        t_end: the final time, a whole number of steps; by default one that shows the long run.
-        step: the step size h; by default that of the problem, or a shorter one that divides
+        t_end: the final time, a whole number of steps; by default one long enough to see a drift.
+        step: the step size h; by default that of the problem, or a smaller one that divides
             ``t_end``.
-        digits: of the steps; floats up to 15. Those of the oscillator are exact.
-        points: about how many times are kept, extremes among them.
+        digits: the digits of the steps; floats up to 15. Steps of the oscillator are exact.
+        points: the approximate number of times that are kept, including extremes.
         tolerance: the rounding of the coefficients; that of the method where it is not given. A
-            drift that is seen, and that it can cause, is undecided.
+            drift that it may explain is undecided.
 
     Raises:
         UsageProblem: the problem is not of the form of the structure, the step does not divide the
@@ -70,16 +70,16 @@ def long_run(
 def symplecticity_defects(
     method: AnyMethod, problem: AnyProblem, step: Number, states: Sequence[State]
 ) -> tuple[Defect, ...]:
-    """How far steps are from being symplectic: the entries of MᵀJM − J for their Jacobians M.
+    """The defects of symplecticity: the entries of MᵀJM − J for the Jacobians M of steps.
 
     Args:
         method: whatever ``method_of`` takes.
         problem: as in ``converge``; it is Hamiltonian.
         step: the step size h.
-        states: times, and (q, p) then, as ``LongRun.states`` has them.
+        states: times with (q, p), as in ``LongRun.states``.
 
     Raises:
-        StepFailed: the stage equations of one were not solved.
+        StepFailed: the stage equations of a step were not solved.
 
     >>> states = long_run("rk4", "pendulum", 1, "1/10").states[:1]
     >>> [defect.is_seen for defect in symplecticity_defects("rk4", "pendulum", "1/10", states)]
@@ -92,14 +92,14 @@ def symplecticity_defects(
 
 
 def bind(method: AnyMethod, problem: AnyProblem) -> Binding:
-    """Make a method and a problem for each other, to step with any number of digits.
+    """Prepare a method for a problem, to step with any number of digits.
 
     Args:
         method: whatever ``method_of`` takes.
-        problem: as in ``converge``, but for the oscillator.
+        problem: as in ``converge``, except the oscillator.
 
     Raises:
-        UsageProblem: the problem is not of the form that the structure is for.
+        UsageProblem: the problem is not of the form of the structure.
 
     >>> made = bind("rk4", "pendulum")
     >>> made.at(), made.at(50)
@@ -117,14 +117,14 @@ def integrate(
     Args:
         integrator: ``bind(method, problem)``, or that ``.at(digits)``.
         h: the step size.
-        count: how many steps.
-        initial: where to start, as in ``trajectory``.
+        count: the number of steps.
+        initial: the initial state, as in ``trajectory``.
 
     Returns:
         As ``trajectory``.
 
     Raises:
-        MethodError: there are more or fewer numbers in ``initial`` than unknowns.
+        MethodError: ``initial`` has more or fewer numbers than there are unknowns.
         StepFailed: the stage equations of a step were not solved.
 
     >>> [round(x, 6) for x in integrate(bind("rk4", "pendulum").at(), "1/10", 10)]
@@ -148,16 +148,16 @@ def trajectory(
     Args:
         integrator: ``bind(method, problem)``, or that ``.at(digits)``.
         h: the step size.
-        count: how many steps.
-        initial: where to start, numbers of any kind, shape (2d,) for (q, p) of a Hamiltonian
-            problem, (d,) for y of any other; the start of the problem by default.
-        every: how many steps from one state to the next; the last one is after ``count``.
+        count: the number of steps.
+        initial: the initial state, shape (2d,) for (q, p) of a Hamiltonian problem, (d,) for y of
+            any other; by default that of the problem.
+        every: the number of steps between states; the last one is after ``count``.
 
     Returns:
-        States of the shape of ``initial``: floats up to 15 digits, else midpoints of balls.
+        States of the shape of ``initial``: floats up to 15 digits, otherwise midpoints of balls.
 
     Raises:
-        MethodError: there are more or fewer numbers in ``initial`` than unknowns.
+        MethodError: ``initial`` has more or fewer numbers than there are unknowns.
         StepFailed: the stage equations of a step were not solved.
 
     >>> made = bind("rk4", "pendulum").at()
@@ -175,15 +175,13 @@ def trajectory(
 
 
 def _made(given: Integrator | Binding) -> Integrator:
-    """What steps; floats where no digits were requested."""
     return given.at() if isinstance(given, Binding) else given
 
 
 def _start(integrator: Integrator, initial: Sequence[Any] | None) -> list[Any] | None:
-    """A start with as many numbers as there are unknowns; floats as they are.
+    """Returns the initial state with as many numbers as there are unknowns.
 
-    Raises:
-        MethodError: there are others, or one is no number.
+    Raises MethodError for other numbers.
     """
     if initial is None:
         return None

@@ -1,4 +1,4 @@
-"""Methods that are no GARK methods, as the GARK methods that steps of a problem are made of."""
+"""The GARK methods that take the steps of Nyström and nonlinearly partitioned methods."""
 
 from __future__ import annotations
 
@@ -23,28 +23,19 @@ from garkcli.problems.vectorfield import symbols
 from garkcli.tableau.tableau import Tableau
 
 WITH_VELOCITIES = "damped-pendulum"
-"""The problem for Nyström methods with y′ where none is named."""
+"""The default problem for Nyström methods with y′."""
 
 
 def stepped(
     tableau: Tableau, tolerance: fmpq | None, problem: AnyProblem | None
 ) -> tuple[Tableau, AnyProblem | None, int | None]:
-    """What steps in the place of a Nyström or a nonlinearly partitioned method.
+    """Returns the tableau that takes the steps of a method, the problem, and the order unless it is
+    that of the tableau.
 
-    A Nyström method steps q̇ = p, ṗ = g(q) as a partitioned method, and ṗ = g(q, p) as one whose
-    two vector fields drive all unknowns; a nonlinearly partitioned one steps f₁(y) + f₂(y).
-
-    Args:
-        tableau: of any method.
-        tolerance: of rounded coefficients.
-        problem: what is solved, or None.
-
-    Returns:
-        the tableau that steps, the problem, and the order where that tableau alone does not tell.
-
-    Raises:
-        UsageProblem: the problem is not of the form q″ = g(q, q′), or a method for q″ = g(q) is to
-            solve one with q′.
+    A Nyström method solves q̇ = p, ṗ = g(q) as a partitioned method, and ṗ = g(q, p) as a method
+    whose two vector fields drive all unknowns; a nonlinearly partitioned method solves f₁(y) +
+    f₂(y). Raises UsageProblem if the problem is not q″ = g(q, q′), or has q′ although the method is
+    for q″ = g(q).
     """
     if is_nprk(tableau):
         made = additive(tableau)
@@ -75,7 +66,7 @@ def _seen(tableau: Tableau, tolerance: fmpq | None, which: Which) -> Tableau:
 
 
 def _read(problem: AnyProblem | None) -> Problem | Oscillator | None:
-    """The problem that is meant, in two terms where it is named; None for any Hamiltonian one."""
+    """Returns the problem, a named one in two terms; None for any Hamiltonian one."""
     if problem is None or isinstance(problem, (Problem, Oscillator)):
         return problem
     demand_name(problem)
@@ -86,7 +77,9 @@ def _read(problem: AnyProblem | None) -> Problem | Oscillator | None:
 
 
 def _check(problem: RightHandSide, has_velocities: bool) -> None:
-    """Whether a problem is (q̇, ṗ) = (p, 0) + (0, g(q, p)), and the method for it."""
+    """Raises UsageProblem unless the problem is (q̇, ṗ) = (p, 0) + (0, g(q, p)) and the method for
+    it.
+    """
     unknowns = symbols(problem.variables, "y")
     d = len(unknowns) // 2
     is_of_form = len(unknowns) == 2 * d and len(problem.terms) == 2 and not problem.has_time

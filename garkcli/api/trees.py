@@ -1,4 +1,4 @@
-"""Trees, in text or as values, and the order conditions of a method."""
+"""Trees, as text or objects, and the order conditions of a method."""
 
 from __future__ import annotations
 
@@ -22,11 +22,9 @@ AnyTree: TypeAlias = "Tree | str"
 
 
 def tree_of(given: AnyTree) -> Tree:
-    """The tree that is meant.
+    """Returns the tree for an argument.
 
-    Raises:
-        TreeError: a text is no tree; it says where.
-        MethodError: it is neither.
+    Raises TreeError for a text that is not a tree, with the place; MethodError for other types.
     """
     if isinstance(given, Tree):
         return given
@@ -43,8 +41,8 @@ def format_tree(tree: AnyTree, colours: bool = True) -> str:
     """A tree in bracket notation, with the colours of its vertices counted from 1.
 
     Args:
-        tree: a tree, or its text, which is put into the one order that equal trees have.
-        colours: whether they are written.
+        tree: a tree, or its text, whose branches are sorted.
+        colours: whether the colours are written.
 
     >>> format_tree("[[]_2,[[]_1]_1]_1")
     '[[[]_1]_1,[]_2]_1'
@@ -58,8 +56,8 @@ def trees(order: Whole, colours: Whole = 1) -> Iterator[Tree]:
     """The trees of an order, in the order of ``gark trees``.
 
     Args:
-        order: how many vertices, at least 1.
-        colours: how many a vertex may have.
+        order: the number of vertices, at least 1.
+        colours: the number of colours.
 
     >>> [format_tree(u, colours=False) for u in trees(3)]
     ['[[],[]]', '[[[]]]']
@@ -74,17 +72,17 @@ def count_trees(
     edges: Sequence[Sequence[bool]] | None = None,
     linear: Collection[int] = (),
 ) -> int:
-    """The number of trees of an order, without making one.
+    """The number of trees of an order, without enumeration.
 
     Args:
-        order: how many vertices, at least 1.
-        colours: how many a vertex may have, N.
+        order: the number of vertices, at least 1.
+        colours: the number N of colours.
         edges: shape (N, N), whether a vertex of the colour of the row may carry a branch whose root
             has the colour of the column; by default all may.
-        linear: colours, counted from 1, whose vertices carry one branch at most.
+        linear: colours, counted from 1, whose vertices have at most one branch.
 
     Raises:
-        TreeError: ``edges`` is no such matrix.
+        TreeError: ``edges`` is not such a matrix.
 
     >>> [count_trees(n) for n in range(1, 9)]
     [1, 1, 2, 4, 9, 20, 48, 115]
@@ -108,7 +106,7 @@ def conditions(
             none.
 
     Raises:
-        MethodError: the method has no such condition: a colour does not see another, or there is
+        MethodError: the method has no such condition: its colours are not coupled so, or there is
             no such colour.
 
     >>> [(str(x.tree), x.value, x.residual) for x in conditions("heun", ["[[],[]]", "[[[]]]"])]
@@ -123,11 +121,11 @@ def conditions(
 def all_conditions(
     method: AnyMethod, order: Whole, tolerance: Number | None = None
 ) -> Iterator[Condition]:
-    """Every order condition of one order; those that are identical come once.
+    """The order conditions of one order; identical ones occur once.
 
     Args:
         method: whatever ``method_of`` takes.
-        order: of the trees, at least 1.
+        order: the order of the trees, at least 1.
         tolerance: as in ``conditions``.
 
     >>> [x.holds for x in all_conditions("rk4", 4)]
@@ -155,10 +153,9 @@ def elementary_weight(method: AnyMethod, tree: AnyTree) -> Exact:
 
 
 def _fitting(given: AnyTree, tableau: Tableau) -> Tree:
-    """A tree whose colours the method has.
+    """Returns a tree whose colours the method has.
 
-    Raises:
-        MethodError: one of them it has not.
+    Raises MethodError if one is missing.
     """
     tree = tree_of(given)
     largest = max(tree.colours) + 1
